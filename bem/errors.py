@@ -2,8 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from enum import StrEnum
+
+OUTSIDE = "outside the model: "
+"""How a note begins whose results are solved, but are not what they are called: what holds up to its first semicolon
+stands beside status and figures wherever these are shown."""
+
+
+def outside(notes: Iterable[str]) -> tuple[str, ...]:
+    """What such notes say up to their first semicolon, each once, with what it is said of before it."""
+    return tuple(dict.fromkeys(note.replace(OUTSIDE, "", 1).split(";")[0] for note in notes if OUTSIDE in note))
 
 
 class Status(StrEnum):

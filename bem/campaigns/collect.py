@@ -134,8 +134,14 @@ def _scattering(campaign: Campaign) -> set[str]:
     return set.intersection(*(set(campaign.kind.scattering(case.scene)) for case in campaign.cases))
 
 
+def _something(value: Any) -> bool:
+    """Whether any number of a figure is not zero."""
+    return value is not None and bool(np.nan_to_num(np.asarray(value, dtype=np.float64)).any())
+
+
 def words_of_bars(campaign: Campaign, records: Sequence[Record | None]) -> list[str]:
-    """What a reader of error bars must know: which figures have none and why, and which bars are scatter alone."""
+    """What a reader of error bars must know: which figures have none and why, and which bars are scatter alone; of what
+    is nothing everywhere, as the sizes of no pieces, no word."""
     record = campaign.kind.record
     told = {
         name: " ".join((item.name or name).split("_"))
@@ -144,7 +150,7 @@ def words_of_bars(campaign: Campaign, records: Sequence[Record | None]) -> list[
     }
     reasons: dict[str, list[str]] = {}
     for name, why in _never_barred(campaign).items():
-        if name in told:
+        if name in told and any(_something(getattr(one, name)) for one in records if one is not None):
             reasons.setdefault(why, []).append(told[name])
     found = [f"no error bar for {', '.join(names)}: {why}" for why, names in reasons.items()]
     repeated = next((len(axis) for axis in campaign.axes if axis.name == REPETITION), 1)

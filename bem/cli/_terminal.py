@@ -170,6 +170,7 @@ def print_numbers(summary: Mapping[str, Any], headline: Sequence[str]) -> None:
     known = [name for name in headline if summary.get(name) is not None]
     rows = [with_error(name, summary) for name in known if not is_list(summary[name])]
     rows.append(("status", summary["status"]))
+    rows += [("outside the model", text) for text in summary.get("outside_model", ())]
     rows.append(("time", f"{summary['wall_time_s']:.1f} s"))
     table(("figure", "value"), rows, title=f"{summary['scene']} ({summary['kind']})")
     for item in figure_tables(summary, known):

@@ -9,12 +9,24 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from bem.errors import OUTSIDE
+
 LOAD_CHANGES = 0.1
 """Change of the surfaces' share of the load, relative to it, from which a note says so."""
 FRICTION_CHANGES = 0.01
 """The same of friction."""
 LEAST_CHANGE = 0.01
 """Of the share of the load: smaller changes do not count, however small the share is."""
+DECIDES = 0.1
+"""Of the load: where the surfaces' share changes by more, it is that oil's and no longer that of film and roughness.
+
+The surfaces are as far apart as keeps the oil on the patch. Beside the contact the bodies are apart by their shapes, by
+far more than film and roughness, and most of the oil is there; how much follows the width of the contact, and so the
+load that the film is left with. Where the film is thin (a small lambda), the rough surfaces need more room than it has,
+a rms height or two over the contact, and the balance finds it beside: it takes load off the film's contact until the
+larger opening there holds that oil. The room is then found by the length of the patch, not by what flows: a ball of
+lambda 0.003 had 24 % of the load on its surfaces so, and 99 % with the oil counted where the film carries.
+"""
 
 
 @dataclass(frozen=True)
@@ -47,6 +59,11 @@ class OilBeside:
         alike = abs(self.loaded_contact_share - self.contact_share) <= allowed
         return not (alike and abs(self.loaded_friction - self.friction) <= FRICTION_CHANGES * abs(self.friction))
 
+    @property
+    def decides(self) -> bool:
+        """Whether that oil shares the load, by more than `DECIDES` of it, and not film and roughness."""
+        return self.known and abs(self.loaded_contact_share - self.contact_share) > DECIDES
+
 
 def oil_notes(oils: Sequence[OilBeside]) -> tuple[str, ...]:
     """What to say of results, at one speed or several, for which that oil matters; nothing if it does for none."""
@@ -54,18 +71,33 @@ def oil_notes(oils: Sequence[OilBeside]) -> tuple[str, ...]:
     if not following:
         return ()
     known = [oil for oil in following if oil.known]
-    said = (
-        "load share and friction follow where the oil is counted, and so the length of the patch, on which "
-        f"{100 * max(oil.share for oil in following):.3g} % of it lies beside Hertz' contact"
-    )
-    if known:
-        oil = max(known, key=lambda one: abs(one.loaded_contact_share - one.contact_share))
-        said += (
-            "; counted where the film carries (oil_volume loaded) the surfaces have "
-            f"{100 * oil.loaded_contact_share:.3g} % of the load, here {100 * oil.contact_share:.3g} %, and friction "
-            f"is {oil.loaded_friction:.3g}, here {oil.friction:.3g}"
+    most = f"{100 * max(oil.share for oil in following):.3g} %"
+    if any(oil.decides for oil in known):
+        oil, where = _worst(known)
+        said = (
+            f"{OUTSIDE}the surfaces have {100 * oil.contact_share:.3g} % of the load at a friction of "
+            f"{oil.friction:.3g}, but {100 * oil.loaded_contact_share:.3g} % at {oil.loaded_friction:.3g} with the oil "
+            f"counted where the film carries{where}; {most} of it lies beside Hertz' contact, which decides the load "
+            "sharing by the length of the patch: take oil_volume loaded"
         )
-        said += ", where that differs most" if len(known) > 1 else ""
+    else:
+        said = (
+            "load share and friction follow where the oil is counted, and so the length of the patch, on which "
+            f"{most} of it lies beside Hertz' contact"
+        )
+        if known:
+            oil, where = _worst(known)
+            said += (
+                "; counted where the film carries (oil_volume loaded) the surfaces have "
+                f"{100 * oil.loaded_contact_share:.3g} % of the load, here {100 * oil.contact_share:.3g} %, and "
+                f"friction is {oil.loaded_friction:.3g}, here {oil.friction:.3g}{where}"
+            )
     if len(known) < len(following):
         said += "; how far is not known" + (f" of {len(following) - len(known)}" if known else "")
     return (said,)
+
+
+def _worst(known: Sequence[OilBeside]) -> tuple[OilBeside, str]:
+    """Where the share of the load differs most, and that it is so where there are others."""
+    oil = max(known, key=lambda one: abs(one.loaded_contact_share - one.contact_share))
+    return oil, ", where that differs most" if len(known) > 1 else ""

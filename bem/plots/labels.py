@@ -12,19 +12,30 @@ from bem.scenes.context import release
 _PREFIXES = {-4: "p", -3: "n", -2: "µ", -1: "m", 0: "", 1: "k", 2: "M", 3: "G", 4: "T"}
 _PART = 1 << 20
 _PREFIXED = ("m", "Pa", "N", "s", "m/s", "N/m", "J", "W")
+_POWERS = {"m²": 2, "m³": 3}
+_OF_NAMES = {"nm": 1e-9, "µm": 1e-6}
+"""Lengths in the unit that ends their names, in metres: kept below 1000 of it, and shown in a larger one from there."""
 
 
 def prefix(values: Any, unit: str) -> tuple[float, str]:
-    """Factor and unit label that bring the largest of `values` between 1 and 1000: (1e6, "µm") for micrometres."""
+    """Factor and unit label that bring the largest of `values` between 1 and 1000: (1e6, "µm") for micrometres, and
+    (0.001, "µm") for a thousand of them that are given in nanometres; areas and volumes get no prefix above one.
+    """
     if unit in ("", "1"):
         return 1.0, ""
-    if unit not in _PREFIXED:
+    if unit not in (*_PREFIXED, *_POWERS, *_OF_NAMES):
         return 1.0, unit
     largest = largest_of(values)
+    if unit in _OF_NAMES:
+        if largest * 1.0000001 < 1000:
+            return 1.0, unit
+        factor, shown = prefix([largest * _OF_NAMES[unit]], "m")
+        return factor * _OF_NAMES[unit], shown
     if largest == 0:
         return 1.0, unit
-    power = min(max(math.floor(math.log10(largest * 1.0000001) / 3), -4), 4)
-    return 10.0 ** (-3 * power), _PREFIXES[power] + unit
+    step = 3 * _POWERS.get(unit, 1)
+    power = min(max(math.floor(math.log10(largest * 1.0000001) / step), -4), 4 if step == 3 else 0)
+    return 10.0 ** (-step * power), _PREFIXES[power] + unit
 
 
 def largest_of(values: Any) -> float:

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import base64
 import json
-import math
 import os
 import platform
 from collections.abc import Mapping, Sequence
@@ -14,12 +13,14 @@ from pathlib import Path
 from typing import Any
 
 from bem.plots.draw import Drawn
+from bem.plots.labels import prefix
 from bem.plots.tables import accuracy_tables, figure_tables, is_error, is_list, name_and_unit, origin_table, within
 from bem.results.atomic import write_text
 from bem.results.directory import REPORT
 
 _HIDDEN = (
     "notes",
+    "outside_model",
     "seconds_by_stage",
     "scene",
     "kind",
@@ -49,6 +50,7 @@ def write_report(run: Any, drawn: Sequence[Drawn], headline: Sequence[str]) -> P
         summary=summary,
         scene=run.scene,
         converged=summary["status"] == "converged",
+        beyond=summary.get("outside_model", ()),
         headline=summary_rows(summary, [name for name in first if not is_list(summary[name])]),
         headline_tables=[*figure_tables(summary, first), *accuracy_tables(summary)],
         figures=summary_rows(summary, [name for name in rest if not is_list(summary[name])]),
@@ -70,8 +72,8 @@ def summary_rows(summary: dict[str, Any], names: Sequence[str]) -> list[tuple[st
     return [with_error(name, summary) for name in names]
 
 
-_PREFIXED = {"m": 1, "Pa": 1, "N": 1, "s": 1, "m²": 2, "m³": 3}
-"""Units that are shown with a prefix, and its power."""
+_PREFIXED = ("m", "Pa", "N", "s", "m²", "m³", "nm", "µm")
+"""Units that are shown with a prefix."""
 
 
 def with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
@@ -108,11 +110,9 @@ def _with_unit(value: Any, unit: str) -> str:
         return ", ".join(shown) + (", ..." if len(value) > 12 else "") + (f" {unit}" if unit else "")
     if isinstance(value, dict):
         return json.dumps(value)
-    if isinstance(value, float) and unit in _PREFIXED and value != 0:
-        step = 3 * _PREFIXED[unit]
-        power = min(max(math.floor(math.log10(abs(value) * 1.0000001) / step), -4), 4 if step == 3 else 0)
-        prefix = {-4: "p", -3: "n", -2: "µ", -1: "m", 0: "", 1: "k", 2: "M", 3: "G", 4: "T"}[power]
-        return f"{value * 10.0 ** (-step * power):.4g} {prefix}{unit}"
+    if isinstance(value, float) and unit in _PREFIXED:
+        factor, unit = prefix([value], unit)
+        value = value * factor
     number = f"{value:.4g}" if isinstance(value, float) else str(value)
     return f"{number} {unit}".rstrip()
 

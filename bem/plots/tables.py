@@ -11,7 +11,7 @@ import numpy as np
 from bem.plots.labels import label, prefix
 from bem.scenes.records import TELLING, unit_of
 
-_PREFIXED = ("m", "Pa", "N", "s")
+_PREFIXED = ("m", "Pa", "N", "s", "nm", "µm")
 _SPREAD, _ERROR = "_spread", "_error"
 _TELLING = tuple(f"{name}_{unit}" for name, unit in TELLING.items())
 """Figures that say which row it is; texts (a variant's name) do so too."""

@@ -13,7 +13,7 @@ import bem
 from bem.campaigns import Computed, campaign_of, compute, plan
 from bem.campaigns.context import Silent, Watcher
 from bem.campaigns.jobs import Staff
-from bem.errors import ConvergenceError, InputError, Status
+from bem.errors import OUTSIDE, ConvergenceError, InputError, Status, outside
 from bem.results.arrays import LEFT_OUT, stacks_of_maps, to_arrays
 from bem.results.directory import RESULTS, RunDirectory, plain
 from bem.results.read import FinishedRun, open_run
@@ -162,8 +162,15 @@ def run_planned(
     for text in outcome_warnings(facts, computed.outcome):
         computed.notes.append(text)
         watcher.note(text)
+    computed.notes.sort(key=lambda text: OUTSIDE not in text)  # what decides how to read the others
     left_out = [] if fields else stacks_of_maps(computed.outcome.variables)
     return _write(directory, scene, computed, formats, watcher, staff.workers, ahead, left_out)
+
+
+def _told(notes: list[str]) -> dict[str, list[str]]:
+    """Notes, and in short what of the results is outside its model, where any is."""
+    beyond = list(outside(notes))
+    return {"notes": notes, "outside_model": beyond} if beyond else {"notes": notes}
 
 
 def _write(
@@ -196,7 +203,7 @@ def _write(
         "status": Status(outcome.status).value,
         "where": outcome.where,
         **plain(outcome.summary),
-        "notes": computed.notes,
+        **_told(computed.notes),
         "seconds_by_stage": seconds,
     }
     kind = get_kind(scene.kind)

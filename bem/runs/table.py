@@ -18,7 +18,7 @@ from bem.scenes.context import Variable
 from bem.scenes.kind import Kind
 from bem.scenes.records import Figure, described
 
-_SKIPPED = ("scene", "kind", "version", "notes", "seconds_by_stage")
+_SKIPPED = ("scene", "kind", "version", "notes", "outside_model", "seconds_by_stage")
 Summaries = Sequence[Mapping[str, Any] | None]
 """Of the points in the order of the swept values' product; None where there is no result."""
 

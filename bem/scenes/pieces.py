@@ -58,8 +58,11 @@ class SizesScene(Table):
 
     def particles(self, result: RunningIn) -> NDArray[np.void]:
         """The particles that are reported of a wear loop."""
-        body = {"wearing": result.wearing[0], "lower": 0, "upper": 1}[self.particles_of]
-        return result.particles[result.particles["body"] == body]
+        return result.particles[result.particles["body"] == self.body(result)]
+
+    def body(self, result: RunningIn) -> int:
+        """Index of the body whose they are."""
+        return {"wearing": result.wearing[0], "lower": 0, "upper": 1}[self.particles_of]
 
 
 particle_rows = partial(Series, ("particle",), rows=True)

@@ -32,7 +32,7 @@ from bem.wear.loads import wearing_bodies
 
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars
-    from bem.wear import RunningIn, RunningInState
+    from bem.wear import RunningIn, RunningInState, WearModel
     from bem.wear.film_defect import FilmDefect
     from bem.wear.third_bodies import ThirdBodies
 
@@ -115,7 +115,9 @@ def cycle_steps(
             memory=8.0 * (points / 4 * 12 * deepest + grid.cells * (deepest + 8)),
             precision="" if all(grid.periodic) else PACKED_SPECTRA,
         ),
-        Step("pieces", "runs of yielded voxels along depth", seconds=0.004 * cycles, memory=8.0 * grid.cells * 8),
+        Step("pieces", "runs of yielded voxels along depth", seconds=0.004 * cycles, memory=8.0 * grid.cells * 8)
+        if scene.wear.criterion.needs_strength
+        else Step("pieces", "the criterion wears by pressure and distance, without any", skipped=True),
     )
 
 
@@ -263,6 +265,32 @@ _LEAST = 1.01
 """Of the least area: loads on the contact change a little from cycle to cycle."""
 
 
+def wear_model(scene: Any, particles: ThirdBodies | None = None, defect: FilmDefect | None = None) -> WearModel:
+    """Of a scene, with what a case has between its surfaces."""
+    from bem.wear import WearModel
+
+    table = scene.wear.model_dump(exclude={"third_bodies", "film_defect"})
+    return WearModel(**table, third_bodies=particles, film_defect=defect)
+
+
+def stress_below_strength(scene: Any, result: RunningIn, grid: Grid, load: float) -> float | None:
+    """Largest equivalent stress [Pa] of the last cycle in the body whose particles are reported; None of criteria that
+    ask for more than a stress, in partial slip, and where nothing touches."""
+    from bem.wear import WearSetup
+    from bem.wear.loads import SurfaceLoad
+    from bem.wear.yielding import largest_stress
+
+    law, pressure = scene.wear.criterion, result.pressure
+    plain = isinstance(law, WearCriterion) and type(law).detach is WearCriterion.detach
+    if not plain or scene.wear.stress_range or not scene.wear.traction.slides or pressure is None or not pressure.any():
+        return None
+    friction = float(result.cycles["friction"][-1])
+    bodies = (scene.lower.build(), scene.upper.build())
+    setup = WearSetup(grid, bodies, np.zeros(grid.shape), load, friction, scene.depths.build())
+    acting = SurfaceLoad(pressure, friction)
+    return largest_stress(acting, setup, wear_model(scene), scene.sizes.body(result))[0]
+
+
 def wear_loop(
     scene: Any,
     context: Context,
@@ -280,7 +308,7 @@ def wear_loop(
     keep : what the checkpoint holds then besides the loop's own state, under names other than "wear".
     grid, load : of the contact, and on it [N]. contact : further arguments of `bem.wear.run_in`.
     """
-    from bem.wear import WearModel, pack_state, run_in, unpack_state
+    from bem.wear import pack_state, run_in, unpack_state
 
     saved, count, (particles, defect) = context.saved(), scene.cycles.count, between(scene, grid, load)
 
@@ -296,11 +324,7 @@ def wear_loop(
             bodies=(scene.lower.build(), scene.upper.build()),
             depths=scene.depths.build(),
             cycles=count,
-            model=WearModel(
-                **scene.wear.model_dump(exclude={"third_bodies", "film_defect"}),
-                third_bodies=particles,
-                film_defect=defect,
-            ),
+            model=wear_model(scene, particles, defect),
             grid=grid,
             load=load,
             state=None if saved is None else unpack_state(saved["wear"]),
@@ -319,6 +343,15 @@ class WornRecord(RubbedRecord, ThirdBodyRecord):
     truncated_particles: Annotated[
         int, Figure("", "particles of the settled cycles cut off by the deepest depth", unjudged=True)
     ]
+    largest_stress: Annotated[
+        float | None,
+        Figure(
+            "Pa",
+            "largest equivalent stress of the last cycle, where nothing came off",
+            optional=True,
+            unjudged=True,  # one cell's, told to compare with the strength
+        ),
+    ] = None
     cycle: Annotated[IntArray, Series(("cycle",), "1", "cycle")]
 
 
@@ -370,6 +403,7 @@ class WornSurface:
                 load,
                 scene.wear.criterion.distance_per_cycle(abs(scene.wear.shift) * grid.spacing[0]),
             ),
+            "largest_stress": None if late.size else stress_below_strength(scene, result, grid, load),
             "Sq_initial": worn.rms_before,
             "Sq_final": worn.rms_after,
             "worn_depth": worn.depth,

@@ -49,6 +49,24 @@ def equivalent_stress_planes(
         yield out[index]
 
 
+def largest_stress(load: SurfaceLoad, setup: WearSetup, model: WearModel, body: int) -> tuple[float, float]:
+    """The largest equivalent stress of one body at any of the depths [Pa], and the depth there [m].
+
+    What nothing came off is told beside its strength: half as much, or a hundredth. Under a line contact the surface is
+    in tension by friction alone, 2 f p0 at the trailing edge (McEwen 1949); under a round one by (1 - 2 nu) p0 / 3 on
+    its edge besides (Johnson 1985, section 3.4). A thin layer stretches with its substrate: it has these in the ratio
+    of the plane moduli E / (1 - nu^2), a soft one little of it and a stiff one a multiple.
+    """
+    law = model.law
+    assert isinstance(law, WearCriterion)
+    depths, plane = depths_for(setup, model, body), np.empty((1, *setup.grid.shape))
+    found = [
+        max(float(each.max()) for each in equivalent_stress_planes((load,), setup, body, depth[None], law, plane))
+        for depth in depths
+    ]
+    return max(found), float(depths[int(np.argmax(found))])
+
+
 def cannot_yield(
     loads: Sequence[SurfaceLoad], setup: WearSetup, body: int, depth: float, criterion: WearCriterion
 ) -> bool:

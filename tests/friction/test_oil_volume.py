@@ -10,6 +10,7 @@ from hypothesis import strategies as st
 
 from bem import Body, Grid, InputError, Lubricant, Material, Status, generate_surface, solve_mixed, stribeck_curve
 from bem.benchmarks.lubricated_cases import mixed_case
+from bem.errors import outside
 from bem.friction import load_sharing, oil_sensitivity
 from bem.friction.balance import BalanceStart, Regime, share_load
 from bem.friction.falling_zero import _parabola, falling_zero
@@ -75,6 +76,7 @@ def test_one_volume_of_oil_follows_the_patch_and_says_so():
         assert point.oil.matters
         (note,) = (note for note in point.notes if "length of the patch" in note)
         assert f"{100 * point.oil.share:.3g} % of it lies beside Hertz' contact" in note
+        assert outside([note])[0].startswith(f"the surfaces have {100 * shares[points.index(point)]:.3g} % of the load")
         # its balance is to 1e-3 of the oil and to contacts of 1e-5 of the gap
         assert point.oil.loaded_contact_share == pytest.approx(loaded.contact_load / loaded.load, abs=0.01)
         assert point.oil.loaded_friction == pytest.approx(loaded.friction, rel=0.01)
@@ -353,6 +355,11 @@ def test_what_is_said_of_one_result_and_of_a_curve():
     assert note.endswith("where that differs most")
     assert "not known of 1" in oil_notes([load, unknown])[0]
     assert oil_notes([unknown])[0].endswith("how far is not known")
+    decided = OilBeside(0.99, 0.24, 0.085, 0.99, 0.119)
+    assert [oil.decides for oil in (alike, load, unknown, decided)] == [False, False, False, True]
+    assert outside(oil_notes([alike, load])) == ()
+    (short,) = outside(oil_notes([load, decided, unknown]))
+    assert "24 % of the load at a friction of 0.085, but 99 % at 0.119" in short
 
 
 def test_refuses_other_volumes():

@@ -7,6 +7,7 @@ from types import SimpleNamespace
 
 import numpy as np
 import pytest
+from PIL import Image
 
 from bem.errors import InputError
 from bem.plots import side_by_side
@@ -164,6 +165,10 @@ def test_colours_can_be_told_apart_in_grey():
         (3.0, "1", (1.0, "")),
         (5e3, "rad", (1.0, "rad")),
         (1e-30, "m", (1e12, "pm")),
+        (999.0, "nm", (1.0, "nm")),
+        (129100.0, "nm", (1e-3, "µm")),
+        (4e-12, "m²", (1e12, "µm²")),
+        (4e6, "m²", (1.0, "m²")),
     ],
 )
 def test_prefixes(value, unit, expected):
@@ -179,6 +184,9 @@ def test_prefixes(value, unit, expected):
         ("approach_m", 4.2e-7, ("approach", "420 nm")),
         ("particle_equivalent_radius_nm", 151.23, ("particle equivalent radius", "151.2 nm")),
         ("cycles", 200, ("cycles", "200")),
+        ("worn_depth_nm", 129100.0, ("worn depth", "129.1 µm")),
+        ("spacing_um", 2500.0, ("spacing", "2.5 mm")),
+        ("yielded_volume_m3", 5.697e-16, ("yielded volume", "569.7 µm³")),
         ("friction", [0.1, 0.2], ("friction", "0.1, 0.2")),
         ("speed_m_s", [0.001, 0.3], ("speed", "0.001, 0.3 m/s")),
         ("status", "converged", ("status", "converged")),
@@ -205,6 +213,24 @@ def test_report_is_one_file_that_needs_nothing_else(tmp_path):
     assert "http" not in page
     assert "&lt;b&gt;&amp;" in page
     assert not re.search(r"<(script|link|iframe)", page)
+
+
+def test_what_is_outside_its_model_says_so_on_the_report_and_on_every_picture(tmp_path):
+    run = contact_run(tmp_path / "run")
+    told = "outside the model: half of it is beside; more of it"
+    beyond = SimpleNamespace(**vars(run))
+    beyond.summary = {**run.summary, "notes": [told], "outside_model": ["half of it is beside"]}
+    (tmp_path / "beyond").mkdir()
+    for item in draw_all(beyond, NAMES, tmp_path / "beyond", ("png",)):
+        picture = np.asarray(Image.open(item.paths[0]).convert("RGB")).astype(int)
+        red = (picture[..., 0] > 180) & (picture[..., 1] < 130) & (picture[..., 2] < 60)
+        assert red[: len(red) // 8].any(), item.kind.name
+    with RunDirectory.start(run.path, "invented", 'kind = "contact"\n'):
+        page = write_report(beyond, [], ("load_N",)).read_text("utf-8")
+        assert 'badge bad">outside the model' in page
+        assert f'class="note beyond">{told}' in page
+        assert "are not to be taken as they are: half of it is beside." in page
+        assert "badge bad" not in write_report(run, [], ("load_N",)).read_text("utf-8")
 
 
 @pytest.mark.browser

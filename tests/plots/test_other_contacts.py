@@ -193,3 +193,51 @@ def test_maps_of_friction_fill_their_figure_however_long_the_patch_is():
         figure.draw_without_rendering()
         left = min(axes.get_tightbbox().x0 for axes in figure.axes) / figure.bbox.width
         assert left < 0.1, cells
+
+
+def test_a_map_without_anything_on_it_is_not_drawn():
+    """Oil that carries a thousandth of the friction left half of the figure empty."""
+    (kind,) = friction_map.FIGURES
+    x = y = 1e-6 * (np.arange(16) - 7.5)
+    stress = np.full((16, 16), 1e8)
+    for oil, maps in ((1e3, 1), (1e8, 2)):
+        run = run_of(
+            x=x, y=y, boundary_stress=(("x", "y"), stress), oil_stress=(("x", "y"), np.full((16, 16), oil)),
+            shown_speed=0.1, speed=[0.1], boundary_part=("speed", [0.1]), film_part=("speed", [1e-6]),
+        )  # fmt: skip
+        figure = Figure(figsize=kind.size)
+        kind.draw(run, figure)
+        titles = [axes.get_title() for axes in figure.axes if axes.images]
+        assert len(titles) == maps
+        assert ("oil between them: < 0.1 %, too little to show" in titles[0]) is (maps == 1)
+
+
+def test_nothing_worn_is_no_curve_over_cycles():
+    kind = next(kind for kind in wear.FIGURES if kind.name == "wear-volume-over-cycles")
+    for volume in (0.0, 1e-18):
+        run = run_of(volume=(("load", "cycle"), [[0.0, volume]]), load=("load", [1.0]), cycle=[1.0, 2.0])
+        assert kind.fits(run) is (volume > 0)
+
+
+def test_a_curve_that_lies_on_another_leaves_it_to_be_seen():
+    kind = next(kind for kind in friction.FIGURES if kind.name == "stribeck-curve")
+    for above, alike in ((0.0005, True), (0.05, False)):
+        values = np.array([[0.1, 0.05], [0.1 + above, 0.05 + above]])
+        parts = dict.fromkeys(("friction", "boundary_part", "film_part"), (("model", "speed"), values))
+        run = run_of(speed=[0.01, 1.0], model=["capped", "elastic"], **parts)
+        run.dataset.attrs["axes"] = "model"
+        lines = {line.get_label(): line.get_linestyle() for line in drawn(kind.draw, run).axes[0].lines}
+        assert lines["capped at the hardness"] == "-"
+        assert (lines["elastic"] == "--") is alike  # as matplotlib names any dashes
+
+
+def test_the_legend_of_a_contact_says_what_its_shares_are_of():
+    """Cells counted beside a headline that has its edges between them looked like two answers."""
+    kind = next(kind for kind in contact.FIGURES if kind.name == "contact-map")
+    state, x = np.zeros((8, 8)), 1e-6 * np.arange(8)
+    state[:4] = 1
+    for area, words in ((0.5, "share of the cells"), (0.47, "contact area as drawn through them: 47.000%")):
+        run = run_of(x=x, y=x, contact_state=(("x", "y"), state))
+        run.summary = {"contact_area_fraction": area}
+        (axes,) = drawn(kind.draw, run).axes
+        assert words in axes.get_legend().get_title().get_text()

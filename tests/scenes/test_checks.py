@@ -5,10 +5,10 @@ import pytest
 from small_scenes import PATCH, oiled_ball
 
 from bem import Grid
-from bem.errors import InputError
+from bem.errors import OUTSIDE, InputError, outside
 from bem.runs import plan_scene, run_scene
 from bem.scenes import library
-from bem.scenes.checks import OUTCOME_CHECKS, SCENE_CHECKS, examine, scene_warnings, surfaces_of
+from bem.scenes.checks import OUTCOME_CHECKS, SCENE_CHECKS, examine, outcome_warnings, scene_warnings, surfaces_of
 from bem.scenes.checks.overview import bodies, common, differing
 from bem.scenes.checks.words import percent, si, times
 from bem.scenes.common import GeneratedSurface
@@ -83,6 +83,13 @@ def wear(*settings):
     return ("wear-steel-steel", *settings)
 
 
+def brittle(**strength):
+    """A layer that leaves where it is in tension; a strength of a fifteenth of the hardness is usual then."""
+    layer = {"material": material("70 GPa", 0.22, **strength), "thickness": "2 um"}
+    steel = with_(library()["wear-cylinder-scar"], upper__material=material("210 GPa"), upper__layer=layer)
+    return with_(steel, wear__criterion={"kind": "maximum_tension"}, depths={"count": 8, "spacing": "100 nm"})
+
+
 CASES = {
     "implausible_modulus": (
         (with_(BALL, lower__material=material(115.0)), 'youngs_modulus = "115 GPa"'),
@@ -107,6 +114,10 @@ CASES = {
     "yield_against_hardness": (
         (with_(BALL, lower__material=material("200 GPa", hardness="7 GPa", yield_stress="5 GPa")), "hardness / 1.4"),
         with_(BALL, lower__material=material("200 GPa", hardness="7 GPa", yield_stress="2.5 GPa")),
+    ),
+    "tensile_strength_as_a_cap": (
+        (brittle(yield_stress="400 MPa"), "the pressure is capped at 2.8 times that, 1.12 GPa"),
+        brittle(yield_stress="400 MPa", hardness="6 GPa"),
     ),
     "contact_large_for_its_radius": (
         (with_(BALL, shape__radius="100 um", contact__load="25 N", grid__lengths="200 um"), "of the body's"),
@@ -457,7 +468,7 @@ OUTCOMES = {
     ),
     "rougher_by_its_own_pieces": (
         "running-in-stribeck",
-        (loop_outcome(480.0), "in 1 of 2 loops: Sq 100 nm before, 480 nm after"),
+        (loop_outcome(480.0), "in 1 of 2 loops, from Sq 100 nm to 480 nm"),
         loop_outcome(140.0),
     ),
     "drifting_at_the_last_cycle": (
@@ -552,6 +563,45 @@ def test_the_variant_of_which_nothing_comes_off_is_named():
 def test_running_in_tells_too_where_nothing_comes_off():
     facts, check = facts_of("running-in-stribeck"), OUTCOME_CHECKS["nothing_comes_off"]
     assert "nothing came off" in " ".join(check(facts, Outcome({"particles_per_cycle": [0.0] * len(facts.cases)}, {})))
+
+
+@pytest.mark.parametrize(
+    ("criterion", "stress", "words"),
+    [
+        ("von_mises", 1e8, "its largest stress in the last cycle is 100 MPa, and"),
+        ("maximum_tension", 1e8, "friction f adds 2 f of it"),
+        ("von_mises", 9e9, "nothing that exceeds the yield stress reaches the surface"),
+    ],
+)
+def test_nothing_comes_off_and_how_far_from_it_the_stress_is(criterion, stress, words):
+    facts = facts_of("wear-steel-steel", f"wear.criterion={criterion}")
+    none = wear_outcome([], particles_per_cycle=[0.0] * 3, largest_stress_Pa=[stress] * 3)
+    told = list(OUTCOME_CHECKS["nothing_comes_off"](facts, none))
+    assert len(told) == 3
+    assert all(words in text for text in told)
+
+
+def test_smooth_bodies_far_below_the_hardness_have_no_valleys_that_resist():
+    """62 % of a slice touched at a sixth of the hardness, and was told of its cap."""
+    facts, check = facts_of("wear-steel-steel"), OUTCOME_CHECKS["capped_contact_nearly_full"]
+    for area, told in ((0.0, 0), (1e-12, 1)):
+        plastic = Variable(("cycle",), np.array([0.0, area]), "m^2", "area at the hardness")
+        assert len(list(check(facts, Outcome({"contact_area_fraction": 0.7}, {"plastic_area": plastic})))) == told
+
+
+def test_a_surface_full_of_holes_is_one_story_that_goes_first():
+    """Five notes were said of it one by one: it still drifts, and is at its hardness, because it is full of holes."""
+    facts = facts_of("running-in-stribeck")
+    cap = facts.cases[0].cap
+    pressure = Variable(("speed", "x", "y"), np.full((1, 4, 4), cap), "Pa", "p")
+    for sq, stories in ((480.0, 1), (140.0, 2)):
+        found = loop_outcome(sq, (0.13, 0.12, 0.11, 0.1))
+        notes = outcome_warnings(facts, Outcome(found.summary, {**found.variables, "pressure": pressure}))
+        about = [note for note in notes if "at the hardness" in note or "settled" in note]
+        assert len(about) == stories
+        assert len(outside(notes)) == (1 if sq > 200 else 0)
+        assert all("friction by 16 %" in about[0] for _ in outside(notes))
+    assert outside(["10 N: " + OUTSIDE + "too thin; details", "plain"]) == ("10 N: too thin",)
 
 
 def test_every_check_has_its_two_tests():

@@ -79,7 +79,22 @@ def _contact_map(run: Any, figure: Figure) -> None:
         for i in range(3)
         if i < 2 or (state == 2).any()
     ]
-    axes.legend(handles=handles, loc="upper center", bbox_to_anchor=(0.5, -0.17), ncols=3, columnspacing=1.2)
+    axes.legend(
+        handles=handles,
+        loc="upper center",
+        bbox_to_anchor=(0.5, -0.17),
+        ncols=3,
+        columnspacing=1.2,
+        title=_edges_of(run.summary.get("contact_area_fraction"), float(np.mean(state > 0))),
+        title_fontsize=8,
+    )
+
+
+def _edges_of(area: Any, counted: float) -> str:
+    """What the legend's shares are, and the headline's area where that is another."""
+    if not isinstance(area, float) or f"{area:.3%}" == f"{counted:.3%}":
+        return "share of the cells"
+    return f"share of the cells; contact area as drawn through them: {area:.3%}"
 
 
 def _section(run: Any, figure: Figure) -> None:
@@ -181,7 +196,8 @@ FIGURES = (
     ),
     FigureKind(
         "contact-map",
-        "Where the surfaces touch, and where the pressure has reached the hardness; shares are counts of cells.",
+        "Where the surfaces touch, and where the pressure has reached the hardness; shares are counts of cells, "
+        "the contact area of the figures has its edges between their centres.",
         ("x", "y", "contact_state"),
         _contact_map,
         applies=two_dimensional,

@@ -24,6 +24,8 @@ _MODEL_NAMES = {
     "uncoupled": "uncoupled asperities, plastic",
     "uncoupled_elastic": "uncoupled asperities, elastic",
 }
+_ALIKE = 0.01
+"""Of the highest friction: a curve that stays closer to an earlier one hides it."""
 Array = NDArray[Any]
 _CELSIUS = 273.15
 
@@ -49,8 +51,14 @@ def _stribeck(run: Any, figure: Figure) -> None:
     axes = figure.add_subplot()
     speed, curves = np.sort(run.dataset["speed"].values), _curves(run, "friction")
     many = len(curves) > 6
+    drawn: list[Array] = []
+    near = _ALIKE * max((float(np.nanmax(values)) for _, values in curves if np.isfinite(values).any()), default=0.0)
     for number, (name, values) in enumerate(curves):
-        style = "--" if "uncoupled" in name else "-"
+        style: Any = "--" if "uncoupled" in name else "-"
+        mean = values.mean(axis=0)
+        if any(np.nanmax(np.abs(mean - other), initial=0.0) < near for other in drawn):
+            style = (0, (2, 2))  # both are seen
+        drawn.append(mean)
         _band(axes, speed, values, _COLOURS[number], name, linestyle=style, linewidth=0.9 if many else 1.4)
         if number == 0:
             for key, text, dots in (("boundary_part", "of it boundary", ":"), ("film_part", "of it film", "-.")):
@@ -221,7 +229,7 @@ FIGURES = (
     FigureKind(
         "stribeck-curve",
         "Coefficient of friction over speed, and the parts that boundary friction and the film have in the first "
-        "curve; bands span the repetitions.",
+        "curve; bands span the repetitions; a curve that lies on another is dotted.",
         ("speed", "friction", "boundary_part", "film_part", "model"),
         _stribeck,
         (5.4, 4.0),

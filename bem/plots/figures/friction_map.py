@@ -31,6 +31,11 @@ def _shares(run: Any) -> tuple[float, float]:
     return boundary / (boundary + oil), oil / (boundary + oil)
 
 
+def _few(share: float) -> str:
+    """A share in per cent, to a tenth of it."""
+    return f"{100 * share:.1f} %" if not 0 < share < 5e-4 else "< 0.1 %"
+
+
 def _middle(seen: NDArray[np.bool_], count: int) -> slice:
     """Indices around the middle that hold all that is seen (n,)."""
     places = np.flatnonzero(seen)
@@ -49,18 +54,23 @@ def _friction_map(run: Any, figure: Figure) -> None:
     # a few spikes would take all colours
     most = float(np.percentile(thinned(carries[window])[thinned(seen[window])], 99.5)) * factor
     ratio = float(np.ptp(x[window[0]])) / max(float(np.ptp(y[window[1]])), y[1] - y[0])
-    side_by_side = ratio < _WIDE
-    if not side_by_side:  # maps as high as the usual figure has room for left half of it empty
-        figure.set_size_inches(_WIDTH, 2 * (0.8 + (_WIDTH - 1.6) / min(ratio, 4.0)))
-    panels = figure.subplots(*((1, 2) if side_by_side else (2, 1)))
     named = (("surfaces in contact", boundary), ("oil between them", oil))
-    for axes, (text, stress), share in zip(panels, named, _shares(run), strict=True):
+    shared = list(zip(named, _shares(run), strict=True))
+    held = [item for item in shared if (item[0][1] > least).any()]
+    side_by_side = ratio < _WIDE and len(held) > 1
+    if len(held) < 2:  # an empty map says nothing
+        figure.set_size_inches(0.55 * figure.get_figwidth(), figure.get_figheight())
+    elif not side_by_side:  # maps as high as the usual figure has room for left half of it empty
+        figure.set_size_inches(_WIDTH, 2 * (0.8 + (_WIDTH - 1.6) / min(ratio, 4.0)))
+    panels = np.atleast_1d(figure.subplots(*((1, len(held)) if side_by_side else (len(held), 1))))
+    left = [f"\n{text}: {_few(share)}, too little to show" for (text, stress), share in shared if stress.max() <= least]
+    for axes, ((text, stress), share) in zip(panels, held, strict=True):
         shown = stress[window]
         extent = field_axes(axes, x[window[0]], y[window[1]])
         axes.set_facecolor(OPEN)
         values = thinned(np.where(shown > least, shown, np.nan)).T * factor
         image = axes.imshow(values, extent=extent, origin="lower", aspect=axes.get_aspect(), vmin=0, vmax=most)
-        axes.set_title(f"{text}: {100 * share:.1f} % of friction", fontsize=8.5)
+        axes.set_title(f"{text}: {_few(share)} of friction{''.join(left)}", fontsize=8.5)
     bar = figure.colorbar(image, ax=panels, shrink=0.9, pad=0.03)
     bar.set_label(label("shear stress", unit))
 

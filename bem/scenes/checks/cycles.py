@@ -6,17 +6,15 @@ Read off what a run gives; the rule of drift is `bem.wear.outcome.drift`. Verifi
 
 from __future__ import annotations
 
-import math
 from collections.abc import Iterator
 
+from bem.errors import OUTSIDE
 from bem.scenes.checks.facts import Facts
-from bem.scenes.checks.outcome import numbers
+from bem.scenes.checks.outcome import at_the_cap
 from bem.scenes.checks.registry import outcome_check
-from bem.scenes.checks.words import joined, percent, si
+from bem.scenes.checks.roughened import roughened, with_pieces
+from bem.scenes.checks.words import joined, numbers, percent, si
 from bem.scenes.context import Outcome
-
-_GROWN = 1.5
-"""Of the roughness of both surfaces together: what touches may take over the other's, and pieces leave edges."""
 
 _SERIES = {
     "rms_height_over_cycles": "Sq of the worn surface",
@@ -26,51 +24,54 @@ _SERIES = {
 }
 
 
-def _with_pieces(facts: Facts) -> bool:
-    """Whether material leaves in pieces: a scar worn by pressure is meant to grow."""
-    return all(case.wear is None or case.wear.criterion.needs_strength for case in facts.cases)
-
-
 @outcome_check
 def rougher_by_its_own_pieces(facts: Facts, outcome: Outcome) -> Iterator[str]:
     """Running-in takes summits off. Pieces deeper than the roughness leave holes instead, and friction, film and pieces
     of later cycles are of those: two surfaces of 112 and 55 nm ended at 907, 630 and 469 nm on cells of 1, 0.5 and 0.25
     um (`reports/experiments/roughening.py`), so that it is the criterion's, and the cell's."""
-    if not facts.of_kind("wear", "running-in") or not _with_pieces(facts):
+    found = roughened(facts, outcome)
+    if not found.grown:
         return
-    rough = dict.fromkeys(("lower", "upper"), 0.0)
-    for _, surface in facts.surfaces:
-        rough[surface.body] = max(rough[surface.body], surface.rms_height)
-    both = 1e9 * math.hypot(*rough.values())
-    before, after = (numbers(outcome.summary.get(f"Sq_{when}_nm")) for when in ("initial", "final"))
-    radii = numbers(outcome.summary.get("volume_mean_radius_nm")) or [0.0]
-    grown = [(b, a) for b, a in zip(before, after, strict=True) if a > _GROWN * max(b, both)] if both > 0 else []
-    if not grown:
-        return
+    both, before, grown = found.both, found.before, found.grown
     b, a = max(grown, key=lambda pair: pair[1] / pair[0])
-    larger = max(radii)
+    larger = max(numbers(outcome.summary.get("volume_mean_radius_nm")) or [0.0])
     holes = f" (mean radius by volume up to {si(1e-9 * larger, 'm')})" if larger > both else ""
+    still, (cells, cap) = _drifting(facts, outcome), at_the_cap(facts, outcome)
+    follows = [f"it had not settled ({joined(still)})"] if still else []
+    if cells:
+        follows.append(f"{cells}, are at the hardness, {si(cap, 'Pa')}")
+    so = f": so {joined(follows)}" if follows else ""
     yield (
-        f"the worn surface grew rough instead of running in{_of(len(grown), len(before))}: Sq {si(1e-9 * b, 'm')} "
-        f"before, {si(1e-9 * a, 'm')} after, where both surfaces together had {si(1e-9 * both, 'm')}: pieces{holes} "
-        "leave holes deeper than the roughness, which the criterion and the cell decide; friction, film and particles "
-        "are those of such a surface: compare a finer grid, or take a criterion that wears by pressure (archard)"
+        f"{OUTSIDE}the worn surface grew rough instead of running in{_of(len(grown), len(before))}, from Sq "
+        f"{si(1e-9 * b, 'm')} to {si(1e-9 * a, 'm')}, so that friction, film and particles at the end are of holes "
+        f"that the criterion and the cell made; both surfaces together had {si(1e-9 * both, 'm')}, and pieces{holes} "
+        f"deeper than that leave holes{so}; compare a finer grid, take fewer cycles, or a criterion that wears by "
+        "pressure (archard)"
     )
 
 
 @outcome_check
 def drifting_at_the_last_cycle(facts: Facts, outcome: Outcome) -> Iterator[str]:
     """Figures of a loop that has not settled are those of its number of cycles; rule: `bem.wear.outcome.drift`."""
-    if not facts.of_kind("wear", "running-in"):
-        return
+    told = [] if roughened(facts, outcome).grown else _drifting(facts, outcome)  # a surface full of holes says it there
+    if told:
+        yield (
+            f"not settled: {joined(told)}, the mean of the last cycles (25, or half of all) against that of as many "
+            "before them; what is told of the end is that of this number of cycles: take more cycles.count, or read "
+            "the curves over cycles"
+        )
+
+
+def _drifting(facts: Facts, outcome: Outcome) -> list[str]:
+    """What has not settled, and by how much."""
     from bem.wear.outcome import drift
 
-    told = []
-    for name, words in _SERIES.items():
+    told: list[str] = []
+    for name, words in _SERIES.items() if facts.of_kind("wear", "running-in") else ():
         variable = outcome.variables.get(name)
         if variable is None or variable.dimensions[-1:] != ("cycle",):
             continue
-        if name.startswith("rms_height") and not _with_pieces(facts):
+        if name.startswith("rms_height") and not with_pieces(facts):
             continue
         rows = variable.values.reshape(-1, variable.values.shape[-1])
         counts = _worn(outcome, len(rows)) if name.startswith("rms_height") else [True] * len(rows)
@@ -78,12 +79,7 @@ def drifting_at_the_last_cycle(facts: Facts, outcome: Outcome) -> Iterator[str]:
         still = [value for value in found if value is not None]
         if still:
             told.append(f"{words} by {percent(max(map(abs, still)))}{_of(len(still), len(rows))}")
-    if told:
-        yield (
-            f"not settled: {joined(told)}, the mean of the last cycles (25, or half of all) against that of as many "
-            "before them; what is told of the end is that of this number of cycles: take more cycles.count, or read "
-            "the curves over cycles"
-        )
+    return told
 
 
 def _worn(outcome: Outcome, loops: int) -> list[bool]:
@@ -127,7 +123,7 @@ _STEPS = 0.1
 def long_steps_of_wear_by_pressure(facts: Facts, outcome: Outcome) -> Iterator[str]:
     """Bars are those of the cells: the same distances stand in the loop on the coarser ones. What a law that wears by
     pressure leaves open over its distance is `bem.wear.outcome.step_error`; and it makes no particles."""
-    if not facts.of_kind("wear", "running-in") or _with_pieces(facts):
+    if not facts.of_kind("wear", "running-in") or with_pieces(facts):
         return
     steps, depths = (numbers(outcome.summary.get(name)) for name in ("step_error_nm", "worn_depth_nm"))
     long = [(step, depth) for step, depth in zip(steps, depths, strict=False) if step > _STEPS * depth > 0]

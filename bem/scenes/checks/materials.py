@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from bem.scenes.checks.facts import Facts
+from bem.scenes.checks.facts import Case, Facts
 from bem.scenes.checks.registry import scene_check
 from bem.scenes.checks.words import si
 
@@ -137,12 +137,31 @@ def yield_against_hardness(facts: Facts) -> Iterator[str]:
     Tabor (1951); Johnson (1985), section 6.3: it falls with E / yield stress towards 1.1, where yield only begins.
     Above 4 the yield stress is not that of the material under the indenter.
     """
+    tensile = [material for case in facts.cases if _by_tension(case) for material in case.wearing]
     for key, material in facts.materials.items():
-        if material.hardness is None or material.yield_stress is None:
+        if material.hardness is None or material.yield_stress is None or material in tensile:
             continue
         ratio = material.hardness / material.yield_stress
         if not 1.95 <= ratio <= 4.0:
             yield (
                 f"{key}: yield stress {si(material.yield_stress, 'Pa')} is hardness / {ratio:.2g}; metals have "
                 "hardness / 2.6 to / 3, brittle solids down to / 1.5: leave it out for / 2.8, or check both"
+            )
+
+
+def _by_tension(case: Case) -> bool:
+    """Whether material leaves where it is in tension: its yield stress is then its tensile strength."""
+    return case.wear is not None and case.wear.criterion.name == "maximum_tension"
+
+
+@scene_check
+def tensile_strength_as_a_cap(facts: Facts) -> Iterator[str]:
+    """A brittle solid bears many times its tensile strength in compression; 2.8 times it is no hardness."""
+    told = {m.name: m for case in facts.cases if _by_tension(case) for m in case.wearing if m.hardness is None}
+    for name, material in told.items():
+        if material.yield_stress is not None and material.indentation_hardness is not None:
+            yield (
+                f"wear.criterion maximum_tension takes the yield stress of {name}, {si(material.yield_stress, 'Pa')}, "
+                f"as its tensile strength, and without a hardness the pressure is capped at 2.8 times that, "
+                f"{si(material.indentation_hardness, 'Pa')}: give it a hardness"
             )

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -11,7 +10,8 @@ from numpy.typing import NDArray
 from bem.scenes.checks.contact import hertz_pressure_above_hardness, yield_below_the_surface
 from bem.scenes.checks.facts import Case, Facts
 from bem.scenes.checks.registry import outcome_check
-from bem.scenes.checks.words import joined, percent, si
+from bem.scenes.checks.roughened import roughened
+from bem.scenes.checks.words import joined, numbers, percent, si
 from bem.scenes.context import Outcome
 
 _AT_EDGE = 1e-4
@@ -128,19 +128,26 @@ def pressure_beyond_linear_elasticity(facts: Facts, outcome: Outcome) -> Iterato
 @outcome_check
 def contact_at_the_cap(facts: Facts, outcome: Outcome) -> Iterator[str]:
     """Where the pressure is the cap, it is an input and no result; said from a tenth of the contact on."""
+    cells, cap = at_the_cap(facts, outcome)
+    if cells and not roughened(facts, outcome).grown:  # which says it too
+        put_in = "there the pressure is what was put in, and nothing hardens"
+        yield f"{cells}, are at the hardness, {si(cap, 'Pa')}: {put_in}"
+
+
+def at_the_cap(facts: Facts, outcome: Outcome) -> tuple[str, float]:
+    """How many of the cells in contact are at the hardness, in words, and that [Pa]; nothing below a tenth of them."""
     case = _capped(facts, outcome)
     if case is None or case.cap is None or not facts.of_kind("contact", "wear", "running-in"):
-        return
-    for maps in _pressures(outcome):
+        return "", 0.0
+    for maps in _pressures(outcome)[:1]:
         plane = maps[-1]
         touching, capped = np.count_nonzero(plane > 0), plane >= case.cap * (1 - 1e-9)
         if touching and np.count_nonzero(capped) > _AT_CAP * touching:
-            yield (
+            return (
                 f"{percent(np.count_nonzero(capped) / touching)} of the cells in contact, with "
-                f"{percent(float(plane[capped].sum() / plane.sum()))} of the load, are at the hardness, "
-                f"{si(case.cap, 'Pa')}: there the pressure is what was put in, and nothing hardens"
-            )
-        return
+                f"{percent(float(plane[capped].sum() / plane.sum()))} of the load"
+            ), case.cap
+    return "", 0.0
 
 
 @outcome_check
@@ -166,12 +173,23 @@ def capped_contact_nearly_full(facts: Facts, outcome: Outcome) -> Iterator[str]:
     if not facts.of_kind("contact", "wear", "running-in", "friction") or fraction is None:
         return
     largest = max(numbers(fraction), default=0.0)
-    capped = max(numbers(outcome.summary.get("plastic_area_fraction", 0.0)), default=0.0) > 0
-    if largest > _CONTACT and (capped or not facts.of_kind("contact")) and all(case.cap for case in facts.cases):
+    if largest > _CONTACT and all(case.cap for case in facts.cases) and _anything_at_the_cap(facts, outcome):
         yield (
             f"{percent(largest)} of the patch is in contact under a capped pressure: above about half the valleys "
             "resist, which a cap leaves out; take a smaller load or a larger patch"
         )
+
+
+def _anything_at_the_cap(facts: Facts, outcome: Outcome) -> bool:
+    """Whether any pressure is at the hardness, as far as the results tell; without figure, area and map it may be."""
+    found = outcome.summary.get("plastic_area_fraction")
+    if facts.of_kind("contact") or found is not None:
+        return max(numbers(found), default=0.0) > 0
+    area, maps = outcome.variables.get("plastic_area"), _pressures(outcome)[:1]
+    if area is not None:
+        return bool((area.values > 0).any())
+    caps = [case.cap for case in facts.cases if case.cap is not None]
+    return not maps or bool((maps[0] >= min(caps) * (1 - 1e-9)).any())
 
 
 @outcome_check
@@ -257,9 +275,32 @@ def nothing_comes_off(facts: Facts, outcome: Outcome) -> Iterator[str]:
     counts = numbers(outcome.summary.get("particles_per_cycle"))
     if len(counts) != len(facts.cases):  # cases that are alike to the checks
         counts = [max(counts, default=0.0)] * len(facts.cases)
-    for number, case in zip(counts, facts.cases, strict=True):
+    stresses = np.ravel(np.array(outcome.summary.get("largest_stress_Pa"), dtype=np.float64))
+    stresses = stresses if len(stresses) == len(counts) else np.full(len(counts), np.nan)
+    for number, case, stress in zip(counts, facts.cases, stresses, strict=True):
         if number == 0 and case.wear is not None and case.wear.criterion.needs_strength:
-            yield f"nothing came off by the criterion {case.wear.criterion.name}{case.at}{_what_it_takes(case)}"
+            takes = _what_it_takes(case) or _how_far(case, float(stress))
+            yield f"nothing came off by the criterion {case.wear.criterion.name}{case.at}{takes}"
+
+
+def _how_far(case: Case, stress: float) -> str:
+    """The largest stress beside the strength, and of tension what makes it."""
+    strengths = [material.yield_stress for material in case.wearing if material.yield_stress is not None]
+    if not strengths or not np.isfinite(stress):
+        return ""
+    strength = min(strengths)
+    if stress > strength:
+        return "; in the last cycle nothing that exceeds the yield stress reaches the surface"
+    said = (
+        f"; its largest stress in the last cycle is {si(stress, 'Pa')}, and {si(strength, 'Pa')} is what takes it off"
+    )
+    if case.wear is None or case.wear.criterion.name != "maximum_tension":
+        return said
+    return said + (
+        ": under pressure alone a line contact has no tension and a round one (1 - 2 nu)/3 of its highest pressure at "
+        "the edge, friction f adds 2 f of it behind the contact, and a thin layer has both in the ratio of its modulus "
+        "to the substrate's"
+    )
 
 
 def _what_it_takes(case: Case) -> str:
@@ -294,10 +335,3 @@ def particles_cut_by_the_depths(facts: Facts, outcome: Outcome) -> Iterator[str]
             "is too small; take more or wider depths"
             + (", unless they end at the interface, where wear.within_layer ends them" if coated and held else "")
         )
-
-
-def numbers(value: Any) -> list[float]:
-    """A figure of the summary, or lists of them, as numbers that are finite."""
-    if isinstance(value, list | tuple):
-        return [number for item in value for number in numbers(item)]
-    return [float(value)] if isinstance(value, int | float | np.number) and np.isfinite(value) else []

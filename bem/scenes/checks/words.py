@@ -1,8 +1,11 @@
-"""Numbers with units as people write them, for plans and warnings."""
+"""Numbers with units as people write them, for plans and warnings, and the numbers of a summary."""
 
 from __future__ import annotations
 
 import math
+from typing import Any
+
+import numpy as np
 
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "u"), (1e-9, "n"))
 
@@ -33,3 +36,10 @@ def percent(share: float) -> str:
 def joined(words: list[str]) -> str:
     """a, b and c."""
     return words[0] if len(words) == 1 else f"{', '.join(words[:-1])} and {words[-1]}"
+
+
+def numbers(value: Any) -> list[float]:
+    """A figure of the summary, or lists of them, as numbers that are finite."""
+    if isinstance(value, list | tuple):
+        return [number for item in value for number in numbers(item)]
+    return [float(value)] if isinstance(value, int | float | np.number) and np.isfinite(value) else []

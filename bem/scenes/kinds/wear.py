@@ -26,6 +26,7 @@ from bem.scenes.tables.shape import ShapeScene
 from bem.scenes.tables.wear import CyclesScene, CylinderScene, DomainScene, WearVariantScene
 from bem.scenes.tables.wear_model import WearScenePart
 from bem.scenes.third_bodies import THIRD_BODIES, tell_of_third_bodies
+from bem.wear.criterion import WearCriterion
 
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars
@@ -99,7 +100,11 @@ def plan(scene: WearScene) -> Plan:
             scene, grid, contacts="each from the last pressure", friction=scene.cylinder.friction, **cycles
         ),
         Step("kernels of an earlier run", _KERNELS, skipped=True),
-        Step(f"deeper stresses, down to {scene.depths.count} depths", _DEEPER, skipped=True),
+        *(
+            [Step(f"deeper stresses, down to {scene.depths.count} depths", _DEEPER, skipped=True)]
+            if isinstance(scene.wear.criterion, WearCriterion)
+            else []
+        ),
         wearing.bars_step(scene, grid, _CONVOLUTIONS),
         plans.figures(grid.cells),
     )

@@ -1,0 +1,44 @@
+"""Whether a worn surface grew rough where running-in takes summits off: then all else at its end is of holes.
+
+Knows facts and a summary. Verified in tests/scenes/test_checks.py.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from bem.scenes.checks.facts import Facts
+from bem.scenes.checks.words import numbers
+from bem.scenes.context import Outcome
+
+_GROWN = 1.5
+"""Of the roughness of both surfaces together: what touches may take over the other's, and pieces leave edges."""
+
+
+@dataclass(frozen=True)
+class Roughened:
+    """Rms heights [nm]: of both unworn surfaces together, of what wears before each loop, and before and after of those
+    that grew rough."""
+
+    both: float = 0.0
+    before: tuple[float, ...] = ()
+    grown: tuple[tuple[float, float], ...] = ()
+
+
+def with_pieces(facts: Facts) -> bool:
+    """Whether material leaves in pieces: a scar worn by pressure is meant to grow."""
+    return all(case.wear is None or case.wear.criterion.needs_strength for case in facts.cases)
+
+
+def roughened(facts: Facts, outcome: Outcome) -> Roughened:
+    """Of the loops of a result; none where nothing leaves in pieces, or both surfaces are smooth."""
+    if not facts.of_kind("wear", "running-in") or not with_pieces(facts):
+        return Roughened()
+    rough = dict.fromkeys(("lower", "upper"), 0.0)
+    for _, surface in facts.surfaces:
+        rough[surface.body] = max(rough[surface.body], surface.rms_height)
+    both = 1e9 * math.hypot(*rough.values())
+    before, after = (numbers(outcome.summary.get(f"Sq_{when}_nm")) for when in ("initial", "final"))
+    grown = ((b, a) for b, a in zip(before, after, strict=False) if a > _GROWN * max(b, both) > 0)
+    return Roughened(both, tuple(before), tuple(grown) if both > 0 else ())
