@@ -114,24 +114,8 @@ def shifted(raw: FloatArray, wanted: float, cap: float) -> FloatArray:
         return np.zeros(raw.size)
     top = float(raw.max())
     below = raw - top
-    low, high = 0.0, cap - float(below.min())
-    shift = max(top, 0.0)
-    for _ in range(100):
-        total, inside = passes.shifted_sum(below, shift, cap)
-        error = total - wanted
-        if abs(error) <= 4e-16 * wanted:
-            break
-        if error > 0:
-            high = shift
-        else:
-            low = shift
-        trial = shift - error / inside if inside else math.nan
-        if not low < trial < high:
-            trial = 0.5 * (low + high)
-        if trial == shift:
-            break
-        shift = trial
-    below += shift
+    high = cap - float(below.min())
+    below += passes.shift_to(below, max(top, 0.0), high, float(wanted), float(cap), passes.BLOCK)
     return np.clip(below, 0.0, cap, out=below)
 
 

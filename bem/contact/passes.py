@@ -59,12 +59,6 @@ def place(field, cells, values, capped, cap):  # type: ignore[no-untyped-def]
         field[capped[k]] = cap
 
 
-def shifted_sum(values: FloatArray, shift: float, cap: float) -> tuple[float, int]:
-    """Sum of clip(values + shift, 0, cap) and how many of them are strictly inside."""
-    total, inside = sums(values.size, 2, _shifted_sum, values, shift, cap)
-    return total, int(inside)
-
-
 @_fast
 def _shifted_sum(start, stop, result, values, shift, cap):  # type: ignore[no-untyped-def]
     total = 0.0
@@ -79,6 +73,34 @@ def _shifted_sum(start, stop, result, values, shift, cap):  # type: ignore[no-un
             inside += 1
     result[0] = total
     result[1] = inside
+
+
+@_strict
+def shift_to(values, start, high, wanted, cap, block):  # type: ignore[no-untyped-def]
+    """The s that makes the sum of clip(values + s, 0, cap) the one wanted: from a first one, between zero and `high`,
+    by Newton's method where that stays between. All steps are one call, sums those of blocks in order."""
+    low, shift = 0.0, start
+    found = np.zeros(2)
+    for _ in range(100):
+        total, inside = 0.0, 0.0
+        for first in range(0, values.size, block):
+            _shifted_sum(first, min(values.size, first + block), found, values, shift, cap)
+            total += found[0]
+            inside += found[1]
+        error = total - wanted
+        if abs(error) <= 4e-16 * wanted:
+            break
+        if error > 0:
+            high = shift
+        else:
+            low = shift
+        trial = shift - error / inside if inside > 0 else np.nan
+        if not low < trial < high:
+            trial = 0.5 * (low + high)
+        if trial == shift:
+            break
+        shift = trial
+    return shift
 
 
 def moments(values: FloatArray) -> tuple[float, float, float]:

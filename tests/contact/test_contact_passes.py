@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from contact_oracles import FREE, PERIODIC, notes_surface, operator
 
-from bem.contact import face, gradients, inner, judging, long_waves, passes, sets
+from bem.contact import face, feasible, gradients, inner, judging, long_waves, passes, sets
 from bem.contact.controls import ApproachControl, LoadControl
 from bem.contact.level import Effort, Iterate, Level, Stride, Tuning
 
@@ -78,6 +78,36 @@ def test_what_is_held_of_a_field(cap, fields):
     out = np.empty(SIZE)
     passes.in_blocks(SIZE, 0, sets.descend, displacement, gap, 0.3, 0.7, out)
     assert np.array_equal(out, -(0.7 * (gap + displacement - 0.3)))
+
+
+@pytest.mark.parametrize("cap", [0.3, 1e3])
+@pytest.mark.parametrize("share", [1e-9, 0.1, 0.9])
+def test_shifting_to_a_sum(cap, share, fields):
+    raw, _, _, _ = fields
+    wanted = share * (cap * raw.size if cap < 1 else 50.0)
+    plain = _plain_shift(raw - raw.max(), max(raw.max(), 0.0), wanted, cap)
+    values = feasible.shifted(raw, wanted, cap)
+    assert values.min() >= 0
+    assert values.max() <= cap
+    assert values.sum() == pytest.approx(wanted, rel=1e-14)
+    assert np.allclose(values, np.clip(raw - raw.max() + plain, 0, cap), rtol=0, atol=1e-14 * plain)
+
+
+def _plain_shift(values, shift, wanted, cap):
+    """Newton's method between bounds, step by step."""
+    low, high = 0.0, cap - values.min()
+    for _ in range(100):
+        moved = values + shift
+        error, inside = np.clip(moved, 0, cap).sum() - wanted, np.count_nonzero((moved > 0) & (moved < cap))
+        if abs(error) <= 4e-16 * wanted:
+            break
+        low, high = (low, shift) if error > 0 else (shift, high)
+        trial = shift - error / inside if inside else np.nan
+        trial = trial if low < trial < high else 0.5 * (low + high)
+        if trial == shift:
+            break
+        shift = trial
+    return shift
 
 
 def test_merge(fields):
