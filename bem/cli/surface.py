@@ -191,18 +191,21 @@ def _show(surface: Surface, name: str) -> None:
     import math
 
     from bem.cli._terminal import table
+    from bem.scenes.checks.words import si
     from bem.surfaces import describe_surface
 
     d = describe_surface(surface.heights, surface.spacing, periodic=_periodic(surface))
+    told = surface.metadata.get("spacing_in_file")
 
     def metres(value: float) -> str:
         if math.isnan(value):
             return "beyond half the map"
-        return f"{1e6 * value:.4g} um" if value >= 1e-6 else f"{1e9 * value:.4g} nm"
+        return si(value, "m", digits=4)
 
     rows = [
         ("cells", f"{surface.shape[0]} x {surface.shape[1]}"),
         ("spacing", " x ".join(metres(s) for s in surface.spacing)),
+        *([] if told is None else [("spacing in the file, not taken", " x ".join(metres(s) for s in told))]),
         ("size", " x ".join(metres(s) for s in surface.lengths)),
         ("Sq, rms height", metres(d.Sq)),
         ("Sa, mean height", metres(d.Sa)),

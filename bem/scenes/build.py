@@ -386,6 +386,9 @@ def fitted(surface: MeasuredSurface, found: Surface, grid: Grid, note: Callable[
     missing = int(found.metadata.get("missing_points", 0) or 0)
     if missing:
         note(f"{name}: {missing} points were missing and are filled from their neighbours")
+    if told := found.metadata.get("spacing_in_file"):
+        own, other = (f"{1e6 * side[0]:.4g} x {1e6 * side[1]:.4g} um" for side in (found.spacing, told))
+        note(f"{name}: points are taken as {own} apart, where the file says {other}")
     spikes = int(found.metadata.get("spikes", 0) or 0)
     if spikes:
         note(f"{name}: {spikes} spikes were taken out and are filled from their neighbours")

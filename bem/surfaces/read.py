@@ -37,6 +37,9 @@ MOST_POINTS = 2**28
 _MOST_NOTES = 10_000_000
 """Bytes of anything in an archive that is not the heights."""
 
+_SAME = 0.01
+"""Of a spacing: as people round it."""
+
 _TEXT = (".txt", ".csv", ".dat")
 
 
@@ -63,8 +66,10 @@ def read_surface(
     fill : True: missing points are filled by the harmonic surface through their neighbours (at most half of the
         map); False: a map with missing points is refused.
     channel : name or number of the channel where a file has several; the reader's default is its topography.
-    spacing : (dx, dy) [m], instead of what the file says; needed where it says nothing.
-    height_unit : unit of the heights where the file does not say ("nm", "um", ...); plain maps are in metres.
+    spacing : (dx, dy) [m], instead of what the file says, which metadata then has as `spacing_in_file`; needed where it
+        says nothing.
+    height_unit : unit of the heights where the file does not say ("nm", "um", ...), refused where it says another;
+        plain maps are in metres.
     despike : take out points that stand out of their neighbourhood by more than so many standard deviations (at least
         3; 6 takes instruments' spikes and leaves roughness), before the map is levelled; see `bem.surfaces.despike`.
 
@@ -108,7 +113,10 @@ def read_surface(
     if height_unit is not None:
         heights = heights * METRES[height_unit]
     if spacing is not None:
-        cell = (float(spacing[0]), float(spacing[1]))
+        given = (float(spacing[0]), float(spacing[1]))
+        if cell is not None and any(abs(a - b) > _SAME * b for a, b in zip(given, cell, strict=True)):
+            notes = {**notes, "spacing_in_file": list(cell)}
+        cell = given
     if cell is None:
         raise SurfaceFileError(
             f"{file}: the file does not say how far its points are apart; give spacing=(dx, dy) in metres"
@@ -352,6 +360,10 @@ def _read_instrument(
         metres = METRES[height_unit]
     elif isinstance(unit, str) and unit in METRES:
         metres = METRES[unit]
+        if height_unit is not None and METRES[height_unit] != metres:
+            raise SurfaceFileError(
+                f"{file}: says that its heights are in {unit}; height_unit {height_unit!r} is for files that do not say"
+            )
     else:
         raise SurfaceFileError(
             f"{file}: channel {notes['channel']!r} "

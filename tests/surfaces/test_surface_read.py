@@ -176,8 +176,22 @@ def test_instrument_text(tmp_path):
     np.savetxt(path, heights)
     with pytest.raises(SurfaceFileError, match="how far its points are apart"):
         read_surface(path)
+    assert "spacing_in_file" not in surface.metadata
     bare = read_surface(path, detrend="none", spacing=(1e-7, 2e-7), height_unit="nm")
     np.testing.assert_allclose(bare.heights, 1e-9 * heights.T, atol=1e-18)
+
+
+def test_units_that_contradict_the_file_are_not_swallowed():
+    """A unit of the heights was ignored without a word, and a spacing replaced the file's."""
+    path = "example/ground-disk.al3d"
+    own = read_surface(path)
+    with pytest.raises(SurfaceFileError, match=r"says that its heights are in .*height_unit 'km'"):
+        read_surface(path, height_unit="km")
+    other = read_surface(path, spacing=(1e-3, 1e-3))
+    assert other.metadata["spacing_in_file"] == pytest.approx(list(own.spacing))
+    assert other.spacing == (1e-3, 1e-3)
+    rounded = tuple(1.004 * side for side in own.spacing)
+    assert "spacing_in_file" not in read_surface(path, spacing=rounded).metadata
 
 
 def test_what_is_no_surface(tmp_path):
