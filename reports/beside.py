@@ -26,7 +26,8 @@ CURVES = (
     "residual on the same grid: the largest of all loads, recomputed from the pressures by one routine. Then at equal "
     "error of the area (rms over the loads, against the limit of bem's two finest grids): a peer's area is its cells "
     "in contact, bem's edge lies inside of cells, so that a coarser grid has it. Areas and gaps apart: the largest "
-    "difference of counted areas and of mean gaps on the same grid, relative."
+    "difference of counted areas and of mean gaps on the same grid, relative; its limit apart: of the areas that its "
+    "own cells on two grids lead to, mean of all loads."
 )
 STRESSES = (
     "A ball's pressure is given, so that stresses are known: of one ball by Hamilton, of an array of balls by its "

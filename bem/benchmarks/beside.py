@@ -19,8 +19,11 @@ class CurveBeside:
 
     start : how its loads begin. residual : the largest complementarity of its loads, by the routine that judges bem.
     load_error : of its mean pressures, largest. area_difference, gap_difference : largest of all loads, of counted
-        areas and mean gaps from bem's on the same grid, relative. area_error : rms over the loads against the limit of
-        fine grids, relative. Of `bem_area_*` nothing is known (0 cells) where no grid has an error as small.
+        areas and mean gaps from bem's on the same grid, relative.
+    area_error : rms over the loads against the limit of fine grids, relative. Of `bem_area_*` nothing is known (0
+        cells) where no grid has an error as small.
+    limit_apart : of the limit that its own cells lead to, mean of all loads, relative; None where it has no grid half
+        as fine.
     """
 
     peer: str
@@ -38,6 +41,7 @@ class CurveBeside:
     bem_area_cells: int = 0
     bem_area_error: float = 0.0
     bem_area_cpu: tuple[float, ...] = ()
+    limit_apart: float | None = None
 
     @property
     def ratio(self) -> float:
@@ -126,6 +130,7 @@ CURVE_HEADERS: tuple[str, ...] = (
     "ratio ",
     "areas apart",
     "gaps apart",
+    "its limit apart",
 )
 
 
@@ -142,6 +147,7 @@ def curve_rows(curves: Sequence[CurveBeside]) -> list[tuple[str, ...]]:
                 str(c.bem_area_cells) if known else "",
                 f"{median(c.bem_area_cpu):.3g}" if known else "",
                 *(_ratio(c.area_ratio), f"{c.area_difference:.1e}", f"{c.gap_difference:.1e}"),
+                "" if c.limit_apart is None else f"{c.limit_apart:+.1e}",
             )
         )
     return rows

@@ -12,6 +12,7 @@ from __future__ import annotations
 import math
 import subprocess
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 from pathlib import Path
 
 import numpy as np
@@ -97,6 +98,7 @@ def curves_beside(  # reason: what is found is put where an interrupt leaves it
 ) -> None:
     """Add all peers' curves with bem's beside, and what failed."""
     own: dict[tuple[int, int], Point] = {}
+    counted: dict[tuple[int, str, str], FloatArray] = {}
     sizes, limit_from = (QUICK, QUICK_LIMIT) if quick else (SIZES, LIMIT)
 
     def bem(cells: int, digits: int) -> Point:
@@ -119,7 +121,11 @@ def curves_beside(  # reason: what is found is put where an interrupt leaves it
             try:
                 gap, times = rough_surface(cells), repeats if cells < 256 else 1
                 done = run_script(python, what, _LOADS + script, gap, (0.0, TOLERANCES[peer]), times)
-                found.append(_beside(peer, start, gap, done.times, done.result, limit, errors, bem))
+                counted[cells, peer, start] = np.mean(done.result > 0, axis=(1, 2))
+                row = _beside(peer, start, gap, done.times, done.result, limit, errors, bem)
+                half = counted.get((cells // 2, peer, start))
+                apart = None if half is None else drawn_on(half, counted[cells, peer, start], limit)
+                found.append(replace(row, limit_apart=apart))
             except (RuntimeError, subprocess.TimeoutExpired) as error:
                 failures[what] = str(error)
 
@@ -182,6 +188,12 @@ def limit_areas(points: Sequence[Point], sizes: tuple[int, int]) -> FloatArray:
     """Shares in contact that fine grids lead to, for all loads."""
     coarse, fine = (values_of(point, "area") for point in points)
     return np.asarray(fine + (fine - coarse) / ((sizes[1] / sizes[0]) ** _ORDER - 1))
+
+
+def drawn_on(coarse: FloatArray, fine: FloatArray, limit: FloatArray) -> float:
+    """How far the limit is, mean of all loads, that areas of cells lead to, whose error is of first order: that of a
+    peer, which knows nothing of the other. A single load's scatters by per cents, as cells are counted."""
+    return float(np.mean((2 * fine - coarse) / limit - 1))
 
 
 def area_error(areas: FloatArray, limit: FloatArray) -> float:

@@ -223,7 +223,7 @@ def print_run(run: Run, table: Table) -> None:
         table(PEER_HEADERS, rows, title="peers at equal residual, one thread", right=range(1, 8))
     if run.peer_curves:
         title = "peers: 20 loads, at equal residual and at equal error of the area"
-        table(CURVE_HEADERS, curve_rows(run.peer_curves), title=title, right=range(2, 15))
+        table(CURVE_HEADERS, curve_rows(run.peer_curves), title=title, right=range(2, 16))
     if run.peer_stresses:
         title = "peers: six stresses on the same points"
         table(STRESS_HEADERS, stress_rows(run.peer_stresses), title=title, right=range(2, 13))
