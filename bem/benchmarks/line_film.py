@@ -16,10 +16,11 @@ import numpy as np
 
 from bem.grid import FloatArray
 from bem.lubrication import FilmSolution, Lubricant, solve_line_film
+from bem.lubrication.line_kept import KeptSteady
 from bem.lubrication.line_kernel import LineOperator
 from bem.lubrication.line_newton import State, newton
 from bem.lubrication.line_scales import scaled_problem
-from bem.lubrication.steady import KeptSteady, lowest_film
+from bem.lubrication.steady import lowest_film
 from bem.monotone import MonotoneCubic
 from bem.reference_solutions.line_film import dowson_higginson_minimum, moes_central
 

@@ -51,7 +51,7 @@ def line_film(points: float, dense: bool = False) -> Timed:
 def _work(film: FilmSolution, dense: bool) -> dict[str, float]:
     """Millions of multiplications for Newton's equations on the last mesh, and megabytes of their weights."""
     from bem.lubrication.line_elimination import BORDER
-    from bem.lubrication.steady import KeptSteady
+    from bem.lubrication.line_kept import KeptSteady
 
     assert isinstance(film.state, KeptSteady)
     operator = film.state.state.operator

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 from bem.friction.balance import Balance, BalanceStart, Regime
 from bem.friction.film import PatchFilm
 from bem.lubrication import FilmSolution
-from bem.lubrication.line_starts import without_equations
+from bem.lubrication.line_kept import without_equations
 
 if TYPE_CHECKING:
     from bem.friction.setup import MixedSetup

@@ -13,9 +13,10 @@ from typing import Any, Protocol
 from bem.errors import InputError, Status
 from bem.friction.smooth import LineContact, SmoothContact
 from bem.grid import FloatArray
-from bem.lubrication import FilmSolution, PointFilmSolution, solve_line_film
-from bem.lubrication.line_starts import on_mesh_of, without_equations
-from bem.lubrication.steady import load_range
+from bem.lubrication import FilmSolution, PointFilmSolution
+from bem.lubrication.line_kept import without_equations
+from bem.lubrication.line_starts import on_mesh_of
+from bem.lubrication.steady import line_film, load_range
 from bem.lubrication.with_heat import film_with_heat
 
 BALANCE_POINTS = 400
@@ -125,7 +126,7 @@ def solved_line_film(
         "flow_factors": contact.flow_factors,
     }
     if heat is None:
-        return solve_line_film(**asked, position=position, supply=contact.supply, tolerance=tolerance)
+        return line_film(**asked, position=position, supply=contact.supply, tolerance=tolerance)
     unheated = {"position": position is not None, "supply": contact.supply is not None and heat.model == "full"}
     return film_with_heat(heat.model, asked | {"bodies": heat.bodies}, contact.supply, unheated, heat.mesh)
 

@@ -11,11 +11,12 @@ from dataclasses import replace
 
 from bem.lubrication.film import FilmSolution
 from bem.lubrication.line_continuation import sketched
+from bem.lubrication.line_kept import KeptSteady
 from bem.lubrication.line_newton import is_start
 from bem.lubrication.line_scales import scaled_problem
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.rough_walls import WallFactors, walls_of
-from bem.lubrication.steady import KeptSteady, checked_case, solution_of
+from bem.lubrication.steady import checked_case, solution_of
 
 _POINTS, _TOLERANCE = 251, 1e-4
 """What `checked_case` is told of: as `line_continuation.sketched` has them."""

@@ -1,4 +1,4 @@
-"""Line films as starts for others: on a mesh whose weights are known, and without what only those next to them need.
+"""Line films as starts for others, on a mesh whose weights are known.
 
 Knows steady line films. Verified in tests/friction/test_continuation.py.
 """
@@ -9,18 +9,9 @@ from dataclasses import replace
 
 from bem.lubrication.film import FilmSolution
 from bem.lubrication.line_continuation import MIDDLE, SPIKE_CELLS
+from bem.lubrication.line_kept import KeptSteady
 from bem.lubrication.line_newton import carried, is_start, spike_cell
 from bem.lubrication.line_scales import scaled_problem
-from bem.lubrication.steady import KeptSteady
-
-
-def without_equations(film: FilmSolution) -> FilmSolution:
-    """The film without what only starts next to it need: megabytes."""
-    kept = film.state
-    if not isinstance(kept, KeptSteady):
-        return film
-    bare = replace(kept, state=replace(kept.state, linear=None), flooded=replace(kept.flooded, linear=None))
-    return replace(film, state=bare)
 
 
 def on_mesh_of(film: FilmSolution, other: FilmSolution) -> FilmSolution:

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
+from dataclasses import replace
+from typing import Any
 
 import numpy as np
 
@@ -17,7 +17,7 @@ from bem.lubrication.film import FilmSolution
 from bem.lubrication.line_continuation import from_neighbour, from_newtonian, from_scratch
 from bem.lubrication.line_flow import Problem
 from bem.lubrication.line_friction import friction_forces
-from bem.lubrication.line_kernel import DEFLECTION, logarithmic_integral
+from bem.lubrication.line_kept import KeptSteady, sampled_state, without_equations
 from bem.lubrication.line_newton import Outcome, State, is_start
 from bem.lubrication.line_scales import Scales, line_scales, scaled_problem
 from bem.lubrication.line_starved import Neighbour, Wanted, WantedDistance, WantedLayer, starved, through
@@ -30,15 +30,11 @@ from bem.materials import Body
 from bem.monotone import MonotoneCubic
 from bem.threads import one_blas_thread
 
-if TYPE_CHECKING:
-    from bem.lubrication.thermal.warm_start import KeptHeat
-
 MOES_LOADS = (1e-5, 1e4)
 """Loads M for which a film is looked for; beyond them the equations are not a model of anything."""
 MAX_INLET_SHARE = 0.01
 
 
-@one_blas_thread
 def solve_line_film(  # reason: the signature is a promise to users' scripts
     *,
     load: float,
@@ -109,18 +105,41 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
     thickness converges.
     """
     cavitation, supply = cavitation_of(cavitation), checked_supply(supply)
+    asked: dict[str, Any] = {
+        "load": load, "radius": radius, "contact_modulus": contact_modulus, "speeds": speeds, "lubricant": lubricant,
+        "points": points, "tolerance": tolerance, "initial": initial, "max_iterations": max_iterations,
+        "flow_factors": flow_factors,
+    }  # fmt: skip
+    if thermal == "off":
+        return without_equations(line_film(**asked, position=position, cavitation=cavitation, supply=supply))
+    checked_case(load, radius, contact_modulus, speeds, lubricant, points, tolerance, position, initial)
+    own = {"position": position is not None, "supply": supply is not None and thermal == "full"}
+    own["mass-conserving cavitation"] = cavitation is not Cavitation.SWIFT_STIEBER
+    return film_with_heat(thermal, asked | {"bodies": bodies, "bulk": bulk}, supply, own)
+
+
+@one_blas_thread
+def line_film(  # reason: the arguments of `solve_line_film` but heat's
+    *,
+    load: float,
+    radius: float,
+    contact_modulus: float,
+    speeds: Sequence[float],
+    lubricant: Lubricant,
+    points: int = 2000,
+    tolerance: float = 1e-8,
+    position: FloatArray | None = None,
+    initial: FilmSolution | None = None,
+    max_iterations: int = 40,
+    cavitation: Cavitation = Cavitation.SWIFT_STIEBER,
+    flow_factors: WallFactors | str = "off",
+    supply: Supply | float | None = None,
+) -> FilmSolution:
+    """As `solve_line_film` without heat, with the equations of the last step, by which one next to it starts."""
+    supply = checked_supply(supply)
     scales, reversed_ = checked_case(
         load, radius, contact_modulus, speeds, lubricant, points, tolerance, position, initial
     )
-    if thermal != "off":
-        own = {"position": position is not None, "supply": supply is not None and thermal == "full"}
-        own["mass-conserving cavitation"] = cavitation is not Cavitation.SWIFT_STIEBER
-        asked = {
-            "load": load, "radius": radius, "contact_modulus": contact_modulus, "speeds": speeds,
-            "lubricant": lubricant, "bodies": bodies, "bulk": bulk, "points": points, "initial": initial,
-            "tolerance": tolerance, "max_iterations": max_iterations, "flow_factors": flow_factors,
-        }  # fmt: skip
-        return film_with_heat(thermal, asked, supply, own)
     walls = walls_of(flow_factors, scales.film, speeds)
     problem = scaled_problem(scales, scales.load, lubricant, walls, float(speeds[0]) - float(speeds[1]))
     flooded = outcome = _flooded(problem, scales, initial, points - 1, tolerance, max_iterations)
@@ -208,30 +227,6 @@ def _starvation(problem: Problem, state: State, flooded: State, scales: Scales, 
     layers = [through(problem, one) * scales.film for one in (state, flooded)]
     central = [float(MonotoneCubic(one.position, one.film)(0.0)) for one in (state, flooded)]
     return Starvation(-first if reversed_ else first, layers[0], central[0] / central[1], layers[1])
-
-
-@dataclass(frozen=True)
-class KeptSteady:
-    """What a warm start and a look at other positions need; `flooded`: without a supply, `sketch`: of `line_sketch`,
-    `heat`: what full heat starts from."""
-
-    state: State
-    flooded: State
-    load: float
-    scales: Scales
-    reversed: bool
-    sketch: bool = False
-    heat: KeptHeat | None = None
-
-    @one_blas_thread
-    def sample(self, position: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Pressure [Pa] and thickness [m] at any positions [m]: interpolated on the mesh, by the kernel off it."""
-        position = np.asarray(position, dtype=np.float64)
-        at = -position if self.reversed else position
-        order = np.argsort(at, kind="stable")
-        pressure, film = np.empty(len(at)), np.empty(len(at))
-        pressure[order], film[order] = _sampled(at[order], self.state, self.scales)
-        return pressure, film
 
 
 def checked_case(
@@ -363,7 +358,7 @@ def solution_of(
         at = np.asarray(position, dtype=np.float64)
         at = sign * at if sign > 0 else -at[::-1]
         upstream = _check_reach(at, state, scales, problem.load)
-        p, h = _sampled(at, state, scales)
+        p, h = sampled_state(at, state, scales)
     if reversed_:
         at, p, h = -at[::-1], p[::-1], h[::-1]
     return FilmSolution(
@@ -385,25 +380,6 @@ def solution_of(
         lubricant=lubricant,
         state=KeptSteady(state, flooded.state, problem.load, scales, reversed_),
     )
-
-
-def _sampled(at: FloatArray, state: State, scales: Scales) -> tuple[FloatArray, FloatArray]:
-    """Pressure and thickness at ascending positions [m] for positive entrainment."""
-    x = state.position
-    target = at / scales.length
-    inside = (target >= x[0]) & (target <= x[-1])
-    pressure = np.interp(target, x, np.maximum(state.pressure, 0.0), right=0.0)
-    upstream = target < x[0]
-    pressure[upstream] = state.far_field * 8 / np.abs(target[upstream]) ** 3
-    film = np.empty_like(target)
-    film[inside] = MonotoneCubic(x, state.film)(target[inside])
-    far = inside & (np.abs(target) > 1.5 * state.exit)
-    film[far] = 0.5 * target[far] ** 2 + MonotoneCubic(x, state.film - 0.5 * x**2)(target[far])
-    if not inside.all():
-        out = target[~inside]
-        deflection = DEFLECTION * logarithmic_integral(out - state.exit, state.offset, state.pressure)
-        film[~inside] = state.datum + 0.5 * out**2 - deflection
-    return pressure * scales.pressure, film * scales.film
 
 
 def _check_reach(at: FloatArray, state: State, scales: Scales, load: float) -> float:

@@ -14,7 +14,9 @@ from bem.friction.film_table import FilmTable
 from bem.friction.films import films_of
 from bem.friction.setup import MixedSetup
 from bem.lubrication import line_kernel, line_linear
-from bem.lubrication.line_starts import on_mesh_of, without_equations
+from bem.lubrication.line_kept import without_equations
+from bem.lubrication.line_starts import on_mesh_of
+from bem.lubrication.steady import line_film
 
 OIL = Lubricant(0.36, pressure_viscosity=25e-9)
 CASE = mixed_case(48, 90e-6 / 48, 4e-6, lubricant=OIL, boundary_friction=0.15, film_points=800)
@@ -92,7 +94,7 @@ def test_a_curve_in_full_film_makes_weights_twice(monkeypatch):
 
 
 def test_a_film_next_to_one_is_found_without_taking_equations_apart(monkeypatch):
-    near = solve_line_film(**FILM, speeds=(0.05, 0.0))
+    near = line_film(**FILM, speeds=(0.05, 0.0))
     taken = []
     usual = line_linear.eliminate
     monkeypatch.setattr(line_linear, "eliminate", lambda *given: (taken.append(1), usual(*given))[1])

@@ -1,6 +1,7 @@
 """Steady line-contact film: limits, order, invariances, warm starts, refusals."""
 
 import math
+import pickle
 from dataclasses import replace
 from pathlib import Path
 
@@ -14,6 +15,7 @@ import bem.lubrication.line_continuation as line_continuation
 import bem.lubrication.line_newton as line_newton
 from bem import InputError, Lubricant, Status, solve_line_film
 from bem.benchmarks.line_film import LOADS, PIEZO, film_row, read_table
+from bem.lubrication import steady
 from bem.lubrication.line_newton import newton
 from bem.lubrication.steady import lowest_film
 from bem.reference_solutions import line_film
@@ -286,6 +288,19 @@ def test_warm_start_gives_the_same_film_in_fewer_steps():
     assert len(other_points.position) == 600
     far = solve_line_film(**THESIS, speeds=(0.3, 0.0), points=400, initial=cold)
     assert far.status is Status.CONVERGED
+
+
+def test_results_carry_no_equations_and_who_goes_on_at_once_keeps_them():
+    """Megabytes that only a start next to a film needs; the film is the same to the last bit."""
+    case = THESIS | {"speeds": (0.003, 0.0), "points": 1000}
+    result, working = solve_line_film(**case), steady.line_film(**case)
+    assert working.state.state.linear is not None
+    assert result.state.state.linear is result.state.flooded.linear is None
+    assert len(pickle.dumps(result)) < 0.7 * len(pickle.dumps(working))
+    np.testing.assert_array_equal(result.pressure, working.pressure)
+    near = THESIS | {"speeds": (0.00301, 0.0), "points": 1000}
+    again, on = (solve_line_film(**near, initial=start).minimum_thickness for start in (result, working))
+    assert again == pytest.approx(on, rel=1e-6)  # the tolerance of both is 1e-8 of the residual
 
 
 @pytest.mark.parametrize("factor", [0.6, 1.4])

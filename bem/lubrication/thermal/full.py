@@ -19,11 +19,12 @@ import numpy as np
 from bem.errors import InputError, Status
 from bem.grid import FloatArray
 from bem.lubrication.film import FilmSolution
+from bem.lubrication.line_kept import KeptSteady, without_equations
 from bem.lubrication.line_newton import Outcome
 from bem.lubrication.line_scales import scaled_problem
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.rough_walls import WallFactors, notes_on_factors, walls_of
-from bem.lubrication.steady import KeptSteady, checked_case, solution_of, solve_line_film
+from bem.lubrication.steady import checked_case, line_film, solution_of
 from bem.lubrication.thermal.conductors import moving_bodies
 from bem.lubrication.thermal.coupled import Coupling, Heated, Neighbour, coupled
 from bem.lubrication.thermal.field import LEAST_RISE, carried
@@ -164,7 +165,7 @@ def solve_full_thermal_line_film(  # reason: the arguments of `solve_line_film`,
     conductors = moving_bodies("solve_full_thermal_line_film", lubricant, bodies, speeds, bulk, radius)
     before = None if initial is None else initial.state
     heat = before.heat if isinstance(before, KeptSteady) else None
-    cold = solve_line_film(
+    cold = line_film(
         load=load, radius=radius, contact_modulus=contact_modulus, speeds=speeds, lubricant=lubricant, points=points,
         initial=initial if heat is None else heat.isothermal, tolerance=tolerance, max_iterations=max_iterations,
         flow_factors=flow_factors,
@@ -196,7 +197,7 @@ def solve_full_thermal_line_film(  # reason: the arguments of `solve_line_film`,
     if found.met(tolerance):
         film = found.film
         assert isinstance(film.state, KeptSteady)
-        film = replace(film, state=replace(film.state, heat=found.kept(cold, columns)))
+        film = replace(film, state=replace(film.state, heat=found.kept(without_equations(cold), columns)))
         found = replace(found, film=film)
     thermal = _result(found, cold, tolerance, kept.reversed)
     stress = found.made.across(found.field.oil).newtonian
@@ -226,8 +227,8 @@ def _result(found: Heated, cold: FilmSolution, tolerance: float, reversed_: bool
     if expansion_of(lubricant) is None:
         notes += (UNKNOWN_EXPANSION,)
     return FullThermalFilm(
-        film=film,
-        isothermal=cold,
+        film=without_equations(film),
+        isothermal=without_equations(cold),
         position=sign * duct.middles[order],
         width=width[order],
         height=0.5 * (1 + middles(duct.layers)),

@@ -25,12 +25,13 @@ from bem.errors import InputError, Status
 from bem.grid import FloatArray
 from bem.heat.bodies import Conductor
 from bem.lubrication.film import FilmSolution
+from bem.lubrication.line_kept import KeptSteady, without_equations
 from bem.lubrication.line_scales import line_scales
 from bem.lubrication.line_sketch import sketch_line_film
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.rough_walls import WallFactors, notes_on_factors
 from bem.lubrication.shear_profile import middle_stress
-from bem.lubrication.steady import KeptSteady, checked_case, load_range, solve_line_film
+from bem.lubrication.steady import checked_case, line_film, load_range
 from bem.lubrication.supply import Supply
 from bem.lubrication.thermal.conductors import moving_bodies
 from bem.lubrication.thermal.energy import Channel, Temperatures, film_temperatures
@@ -236,7 +237,7 @@ class _Thinned:
         """The last one once more, with its supply."""
         hot = self.films[-1]
         start = hot if initial is None or initial.starvation is None else initial
-        self.add(solve_line_film(**case, points=points, lubricant=hot.lubricant, initial=start, supply=supply))
+        self.add(line_film(**case, points=points, lubricant=hot.lubricant, initial=start, supply=supply))
 
 
 def _thinned(
@@ -245,7 +246,7 @@ def _thinned(
     """How thin the oil must be is found of sketches, where there are; only the last film is on all points."""
     sketched = {name: value for name, value in case.items() if name != "tolerance"}
     found = _search(partial(sketch_line_film, **sketched), case, lubricant, _sketch_start(initial), inlet)
-    on_points = partial(solve_line_film, **case, points=points)
+    on_points = partial(line_film, **case, points=points)
     if math.isinf(found.missed):
         spent, found = found.steps, _search(on_points, case, lubricant, initial, inlet)
         found.steps += spent
@@ -400,8 +401,8 @@ def _result(
     order = slice(None, None, -1) if kept.reversed else slice(None)
     hottest = max(float(found.oil.max()), float(found.surfaces.max()))
     return ThermalFilm(
-        film=film,
-        isothermal=thinned.films[0],
+        film=without_equations(film),
+        isothermal=without_equations(thinned.films[0]),
         position=sign * (0.5 * (strip.edges[1:] + strip.edges[:-1]))[order],
         width=width[order],
         film_temperature=found.oil[order],

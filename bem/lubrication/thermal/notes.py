@@ -6,10 +6,10 @@ import numpy as np
 
 from bem.grid import FloatArray
 from bem.lubrication.film import FilmSolution
+from bem.lubrication.line_kept import KeptSteady
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.oils.oil import EXTRAPOLATED, HOTTEST, Oil
 from bem.lubrication.oils.over_temperature import CELSIUS
-from bem.lubrication.steady import KeptSteady
 from bem.lubrication.validity import HEATING_NOTES, Case, notes_on, why_no_line_film
 
 

@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 from bem.grid import FloatArray
 from bem.lubrication.film import FilmSolution
 from bem.lubrication.line_friction import rolling_upstream, upstream_of_mesh
-from bem.lubrication.steady import KeptSteady
+from bem.lubrication.line_kept import KeptSteady
 
 
 @dataclass(frozen=True)
