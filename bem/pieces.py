@@ -23,16 +23,14 @@ _ALIGNED = 8
 def total(field: FloatArray, of: Callable[[FloatArray], FloatArray] | None = None) -> float:
     """The sum of a field, or of a function of each of its entries; the bits of `of(field).sum()` where the field is
     contiguous, whose halves numpy adds in the same way (Higham, SIAM J. Sci. Comput. 14 (1993) 783: pairwise)."""
-    flat = field.reshape(-1)
+    return _part(field.reshape(-1), of)
 
-    def part(first: int, count: int) -> float:
-        if count <= PIECE:
-            piece = flat[first : first + count]
-            return float(np.add.reduce(piece if of is None else of(piece)))
-        half = count // 2 - count // 2 % _ALIGNED
-        return part(first, half) + part(first + half, count - half)
 
-    return part(0, flat.size)
+def _part(flat: FloatArray, of: Callable[[FloatArray], FloatArray] | None) -> float:
+    if flat.size <= PIECE:
+        return float(np.add.reduce(flat if of is None else of(flat)))
+    half = flat.size // 2 - flat.size // 2 % _ALIGNED
+    return _part(flat[:half], of) + _part(flat[half:], of)
 
 
 def mean(field: FloatArray, of: Callable[[FloatArray], FloatArray] | None = None) -> float:

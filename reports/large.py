@@ -31,14 +31,22 @@ def contacts() -> str:
         "in single precision and costs no accuracy (`bem plan`). With a quarter of 2048 x 2048 cells in contact it is "
         "94 bytes a cell. At 59 bytes 16384 x 16384 cells take 15.8 GB, their surface 15 GB before it. On free axes "
         "transforms have four times the points: 90 bytes a cell, 15,000 cells along each side in 20 GB. "
-        "`python -m reports.experiments.large_contact --size 16384` repeats it."
+        "`python -m reports.experiments.large_contact --size 16384` repeats it." + _of_runs(rows)
     )
-    headers = ("cells a side", "surface, bytes a cell", "contact, bytes a cell", "surface, s", "contact, s")
+    headers = (
+        "cells a side",
+        "surface, bytes a cell",
+        "contact, bytes a cell",
+        "whole run, bytes a cell (planned)",
+        "surface, s",
+        "contact, s",
+    )
     found = [
         (
             size,
             f"{row['surface_bytes_a_cell']:.0f}",
             f"{row['contact_bytes_a_cell']:.0f}",
+            f"{row['run_bytes_a_cell']:.0f} ({row['planned_bytes_a_cell']:.0f})" if "run_bytes_a_cell" in row else "",
             f"{row['surface_processor_s']:.3g}",
             f"{row['contact_processor_s']:.3g}",
             f"{row['convolutions']:.1f}",
@@ -48,6 +56,20 @@ def contacts() -> str:
     ]
     caption = "Seconds of processor time on two threads. Small grids have the libraries' memory in theirs."
     return body + table((*headers, "convolutions", "residual"), found, caption=caption)
+
+
+def _of_runs(rows: dict[str, dict[str, Any]]) -> str:
+    """What a run takes beyond its contact; nothing where fewer than two sizes were measured."""
+    held = [(int(size) ** 2, row["run_bytes_a_cell"]) for size, row in rows.items() if "run_bytes_a_cell" in row]
+    if len(held) < 2:
+        return ""
+    (few, before), (many, after) = held[-2:]
+    further = (many * after - few * before) / (many - few)
+    return (
+        " A whole `bem run` of the same contact as a scene, with error bars, results and pictures (`--run`), takes "
+        f"{further:.0f} bytes for each further cell from {few**0.5:.0f} to {many**0.5:.0f} a side; libraries and "
+        "stores of bounded size, half a gigabyte, come on top. From 11585 cells a side heights are on disk meanwhile."
+    )
 
 
 def _seconds(value: float | None) -> str:

@@ -1,5 +1,7 @@
 """Fields piece by piece: the bits that numpy gives of the whole, and little memory."""
 
+import gc
+import sys
 import tracemalloc
 
 import numpy as np
@@ -15,6 +17,17 @@ def test_sums_have_the_bits_of_the_whole_field(shape):
     assert pieces.mean(field) == field.mean()
     assert pieces.deviation(field) == field.std()
     assert pieces.mean(field, lambda piece: np.maximum(piece, 0)) == np.maximum(field, 0).mean()
+
+
+def test_nothing_of_a_field_is_held_until_garbage_is_collected():
+    field = np.ones(3 * pieces.PIECE)
+    held = sys.getrefcount(field)
+    gc.disable()
+    try:
+        pieces.deviation(field)
+        assert sys.getrefcount(field) == held
+    finally:
+        gc.enable()
 
 
 def test_means_hold_no_second_field():

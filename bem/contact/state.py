@@ -12,7 +12,7 @@ OPEN, ELASTIC, CAPPED = 0, 1, 2
 
 def contact_state(pressure: FloatArray, hardness: float | None = None) -> NDArray[np.int8]:
     """OPEN, ELASTIC or CAPPED of each cell (nx, ny), by its pressure [Pa] and the hardness, if there is one [Pa]."""
-    state = np.where(pressure > 0, ELASTIC, OPEN).astype(np.int8)
+    state = (pressure > 0).view(np.int8)  # ELASTIC is one
     if hardness is not None:
         state[pressure >= hardness] = CAPPED
     return state

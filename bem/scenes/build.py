@@ -124,7 +124,9 @@ def both_heights(scene: Any, grid: Grid, context: Context) -> tuple[FloatArray, 
 
 def undeformed_gap(scene: Any, grid: Grid, lower: FloatArray, upper: FloatArray) -> FloatArray:
     """Gap between rough surfaces of a scene's shape before deformation [m], zero at first touch."""
-    gap = shape_of(scene.shape, grid) - lower - upper
+    gap = shape_of(scene.shape, grid)
+    gap -= lower
+    gap -= upper
     if lower.any() or upper.any():
         gap -= gap.min()  # approach counts from first touch; smooth shapes touch at zero already
     return gap

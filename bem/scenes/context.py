@@ -14,6 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.errors import Status
+from bem.pieces import row_blocks
 
 LARGE = 1 << 30
 """From this size on [bytes] an array of `Context.scratch` is on disk."""
@@ -141,6 +142,19 @@ def release(values: NDArray[Any]) -> None:
     pages = owner.obj if isinstance(owner, memoryview) else owner
     if isinstance(pages, mmap.mmap):
         pages.madvise(mmap.MADV_DONTNEED)
+
+
+def set_aside(context: Context, values: NDArray[np.float64]) -> NDArray[np.float64]:
+    """The same values, very large ones on disk and not in memory: they come back as they are looked at (see `release`).
+
+    For what a run has no use for until its results are written."""
+    if values.nbytes < LARGE:
+        return values
+    stored = context.scratch(values.shape)
+    for first, last in row_blocks(values.shape):
+        stored[first:last] = values[first:last]
+        release(stored)
+    return stored
 
 
 def derive_seed(seed: int, purpose: str, *indices: int) -> int:

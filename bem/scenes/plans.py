@@ -10,6 +10,7 @@ import math
 from typing import Any
 
 from bem.grid import Grid
+from bem.kept import DEFAULT_LIMIT
 from bem.laws import Law
 from bem.materials import Body
 from bem.scenes import build
@@ -30,8 +31,8 @@ CONVOLUTION = 3.2
 """Time of a convolution and what the contact solver does besides, in transforms: measured, 256 to 1024 cells."""
 
 
-def surfaces(grid: Grid, lower: build.AnySurface, upper: build.AnySurface) -> Step:
-    """Heights of both bodies.
+def surfaces(grid: Grid, lower: build.AnySurface, upper: build.AnySurface, *, aside: bool = False) -> Step:
+    """Heights of both bodies; `aside` where very large ones are put on disk once the gap between them is known.
 
     Raises
     ------
@@ -41,16 +42,18 @@ def surfaces(grid: Grid, lower: build.AnySurface, upper: build.AnySurface) -> St
     rough = {name: s for name, s in (("lower", lower), ("upper", upper)) if s.kind != "smooth"}
     # a surface that is not Gaussian is found by iteration
     iterated = sum(s.kind == "generated" and (s.skewness, s.kurtosis) != (0.0, 3.0) for s in rough.values())
+    on_disk = aside and 8 * grid.cells >= LARGE
+    where = f"; {show_bytes(8 * grid.cells * len(rough))} of them on disk, not in memory, until they are written"
     return Step(
         "surfaces",
-        f"heights of {' and '.join(rough)}" if rough else "both bodies are smooth",
+        f"heights of {' and '.join(rough)}{where if on_disk else ''}" if rough else "both bodies are smooth",
         skipped=not rough,
         # measured at 1024 cells: their moments are imposed by cubes of all heights, and by sorting them twelve times
         transforms=130.0 * len(rough) + 200.0 * iterated,
         points=grid.cells,
         # measured at 2048 cells: 7.6 fields of a Gaussian surface, 8.6 of another, beside the other body's heights
         memory=8.0 * grid.cells * (7.0 + len(rough) + (iterated > 0)),
-        kept=8.0 * grid.cells * (1 + len(rough)),
+        kept=8.0 * grid.cells * (1 + (0 if on_disk else len(rough))),
         seconds=0.3,
     )
 
@@ -85,7 +88,9 @@ def traction_kernels(grid: Grid, lower: Body, upper: Body | None, friction: floa
     return Step("traction kernels", why, skipped=not coupled, transforms=20, points=points, memory=memory, per="grid")
 
 
-def of_bodies(scene: Any, grid: Grid, friction: float | Law, depths: int = 0) -> tuple[Step, Step, Step]:
+def of_bodies(
+    scene: Any, grid: Grid, friction: float | Law, depths: int = 0, *, aside: bool = False
+) -> tuple[Step, Step, Step]:
     """Heights of a scene's two bodies, the spectra of coated ones, and the kernels by which friction moves the gap.
 
     Raises
@@ -94,7 +99,7 @@ def of_bodies(scene: Any, grid: Grid, friction: float | Law, depths: int = 0) ->
     """
     lower, upper = scene.lower.build(), scene.upper.build()
     return (
-        surfaces(grid, scene.lower.surface, scene.upper.surface),
+        surfaces(grid, scene.lower.surface, scene.upper.surface, aside=aside),
         layered_kernels(grid, lower, upper, depths),
         traction_kernels(grid, lower, upper, friction),
     )
@@ -132,7 +137,8 @@ def contact(grid: Grid, why: str, *, capped: bool = False, stiffness: float = 1.
         # measured from 2048 to 4096 cells without the gap: fields of the solver and of its coarser grids, 190 bytes of
         # every cell in contact (an eighth of all is planned for); buffers of transforms and spectra
         memory=_LIBRARIES + 8.0 * grid.cells * 6.0 + 12.0 * points,
-        kept=_LIBRARIES + 8.0 * grid.cells * 4.2 + 8.0 * points,
+        # pressure, displacement and gap, the overlap at the hardness; what stores of transforms and spectra may hold
+        kept=_LIBRARIES + 8.0 * grid.cells * (3.2 + capped) + min(8.0 * points, 2 * DEFAULT_LIMIT),
         seconds=0.2,
         precision=SEARCHED_IN_SINGLE,
     )
@@ -184,17 +190,21 @@ def error_bars(wanted: bool, why: str, **cost: Any) -> Step:
     return Step("error bars", why if wanted else "outputs.errors is false", skipped=not wanted, kept=0.0, **cost)
 
 
-def coarser_contact(grid: Grid, depths: int, *, capped: bool = False, stiffness: float = 1.0) -> dict[str, float]:
+def coarser_contact(
+    grid: Grid, depths: int, *, capped: bool = False, stiffness: float = 1.0, fields: float = 2.5
+) -> dict[str, float]:
     """Cost of a contact and every second depth again, twice at most, on the grid of twice the cell.
 
     Stresses are kept where something may yield, an eighth of those of the finer grid at most.
+
+    fields : in memory, of the finer grid: measured from 2048 to 8192 cells, the contact on a quarter of them takes two
+        and a half.
     """
     points = padded_points(grid.shape, grid.periodic) / 4
     return {
         "transforms": CONVOLUTION * convolutions(grid, capped, stiffness) + depths * 25.0,
         "points": int(points),
-        # measured at 2048 and 3000 cells: the edge and its neighbours on the finer grid take more than the coarser one
-        "memory": 8.0 * grid.cells * (14.5 + depths / 8) + 20.0 * points,
+        "memory": 8.0 * grid.cells * (fields + depths / 8) + 20.0 * points,
     }
 
 
@@ -222,8 +232,8 @@ def vtk(wanted: bool) -> Step:
     return Step("VTK", why, skipped=not wanted, seconds=1.0, memory=1e8, kept=0.0)
 
 
-def figures(cells: int = 0) -> Step:
-    """Pictures and the report, with maps of so many cells; processor time measured on scenes of 100 to 1500 cells a
-    side, with and without stresses."""
+def figures(cells: int = 0, fields: float = 6.0) -> Step:
+    """Pictures and the report, with maps of so many cells, for which they hold so many fields; processor time measured
+    on scenes of 100 to 1500 cells a side, with and without stresses."""
     why = "pictures of the results, and the libraries for them"
-    return Step("figures and report", why, per="run", seconds=1.6 + 2e-6 * cells, memory=2.2e8 + 8.0 * cells * 6)
+    return Step("figures and report", why, per="run", seconds=1.6 + 2e-6 * cells, memory=2.2e8 + 8.0 * cells * fields)

@@ -188,13 +188,14 @@ def plan_around(scene: PushedScene | RolledScene, steps: Callable[[Grid, float],
     points = padded_points(grid.shape, grid.periodic)
     own = tuple(steps(grid, points))
     capped, stiffness = scene.contact.behaviour == "capped", plans.stiffest(scene.lower.build(), scene.upper.build())
-    coarser = plans.coarser_contact(grid, len(outputs.wanted_depths()), capped=capped, stiffness=stiffness)
+    depths = len(outputs.wanted_depths())
+    coarser = plans.coarser_contact(grid, depths, capped=capped, stiffness=stiffness, fields=14.5)
     coarser["transforms"] += again * sum(step.transforms for step in own if not step.skipped)
     return Plan.of(
         *plans.of_bodies(scene, grid, 1.0),
         plans.contact(grid, f"{scene.contact.behaviour}, {scene.contact.words()}", capped=capped, stiffness=stiffness),
         *own,
-        plans.stresses(grid, stressed, outputs.body, len(outputs.wanted_depths()), fields=1, loads=3),
+        plans.stresses(grid, stressed, outputs.body, depths, fields=1, loads=3),
         plans.error_bars(outputs.errors, "the same on the grid of twice the cell", **coarser),
         plans.figures(grid.cells),
     )

@@ -2,11 +2,13 @@
 
 import errno
 import os
+import tracemalloc
 
 import numpy as np
 import pytest
 
 from bem.errors import ResultsError
+from bem.kept import KeptValues
 from bem.plots.style import largest_of, thinned
 from bem.results import open_run
 from bem.results.dataset import read_dataset, write_variables
@@ -47,11 +49,32 @@ def test_a_disk_without_room_is_said_beforehand(tmp_path, monkeypatch):
     assert os.listdir(tmp_path) == []
 
 
-def test_results_are_the_same_on_disk_and_in_memory(tmp_path, monkeypatch):
-    run_scene(SCENE, tmp_path / "memory")
+ROUGH = {
+    "kind": "contact",
+    "grid": {"shape": 512, "lengths": "100 um", "periodic": True},
+    "lower": {"material": "steel-52100"},
+    "contact": {"mean_pressure": "300 MPa", "tolerance": 1e-6},
+}
+for body in ("lower", "upper"):
+    ROUGH[body] = {
+        "material": "steel-52100",
+        "surface": {
+            "kind": "generated",
+            "rms_height": "0.2 um",
+            "hurst": 0.8,
+            "rolloff_wavelength": "25 um",
+            "cutoff_wavelength": "2 um",
+        },
+    }
+
+
+@pytest.mark.parametrize("scene", [SCENE, ROUGH | {"grid": {"shape": 128, "lengths": "50 um", "periodic": True}}])
+def test_results_are_the_same_on_disk_and_in_memory(tmp_path, monkeypatch, scene):
+    run_scene(scene, tmp_path / "memory")
     monkeypatch.setattr("bem.results.scratch.scratch_array.__defaults__", (1,))
     monkeypatch.setattr("bem.results.netcdf.LARGE", 1)
-    run_scene(SCENE, tmp_path / "disk")
+    monkeypatch.setattr("bem.scenes.context.LARGE", 1)
+    run_scene(scene, tmp_path / "disk")
     first, second = open_run(tmp_path / "memory"), open_run(tmp_path / "disk")
     assert first.dataset.identical(second.dataset)
     timing = ("wall_time_s", "seconds_by_stage")
@@ -60,6 +83,60 @@ def test_results_are_the_same_on_disk_and_in_memory(tmp_path, monkeypatch):
     }
     for figure in (tmp_path / "memory" / "figures").glob("*.png"):
         assert figure.read_bytes() == (tmp_path / "disk" / "figures" / figure.name).read_bytes()
+
+
+def test_a_rough_contact_with_its_error_bars_holds_nine_and_a_half_fields(tmp_path, monkeypatch):
+    """The surfaces while the second one is made (eight fields), the contact and the error bars beside the heights (a
+    field each, on disk where the grid is very large); buffers of transforms, which are not traced, come on top."""
+    monkeypatch.setattr("bem.pieces.PIECE", 1 << 12)
+    monkeypatch.setattr("bem.scenes.build.KEPT", KeptValues(0))  # no large surface is kept
+    field = 8 * ROUGH["grid"]["shape"] ** 2
+    run_scene(ROUGH, tmp_path / "first", figures=False)  # loops, plans, spectra, surfaces that are kept
+    held = {}
+    for name, large in (("memory", 1 << 30), ("disk", field)):
+        monkeypatch.setattr("bem.results.scratch.scratch_array.__defaults__", (large,))
+        monkeypatch.setattr("bem.scenes.context.LARGE", large)
+        tracemalloc.start()
+        try:
+            run_scene(ROUGH, tmp_path / name, figures=False)
+            held[name] = tracemalloc.get_traced_memory()[1] / field
+        finally:
+            tracemalloc.stop()
+    assert held["memory"] < 9.6
+    assert held["disk"] < 8.3
+
+
+def test_pictures_of_a_contact_hold_no_field_besides_its_own(tmp_path, monkeypatch):
+    """But for what grows with the dots of the picture, not with the cells, of which there are few here."""
+    from bem.plots.draw import draw_all
+    from bem.results.arrays import to_arrays
+    from bem.results.read import FinishedRun
+
+    monkeypatch.setattr("bem.plots.style._MOST_CELLS", 300)
+    monkeypatch.setattr("bem.pieces.PIECE", 1 << 12)
+    cells = 1800
+    rng, x = np.random.default_rng(3), np.arange(cells) * 1e-6
+    heights = rng.standard_normal((cells, cells))
+    pressure = np.maximum(heights - 1.5, 0.0) * 1e9
+    fields = {
+        "pressure": (pressure, "Pa"),
+        "gap": (np.maximum(1.5 - heights, 0.0) * 1e-7, "m"),
+        "undeformed_gap": (-heights * 1e-7, "m"),
+        "lower_height": (heights * 1e-7, "m"),
+        "contact_state": ((pressure > 0).view(np.int8), "1"),
+    }
+    variables = {name: Variable(("x", "y"), values, unit, name) for name, (values, unit) in fields.items()}
+    variables |= {name: Variable((name,), x, "m", name) for name in "xy"}
+    run = FinishedRun(tmp_path, {"contact": {}}, {"approach_m": 1e-7})
+    run.__dict__["arrays"] = to_arrays(variables, {})
+    names = ["pressure-map", "contact-map", "contact-section", "pressure-histogram", "surface-maps"]
+    draw_all(run, names[1:2], tmp_path)  # what draws
+    tracemalloc.start()
+    try:
+        assert len(draw_all(run, names, tmp_path)) == 5
+        assert tracemalloc.get_traced_memory()[1] < 2.2 * pressure.nbytes  # of the figures themselves a field and more
+    finally:
+        tracemalloc.stop()
 
 
 def test_a_field_written_in_parts_reads_the_same(tmp_path, monkeypatch):

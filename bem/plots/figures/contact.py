@@ -11,6 +11,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
+from bem.pieces import deviation
 from bem.plots.figures import FigureKind, two_dimensional
 from bem.plots.style import (
     BLACK,
@@ -26,6 +27,7 @@ from bem.plots.style import (
     prefix,
     thinned,
 )
+from bem.scenes.context import release
 
 _AT_ONE_PRESSURE = 0.1
 """From this share of the contact on, that it is at one pressure is written over the map."""
@@ -166,7 +168,8 @@ def _surfaces(run: Any, figure: Figure) -> None:
     for axes, name in zip(np.atleast_1d(figure.subplots(1, len(names))), names, strict=True):
         values = _array(run, name)
         map_of_heights(figure, axes, _array(run, "x"), _array(run, "y"), values)
-        axes.set_title(f"{name.split('_')[0]} surface, Sq = {_length(values.std())}")
+        axes.set_title(f"{name.split('_')[0]} surface, Sq = {_length(deviation(values))}")
+        release(values)
 
 
 def _length(value: float) -> str:

@@ -12,8 +12,9 @@ from numpy.typing import NDArray
 
 from bem.errors import Status
 from bem.grid import FloatArray, Grid
+from bem.pieces import deviation
 from bem.scenes import build, plans
-from bem.scenes.context import Context, error_bars, release, tell
+from bem.scenes.context import Context, error_bars, release, set_aside, tell
 from bem.scenes.kind import Kind
 from bem.scenes.packing import keep, kept, kept_coarser
 from bem.scenes.planner import Plan
@@ -44,19 +45,20 @@ def plan(scene: ContactScene) -> Plan:
     InfeasibleError : a load beyond hardness x area. InputError : surfaces that cannot be generated on the grid.
     """
     grid, outputs, friction = build.grid_of(scene.grid), scene.outputs, scene.contact.friction
-    bodies = plans.of_bodies(scene, grid, friction)
+    bodies = plans.of_bodies(scene, grid, friction, aside=True)
     scene.contact.check_load(grid.area)
     stressed = (scene.lower if outputs.body == "lower" else scene.upper).build()
     depths, fields = len(outputs.wanted_depths()), 7 if outputs.stresses else 1
     capped, stiffness = scene.contact.behaviour == "capped", plans.stiffest(scene.lower.build(), scene.upper.build())
-    coarser = plans.coarser_contact(grid, depths, capped=capped, stiffness=stiffness)
+    held = 2.5 if scene.contact.mean_gap is None else 3.5  # how far an even pressure on what touches displaces
+    coarser = plans.coarser_contact(grid, depths, capped=capped, stiffness=stiffness, fields=held)
     return Plan.of(
         *bodies,
         plans.contact(grid, f"{scene.contact.behaviour}, {scene.contact.words()}", capped=capped, stiffness=stiffness),
         plans.stresses(grid, stressed, outputs.body, depths, fields=fields, loads=1 if friction == 0 else 2),
         plans.error_bars(outputs.errors, "the contact on the grid of twice the cell", **coarser),
         plans.vtk(outputs.vtk and depths > 0),
-        plans.figures(grid.cells),
+        plans.figures(grid.cells, 6.0 if depths else 1.0),  # measured to 8192 cells a side
     )
 
 
@@ -123,8 +125,11 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
 
     grid = build.grid_of(scene.grid)
     lower, upper = build.both_heights(scene, grid, context)
-    rough = {name: heights for name, heights in (("lower", lower), ("upper", upper)) if heights.any()}
     undeformed = build.undeformed_gap(scene, grid, lower, upper)
+    rough = {name: heights for name, heights in (("lower", lower), ("upper", upper)) if heights.any()}
+    roughness = {f"{name}_Sq": deviation(heights) for name, heights in rough.items()}
+    rough = {name: set_aside(context, heights) for name, heights in rough.items()}
+    del lower, upper
     with context.timer("contact"):
         solution, history = _solve(scene, grid, undeformed, context)
     tell(context, solution.notes)
@@ -139,7 +144,7 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
         figures_of(solution, grid.area),
         counted_figures(solution, grid),
         solution,
-        {f"{name}_Sq": float(heights.std()) for name, heights in rough.items()},
+        roughness,
         {f"{name}_height": heights for name, heights in rough.items()},
         {} if below is None else below,
         {"iteration": history[:, 0].astype(np.int64), "residual_history": history[:, 1]} if len(history) else {},
