@@ -207,6 +207,7 @@ def build() -> Page:
     sections += [
         Section("Convolutions of a dry contact", convolutions()),
         Section("Where the time goes", _split(run)),
+        Section("From Enter to the report", goals.outside_solvers()),
         Section("More threads, and memory", _threads_and_memory(run)),
         Section("All points", table(POINT_HEADERS, point_rows(run))),
         Section(

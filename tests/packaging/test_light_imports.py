@@ -92,6 +92,21 @@ def test_a_light_name_does_not_pull_in_a_heavy_one():
     assert not loaded("from bem import Grid, Material, Status") & (HEAVY - {"numpy"})
 
 
+@pytest.mark.parametrize("command", [True, False])
+def test_a_command_writes_no_help_on_artists_and_a_session_does(command):
+    code = """
+import gc, sys
+if sys.argv[1] == "True":
+    gc.disable()
+from bem.plots.draw import load_what_draws
+load_what_draws()
+from matplotlib.lines import Line2D
+assert ("linestyle" in Line2D.set.__doc__) == (sys.argv[1] == "False")
+Line2D([0.0], [0.0]).set(linewidth=2.0)
+"""
+    loaded(code, str(command))
+
+
 SMALL = (
     *("hertz-sphere", "--set", "grid.shape=32", "--set", "grid.lengths=256 um", "--set", "outputs.depths=[0.0]"),
     *("--out", "run"),

@@ -8,7 +8,7 @@ import pytest
 from bem import threads
 from bem.benchmarks.history import new_run, read_history
 from reports import goals, performance, shared
-from reports.experiments import kept, shared_work
+from reports.experiments import enter_to_report, kept, shared_work
 
 
 @pytest.fixture(scope="module")
@@ -90,6 +90,26 @@ def test_the_stored_shares_are_amdahls_and_shown():
             # medians of one count each; serial is that of two threads
             assert 1.0 <= gain <= 1.25 / (row["serial"] + (1 - row["serial"]) / count)
         assert f"{row['gains'][1]:.2f}" in body
+
+
+def test_scenes_are_held_to_two_seconds_or_a_fifth_outside_their_solvers():
+    excess = enter_to_report.excess
+    assert excess({"processor_s": 3.0, "outside_s": 2.0}) == 1.0
+    assert excess({"processor_s": 60.0, "outside_s": 3.0}) == 0.25
+    assert excess({"processor_s": 5.0, "outside_s": 3.0}) == 1.5
+    rows = kept.found("enter_to_report")["scenes"]
+    assert set(rows) <= set(enter_to_report.scene_names())
+    body = goals.outside_solvers()
+    assert body.count("<tr>") == len(rows) + 1
+    for scene, row in rows.items():
+        assert 0 < row["outside_s"] < row["processor_s"]
+        assert scene in body
+
+
+def test_only_what_a_run_computes_counts_as_its_solvers(tmp_path):
+    row = enter_to_report.outside("hertz-sphere", str(tmp_path / "run"))
+    assert 0.2 < row["outside_s"] < row["processor_s"]  # imports alone take more
+    assert (tmp_path / "run" / "report.html").is_file()
 
 
 def test_what_is_not_compared_says_why(run):
