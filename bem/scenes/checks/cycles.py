@@ -64,10 +64,12 @@ def drifting_at_the_last_cycle(facts: Facts, outcome: Outcome) -> Iterator[str]:
 
 def _drifting(facts: Facts, outcome: Outcome) -> list[str]:
     """What has not settled, and by how much."""
+    if not facts.of_kind("wear", "running-in"):
+        return []
     from bem.wear.outcome import drift
 
     told: list[str] = []
-    for name, words in _SERIES.items() if facts.of_kind("wear", "running-in") else ():
+    for name, words in _SERIES.items():
         variable = outcome.variables.get(name)
         if variable is None or variable.dimensions[-1:] != ("cycle",):
             continue
