@@ -1,10 +1,12 @@
 """Pruned real transforms against numpy's full ones; counts; bits across threads and processes."""
 
+import gc
 import hashlib
 import importlib
 import itertools
 import subprocess
 import sys
+import threading
 from pathlib import Path
 
 import numpy as np
@@ -15,6 +17,7 @@ from hypothesis import strategies as st
 
 from bem import pocketfft, threads, transforms
 from bem.errors import InputError
+from bem.transforms import plans
 
 SHAPES = [
     ((7, 11), (7, 11)),
@@ -124,6 +127,26 @@ def test_only_the_rows_that_matter_are_transformed():
     assert (transforms.COUNT.forward, transforms.COUNT.rows, transforms.COUNT.columns) == (1, 30, 21)
     transform.inverse(spectrum)
     assert (transforms.COUNT.inverse, transforms.COUNT.rows, transforms.COUNT.columns) == (1, 60, 42)
+
+
+def test_plans_are_destroyed_while_no_other_thread_can_make_one(monkeypatch):
+    fftw, found = plans.library(np.dtype(np.float64)), []
+
+    def watched(plan):
+        other = threading.Thread(target=lambda: found.append(plans._PLANNER.acquire(blocking=False)))
+        other.start()
+        other.join()
+        destroy(plan)
+
+    destroy = fftw._destroy
+    monkeypatch.setattr(fftw, "_destroy", watched)
+    transform = transforms.PaddedTransform((8, 6), (16, 12))
+    transform.forward(np.ones((8, 6)))
+    number = transform.room.row_plans.size
+    del transform
+    gc.collect()
+    assert len(found) > number  # those of columns besides
+    assert not any(found)
 
 
 @pytest.mark.usefixtures("one_thread")

@@ -254,7 +254,7 @@ class PaddedTransform:
                 fftw.complex_to_real(self.padded[1], count, across, data)
                 for count in (min(GROUP, self.shape[0]), self.shape[0] % GROUP or GROUP)
             ]
-            weakref.finalize(self, _destroy, fftw.destroy, [*made.values(), *rows])
+            weakref.finalize(self, fftw.destroy, [*made.values(), *rows])
             plans = np.array([made[length] for length in lengths.tolist()], np.int64)
             scales, numbers = np.repeat(self.room.scales, each), np.append(0, np.cumsum(lengths))
             return Singles(plans, lengths, scales, numbers, np.array(rows, np.int64))
@@ -349,7 +349,7 @@ class PaddedTransform:
                 made[own] = [fftw.complex(*own, along, done, back=back) for back in (False, True)]
             room.column_plans[:, block] = made[own]
         plans = [*room.row_plans.ravel().tolist(), *(plan for pair in made.values() for plan in pair)]
-        weakref.finalize(self, _destroy, fftw.destroy, plans)
+        weakref.finalize(self, fftw.destroy, plans)
 
     def _each(self, loop: Any, blocks: int, *arguments: Any) -> None:
         """A compiled pass over blocks that the threads share."""
@@ -377,8 +377,3 @@ class PaddedTransform:
         COUNT.rows += times * self.shape[0]
         COUNT.columns += times * self._ends[blocks]
         COUNT.numbers += times * self._numbers[blocks]
-
-
-def _destroy(destroy: Any, plans: list[int]) -> None:
-    for plan in plans:
-        destroy(plan)

@@ -2,14 +2,14 @@
 
 The library is the one that pyfftw has loaded; its functions are found through pyfftw's own extension module. A plan
 with the flags and strides that pyfftw would give it leads to the same bits. Executing one is safe in any thread, making
-one is not: that is done here only, under one lock.
+one is not, nor destroying one: both are done here only, under one lock.
 """
 
 from __future__ import annotations
 
 import ctypes
 import threading
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from functools import cache
 from importlib import import_module
 from pathlib import Path
@@ -32,7 +32,8 @@ if import_module("numba.core.config").DISABLE_JIT:  # loops that call FFTW by ad
 
 _DESTROY_INPUT, _ESTIMATE = 1 << 0, 1 << 6
 _FORWARD, _BACKWARD = -1, 1
-_PLANNER = threading.Lock()
+_PLANNER = threading.RLock()
+"""Held while a plan is made or destroyed. A thread that holds it may be made to collect garbage, plans among it."""
 
 
 class _Axis(ctypes.Structure):
@@ -50,7 +51,7 @@ class Library:
         if self._handle is None:
             raise ImportError(f"pyfftw {pyfftw.__version__} shows no FFTW library for {dtype}; reinstall pyfftw")
         self._prefix = f"fftw{letter}_"
-        self.destroy = self._function("destroy_plan", None, 1)
+        self._destroy = self._function("destroy_plan", None, 1)
 
     def executors(self) -> NDArray[np.int64]:
         """Addresses of the functions that execute a plan on given arrays: real to complex, complex, and back."""
@@ -72,6 +73,12 @@ class Library:
         """Between complex rows; the input is destroyed."""
         direction = _BACKWARD if back else _FORWARD
         return self._plan("plan_guru64_dft", length, rows, strides, data, (direction, _ESTIMATE | _DESTROY_INPUT))
+
+    def destroy(self, plans: Iterable[int]) -> None:
+        """Let plans go, in whatever thread their holder was collected: another one may be making some."""
+        with _PLANNER:
+            for plan in plans:
+                self._destroy(plan)
 
     def _plan(
         self,

@@ -169,7 +169,8 @@ def test_a_cell_below_the_hardness_carries_no_more_than_it_on_average():
     pressure = solve_contact(gap, operator, load=load).pressure.max()
     solution = solve_contact(gap, operator, load=load, hardness=1.01 * pressure)
     assert solution.plastic_area == 0
-    assert solution.contact_area >= load / (1.01 * pressure)
+    # that very area, to the round-off of a load that is met to as much
+    assert solution.contact_area >= load / (1.01 * pressure) * (1 - 1e-12)
 
 
 def test_the_plastic_area_carries_no_more_than_the_load():
