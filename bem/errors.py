@@ -12,7 +12,8 @@ stands beside status and figures wherever these are shown."""
 
 def outside(notes: Iterable[str]) -> tuple[str, ...]:
     """What such notes say up to their first semicolon, each once, with what it is said of before it."""
-    return tuple(dict.fromkeys(note.replace(OUTSIDE, "", 1).split(";")[0] for note in notes if OUTSIDE in note))
+    parted = (note.partition(OUTSIDE) for note in notes)  # cases are parted by semicolons, too
+    return tuple(dict.fromkeys(of + said.split(";")[0] for of, found, said in parted if found))
 
 
 class Status(StrEnum):

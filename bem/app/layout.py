@@ -11,7 +11,7 @@ from nicegui import ui
 from bem.errors import BemError
 
 _LINKS = (("Scenes", "/"), ("Surfaces", "/surfaces"), ("Runs", "/runs"))
-STATES = {"running": "blue", "paused": "orange", "failed": "red", "converged": "green"}
+STATES = {"running": "blue", "paused": "orange", "failed": "red", "outside the model": "red", "converged": "green"}
 
 
 @contextmanager

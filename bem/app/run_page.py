@@ -15,7 +15,7 @@ from bem.app import pictures, solids
 from bem.app.downloads import WHAT
 from bem.app.layout import badge, page, rows, say
 from bem.app.workspace import RunState, Workspace
-from bem.errors import BemError
+from bem.errors import OUTSIDE, BemError
 from bem.plots.report import with_error
 from bem.plots.tables import figure_tables, is_list
 from bem.results.compare import Difference, shown
@@ -203,6 +203,10 @@ def _figures(found: FinishedRun) -> None:
     first = [name for name in get_kind(summary["kind"]).headline if summary.get(name) is not None]
     if summary["where"]:
         ui.label(f"{summary['status']}: {summary['where']}").classes("text-negative")
+    if beyond := summary.get("outside_model"):
+        with ui.row().classes("items-center no-wrap"):
+            badge(OUTSIDE.rstrip(": "))
+            ui.label("; ".join(beyond)).classes("text-body2 text-negative")
     rows("figures", [with_error(name, summary) for name in first if not is_list(summary[name])])
     for item in figure_tables(summary, first):
         rows(item.title, item.rows, item.head)

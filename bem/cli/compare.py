@@ -47,6 +47,7 @@ def register(app: typer.Typer) -> None:
         else:
             print("scenes: equal")
         _results(runs, names, all_)
+        _beyond(runs, names)
         if figures:
             from bem.plots.compare import draw_comparison
 
@@ -54,6 +55,15 @@ def register(app: typer.Typer) -> None:
                 out = out.with_suffix("")
             for path in draw_comparison([run.dataset for run in runs], run_labels(runs, names), out):
                 print(f"figure: {path}")
+
+
+def _beyond(runs: list[Any], names: list[str]) -> None:
+    """What of the runs is solved but outside its model."""
+    from bem.errors import OUTSIDE
+
+    for run, name in zip(runs, names, strict=True):
+        for text in run.summary.get("outside_model", ()):
+            print(f"{name}: {OUTSIDE}{text}")
 
 
 def _names(paths: list[Path]) -> list[str]:

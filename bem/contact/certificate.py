@@ -138,15 +138,14 @@ def _relative(error: float, reference: float) -> float:
 
 def _notes(grid: Grid, pressure: FloatArray) -> tuple[str, ...]:
     """What a user should know of a contact whatever its status."""
-    notes = []
-    for axis, name in enumerate("xy"):
-        ends = np.take(pressure, (0, -1), axis)
-        if not grid.periodic[axis] and grid.shape[axis] > 1 and (ends > 0).any():
-            notes.append(
-                f"the contact reaches the edge of the grid along {name}, where the bodies end for this solver: "
-                f"if they do not, make the grid longer or periodic along {name}"
-            )
-    return tuple(notes)
+    free = [axis for axis in range(2) if not grid.periodic[axis] and grid.shape[axis] > 1]
+    reached = " and ".join("xy"[axis] for axis in free if (np.take(pressure, (0, -1), axis) > 0).any())
+    if not reached:
+        return ()
+    return (
+        f"the contact reaches the edge of the grid along {reached}, where the bodies end for this solver: "
+        f"if they do not, make the grid longer or periodic along {reached}",
+    )
 
 
 def _why(request: Request, units: Units, result: LevelResult) -> tuple[str, ...]:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import importlib
-import textwrap
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -37,8 +36,6 @@ def _seen(run: Any) -> Any:
 
 
 _OF_ANY_KIND = ("figures-over-keys",)
-_LETTERS = 18
-"""Of seven points on an inch: half as wide as high, and a tenth of the line left free."""
 
 
 def _for(run: Any, kind: FigureKind) -> Any:
@@ -133,7 +130,7 @@ def draw(
     from matplotlib.figure import Figure
 
     from bem.plots.pictures import DOTS, settle, write
-    from bem.plots.style import named_axes, style
+    from bem.plots.style import named_axes, said_beyond, style
 
     run = _for(_seen(run), kind)
     with style(), named_axes(run.dataset), collecting():
@@ -141,12 +138,7 @@ def draw(
         figure = Figure(figsize=size or kind.size, dpi=DOTS, layout="constrained")
         FigureCanvasAgg(figure)
         kind.draw(run, figure)
-        if beyond := run.summary.get("outside_model"):
-            from bem.plots.style import VERMILION
-
-            words = "outside the model: " + "; ".join(beyond)
-            wide = int(_LETTERS * figure.get_figwidth())
-            figure.suptitle("\n".join(textwrap.wrap(words, wide)), fontsize=7, color=VERMILION)
+        said_beyond(figure, run.summary)
         if size is not None:  # what is asked for goes before what the maps need
             figure.set_size_inches(size)
         settle(figure)

@@ -15,6 +15,8 @@ _PREFIXED = ("m", "Pa", "N", "s", "m/s", "N/m", "J", "W")
 _POWERS = {"m²": 2, "m³": 3}
 _OF_NAMES = {"nm": 1e-9, "µm": 1e-6}
 """Lengths in the unit that ends their names, in metres: kept below 1000 of it, and shown in a larger one from there."""
+_ROUNDED = 1.00005
+"""What is shown as 1000 in the four digits that tables have is 1 of the next unit."""
 
 
 def prefix(values: Any, unit: str) -> tuple[float, str]:
@@ -27,14 +29,14 @@ def prefix(values: Any, unit: str) -> tuple[float, str]:
         return 1.0, unit
     largest = largest_of(values)
     if unit in _OF_NAMES:
-        if largest * 1.0000001 < 1000:
+        if largest * _ROUNDED < 1000:
             return 1.0, unit
         factor, shown = prefix([largest * _OF_NAMES[unit]], "m")
         return factor * _OF_NAMES[unit], shown
     if largest == 0:
         return 1.0, unit
     step = 3 * _POWERS.get(unit, 1)
-    power = min(max(math.floor(math.log10(largest * 1.0000001) / step), -4), 4 if step == 3 else 0)
+    power = min(max(math.floor(math.log10(largest * _ROUNDED) / step), -4), 4 if step == 3 else 0)
     return 10.0 ** (-step * power), _PREFIXES[power] + unit
 
 

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import textwrap
+from collections.abc import Iterator, Mapping
 from contextlib import AbstractContextManager, contextmanager
 from contextvars import ContextVar
 from typing import TYPE_CHECKING, Any
@@ -11,6 +12,7 @@ import numpy as np
 from cycler import cycler
 from numpy.typing import NDArray
 
+from bem.errors import OUTSIDE
 from bem.plots.backend import load_matplotlib
 from bem.plots.labels import label, largest_of, prefix
 
@@ -203,3 +205,19 @@ def logarithmic_axis(axes: Axes, values: NDArray[Any]) -> None:
         shown_at = np.sort(values)[:: -(-len(values) // 6)]
         axes.set_xticks(shown_at, [f"{value:.3g}" for value in shown_at])
         axes.minorticks_off()
+
+
+_LETTERS = 18
+"""Of seven points on an inch: half as wide as high, and a tenth of the line left free."""
+
+
+def said_above(figure: Any, words: str) -> None:
+    """Write what must be known of a figure above it, in red."""
+    wide = int(_LETTERS * figure.get_figwidth())
+    figure.suptitle("\n".join(textwrap.wrap(words, wide)), fontsize=7, color=VERMILION)
+
+
+def said_beyond(figure: Any, summary: Mapping[str, Any]) -> None:
+    """Write above a figure of a run what of it is outside its model, where any is."""
+    if beyond := summary.get("outside_model"):
+        said_above(figure, OUTSIDE + "; ".join(beyond))

@@ -9,7 +9,8 @@ from typing import Any
 
 import numpy as np
 
-from bem.plots.style import label, logarithmic_axis, prefix, style
+from bem.errors import OUTSIDE
+from bem.plots.style import label, logarithmic_axis, prefix, said_above, style
 from bem.plots.tables import name_and_unit
 from bem.scenes.context import Variable
 
@@ -50,8 +51,16 @@ def draw_sweep(
         figure = Figure(dpi=DOTS, layout="constrained")
         FigureCanvasAgg(figure)
         fill(figure, variables, spacings, headline)
+        say_beyond(figure, variables)
         settle(figure)
         return write(figure, path.parent, path.name, formats)
+
+
+def say_beyond(figure: Any, variables: Mapping[str, Variable]) -> None:
+    """How many points are solved but outside their model; what each says stands in the table."""
+    beyond = variables.get("outside_model")
+    if beyond is not None and (points := int(np.count_nonzero(beyond.values != ""))):
+        said_above(figure, f"{OUTSIDE}{points} of {beyond.values.size} points, see the column outside_model")
 
 
 def fill(figure: Any, variables: Mapping[str, Variable], spacings: Mapping[str, str], headline: Sequence[str]) -> None:

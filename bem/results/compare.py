@@ -9,6 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
+from bem.errors import OUTSIDE
 from bem.results.directory import SCENE
 from bem.results.read import FinishedRun
 
@@ -58,8 +59,12 @@ def headline_differences(found: Sequence[Difference], headline: Sequence[str]) -
 def run_labels(runs: Sequence[FinishedRun], names: Sequence[str]) -> list[str]:
     """Names of the runs with what tells their scenes apart, where that is one or two keys."""
     found = scene_differences(*runs)
+    names = [
+        f"{name} ({OUTSIDE.rstrip(': ')})" if run.summary.get("outside_model") else name
+        for name, run in zip(names, runs, strict=True)
+    ]
     if not 0 < len(found) <= _MOST_IN_A_LABEL:
-        return list(names)
+        return names
     units = [scene_units(run.path) for run in runs]
     return [
         f"{name}: "

@@ -18,7 +18,9 @@ from bem.scenes.context import Variable
 from bem.scenes.kind import Kind
 from bem.scenes.records import Figure, described
 
-_SKIPPED = ("scene", "kind", "version", "notes", "outside_model", "seconds_by_stage")
+_SKIPPED = ("scene", "kind", "version", "notes", "seconds_by_stage")
+_SAID = "outside_model"
+"""Sentences, in one text."""
 Summaries = Sequence[Mapping[str, Any] | None]
 """Of the points in the order of the swept values' product; None where there is no result."""
 
@@ -47,6 +49,9 @@ def dataset_variables(
         if name in found:
             continue
         values = [None if summary is None else summary.get(name) for summary in summaries]
+        if name == _SAID:
+            found[name] = laid_out(axes, ["; ".join(value or ()) for value in values], "1", "outside the model")
+            continue
         bare = name if name in known else name.removesuffix("_spread").partition("_error")[0]
         figure = known.get(bare, Figure())
         text = f"{figure.text}{name.removeprefix(bare).replace('_', ', ')}" if figure.text else name.replace("_", " ")
@@ -128,7 +133,9 @@ def _flat(summary: Mapping[str, Any]) -> dict[str, Any]:
     for name, value in summary.items():
         if name in _SKIPPED or isinstance(value, dict):
             continue
-        if not isinstance(value, list):
+        if name == _SAID:
+            flat[name] = "; ".join(value)
+        elif not isinstance(value, list):
             flat[name] = value
         elif all(_is_number(item) or isinstance(item, str) for item in value):
             flat |= {f"{name}[{i}]": item for i, item in enumerate(value)}

@@ -382,6 +382,32 @@ def test_values_that_crowd_at_the_low_end_lie_on_a_logarithmic_axis(values, scal
     assert figure.axes[0].get_xscale() == scale
 
 
+def test_points_outside_their_model_say_so_in_table_dataset_and_figure():
+    from matplotlib.figure import Figure as Picture
+
+    from bem.plots.sweep import say_beyond
+    from bem.runs.table import dataset_variables, table_text
+    from bem.scenes.axes import Axis
+    from bem.scenes.kind import get_kind
+    from bem.scenes.records import Figure
+
+    axes = [Axis("load", (1.0, 2.0, 3.0), Figure("N", "load"), lambda scene, i: scene)]
+    plain = {"status": "converged", "residual": 1e-9}
+    summaries = [plain, {**plain, "outside_model": ["too thin", "too rough"]}, None]
+    rows = list(csv.DictReader(table_text(axes, summaries, ["a", "b", "c"], {}).splitlines()))
+    assert [row["outside_model"] for row in rows] == ["", "too thin; too rough", ""]
+    found = dataset_variables(get_kind("contact"), axes, [], summaries)
+    assert found["outside_model"].values.tolist() == ["", "too thin; too rough", ""]
+    figure = Picture()
+    say_beyond(figure, found)
+    assert "outside the model: 1 of 3 points" in figure.get_suptitle()
+    without = dataset_variables(get_kind("contact"), axes, [], [plain, plain, None])
+    assert "outside_model" not in without
+    assert "outside_model" not in table_text(axes, [plain, plain, None], ["a", "b", "c"], {})
+    say_beyond(figure := Picture(), without)
+    assert figure.get_suptitle() == ""
+
+
 def test_notes_of_points_are_told_once_with_how_many_have_them(tmp_path):
     """A contact that leaves its grid was a row like others: only its own summary said so."""
     told = Telling()

@@ -3,7 +3,9 @@
 import json
 from types import SimpleNamespace
 
-from bem.plots.report import write_report
+import pytest
+
+from bem.plots.report import spelled, write_report
 from bem.plots.tables import figure_tables, name_and_unit
 from bem.scenes.records import UNITS
 
@@ -71,3 +73,11 @@ def test_the_report_has_no_paragraph_of_numbers(tmp_path):
     assert "<th>speed (m/s)</th><th>friction</th>" in page
     assert "0.01, 0.1" not in page
     assert "{&#34;" not in page  # no table of the summary as its source text
+
+
+@pytest.mark.parametrize(
+    ("name", "value", "shown"),
+    [("depth_m", 9.9996e-7, "1 µm"), ("depth_m", 9.994e-7, "999.4 nm"), ("radius_nm", 999.96, "1 µm")],
+)
+def test_no_thousand_of_a_unit_is_shown(name, value, shown):
+    assert spelled(name, value)[1] == shown

@@ -1,5 +1,6 @@
 """Two runs side by side."""
 
+import dataclasses
 import subprocess
 import sys
 
@@ -51,6 +52,17 @@ def test_a_list_of_numbers_is_one_figure():
 def test_runs_are_labelled_by_what_differs_with_its_unit(pair):
     assert run_labels(pair, ["a", "b"]) == ["a: mean pressure = 8e+07 Pa", "b: mean pressure = 1.6e+08 Pa"]
     assert run_labels([pair[0], pair[0]], ["a", "b"]) == ["a", "b"]
+
+
+def test_a_run_outside_its_model_says_so_where_it_is_compared(pair, monkeypatch):
+    beyond = {**pair[1].summary, "outside_model": ["half of it is beside"]}
+    runs = [pair[0], dataclasses.replace(pair[1], summary=beyond)]
+    labels = run_labels(runs, ["a", "b"])
+    assert labels == ["a: mean pressure = 8e+07 Pa", "b (outside the model): mean pressure = 1.6e+08 Pa"]
+    monkeypatch.setattr("bem.results.open_run", lambda path: runs[path.name == "b"])
+    told = CliRunner().invoke(build(), ["compare", str(pair[0].path), str(pair[1].path), "--no-figures"])
+    assert told.output.count("outside the model") == 1
+    assert "b: outside the model: half of it is beside" in told.output
 
 
 def test_command_prints_tables_and_draws_both_in_one_figure(pair, tmp_path):

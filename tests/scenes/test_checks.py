@@ -353,6 +353,12 @@ def test_a_check_of_measured_surfaces_fires_where_it_should_and_not_next_to_it(n
     assert list(SCENE_CHECKS[name](facts_of(on_map(maps / good, lengths, **good_keys)))) == []
 
 
+def test_a_grid_between_two_measured_points_is_not_said_to_lie_on_none(maps):
+    scene = on_map(maps / "few.npz", "5 um", mirror="none")
+    (said,) = SCENE_CHECKS["surface_interpolated_from_few_points"](facts_of(scene))
+    assert "the grid lies on 0.5 x 0.5 measured points 10 um apart" in said
+
+
 def contact_outcome(pressure, **more):
     variables = {"pressure": Variable(("x", "y"), np.asarray(pressure, dtype=float), "Pa", "contact pressure")}
     for name in ("depth",):
@@ -468,7 +474,7 @@ OUTCOMES = {
     ),
     "rougher_by_its_own_pieces": (
         "running-in-stribeck",
-        (loop_outcome(480.0), "in 1 of 2 loops, from Sq 100 nm to 480 nm"),
+        (loop_outcome(480.0), "in 1 of 2 loops instead of running in, from Sq 100 nm to 480 nm"),
         loop_outcome(140.0),
     ),
     "drifting_at_the_last_cycle": (
@@ -602,6 +608,7 @@ def test_a_surface_full_of_holes_is_one_story_that_goes_first():
         assert len(outside(notes)) == (1 if sq > 200 else 0)
         assert all("friction by 16 %" in about[0] for _ in outside(notes))
     assert outside(["10 N: " + OUTSIDE + "too thin; details", "plain"]) == ("10 N: too thin",)
+    assert outside(["10 N; 20 N: " + OUTSIDE + "too thin; details"]) == ("10 N; 20 N: too thin",)
 
 
 def test_every_check_has_its_two_tests():
@@ -664,8 +671,8 @@ def test_a_run_notes_what_was_warned_of_before_and_after(tmp_path):
     assert run.summary["notes"] == watcher.notes
     text = " ".join(watcher.notes)
     assert "for a Hertz contact of 216 um" in text
-    assert "the contact reaches the edge of the grid along x" in text
-    assert "reaches the edge of the grid along y" in (tmp_path / "out" / "report.html").read_text()
+    assert text.count("the contact reaches the edge of the grid along x and y,") == text.count("reaches the edge") == 1
+    assert "reaches the edge of the grid along x and y" in (tmp_path / "out" / "report.html").read_text()
 
 
 def test_the_overview_shows_what_is_pressed_together():

@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from bem.plots.figures import FigureKind
 from bem.plots.figures.point_film import finely_coloured
-from bem.plots.style import BLACK, BLUE, SEQUENTIAL, VERMILION, field_axes, label, prefix
+from bem.plots.style import BLACK, BLUE, SEQUENTIAL, VERMILION, field_axes, label, prefix, said_beyond
 
 _SECTIONS = 6
 _MOST = 3.0
@@ -78,6 +78,7 @@ def _animate(run: Any, path: Path) -> None:
         line.set_ydata(frames[index][:, middle] * film)
         above.set_title(f"{times[index] * factor:.3g} {time_unit}")
 
+    said_beyond(figure, run.summary)
     write_animation(figure, (image, line, above.title), show, len(frames), path, dots=_DOTS, per_second=5)
 
 

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 
 from bem.plots.cases import along, grouped, many_speeds, redoes
 from bem.plots.figures import FigureKind
-from bem.plots.style import BLUE, OPEN, SEQUENTIAL, VERMILION, speed_axis
+from bem.plots.style import BLUE, OPEN, SEQUENTIAL, VERMILION, said_beyond, speed_axis
 
 _MEASURED_RADIUS = (210e-9, 236e-9)  # dynamic light scattering at 0.01 m/s, 223 +- 13 nm; thesis, paper D
 Array = NDArray[Any]
@@ -157,6 +157,7 @@ def _animate(run: Any, path: Path) -> None:
         line.set_data(np.arange(1, cycles[index] + 1), friction[: int(cycles[index])])
         left.set_title(f"cycle {int(cycles[index])}")
 
+    said_beyond(figure, run.summary)
     write_animation(figure, (image, line, left.title), show, len(frames), path, dots=110, per_second=4)
 
 

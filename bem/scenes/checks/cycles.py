@@ -42,7 +42,7 @@ def rougher_by_its_own_pieces(facts: Facts, outcome: Outcome) -> Iterator[str]:
         follows.append(f"{cells}, are at the hardness, {si(cap, 'Pa')}")
     so = f": so {joined(follows)}" if follows else ""
     yield (
-        f"{OUTSIDE}the worn surface grew rough instead of running in{_of(len(grown), len(before))}, from Sq "
+        f"{OUTSIDE}the worn surface grew rough{_of(len(grown), len(before))} instead of running in, from Sq "
         f"{si(1e-9 * b, 'm')} to {si(1e-9 * a, 'm')}, so that friction, film and particles at the end are of holes "
         f"that the criterion and the cell made; both surfaces together had {si(1e-9 * both, 'm')}, and pieces{holes} "
         f"deeper than that leave holes{so}; compare a finer grid, take fewer cycles, or a criterion that wears by "

@@ -13,6 +13,8 @@ from bem.scenes.checks.words import percent, si, times
 _SLOPE = 0.5
 _FILLED = 0.03
 _POINTS = 32
+_ROUND_OFF = 1e-9
+"""Of points that are a length divided by a spacing."""
 
 
 @scene_check
@@ -57,11 +59,11 @@ def surface_interpolated_from_few_points(facts: Facts) -> Iterator[str]:
     for _, case, surface in facts.worst_surfaces(_fewness):
         assert surface.source_points is not None
         assert surface.source_spacing is not None
-        points = tuple(int(n) for n in surface.source_points)
+        points = " x ".join(_counted(n) for n in surface.source_points)
         finer = max(d / h for d, h in zip(surface.source_spacing, surface.grid.spacing, strict=True))
-        if min(points) < _POINTS:
+        if min(surface.source_points) < _POINTS * (1 - _ROUND_OFF):
             yield (
-                f"{surface.body}.surface: the grid lies on {points[0]} x {points[1]} measured points "
+                f"{surface.body}.surface: the grid lies on {points} measured points "
                 f"{times(surface.source_spacing, 'm')} apart{case.at}: what touches is interpolated, not measured; "
                 "take a larger grid, or a finer map"
             )
@@ -71,6 +73,11 @@ def surface_interpolated_from_few_points(facts: Facts) -> Iterator[str]:
                 f"({times(surface.source_spacing, 'm')}){case.at}: below two of these there is no roughness; contact "
                 "area and pressures are those of a smoothed surface"
             )
+
+
+def _counted(points: float) -> str:
+    """Whole points, and what part of one where the grid lies between two."""
+    return str(int(points * (1 + _ROUND_OFF))) if points * (1 + _ROUND_OFF) >= 1 else f"{points:.2g}"
 
 
 def _fewness(surface: RoughSurface) -> float:
