@@ -198,18 +198,21 @@ def test_maps_of_friction_fill_their_figure_however_long_the_patch_is():
 def test_a_map_without_anything_on_it_is_not_drawn():
     """Oil that carries a thousandth of the friction left half of the figure empty."""
     (kind,) = friction_map.FIGURES
-    x = y = 1e-6 * (np.arange(16) - 7.5)
-    stress = np.full((16, 16), 1e8)
+    x, y = (1e-6 * (np.arange(cells) - (cells - 1) / 2) for cells in (16, 28))
+    stress = np.full((16, 28), 1e8)
     for oil, maps in ((1e3, 1), (1e8, 2)):
         run = run_of(
-            x=x, y=y, boundary_stress=(("x", "y"), stress), oil_stress=(("x", "y"), np.full((16, 16), oil)),
+            x=x, y=y, boundary_stress=(("x", "y"), stress), oil_stress=(("x", "y"), np.full((16, 28), oil)),
             shown_speed=0.1, speed=[0.1], boundary_part=("speed", [0.1]), film_part=("speed", [1e-6]),
         )  # fmt: skip
-        figure = Figure(figsize=kind.size)
+        figure = Figure(figsize=kind.size, layout="constrained")
         kind.draw(run, figure)
+        figure.draw_without_rendering()
+        left = min(axes.get_tightbbox().x0 for axes in figure.axes) / figure.bbox.width
+        assert left < 0.2  # one high map had a third of the figure empty beside it
         titles = [axes.get_title() for axes in figure.axes if axes.images]
         assert len(titles) == maps
-        assert ("oil between them: < 0.1 %, too little to show" in titles[0]) is (maps == 1)
+        assert ("oil between them: < 0.1 %,\nat stresses too small to show" in titles[0]) is (maps == 1)
 
 
 def test_nothing_worn_is_no_curve_over_cycles():

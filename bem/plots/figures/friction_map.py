@@ -18,6 +18,8 @@ _BEYOND = 1.15
 """Of the half-axes of what carries friction, what is shown."""
 _WIDE, _WIDTH = 2.0, 6.0
 """Length along x over that along y from which maps are one below the other, and the figure's width then [inch]."""
+_AROUND, _NARROW = (1.6, 1.0), 3.0
+"""Of one map, what its axes, bar and title take along both, and the width of its title [inch]."""
 _SOME = 0.02
 """Of the largest stress, what counts as carrying friction."""
 
@@ -59,11 +61,16 @@ def _friction_map(run: Any, figure: Figure) -> None:
     held = [item for item in shared if (item[0][1] > least).any()]
     side_by_side = ratio < _WIDE and len(held) > 1
     if len(held) < 2:  # an empty map says nothing
-        figure.set_size_inches(0.55 * figure.get_figwidth(), figure.get_figheight())
+        wide = max(ratio * (figure.get_figheight() - _AROUND[1]) + _AROUND[0], _NARROW)
+        figure.set_size_inches(min(wide, 0.55 * figure.get_figwidth()), figure.get_figheight())
     elif not side_by_side:  # maps as high as the usual figure has room for left half of it empty
         figure.set_size_inches(_WIDTH, 2 * (0.8 + (_WIDTH - 1.6) / min(ratio, 4.0)))
     panels = np.atleast_1d(figure.subplots(*((1, len(held)) if side_by_side else (len(held), 1))))
-    left = [f"\n{text}: {_few(share)}, too little to show" for (text, stress), share in shared if stress.max() <= least]
+    left = [
+        f"\n{text}: {_few(share)},\nat stresses too small to show"
+        for (text, stress), share in shared
+        if stress.max() <= least
+    ]
     for axes, ((text, stress), share) in zip(panels, held, strict=True):
         shown = stress[window]
         extent = field_axes(axes, x[window[0]], y[window[1]])
