@@ -98,7 +98,7 @@ def solve_contact(  # reason: a promise to users' scripts, each of them a choice
         request.cap / units.pressure,
         _report(callback, shared, operator),
     )
-    start = None if initial_pressure is None else initial_pressure.reshape(-1) / units.pressure
+    start = None if initial_pressure is None else np.asarray(initial_pressure, np.float64).reshape(-1) / units.pressure
     flat = is_flat(roughness, elastic_length(request))
     result = _solution(problem, units.control(request), start, flat=flat)
     return certify(

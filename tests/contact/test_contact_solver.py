@@ -93,6 +93,8 @@ def test_warm_start_skips_the_coarser_grids(problem):
     again = solve_contact(gap, op, load=1e-3, initial_pressure=first.pressure)
     assert again.iterations == 0
     assert again.convolutions == 1  # the one that certifies it
+    listed = solve_contact(gap, op, load=1e-3, initial_pressure=first.pressure.tolist())
+    assert np.array_equal(listed.pressure, again.pressure)
     near = solve_contact(gap, op, load=1.02e-3, initial_pressure=first.pressure)
     assert near.status == "converged"
     assert near.convolutions < solve_contact(gap, op, load=1.02e-3).convolutions
