@@ -43,8 +43,10 @@ _IMPORTED = re.compile(r"^from bem([\w.]*) import (\([^)]*\)|[^\n]*)", re.MULTIL
 
 
 def drop_stale(root: Path = _HERE) -> list[str]:
-    """Remove compiled loops that are older than a file whose functions or numbers were compiled into them, and return
-    their names: numba looks at a loop's own file alone, so that who edits one that others call would run what it was.
+    """Remove compiled loops that are older than a file whose functions or numbers were compiled into them, or of which
+    one was written since the last look, and return their names: numba looks at a loop's own file alone, so that who
+    edits one that others call would run what it was. A process that began before may have compiled since, from what it
+    had read: such loops beside new ones would take one another's arrays for what they are not.
 
     Only of a checkout, whose sources are edited; a millisecond where none is newer than at the last look.
     """
@@ -55,9 +57,12 @@ def drop_stale(root: Path = _HERE) -> list[str]:
     times = _times(str(root))
     stamp = "\n".join(f"{time} {path}" for path, time in sorted(times.items()))
     try:
-        if kept.exists() and kept.read_text() == stamp:
+        before = kept.read_text() if kept.exists() else ""
+        if before == stamp:
             return []
-        dropped = _drop_older(root, Path(named) if named else None, times)
+        known = set(before.splitlines())
+        written = {path for path, time in times.items() if known and f"{time} {path}" not in known}
+        dropped = _drop_older(root, Path(named) if named else None, times, written)
         beside = kept.with_name(f"{kept.name}.{os.getpid()}")
         kept.parent.mkdir(parents=True, exist_ok=True)
         beside.write_text(stamp)
@@ -79,11 +84,11 @@ def _times(folder: str) -> dict[str, int]:
     return found
 
 
-def _drop_older(root: Path, named: Path | None, times: dict[str, int]) -> list[str]:
+def _drop_older(root: Path, named: Path | None, times: dict[str, int], written: set[str]) -> list[str]:
     """Remove indices of compiled loops older than what their files import, those files in turn where they have loops
-    themselves."""
+    themselves, and all of those that import what was just written."""
     texts = {path: Path(path).read_text(encoding="utf-8") for path in times}
-    looped = {path for path, text in texts.items() if "njit" in text}
+    looped = {path for path, text in texts.items() if "njit" in text or "@intrinsic" in text}
     imports = {path: _imports(root, texts[path], looped) & times.keys() for path in looped}
     dropped = []
     for path in sorted(looped):
@@ -95,7 +100,7 @@ def _drop_older(root: Path, named: Path | None, times: dict[str, int]) -> list[s
         newest, source = max(times[each] for each in seen), Path(path)
         folders = [source.parent / "__pycache__"] if named is None else named.glob("*")
         for index in (index for folder in folders for index in folder.glob(f"{source.stem}.*.nbi")):
-            if index.stat().st_mtime_ns < newest:
+            if seen & written or index.stat().st_mtime_ns < newest:
                 index.unlink(missing_ok=True)
                 dropped.append(index.name)
     return dropped
