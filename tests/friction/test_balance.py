@@ -269,7 +269,7 @@ def test_steep_balances_take_few_evaluations():
 def test_what_lies_on_the_way_is_solved_no_better_than_the_balance_needs(monkeypatch):
     """Coarse films and contacts under them: fewer Newton steps and convolutions, and the same point."""
     spent = {"steps": 0.0, "convolutions": 0.0}
-    solve_film, press = film_model.solve_line_film, rough_model.solve_contact
+    solve_film, press = film_model.line_film, rough_model.solve_contact
 
     def counted_film(**asked):
         film = solve_film(**asked)
@@ -281,7 +281,7 @@ def test_what_lies_on_the_way_is_solved_no_better_than_the_balance_needs(monkeyp
         spent["convolutions"] += contact.convolutions
         return contact
 
-    monkeypatch.setattr(film_model, "solve_line_film", counted_film)
+    monkeypatch.setattr(film_model, "line_film", counted_film)
     monkeypatch.setattr(rough_model, "solve_contact", counted_contact)
     case = CASE | {"film_points": 800, "contact_tolerance": 1e-8, "tolerance": 1e-6}
     found = []
