@@ -149,7 +149,14 @@ def _notes(grid: Grid, pressure: FloatArray) -> tuple[str, ...]:
 
 
 def _why(request: Request, units: Units, result: LevelResult) -> tuple[str, ...]:
-    if result.least_mean_gap is None or request.mean_gap is None:
+    if request.mean_gap is None:
+        return ()
+    if result.least_found is not None:
+        return (
+            f"a mean gap of {request.mean_gap:.4g} m was not found, nor proved not to exist: this contact has the "
+            f"least that was found, {result.least_found * units.length:.4g} m. Ask for more, or give a load",
+        )
+    if result.least_mean_gap is None:
         return ()
     return (
         f"no approach gives a mean gap of {request.mean_gap:.4g} m: the bodies cannot be pressed flat, and "

@@ -17,7 +17,9 @@ below by their tangents; the next approach is where those meet.
 
 (1) and (3) are not taken for granted but checked of the weights that are used, with the round-off and the error of the
 linear solution covered by a uniform weight (a uniform pressure sinks every cell); a negative sum will do for (2), since
-bodies that touch have come closer than their first touch, d >= 0. Where any of them fails nothing is proved.
+bodies that touch have come closer than their first touch, d >= 0. Where any of them fails nothing is proved: contacts
+of layers so thin and stiff that a pressure lifts cells next to it may have K^T y < 0. Their tangents bound nothing and
+can meet where a contact was found already; the search ends there, with the least mean gap it has seen.
 """
 
 from __future__ import annotations
@@ -38,13 +40,17 @@ FloatArray = NDArray[np.float64]
 _STEPS = 40
 """Contacts that are tried; six to twelve are usual."""
 
+_SAME = 1e-9
+"""Of an approach: tangents of the same contacts meet there but for round-off and the weights' linear equations."""
+
 _PRECISE = 1e-11
 """Residual of the weights' linear equations, relative to their right side."""
 
 
 @dataclass(frozen=True)
 class LeastGap:
-    """Outcome: an approach bracket (low, high) across which the wanted mean gap is reached, or a bound above it."""
+    """Outcome: an approach bracket (low, high) across which the wanted mean gap is reached, or a bound above it; with
+    neither, `result` has the least mean gap that was found, and nothing is proved."""
 
     result: LevelResult
     bracket: tuple[float, float] | None
@@ -71,7 +77,8 @@ def least_gap(
     tolerance: float,
     solve: Callable[[float, FloatArray | None], LevelResult],
 ) -> LeastGap | None:
-    """Close in on the least mean gap until the wanted one is passed, or proved not to exist; None if neither.
+    """Close in on the least mean gap until the wanted one is passed, or proved not to exist, or contacts repeat; else
+    None.
 
     `gap` flat, its lowest value zero; `first` a converged contact with a larger mean gap; `solve` the contact at an
     approach, from a start.
@@ -82,7 +89,8 @@ def least_gap(
         return None
     if left.total <= 0:
         left, right = None, left
-    approach = first.approach
+    approach, nearest = first.approach, left or right
+    tried = {approach}
     for _ in range(_STEPS):
         if left is None:
             assert right is not None
@@ -94,10 +102,13 @@ def least_gap(
         else:
             bound = _proved(operator, gap, left, right)
             if bound is not None and bound > mean_gap + tolerance:
-                nearest = min((left, right), key=lambda cut: cut.mean_gap)
-                return LeastGap(nearest.result, None, bound)
+                return LeastGap(min((left, right), key=lambda cut: cut.mean_gap).result, None, bound)
             approach = (left.bound - right.bound) / (left.total - right.total)
             start = left.result.pressure
+            if any(abs(approach - one) <= _SAME * abs(one) for one in tried):
+                assert nearest is not None
+                return LeastGap(nearest.result, None, None)
+        tried.add(approach)
         result = solve(approach, start)
         if not result.converged or not math.isfinite(approach):
             return None
@@ -108,6 +119,7 @@ def least_gap(
         if cut is None:
             return None
         left, right = (cut, right) if cut.total > 0 else (left, cut)
+        nearest = cut if nearest is None or cut.mean_gap < nearest.mean_gap else nearest
     return None
 
 

@@ -79,6 +79,7 @@ class LevelResult:
     `fresh` : the displacement is the operator applied to this very pressure, not put together from others.
     `resolved` : not converged, and what is missed is round-off of the transforms: no use in trying another way.
     `least_mean_gap` : where less was asked for, a bound below which no mean gap exists.
+    `least_found` : where less was asked for and neither found nor proved not to exist, the least that was found.
     """
 
     pressure: FloatArray
@@ -89,6 +90,7 @@ class LevelResult:
     fresh: bool = True
     resolved: bool = False
     least_mean_gap: float | None = None
+    least_found: float | None = None
 
 
 @dataclass(frozen=True)

@@ -204,7 +204,8 @@ def _least_gap(problem: Problem, mean_gap: float, missed: LevelResult, tolerance
     if found is None:
         return missed
     if found.bracket is None:
-        return replace(found.result, converged=False, least_mean_gap=found.bound)
+        least = mean_opening(gap, found.result) if found.bound is None else None
+        return replace(found.result, converged=False, least_mean_gap=found.bound, least_found=least)
     start = found.result.pressure
     return mean_gap_by_approach(mean_gap, gap, start, scale, tolerance, problem.direct, bracket=found.bracket)
 
