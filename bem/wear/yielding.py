@@ -54,8 +54,9 @@ def largest_stress(load: SurfaceLoad, setup: WearSetup, model: WearModel, body: 
 
     What nothing came off is told beside its strength: half as much, or a hundredth. Under a line contact the surface is
     in tension by friction alone, 2 f p0 at the trailing edge (McEwen 1949); under a round one by (1 - 2 nu) p0 / 3 on
-    its edge besides (Johnson 1985, section 3.4). A thin layer stretches with its substrate: it has these in the ratio
-    of the plane moduli E / (1 - nu^2), a soft one little of it and a stiff one a multiple.
+    its edge (Johnson 1985, section 3.4) and by pi (4 + nu) f p0 / 8 at the trailing one (Hamilton and Goodman 1966). A
+    thin layer stretches with its substrate: it has these in the ratio of the plane moduli E / (1 - nu^2), a soft one
+    little of it and a stiff one a multiple.
     """
     law = model.law
     assert isinstance(law, WearCriterion)

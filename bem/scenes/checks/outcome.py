@@ -298,8 +298,8 @@ def _how_far(case: Case, stress: float) -> str:
         return said
     return said + (
         ": under pressure alone a line contact has no tension and a round one (1 - 2 nu)/3 of its highest pressure at "
-        "the edge, friction f adds 2 f of it behind the contact, and a thin layer has both in the ratio of its modulus "
-        "to the substrate's"
+        "the edge, friction f adds 2 f of it behind a line contact and pi (4 + nu)/8 f behind a round one, and a thin "
+        "layer has both in the ratio of its modulus to the substrate's"
     )
 
 
