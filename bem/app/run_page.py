@@ -114,6 +114,8 @@ class RunsPage:
             ui.link(state.name, f"/run/{state.name}").classes("text-body1").style("min-width: 16em")
             ui.label(state.kind).classes("text-caption text-grey").style("min-width: 8em")
             badge(state.state).props["data-state"] = state.name
+            if state.beyond:
+                badge(OUTSIDE.rstrip(": ")).tooltip("; ".join(state.beyond)).props["data-beyond"] = state.name
             self._shown.append(Progress(state))
             ui.space()
             actions(self._workspace, state, self._look)
@@ -346,7 +348,7 @@ def _side_by_side(difference: Difference, runs: Sequence[FinishedRun]) -> tuple[
 
 def compare_page(workspace: Workspace, names: list[str]) -> None:
     """Runs side by side: what differs in the scenes, what in the results, curves and sections overlaid."""
-    from bem.results.compare import figure_differences, headline_differences, run_labels, scene_differences
+    from bem.results.compare import beyond, figure_differences, headline_differences, run_labels, scene_differences
 
     with page("overlay"):
         try:
@@ -359,6 +361,8 @@ def compare_page(workspace: Workspace, names: list[str]) -> None:
         headline = [key for kind in {r.summary["kind"] for r in runs} for key in get_kind(kind).headline]
         found = headline_differences([d for d in figure_differences(*runs) if not d.equal], [*headline, "status"])
         rows("results", [_side_by_side(d, runs) for d in found], ("figure", *names))
+        for text in beyond(runs, names):
+            ui.label(text).classes("text-body2 text-negative")
         place = ui.column().classes("w-full")
         labels = run_labels(runs, names)
 

@@ -36,7 +36,8 @@ class RunState:
     """A run as its folder shows it.
 
     `state` : "running", "paused" (it can go on), "failed", or the status of its summary. `done` of `total` steps of
-    `what`; `message` says why it failed. `finished` : whether its results are there.
+    `what`; `message` says why it failed. `finished` : whether its results are there. `beyond` : what of them is outside
+    the model.
     """
 
     name: str
@@ -50,6 +51,7 @@ class RunState:
     message: str = ""
     notes: tuple[str, ...] = ()
     finished: bool = False
+    beyond: tuple[str, ...] = ()
 
 
 class Workspace:
@@ -161,7 +163,8 @@ class Workspace:
             table = tomllib.loads(asked.read_text("utf-8"))
         told = _json(path / OWN / PROGRESS)
         name, kind = str(table.get("name", path.name)), str(table.get("kind", ""))
-        state = self._state(path, told)
+        summary = _json(path / SUMMARY) if (path / SUMMARY).is_file() else None
+        state = self._state(path, told, summary)
         message = str(told.get("message", "")) if state == "failed" else ""
         return RunState(
             name=path.name,
@@ -173,15 +176,16 @@ class Workspace:
             total=int(told.get("total", 0)),
             what=str(told.get("what", "")),
             message=message,
-            notes=tuple(map(str, told.get("notes", ()))),
-            finished=(path / SUMMARY).is_file() and state != "running",
+            notes=_texts(told.get("notes")),
+            finished=summary is not None and state != "running",
+            beyond=_texts((summary or {}).get("outside_model")),
         )
 
-    def _state(self, path: Path, told: Mapping[str, Any]) -> str:
+    def _state(self, path: Path, told: Mapping[str, Any], summary: Mapping[str, Any] | None) -> str:
         if self.process_of(path) is not None:
             return "running"
-        if (path / SUMMARY).is_file():
-            return str(_json(path / SUMMARY).get("status", "unknown"))
+        if summary is not None:
+            return str(summary.get("status", "unknown"))
         return "failed" if told.get("state") == "failed" else "paused"
 
     def process_of(self, path: Path) -> int | None:
@@ -275,6 +279,11 @@ def _json(path: Path) -> dict[str, Any]:
     except (OSError, ValueError, RecursionError):
         return {}
     return found if isinstance(found, dict) else {}
+
+
+def _texts(found: object) -> tuple[str, ...]:
+    """A list of texts as it was read; of anything else none."""
+    return tuple(map(str, found)) if isinstance(found, list) else ()
 
 
 def _works_in(process: int, folder: Path) -> bool:

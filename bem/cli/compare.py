@@ -31,7 +31,7 @@ def register(app: typer.Typer) -> None:
         """
         from bem.cli._terminal import table
         from bem.results import open_run
-        from bem.results.compare import run_labels, scene_differences, scene_units, shown
+        from bem.results.compare import beyond, run_labels, scene_differences, scene_units, shown
 
         paths = [first, *others]
         runs = [open_run(path) for path in paths]
@@ -47,7 +47,8 @@ def register(app: typer.Typer) -> None:
         else:
             print("scenes: equal")
         _results(runs, names, all_)
-        _beyond(runs, names)
+        for text in beyond(runs, names):
+            print(text)
         if figures:
             from bem.plots.compare import draw_comparison
 
@@ -55,15 +56,6 @@ def register(app: typer.Typer) -> None:
                 out = out.with_suffix("")
             for path in draw_comparison([run.dataset for run in runs], run_labels(runs, names), out):
                 print(f"figure: {path}")
-
-
-def _beyond(runs: list[Any], names: list[str]) -> None:
-    """What of the runs is solved but outside its model."""
-    from bem.errors import OUTSIDE
-
-    for run, name in zip(runs, names, strict=True):
-        for text in run.summary.get("outside_model", ()):
-            print(f"{name}: {OUTSIDE}{text}")
 
 
 def _names(paths: list[Path]) -> list[str]:

@@ -25,7 +25,7 @@ class CurvePoint:
     [m], ratios, counts; what was loaded is with the oil counted where the film carries (`OilBeside`). With a supply of
     oil: the film over the flooded one, and the meniscus [m], not-a-number where that is nowhere. With heat: of the oil,
     mean of the surfaces in contact and their highest [K], not-a-number where nothing is in contact or slides. What the
-    film's shear stress on cells in contact would add to friction."""
+    film's shear stress on cells in contact would add to friction. What is noted of this speed."""
 
     speed: float
     friction: float
@@ -49,6 +49,7 @@ class CurvePoint:
     contact_temperature: float = math.nan
     flash_temperature: float = math.nan
     oil_on_contact: float = 0.0
+    notes: tuple[str, ...] = ()
 
     @property
     def oil(self) -> OilBeside:
@@ -57,8 +58,8 @@ class CurvePoint:
         return OilBeside(self.oil_beside_contact, share, self.friction, loaded, self.loaded_friction)
 
     @classmethod
-    def of(cls, solution: MixedSolution) -> CurvePoint:
-        """Those of a solution."""
+    def of(cls, solution: MixedSolution, notes: tuple[str, ...] = ()) -> CurvePoint:
+        """Those of a solution, and what is noted of it."""
         area = 0.0 if solution.contact is None else solution.contact.contact_area
         starved = solution.film.starvation
         return cls(
@@ -84,6 +85,7 @@ class CurvePoint:
             oil_on_contact=solution.oil_on_contact,
             film_reduction=1.0 if starved is None else starved.reduction,
             meniscus_position=math.nan if starved is None or starved.flooded else starved.meniscus_position,
+            notes=notes,
         )
 
 
@@ -99,10 +101,11 @@ class Curve:
     shown: MixedSolution | None = None
     last: MixedSolution | None = None
 
-    def then(self, solution: MixedSolution) -> Curve:
-        """With one speed more; shown is where film and contact share most evenly, or the first of full films."""
+    def then(self, solution: MixedSolution, notes: tuple[str, ...] = ()) -> Curve:
+        """With one speed more, of which that is noted; shown is where film and contact share most evenly, or the first
+        of full films."""
         shown = solution if self.shown is None or _evenness(solution) < _evenness(self.shown) else self.shown
-        return Curve((*self.points, CurvePoint.of(solution)), shown, solution)
+        return Curve((*self.points, CurvePoint.of(solution, notes)), shown, solution)
 
 
 def _evenness(solution: MixedSolution) -> float:

@@ -141,7 +141,7 @@ def draw(
         said_beyond(figure, run.summary)
         if size is not None:  # what is asked for goes before what the maps need
             figure.set_size_inches(size)
-        settle(figure)
+        settle(figure, sized=size is not None)
         paths = write(figure, folder, kind.name, formats)
         if kind.animate is not None:
             path = folder / f"{kind.name}.gif"

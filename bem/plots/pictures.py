@@ -36,8 +36,15 @@ class PlainPowers(LogFormatterSciNotation):
         return _POWER.sub(lambda power: power[1].translate(_RAISED), words)
 
 
-def settle(figure: Figure) -> None:
-    """Give a figure of constrained layout its places, for good: drawing would look for them anew for every file."""
+_BLANK = 0.15
+"""Of a figure's height, from which what maps leave empty is taken off."""
+_LOWEST = 2.2
+"""Height [inch] that is left to each row of maps: the words along its colour bar."""
+
+
+def settle(figure: Figure, *, sized: bool = False) -> None:
+    """Give a figure of constrained layout its places, for good: drawing would look for them anew for every file. One of
+    maps longer than wide alone is made lower, unless it is `sized` by its user: half of it would be empty."""
     for axes in figure.axes:
         for axis in (axes.xaxis, axes.yaxis):
             if axis.get_scale() == "log":
@@ -49,7 +56,28 @@ def settle(figure: Figure) -> None:
     if engine is not None:
         with ticks_found_once():
             engine.execute(figure)
+            low = _without_blank(figure)
+            if not sized and low < (1 - _BLANK) * figure.get_figheight():
+                figure.set_figheight(low)
+                engine.execute(figure)
         figure.set_layout_engine("none")
+
+
+def _without_blank(figure: Figure) -> float:
+    """The height [inch] of a figure that has its places, less what maps of their own shape leave empty in each row."""
+    width, height = figure.get_size_inches()
+    blank: dict[int, float] = {}
+    for axes in figure.axes:
+        place, aspect = axes.get_subplotspec(), axes.get_aspect()
+        if place is None:  # a colour bar: it is as high as its map
+            continue
+        room = axes.get_position(original=True)
+        left = 0.0
+        if not isinstance(aspect, str):
+            left = max(0.0, room.height * height - room.width * width * float(aspect) * axes.get_data_ratio())
+        row = place.rowspan.start
+        blank[row] = min(left, blank.get(row, left))
+    return float(max(height - sum(blank.values()), min(height, _LOWEST * max(1, len(blank)))))
 
 
 def write(figure: Figure, folder: Path, name: str, formats: Sequence[str]) -> list[Path]:

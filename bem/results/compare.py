@@ -56,6 +56,15 @@ def headline_differences(found: Sequence[Difference], headline: Sequence[str]) -
     )
 
 
+def beyond(runs: Sequence[FinishedRun], names: Sequence[str]) -> list[str]:
+    """What of the runs is solved but outside its model, with the name of the run before it."""
+    return [
+        f"{name}: {OUTSIDE}{text}"
+        for run, name in zip(runs, names, strict=True)
+        for text in run.summary.get("outside_model", ())
+    ]
+
+
 def run_labels(runs: Sequence[FinishedRun], names: Sequence[str]) -> list[str]:
     """Names of the runs with what tells their scenes apart, where that is one or two keys."""
     found = scene_differences(*runs)

@@ -23,7 +23,8 @@ def scratch_array(folder: Path, shape: tuple[int, ...], large: int = LARGE) -> N
 
     Raises
     ------
-    ResultsError : the disk has no room for it (asked for beforehand: a full disk ends a process that writes to a page).
+    ResultsError : a folder that cannot be written, or a disk without room for it (asked for beforehand: a full one ends
+        a process that writes to a page).
     """
     size = 8 * math.prod(shape)
     if size < large:
@@ -33,5 +34,5 @@ def scratch_array(folder: Path, shape: tuple[int, ...], large: int = LARGE) -> N
             os.posix_fallocate(file.fileno(), 0, size)
             pages = mmap.mmap(file.fileno(), size)
     except OSError as error:
-        raise ResultsError(f"{folder}: no room for {size / 2**30:.1f} GiB of scratch ({reason(error)})") from error
+        raise ResultsError(f"{folder}: cannot hold {size / 2**30:.3g} GiB of scratch ({reason(error)})") from error
     return np.frombuffer(pages, np.float64).reshape(shape)

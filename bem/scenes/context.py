@@ -5,7 +5,7 @@ from __future__ import annotations
 import hashlib
 import mmap
 import time
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
 from typing import Any, Protocol
@@ -121,13 +121,34 @@ def tell(context: Context, notes: Iterable[str], about: str = "") -> None:
         context.note(f"{about}{note}")
 
 
-def error_bars(context: Context, wanted: bool, bars: Callable[[], Bars], about: str = "") -> dict[str, Any]:
+def notes_over(name: str, unit: str, values: Sequence[float], notes: Sequence[Iterable[str]]) -> list[str]:
+    """The notes of results at several values, each once: as it is where all have it, else with its values before it,
+    neighbours as a range."""
+    places: dict[str, list[int]] = {}
+    for index, own in enumerate(notes):
+        for note in dict.fromkeys(own):
+            places.setdefault(note, []).append(index)
+    return [
+        note if len(at) == len(values) else f"{name}{'s' if len(at) > 1 else ''} {_ranges(values, at)} {unit}: {note}"
+        for note, at in places.items()
+    ]
+
+
+def _ranges(values: Sequence[float], at: Sequence[int]) -> str:
+    first = [index for index in at if index - 1 not in at]
+    last = [index for index in at if index + 1 not in at]
+    return ", ".join(
+        f"{values[a]:g}" + (f" to {values[b]:g}" if b > a else "") for a, b in zip(first, last, strict=True)
+    )
+
+
+def error_bars(context: Context, wanted: bool, bars: Callable[[], Bars]) -> dict[str, Any]:
     """`errors` and `error_parts` of a record, timed, and noted why some are missing; none where they are not wanted."""
     if not wanted:
         return {}
     with context.timer("error bars"):
         found = bars()
-    tell(context, found.notes, about)
+    tell(context, found.notes)
     return {"errors": dict(found.values), "error_parts": dict(found.parts)}
 
 

@@ -41,7 +41,6 @@ from bem.scenes.units import Pressure, Ratio, Speed
 if TYPE_CHECKING:
     from bem.friction.setup import MixedSetup
     from bem.scenes.checks.hertz import SmoothContact
-    from bem.scenes.context import Context
 
 
 FilmCells = Annotated[int, Field(strict=True, ge=32, le=1024)]
@@ -358,7 +357,6 @@ def in_words_of_the_scene() -> Iterator[None]:
         raise InputError([m.replace("position: ", "film: the film grid ", 1) for m in error.messages]) from None
 
 
-def tell_of_film(context: Context, notes: Iterable[str], of_film: Collection[str], about: str = "") -> None:
-    """Note what a balance says; the film's model is the same at all speeds and in all cases, and said once."""
-    for note in notes:
-        context.note(f"film: {note}" if note in of_film else f"{about}{note}")
+def notes_of_balance(notes: Iterable[str], of_film: Collection[str]) -> tuple[str, ...]:
+    """What a balance says, its film's notes named as such."""
+    return tuple(f"film: {note}" if note in of_film else note for note in notes)

@@ -68,8 +68,8 @@ def read_surface(
     channel : name or number of the channel where a file has several; the reader's default is its topography.
     spacing : (dx, dy) [m], instead of what the file says, which metadata then has as `spacing_in_file`; needed where it
         says nothing.
-    height_unit : unit of the heights where the file does not say ("nm", "um", ...), refused where it says another;
-        plain maps are in metres.
+    height_unit : unit of the heights where the file does not say ("nm", "um", ...), refused where it says another and
+        for those in metres always (.npz, formats of your own); .npy and tables are in metres without.
     despike : take out points that stand out of their neighbourhood by more than so many standard deviations (at least
         3; 6 takes instruments' spikes and leaves roughness), before the map is levelled; see `bem.surfaces.despike`.
 
@@ -101,8 +101,10 @@ def read_surface(
     own = format_of(file)
     if own is not None:
         heights, cell, notes = _read_registered(file, own, channel)
+        _check_unit(file, "m", height_unit)
     elif file.suffix.lower() == ".npz":
         heights, cell, notes = _read_npz(file)
+        _check_unit(file, "m", height_unit)
     elif file.suffix.lower() == ".npy" and spacing is not None:
         heights, cell, notes = _read_npy(file), None, {"format": "npy"}
     elif file.suffix.lower() in _TEXT and spacing is not None:
@@ -360,10 +362,7 @@ def _read_instrument(
         metres = METRES[height_unit]
     elif isinstance(unit, str) and unit in METRES:
         metres = METRES[unit]
-        if height_unit is not None and METRES[height_unit] != metres:
-            raise SurfaceFileError(
-                f"{file}: says that its heights are in {unit}; height_unit {height_unit!r} is for files that do not say"
-            )
+        _check_unit(file, unit, height_unit)
     else:
         raise SurfaceFileError(
             f"{file}: channel {notes['channel']!r} "
@@ -372,6 +371,14 @@ def _read_instrument(
         )
     cell = None if sizes is None else (sizes[0] * metres / shape[0], sizes[1] * metres / shape[1])
     return heights * metres, cell, notes
+
+
+def _check_unit(file: Path, unit: str, height_unit: str | None) -> None:
+    """Refuse a unit of heights that is given beside another of the file."""
+    if height_unit is not None and METRES[height_unit] != METRES[unit]:
+        raise SurfaceFileError(
+            f"{file}: says that its heights are in {unit}; height_unit {height_unit!r} is for files that do not say"
+        )
 
 
 @contextlib.contextmanager

@@ -108,13 +108,16 @@ def _check_lengths(grid: Grid, pair: tuple[Any, ...] | list[Any], messages: list
     good = [_is_positive("correlation_length", value, " [m]", messages) for value in dict.fromkeys(pair)]
     if not all(good):
         return
-    for axis, name in enumerate("xy"):
-        length = float(pair[axis])
-        if grid.shape[axis] > 1 and not grid.spacing[axis] <= length <= grid.lengths[axis] / 2:
-            messages.append(
-                f"correlation_length {length:.4g} m along {name} must lie between one cell "
-                f"({grid.spacing[axis]:.4g} m) and half the grid ({grid.lengths[axis] / 2:.4g} m)"
-            )
+    halves = [side / 2 for side in grid.lengths]
+    wrong = [i for i in (0, 1) if grid.shape[i] > 1 and not grid.spacing[i] <= float(pair[i]) <= halves[i]]
+    if wrong:  # one mistake where it is of both axes
+        length, cell, half = (
+            " and ".join(dict.fromkeys(f"{values[i]:.4g} m" for i in wrong)) for values in (pair, grid.spacing, halves)
+        )
+        messages.append(
+            f"correlation_length {length} along {' and '.join('xy'[i] for i in wrong)} must lie between one cell "
+            f"({cell}) and half the grid ({half})"
+        )
 
 
 def _check_band(grid: Grid, request: Request, messages: list[str]) -> None:

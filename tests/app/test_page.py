@@ -1,6 +1,7 @@
 """The page in a real browser, from a surface file to results and back; nothing is lost on the way."""
 
 import contextlib
+import json
 import os
 import re
 import shutil
@@ -178,6 +179,12 @@ def test_from_a_file_to_results_and_back(serve, chrome, tmp_path):
     tab.wait_text("contact.load")
     tab.wait(r"/load_N\s+[0-9.]+ (± [0-9.e-]+ mN|mN .no error bar)/.test(document.body.innerText)")  # or why not
     tab.wait("document.querySelector('[data-overlay] svg')")
+
+    path = tmp_path / "work" / "runs" / "contact-002" / "summary.json"
+    path.write_text(json.dumps(json.loads(path.read_text()) | {"outside_model": ["half of it"]}))
+    tab.go(f"{server.base}/runs")
+    tab.wait("document.querySelector('[data-beyond=contact-002]').innerText === 'outside the model'")
+    assert tab.look("document.querySelectorAll('[data-beyond]').length") == 1
 
     assert [text for text in (*tab.errors, *other.errors) if LIBRARY not in text] == []
     elsewhere = [a for a in tab.addresses if not a.startswith((server.base, "data:", "blob:"))]

@@ -116,6 +116,19 @@ def test_states_are_read_from_files(workspace):
     assert (workspace.runs_folder / ".cancelled" / "x-001" / "scene.toml").is_file()
 
 
+def test_a_run_outside_its_model_says_so_in_the_list(workspace):
+    folder = workspace.runs_folder / "x-001"
+    folder.mkdir()
+    (folder / "scene.toml").write_text('kind = "contact"\nname = "x"\n')
+    (folder / "summary.json").write_text(json.dumps({"status": "converged"}))
+    assert workspace.runs()[0].beyond == ()
+    (folder / "summary.json").write_text(json.dumps({"status": "converged", "outside_model": ["half of it"]}))
+    (state,) = workspace.runs()
+    assert (state.state, state.beyond, state.finished) == ("converged", ("half of it",), True)
+    (folder / "summary.json").write_text("cut o")  # by hand: it says nothing that can be shown
+    assert (workspace.runs()[0].state, workspace.runs()[0].beyond) == ("unknown", ())
+
+
 def test_the_order_of_runs_is_that_in_which_they_were_begun(workspace):
     """Not of the last file that each wrote: rows would change places under the mouse."""
     for number, name in enumerate(("x-001", "x-002", "no name of ours")):

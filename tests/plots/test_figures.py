@@ -282,11 +282,12 @@ def test_a_picture_is_drawn_once_after_its_layout(tmp_path, monkeypatch):
     passes = []
     old = Figure.draw
     monkeypatch.setattr(Figure, "draw", lambda self, renderer: passes.append(1) or old(self, renderer))
-    (path,) = draw(contact_run(tmp_path), all_figures()["pressure-map"], tmp_path).paths
+    size = all_figures()["pressure-map"].size
+    (path,) = draw(contact_run(tmp_path), all_figures()["pressure-map"], tmp_path, size=size).paths
     assert len(passes) == 1
     from PIL import Image
 
-    width, height = all_figures()["pressure-map"].size
+    width, height = size
     with Image.open(path) as image:
         assert image.size == (round(200 * width), round(200 * height))
         assert image.info["dpi"] == pytest.approx((200, 200), rel=1e-3)  # stored per metre, in whole numbers

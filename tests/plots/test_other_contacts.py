@@ -7,7 +7,9 @@ from types import SimpleNamespace
 import numpy as np
 import xarray as xr
 from matplotlib.figure import Figure
+from matplotlib.image import imread
 
+from bem.plots import draw as drawing
 from bem.plots.cases import along
 from bem.plots.figures import contact, friction, friction_map, point_film, running_in, wear
 from bem.plots.report import with_error
@@ -242,5 +244,29 @@ def test_the_legend_of_a_contact_says_what_its_shares_are_of():
     for area, words in ((0.5, "share of the cells"), (0.47, "contact area as drawn through them: 47.000%")):
         run = run_of(x=x, y=x, contact_state=(("x", "y"), state))
         run.summary = {"contact_area_fraction": area}
-        (axes,) = drawn(kind.draw, run).axes
-        assert words in axes.get_legend().get_title().get_text()
+        (legend,) = drawn(kind.draw, run).legends
+        assert words in legend.get_title().get_text()
+
+
+def test_maps_longer_than_wide_leave_no_half_empty(tmp_path):
+    """Of a patch twice as long as wide the top half of its picture was; a size that is asked for stays."""
+    asked = {}
+    for cells in ((32, 32), (64, 32), (128, 32)):
+        x, y = (1e-6 * np.arange(n) for n in cells)
+        state = np.zeros(cells)
+        state[:4] = 1
+        run = run_of(x=x, y=y, contact_state=(("x", "y"), state), pressure=(("x", "y"), 1e9 * state))
+        run.summary = {"contact_area_fraction": float(state.mean())}
+        del run.dataset.attrs["axes"]
+        for name in ("contact-map", "pressure-map"):
+            kind = next(kind for kind in contact.FIGURES if kind.name == name)
+            for size in (None, (5.0, 4.0)):
+                (path,) = drawing.draw(run, kind, tmp_path, size=size).paths
+                asked[cells, name, size is None] = imread(path)
+    for (cells, _, free), picture in asked.items():
+        used = np.flatnonzero((picture[..., :3] < 1).any(axis=(1, 2)))
+        if free or cells == (32, 32):
+            assert used[0] < 0.26 * picture.shape[0]  # of one four times as long, what the bar's words take
+            assert (cells == (32, 32)) is (picture.shape[0] == 800)
+        else:
+            assert picture.shape[:2] == (800, 1000)

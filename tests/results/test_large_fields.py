@@ -39,12 +39,14 @@ def test_a_large_array_is_on_disk_and_leaves_no_file(tmp_path):
     assert np.all(small == 1)
 
 
-def test_a_disk_without_room_is_said_beforehand(tmp_path, monkeypatch):
-    def full(*_):
-        raise OSError(errno.ENOSPC, "No space left on device")
+@pytest.mark.parametrize("number", [errno.ENOSPC, errno.EACCES])
+def test_a_disk_without_room_or_rights_is_said_beforehand(tmp_path, monkeypatch, number):
+    def refused(*_):
+        raise OSError(number, os.strerror(number))
 
-    monkeypatch.setattr("os.posix_fallocate", full)
-    with pytest.raises(ResultsError, match="No space left on device"):
+    monkeypatch.setattr("os.posix_fallocate", refused)
+    words = rf"cannot hold 1\.19e-07 GiB of scratch \({os.strerror(number)}\)$"  # 128 bytes
+    with pytest.raises(ResultsError, match=words):
         scratch_array(tmp_path, (4, 4), large=1)
     assert os.listdir(tmp_path) == []
 

@@ -22,6 +22,7 @@ from bem.grid import Grid
 from bem.lubrication import Lubricant
 from bem.materials import CATALOGUE, Body
 from bem.runs import plan_scene
+from bem.scenes.context import notes_over
 from bem.surfaces import generate_surface
 from bem.wear.mixed import MixedContact
 
@@ -227,6 +228,21 @@ def test_where_the_oil_is_counted_is_a_key_and_said_once_for_all_speeds(counted)
         assert "speed" not in said[0]
         assert np.abs(changed).max() > 0.01
         assert changed[-1] == 0  # full film
+
+
+def test_notes_of_several_speeds_are_told_once_with_the_speeds_that_have_them():
+    """The film's named none, those of error bars were told again for each speed and repetition."""
+    notes = [["a", "b"], ["a", "c", "c"], ["b", "a", "c"], ["a", "b"]]
+    told = notes_over("speed", "m/s", [0.1, 0.2, 0.4, 1.0], notes)
+    assert told == ["a", "speeds 0.1, 0.4 to 1 m/s: b", "speeds 0.2 to 0.4 m/s: c"]
+    assert notes_over("speed", "m/s", [0.1], [["a"]]) == ["a"]
+    speeds = ["1e-6 m/s", "0.003 m/s", "0.02 m/s", "5 m/s"]
+    scene = scene_with(FRICTION, speeds=speeds, film={"points": 200}, sharing={"models": ["uncoupled"]})
+    _, _, computed = run(scene)
+    summits = [note for note in computed.notes if "uncoupled asperities have other summits" in note]
+    assert [note.partition(":")[0] for note in summits] == ["speeds 1e-06 to 0.02 m/s"]  # the last is a full film
+    hot = [note for note in computed.notes if "sliding would heat the oil" in note]
+    assert [note.partition(": sliding")[0] for note in hot] == ["speed 5 m/s: film"]
 
 
 LAW = {"kind": "pressure_dependent", "shear_strength": 1e6, "pressure_coefficient": 0.1}

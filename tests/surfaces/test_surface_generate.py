@@ -217,7 +217,7 @@ GOOD = {"rms_height": 1e-7, "seed": 1, "correlation_length": 8e-7}
         ({"seed": -1}, "seed"),
         ({"seed": 1.5}, "seed"),
         ({"seed": True}, "seed"),
-        ({"correlation_length": 1e-9}, "between one cell"),
+        ({"correlation_length": 1e-9}, "1e-09 m along x and y must lie between one cell"),
         ({"correlation_length": 1e-3}, "half the grid"),
         ({"correlation_length": (1e-6,)}, "a pair"),
         ({"correlation_length": (1e-6, -1e-6)}, "correlation_length"),

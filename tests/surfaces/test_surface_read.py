@@ -194,6 +194,14 @@ def test_units_that_contradict_the_file_are_not_swallowed():
     assert "spacing_in_file" not in read_surface(path, spacing=rounded).metadata
 
 
+def test_maps_in_metres_take_no_other_unit(tmp_path):
+    """Heights of a map that this package had written were multiplied by 1e-6 without a word."""
+    path = write_surface(tmp_path / "map.npz", Surface(np.eye(4), (1e-6, 1e-6)))
+    with pytest.raises(SurfaceFileError, match=r"says that its heights are in m; height_unit 'um'"):
+        read_surface(path, height_unit="um")
+    np.testing.assert_array_equal(read_surface(path, height_unit="m", detrend="none").heights, np.eye(4))
+
+
 def test_what_is_no_surface(tmp_path):
     with pytest.raises(SurfaceFileError, match="no such file"):
         read_surface(tmp_path / "nothing.di")

@@ -81,10 +81,9 @@ def _contact_map(run: Any, figure: Figure) -> None:
         for i in range(3)
         if i < 2 or (state == 2).any()
     ]
-    axes.legend(
+    figure.legend(
         handles=handles,
-        loc="upper center",
-        bbox_to_anchor=(0.5, -0.17),
+        loc="outside lower center",
         ncols=3,
         columnspacing=1.2,
         title=_edges_of(run.summary.get("contact_area_fraction"), float(np.mean(state > 0))),

@@ -12,15 +12,15 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 
 import numpy as np
 
-from bem.accuracy.bars import POINTS
+from bem.accuracy.bars import POINTS, ErrorBars, table
 from bem.errors import Status
 from bem.grid import FloatArray, Grid
 from bem.scenes import build, film_plans, plans
 from bem.scenes.axes import Axis, listed, over_last, variants
 from bem.scenes.common import OutputsScene, Repetitions
-from bem.scenes.context import Context, error_bars, tell
+from bem.scenes.context import Context, notes_over, tell
 from bem.scenes.kind import Kind
-from bem.scenes.lubrication import in_words_of_the_scene, tell_of_film
+from bem.scenes.lubrication import in_words_of_the_scene, notes_of_balance
 from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, columns, filled, mean, spread
@@ -157,6 +157,7 @@ class CurveRecord(Record):
 
 def run(scene: FrictionScene, context: Context) -> CurveRecord:
     """One curve, speed by speed, with a checkpoint after each."""
+    from bem.accuracy.mixed import ORIGINS, RULES
     from bem.friction.curves import Curve
     from bem.friction.load_sharing import solve_setup
     from bem.friction.oil_beside import oil_notes
@@ -173,36 +174,40 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
     for speeds in pairs[len(curve.points) :]:
         with context.timer("load sharing"), in_words_of_the_scene():
             own = solve_setup(setup, height, speeds, curve.last)
-        # once for all speeds
-        said_at_the_end = oil_notes([own.oil]) + covered_notes([(own.friction, own.oil_on_contact)])
-        notes = tuple(note for note in own.notes if note not in said_at_the_end)
-        tell_of_film(context, notes, own.film.notes, _at(own))
-        curve = curve.then(own)
+        notes = _notes(own)
         if scene.outputs.errors:
-            errors.append(_errors(setup, height, own, context))
+            bars = _errors(setup, height, own, context)
+            errors.append(table(bars.values, bars.parts, RULES, ORIGINS))
+            notes += bars.notes
+        curve = curve.then(own, notes)
         if len(curve.points) < len(pairs):
             keep(context, (curve, errors), made_again)
         context.progress(len(curve.points), len(pairs), "speeds", friction=own.friction)
+    tell(context, notes_over("speed", "m/s", [p.speed for p in curve.points], [p.notes for p in curve.points]))
     tell(context, oil_notes([point.oil for point in curve.points]))
     tell(context, covered_notes([(point.friction, point.oil_on_contact) for point in curve.points]))
     left_out = (_OF_SUPPLY if scene.supply is None else ()) + (_OF_HEAT if scene.thermal == "off" else ())
     return _record(grid, curve, height, errors, left_out)
 
 
-def _at(solution: MixedSolution) -> str:
-    return f"speed {solution.speeds[0]:g} m/s: "
+def _notes(solution: MixedSolution) -> tuple[str, ...]:
+    """What is noted of one speed; what the oil says is told of all of them together."""
+    from bem.friction.oil_beside import oil_notes
+    from bem.friction.oil_on_contact import covered_notes
+
+    of_oil = oil_notes([solution.oil]) + covered_notes([(solution.friction, solution.oil_on_contact)])
+    return notes_of_balance([note for note in solution.notes if note not in of_oil], solution.film.notes)
 
 
-def _errors(setup: MixedSetup, height: FloatArray, solution: MixedSolution, context: Context) -> FloatArray:
-    """Error bars of one speed and their parts, as `bem.accuracy.bars.table`."""
+def _errors(setup: MixedSetup, height: FloatArray, solution: MixedSolution, context: Context) -> ErrorBars:
+    """Error bars of one speed; none of one that did not converge."""
     from bem.accuracy import MixedCase, mixed_bars, solve_coarser_mixed
-    from bem.accuracy.bars import table
-    from bem.accuracy.mixed import ORIGINS, RULES
 
+    if solution.status is not Status.CONVERGED:
+        return ErrorBars()
     case = MixedCase(setup, height, solution)
-    wanted = solution.status is Status.CONVERGED
-    bars = error_bars(context, wanted, lambda: mixed_bars(case, solve_coarser_mixed(case)), _at(solution))
-    return table(bars.get("errors", {}), bars.get("error_parts", {}), RULES, ORIGINS)
+    with context.timer("error bars"):
+        return mixed_bars(case, solve_coarser_mixed(case))
 
 
 def _flow_factors(
@@ -234,7 +239,7 @@ def _record(
     shown = curve.shown
     assert shown is not None
     resists = sliding_sign(shown.speeds)
-    names = [item.name for item in fields(curve.points[0]) if item.name not in (*left_out, "oil_on_contact")]
+    names = [item.name for item in fields(curve.points[0]) if item.name not in (*left_out, "oil_on_contact", "notes")]
     bad = [one for one in curve.points if one.status is not Status.CONVERGED]
     return filled(
         CurveRecord,

@@ -17,9 +17,9 @@ from bem.grid import FloatArray
 from bem.scenes import build, film_plans, pieces, plans, wearing
 from bem.scenes.axes import Axis, changed, over_last, with_keys
 from bem.scenes.common import PositivePressure, Repetitions
-from bem.scenes.context import Context, error_bars
+from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.kind import Kind
-from bem.scenes.lubrication import tell_of_film
+from bem.scenes.lubrication import notes_of_balance
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, GridRecord, Series, filled, without_bars
 from bem.scenes.resolutions import CELLS, of_loop
@@ -249,7 +249,7 @@ def wear_down(
         film_error = step.table.error(float(step.rows["film_load"][-1]))
     found = _record(scene, initial, result, step, film_table_error=film_error, pressure_frames=np.array(frames))
     tell_of_third_bodies(context, found.third_body_load_share)
-    tell_of_film(context, step.notes, step.film_notes)
+    tell(context, notes_of_balance(step.notes, step.film_notes))
     if not scene.wear.traction.slides:
         context.note(FRICTION_SLIDES)
     return found

@@ -17,9 +17,9 @@ from bem.grid import FloatArray, Grid
 from bem.scenes import build, film_plans, plans
 from bem.scenes.axes import Axis, listed, variants
 from bem.scenes.common import OutputsScene, Repetitions, problem
-from bem.scenes.context import Context, error_bars
+from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.kind import Kind
-from bem.scenes.lubrication import tell_of_film
+from bem.scenes.lubrication import notes_of_balance
 from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step, layered_kernel_seconds, padded_points
 from bem.scenes.records import Figure, GridRecord, Series, columns, filled, grid_map
@@ -204,7 +204,7 @@ def _contact(
 
     with context.timer("oil film"):
         contact, shared = under_oil(contact, lower + upper, scene.shape.radii, scene.oil.build(), scene.oil_cells)
-    tell_of_film(context, (*shared.notes, NOTE), shared.film.notes)
+    tell(context, notes_of_balance((*shared.notes, NOTE), shared.film.notes))
     values = (shared.contact_load, shared.film_load, shared.minimum_film, shared.lambda_ratio)
     return contact, dict(zip(_SHARED, values, strict=True))
 
