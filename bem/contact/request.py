@@ -142,7 +142,8 @@ def checked_request(
     if messages:
         raise InputError(messages)
     cap = math.inf if hardness is None else float(hardness)
-    return Request(checked, operator, **controls, cap=cap, tolerance=tolerance)
+    numbers = {name: None if value is None else float(value) for name, value in controls.items()}
+    return Request(checked, operator, **numbers, cap=cap, tolerance=tolerance)
 
 
 def _checked_fields(

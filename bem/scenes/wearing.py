@@ -347,7 +347,7 @@ class WornRecord(RubbedRecord, ThirdBodyRecord):
         float | None,
         Figure(
             "Pa",
-            "largest equivalent stress of the last cycle, where nothing came off",
+            "largest equivalent stress of a cell in the last cycle, where nothing came off",
             optional=True,
             unjudged=True,  # one cell's, told to compare with the strength
         ),

@@ -357,6 +357,12 @@ def test_what_is_said_of_one_result_and_of_a_curve():
     assert oil_notes([unknown])[0].endswith("how far is not known")
     decided = OilBeside(0.99, 0.24, 0.085, 0.99, 0.119)
     assert [oil.decides for oil in (alike, load, unknown, decided)] == [False, False, False, True]
+    rubbed = OilBeside(0.98, 0.0375, 0.0634, 0.1366, 0.0403)  # share by less than a tenth, friction by a third
+    assert rubbed.decides
+    (short,) = outside(oil_notes([decided, rubbed]))  # what changes most: 75 % of the load
+    assert "24 % of the load" in short
+    assert "3.75 % of the load" in outside(oil_notes([rubbed, load]))[0]
+    assert not OilBeside(0.9, 0.0, 0.0, 0.0, 0.0).decides
     assert outside(oil_notes([alike, load])) == ()
     (short,) = outside(oil_notes([load, decided, unknown]))
     assert "24 % of the load at a friction of 0.085, but 99 % at 0.119" in short

@@ -32,6 +32,14 @@ def test_a_line_contact_is_in_tension_by_friction_alone(body):
     assert line(friction=0.0)[0] < 0.01 * HIGHEST
 
 
+@pytest.mark.parametrize(("cells", "across", "least", "most"), [(64, 29, 0.7, 0.8), (220, 100, 0.87, 0.93)])
+def test_cells_see_of_the_peak_what_is_told(cells, across, least, most):
+    """As the note on what nothing comes off by says; where the edge lies in its cell makes some per cents."""
+    assert round(2 * HALF / (400e-6 / cells)) == across
+    for friction in (0.1, 0.5):
+        assert least < line(cells, friction=friction)[0] / (2 * friction * HIGHEST) < most
+
+
 @pytest.mark.parametrize("friction", [0.0, 0.1, 0.5])
 def test_a_round_contact_is_in_tension_on_its_edge(friction):
     """(1 - 2 nu) p0 / 3 without friction (Johnson 1985, section 3.4), pi (4 + nu) f p0 / 8 more at the trailing edge

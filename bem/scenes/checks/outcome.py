@@ -291,15 +291,18 @@ def _how_far(case: Case, stress: float) -> str:
     strength = min(strengths)
     if stress > strength:
         return "; in the last cycle nothing that exceeds the yield stress reaches the surface"
+    down = f" down to {si(case.depths[-1], 'm')}" if case.depths else ""
     said = (
-        f"; its largest stress in the last cycle is {si(stress, 'Pa')}, and {si(strength, 'Pa')} is what takes it off"
+        f"; the largest stress of a cell{down} in the last cycle is {si(stress, 'Pa')}, and {si(strength, 'Pa')} is "
+        "what takes it off"
     )
     if case.wear is None or case.wear.criterion.name != "maximum_tension":
         return said
     return said + (
         ": under pressure alone a line contact has no tension and a round one (1 - 2 nu)/3 of its highest pressure at "
         "the edge, friction f adds 2 f of it behind a line contact and pi (4 + nu)/8 f behind a round one, and a thin "
-        "layer has both in the ratio of its modulus to the substrate's"
+        "layer has both in the ratio of its modulus to the substrate's; these are peaks as steep as a root, of which "
+        "cells see 0.75 where the contact is 20 to 30 of them wide and 0.9 on 100"
     )
 
 
