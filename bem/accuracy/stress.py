@@ -40,11 +40,12 @@ _FAR = 0.8
 """Of the yield stress: where none is higher nothing yields on any grid."""
 
 _CAPPED = (
-    "the highest von Mises stress has no error bar: it lies at the surface of a capped contact, where it has no limit"
+    "the highest von Mises stress has no error bar: it lies less than a cell below the surface of a capped contact, "
+    "where it has no limit"
 )
 _SHARP = (
-    "the highest von Mises stress has no error bar: it lies at the surface of a contact with sharp edges or ridges, "
-    "where it has no limit"
+    "the highest von Mises stress has no error bar: it lies less than a cell below the surface of a contact with sharp "
+    "edges or ridges, where it has no limit"
 )
 _SHALLOWEST = (
     "the highest von Mises stress has no error bar: it lies at the shallowest depth; begin outputs.depths nearer the "

@@ -13,7 +13,11 @@ from bem.plots.overlay import Panel, cut_at, panel
 from bem.plots.style import BLACK, BLUE, GREEN, ORANGE, PINK, SKY, VERMILION, label, prefix, style
 
 _MOST_PANELS = 6
-_FIRST = ("friction", "contact_load", "pressure", "von_mises", "thickness", "film", "equivalent_radius", "gap")
+_FIRST = (
+    *("friction", "contact_load", "film_load", "minimum_film", "pressure", "von_mises", "thickness", "film"),
+    *("equivalent_radius", "gap"),
+)
+"""Variables that are drawn first, before those that have such a name as a part of theirs."""
 _COLOURS = (BLUE, VERMILION, GREEN, PINK, ORANGE, SKY, BLACK)
 _DASHES, _FEW = ("-", "--", ":", "-."), 12
 _LOGARITHMIC_FROM = 30.0  # largest over least speed
@@ -60,13 +64,15 @@ def _groups(datasets: Sequence[Any]) -> list[list[Panel]]:
     for name in first.data_vars:
         if any(name not in other or other[name].dims != first[name].dims for other in datasets[1:]):
             continue
+        if str(name).partition("_error")[0] in {*first.data_vars} - {name}:
+            continue  # the error of another
         rows = [row if row is not None and row < dataset.sizes.get("y", 0) else None for dataset in datasets]
         group = [panel(dataset, str(name), row=at) for dataset, at in zip(datasets, rows, strict=True)]
         panels = [item for item in group if item is not None]
         if len(panels) == len(group):
             section = bool({"x", "film_x", "iteration"} & set(first[name].dims)) and "depth" not in first[name].dims
             rank = min((i for i, part in enumerate(_FIRST) if part in str(name)), default=len(_FIRST))
-            found.append(((section and name != "pressure", rank), panels))
+            found.append(((section and name != "pressure", name not in _FIRST, rank), panels))
     return [panels for _, panels in sorted(found, key=lambda item: item[0])[:_MOST_PANELS]]
 
 

@@ -132,6 +132,18 @@ def read_arrays(path: Path) -> Arrays:
         raise ResultsError(f"{path}: is damaged ({str(error).splitlines()[0]})") from error
 
 
+def left_out(path: Path) -> list[str]:
+    """Names of the arrays that a finished run had and did not write into the file, of which nothing else is read;
+    ResultsError if it is missing or was cut off."""
+    import h5py
+
+    try:
+        with h5py.File(path, "r") as file:
+            return str(file.attrs.get(LEFT_OUT, "")).split()
+    except (OSError, RuntimeError) as error:
+        raise ResultsError(f"{path}: cannot be read ({str(error).splitlines()[0]})") from error
+
+
 def _values(path: Path, name: str) -> NDArray[Any]:
     import h5py
 

@@ -12,7 +12,7 @@ from bem.campaigns.context import Silent, Watcher
 from bem.campaigns.jobs import Staff, words_of
 from bem.errors import BemError, ResultsError
 from bem.results import open_run
-from bem.results.arrays import LEFT_OUT, read_arrays
+from bem.results.arrays import left_out
 from bem.results.atomic import force_names, write_bytes
 from bem.results.directory import RESULTS, SUMMARY, RunDirectory
 from bem.runs.scene import run_planned
@@ -91,16 +91,12 @@ class Done:
 def finished_summary(folder: Path, fields: bool) -> dict[str, Any] | None:
     """The summary of the sound finished run in the folder; None where there is none, or not with the fields wanted."""
     try:
-        if not (folder / SUMMARY).is_file() or (fields and left_out(folder)):
+        if not (folder / SUMMARY).is_file():
             return None
-        return open_run(folder).summary
+        lacking = left_out(folder / RESULTS)  # of a file that was cut off an error, too
+        return None if fields and lacking else open_run(folder).summary
     except ResultsError:
         return None
-
-
-def left_out(folder: Path) -> list[str]:
-    """Names of the arrays that the finished run in the folder had and did not write."""
-    return str(read_arrays(folder / RESULTS).attrs.get(LEFT_OUT, "")).split()
 
 
 def store(done: Done, folder: Path) -> None:

@@ -407,9 +407,11 @@ def fitted(surface: MeasuredSurface, found: Surface, grid: Grid, note: Callable[
     if not same:
         centre = (0.0, 0.0) if surface.crop is not None else surface.centre
         resampled = _resampled(found, part, centre, name)
+        from bem.scenes.checks.words import times
+
         note(
-            f"{name}: {found.shape[0]} x {found.shape[1]} points at {_nm(found.spacing)} taken as "
-            f"{part.shape[0]} x {part.shape[1]} cells at {_nm(part.spacing)}"
+            f"{name}: {found.shape[0]} x {found.shape[1]} points at {times(found.spacing, 'm')} taken as "
+            f"{part.shape[0]} x {part.shape[1]} cells at {times(part.spacing, 'm')}"
         )
         found = resampled.replace(detrend(resampled.heights, part.spacing, surface.detrend))
     if any(axes):
@@ -441,7 +443,3 @@ def _resampled(found: Surface, grid: Grid, centre: tuple[float, float], name: st
             text.removeprefix("resample: ").replace("mirror_to_periodic first", "mirror") for text in error.messages
         ]
         raise InputError([f"{name}: {text}" for text in said]) from None
-
-
-def _nm(spacing: tuple[float, float]) -> str:
-    return f"{spacing[0] * 1e9:.4g} nm x {spacing[1] * 1e9:.4g} nm"

@@ -116,6 +116,11 @@ def test_points_leave_out_stacks_of_maps_unless_they_are_asked_for(tmp_path, her
     assert figures.equals(after)
     for fields in (True, False):
         assert run_sweep(scene, over, folder, workers=1, resume=True, fields=fields).computed == 0
+    results = points[0] / "results.nc"
+    for fields in (True, False):  # a file that was cut off was noticed with the fields alone
+        os.truncate(results, results.stat().st_size // 2)
+        assert run_sweep(scene, over, folder, workers=1, resume=True, fields=fields).computed == 1
+        assert open_run(points[0]).arrays["pressure"].shape == (16, 16)
 
 
 def test_what_a_point_costs_besides_its_physics(tmp_path, here, monkeypatch):

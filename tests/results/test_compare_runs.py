@@ -11,6 +11,7 @@ from typer.testing import CliRunner
 
 from bem.cli import build
 from bem.errors import ResultsError
+from bem.plots.compare import _groups
 from bem.plots.overlay import panel
 from bem.results.compare import Difference, figure_differences, leaves, run_labels, scene_differences, shown
 from bem.runs import run_scene
@@ -131,6 +132,20 @@ def test_two_runs_of_a_kind_side_by_side(kind, tmp_path, monkeypatch):
         assert len(drawn.lines) == cases
         assert len({line.case for line in drawn.lines}) == cases
     assert len(compared("--all", "--no-figures").splitlines()) > len(text.splitlines())
+
+
+def test_errors_of_figures_take_no_panels():
+    """Four of six showed errors of friction, none the film."""
+    xarray = pytest.importorskip("xarray")
+    others = ("film_part", "loaded_friction", "lambda_ratio", "film_load", "contact_load", "minimum_film")
+    names = ("friction", "friction_error", "friction_error_grid", "friction_error_balance", *others)
+    run = xarray.Dataset(
+        {name: ("speed", [1.0, 2.0], {"long_name": name}) for name in names}, coords={"speed": [0.1, 1.0]}
+    )
+    titles = [group[0].title for group in _groups([run, run])]
+    assert titles[:4] == ["friction", "contact_load", "film_load", "minimum_film"]
+    assert len(titles) == 6
+    assert not [title for title in titles if "_error" in title]
 
 
 def test_curves_over_speed_are_averaged_over_repetitions_and_told_apart():

@@ -129,7 +129,9 @@ def test_grid_from_two_maps_is_the_finer_spacing_and_the_common_area(plain_map, 
     resolved, _, context = run(scene(plain_map, tmp_path / "fine.npz"))
     assert resolved.grid.spacing == (0.5e-6, 0.5e-6)
     assert resolved.grid.shape == (60, 60)
-    assert any("map.npz: 40 x 30 points at 1000 nm x 2000 nm taken as 60 x 60 cells" in note for note in context.notes)
+    assert any(
+        "map.npz: 40 x 30 points at 1 um x 2 um taken as 60 x 60 cells at 500 nm" in note for note in context.notes
+    )
 
 
 def test_mirrored_grid_is_twice_the_map_and_has_no_seam(plain_map):
