@@ -18,7 +18,7 @@ FRICTION_CHANGES = 0.01
 LEAST_CHANGE = 0.01
 """Of the share of the load: smaller changes do not count, however small the share is."""
 DECIDES = 0.1
-"""Of the load, and of friction: where the surfaces' share or friction changes by more, they are that oil's and no longer
+"""Of the load, and of friction: where the surfaces' share or friction changes by more, they are that oil's and not
 those of film and roughness. Of a ball of lambda 0.04 with 4 % of its load on its surfaces friction was 0.063, and 0.040
 with 14 % with the oil counted where the film carries.
 

@@ -123,6 +123,7 @@ CASES = {
         (with_(BALL, shape__radius="100 um", contact__load="25 N", grid__lengths="200 um"), "of the body's"),
         with_(BALL, shape__radius="1 mm", contact__load="25 N"),
     ),
+    "radius_of_no_body": ((with_(BALL, shape__radius="6 km"), "shape.radius: was read as 6e+03 m"), with_(BALL)),
     "hertz_pressure_above_hardness": (
         (with_(BALL, contact__load="20 kN", grid__lengths="4 mm"), "times the softer hardness"),
         with_(BALL, contact__load="20 kN", grid__lengths="4 mm", contact__behaviour="capped"),

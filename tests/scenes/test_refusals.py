@@ -90,10 +90,3 @@ def test_a_ball_of_three_pascal_is_refused_for_its_unit_and_a_rigid_one_is_meant
     assert told.startswith("lower.material.youngs_modulus: was read as 3 Pa")
     rigid = 'lower.material={name="rigid",youngs_modulus="1e20 Pa",poissons_ratio=0.3}'
     assert suspected_units(plan_scene("hertz-sphere", [rigid])[0]) == []
-
-
-def test_a_radius_that_refuses_nothing_is_warned_of():
-    """6 km for 6 mm were a contact that leaves its grid, without a word on the unit."""
-    for radius, warned in (("6 km", True), ("6 m", False)):
-        told = scene_warnings(examine(plan_scene("hertz-sphere", [f'shape.radius="{radius}"'])[0]))
-        assert any(text.startswith("shape.radius: was read as 6e+03 m") for text in told) is warned
