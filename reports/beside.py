@@ -24,8 +24,10 @@ CURVES = (
     "curve is timed. All solve the same discrete problem and begin each load as they do best; ASPHER's solver by "
     "coarser grids takes no start, the one that takes a start has no coarser grids, so both are here. First at equal "
     "residual on the same grid: the largest of all loads, recomputed from the pressures by one routine. Then at equal "
-    "error of the area (rms over the loads, against the limit of bem's two finest grids): a peer's area is its cells "
-    "in contact, bem's edge lies inside of cells, so that a coarser grid has it. Areas and gaps apart: the largest "
+    "error of the area (rms over the loads, against the limit of bem's two finest grids), all to looser tolerances, "
+    "which such errors do not show: a peer's area is its cells in contact without what their steps along the edge add "
+    "(Yastrebov and others 2017), bem's edge lies inside of cells. A run without that has the error of all cells "
+    "alone, to the tighter tolerance. Areas and gaps apart: the largest "
     "difference of counted areas and of mean gaps on the same grid, relative; its limit apart: of the areas that its "
     "own cells on two grids lead to, mean of all loads."
 )

@@ -20,8 +20,10 @@ class CurveBeside:
     start : how its loads begin. residual : the largest complementarity of its loads, by the routine that judges bem.
     load_error : of its mean pressures, largest. area_difference, gap_difference : largest of all loads, of counted
         areas and mean gaps from bem's on the same grid, relative.
-    area_error : rms over the loads against the limit of fine grids, relative. Of `bem_area_*` nothing is known (0
-        cells) where no grid has an error as small.
+    area_error : rms over the loads against the limit of fine grids, relative; of its cells without what the steps of
+        their edge add, `area_cpu` its times to a tolerance that errors of areas ask for. counted_error : of all its
+        cells. Runs that have none knew no other: `area_error` is that, with the times of `cpu`. Of `bem_area_*` nothing
+        is known (0 cells) where no grid has an error as small.
     limit_apart : of the limit that its own cells lead to, mean of all loads, relative; None where it has no grid half
         as fine.
     """
@@ -42,16 +44,18 @@ class CurveBeside:
     bem_area_error: float = 0.0
     bem_area_cpu: tuple[float, ...] = ()
     limit_apart: float | None = None
+    counted_error: float | None = None
+    area_cpu: tuple[float, ...] = ()
 
     @property
-    def ratio(self) -> float:
-        """Its time over bem's at equal residual."""
-        return median(self.cpu) / median(self.bem_cpu)
+    def ratio(self) -> float | None:
+        """Its time over bem's at equal residual, None where no tolerance of bem's has it."""
+        return median(self.cpu) / median(self.bem_cpu) if self.bem_residual <= self.residual else None
 
     @property
     def area_ratio(self) -> float | None:
         """Its time over bem's at equal error of the area, None where bem does not have it."""
-        return median(self.cpu) / median(self.bem_area_cpu) if self.bem_area_cells else None
+        return median(self.area_cpu or self.cpu) / median(self.bem_area_cpu) if self.bem_area_cells else None
 
 
 @dataclass(frozen=True)
@@ -124,6 +128,8 @@ CURVE_HEADERS: tuple[str, ...] = (
     "bem's CPU s",
     "ratio",
     "its error of the area, %",
+    "of all its cells, %",
+    "its CPU s ",
     "bem's, %",
     "bem's cells",
     "bem's CPU s ",
@@ -142,7 +148,10 @@ def curve_rows(curves: Sequence[CurveBeside]) -> list[tuple[str, ...]]:
         rows.append(
             (
                 *(c.peer, c.start, str(c.cells), f"{c.residual:.1e}", f"{median(c.cpu):.3g}"),
-                *(f"{c.bem_residual:.1e}", f"{median(c.bem_cpu):.3g}", _ratio(c.ratio), f"{100 * c.area_error:.2g}"),
+                *(f"{c.bem_residual:.1e}", f"{median(c.bem_cpu):.3g}", _ratio(c.ratio)),
+                f"{100 * c.area_error:.2g}" if c.counted_error is not None else "",
+                f"{100 * (c.area_error if c.counted_error is None else c.counted_error):.2g}",
+                f"{median(c.area_cpu or c.cpu):.3g}",
                 f"{100 * c.bem_area_error:.2g}" if known else "",
                 str(c.bem_area_cells) if known else "",
                 f"{median(c.bem_area_cpu):.3g}" if known else "",
