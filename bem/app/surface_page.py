@@ -17,9 +17,9 @@ from bem.app.workspace import MOST_BYTES, Workspace
 from bem.errors import BemError, InputError
 from bem.grid import Grid
 from bem.plots.report import spelled
-from bem.scenes.build import fitted, read_map
 from bem.scenes.common import GridScene, MeasuredSurface
 from bem.scenes.load import dumped, plain_value
+from bem.scenes.maps import fitted, read_map
 from bem.scenes.paths import absolute
 from bem.scenes.validate import validate
 

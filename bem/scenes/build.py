@@ -3,31 +3,23 @@
 from __future__ import annotations
 
 import math
-import warnings
 from collections.abc import Callable
-from dataclasses import dataclass
-from pathlib import Path
 from typing import TYPE_CHECKING, Any, TypeVar
 
 import numpy as np
-from numpy.typing import NDArray
 
 from bem.errors import InputError
-from bem.grid import Grid
-from bem.kept import KeptValues
+from bem.grid import FloatArray, Grid
 from bem.laws import Law
 from bem.materials import Body, contact_modulus, softer_hardness
 from bem.scenes.common import GeneratedSurface, GridScene, MeasuredSurface, SceneModel, SmoothSurface
-from bem.scenes.paths import checksum_of
+from bem.scenes.maps import KEPT, map_on, map_size
 from bem.scenes.tables.shape import ShapeScene
-from bem.surfaces.examples import example_path
 
 if TYPE_CHECKING:
     from bem.convolution import DisplacementOperator
     from bem.scenes.context import Context
-    from bem.surfaces import Surface
 
-FloatArray = NDArray[np.float64]
 Scene = TypeVar("Scene", bound=SceneModel)
 _NO_SHAPE = (
     "grid: lengths are given without shape; allowed: shape with spacing, shape with lengths, none of them, or an "
@@ -66,7 +58,7 @@ def resolved_grid(scene: GridScene, *surfaces: AnySurface) -> GridScene:
         return scene.model_copy(update={"spacing": grid.spacing, "lengths": None})
     if scene.lengths is not None and scene.shape is None:
         raise InputError(_NO_SHAPE)
-    sizes = [_map_size(surface) for surface in surfaces if isinstance(surface, MeasuredSurface)]
+    sizes = [map_size(surface) for surface in surfaces if isinstance(surface, MeasuredSurface)]
     if not sizes:
         raise InputError(_NO_SIZE)
     spacing = scene.spacing or (min(d[0] for _, d in sizes), min(d[1] for _, d in sizes))
@@ -243,12 +235,6 @@ def _generated(surface: GeneratedSurface, grid: Grid, seed: int) -> FloatArray:
     return waves if waves.flags.writeable else waves.copy()
 
 
-KEPT = KeptValues(1 << 25)
-"""Heights of this process, read-only: a run's plan looks at what the run then takes, and points of a sweep share them.
-Generated ones without marks of tools; measured maps as they were read, and on grids. One surface of 2048 x 2048 cells,
-or several smaller ones."""
-
-
 def _waves(surface: GeneratedSurface, grid: Grid, seed: int) -> FloatArray:
     """Heights [m] of a generated surface on the grid that it is drawn on, marks left out; those that are kept are
     read-only."""
@@ -297,149 +283,3 @@ def _drawn_on(surface: GeneratedSurface, grid: Grid) -> Grid:
         return grid
     nx, ny = surface.drawn_on
     return Grid((nx, ny), (grid.lengths[0] / nx, grid.lengths[1] / ny), periodic=grid.periodic)
-
-
-def content_of(surface: MeasuredSurface) -> str:
-    """SHA-256 of a measured surface's file, by which what is made of it is kept; empty where it cannot be read, and
-    where its format is a user's own, whose reader may look at more than the file."""
-    from bem.surfaces.formats import format_of
-
-    file = example_path(surface.path) or Path(surface.path)
-    return "" if format_of(file) is not None else checksum_of(str(file))
-
-
-def read_map(surface: MeasuredSurface) -> Surface:
-    """The measured map: read, levelled, filled and cropped."""
-    from bem.surfaces import crop, read_surface
-
-    asked = surface.model_dump(include={"detrend", "fill", "channel", "spacing", "height_unit", "despike"})
-
-    def read() -> _KeptMap:
-        found = read_surface(surface.path, **asked)
-        return _KeptMap(found if surface.crop is None else crop(found, surface.crop, centre=surface.centre))
-
-    content = content_of(surface)
-    if not content:
-        return read().surface
-    key = ("map", content, surface.path, *asked.values(), surface.crop, surface.crop and surface.centre)
-    return KEPT.of(key, read).surface
-
-
-@dataclass(frozen=True)
-class _KeptMap:
-    """A map as it was read."""
-
-    surface: Surface
-
-    @property
-    def nbytes(self) -> int:
-        """Memory [bytes]."""
-        return self.surface.heights.nbytes
-
-
-@dataclass(frozen=True)
-class MapOnGrid:
-    """A measured surface on a grid: heights [m], read-only where they are kept, and what had to be done to it."""
-
-    heights: FloatArray
-    notes: tuple[str, ...]
-
-    @property
-    def nbytes(self) -> int:
-        """Memory [bytes]."""
-        return self.heights.nbytes
-
-
-def map_on(surface: MeasuredSurface, grid: Grid) -> MapOnGrid:
-    """A measured surface on a grid, made once for a file's content, its treatment and the grid."""
-    content = content_of(surface)
-    kept = bool(content) and 8 * grid.cells <= KEPT.limit
-
-    def make() -> MapOnGrid:
-        notes: list[str] = []
-        heights = fitted(surface, read_map(surface), grid, notes.append)
-        heights.flags.writeable = not kept
-        return MapOnGrid(heights, tuple(notes))
-
-    key = ("on grid", content, surface.model_copy(update={"sha256": None}), grid)
-    return KEPT.of(key, make) if kept else make()
-
-
-def _map_size(surface: MeasuredSurface) -> tuple[tuple[int, int], tuple[float, float]]:
-    """Cells that the surface can cover, mirrored where asked for, and their spacing [m]."""
-    found = read_map(surface)
-    nx, ny = found.shape
-    return (nx * (1 + (surface.mirror in ("x", "both"))), ny * (1 + (surface.mirror in ("y", "both")))), found.spacing
-
-
-def fitted(surface: MeasuredSurface, found: Surface, grid: Grid, note: Callable[[str], None]) -> FloatArray:
-    """A measured surface, as `read_map` gives it, on the grid; what had to be done to it is noted."""
-    from bem.surfaces import (
-        MirrorWarning,
-        close_seams,
-        detrend,
-        high_pass,
-        low_pass,
-        mirror_to_periodic,
-        scale_to_rms,
-    )
-
-    name = Path(surface.path).name
-    missing = int(found.metadata.get("missing_points", 0) or 0)
-    if missing:
-        note(f"{name}: {missing} points were missing and are filled from their neighbours")
-    if told := found.metadata.get("spacing_in_file"):
-        own, other = (f"{1e6 * side[0]:.4g} x {1e6 * side[1]:.4g} um" for side in (found.spacing, told))
-        note(f"{name}: points are taken as {own} apart, where the file says {other}")
-    spikes = int(found.metadata.get("spikes", 0) or 0)
-    if spikes:
-        note(f"{name}: {spikes} spikes were taken out and are filled from their neighbours")
-    if surface.low_pass is not None:
-        found = low_pass(found, surface.low_pass)
-    if surface.high_pass is not None:
-        found = high_pass(found, surface.high_pass)
-    axes = (surface.mirror in ("x", "both"), surface.mirror in ("y", "both"))
-    odd = [n for n, mirrored in zip(grid.shape, axes, strict=True) if mirrored and n % 2]
-    if odd:
-        raise InputError(f"grid.shape: {odd[0]} cells cannot be mirrored ({name}); allowed: even numbers of cells")
-    part = Grid((grid.shape[0] // (1 + axes[0]), grid.shape[1] // (1 + axes[1])), grid.spacing, periodic=grid.periodic)
-    same = found.shape == part.shape and np.allclose(found.spacing, part.spacing, rtol=1e-9, atol=0)
-    if not same:
-        centre = (0.0, 0.0) if surface.crop is not None else surface.centre
-        resampled = _resampled(found, part, centre, name)
-        from bem.scenes.checks.words import times
-
-        note(
-            f"{name}: {found.shape[0]} x {found.shape[1]} points at {times(found.spacing, 'm')} taken as "
-            f"{part.shape[0]} x {part.shape[1]} cells at {times(part.spacing, 'm')}"
-        )
-        found = resampled.replace(detrend(resampled.heights, part.spacing, surface.detrend))
-    if any(axes):
-        with warnings.catch_warnings():
-            warnings.simplefilter("ignore", MirrorWarning)
-            found = mirror_to_periodic(found, axes=axes)
-        note(f"{name}: made periodic by mirroring; the surface is symmetric about its seams")
-    open_x, open_y = (wraps and not mirrored for wraps, mirrored in zip(grid.periodic, axes, strict=True))
-    if open_x or open_y:
-        found = close_seams(found, axes=(open_x, open_y))
-        along = " and ".join(axis for axis, is_open in zip("xy", (open_x, open_y), strict=True) if is_open)
-        note(
-            f"{name}: continued periodically along {along}; the step where its ends meet is spread out (Moisan 2011), "
-            f"which changes the heights by {1e9 * found.metadata['seams_closed']:.3g} nm rms"
-        )
-    if surface.rms_height is not None:
-        found = scale_to_rms(found, surface.rms_height)
-    return np.ascontiguousarray(found.heights - found.heights.mean())
-
-
-def _resampled(found: Surface, grid: Grid, centre: tuple[float, float], name: str) -> Surface:
-    """A map on the cells of a grid; one that is too small is said of its file, in keys of scenes."""
-    from bem.surfaces import resample
-
-    try:
-        return resample(found, grid, centre=centre)
-    except InputError as error:
-        said = [
-            text.removeprefix("resample: ").replace("mirror_to_periodic first", "mirror") for text in error.messages
-        ]
-        raise InputError([f"{name}: {text}" for text in said]) from None

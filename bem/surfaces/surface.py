@@ -74,6 +74,11 @@ class Surface(np.lib.mixins.NDArrayOperatorsMixin):
         return self.heights.shape[0], self.heights.shape[1]
 
     @property
+    def nbytes(self) -> int:
+        """Memory of the heights [bytes]."""
+        return self.heights.nbytes
+
+    @property
     def lengths(self) -> tuple[float, float]:
         """Sides of the map [m], cells x spacing."""
         return self.shape[0] * self.spacing[0], self.shape[1] * self.spacing[1]

@@ -11,7 +11,7 @@ from bem import Grid, generate_surface, run_scene
 from bem.kept import KeptValues
 from bem.results import open_run
 from bem.runs import run_sweep
-from bem.scenes import build
+from bem.scenes import build, maps
 from bem.scenes.checks import surfaces_of
 from bem.scenes.common import GeneratedSurface, GridScene, MeasuredSurface
 from bem.surfaces import Surface, write_surface
@@ -36,15 +36,15 @@ def made(monkeypatch):
         return make(grid, seed=seed, **more)
 
     monkeypatch.setattr(bem.surfaces, "generate_surface", counting)
-    read, fit = bem.surfaces.read_surface, build.fitted
+    read, fit = bem.surfaces.read_surface, maps.fitted
     monkeypatch.setattr(bem.surfaces, "read_surface", lambda *of, **how: counted.update(["read"]) or read(*of, **how))
-    monkeypatch.setattr(build, "fitted", lambda *of: counted.update(["fitted"]) or fit(*of))
+    monkeypatch.setattr(maps, "fitted", lambda *of: counted.update(["fitted"]) or fit(*of))
     monkeypatch.setattr(surfaces_of, "_described", lambda *of: counted.update(["described"]) or describe(*of))
-    build.KEPT.clear()
+    maps.KEPT.clear()
     surfaces_of._generated.cache_clear()
     surfaces_of._described_map.cache_clear()
     yield counted
-    build.KEPT.clear()
+    maps.KEPT.clear()
 
 
 def test_a_run_makes_a_surface_once(made, tmp_path):
@@ -102,11 +102,11 @@ def test_marks_of_a_tool_stand_on_the_waves_that_are_kept(made):
 
 
 def test_surfaces_that_are_too_large_are_not_kept(made, monkeypatch):
-    monkeypatch.setattr(build.KEPT, "limit", 8 * GRID.cells - 1)
+    monkeypatch.setattr(maps.KEPT, "limit", 8 * GRID.cells - 1)
     for _ in range(2):
         build.heights_of(surface(), GRID, 5)
     assert made[5] == 2
-    assert build.KEPT.nbytes == 0
+    assert maps.KEPT.nbytes == 0
 
 
 def write_map(path, seed=1):
@@ -127,7 +127,7 @@ def test_points_of_a_sweep_share_measured_maps(made, tmp_path):
     assert (found.computed, made) == (3, {"read": 1, "fitted": 1, "described": 1})
     notes = [open_run(point).summary["notes"] for point in (tmp_path / "s" / "points").iterdir()]
     assert all(any("taken as 16 x 16 cells" in text for text in of) for of in notes)
-    alone = build.fitted(measured(path), bem.surfaces.read_surface(path), found_grid(found), lambda text: None)
+    alone = maps.fitted(measured(path), bem.surfaces.read_surface(path), found_grid(found), lambda text: None)
     for point in (tmp_path / "s" / "points").iterdir():
         np.testing.assert_array_equal(open_run(point).arrays["lower_height"].values, alone)
     made.clear()
@@ -149,7 +149,7 @@ def test_other_treatments_of_a_map_are_others(made, tmp_path, change):
             told = []
             heights = build.heights_of(surface, grid, 0, told.append)
             np.testing.assert_array_equal(
-                heights, build.fitted(surface, build.read_map(surface), grid, lambda text: None)
+                heights, maps.fitted(surface, maps.read_map(surface), grid, lambda text: None)
             )
             assert any("taken as" in text for text in told)
             heights += 1.0  # the caller's own

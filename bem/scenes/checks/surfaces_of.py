@@ -8,8 +8,8 @@ from functools import lru_cache
 from pathlib import Path
 from typing import TYPE_CHECKING
 
-from bem.grid import Grid
-from bem.scenes import build
+from bem.grid import FloatArray, Grid
+from bem.scenes import build, maps
 from bem.scenes.checks.words import percent, si, times
 from bem.scenes.common import GeneratedSurface, MeasuredSurface
 from bem.scenes.context import derive_seed
@@ -79,11 +79,11 @@ def rough_surface(body: str, table: build.AnySurface, grid: Grid, seed: int) -> 
     if isinstance(table, GeneratedSurface):
         return _generated(body, table, grid, seed)
     if isinstance(table, MeasuredSurface):
-        return _measured(body, table, grid, build.content_of(table))
+        return _measured(body, table, grid, maps.content_of(table))
     return None
 
 
-def _described(heights: build.FloatArray, grid: Grid) -> tuple[float, float, float]:
+def _described(heights: FloatArray, grid: Grid) -> tuple[float, float, float]:
     from bem.surfaces import describe_surface
 
     found = describe_surface(heights, grid.spacing, periodic=grid.periodic)
@@ -183,7 +183,7 @@ def _measured(body: str, table: MeasuredSurface, grid: Grid, content: str) -> Ro
 
 @lru_cache(maxsize=64)
 def _described_map(body: str, table: MeasuredSurface, grid: Grid, content: str) -> RoughSurface:
-    found = build.read_map(table)
+    found = maps.read_map(table)
     done: tuple[str, ...]
     mirrored = (table.mirror in ("x", "both"), table.mirror in ("y", "both"))
     under = [n / (1 + m) * d for n, d, m in zip(grid.shape, grid.spacing, mirrored, strict=True)]
@@ -192,8 +192,8 @@ def _described_map(body: str, table: MeasuredSurface, grid: Grid, content: str) 
     if grid.cells <= 4 * _CELLS:
         if table.rms_height is not None:
             plain = table.model_copy(update={"rms_height": None})
-            scaled = table.rms_height / float(build.map_on(plain, grid).heights.std() or math.nan)
-        on_grid = build.map_on(table, grid)
+            scaled = table.rms_height / float(maps.map_on(plain, grid).heights.std() or math.nan)
+        on_grid = maps.map_on(table, grid)
         description, done = _described(on_grid.heights, grid), on_grid.notes
     else:
         description = _described(found.heights, found.grid())
