@@ -8,16 +8,17 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from typing import Any, Protocol
+from typing import Protocol
 
 from bem.errors import InputError, Status
 from bem.friction.smooth import LineContact, SmoothContact
 from bem.grid import FloatArray
 from bem.lubrication import FilmSolution, PointFilmSolution
+from bem.lubrication.line_case import LineCase, load_range
 from bem.lubrication.line_kept import without_equations
 from bem.lubrication.line_starts import on_mesh_of
-from bem.lubrication.steady import line_film, load_range
-from bem.lubrication.with_heat import film_with_heat
+from bem.lubrication.steady import line_film
+from bem.lubrication.with_heat import Heating, film_with_heat
 
 BALANCE_POINTS = 400
 """Film nodes while the balance is looked for; the last evaluations use the number asked for."""
@@ -115,20 +116,20 @@ def solved_line_film(
     """
     modulus, heat = contact.film_modulus(load), contact.heat
     lowest, _ = load_range(contact.radius, modulus, speeds, contact.lubricant)
-    asked: dict[str, Any] = {
-        "load": load / contact.width,
-        "radius": contact.radius,
-        "contact_modulus": math.inf if load / contact.width < lowest else modulus,
-        "speeds": speeds,
-        "lubricant": contact.lubricant,
-        "points": points,
-        "initial": initial,
-        "flow_factors": contact.flow_factors,
-    }
+    case = LineCase(
+        load=load / contact.width,
+        radius=contact.radius,
+        contact_modulus=math.inf if load / contact.width < lowest else modulus,
+        speeds=speeds,
+        lubricant=contact.lubricant,
+        points=points,
+        initial=initial,
+        flow_factors=contact.flow_factors,
+    )
     if heat is None:
-        return line_film(**asked, position=position, supply=contact.supply, tolerance=tolerance)
+        return line_film(replace(case, tolerance=tolerance), position=position, supply=contact.supply)
     unheated = {"position": position is not None, "supply": contact.supply is not None and heat.model == "full"}
-    return film_with_heat(heat.model, asked | {"bodies": heat.bodies}, contact.supply, unheated, heat.mesh)
+    return film_with_heat(heat.model, case, Heating(heat.bodies, mesh=heat.mesh), contact.supply, unheated)
 
 
 @dataclass(frozen=True, eq=False)

@@ -5,33 +5,30 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import Any
 
 import numpy as np
 
-from bem.arguments import is_finite
 from bem.errors import InputError, Status
 from bem.grid import FloatArray
 from bem.lubrication.cavitation import Cavitation, cavitation_of
 from bem.lubrication.film import FilmSolution
+from bem.lubrication.line_case import LineCase
 from bem.lubrication.line_continuation import from_neighbour, from_newtonian, from_scratch
 from bem.lubrication.line_flow import Problem
 from bem.lubrication.line_friction import friction_forces
 from bem.lubrication.line_kept import KeptSteady, sampled_state, without_equations
 from bem.lubrication.line_newton import Outcome, State, is_start
-from bem.lubrication.line_scales import Scales, line_scales, scaled_problem
+from bem.lubrication.line_scales import Scales
 from bem.lubrication.line_starved import Neighbour, Wanted, WantedDistance, WantedLayer, starved, through
 from bem.lubrication.lubricant import Lubricant
-from bem.lubrication.rough_walls import WallFactors, notes_on_factors, walls_of
+from bem.lubrication.rough_walls import WallFactors, notes_on_factors
 from bem.lubrication.supply import OilLayer, Starvation, Supply, checked_supply, inside_hertz
-from bem.lubrication.validity import Case, check_oil, notes_on, why_no_line_film
-from bem.lubrication.with_heat import film_with_heat
+from bem.lubrication.validity import Case, notes_on, why_no_line_film
+from bem.lubrication.with_heat import Heating, film_with_heat
 from bem.materials import Body
 from bem.monotone import MonotoneCubic
 from bem.threads import one_blas_thread
 
-MOES_LOADS = (1e-5, 1e4)
-"""Loads M for which a film is looked for; beyond them the equations are not a model of anything."""
 MAX_INLET_SHARE = 0.01
 
 
@@ -105,66 +102,53 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
     thickness converges.
     """
     cavitation, supply = cavitation_of(cavitation), checked_supply(supply)
-    asked: dict[str, Any] = {
-        "load": load, "radius": radius, "contact_modulus": contact_modulus, "speeds": speeds, "lubricant": lubricant,
-        "points": points, "tolerance": tolerance, "initial": initial, "max_iterations": max_iterations,
-        "flow_factors": flow_factors,
-    }  # fmt: skip
+    case = LineCase(
+        load, radius, contact_modulus, speeds, lubricant, points, tolerance, initial, max_iterations, flow_factors
+    )
     if thermal == "off":
-        return without_equations(line_film(**asked, position=position, cavitation=cavitation, supply=supply))
-    checked_case(load, radius, contact_modulus, speeds, lubricant, points, tolerance, position, initial)
+        return without_equations(line_film(case, position=position, cavitation=cavitation, supply=supply))
+    case.scaled(position)
     own = {"position": position is not None, "supply": supply is not None and thermal == "full"}
     own["mass-conserving cavitation"] = cavitation is not Cavitation.SWIFT_STIEBER
-    return film_with_heat(thermal, asked | {"bodies": bodies, "bulk": bulk}, supply, own)
+    return film_with_heat(thermal, case, Heating(bodies, bulk), supply, own)
 
 
 @one_blas_thread
-def line_film(  # reason: the arguments of `solve_line_film` but heat's
+def line_film(
+    case: LineCase,
     *,
-    load: float,
-    radius: float,
-    contact_modulus: float,
-    speeds: Sequence[float],
-    lubricant: Lubricant,
-    points: int = 2000,
-    tolerance: float = 1e-8,
     position: FloatArray | None = None,
-    initial: FilmSolution | None = None,
-    max_iterations: int = 40,
     cavitation: Cavitation = Cavitation.SWIFT_STIEBER,
-    flow_factors: WallFactors | str = "off",
     supply: Supply | float | None = None,
 ) -> FilmSolution:
     """As `solve_line_film` without heat, with the equations of the last step, by which one next to it starts."""
     supply = checked_supply(supply)
-    scales, reversed_ = checked_case(
-        load, radius, contact_modulus, speeds, lubricant, points, tolerance, position, initial
-    )
-    walls = walls_of(flow_factors, scales.film, speeds)
-    problem = scaled_problem(scales, scales.load, lubricant, walls, float(speeds[0]) - float(speeds[1]))
-    flooded = outcome = _flooded(problem, scales, initial, points - 1, tolerance, max_iterations)
+    scales, reversed_ = case.scaled(position)
+    problem = case.problem(scales)
+    flooded = outcome = _flooded(problem, scales, case)
     starvation = None
     if supply is not None:
         wanted = _wanted(supply, problem, flooded.state, scales)
         if wanted is not None:
-            near = _starved_neighbour(initial, scales)
-            outcome = starved(problem, flooded, wanted, points - 1, tolerance, max_iterations, near)
+            near = _starved_neighbour(case.initial, scales)
+            outcome = starved(problem, flooded, wanted, case.points - 1, case.tolerance, case.max_iterations, near)
         starvation = _starvation(problem, outcome.state, flooded.state, scales, reversed_)
-    case = Case(
+    found = Case(
         position=outcome.state.position * scales.length,
         pressure=np.maximum(outcome.state.pressure, 0.0) * scales.pressure,
         thickness=outcome.state.film * scales.film,
-        speeds=(float(speeds[0]), float(speeds[1])),
-        lubricant=lubricant,
-        radius=radius,
-        contact_modulus=contact_modulus,
+        speeds=(float(case.speeds[0]), float(case.speeds[1])),
+        lubricant=case.lubricant,
+        radius=case.radius,
+        contact_modulus=case.contact_modulus,
         reduction=1.0 if starvation is None else starvation.reduction,
-        not_found=None if outcome.converged else why_no_line_film(lubricant, load, radius, contact_modulus),
+        not_found=None
+        if outcome.converged
+        else why_no_line_film(case.lubricant, case.load, case.radius, case.contact_modulus),
     )
-    film = replace(
-        solution_of(outcome, flooded, problem, scales, speeds, reversed_, lubricant, position), starvation=starvation
-    )
-    film = replace(film, notes=notes_on(case) + notes_on_factors(flow_factors, film.minimum_thickness))
+    film = solution_of(outcome, flooded, case, (scales, reversed_), position)
+    notes = notes_on(found) + notes_on_factors(case.flow_factors, film.minimum_thickness)
+    film = replace(film, starvation=starvation, notes=notes)
     return film if cavitation is Cavitation.SWIFT_STIEBER else _with_fraction(film, outcome, scales, reversed_)
 
 
@@ -179,11 +163,10 @@ def _with_fraction(film: FilmSolution, outcome: Outcome, scales: Scales, reverse
     return replace(film, film_fraction=np.where(ruptured, exit_film / film.thickness, 1.0))
 
 
-def _flooded(
-    problem: Problem, scales: Scales, initial: FilmSolution | None, cells: int, tolerance: float, limit: int
-) -> Outcome:
+def _flooded(problem: Problem, scales: Scales, case: LineCase) -> Outcome:
     """From the film of another case where that will do, else from nothing."""
-    kept = None if initial is None else initial.state
+    cells, tolerance, limit = case.points - 1, case.tolerance, case.max_iterations
+    kept = None if case.initial is None else case.initial.state
     spent = 0
     if isinstance(kept, KeptSteady) and is_start(kept.flooded):
         unit = kept.scales.pressure / scales.pressure
@@ -229,135 +212,35 @@ def _starvation(problem: Problem, state: State, flooded: State, scales: Scales, 
     return Starvation(-first if reversed_ else first, layers[0], central[0] / central[1], layers[1])
 
 
-def checked_case(
-    load: float,
-    radius: float,
-    contact_modulus: float,
-    speeds: Sequence[float],
-    lubricant: Lubricant,
-    points: int,
-    tolerance: float,
-    position: FloatArray | None,
-    initial: FilmSolution | None,
-) -> tuple[Scales, bool]:
-    """Moes' units of a case, as of `solve_line_film`, and whether the entrainment is along -x.
-
-    Raises
-    ------
-    InputError : with a message for each mistake.
-    """
-    messages = []
-    for name, value, unit in (("load", load, "N/m"), ("radius", radius, "m")):
-        if not (is_finite(value) and value > 0):
-            messages.append(f"{name}: {value!r} must be positive and finite [{unit}]")
-    rigid = isinstance(contact_modulus, float) and contact_modulus == math.inf
-    if not (rigid or (is_finite(contact_modulus) and contact_modulus > 0)):
-        messages.append(f"contact_modulus: {contact_modulus!r} must be positive [Pa]; math.inf is rigid")
-    messages += check_speeds(speeds)
-    if not isinstance(lubricant, Lubricant):
-        messages.append(f"lubricant: {type(lubricant).__name__} is not a Lubricant")
-    if not (isinstance(points, (int, np.integer)) and 100 <= points <= 20000):
-        messages.append(f"points: {points!r} must be an integer from 100 to 20000")
-    if not (is_finite(tolerance) and 1e-11 <= tolerance <= 1e-2):
-        messages.append(f"tolerance: {tolerance!r} must lie between 1e-11 and 1e-2")
-    if position is not None:
-        array = np.asarray(position, dtype=np.float64)
-        if array.ndim != 1 or len(array) < 2 or not np.isfinite(array).all() or not (np.diff(array) > 0).all():
-            messages.append("position: must be a one-dimensional, ascending array of finite abscissae [m]")
-    if not (initial is None or isinstance(initial, FilmSolution)):
-        messages.append(f"initial: {type(initial).__name__} is not a FilmSolution")
-    if messages:
-        raise InputError(messages)
-    entrainment = check_entrainment(speeds)
-    scales = line_scales(float(load), float(radius), float(contact_modulus), abs(entrainment), lubricant.viscosity)
-    low, high = MOES_LOADS
-    if not low <= scales.load <= high:
-        advice = "Raise the load, or give contact_modulus=math.inf."
-        if scales.load > high:
-            advice = "The film cannot carry that: lower the load, or raise speed or viscosity."
-        raise InputError(
-            f"load: {load!r} N/m is {scales.load:.3g} in Moes' units w / sqrt(2 E* R mu (u1+u2)); a film is looked for "
-            f"between {low:g} and {high:g}. {advice}"
-        )
-    if not rigid:
-        check_oil(lubricant, scales.pressure)
-    return scales, entrainment < 0
-
-
-def check_entrainment(speeds: Sequence[float]) -> float:
-    """The sum of a pair of speeds [m/s].
-
-    Raises
-    ------
-    InputError : not a pair of finite speeds, or a sum of zero.
-    """
-    messages = check_speeds(speeds)
-    if messages:
-        raise InputError(messages)
-    entrainment = float(speeds[0]) + float(speeds[1])
-    if abs(entrainment) <= 1e-12 * (abs(speeds[0]) + abs(speeds[1])):
-        raise InputError(
-            f"speeds: {tuple(speeds)!r} entrain no oil (their sum is zero), so no steady film exists; give a sum other "
-            "than zero, or use march_line_film for a squeeze film"
-        )
-    return entrainment
-
-
-def load_range(
-    radius: float, contact_modulus: float, speeds: Sequence[float], lubricant: Lubricant
-) -> tuple[float, float]:
-    """Smallest and largest load per unit length [N/m] for which `solve_line_film` looks for a film.
-
-    Below the smallest the same film is that of rigid bodies (contact_modulus = math.inf), for which any load will do.
-    """
-    if math.isinf(contact_modulus):
-        return 0.0, math.inf
-    unit = 1 / line_scales(1.0, radius, contact_modulus, abs(check_entrainment(speeds)), lubricant.viscosity).load
-    # so far inside that rounding does not refuse a load at the very end
-    return MOES_LOADS[0] * unit * (1 + 1e-9), MOES_LOADS[1] * unit * (1 - 1e-9)
-
-
-def check_speeds(speeds: Sequence[float]) -> list[str]:
-    """Messages about a pair of speeds."""
-    try:
-        first, second = speeds
-        if math.isfinite(first) and math.isfinite(second):
-            return []
-    except (TypeError, ValueError):
-        pass
-    return [f"speeds: {speeds!r} must be a pair (u1, u2) of finite speeds [m/s]"]
-
-
 def solution_of(
     outcome: Outcome,
     flooded: Outcome,
-    problem: Problem,
-    scales: Scales,
-    speeds: Sequence[float],
-    reversed_: bool,
-    lubricant: Lubricant,
-    position: FloatArray | None,
+    case: LineCase,
+    units: tuple[Scales, bool],
+    position: FloatArray | None = None,
 ) -> FilmSolution:
-    """What is said of an outcome, with the friction of its oil at one temperature."""
+    """What is said of an outcome in Moes' units, as `LineCase.scaled` gives them, with the friction of its oil at one
+    temperature."""
+    (scales, reversed_), speeds = units, case.speeds
     state = outcome.state
     x, film = state.position, state.film
     pressure = np.maximum(state.pressure, 0.0)
     central = float(MonotoneCubic(x, film)(0.0))
     status = Status.CONVERGED if outcome.converged else Status.STALLED
-    friction = friction_forces(state, scales, speeds, reversed_, lubricant)
+    friction = friction_forces(state, scales, speeds, reversed_, case.lubricant)
     sign = -1.0 if reversed_ else 1.0
 
     own_x = x * scales.length
     own_p = pressure * scales.pressure
     own_h = film * scales.film
     beyond = state.far_field * 4 / x[0] ** 2
-    upstream = beyond / problem.load
+    upstream = beyond / scales.load
     if position is None:
         at, p, h = own_x, own_p, own_h
     else:
         at = np.asarray(position, dtype=np.float64)
         at = sign * at if sign > 0 else -at[::-1]
-        upstream = _check_reach(at, state, scales, problem.load)
+        upstream = _check_reach(at, state, scales, scales.load)
         p, h = sampled_state(at, state, scales)
     if reversed_:
         at, p, h = -at[::-1], p[::-1], h[::-1]
@@ -377,8 +260,8 @@ def solution_of(
         residual=outcome.residual,
         status=status,
         speeds=(float(speeds[0]), float(speeds[1])),
-        lubricant=lubricant,
-        state=KeptSteady(state, flooded.state, problem.load, scales, reversed_),
+        lubricant=case.lubricant,
+        state=KeptSteady(state, flooded.state, scales.load, scales, reversed_),
     )
 
 

@@ -15,6 +15,7 @@ from bem.grid import FloatArray
 from bem.lubrication import time_steps
 from bem.lubrication.cavitation import Cavitation, cavitation_of
 from bem.lubrication.film import FilmSolution
+from bem.lubrication.line_case import check_speeds
 from bem.lubrication.line_continuation import typical_half_width
 from bem.lubrication.line_march import (
     Contact,
@@ -30,7 +31,7 @@ from bem.lubrication.line_march import (
 from bem.lubrication.line_scales import line_scales, scaled_problem
 from bem.lubrication.line_step import Film, FixedMesh, fixed_mesh
 from bem.lubrication.lubricant import Lubricant
-from bem.lubrication.steady import check_speeds, solve_line_film
+from bem.lubrication.steady import solve_line_film
 from bem.lubrication.supply import OilLayer, checked_supply
 from bem.lubrication.time_steps import MarchState, Schedule, first_of, load_messages, schedule_of, start_messages
 from bem.threads import one_blas_thread

@@ -6,22 +6,33 @@ Verified in tests/lubrication/test_thermal_film.py and test_full_thermal.py.
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Mapping, Sequence
+from dataclasses import dataclass
 
 from bem.errors import InputError
 from bem.lubrication.film import FilmSolution
+from bem.lubrication.line_case import LineCase
 from bem.lubrication.supply import Supply
+from bem.materials import Body
 
 HEAT = ("lumped", "full")
 """Models of heat, of `bem.lubrication.thermal`."""
 
 
+@dataclass(frozen=True)
+class Heating:
+    """Flat and cylinder with their heat constants, and their temperatures far away [K], the oil's where not given.
+    mesh : times the usual columns and layers of full heat, cells of lumped heat."""
+
+    bodies: Sequence[Body] | None
+    bulk: Sequence[float] | None = None
+    mesh: float = 1.0
+
+
 def film_with_heat(
-    thermal: str, asked: dict[str, Any], supply: Supply | None, given: Mapping[str, bool], mesh: float = 1.0
+    thermal: str, case: LineCase, heating: Heating, supply: Supply | None, given: Mapping[str, bool]
 ) -> FilmSolution:
-    """The film of a model of heat; `asked` are the arguments of both models. mesh : times the usual columns and layers
-    of full heat, cells of lumped heat.
+    """The film of a case by a model of heat.
 
     Raises
     ------
@@ -31,14 +42,15 @@ def film_with_heat(
     if thermal not in HEAT:
         allowed = ", ".join(f'"{name}"' for name in ("off", *HEAT))
         messages.append(f"solve_line_film: thermal {thermal!r} is not there; allowed: {allowed}")
-    if asked["bodies"] is None:
+    if heating.bodies is None:
         messages.append("solve_line_film: with heat, bodies (flat, cylinder) with heat constants must be given")
     messages += [f"solve_line_film: {name} cannot be given with heat" for name, is_given in given.items() if is_given]
-    if messages:
+    if messages or heating.bodies is None:
         raise InputError(messages)
     from bem.lubrication.thermal import full, lumped
 
+    bodies, bulk, mesh = heating.bodies, heating.bulk, heating.mesh
     if thermal == "full":
-        sizes: dict[str, Any] = {"columns": round(mesh * full.COLUMNS), "layers": round(mesh * full.LAYERS)}
-        return full.solve_full_thermal_line_film(**asked, **sizes).as_film()
-    return lumped.solve_thermal_line_film(**asked, supply=supply, cells=round(mesh * lumped.CELLS)).as_film()
+        sizes = round(mesh * full.COLUMNS), round(mesh * full.LAYERS)
+        return full.full_thermal_film(case, bodies, bulk, *sizes).as_film()
+    return lumped.thermal_film(case, bodies, bulk, round(mesh * lumped.CELLS), supply).as_film()

@@ -271,8 +271,8 @@ def test_what_lies_on_the_way_is_solved_no_better_than_the_balance_needs(monkeyp
     spent = {"steps": 0.0, "convolutions": 0.0}
     solve_film, press = film_model.line_film, rough_model.solve_contact
 
-    def counted_film(**asked):
-        film = solve_film(**asked)
+    def counted_film(case, **asked):
+        film = solve_film(case, **asked)
         spent["steps"] += film.iterations
         return film
 

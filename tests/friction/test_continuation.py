@@ -14,6 +14,7 @@ from bem.friction.film_table import FilmTable
 from bem.friction.films import films_of
 from bem.friction.setup import MixedSetup
 from bem.lubrication import line_kernel, line_linear
+from bem.lubrication.line_case import LineCase
 from bem.lubrication.line_kept import without_equations
 from bem.lubrication.line_starts import on_mesh_of
 from bem.lubrication.steady import line_film
@@ -94,7 +95,7 @@ def test_a_curve_in_full_film_makes_weights_twice(monkeypatch):
 
 
 def test_a_film_next_to_one_is_found_without_taking_equations_apart(monkeypatch):
-    near = line_film(**FILM, speeds=(0.05, 0.0))
+    near = line_film(LineCase(**FILM, speeds=(0.05, 0.0)))
     taken = []
     usual = line_linear.eliminate
     monkeypatch.setattr(line_linear, "eliminate", lambda *given: (taken.append(1), usual(*given))[1])

@@ -16,6 +16,7 @@ import bem.lubrication.line_newton as line_newton
 from bem import InputError, Lubricant, Status, solve_line_film
 from bem.benchmarks.line_film import LOADS, PIEZO, film_row, read_table
 from bem.lubrication import steady
+from bem.lubrication.line_case import LineCase
 from bem.lubrication.line_newton import newton
 from bem.lubrication.steady import lowest_film
 from bem.reference_solutions import line_film
@@ -293,7 +294,7 @@ def test_warm_start_gives_the_same_film_in_fewer_steps():
 def test_results_carry_no_equations_and_who_goes_on_at_once_keeps_them():
     """Megabytes that only a start next to a film needs; the film is the same to the last bit."""
     case = THESIS | {"speeds": (0.003, 0.0), "points": 1000}
-    result, working = solve_line_film(**case), steady.line_film(**case)
+    result, working = solve_line_film(**case), steady.line_film(LineCase(**case))
     assert working.state.state.linear is not None
     assert result.state.state.linear is result.state.flooded.linear is None
     assert len(pickle.dumps(result)) < 0.7 * len(pickle.dumps(working))

@@ -19,12 +19,12 @@ import numpy as np
 from bem.errors import InputError, Status
 from bem.grid import FloatArray
 from bem.lubrication.film import FilmSolution
+from bem.lubrication.line_case import LineCase
 from bem.lubrication.line_kept import KeptSteady, without_equations
 from bem.lubrication.line_newton import Outcome
-from bem.lubrication.line_scales import scaled_problem
 from bem.lubrication.lubricant import Lubricant
-from bem.lubrication.rough_walls import WallFactors, notes_on_factors, walls_of
-from bem.lubrication.steady import checked_case, line_film, solution_of
+from bem.lubrication.rough_walls import WallFactors, notes_on_factors
+from bem.lubrication.steady import line_film, solution_of
 from bem.lubrication.thermal.conductors import moving_bodies
 from bem.lubrication.thermal.coupled import Coupling, Heated, Neighbour, coupled
 from bem.lubrication.thermal.field import LEAST_RISE, carried
@@ -119,7 +119,6 @@ class FullThermalFilm(HeatedFilm):
         )
 
 
-@one_blas_thread
 def solve_full_thermal_line_film(  # reason: the arguments of `solve_line_film`, and what heat needs
     *,
     load: float,
@@ -158,36 +157,41 @@ def solve_full_thermal_line_film(  # reason: the arguments of `solve_line_film`,
     Dowson (1962) for the film, Carslaw and Jaeger (1959) for the bodies; Cheng and Sternlicht, J. Basic Eng. 87 (1965)
     695, for both together in a line contact.
     """
+    case = LineCase(
+        load, radius, contact_modulus, speeds, lubricant, points, tolerance, initial, max_iterations, flow_factors
+    )
+    return full_thermal_film(case, bodies, bulk, columns, layers)
+
+
+@one_blas_thread
+def full_thermal_film(
+    case: LineCase, bodies: Sequence[Body], bulk: Sequence[float] | None, columns: int, layers: int
+) -> FullThermalFilm:
+    """As `solve_full_thermal_line_film`."""
     for name, value, most in (("columns", columns, 2000), ("layers", layers, 200)):
         if not (isinstance(value, int) and 6 <= value <= most):
             raise InputError(f"solve_full_thermal_line_film: {name} {value!r} must be an integer from 6 to {most}")
-    checked_case(load, radius, contact_modulus, speeds, lubricant, points, tolerance, None, initial)
-    conductors = moving_bodies("solve_full_thermal_line_film", lubricant, bodies, speeds, bulk, radius)
-    before = None if initial is None else initial.state
+    units = case.scaled()
+    lubricant, tolerance = case.lubricant, case.tolerance
+    name = "solve_full_thermal_line_film"
+    conductors = moving_bodies(name, lubricant, bodies, case.speeds, bulk, case.radius)
+    before = None if case.initial is None else case.initial.state
     heat = before.heat if isinstance(before, KeptSteady) else None
-    cold = line_film(
-        load=load, radius=radius, contact_modulus=contact_modulus, speeds=speeds, lubricant=lubricant, points=points,
-        initial=initial if heat is None else heat.isothermal, tolerance=tolerance, max_iterations=max_iterations,
-        flow_factors=flow_factors,
-    )  # fmt: skip
+    cold = line_film(case if heat is None else replace(case, initial=heat.isothermal))
     kept = cold.state
     assert isinstance(kept, KeptSteady)
-    walls = walls_of(flow_factors, kept.scales.film, speeds)
-    first, second = float(speeds[0]), float(speeds[1])
-    problem = scaled_problem(kept.scales, kept.load, lubricant, walls, first - second)
+    first, second = float(case.speeds[0]), float(case.speeds[1])
     coupling = Coupling(
-        problem=problem,
+        problem=case.problem(kept.scales),
         oil=Oil.of(lubricant),
         bodies=conductors,
         slide=(second - first) / (first + second),
         unit=kept.scales.pressure,
-        film_of=lambda outcome: solution_of(
-            outcome, outcome, problem, kept.scales, speeds, kept.reversed, lubricant, None
-        ),
+        film_of=lambda outcome: solution_of(outcome, outcome, case, units),
         columns=columns,
         layers=layers,
         tolerance=tolerance,
-        limit=max_iterations,
+        limit=case.max_iterations,
     )
     start = Outcome(kept.state, cold.iterations, cold.residual, cold.status is Status.CONVERGED)
     near = None
@@ -201,8 +205,8 @@ def solve_full_thermal_line_film(  # reason: the arguments of `solve_line_film`,
         found = replace(found, film=film)
     thermal = _result(found, cold, tolerance, kept.reversed)
     stress = found.made.across(found.field.oil).newtonian
-    notes = notes_of_film(found.film, lubricant, radius, contact_modulus, stress, found=start.converged)
-    notes += notes_on_factors(flow_factors, found.film.minimum_thickness)
+    notes = notes_of_film(found.film, lubricant, case.radius, case.contact_modulus, stress, found=start.converged)
+    notes += notes_on_factors(case.flow_factors, found.film.minimum_thickness)
     return replace(thermal, notes=notes + thermal.notes)
 
 

@@ -17,7 +17,7 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import Any, ClassVar
+from typing import ClassVar
 
 import numpy as np
 
@@ -25,13 +25,14 @@ from bem.errors import InputError, Status
 from bem.grid import FloatArray
 from bem.heat.bodies import Conductor
 from bem.lubrication.film import FilmSolution
+from bem.lubrication.line_case import LineCase, load_range
 from bem.lubrication.line_kept import KeptSteady, without_equations
 from bem.lubrication.line_scales import line_scales
 from bem.lubrication.line_sketch import sketch_line_film
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.rough_walls import WallFactors, notes_on_factors
 from bem.lubrication.shear_profile import middle_stress
-from bem.lubrication.steady import checked_case, line_film, load_range
+from bem.lubrication.steady import line_film
 from bem.lubrication.supply import Supply
 from bem.lubrication.thermal.conductors import moving_bodies
 from bem.lubrication.thermal.energy import Channel, Temperatures, film_temperatures
@@ -148,7 +149,6 @@ class ThinnedLaw(ViscosityLaw):
         return self.law.log_viscosity_ratio(pressure, viscosity / self.share, pressure_viscosity)
 
 
-@one_blas_thread
 def solve_thermal_line_film(  # reason: the arguments of `solve_line_film`, and what heat needs
     *,
     load: float,
@@ -191,14 +191,26 @@ def solve_thermal_line_film(  # reason: the arguments of `solve_line_film`, and 
 
     Jaeger (1942) for moving heat, Crook (1961) for heat across the film, Gupta et al. (1992) for the inlet.
     """
+    case = LineCase(
+        load, radius, contact_modulus, speeds, lubricant, points, tolerance, initial, max_iterations, flow_factors
+    )
+    return thermal_film(case, bodies, bulk, cells, supply)
+
+
+@one_blas_thread
+def thermal_film(
+    case: LineCase,
+    bodies: Sequence[Body],
+    bulk: Sequence[float] | None,
+    cells: int,
+    supply: Supply | float | None,
+) -> ThermalFilm:
+    """As `solve_thermal_line_film`."""
     if not (isinstance(cells, int) and 20 <= cells <= 2000):
         raise InputError(f"solve_thermal_line_film: cells {cells!r} must be an integer from 20 to 2000")
-    checked_case(load, radius, contact_modulus, speeds, lubricant, points, tolerance, None, initial)
-    conductors = moving_bodies("solve_thermal_line_film", lubricant, bodies, speeds, bulk, radius)
-    case = {
-        "load": load, "radius": radius, "contact_modulus": contact_modulus, "speeds": speeds, "tolerance": tolerance,
-        "max_iterations": max_iterations, "flow_factors": flow_factors,
-    }  # fmt: skip
+    case.scaled()
+    lubricant, speeds = case.lubricant, case.speeds
+    conductors = moving_bodies("solve_thermal_line_film", lubricant, bodies, speeds, bulk, case.radius)
     assert lubricant.temperature_viscosity is not None
     assert lubricant.thermal_conductivity is not None
     inlet = inlet_heating_factor(
@@ -206,15 +218,15 @@ def solve_thermal_line_film(  # reason: the arguments of `solve_line_film`, and 
         lubricant.temperature_viscosity,
         lubricant.thermal_conductivity,
         (float(speeds[0]), float(speeds[1])),
-        hertz_over_modulus(load, radius, contact_modulus),
+        hertz_over_modulus(case.load, case.radius, case.contact_modulus),
     )
-    thinned = _thinned(case, lubricant, points, initial, inlet)
+    thinned = _thinned(case, inlet)
     if supply is not None:
-        thinned.starve(case, points, initial, supply)
+        thinned.starve(case, supply)
     thermal = _heated(thinned, lubricant, conductors, cells)
     found = thermal.film.status is Status.CONVERGED
-    notes = notes_of_film(thermal.film, lubricant, radius, contact_modulus, found=found)
-    notes += notes_on_factors(flow_factors, thermal.minimum_thickness)
+    notes = notes_of_film(thermal.film, lubricant, case.radius, case.contact_modulus, found=found)
+    notes += notes_on_factors(case.flow_factors, thermal.minimum_thickness)
     return replace(thermal, notes=notes + _limits(thermal, lubricant) + thermal.notes)
 
 
@@ -233,27 +245,24 @@ class _Thinned:
         self.films.append(film)
         self.steps += film.iterations
 
-    def starve(self, case: dict[str, Any], points: int, initial: FilmSolution | None, supply: Supply | float) -> None:
+    def starve(self, case: LineCase, supply: Supply | float) -> None:
         """The last one once more, with its supply."""
         hot = self.films[-1]
-        start = hot if initial is None or initial.starvation is None else initial
-        self.add(line_film(**case, points=points, lubricant=hot.lubricant, initial=start, supply=supply))
+        start = hot if case.initial is None or case.initial.starvation is None else case.initial
+        self.add(line_film(replace(case, lubricant=hot.lubricant, initial=start), supply=supply))
 
 
-def _thinned(
-    case: dict[str, Any], lubricant: Lubricant, points: int, initial: FilmSolution | None, inlet: InletHeating
-) -> _Thinned:
+def _thinned(case: LineCase, inlet: InletHeating) -> _Thinned:
     """How thin the oil must be is found of sketches, where there are; only the last film is on all points."""
-    sketched = {name: value for name, value in case.items() if name != "tolerance"}
-    found = _search(partial(sketch_line_film, **sketched), case, lubricant, _sketch_start(initial), inlet)
-    on_points = partial(line_film, **case, points=points)
+    initial = case.initial
+    found = _search(sketch_line_film, replace(case, initial=_sketch_start(initial)), inlet)
     if math.isinf(found.missed):
-        spent, found = found.steps, _search(on_points, case, lubricant, initial, inlet)
+        spent, found = found.steps, _search(line_film, case, inlet)
         found.steps += spent
         return found
     sketch = found.films[-1]
     start = initial if initial is not None and _is_near(initial, sketch) else sketch
-    found.add(on_points(lubricant=sketch.lubricant, initial=start))
+    found.add(line_film(replace(case, lubricant=sketch.lubricant, initial=start)))
     return found
 
 
@@ -266,18 +275,12 @@ def _is_near(film: FilmSolution, other: FilmSolution) -> bool:
     return max(abs(math.log(ratio)) for ratio in ratios) < NEAR
 
 
-def _search(
-    solve: Callable[..., FilmSolution],
-    case: dict[str, Any],
-    lubricant: Lubricant,
-    initial: FilmSolution | None,
-    inlet: InletHeating,
-) -> _Thinned:
+def _search(solve: Callable[[LineCase], FilmSolution], case: LineCase, inlet: InletHeating) -> _Thinned:
     """All on one mesh, with the exponent of the film in the viscosity between the last two films, of a fit at first."""
     found = _Thinned(inlet)
-    found.add(solve(lubricant=lubricant, initial=initial))
+    found.add(solve(case))
     isothermal, wanted, ratio, last = found.films[0], math.log(inlet.factor), 0.0, (0.0, 0.0)
-    exponent = _fitted_exponent(case, lubricant, wanted)
+    exponent = _fitted_exponent(case, wanted)
     while found.films[-1].status is Status.CONVERGED:
         reached = math.log(found.films[-1].central_thickness / isothermal.central_thickness)
         found.missed = abs(math.expm1(reached - wanted))
@@ -287,9 +290,9 @@ def _search(
             exponent = (reached - last[1]) / (ratio - last[0])
         last = ratio, reached
         ratio += (wanted - reached) / exponent
-        thinner = thinned_oil(lubricant, math.exp(ratio))
+        thinner = thinned_oil(case.lubricant, math.exp(ratio))
         _check_load(case, thinner, inlet)
-        found.add(solve(lubricant=thinner, initial=found.films[-1]))
+        found.add(solve(replace(case, lubricant=thinner, initial=found.films[-1])))
     found.missed = math.inf
     return found
 
@@ -300,11 +303,11 @@ def _sketch_start(initial: FilmSolution | None) -> FilmSolution | None:
     return heat.isothermal if isinstance(heat, ThermalFilm) else initial
 
 
-def _fitted_exponent(case: dict[str, Any], lubricant: Lubricant, wanted: float) -> float:
+def _fitted_exponent(case: LineCase, wanted: float) -> float:
     """Of the film in the viscosity, down to a film whose ln is `wanted` less; of Moes' fit (`moes_central`)."""
-    entrainment = abs(sum(case["speeds"]))
-    scales = line_scales(case["load"], case["radius"], case["contact_modulus"], entrainment, lubricant.viscosity)
-    piezo = lubricant.pressure_viscosity * scales.pressure
+    entrainment = abs(sum(case.speeds))
+    scales = line_scales(case.load, case.radius, case.contact_modulus, entrainment, case.lubricant.viscosity)
+    piezo = case.lubricant.pressure_viscosity * scales.pressure
 
     def film(ratio: float) -> float:
         return 0.5 * ratio + math.log(
@@ -324,14 +327,14 @@ def thinned_oil(lubricant: Lubricant, share: float) -> Lubricant:
     return replace(lubricant, viscosity=lubricant.viscosity * share, viscosity_law=law)
 
 
-def _check_load(case: dict[str, Any], thinner: Lubricant, inlet: InletHeating) -> None:
+def _check_load(case: LineCase, thinner: Lubricant, inlet: InletHeating) -> None:
     """Refuse a load that the oil as thin as inlet heating makes it cannot carry."""
-    highest = load_range(case["radius"], case["contact_modulus"], case["speeds"], thinner)[1]
-    if case["load"] > highest:
+    highest = load_range(case.radius, case.contact_modulus, case.speeds, thinner)[1]
+    if case.load > highest:
         raise InputError(
             f"solve_thermal_line_film: shear heating in the inlet leaves {inlet.factor:.2g} of the film, as of an oil "
             f"of {thinner.viscosity:.3g} Pa s, with which a film is looked for up to {highest:.4g} N/m: load "
-            f"{case['load']!r} N/m is beyond it. Lower the load or the speeds."
+            f"{case.load!r} N/m is beyond it. Lower the load or the speeds."
         )
 
 
