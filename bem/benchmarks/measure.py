@@ -232,6 +232,15 @@ def measure_apart(case: str, size: float, threads: int, repeats: int, limit: flo
     return Point.of(json.loads(done.stdout.strip().splitlines()[-1]))
 
 
+@contextlib.contextmanager
+def named_failure(failures: dict[str, str], what: str) -> Iterator[None]:
+    """What fails in a process of its own is named with why, and the rest goes on."""
+    try:
+        yield
+    except (RuntimeError, subprocess.TimeoutExpired) as error:
+        failures[what] = str(error)
+
+
 def growth(sizes: list[float], times: list[float]) -> float:
     """Exponent of a power law through times over sizes by least squares; nan for fewer than two points."""
     import numpy as np

@@ -13,7 +13,6 @@ tests/benchmarks/test_beside_peers.py.
 from __future__ import annotations
 
 import math
-import subprocess
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from pathlib import Path
@@ -22,7 +21,7 @@ import numpy as np
 
 from bem.benchmarks.beside import CurveBeside
 from bem.benchmarks.contact_cases import LOADS, PERIODIC, UNIT, common_residual, deformed_gap
-from bem.benchmarks.measure import Point, measure_apart
+from bem.benchmarks.measure import Point, measure_apart, named_failure
 from bem.benchmarks.peer_cases import area_and_gap
 from bem.benchmarks.peers import TOLERANCES, PeerRun, run_script
 from bem.benchmarks.physical_cases import rough_surface
@@ -114,18 +113,17 @@ def curves_beside(  # reason: what is found is put where an interrupt leaves it
             own[cells, digits] = measure_apart("peer-curve", cells + digits / 100, 1, repeats if cells < 512 else 1)
         return own[cells, digits]
 
-    try:
+    with named_failure(failures, what := "load-area curve"):
         limit = limit_areas([bem(cells, 8) for cells in limit_from], limit_from)
         grids = sorted({128, *sizes})
         errors = [(cells, area_error(values_of(bem(cells, _DIGITS), "area"), limit)) for cells in grids]
-    except (RuntimeError, subprocess.TimeoutExpired) as error:
-        failures["load-area curve"] = str(error)
+    if what in failures:
         return
     for cells in sizes:
         for (peer, start), script in SCRIPTS.items():
             say(f"{peer}: load-area curve, {cells} cells a side, {start}")
             what = f"{peer}, curve {start}, {cells}"
-            try:
+            with named_failure(failures, what):
                 gap, times = rough_surface(cells), repeats if cells < 256 else 1
                 done, loose = (
                     run_script(python, what, _LOADS + script, gap, (0.0, tolerances[peer]), times)
@@ -136,8 +134,6 @@ def curves_beside(  # reason: what is found is put where an interrupt leaves it
                 half = counted.get((cells // 2, peer, start))
                 apart = None if half is None else drawn_on(half, counted[cells, peer, start], limit)
                 found.append(replace(row, limit_apart=apart))
-            except (RuntimeError, subprocess.TimeoutExpired) as error:
-                failures[what] = str(error)
 
 
 def _beside(  # reason: what a row is made of

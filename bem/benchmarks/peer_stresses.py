@@ -12,7 +12,6 @@ Verified in tests/benchmarks/test_beside_peers.py.
 from __future__ import annotations
 
 import functools
-import subprocess
 from collections.abc import Callable
 from pathlib import Path
 
@@ -20,7 +19,7 @@ import numpy as np
 
 from bem.benchmarks.beside import StressBeside
 from bem.benchmarks.contact_cases import POISSON, UNIT
-from bem.benchmarks.measure import Point, measure_apart
+from bem.benchmarks.measure import Point, measure_apart, named_failure
 from bem.benchmarks.peer_cases import DEEPEST, ball_depths, ball_grid, ball_pressure, exact_error, highest_mises
 from bem.benchmarks.peer_curves import coarsest
 from bem.benchmarks.peers import PeerRun, environment, run_script
@@ -119,11 +118,9 @@ def stresses_beside(
         for cells in QUICK if quick else SIZES:
             say(f"{peer}: stresses, {cells} cells a side")
             what = f"{peer}, stresses, {cells}"
-            try:
+            with named_failure(failures, what):
                 done = run_script(python, what, _MODULUS + SCRIPTS[peer], ball_pressure(cells), (0.0, 0.0), repeats)
                 found.append(_beside(peer, cells, done, bem))
-            except (RuntimeError, subprocess.TimeoutExpired) as error:
-                failures[what] = str(error)
 
 
 def _beside(peer: str, cells: int, done: PeerRun, bem: Callable[[str, int], Point]) -> StressBeside:

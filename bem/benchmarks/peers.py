@@ -21,7 +21,7 @@ from typing import Any
 import numpy as np
 
 from bem.benchmarks.contact_cases import MEAN_PRESSURE, PERIODIC, UNIT, common_residual, rough_gap
-from bem.benchmarks.measure import THREAD_VARIABLES, Point, measure_apart
+from bem.benchmarks.measure import THREAD_VARIABLES, Point, measure_apart, named_failure
 from bem.errors import InputError
 from bem.grid import FloatArray
 
@@ -225,25 +225,22 @@ def compare_with_peers(  # reason: what is found is put where an interrupt leave
     own: dict[int, Point] = {}
     for peer in SCRIPTS:
         say(f"{peer} at {cells}")
-        try:
+        with named_failure(failures, f"{peer} {cells}"):
             row = run_peer(python, peer, cells, repeats)
-        except (RuntimeError, subprocess.TimeoutExpired) as error:
-            failures[f"{peer} {cells}"] = str(error)
-            continue
-        for digits in range(2, 12):
-            if digits not in own:
-                own[digits] = measure_apart("peer-tolerance", cells + digits / 100, 1, max(3, repeats))
-            if own[digits].errors["complementarity"] <= row["complementarity"]:
-                break
-        else:
-            failures[f"{peer} {cells}"] = f"no tolerance of bem's has its residual of {row['complementarity']:.1e}"
-            continue
-        mine = own[digits]
-        row |= {
-            "bem_cpu": list(mine.cpu),
-            "bem_digits": digits,
-            "bem_complementarity": mine.errors["complementarity"],
-            "bem_convolutions": mine.counts["convolutions"],
-            "ratio": float(np.median(row["cpu"])) / mine.cpu_median,
-        }
-        rows.append(row)
+            for digits in range(2, 12):
+                if digits not in own:
+                    own[digits] = measure_apart("peer-tolerance", cells + digits / 100, 1, max(3, repeats))
+                if own[digits].errors["complementarity"] <= row["complementarity"]:
+                    break
+            else:
+                failures[f"{peer} {cells}"] = f"no tolerance of bem's has its residual of {row['complementarity']:.1e}"
+                continue
+            mine = own[digits]
+            row |= {
+                "bem_cpu": list(mine.cpu),
+                "bem_digits": digits,
+                "bem_complementarity": mine.errors["complementarity"],
+                "bem_convolutions": mine.counts["convolutions"],
+                "ratio": float(np.median(row["cpu"])) / mine.cpu_median,
+            }
+            rows.append(row)

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import subprocess
 from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import Any
@@ -13,7 +12,7 @@ from bem.benchmarks.beside import CurveBeside, StressBeside
 from bem.benchmarks.cases import CASES, Case
 from bem.benchmarks.floor import measure_floor
 from bem.benchmarks.history import INTERRUPTED, Run, new_run
-from bem.benchmarks.measure import Point, measure_apart
+from bem.benchmarks.measure import Point, measure_apart, named_failure
 from bem.benchmarks.names import refuse_unknown
 from bem.benchmarks.peers import compare_with_peers, environment
 from bem.errors import InputError
@@ -81,10 +80,8 @@ def run_cases(
         python = Path() if peers is None else environment(peers[0], say)  # before anything that takes long
         for name, size, count in wanted_points:
             say(at := f"{name}: {size:g} {CASES[name].size_name}, {count} thread{'s' if count > 1 else ''}")
-            try:
+            with named_failure(failures, f"{name} {size:g} ({count})"):
                 points.append(measure_apart(name, size, count, min(repeats, CASES[name].most_repeats)))
-            except (RuntimeError, subprocess.TimeoutExpired) as error:
-                failures[f"{name} {size:g} ({count})"] = str(error)
         if with_floor:
             wanted = {int(p.size) for p in points if p.case.startswith("contact-") and p.size >= 32}
             say(at := "the machine's floor")

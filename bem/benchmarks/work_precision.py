@@ -9,14 +9,13 @@ Verified in tests/benchmarks/test_work_precision.py.
 from __future__ import annotations
 
 import math
-import subprocess
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
 from bem.benchmarks.history import INTERRUPTED, Run, new_run
-from bem.benchmarks.measure import Point, measure_apart
+from bem.benchmarks.measure import Point, measure_apart, named_failure
 from bem.benchmarks.names import refuse_unknown
 from bem.benchmarks.peers import SCRIPTS, solve_by_peer
 from bem.benchmarks.physical_cases import PHYSICAL, RAW, PhysicalCase, pressure_figures, rough_surface, size_and_digits
@@ -84,23 +83,18 @@ def measure_kinds(
             for code in case.points(quick=quick):
                 size, digits = size_and_digits(code)
                 say(at := f"{case.kind}: {size} {case.size_name}, {digits} digits")
-                try:
+                with named_failure(failures, f"{case.kind} {size} ({digits})"):
                     points.append(measure_apart(case.name, code, 1, repeats))
-                except (RuntimeError, subprocess.TimeoutExpired) as error:
-                    failures[f"{case.kind} {size} ({digits})"] = str(error)
         pairs = [(peer, cells) for peer in SCRIPTS for cells in (PEER_SIZES[:2] if quick else PEER_SIZES)]
         for peer, cells in pairs if "contact" in kinds else ():
             if peers is None:
                 break
             say(at := f"{peer} at {cells}")
             gap = rough_surface(cells)
-            try:
+            with named_failure(failures, f"{peer} {cells}"):
                 times, memory, pressure = solve_by_peer(peers, peer, gap, repeats if cells < 1024 else 1)
-            except (RuntimeError, subprocess.TimeoutExpired) as error:
-                failures[f"{peer} {cells}"] = str(error)
-                continue
-            figures = pressure_figures(pressure, gap)
-            rows.append({"peer": peer, "cells": cells, "cpu": times, "memory": memory, "figures": figures})
+                figures = pressure_figures(pressure, gap)
+                rows.append({"peer": peer, "cells": cells, "cpu": times, "memory": memory, "figures": figures})
     except KeyboardInterrupt:
         failures[INTERRUPTED] = f"at {at}; {len(points)} points are kept"
     return new_run(points, None, rows, failures)
