@@ -20,11 +20,11 @@ from bem.friction.boundary import BoundaryFriction, filled_part
 from bem.friction.film import PatchFilm
 from bem.friction.rough_contact import Pressed
 from bem.friction.setup import MixedSetup
-from bem.friction.smooth import FilmHeat
 from bem.grid import FloatArray
 from bem.heat.bodies import conductors_of
 from bem.heat.solution import TemperatureSolution
 from bem.heat.steady import surface_temperature
+from bem.lubrication.with_heat import FilmHeat
 
 TOLERANCE = 1e-6
 """Difference of both surfaces over the rise; and of the coefficient of friction."""

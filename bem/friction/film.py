@@ -18,7 +18,7 @@ from bem.lubrication.line_case import LineCase, load_range
 from bem.lubrication.line_kept import without_equations
 from bem.lubrication.line_starts import on_mesh_of
 from bem.lubrication.steady import line_film
-from bem.lubrication.with_heat import Heating, film_with_heat
+from bem.lubrication.with_heat import film_with_heat
 
 BALANCE_POINTS = 400
 """Film nodes while the balance is looked for; the last evaluations use the number asked for."""
@@ -129,7 +129,7 @@ def solved_line_film(
     if heat is None:
         return line_film(replace(case, tolerance=tolerance), position=position, supply=contact.supply)
     unheated = {"position": position is not None, "supply": contact.supply is not None and heat.model == "full"}
-    return film_with_heat(heat.model, case, Heating(heat.bodies, mesh=heat.mesh), contact.supply, unheated)
+    return film_with_heat(case, heat, contact.supply, unheated)
 
 
 @dataclass(frozen=True, eq=False)

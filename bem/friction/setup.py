@@ -12,14 +12,14 @@ from bem.arguments import is_finite
 from bem.errors import InputError
 from bem.friction.boundary import BoundaryFriction, BoundaryFrictionGiven, boundary_law
 from bem.friction.oil_volume import OilVolume
-from bem.friction.smooth import FilmHeat, LineContact, PointContact
+from bem.friction.smooth import LineContact, PointContact
 from bem.grid import FloatArray, Grid
 from bem.heat.bodies import conductors_of
 from bem.lubrication import Lubricant
 from bem.lubrication.point.starved import checked_layer
 from bem.lubrication.rough_walls import WallFactors
 from bem.lubrication.supply import InletDistance, Supply, checked_supply, inside_hertz
-from bem.lubrication.with_heat import HEAT
+from bem.lubrication.with_heat import HEAT, FilmHeat
 from bem.materials import Body, contact_modulus
 
 CONTACT_MODELS = ("coupled", "uncoupled")

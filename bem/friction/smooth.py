@@ -17,18 +17,8 @@ from bem.grid import FloatArray, Grid
 from bem.lubrication import Lubricant
 from bem.lubrication.rough_walls import WallFactors
 from bem.lubrication.supply import Supply
-from bem.materials import Body
+from bem.lubrication.with_heat import FilmHeat
 from bem.reference_solutions.hertz import ellipse_contact
-
-
-@dataclass(frozen=True)
-class FilmHeat:
-    """Which model of the film's heat, as of `solve_line_film`, and the flat and the cylinder that it enters; `mesh` :
-    times the usual columns and layers of full heat, cells of lumped heat along a line film."""
-
-    model: str
-    bodies: tuple[Body, Body]
-    mesh: float = 1.0
 
 
 class SmoothContact(Protocol):

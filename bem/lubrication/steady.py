@@ -24,7 +24,7 @@ from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.rough_walls import WallFactors, notes_on_factors
 from bem.lubrication.supply import OilLayer, Starvation, Supply, checked_supply, inside_hertz
 from bem.lubrication.validity import Case, notes_on, why_no_line_film
-from bem.lubrication.with_heat import Heating, film_with_heat
+from bem.lubrication.with_heat import FilmHeat, film_with_heat
 from bem.materials import Body
 from bem.monotone import MonotoneCubic
 from bem.threads import one_blas_thread
@@ -110,7 +110,7 @@ def solve_line_film(  # reason: the signature is a promise to users' scripts
     case.scaled(position)
     own = {"position": position is not None, "supply": supply is not None and thermal == "full"}
     own["mass-conserving cavitation"] = cavitation is not Cavitation.SWIFT_STIEBER
-    return film_with_heat(thermal, case, Heating(bodies, bulk), supply, own)
+    return film_with_heat(case, FilmHeat(thermal, bodies or (), bulk=bulk), supply, own)
 
 
 @one_blas_thread

@@ -20,37 +20,37 @@ HEAT = ("lumped", "full")
 
 
 @dataclass(frozen=True)
-class Heating:
-    """Flat and cylinder with their heat constants, and their temperatures far away [K], the oil's where not given.
-    mesh : times the usual columns and layers of full heat, cells of lumped heat."""
+class FilmHeat:
+    """Model of the heat of a film, as of `solve_line_film`, and the two bodies that it enters. mesh : times the usual
+    columns and layers of full heat, cells of lumped heat along a line film. bulk : temperatures of the bodies far away
+    [K], the oil's where not given."""
 
-    bodies: Sequence[Body] | None
-    bulk: Sequence[float] | None = None
+    model: str
+    bodies: Sequence[Body]
     mesh: float = 1.0
+    bulk: Sequence[float] | None = None
 
 
-def film_with_heat(
-    thermal: str, case: LineCase, heating: Heating, supply: Supply | None, given: Mapping[str, bool]
-) -> FilmSolution:
-    """The film of a case by a model of heat.
+def film_with_heat(case: LineCase, heat: FilmHeat, supply: Supply | None, given: Mapping[str, bool]) -> FilmSolution:
+    """The film of a case with its heat.
 
     Raises
     ------
     InputError : another model, no bodies, and what is `given`, by its name, that is not solved for with heat.
     """
     messages = []
-    if thermal not in HEAT:
+    if heat.model not in HEAT:
         allowed = ", ".join(f'"{name}"' for name in ("off", *HEAT))
-        messages.append(f"solve_line_film: thermal {thermal!r} is not there; allowed: {allowed}")
-    if heating.bodies is None:
+        messages.append(f"solve_line_film: thermal {heat.model!r} is not there; allowed: {allowed}")
+    if not heat.bodies:
         messages.append("solve_line_film: with heat, bodies (flat, cylinder) with heat constants must be given")
     messages += [f"solve_line_film: {name} cannot be given with heat" for name, is_given in given.items() if is_given]
-    if messages or heating.bodies is None:
+    if messages:
         raise InputError(messages)
     from bem.lubrication.thermal import full, lumped
 
-    bodies, bulk, mesh = heating.bodies, heating.bulk, heating.mesh
-    if thermal == "full":
-        sizes = round(mesh * full.COLUMNS), round(mesh * full.LAYERS)
-        return full.full_thermal_film(case, bodies, bulk, *sizes).as_film()
-    return lumped.thermal_film(case, bodies, bulk, round(mesh * lumped.CELLS), supply).as_film()
+    if heat.model == "full":
+        sizes = round(heat.mesh * full.COLUMNS), round(heat.mesh * full.LAYERS)
+        return full.full_thermal_film(case, heat.bodies, heat.bulk, *sizes).as_film()
+    cells = round(heat.mesh * lumped.CELLS)
+    return lumped.thermal_film(case, heat.bodies, heat.bulk, cells, supply).as_film()

@@ -20,10 +20,11 @@ from bem import (
 )
 from bem.friction.point_film import cold_film, point_film
 from bem.friction.setup import MixedSetup
-from bem.friction.smooth import FilmHeat, PointContact
+from bem.friction.smooth import PointContact
 from bem.lubrication.thermal.conductors import moving_bodies
 from bem.lubrication.thermal.inlet import InletHeating
 from bem.lubrication.thermal.lumped_point import SPREADS, point_heat, thinning
+from bem.lubrication.with_heat import FilmHeat
 from bem.reference_solutions.hertz import ellipse_contact
 
 ELASTIC = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
