@@ -56,7 +56,7 @@ def write_report(run: Any, drawn: Sequence[Drawn], headline: Sequence[str]) -> P
         figures=summary_rows(summary, [name for name in rest if not is_list(summary[name])]),
         figure_tables=figure_tables(summary, rest),
         origins=origin_table(summary, [*first, *rest]),
-        pictures=[(item.kind, _embedded(item.paths), _animated(item.paths, Path(run.path))) for item in drawn],
+        pictures=[(item.kind, *_embedded(item.paths), _animated(item.paths, Path(run.path))) for item in drawn],
         stages=sorted(summary.get("seconds_by_stage", {}).items(), key=lambda item: -item[1]),
         scene_text=scene_text,
         date=datetime.now(UTC).strftime("%Y-%m-%d %H:%M UTC"),
@@ -123,6 +123,11 @@ def _animated(paths: Sequence[Path], run: Path) -> str:
     return Path(os.path.relpath(found[0], run)).as_posix() if found else ""
 
 
-def _embedded(paths: Sequence[Path]) -> str:
-    png = next(path for path in paths if path.suffix == ".png")
-    return base64.b64encode(png.read_bytes()).decode()
+_WIDE = 7 * 200
+"""Dots of a picture from which it takes both columns: seven inches."""
+
+
+def _embedded(paths: Sequence[Path]) -> tuple[str, bool]:
+    """The picture, and whether it takes both columns."""
+    content = next(path for path in paths if path.suffix == ".png").read_bytes()
+    return base64.b64encode(content).decode(), int.from_bytes(content[16:20], "big") > _WIDE  # as its header says

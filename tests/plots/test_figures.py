@@ -11,7 +11,7 @@ from PIL import Image
 
 from bem.errors import InputError
 from bem.plots import side_by_side
-from bem.plots.draw import draw, draw_all, figure_kind
+from bem.plots.draw import Drawn, draw, draw_all, figure_kind
 from bem.plots.figures import all_figures
 from bem.plots.report import spelled, write_report
 from bem.plots.style import BLUE, ORANGE, SKY, VERMILION, prefix
@@ -273,6 +273,20 @@ def test_a_figure_that_fails_does_not_cost_the_others(tmp_path, monkeypatch):
     assert failed == ["broken"]
     with pytest.raises(ZeroDivisionError):
         draw_all(run, ("broken",), tmp_path, ("png",))
+
+
+def test_a_picture_takes_both_columns_of_a_report_where_it_is_that_wide(tmp_path):
+    """A lone map of a figure that has room for two was shown at twice its size."""
+    from PIL import Image
+
+    run, kind = contact_run(tmp_path), all_figures()["surface-maps"]
+    assert kind.size[0] > 7
+    (tmp_path / "scene.toml").write_text('kind = "contact"\n')
+    for inches, wide in ((4.5, False), (9.0, True)):
+        path = tmp_path / f"{kind.name}.png"
+        Image.new("RGB", (round(200 * inches), 760)).save(path)
+        page = write_report(run, [Drawn(kind, (path,))], ("load_N",)).read_text("utf-8")
+        assert ('<figure id="surface-maps" class="wide">' in page) is wide
 
 
 def test_a_picture_is_drawn_once_after_its_layout(tmp_path, monkeypatch):
