@@ -8,6 +8,7 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+from matplotlib.ticker import MaxNLocator
 
 from bem.errors import OUTSIDE
 from bem.plots.style import label, logarithmic_axis, prefix, said_above, style
@@ -136,7 +137,7 @@ def _panel(
         drawn = axes.plot(
             position,
             values[line] * factor,
-            _LINES[number % 4],
+            " " if along in _CHANCE else _LINES[number % 4],  # between two seeds there is nothing
             marker=_MARKERS[number % 8],
             markersize=3.5,
             label=text or name,
@@ -145,7 +146,9 @@ def _panel(
             axes.fill_between(
                 position, low[line] * factor, high[line] * factor, alpha=0.15, color=drawn[0].get_color(), linewidth=0
             )
-    if ticks:
+    if along in _CHANCE:
+        axes.xaxis.set_major_locator(MaxNLocator(integer=True))
+    elif ticks:
         axes.set_xticks(position, ticks, rotation=30 if max(map(len, ticks)) > 6 else 0)
     elif spacings.get(along) == "logarithmic" or (along == "speed" and np.min(position) > 0) or _crowded(position):
         logarithmic_axis(axes, np.asarray(position))

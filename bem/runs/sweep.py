@@ -18,7 +18,7 @@ from bem.campaigns import campaign_of
 from bem.campaigns.cases import axes_of_keys
 from bem.campaigns.context import Silent, Watcher
 from bem.campaigns.jobs import Staff, hand_out
-from bem.errors import InputError, ResultsError
+from bem.errors import OUTSIDE, InputError, ResultsError
 from bem.plots.draw import load_what_draws
 from bem.results import RunDirectory
 from bem.results.atomic import force_names, reason, write_text
@@ -160,9 +160,11 @@ def run_sweep(  # reason: a promise to users' scripts
 
 
 def _tell_notes(summaries: Sequence[Mapping[str, Any] | None], watcher: Watcher) -> None:
-    """What the points' summaries say of their validity, each once, most frequent first."""
+    """What the points' summaries say of their validity, each once: first what is outside the model, then the most
+    frequent."""
     told = Counter(text for summary in summaries if summary for text in dict.fromkeys(summary.get("notes") or ()))
-    for text, number in told.most_common(_MOST_NOTES):
+    in_order = sorted(told.most_common(), key=lambda item: OUTSIDE not in item[0])
+    for text, number in in_order[:_MOST_NOTES]:
         watcher.note(f"{number} of {len(summaries)} points: {text}")
     if len(told) > _MOST_NOTES:
         watcher.note(f"and {len(told) - _MOST_NOTES} more, in the summary.json of points")

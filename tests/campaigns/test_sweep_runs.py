@@ -19,13 +19,14 @@ from small_scenes import CONTACT as SCENE
 from small_scenes import PATCH
 
 from bem.campaigns.jobs import processes
-from bem.errors import InputError, ResultsError
+from bem.errors import OUTSIDE, InputError, ResultsError
 from bem.plots.draw import figure_kind
 from bem.results import RunDirectory, open_run
 from bem.results.dataset import read_dataset
 from bem.runs import run_sweep
 from bem.runs.point import Done, Point, store
 from bem.runs.scene import run_planned
+from bem.runs.sweep import _tell_notes
 
 OVER = ["contact.mean_pressure=log:20 MPa:80 MPa:3", "seed=1:2"]
 
@@ -420,3 +421,12 @@ def test_notes_of_points_are_told_once_with_how_many_have_them(tmp_path):
     edge = [text for text in told.notes if "reaches the edge of the grid along x" in text]
     assert len(edge) == 1
     assert edge[0].startswith("1 of 2 points: ")
+
+
+def test_what_is_outside_the_model_is_among_the_notes_of_a_sweep_that_are_told():
+    """With more than twenty notes it was cut off where it was of one point."""
+    many = [{"notes": [f"note {i}" for i in range(30)]}, {"notes": [f"note {i}" for i in range(30)]}]
+    many[1]["notes"].append(OUTSIDE + "half of it")
+    _tell_notes(many, told := Telling())
+    assert told.notes[0] == f"1 of 2 points: {OUTSIDE}half of it"
+    assert told.notes[-1] == "and 11 more, in the summary.json of points"

@@ -156,6 +156,16 @@ def test_panels_over_keys_name_each_unit_once():
     assert figure.axes[0].get_ylabel() == "central thickness (nm)"
 
 
+def test_seeds_are_points_at_whole_numbers():
+    """A line led from seed to seed, over ticks at 1.5."""
+    found = Variable(("seed",), np.array([1e-7, 3e-7, 2e-7]), "m", "approach")
+    figure = Figure()
+    fill(figure, {"approach": found, "seed": Variable(("seed",), np.arange(1, 4), "1", "seed")}, {"seed": "list"}, ())
+    (line,) = figure.axes[0].lines
+    assert line.get_linestyle() == "None"
+    assert all(tick == round(tick) for tick in figure.axes[0].get_xticks())
+
+
 def test_the_panel_of_what_was_asked_for_is_left_out():
     """Load over contact.load was the first of four panels."""
     asked = np.array([1.0, 10.0, 100.0])
