@@ -18,7 +18,8 @@ from bem.accuracy.bars import GRID, RESIDUAL, ErrorBars, Rule
 from bem.accuracy.sharp import is_sharp
 from bem.contact import ContactSolution, solve_contact
 from bem.contact.cascade import sample
-from bem.contact.edge import count_spots, plastic_region
+from bem.contact.edge import plastic_region
+from bem.contact.spots import count_spots
 from bem.convolution import DisplacementOperator
 from bem.errors import InfeasibleError, Status
 from bem.grid import FloatArray, Grid
@@ -351,8 +352,9 @@ def _ends(case: ContactCase) -> float:
         n, spacing = case.grid.shape[axis], case.grid.spacing[axis]
         if case.grid.periodic[axis] or n < 3:
             continue
-        opened = np.moveaxis(np.maximum(case.solution.gap, 0), axis, 0)
-        turn = (opened[-1] - opened[-2] - opened[1] + opened[0]) / spacing
+        ends = np.moveaxis(np.take(case.solution.gap, (0, 1, -2, -1), axis), axis, 0)
+        opened = np.maximum(ends, 0)
+        turn = (opened[3] - opened[2] - opened[1] + opened[0]) / spacing
         error += abs(float(turn.mean())) * spacing**2 / 24 / (n * spacing)
     return error
 

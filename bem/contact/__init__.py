@@ -6,8 +6,8 @@ order from `edge`). `one_grid` solves on a grid under any control, by way of `se
 is not solved for directly. `active_set` makes the rounds: the true gap, the cells that change their state (`level`,
 `energy`), conjugate gradients on the cells in contact (`face`, or `coupled` by friction, with `preconditioner`,
 `patterns` and `long_waves`), and brings them back into the bounds (`feasible`, `imposing`). What runs over cells is
-compiled: `judging`, `sets`, `gradients`, `crossings` of the edge, and `inner`, in which a round's conjugate gradients
-are one call.
+compiled: `judging`, `sets`, `gradients`, `crossings` of the edge, `spots`, and `inner`, in which a round's conjugate
+gradients are one call.
 
 Knows grids, threads, transforms and the displacement operator; no materials, no surfaces' statistics, no lubricant,
 no scene. Units inside are the solver's own; users see SI.

@@ -23,16 +23,12 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
-from bem.contact.crossings import Field, Law, place, sum_squares
+from bem.contact.crossings import Field, Law, sum_squares
 from bem.grid import FloatArray, Grid
-
-_strict: Any = njit(cache=True, nogil=True, error_model="numpy")
 
 _CELLS = np.array(
     [
@@ -133,68 +129,3 @@ def _region(
     area = count * grid.cell_area + sums.area + segments
     area = min(max(area, _LEAST_SHARE * count * grid.cell_area), grid.area)
     return Region(area, sums.length, count * grid.cell_area, sums.sides)
-
-
-def count_spots(pressure: FloatArray, grid: Grid) -> int:
-    """How many separate spots of contact a pressure (nx, ny) has; cells of one hang together through their sides."""
-    inside = np.ascontiguousarray(pressure) > 0
-    return int(_join_spots(inside, grid.periodic, np.arange(inside.size)))
-
-
-def label_spots(pressure: FloatArray, grid: Grid) -> NDArray[np.int64]:
-    """The number of the spot of contact that each cell (nx, ny) is in, 1, 2, ... in the order of their first cells, 0
-    outside; as `count_spots` counts them."""
-    inside = np.ascontiguousarray(pressure) > 0
-    parent = np.arange(inside.size)
-    _join_spots(inside, grid.periodic, parent)
-    return np.asarray(_number_spots(inside, parent))
-
-
-@_strict
-def _join_spots(inside, wraps, parent):  # type: ignore[no-untyped-def]
-    """Cells in contact less the sides that join two trees of them: the number of trees. Fills the union-find."""
-    nx, ny = inside.shape
-    count = 0
-    for i in range(nx):
-        for j in range(ny):
-            if not inside[i, j]:
-                continue
-            count += 1
-            for axis in range(2):
-                k, m = _step(inside.shape, i, j, axis, 1, wraps)
-                if inside[k, m]:
-                    first, second = _root(parent, i * ny + j), _root(parent, k * ny + m)
-                    count -= first != second
-                    parent[first] = second
-    return count
-
-
-@_strict
-def _number_spots(inside, parent):  # type: ignore[no-untyped-def]
-    nx, ny = inside.shape
-    names = np.zeros(nx * ny, np.int64)
-    labels = np.zeros((nx, ny), np.int64)
-    count = 0
-    for i in range(nx):
-        for j in range(ny):
-            if inside[i, j]:
-                root = _root(parent, i * ny + j)
-                if names[root] == 0:
-                    count += 1
-                    names[root] = count
-                labels[i, j] = names[root]
-    return labels
-
-
-@_strict
-def _root(parent, cell):  # type: ignore[no-untyped-def]
-    while parent[cell] != cell:
-        parent[cell] = parent[parent[cell]]
-        cell = parent[cell]
-    return cell
-
-
-@_strict
-def _step(size, i, j, axis, ahead, wraps):  # type: ignore[no-untyped-def]
-    """The cell at an offset along `axis` of a field of that size; beyond a free edge the last one."""
-    return (place(i + ahead, size[0], wraps[0]), j) if axis == 0 else (i, place(j + ahead, size[1], wraps[1]))

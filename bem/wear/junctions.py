@@ -12,7 +12,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-from bem.contact.edge import label_spots
+from bem.contact.spots import label_spots
 from bem.grid import FloatArray, Grid
 from bem.wear.loads import BodyCycle, Removal
 from bem.wear.segmentation import Segmentation
@@ -26,7 +26,7 @@ class Junctions(NamedTuple):
     circle of its area [m], its middle (n, 2) in cells, its extent along x [m] and the farthest that any of its columns
     was dragged [m]."""
 
-    labels: NDArray[np.int64]
+    labels: NDArray[np.int32]
     diameter: FloatArray
     middle: FloatArray
     extent: FloatArray
@@ -67,7 +67,7 @@ def junctions(pressure: FloatArray, drag: FloatArray, grid: Grid) -> Junctions:
     wraps = np.where(grid.periodic, np.array(grid.shape) * sizes, np.inf)
     parent = _merge(middles * sizes, diameters, wraps)
     roots, group = np.unique(parent, return_inverse=True)
-    joined = np.concatenate([np.zeros(1, np.int64), group + 1])[labels]
+    joined = np.concatenate([[0], group + 1]).astype(np.int32)[labels]
     area, middle = _areas(joined, len(roots), grid.periodic)
     extent, dragged = _reach(joined, drag, len(roots))
     return Junctions(joined, np.sqrt(4 / np.pi * area * grid.cell_area), middle, extent * sizes[0], dragged)

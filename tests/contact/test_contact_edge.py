@@ -7,7 +7,8 @@ from test_contact_closed_forms import order
 
 from bem import Body, Grid, Layer, Material, displacement_operator, generate_surface, solve_contact
 from bem.contact import crossings, edge
-from bem.contact.edge import contact_region, count_spots
+from bem.contact.edge import contact_region
+from bem.contact.spots import count_spots
 from bem.reference_solutions.hertz import sphere_contact
 from bem.threads import set_threads
 
@@ -216,22 +217,6 @@ def test_everywhere_and_nowhere():
     assert (full.contact_area, full.contact_perimeter) == (64.0, 0.0)
     none = solve_contact(np.zeros((8, 8)), operator, load=0.0)
     assert (none.contact_area, none.contact_perimeter) == (0.0, 0.0)
-
-
-def test_spots_hang_together_through_sides_and_round_a_periodic_grid():
-    pressure = np.array(
-        [
-            [1, 1, 0, 0, 2],
-            [0, 0, 3, 0, 0],
-            [0, 3, 3, 0, 4],
-            [5, 0, 0, 0, 4],
-        ],
-        dtype=float,
-    )
-    counts = {(False, False): 5, (True, False): 3, (False, True): 3, (True, True): 2}
-    for periodic, count in counts.items():
-        assert count_spots(pressure, Grid((4, 5), (1.0, 1.0), periodic=periodic)) == count
-    assert count_spots(np.zeros((3, 3)), Grid((3, 3), (1.0, 1.0))) == 0
 
 
 def test_perimeter_of_balls_is_of_second_order():

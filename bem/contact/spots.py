@@ -1,0 +1,108 @@
+"""Separate spots of contact; cells of one hang together through their sides.
+
+Runs of cells along the rows are joined, not cells: of a rough contact there is one for each ten or twenty cells of the
+grid, and no field is needed. Verified in tests/contact/test_contact_spots.py.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from numba import njit
+from numpy.typing import NDArray
+
+from bem.contact.crossings import place
+from bem.grid import FloatArray, Grid
+
+_strict: Any = njit(cache=True, nogil=True, error_model="numpy")
+
+
+def count_spots(pressure: FloatArray, grid: Grid) -> int:
+    """How many separate spots of contact a pressure (nx, ny) has."""
+    return int(_join_runs(np.ascontiguousarray(pressure), grid.periodic)[1])
+
+
+def label_spots(pressure: FloatArray, grid: Grid) -> NDArray[np.int32]:
+    """The number of the spot of contact that each cell (nx, ny) is in, 1, 2, ... in the order of their first cells, 0
+    outside; as `count_spots` counts them."""
+    pressure = np.ascontiguousarray(pressure)
+    parent, _ = _join_runs(pressure, grid.periodic)
+    return np.asarray(_number(pressure, parent))
+
+
+@_strict
+def _join_runs(pressure, wraps):  # type: ignore[no-untyped-def]
+    """The union-find of all runs, numbered as they come, and how many trees it has."""
+    nx, ny = pressure.shape
+    before = _runs_before(pressure)
+    count = before[nx]
+    parent = np.arange(count)
+    for i in range(nx):
+        if wraps[1] and pressure[i, 0] > 0 and pressure[i, ny - 1] > 0:
+            count -= _joined(parent, before[i], before[i + 1] - 1)
+        k = place(i + 1, nx, wraps[0])
+        here, there = before[i] - 1, before[k] - 1
+        inside, beyond = False, False
+        for j in range(ny):
+            was_inside, was_beyond = inside, beyond
+            inside, beyond = pressure[i, j] > 0, pressure[k, j] > 0
+            here += inside and not was_inside
+            there += beyond and not was_beyond
+            if inside and beyond and not (was_inside and was_beyond):
+                count -= _joined(parent, here, there)
+    return parent, count
+
+
+@_strict
+def _runs_before(pressure):  # type: ignore[no-untyped-def]
+    """How many runs begin before each row, and in all."""
+    nx, ny = pressure.shape
+    before = np.zeros(nx + 1, np.int64)
+    for i in range(nx):
+        count = before[i] + (pressure[i, 0] > 0)
+        for j in range(1, ny):
+            count += (pressure[i, j] > 0) & ~(pressure[i, j - 1] > 0)
+        before[i + 1] = count
+    return before
+
+
+@_strict
+def _joined(parent, one, other):  # type: ignore[no-untyped-def]
+    """Whether two runs were in trees of their own; they are in one now."""
+    first, second = _root(parent, one), _root(parent, other)
+    parent[max(first, second)] = min(first, second)
+    return first != second
+
+
+@_strict
+def _root(parent, run):  # type: ignore[no-untyped-def]
+    while parent[run] != run:
+        parent[run] = parent[parent[run]]
+        run = parent[run]
+    return run
+
+
+@_strict
+def _number(pressure, parent):  # type: ignore[no-untyped-def]
+    nx, ny = pressure.shape
+    names = np.empty(parent.size, np.int32)
+    count = 0
+    for run in range(parent.size):
+        root = _root(parent, run)  # the first of its tree
+        if root == run:
+            count += 1
+            names[run] = count
+        else:
+            names[run] = names[root]
+    labels = np.zeros((nx, ny), np.int32)
+    run = -1
+    for i in range(nx):
+        inside = False
+        for j in range(ny):
+            was_inside = inside
+            inside = pressure[i, j] > 0
+            run += inside and not was_inside
+            if inside:
+                labels[i, j] = names[run]
+    return labels
