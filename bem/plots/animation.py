@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from matplotlib.backends.backend_agg import FigureCanvasAgg
+from numpy.typing import NDArray
 from PIL import Image
 
 from bem.plots.pictures import settle
@@ -61,26 +62,28 @@ def write_animation(
         canvas.restore_region(rest)
         for item in over:
             item.draw(canvas.get_renderer())
-        size = canvas.get_width_height(physical=True)
-        picture = Image.frombytes("RGBA", size, bytes(canvas.buffer_rgba()))
-        frames.append(picture.convert("RGB"))
-    first, *more = _of_one_palette(frames)
+        frames.append(np.array(canvas.buffer_rgba()).view(np.uint32)[..., 0])  # dots are compared whole
+    first, *more = _of_one_palette(np.stack(frames))
     first.save(path, format="gif", save_all=True, append_images=more, duration=int(1000 / per_second), loop=0)
 
 
-def _of_one_palette(frames: Sequence[Any]) -> list[Any]:
-    """Frames in the colours that all of them together need: looked for once, and in a dot that never changes once."""
-    dots = np.stack([np.asarray(frame) for frame in frames])
-    first, moves = dots[0].reshape(-1, 3), (dots != dots[0]).any(axis=(0, 3))
-    seen = np.concatenate([first, dots[:, moves].reshape(-1, 3)])
-    palette = Image.fromarray(seen[None]).quantize(_COLOURS)
+def _of_one_palette(frames: NDArray[np.uint32]) -> list[Any]:
+    """Frames (count, rows, columns), of red, green, blue and opacity in a dot, as pictures in the colours that all of
+    them together need: looked for once, and in a dot that never changes once."""
+    first = frames[0]
+    moves = np.zeros(first.shape, np.bool_)
+    for frame in frames[1:]:
+        moves |= frame != first
+    seen = np.concatenate([first.reshape(-1), frames[:, moves].reshape(-1)])
+    colours = np.ascontiguousarray(seen.view(np.uint8).reshape(1, -1, 4)[..., :3])
+    palette = Image.fromarray(colours).quantize(_COLOURS)
     numbers = np.asarray(palette)[0]
-    still = numbers[: len(first)].reshape(moves.shape)
+    still = numbers[: first.size].reshape(moves.shape)
     found = []
-    for changed in numbers[len(first) :].reshape(len(frames), -1):
+    for changed in numbers[first.size :].reshape(len(frames), -1):
         shown = still.copy()
         shown[moves] = changed
-        frame = Image.fromarray(shown)
-        frame.putpalette(palette.getpalette() or [])
-        found.append(frame)
+        picture = Image.fromarray(shown)
+        picture.putpalette(palette.getpalette() or [])
+        found.append(picture)
     return found

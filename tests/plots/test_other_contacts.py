@@ -280,3 +280,15 @@ def test_maps_longer_than_wide_leave_no_half_empty(tmp_path):
             assert (cells == (32, 32)) is (picture.shape[0] == 800)
         else:
             assert picture.shape[:2] == (800, 1000)
+
+
+def test_pixels_of_pressure_over_cycles_show_the_largest_of_the_cells_around():
+    frames = np.maximum(np.random.default_rng(4).normal(size=(3, 9, 7)) - 1.0, 0.0) * 1e6
+    frames[:, :2] = 0.0
+    run = run_of(pressure_frames=(("frame", "x", "y"), frames), x=np.arange(9.0), y=np.arange(7.0))
+    strip, _, highest = running_in._touched_strip(run)
+    shown = frames[:, 2:].transpose(0, 2, 1) * 1e-6
+    for frame, of in zip(strip, shown, strict=True):
+        around = [[of[max(i - 1, 0) : i + 2, max(j - 1, 0) : j + 2].max() for j in range(7)] for i in range(7)]
+        assert np.array_equal(frame, around)
+    assert highest == shown.max()

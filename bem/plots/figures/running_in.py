@@ -14,7 +14,6 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
-from numpy.lib.stride_tricks import sliding_window_view
 from numpy.typing import NDArray
 
 from bem.plots.cases import along, grouped, many_speeds, redoes
@@ -106,8 +105,11 @@ def _touched_strip(run: Any) -> tuple[Array, tuple[float, float, float, float], 
     low, high = (touched[0], touched[-1] + 1) if touched.size else (0, len(x))
     strip = frames[:, low:high].transpose(0, 2, 1)
     for axis in (1, 2):
-        ends = tuple((1, 1) if i == axis else (0, 0) for i in range(3))
-        strip = sliding_window_view(np.pad(strip, ends), 3, axis).max(axis=-1)
+        shown = strip.copy()
+        here, there = np.moveaxis(shown, axis, 0), np.moveaxis(strip, axis, 0)
+        np.maximum(here[1:], there[:-1], out=here[1:])
+        np.maximum(here[:-1], there[1:], out=here[:-1])
+        strip = shown
     return strip, (x[low], x[high - 1], y[0], y[-1]), float(frames.max()) or 1.0
 
 
