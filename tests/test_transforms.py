@@ -263,6 +263,13 @@ def test_scipys_transforms_without_scipy_fft_have_its_bits(monkeypatch, compiled
         monkeypatch.setattr(pocketfft, "_compiled", lambda: None)
     values = np.random.default_rng(3).normal(size=(5, 34))
     part = values[:, 1:-1]
+    half = scipy.fft.rfft2(values)
+    assert (pocketfft.half_spectrum(values) == half).all()
+    assert (pocketfft.half_spectrum(values.T, (0,)) == scipy.fft.rfft(values.T, axis=0)).all()
+    assert (pocketfft.from_half_spectrum(half, 34) == scipy.fft.irfft2(half, (5, 34))).all()
+    assert (
+        pocketfft.from_half_spectrum(np.abs(half)[:, :17], 33, (1,)) == scipy.fft.irfft(np.abs(half)[:, :17], 33)
+    ).all()
     assert (pocketfft.cosines(values) == scipy.fft.dct(values, type=1)).all()
     assert (pocketfft.sines(part) == scipy.fft.dst(part, type=1)).all()
     for length in (1, 7, 97, 241, 1023):
@@ -275,6 +282,7 @@ def test_scipys_transforms_without_scipy_fft_have_its_bits(monkeypatch, compiled
         "def dct(x, axes, type): return x",
         "def dct(x, type, axes): return 2 * x",
         "del dst",
+        "def r2c(x, axes, forward, inorm, out, threads): return x + 0j",
         "raise ImportError",
         "gone",
     ],
@@ -283,7 +291,7 @@ def test_another_version_of_scipys_compiled_module_is_not_used(monkeypatch, tmp_
     """Moved, not to be loaded, with other arguments, other values, or fewer functions."""
     folder = tmp_path / "fft" / "_pocketfft"
     folder.mkdir(parents=True)
-    begin = "from scipy.fft._pocketfft.pypocketfft import dct, dst, good_size\n"
+    begin = "from scipy.fft._pocketfft.pypocketfft import c2r, dct, dst, good_size, r2c\n"
     if change != "gone":
         (folder / "other.py").write_text(begin + change)
     elsewhere = importlib.machinery.ModuleSpec("scipy", None, is_package=True)

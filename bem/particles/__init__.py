@@ -7,22 +7,29 @@ Sees surfaces, no contact and no wear loop. Verified in tests/particles on maps 
 closed forms of the distributions.
 """
 
-from bem.particles.archard import (
-    ArchardWear,
-    archard_volume,
-    archard_wear,
-    particle_coefficient,
-    particle_number,
-    profile_wear_volume,
-    removed_volume,
-    specific_wear_rate,
-)
-from bem.particles.film_ratio import dowson_higginson_minimum_film, lambda_ratio
-from bem.particles.height_map import level_background, particles_from_height_map
-from bem.particles.particle import Particle
-from bem.particles.sedimentation import relative_centrifugal_force, sedimentation_time
-from bem.particles.statistics import ParticleStatistics, particle_statistics, size_summary, volume_mean_radius
-from bem.particles.synthetic import SyntheticMap, synthetic_afm_map
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bem.lazy import loader
+
+if TYPE_CHECKING:
+    from bem.particles.archard import (
+        ArchardWear,
+        archard_volume,
+        archard_wear,
+        particle_coefficient,
+        particle_number,
+        profile_wear_volume,
+        removed_volume,
+        specific_wear_rate,
+    )
+    from bem.particles.film_ratio import dowson_higginson_minimum_film, lambda_ratio
+    from bem.particles.height_map import level_background, particles_from_height_map
+    from bem.particles.particle import Particle
+    from bem.particles.sedimentation import relative_centrifugal_force, sedimentation_time
+    from bem.particles.statistics import ParticleStatistics, particle_statistics, size_summary, volume_mean_radius
+    from bem.particles.synthetic import SyntheticMap, synthetic_afm_map
 
 __all__ = [
     "ArchardWear",
@@ -47,3 +54,25 @@ __all__ = [
     "synthetic_afm_map",
     "volume_mean_radius",
 ]
+
+__getattr__ = loader(
+    __name__,
+    {
+        "archard": [
+            "ArchardWear",
+            "archard_volume",
+            "archard_wear",
+            "particle_coefficient",
+            "particle_number",
+            "profile_wear_volume",
+            "removed_volume",
+            "specific_wear_rate",
+        ],
+        "film_ratio": ["dowson_higginson_minimum_film", "lambda_ratio"],
+        "height_map": ["level_background", "particles_from_height_map"],
+        "particle": ["Particle"],
+        "sedimentation": ["relative_centrifugal_force", "sedimentation_time"],
+        "statistics": ["ParticleStatistics", "particle_statistics", "size_summary", "volume_mean_radius"],
+        "synthetic": ["SyntheticMap", "synthetic_afm_map"],
+    },
+)

@@ -6,10 +6,10 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-import scipy.fft as fft
 
 from bem.errors import InputError
 from bem.grid import FloatArray
+from bem.pocketfft import fast_length, from_half_spectrum, half_spectrum
 from bem.representation import readable
 from bem.surfaces.surface import Surface, check_map, spacing_of
 
@@ -102,9 +102,11 @@ def autocorrelation(heights: FloatArray, axis: int, *, periodic: bool = False) -
     """
     deviation = np.asarray(heights, dtype=np.float64) - np.mean(heights)
     n = deviation.shape[axis]
-    size = n if periodic else fft.next_fast_len(n + n // 2 + 1, real=True)
-    power = np.abs(fft.rfft(deviation, size, axis=axis)) ** 2
-    raw = fft.irfft(power.sum(axis=1 - axis), size)[: n // 2 + 1]
+    size = n if periodic else fast_length(n + n // 2 + 1)
+    if not periodic:
+        deviation = np.pad(deviation, [(0, size - n if i == axis else 0) for i in (0, 1)])
+    power = np.abs(half_spectrum(deviation, (axis,))) ** 2
+    raw = from_half_spectrum(power.sum(axis=1 - axis), size, (0,))[: n // 2 + 1]
     if not periodic:
         raw = raw * n / (n - np.arange(n // 2 + 1))
     return raw / raw[0] if raw[0] > 0 else np.full_like(raw, math.nan)
@@ -137,6 +139,8 @@ def radial_spectrum(
     ------
     InputError : heights that are not a finite map of at least 4 x 4 cells.
     """
+    from scipy import fft  # brings special functions along, and no scene asks for this
+
     heights, spacing = check_map(heights, spacing)
     if min(heights.shape) < 4:
         raise InputError(f"heights: shape {heights.shape} must be at least (4, 4) for a radial spectrum")

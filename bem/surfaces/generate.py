@@ -20,10 +20,10 @@ import math
 from typing import Any
 
 import numpy as np
-import scipy.fft as fft
 
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
+from bem.pocketfft import from_half_spectrum, half_spectrum
 from bem.surfaces.moments import impose_moments, standardise
 from bem.surfaces.request import Request, check
 from bem.surfaces.spectrum import correlation_lengths, multiplicity, phases, spectrum_of
@@ -85,7 +85,7 @@ def generate_surface(  # reason: the arguments are a promise to users' scripts; 
     )
     check(grid, request)
     amplitude = spectrum_of(grid, request)
-    heights = standardise(fft.irfft2(amplitude * phases(grid.shape, int(seed)), grid.shape))
+    heights = standardise(from_half_spectrum(amplitude * phases(grid.shape, int(seed)), grid.shape[1]))
     heights = impose_moments(heights, amplitude, float(skewness), float(kurtosis))
     if request.lengths is not None and (skewness, kurtosis) != (0.0, 3.0):
         _check_lengths(heights, grid, request.lengths)
@@ -114,12 +114,12 @@ def check_statistics(grid: Grid, **statistics: Any) -> None:
 def _rms_slope(heights: FloatArray, grid: Grid) -> float:
     """Sdq of the continuous surface through the heights."""
     kx, ky = grid.wavevectors()
-    spectrum = np.abs(fft.rfft2(heights)) ** 2 * multiplicity(grid.shape)
+    spectrum = np.abs(half_spectrum(heights)) ** 2 * multiplicity(grid.shape)
     return math.sqrt(float((spectrum * (kx**2 + ky**2)).sum())) / grid.cells
 
 
 def _check_lengths(heights: FloatArray, grid: Grid, lengths: tuple[float, float]) -> None:
-    found = correlation_lengths(np.abs(fft.rfft2(heights)) ** 2, grid)
+    found = correlation_lengths(np.abs(half_spectrum(heights)) ** 2, grid)
     for axis, given in enumerate(found):
         if grid.shape[axis] > 1 and abs(given / lengths[axis] - 1) > SAMPLE_LENGTH_TOLERANCE:
             raise InputError(

@@ -12,12 +12,11 @@ from __future__ import annotations
 import math
 
 import numpy as np
-import scipy.fft as fft
 from numpy.typing import NDArray
 
 from bem.errors import InputError
 from bem.grid import FloatArray
-from bem.surfaces.distributions import standard_quantiles
+from bem.pocketfft import from_half_spectrum, half_spectrum
 from bem.surfaces.ranks import in_order_of
 from bem.surfaces.spectrum import multiplicity
 
@@ -69,11 +68,13 @@ def impose_moments(heights: FloatArray, amplitude: FloatArray, skewness: float, 
 
 
 def _rank_and_spectrum(heights: FloatArray, amplitude: FloatArray, skewness: float, kurtosis: float) -> FloatArray:
+    from bem.surfaces.distributions import standard_quantiles  # roots and special functions: most surfaces are Gaussian
+
     target, heights = standard_quantiles(heights.size, skewness, kurtosis), heights.copy()
     for _ in range(_ITERATIONS):
-        spectrum = fft.rfft2(in_order_of(heights, target))
+        spectrum = half_spectrum(in_order_of(heights, target))
         spectrum *= _over_size(amplitude, spectrum)
-        heights = standardise(fft.irfft2(spectrum, heights.shape))
+        heights = standardise(from_half_spectrum(spectrum, heights.shape[1]))
     return heights
 
 
@@ -92,12 +93,12 @@ def _polish(
         power = heights * heights
         if exponent == 3:
             power *= heights  # the library's powers beyond the second take fifteen times as long
-        spectrum = fft.rfft2(power)
+        spectrum = half_spectrum(power)
         del power
         share = _over_size(envelope, spectrum)
         spectrum *= np.minimum(1.0, share, out=share)
         del share
-        return np.asarray(fft.irfft2(spectrum, heights.shape))
+        return np.asarray(from_half_spectrum(spectrum, heights.shape[1]))
 
     wanted = np.array([skewness, kurtosis])
     for _ in range(40):

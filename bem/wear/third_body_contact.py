@@ -10,7 +10,6 @@ from dataclasses import dataclass, field, replace
 from typing import Protocol, runtime_checkable
 
 import numpy as np
-from scipy.optimize import brentq
 
 from bem.contact import ContactSolution, solve_contact
 from bem.convolution import displacement_operator
@@ -129,6 +128,7 @@ class BodiesAndContact:
 
     def _apart(self, touching: float) -> float:
         """How far particles hold the bodies apart beyond their touching [m]."""
+        from scipy.optimize import brentq  # a fifth of a second to load, and most loops have no third bodies
 
         def beyond(away: float) -> float:
             return self.carried(self.undeformed - touching + away) - self.load
