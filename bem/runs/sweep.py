@@ -134,10 +134,11 @@ def run_sweep(  # reason: a promise to users' scripts
         held.discard()
         raise
     with held:
+        places = {name: place for place, name in reversed(list(enumerate(names)))}
         summaries = {name: finished_summary(folder / name, fields) for name in dict.fromkeys(names)}
         root = folder.resolve()
         missing = [
-            Point(names.index(name), *planned[names.index(name)], root, name, fields)
+            Point(places[name], *planned[places[name]], root, name, fields)
             for name, summary in summaries.items()
             if summary is None
         ]
@@ -149,11 +150,8 @@ def run_sweep(  # reason: a promise to users' scripts
         variables = _collect(folder, scenes[0], axes, in_order)
         write_text(folder / TABLE, table_text(axes, in_order, names, failed))
         if any(in_order):
-            from bem.plots.sweep import draw_sweep
-
             spacings = {axis.key: axis.spacing for axis in swept}
-            formats = ("png", "pdf") if pdf else ("png",)
-            draw_sweep(variables, spacings, get_kind(scenes[0].kind).headline, folder / FIGURE, formats)
+            _draw(folder, scenes[0].kind, variables, spacings, pdf)
         force_names(folder)
     stuck = [name for name, summary in summaries.items() if summary and summary.get("status") != "converged"]
     return FinishedSweep(folder, len(missing) - len(failed), failed, tuple(stuck))
@@ -240,3 +238,10 @@ def _collect(
     variables = dataset_variables(get_kind(scene.kind), axes, campaign_of(scene).axes, summaries)
     write_variables(folder / DATASET, variables, attributes)
     return variables
+
+
+def _draw(folder: Path, kind: str, variables: dict[str, Variable], spacings: Mapping[str, str], pdf: bool) -> None:
+    from bem.plots.sweep import draw_sweep
+
+    formats = ("png", "pdf") if pdf else ("png",)
+    draw_sweep(variables, spacings, get_kind(kind).headline, folder / FIGURE, formats)
