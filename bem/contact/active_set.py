@@ -81,7 +81,7 @@ def solve_level(
     step: _Step | None = None
     while True:
         level.begin_round(iterate, keep=before is not None)
-        now = _judge(level, control, iterate, before, tolerance)
+        now = _judge(level, control, iterate, before, tolerance, progress)
         if report is not None:
             report(effort.iterations, now.violation, now.iterate.cells.size + now.iterate.capped.size)
         if now.violation <= now.goal:
@@ -147,12 +147,14 @@ class _Round:
 class _Progress:
     """What has been reached so far: it decides when to give up, and when rounds may no longer raise the energy.
 
-    best, mark, lowest : least violation, the same in larger strides, least energy. waited : rounds since the latter two
-    got better. unimproved : rounds since the first did. release : violation at which rounds are free again, 0 if free.
+    first : violation at the start. best, mark, lowest : least violation, the same in larger strides, least energy.
+    waited : rounds since the latter two got better. unimproved : rounds since `best` did. release : violation at which
+    rounds are free again, 0 if free.
     """
 
     tuning: Tuning
     rounds: int = 0
+    first: float = math.inf
     best: float = math.inf
     mark: float = math.inf
     lowest: float = math.inf
@@ -222,7 +224,14 @@ class _Step:
         return clip(level, control, self.begun, values + share * (self.raw - values))
 
 
-def _judge(level: Level, control: Control, iterate: Iterate, before: Accepted | None, tolerance: Tolerance) -> _Round:
+def _judge(
+    level: Level,
+    control: Control,
+    iterate: Iterate,
+    before: Accepted | None,
+    tolerance: Tolerance,
+    progress: _Progress,
+) -> _Round:
     """The true gap of a pressure, or of the lowest point on the way to it; the displacement is in the buffer."""
     seen, share = level.survey(iterate, None if before is None else before.iterate), 1.0
     lowest = None if before is None else lowest_point(level, before, iterate, seen)
@@ -232,7 +241,9 @@ def _judge(level: Level, control: Control, iterate: Iterate, before: Accepted | 
     approach = _approach(level, control, iterate, seen.total)
     found, largest = level.violations(iterate, approach)
     violation = max(largest, seen.deepest - approach, approach - seen.nearest)
-    goal = tolerance.of(approach, seen.reach)
+    if progress.rounds == 0:
+        progress.first = violation
+    goal = tolerance.of(approach, seen.reach, progress.first)
     resolved = tolerance.resolves(violation, seen.reach)
     return _Round(Accepted.of(iterate, approach, seen), share, found, violation, goal, resolved)
 

@@ -54,19 +54,25 @@ class Effort:
 
 @dataclass(frozen=True)
 class Tolerance:
-    """Largest violation allowed: a length, and a share of the displacement where that is less."""
+    """Largest violation allowed: a length, and a share of the displacement where that is less. On coarse grids a share
+    of the violation that the rounds begin with, where that is less than both and not below `least`."""
 
     length: float
     relative: float
+    of_first: float = math.inf
+    least: float = 0.0
 
     @staticmethod
     def resolves(violation: float, reach: float) -> bool:
         """Whether a violation is near what transforms resolve of displacements that reach so far."""
         return violation <= _FLAT_RESOLUTION * reach
 
-    def of(self, approach: float, reach: float) -> float:
-        """The length that holds where displacements reach so far; never below what double precision can resolve."""
+    def of(self, approach: float, reach: float, first: float) -> float:
+        """The length that holds where displacements reach so far and rounds began with a violation; never below what
+        double precision can resolve."""
         goal = min(self.length, self.relative * reach)
+        if math.isfinite(self.of_first):
+            goal = min(goal, max(self.of_first * first, self.least))
         if is_flat(self.length, self.relative * reach):
             goal = min(self.relative, _FLAT_RESOLUTION) * reach
         return max(goal, _RESOLUTION * (abs(approach) + reach))

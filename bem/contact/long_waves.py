@@ -28,10 +28,9 @@ FloatArray = NDArray[np.float64]
 
 _fast: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "reassoc", "nsz", "arcp"})
 
-_LARGEST = 256
-"""Cells along the longer side of the coarse grid, if three halvings of the grid come to less than that. A coarse cell
-of 16 cells in place of 8 takes 1.3 to 4.6 convolutions more, one of 32 another 6 to 10 (rough contacts of 1024 and 2048
-cells a side, periodic and free, 7 and 58 % in contact)."""
+_HALVINGS = 3
+"""Of the grid, to the coarse one. Coarse cells of 16 cells in place of 8 take 1.3 to 4.6 convolutions more at 1024 and
+2048 cells a side (periodic and free, 7 and 58 % in contact) and 5 at 4096, those of 32 another 6 to 10."""
 
 _REDUCTION = 0.03
 """Of the residual on the coarse grid; 0.1 costs as much outside as it saves inside."""
@@ -106,7 +105,7 @@ def long_waves(operator: DisplacementOperator, near: float) -> LongWaves | None:
     """Prepare for an operator whose near part responds to long waves with `near`; None where the grid is too small."""
     coarse = operator
     halvings = 0
-    while halvings < 3 or max(coarse.grid.shape) > _LARGEST:
+    while halvings < _HALVINGS:
         coarser = coarse.coarsened()
         if coarser is None or coarser.grid.cells == coarse.grid.cells:
             break

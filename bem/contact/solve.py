@@ -16,6 +16,7 @@ from bem.contact.feasible import below
 from bem.contact.level import Effort, LevelResult, is_flat
 from bem.contact.one_grid import (
     COARSE_TOLERANCE,
+    OF_FIRST,
     Problem,
     Report,
     Shared,
@@ -165,7 +166,8 @@ def _from_coarser(problem: Problem, control: Control) -> Start:
     # the kernel's unit may differ by a power of two between grids
     factor = coarse.unit / operator.unit
     gap = cascade.sample(problem.gap.reshape(operator.grid.shape), shape, periodic)
-    there = replace(problem, operator=coarse, gap=gap.reshape(-1), cap=problem.cap * factor, report=None)
+    shared = replace(problem.shared, of_first=OF_FIRST)
+    there = Problem(shared, coarse, gap.reshape(-1), problem.cap * factor)
     asked = _on_coarser(control, problem, there, factor)
     if without_contact(asked, there.gap) is not None:
         return nothing

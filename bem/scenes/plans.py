@@ -115,14 +115,14 @@ def stiffest(*bodies: Body | None) -> float:
 def convolutions(grid: Grid, capped: bool = False, stiffness: float = 1.0) -> float:
     """Convolutions of one solve, coarse levels included: about 13 at 256 cells a side, growing slowly with them.
 
-    Counted: 10 to 15 from 100 to 1024 cells a side, 13, 20, 30 and 44 from 2048 to 16384; of capped ones 11 (lightly
-    loaded, as elastic ones) to 18 at 256, 12 to 24 at 512, 12 to 20 at 1024. A layer 10 times as stiff as its base took
-    19 to 44 at 256, one 40 times as stiff 39 to 172, capped ones half more.
+    Counted: 10 to 15 from 100 to 1024 cells a side, 9 to 14 from 2048 to 8192; of capped ones 11 (lightly loaded, as
+    elastic ones) to 18 at 256, 12 to 24 at 512, 12 to 20 at 1024, 13 to 57 at 2048 and 4096. A layer 10 times as stiff
+    as its base took 19 to 44 at 256, one 40 times as stiff 39 to 172, capped ones half more.
     """
     side = max(grid.shape)
     most, growth = (14.0, 0.3) if capped else (13.0, 0.1)
     bending = max(1.0, math.sqrt(stiffness / 2))
-    return most * bending * max(1.0, side / 256) ** growth * max(1.0, side / 2048) ** 0.4
+    return most * bending * max(1.0, side / 256) ** growth
 
 
 def contact(grid: Grid, why: str, *, capped: bool = False, stiffness: float = 1.0) -> Step:
