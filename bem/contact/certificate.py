@@ -71,6 +71,7 @@ def certify(
     contact, plastic, doubt = _regions(request, pressure, deformed, load, capped=capped > 0)
     reach = max(reach, elastic_length(request))
     residual = max(_relative(largest, reach if is_flat(roughness, reach) else roughness), missed)
+    status = Status.CONVERGED if residual <= request.tolerance else unmet
     return ContactSolution(
         pressure=pressure,
         displacement=displacement,
@@ -87,8 +88,8 @@ def certify(
         iterations=iterations,
         convolutions=operator.count.weighted - convolutions_before,
         residual=residual,
-        status=Status.CONVERGED if residual <= request.tolerance else unmet,
-        notes=_notes(grid, pressure) + doubt + _why(request, units, result),
+        status=status,
+        notes=_notes(grid, pressure) + doubt + _why(request, units, result, status, volume / grid.cells),
     )
 
 
@@ -148,17 +149,20 @@ def _notes(grid: Grid, pressure: FloatArray) -> tuple[str, ...]:
     )
 
 
-def _why(request: Request, units: Units, result: LevelResult) -> tuple[str, ...]:
+def _why(request: Request, units: Units, result: LevelResult, status: Status, opening: float) -> tuple[str, ...]:
+    """What there is to say of a mean gap that was not found; `opening` is the one of this contact."""
     if request.mean_gap is None:
         return ()
-    if result.least_found is not None:
+    if result.least_mean_gap is not None:
         return (
-            f"a mean gap of {request.mean_gap:.4g} m was not found, nor proved not to exist: this contact has the "
-            f"least that was found, {result.least_found * units.length:.4g} m. Ask for more, or give a load",
+            f"no approach gives a mean gap of {request.mean_gap:.4g} m: the bodies cannot be pressed flat, and "
+            f"{result.least_mean_gap * units.length:.4g} m is a lower bound on every mean gap",
         )
-    if result.least_mean_gap is None:
+    if result.least_found is None and status is not Status.STALLED:
         return ()
+    least = None if result.least_found is None else result.least_found * units.length
+    has = f"{opening:.4g} m" if least is None else f"the least that was found, {least:.4g} m"
     return (
-        f"no approach gives a mean gap of {request.mean_gap:.4g} m: the bodies cannot be pressed flat, and "
-        f"{result.least_mean_gap * units.length:.4g} m is a lower bound on every mean gap",
+        f"a mean gap of {request.mean_gap:.4g} m was not found, nor proved not to exist: this contact has {has}. Ask "
+        "for more, or give a load",
     )

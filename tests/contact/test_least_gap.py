@@ -6,6 +6,7 @@ import scipy.optimize
 from contact_oracles import FREE, rough
 
 from bem import Body, Grid, Layer, Material, Status, displacement_operator, solve_contact
+from reports.experiments import random_contacts
 
 
 def stiff_layer(periodic, friction, ratio=63.0, shape=(15, 8)):
@@ -118,3 +119,16 @@ def test_where_tangents_of_contacts_meet_again_the_least_mean_gap_that_was_found
     assert opening.min() >= -1e-6 * gap.std()
     assert least_mean_gap(operator, gap) <= np.maximum(opening, 0).mean()
     assert solution.convolutions <= 450  # 291 counted; 1514 where it went on for forty contacts
+
+
+@pytest.mark.parametrize("seed", [12076, 12086])
+def test_a_small_mean_gap_under_a_stiff_layer_is_found_or_told_to_be_missed(seed):
+    """The first of these punches ended `stalled` with 17 times the gap asked for, and without a word."""
+    contact = random_contacts.contact(seed)
+    asked = contact.asked["mean_gap"]
+    solution = solve_contact(contact.gap, contact.operator, **contact.asked)
+    if solution.status is Status.CONVERGED:
+        # 1e-6 of a roughness that is one at most, the looser of both tolerances
+        assert np.maximum(solution.gap, 0).mean() == pytest.approx(asked, abs=1e-6)
+    else:
+        assert any(f"{asked:.4g} m" in note for note in solution.notes)
