@@ -129,6 +129,32 @@ def test_only_the_rows_that_matter_are_transformed():
     assert (transforms.COUNT.inverse, transforms.COUNT.rows, transforms.COUNT.columns) == (1, 60, 42)
 
 
+@pytest.mark.parametrize("dtype", [np.float64, np.float32])
+@pytest.mark.parametrize(("shape", "padded"), [*SHAPES, ((6, 4), (6, 4)), ((64, 96), (64, 96)), ((9, 5), (17, 12))])
+def test_columns_in_pairs_are_those_of_real_rows(shape, padded, dtype):
+    """Of even multipliers and even lengths along y, where rows are taken as complex ones half as long."""
+    rng = np.random.default_rng(2)
+    transform = transforms.PaddedTransform(shape, padded, dtype)
+    # far more of long waves than of short ones, as of surfaces: what pairs mix are the two ends
+    even = rng.random((padded[1] // 2 + 1, padded[0] // 2 + 1)) / (1 + np.arange(padded[1] // 2 + 1)[:, None]) ** 2
+    factor, odd = transforms.Multiplier(even.astype(dtype)), transforms.Multiplier(None, even.astype(dtype))
+    field = transform.empty_field()
+    field[...] = rng.standard_normal(shape)
+    before = field.copy()
+    paired = transform.convolve(field, factor)
+    assert np.array_equal(field, before)
+    real = transform.inverse(transform.forward(field), factor)
+    assert np.abs(paired - real).max() <= ROUND_OFF[dtype] * np.abs(field).max()
+    cells = np.flatnonzero(field > 0.5)
+    some = np.where(field > 0.5, field, 0).astype(dtype)
+    listed = transform.convolve_cells(
+        cells, some.reshape(-1)[cells].astype(np.float64), factor, transform.empty_field()
+    )
+    assert np.array_equal(listed, transform.convolve(some, factor))
+    assert (transform.room_for(factor.factor(transform.dtype)) is not transform.room) == (padded[1] % 2 == 0)
+    assert transform.room_for(odd.factor(transform.dtype)) is transform.room
+
+
 def test_plans_are_destroyed_while_no_other_thread_can_make_one(monkeypatch):
     fftw, found = plans.library(np.dtype(np.float64)), []
 

@@ -93,11 +93,12 @@ class LongWavesOnCells:
         """What the compiled loop takes; the caller holds the transform's lock while it runs."""
         convolution = self.smooth.convolution
         transform = convolution.transform
+        factor = convolution.multiplier.factor(transform.dtype)
         return (
             (self.blocks, self.weights),
             (self.root, self.inverse_root),
             self.smooth.workspace,
-            (transform.room, transform.ready(1), convolution.multiplier.factor(transform.dtype)),
+            (transform.room_for(factor), transform.ready(1), factor),
         )
 
 

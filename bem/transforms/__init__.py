@@ -9,7 +9,8 @@ transform has no factor, the inverse one 1/(px py): `inverse(forward(field)) == 
 
 Plans are made without timing (FFTW_ESTIMATE), so a result does not depend on the mood of the machine; the transposed
 layout with row lengths off the powers of two makes up for it (measured against FFTW_MEASURE in two dimensions, one
-thread: equal to 10 % faster from 512 to 4096 cells a side). Blocks are split over threads, never inside a transform.
+thread: equal to 10 % faster from 512 to 4096 cells a side). Convolutions with even kernels take real rows as complex
+ones half as long (`pairs`). Blocks are split over threads, never inside a transform.
 
 Knows arrays and threads; no grid, no body, no contact. `kernel` makes spectra of kernels, `narrow` shortens those of
 short waves, `products` sums and applies them, `padded` does the passes, `cache` keeps plans, `count` counts. Verified

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 import threading
 import weakref
 from bisect import bisect_left
@@ -103,8 +104,6 @@ class PaddedTransform:
             row_block=self._row_block,
             spectra=self.spectrum_shape[0],
             fits=padded[1] == shape[1] == self._real_stride,
-            # in single precision FFTW's own scattered writes are slower than a transposition in whole cache lines
-            transposes=bool(self.dtype == np.float32),
             whole=padded[0] == shape[0],
             executors=library(self.dtype).executors(),
             row_plans=np.zeros((2, 2), np.int64),
@@ -113,7 +112,9 @@ class PaddedTransform:
             lengths=block_lengths,
             scales=(1.0 / (block_lengths * padded[1])).astype(self.dtype),
             half=half,
+            turns=np.empty((2, 0), self.dtype),
         )
+        self._paired = self._room_of_pairs() if lengths is None and padded[1] % 2 == 0 else None
 
     @cached_property
     def single(self) -> PaddedTransform:
@@ -126,6 +127,30 @@ class PaddedTransform:
         if beside is None:
             return cast(ComplexArray, pyfftw.empty_aligned(shape, self.complex_dtype, n=ALIGNMENT))
         return beside.room.half.reshape(-1).view(self.complex_dtype)[: shape[0] * shape[1]].reshape(shape)
+
+    def _room_of_pairs(self) -> Room:
+        """The same room for convolutions with even kernels: rows are complex ones half as long, columns go in pairs."""
+        waves = self.padded[1] // 2
+        number, most = waves // 2 + 1, max(1, self._column_block // 2)
+        columns = np.array([*range(0, number, most), number], np.int64)
+        angles = math.pi / waves * np.arange(number)
+        turns = np.array([np.sin(angles), np.cos(angles)])
+        blocks, complex_to_complex = len(columns) - 1, self.room.executors[1]
+        return self.room._replace(
+            spectra=waves,
+            executors=np.array([complex_to_complex] * 3),
+            row_plans=np.zeros((2, 2), np.int64),
+            columns=columns,
+            column_plans=np.zeros((2, 1), np.int64),
+            lengths=np.full(blocks, self.padded[0], np.int64),
+            scales=np.full(blocks, self.room.scales[0]),
+            turns=turns.astype(self.dtype),
+        )
+
+    def room_for(self, factor: Factor) -> Room:
+        """What `loops.convolve` and `loops.convolve_cells` take, by the parity of the multiplier."""
+        even = factor.real_parity == 1 and factor.imaginary_parity == 0
+        return self.room if self._paired is None or not even else self._paired
 
     def empty_spectrum(self) -> ComplexArray:
         """An uninitialised array for a spectrum, aligned and strided so that no copy is needed."""
@@ -265,15 +290,15 @@ class PaddedTransform:
         values = self._plain(values)
         plain = out if self._is_plain(out) else np.empty(self.shape, self.dtype)
         parts = factor.factor(self.dtype)
-        threads = get_threads()
+        threads, room = get_threads(), self.room_for(parts)
         with self.lock:
             scratch = self.ready(threads)
             if threads == 1:
-                loops.convolve(self.room, scratch, parts, values, plain)
+                loops.convolve(room, scratch, parts, values, plain)
             else:
-                self._each(loops.rows_forward, self._row_blocks, values)
-                self._each(loops.columns_through, self._column_blocks, parts)
-                self._each(loops.rows_back, self._row_blocks, plain)
+                self._each(loops.rows_forward, self._row_blocks, values, room=room)
+                self._each(loops.columns_through, room.lengths.size, parts, room=room)
+                self._each(loops.rows_back, self._row_blocks, plain, room=room)
         self.counted(1)
         if plain is not out:
             out[...] = plain
@@ -285,14 +310,15 @@ class PaddedTransform:
         """`convolve` of a field with these values on some cells (flat indices, ascending), zero elsewhere, into a
         contiguous field of this precision."""
         parts, threads = factor.factor(self.dtype), get_threads()
+        room = self.room_for(parts)
         with self.lock:
             scratch = self.ready(threads)
             if threads == 1:
-                loops.convolve_cells(self.room, scratch, parts, cells, values, out)
+                loops.convolve_cells(room, scratch, parts, cells, values, out)
             else:
-                self._each(loops.rows_forward_of_cells, self._row_blocks, cells, values)
-                self._each(loops.columns_through, self._column_blocks, parts)
-                self._each(loops.rows_back, self._row_blocks, out)
+                self._each(loops.rows_forward_of_cells, self._row_blocks, cells, values, room=room)
+                self._each(loops.columns_through, room.lengths.size, parts, room=room)
+                self._each(loops.rows_back, self._row_blocks, out, room=room)
         self.counted(1)
         return out
 
@@ -310,7 +336,7 @@ class PaddedTransform:
         while len(self._scratch) < threads:
             rows = (self._row_block, self._real_stride)
             spectra = (self._row_block, _stride(self.spectrum_shape[0], self.complex_dtype.itemsize))
-            columns = (self._column_block, self._spectrum_stride)
+            columns = (max(2, self._column_block), self._spectrum_stride)  # a pair at least
             scratch = Scratch(
                 pyfftw.zeros_aligned(rows, self.dtype, n=ALIGNMENT),
                 pyfftw.zeros_aligned(rows, self.dtype, n=ALIGNMENT),
@@ -333,12 +359,8 @@ class PaddedTransform:
         real, spectra, stride = self._real_stride, scratch.rows_spectrum.shape[1], self._half_stride
         for last in range(2):
             rows = self.shape[0] - (self._row_blocks - 1) * self._row_block if last else self._row_block
-            across, out = (
-                ((1, 1, real, spectra), scratch.rows_spectrum.ctypes.data)
-                if room.transposes
-                else ((1, stride, real, 1), half)
-            )
-            room.row_plans[0, last] = fftw.real_to_complex(self.padded[1], rows, across, (rows_in, out))
+            out = scratch.rows_spectrum.ctypes.data
+            room.row_plans[0, last] = fftw.real_to_complex(self.padded[1], rows, (1, 1, real, spectra), (rows_in, out))
             room.row_plans[1, last] = fftw.complex_to_real(self.padded[1], rows, (stride, 1, 1, real), (half, rows_out))
         # from one array into another: plans made without timing are a quarter faster so than in place
         along = (1, 1, self._spectrum_stride, self._spectrum_stride)
@@ -349,16 +371,36 @@ class PaddedTransform:
                 made[own] = [fftw.complex(*own, along, done, back=back) for back in (False, True)]
             room.column_plans[:, block] = made[own]
         plans = [*room.row_plans.ravel().tolist(), *(plan for pair in made.values() for plan in pair)]
+        if self._paired is not None:
+            plans += self._plan_pairs(self._paired, scratch)
         weakref.finalize(self, fftw.destroy, plans)
 
-    def _each(self, loop: Any, blocks: int, *arguments: Any) -> None:
+    def _plan_pairs(self, room: Room, scratch: Scratch) -> list[int]:
+        """Plans for rows that are complex ones half as long, and for one column."""
+        fftw, half, columns = library(self.dtype), room.half.ctypes.data, scratch.columns.ctypes.data
+        rows_in, rows_out, spectra = (
+            array.ctypes.data for array in (scratch.rows, scratch.rows_out, scratch.rows_spectrum)
+        )
+        row, stride, across = self._real_stride // 2, self._half_stride, scratch.rows_spectrum.shape[1]
+        for last in range(2):
+            rows = self.shape[0] - (self._row_blocks - 1) * self._row_block if last else self._row_block
+            room.row_plans[0, last] = fftw.complex(
+                room.spectra, rows, (1, 1, row, across), (rows_in, spectra), back=False
+            )
+            room.row_plans[1, last] = fftw.complex(room.spectra, rows, (stride, 1, 1, row), (half, rows_out), back=True)
+        along, done = (1, 1, self._spectrum_stride, self._spectrum_stride), (columns, scratch.columns_out.ctypes.data)
+        room.column_plans[:, 0] = [fftw.complex(self.padded[0], 1, along, done, back=back) for back in (False, True)]
+        return [*room.row_plans.ravel().tolist(), *room.column_plans.ravel().tolist()]
+
+    def _each(self, loop: Any, blocks: int, *arguments: Any, room: Room | None = None) -> None:
         """A compiled pass over blocks that the threads share."""
+        own = self.room if room is None else room
         if get_threads() == 1 or blocks == 1:
-            loop(self.room, self._scratch[0], *arguments, 0, blocks)
+            loop(own, self._scratch[0], *arguments, 0, blocks)
             return
 
         def work(number: int, block: int) -> None:
-            loop(self.room, self._scratch[number], *arguments, block, block + 1)
+            loop(own, self._scratch[number], *arguments, block, block + 1)
 
         share(work, blocks)
 

@@ -70,9 +70,10 @@ class Library:
     def complex(
         self, length: int, rows: int, strides: tuple[int, int, int, int], data: tuple[int, int], *, back: bool
     ) -> int:
-        """Between complex rows; the input is destroyed."""
+        """Between complex rows; the input is kept. One kind of plans: what FFTW has found for one kind it takes for
+        parts of another, so that plans of two kinds would depend on what was planned before."""
         direction = _BACKWARD if back else _FORWARD
-        return self._plan("plan_guru64_dft", length, rows, strides, data, (direction, _ESTIMATE | _DESTROY_INPUT))
+        return self._plan("plan_guru64_dft", length, rows, strides, data, (direction, _ESTIMATE))
 
     def destroy(self, plans: Iterable[int]) -> None:
         """Let plans go, in whatever thread their holder was collected: another one may be making some."""

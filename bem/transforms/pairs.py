@@ -1,0 +1,89 @@
+"""Columns of a convolution with an even kernel, two at a time: real rows transformed as complex ones half as long.
+
+Two numbers of a real row that follow one another are taken as one complex number. With Z the spectrum of that complex
+field, m waves along y where the real one has 2 m, and K the kernel's real and even multiplier, the spectrum of the
+result, packed likewise, is, with s, d = (K[k, l] +- K[m - k, l]) / 2 and t = pi k / m,
+
+    Z'[k, l] = (s - d sin t) Z[k, l] + i d cos t conj(Z[m - k, -l]).
+
+The real field's spectrum is X[k] = E + O, conj(X[m - k]) = E - O with Z[k] = E + i exp(i t) O; it is made of Z,
+multiplied and packed again in this one step. FFTW has vector instructions for complex rows only: a convolution takes
+0.7 of the time of one with real rows in single precision, 0.8 to 0.9 in double (128 to 2048 cells a side).
+
+Knows a room's plans and scratch (`loops`). Verified in tests/test_transforms.py against transforms of real rows.
+"""
+
+from __future__ import annotations
+
+from typing import Any
+
+from numba import njit
+
+from bem.transforms.addresses import numbers
+from bem.transforms.plans import execute
+
+_plain: Any = njit(cache=True, nogil=True)
+"""Nothing is contracted: of a sum of two products either may be, and each loop that takes these in would choose."""
+
+
+@_plain
+def pairs_through(room, scratch, kernel, first, last):  # type: ignore[no-untyped-def]
+    """The pairs of columns k and m - k from a first to before a last k: along x, times the kernel, and back."""
+    waves, half, whole, nx, length = room.spectra, room.half, room.whole, room.nx, room.lengths[0]
+    sines, cosines, scale = room.turns[0], room.turns[1], room.scales[0]
+    there, back = (room.executors[1], room.column_plans[0, 0]), (room.executors[1], room.column_plans[1, 0])
+    given, done = scratch.columns, scratch.columns_out
+    begin, line, rows, row = half.ctypes.data, half.strides[0], kernel.ctypes.data, kernel.strides[0]
+    spectra, results = done.ctypes.data, given.ctypes.data
+    for k in range(first, last):
+        other = waves - k if k > 0 else 0
+        number = 1 if other == k else 2
+        for place in range(number):
+            column = other if place else k
+            source = begin + column * line
+            if not whole:
+                for j in range(nx):
+                    given[place, j] = half[column, j]
+                for j in range(nx, length):
+                    given[place, j] = 0
+                source = results + place * given.strides[0]
+            execute(there[0], there[1], source, spectra + place * done.strides[0])
+        partner = (number - 1) * done.strides[0], (number - 1) * given.strides[0]
+        own, beside = (spectra, results), (spectra + partner[0], results + partner[1])
+        pair = rows + k * row, rows + (waves - k) * row
+        _multiply_pair(pair, own, beside, length, (sines[k], cosines[k]), scale)
+        for place in range(number):
+            column, source = other if place else k, results + place * given.strides[0]
+            if whole:
+                execute(back[0], back[1], source, begin + column * line)
+                continue
+            execute(back[0], back[1], source, spectra + place * done.strides[0])
+            for j in range(nx):
+                half[column, j] = done[place, j]
+
+
+@_plain
+def _multiply_pair(rows, here, there, length, turn, scale):  # type: ignore[no-untyped-def]
+    """Columns k and m - k times the kernel. rows : addresses of its two rows. here, there : those of the columns, given
+    and result (of one column where it is its own partner). turn : sine and cosine. scale : half of the factor."""
+    first, second = numbers(rows[0], scale), numbers(rows[1], scale)
+    one, other = numbers(here[0], scale), numbers(there[0], scale)
+    own, partner = numbers(here[1], scale), numbers(there[1], scale)
+    arrays, turned = (one, other, own, partner), (turn[0], turn[1], scale)
+    _multiply_at(first[0], second[0], arrays, 0, 0, turned)
+    half = length // 2 + 1
+    for j in range(1, half):
+        _multiply_at(first[j], second[j], arrays, j, length - j, turned)
+    for j in range(half, length):
+        _multiply_at(first[length - j], second[length - j], arrays, j, length - j, turned)
+
+
+@_plain
+def _multiply_at(first, second, arrays, j, i, turn):  # type: ignore[no-untyped-def]
+    """Wave j of column k and its partner, i of the other, times the kernel's values at both."""
+    (one, other, own, partner), (sine, cosine, scale) = arrays, turn
+    s, d = (first + second) * scale, (first - second) * scale
+    p, q, r = s - d * sine, s + d * sine, d * cosine
+    x, y, u, v = one[2 * j], one[2 * j + 1], other[2 * i], other[2 * i + 1]
+    own[2 * j], own[2 * j + 1] = p * x + r * v, p * y + r * u
+    partner[2 * i], partner[2 * i + 1] = q * u + r * y, q * v + r * x
