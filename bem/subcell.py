@@ -16,7 +16,7 @@ from numba import njit
 
 from bem.grid import FloatArray, Grid
 
-_strict: Any = njit(cache=True, nogil=True, error_model="numpy")
+_strict: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 
 _FLAT = 1e-9
 """A curvature below this share of the field across a cell is none, as across the axis of a cylinder."""

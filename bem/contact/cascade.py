@@ -162,7 +162,7 @@ _NEAR, _WITHIN = 1, 2
 it is one of the four that are interpolated from beyond this one."""
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 def _make_phi(pressure, displacement, gap, approach, wraps_x, wraps_y):  # type: ignore[no-untyped-def]
     """phi with c = 1 outside, and the marks; zero where no cell with pressure is within three lines and columns, as
     nothing is interpolated from there."""
@@ -199,7 +199,7 @@ def _make_phi(pressure, displacement, gap, approach, wraps_x, wraps_y):  # type:
     return phi, marks
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 def _edge_means(pressure, phi, marks, cap):  # type: ignore[no-untyped-def]
     """Sums of p^2 and of -phi over the links from a cell with pressure below the cap to one without; their number."""
     nx, ny = pressure.shape
@@ -229,7 +229,7 @@ def _edge_means(pressure, phi, marks, cap):  # type: ignore[no-untyped-def]
     return squares, opening, edges
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 def _stretch(phi, scale):  # type: ignore[no-untyped-def]
     """phi outside with the factor c."""
     phi = phi.reshape(-1)
@@ -237,7 +237,7 @@ def _stretch(phi, scale):  # type: ignore[no-untyped-def]
         phi[cell] *= scale if phi[cell] < 0 else 1.0
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 def _prolong_phi(phi, marks, rows, lines, columns, begins, cap, cells, values):  # type: ignore[no-untyped-def]
     """Cells with pressure on those lines of the finer grid, and their pressures; returns how many."""
     (rows, row_weights), (columns, column_weights) = rows, columns
@@ -276,7 +276,7 @@ def _prolong_phi(phi, marks, rows, lines, columns, begins, cap, cells, values): 
     return count
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 def _keep_loads(pressure, fine, width, rows, columns, cap):  # type: ignore[no-untyped-def]
     """Multiply each region without a cell at the cap so that it has the load that it has on the coarser grid.
 

@@ -20,7 +20,7 @@ from bem.grid import FloatArray
 from bem.threads import share
 from bem.transforms.addresses import fetch
 
-_strict: Any = njit(cache=True, nogil=True, error_model="numpy")
+_strict: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 
 _LEAST_COSINE = 0.24
 _BEFORE, _BEYOND = -0.3, 1.0

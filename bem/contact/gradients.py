@@ -64,7 +64,7 @@ def _less(start, stop, result, values, shift, out):  # type: ignore[no-untyped-d
         out[k] = values[k] - shift
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 def carry(before, values, total, cells, out):  # type: ignore[no-untyped-def]
     """out = the values on the cells `before` where these are among `cells` (both ascend), elsewhere their mean; returns
     the sum. `total` : of the values. Zero where those known are no more than half, or sum up to no more than half of

@@ -41,7 +41,7 @@ class Ends(NamedTuple):
     left_at_last: float
 
 
-_scalar: Any = njit(cache=True, nogil=True, error_model="numpy")
+_scalar: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 
 
 @_scalar
@@ -117,7 +117,7 @@ def solve_in_one_call(
     return Reached(way[3] if strode else pressure, int(made), length, strode == 1)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 def _iterate(  # type: ignore[no-untyped-def]  # reason: compiled, so each array is an argument
     now, inverted, vectors, balance, cells, convolved, engine, ends, cap, alone
 ):
@@ -140,7 +140,7 @@ def _iterate(  # type: ignore[no-untyped-def]  # reason: compiled, so each array
         now[_APPLIED] += 1
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 def _turn(now, own, far, vectors, balance, ends, cap):  # type: ignore[no-untyped-def]
     """The next direction, whose convolution is due; whether the round ends without it."""
     pressure, residual, previous, direction, preconditioned, response = vectors
@@ -163,7 +163,7 @@ def _turn(now, own, far, vectors, balance, ends, cap):  # type: ignore[no-untype
     return False
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 def _advance(now, vectors, balance, cells, convolved, ends, cap):  # type: ignore[no-untyped-def]
     """As far along the direction as its convolution says; whether the round ends there."""
     pressure, residual, previous, direction, _, response = vectors

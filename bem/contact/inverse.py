@@ -73,7 +73,7 @@ class Inverse:
         return None if self.far is None else self.far.smooth.convolution
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 def _descend(own, far, state, way, balance, step):  # type: ignore[no-untyped-def]
     """The preconditioned residual, and where the step known beforehand leads, of cells that fit one block: `Descent`,
     and how many convolutions the long waves took.

@@ -29,7 +29,7 @@ NOTHING: Cells = (np.empty(0, np.int64), np.empty(0), np.empty(0, np.int64))
 """No pressure."""
 
 _fast: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "reassoc", "nsz", "arcp"})
-_strict: Any = njit(cache=True, nogil=True, error_model="numpy")
+_strict: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 
 
 class Survey(NamedTuple):

@@ -19,7 +19,7 @@ ABOVE_ALL, BELOW_ALL = _INFINITE, ~_INFINITE
 
 _MAGNITUDE = np.iinfo(np.int64).max
 
-_plain: Any = njit(cache=True, nogil=True)
+_plain: Any = njit(cache=True, nogil=True, fastmath=False)
 
 
 @_plain

@@ -21,7 +21,7 @@ BLOCK = 1 << 15
 """Entries that one thread works on at a time: enough to hide the call, few enough to share."""
 
 _fast: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "reassoc", "nsz", "arcp"})
-_strict: Any = njit(cache=True, nogil=True, error_model="numpy")
+_strict: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 
 
 def in_blocks(size: int, results: int, kernel: Callable[..., None], *arguments: Any) -> FloatArray:

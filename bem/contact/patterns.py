@@ -84,7 +84,7 @@ def patterns(squared_radius: int, short_x: bool, short_y: bool, width: int, near
     return found
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 def row_of_inverse(factor, active, row, out):  # type: ignore[no-untyped-def]
     """The last row of (L L^T)^-1 over the root of its last entry, L the factor of n rows, into the places `active` (n,)
     of `out`; `row` is scratch."""
@@ -100,7 +100,7 @@ def row_of_inverse(factor, active, row, out):  # type: ignore[no-untyped-def]
         out[active[a]] = row[a] * scale
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, fastmath=False)
 def pack(row, bits, out):  # type: ignore[no-untyped-def]
     """A row (m + 1,) of the stencil that rows are packed for, as `ENTRIES` says; of any other stencil the sum alone."""
     m = row.size - 1
@@ -127,7 +127,7 @@ def pack(row, bits, out):  # type: ignore[no-untyped-def]
     out[10] = row[10]
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, fastmath=False)
 def _solve_patterns(pattern, offsets, near_field, table, packed, solved):  # type: ignore[no-untyped-def]
     m = offsets.shape[0]
     count = 1 << m

@@ -24,7 +24,7 @@ from bem.transforms.loops import first_from
 FloatArray = NDArray[np.float64]
 
 _fast: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "reassoc", "nsz", "arcp"})
-_plain: Any = njit(cache=True, nogil=True, error_model="numpy")
+_plain: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 _ordered: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
 """Sums in the order written: rows of the seam and others have the same bits where their entries are the same."""
 

@@ -13,7 +13,7 @@ from bem.contact.judging import CAPPED
 FloatArray = NDArray[np.float64]
 
 _fast: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "reassoc", "nsz", "arcp"})
-_strict: Any = njit(cache=True, nogil=True, error_model="numpy")
+_strict: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 
 
 @_strict

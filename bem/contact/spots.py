@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 from bem.contact.crossings import place
 from bem.grid import FloatArray, Grid
 
-_strict: Any = njit(cache=True, nogil=True, error_model="numpy")
+_strict: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 
 
 def count_spots(pressure: FloatArray, grid: Grid) -> int:

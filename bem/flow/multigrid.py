@@ -22,7 +22,7 @@ from scipy.sparse import coo_matrix
 from bem.grid import FloatArray
 
 Index = NDArray[np.int32]
-_strict: Any = njit(cache=True, nogil=True, error_model="numpy")
+_strict: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 
 COARSEST = 120
 """Nodes up to which a level is solved at once."""

@@ -15,7 +15,7 @@ import numpy as np
 from numba import njit
 from numpy.typing import NDArray
 
-_strict: Any = njit(cache=True, nogil=True, error_model="numpy")
+_strict: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 
 
 @dataclass(frozen=True, eq=False)

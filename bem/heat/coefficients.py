@@ -30,7 +30,7 @@ from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
 
-COMPILE: dict[str, Any] = {"cache": True, "error_model": "numpy", "nogil": True}
+COMPILE: dict[str, Any] = {"cache": True, "error_model": "numpy", "nogil": True, "fastmath": False}
 _POINTS = 14
 _REACH = 6.0
 """erfc of it is below round-off."""

@@ -25,7 +25,7 @@ for _n in range(1, MAX_POINTS + 1):
     NODES[_n, :_n], WEIGHTS[_n, :_n] = np.polynomial.legendre.leggauss(_n)
     WEIGHTS[_n, :_n] *= 0.5
 
-COMPILE: dict[str, Any] = {"cache": True, "error_model": "numpy", "nogil": True}
+COMPILE: dict[str, Any] = {"cache": True, "error_model": "numpy", "nogil": True, "fastmath": False}
 
 
 @nb.njit(**COMPILE)

@@ -77,7 +77,7 @@ class FatigueLimit:
         return np.asarray(np.exp(np.minimum((self.bending - math.sqrt(3) * equivalent) / self.slope, 0.0)))
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath=False)
 def _ball(points, centre):  # type: ignore[no-untyped-def]
     """Centre, in place, of the smallest ball around points (n, 5): Frank and Wolfe's method of its dual with steps away
     from points inside, which end when the radius reached and the one proved differ by less than a part."""
@@ -121,7 +121,7 @@ def _ball(points, centre):  # type: ignore[no-untyped-def]
             centre[c] = centre[c] + step * (points[pick, c] - centre[c])
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath=False)
 def _deviators(path, out):  # type: ignore[no-untyped-def]
     """Deviators of stresses (n, 6) as points (n, 5) whose distance squared is s : s."""
     for i in range(path.shape[0]):
@@ -132,7 +132,7 @@ def _deviators(path, out):  # type: ignore[no-untyped-def]
             out[i, 2 + c] = math.sqrt(2.0) * path[i, 3 + c]
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath=False)
 def _tresca(point):  # type: ignore[no-untyped-def]
     """Largest shear of a deviator given as a point (5,), by its invariants."""
     xx = point[0] / math.sqrt(2.0) - point[1] / math.sqrt(6.0)
@@ -149,7 +149,7 @@ def _tresca(point):  # type: ignore[no-untyped-def]
     return size * (math.cos(lode) - math.cos(lode + 2.0 * math.pi / 3.0))
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath=False)
 def _dang_van(paths, factor):  # type: ignore[no-untyped-def]
     found = np.empty(paths.shape[0])
     points = np.empty((paths.shape[1], 5))
@@ -167,7 +167,7 @@ def _dang_van(paths, factor):  # type: ignore[no-untyped-def]
     return found
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath=False)
 def _crossland(paths, factor):  # type: ignore[no-untyped-def]
     found = np.empty(paths.shape[0])
     points, centre = np.empty((paths.shape[1], 5)), np.empty(5)

@@ -48,7 +48,7 @@ class Rows:
         return out
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath=False)
 def _of_films(
     out: FloatArray, weights: FloatArray, before: FloatArray, here: FloatArray, after: FloatArray, elastic: float
 ) -> None:

@@ -61,7 +61,7 @@ def cell_sizes(offset: FloatArray, smooth: FloatArray, spike: FloatArray, cells:
     return size
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath=False)
 def _limit_growth(size: FloatArray, reach: FloatArray) -> None:
     """No cell is wider than its neighbours' by more than `reach`."""
     for i in range(1, len(size)):

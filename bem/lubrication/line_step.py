@@ -403,7 +403,7 @@ def _applied(bands: FloatArray, values: FloatArray) -> FloatArray:
     return out
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath=False)
 def _assemble(
     matrix: FloatArray,
     rows: Indices,

@@ -87,7 +87,7 @@ def _kernel_values(grid: Grid, body: Body, depth: float, friction: float) -> Flo
     return kernels
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 def _sums_above(normal, tangential, wraps_x, wraps_y, above):  # type: ignore[no-untyped-def]
     """Sum of max(k - t, 0) over all offsets of a grid, for the thresholds t of `_THRESHOLDS`, (parts, levels + 1)."""
     count, levels = above.shape
@@ -114,7 +114,7 @@ def _sums_above(normal, tangential, wraps_x, wraps_y, above):  # type: ignore[no
             above[c, level] = total - threshold * number
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 def _signed_parts(normal, tangential, i, j, out):  # type: ignore[no-untyped-def]
     """Parts of the kernel (see _PARTS) at offset (i, j), by the parities of both loads."""
     k = abs(i)

@@ -55,7 +55,7 @@ def pack(values: FloatArray) -> Packed:
     return packed
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 def _pack(values, high, low, step):  # type: ignore[no-untyped-def]
     top = 2.0**_BITS - 1.0
     for i in range(values.shape[0]):
@@ -66,7 +66,7 @@ def _pack(values, high, low, step):  # type: ignore[no-untyped-def]
             low[i, j] = np.uint16(whole - 65536.0 * upper)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 def _unpack(high, low, step, out):  # type: ignore[no-untyped-def]
     for i in range(out.shape[0]):
         for j in range(out.shape[1]):

@@ -103,7 +103,7 @@ def _starts(grid: Grid) -> NDArray[np.intp]:
     return np.arange(0, grid.shape[0], GROUP)
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, fastmath=False)
 def _clear(stress, computed):  # type: ignore[no-untyped-def]
     """Zeros in rows that were not computed."""
     nz, nx, ny = stress.shape
@@ -126,7 +126,7 @@ def _along_x(part: Part, depth: float, squares: Squares, out: FloatArray) -> Non
         part.transform.terms_back(part.spectrum, given, squares, (first, last), out)
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, fastmath=False)
 def _spread(  # type: ignore[no-untyped-def]  # reason: compiled, so each array is an argument
     room, singles, squares, out, limit, wraps, wanted, computed, exceeding
 ):

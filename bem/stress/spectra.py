@@ -256,14 +256,14 @@ class Factors:
 _T, _E, _XZ = 0, 2, 4
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 def _join_traction(xz, trace, factor):  # type: ignore[no-untyped-def]
     for i in range(xz.shape[0]):
         for j in range(xz.shape[1]):
             xz[i, j] = factor * xz[i, j] - 0.5 * trace[i, j]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 def _combine(stress):  # type: ignore[no-untyped-def]
     """In place from (xx, yy, zz, ...) to (t, d, e, ...)."""
     for i in range(stress.shape[1]):

@@ -139,7 +139,7 @@ def von_mises(stress: ArrayLike) -> FloatArray:
     return result.reshape(components.shape[1:])
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 def _von_mises(s, out):  # type: ignore[no-untyped-def]
     for i in range(out.size):
         d = s[0, i] - s[1, i]
@@ -148,7 +148,7 @@ def _von_mises(s, out):  # type: ignore[no-untyped-def]
         out[i] = np.sqrt(0.75 * d * d + e * e + 3.0 * shear)
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 def _recombine(start, stop, stress):  # type: ignore[no-untyped-def]
     """In place from (t, d, e, ...) to (xx, yy, zz, ...)."""
     for i in range(start, stop):
@@ -160,21 +160,21 @@ def _recombine(start, stop, stress):  # type: ignore[no-untyped-def]
             stress[2, i, j] = mean + e
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 def _begin(start, stop, values, weight, out):  # type: ignore[no-untyped-def]
     for i in range(start, stop):
         for j in range(out.shape[1]):
             out[i, j] = weight * values[i, j] * values[i, j]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 def _accumulate(start, stop, values, weight, out):  # type: ignore[no-untyped-def]
     for i in range(start, stop):
         for j in range(out.shape[1]):
             out[i, j] += weight * values[i, j] * values[i, j]
 
 
-@njit(cache=True, nogil=True, error_model="numpy")
+@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 def _finish(start, stop, values, weight, out):  # type: ignore[no-untyped-def]
     for i in range(start, stop):
         for j in range(out.shape[1]):

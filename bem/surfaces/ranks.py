@@ -27,7 +27,7 @@ def in_order_of(heights: FloatArray, ascending: FloatArray) -> FloatArray:
     return ranked
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, fastmath=False)
 def _make_keys(keys):  # type: ignore[no-untyped-def]
     """Bits of numbers as unsigned integers of the same order; both zeros are one."""
     for i in range(keys.size):
@@ -37,7 +37,7 @@ def _make_keys(keys):  # type: ignore[no-untyped-def]
         keys[i] = ~key if key & _SIGN else key | _SIGN
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, fastmath=False)
 def _sorted(keys, spare, order, other):  # type: ignore[no-untyped-def]
     mask = np.uint64((1 << _BITS) - 1)
     counts = np.zeros((_DIGITS, 1 << _BITS), np.int64)
@@ -64,7 +64,7 @@ def _sorted(keys, spare, order, other):  # type: ignore[no-untyped-def]
     return order
 
 
-@njit(cache=True, nogil=True)
+@njit(cache=True, nogil=True, fastmath=False)
 def _put(order, ascending, ranked):  # type: ignore[no-untyped-def]
     for k in range(order.size):
         ranked[order[k]] = ascending[k]

@@ -9,7 +9,7 @@ from numba import njit
 
 from bem.grid import FloatArray
 
-_fast: Any = njit(cache=True, nogil=True, error_model="numpy")
+_fast: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 
 _ROUNDS = 200
 _EXACT = 1e-14

@@ -24,7 +24,7 @@ from bem.grid import FloatArray
 from bem.tangential.along import AlongOperator
 from bem.tangential.operator import TangentialOperator
 
-_fast: Any = njit(cache=True, nogil=True, error_model="numpy")
+_fast: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 
 _SQUARED_RADIUS = 5
 """Of the sparse inverse's stencil in cells; 2 takes a twentieth more convolutions (counted), 8 as many."""

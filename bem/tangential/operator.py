@@ -25,7 +25,7 @@ from bem.transforms import kernel_spectrum, offset_cosines, padded_shape, transf
 
 ComplexArray = NDArray[np.complex128]
 
-_fast: Any = njit(cache=True, nogil=True, error_model="numpy")
+_fast: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 
 
 class InPlaneSpectra(NamedTuple):

@@ -16,7 +16,7 @@ from bem.transforms.addresses import LINE, fetch, numbers
 from bem.transforms.pairs import pairs_through
 from bem.transforms.plans import execute
 
-_plain: Any = njit(cache=True, nogil=True)
+_plain: Any = njit(cache=True, nogil=True, fastmath=False)
 _contracted: Any = njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")
 
 ALIGNMENT = 64

@@ -22,7 +22,7 @@ from numba import njit
 from bem.transforms.addresses import numbers
 from bem.transforms.plans import execute
 
-_plain: Any = njit(cache=True, nogil=True)
+_plain: Any = njit(cache=True, nogil=True, fastmath=False)
 """Nothing is contracted: of a sum of two products either may be, and each loop that takes these in would choose."""
 
 

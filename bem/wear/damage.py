@@ -43,7 +43,7 @@ def broken(cycle: BodyCycle, law: LowCycleFatigue) -> Removal:
     return Removal(body, pieces, found.computed, found.seconds, time.perf_counter() - start, damage)
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath=False)
 def move_up(stack, depths, thickness):  # type: ignore[no-untyped-def]
     """Columns of a stack (nz, nx, ny) moved up, in place, by what left them (nx, ny) [m]; linear between depths, so no
     value appears that was not between two, and zero below the last."""

@@ -73,7 +73,7 @@ def junctions(pressure: FloatArray, drag: FloatArray, grid: Grid) -> Junctions:
     return Junctions(joined, np.sqrt(4 / np.pi * area * grid.cell_area), middle, extent * sizes[0], dragged)
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath=False)
 def _areas(labels, count, wraps):  # type: ignore[no-untyped-def]
     """Cells of each, and the mean of their places, which on a periodic axis count from the first cell found."""
     nx, ny = labels.shape
@@ -101,14 +101,14 @@ def _areas(labels, count, wraps):  # type: ignore[no-untyped-def]
     return area, total
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath=False)
 def _root(parent, n):  # type: ignore[no-untyped-def]
     while parent[n] != n:
         n = parent[n]
     return n
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath=False)
 def _merge(middle, diameter, lengths):  # type: ignore[no-untyped-def]
     """Union-find over spots whose circles leave less between them than the smaller is wide; `lengths` of the periods,
     infinite where there is none. The root of each."""
@@ -142,7 +142,7 @@ def _merge(middle, diameter, lengths):  # type: ignore[no-untyped-def]
     return parent
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath=False)
 def _reach(labels, drag, count):  # type: ignore[no-untyped-def]
     """Rows that each covers, and the farthest drag of its columns."""
     nx, ny = labels.shape
@@ -173,7 +173,7 @@ def half_spheres(middle: FloatArray, diameter: FloatArray, grid: Grid, deepest: 
     return Segmentation(names[labels], thickness, kept.size, np.zeros(kept.size + 1, np.bool_))
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath=False)
 def _carve(middle, radius, spacing, wraps, labels, thickness):  # type: ignore[no-untyped-def]
     nx, ny = labels.shape
     for n in range(radius.size):

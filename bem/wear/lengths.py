@@ -59,7 +59,7 @@ def averaged_loads(loads: Sequence[SurfaceLoad], grid: Grid, diameter: float) ->
     ]
 
 
-@njit(cache=True, inline="always")
+@njit(cache=True, inline="always", fastmath=False)
 def _neighbour(i, j, offsets, n, shape, wraps):  # type: ignore[no-untyped-def]
     """The cell at an offset from [i, j], round periodic edges, and whether the grid has it."""
     k, m = i + offsets.x[n], j + offsets.y[n]
@@ -70,7 +70,7 @@ def _neighbour(i, j, offsets, n, shape, wraps):  # type: ignore[no-untyped-def]
     return k, m, 0 <= k < shape[0] and 0 <= m < shape[1]
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath=False)
 def _spread(field, offsets, wraps):  # type: ignore[no-untyped-def]
     nx, ny = field.shape
     out = np.zeros((nx, ny))
@@ -110,7 +110,7 @@ def holding(pieces: Segmentation, grid: Grid, diameter: float) -> Segmentation:
     )
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath=False)
 def _find_room(labels, thickness, needed, wraps, holds):  # type: ignore[no-untyped-def]
     nx, ny = labels.shape
     deepest = needed.value.max()

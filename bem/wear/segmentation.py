@@ -229,7 +229,7 @@ def _check(
         raise InputError(messages)
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, error_model="numpy", fastmath=False)
 def _is_finite(values):  # type: ignore[no-untyped-def]
     bad = 0
     for i in range(values.size):
@@ -237,7 +237,7 @@ def _is_finite(values):  # type: ignore[no-untyped-def]
     return bad == 0
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath=False)
 def _extents(cells, starts, shape, periodic):  # type: ignore[no-untyped-def]
     """First cell and number of cells along x and y of each piece, (count, 2) each; on a periodic axis the rectangle is
     the shortest that holds the piece, so it begins after the widest run of empty rows."""

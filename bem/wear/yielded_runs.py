@@ -33,7 +33,7 @@ class Runs(NamedTuple):
     bottom_depth: FloatArray
 
 
-@njit(cache=True, error_model="numpy")
+@njit(cache=True, error_model="numpy", fastmath=False)
 def yielding_columns(stack, strength):  # type: ignore[no-untyped-def]
     """Columns of (nz, columns) in which any value exceeds its strength."""
     above = np.zeros(strength.size, np.bool_)
@@ -47,7 +47,7 @@ _TOGETHER = 64
 """Columns that are gathered at a time: what is written stays near while all depths are gone through."""
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath=False)
 def gather_columns(stack, candidates, rows):  # type: ignore[no-untyped-def]
     """(candidates, nz): depth runs fastest. rows : (nz, n) whether each of n parts of a plane counts; else zeros."""
     out = np.empty((candidates.size, stack.shape[0]))
@@ -62,7 +62,7 @@ def gather_columns(stack, candidates, rows):  # type: ignore[no-untyped-def]
     return out
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath=False)
 def _slope(values, depths, k):  # type: ignore[no-untyped-def]
     """Fritsch-Butland slope at sample k: harmonic mean inside, one-sided three-point formula, limited, at the ends."""
     n = values.size
@@ -89,7 +89,7 @@ def _slope(values, depths, k):  # type: ignore[no-untyped-def]
     return slope
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath=False)
 def _crossing(values, depths, k, limit, refine, cubic):  # type: ignore[no-untyped-def]
     """First fine sample beyond the crossing of the limit between samples k and k + 1, and the depth of the crossing."""
     falls = values[k] > limit
@@ -118,7 +118,7 @@ def _crossing(values, depths, k, limit, refine, cubic):  # type: ignore[no-untyp
     return k * refine + step, previous_depth + (previous - limit) / (previous - value) * (depth - previous_depth)
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath=False)
 def find_runs(numbers, columns, depths, strength, refine, cubic):  # type: ignore[no-untyped-def]
     """Runs of the columns `numbers`, whose stress is (n, nz) and strength (n,).
 
@@ -162,7 +162,7 @@ def find_runs(numbers, columns, depths, strength, refine, cubic):  # type: ignor
     return Runs(numbers, first, top[:used], bottom[:used], bottom_depth[:used])
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath=False)
 def _root(parent, run):  # type: ignore[no-untyped-def]
     while parent[run] != run:
         parent[run] = parent[parent[run]]
@@ -170,7 +170,7 @@ def _root(parent, run):  # type: ignore[no-untyped-def]
     return run
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath=False)
 def _join(parent, a, b):  # type: ignore[no-untyped-def]
     a, b = _root(parent, a), _root(parent, b)
     if a < b:
@@ -179,7 +179,7 @@ def _join(parent, a, b):  # type: ignore[no-untyped-def]
         parent[a] = b
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath=False)
 def connect(runs, shape, periodic, connectivity):  # type: ignore[no-untyped-def]
     """Union-find over runs that touch: the parent of each.
 
@@ -222,7 +222,7 @@ def connect(runs, shape, periodic, connectivity):  # type: ignore[no-untyped-def
     return parent
 
 
-@njit(cache=True)
+@njit(cache=True, fastmath=False)
 def remove(runs, parent, cap, labels, thickness):  # type: ignore[no-untyped-def]
     """Fill labels and thickness (columns of the map,) in place; returns the number of pieces.
 

@@ -31,7 +31,7 @@ import numpy as np
 
 from bem.grid import FloatArray
 
-COMPILE: dict[str, Any] = {"cache": True, "error_model": "numpy", "nogil": True}
+COMPILE: dict[str, Any] = {"cache": True, "error_model": "numpy", "nogil": True, "fastmath": False}
 AHEAD, HERE, BEHIND = 0.375, 0.75, 0.125
 """Shares of the cells around a face in what is dragged through it."""
 
