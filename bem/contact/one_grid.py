@@ -46,8 +46,8 @@ OF_FIRST = 0.1
 """Of the violation that a coarse grid begins with, the most that it is left with. That is what the interpolation to it
 cost, and the one to the next finer grid costs a third of it. On large grids both are far below a share of the
 roughness, most of which is in waves much longer than cells: with that alone self-affine contacts of 2048, 4096 and 8192
-cells a side, 7 % in contact, take 9.8, 13.3 and 27.9 convolutions to 1e-6, with this 9.0, 10.8 and 10.9; with 0.2 the
-largest takes 17.8."""
+cells a side, 7 % in contact, take 11.9, 12.2 and 27.9 convolutions to 1e-6, with this 12.3, 10.8 and 10.9; with 0.2
+the largest takes 17.8."""
 
 COARSE_TOLERANCE = 6e-2
 """Violation over roughness that coarse grids are solved to: more is lost in the interpolation anyway. With 0.15 rough

@@ -115,7 +115,7 @@ def stiffest(*bodies: Body | None) -> float:
 def convolutions(grid: Grid, capped: bool = False, stiffness: float = 1.0) -> float:
     """Convolutions of one solve, coarse levels included: about 13 at 256 cells a side, growing slowly with them.
 
-    Counted: 10 to 15 from 100 to 1024 cells a side, 9 to 14 from 2048 to 8192; of capped ones 11 (lightly loaded, as
+    Counted: 10 to 15 from 100 to 1024 cells a side, 10 to 14 from 2048 to 8192; of capped ones 11 (lightly loaded, as
     elastic ones) to 18 at 256, 12 to 24 at 512, 12 to 20 at 1024, 13 to 57 at 2048 and 4096. A layer 10 times as stiff
     as its base took 19 to 44 at 256, one 40 times as stiff 39 to 172, capped ones half more.
     """
