@@ -220,3 +220,16 @@ def test_substrates_are_spread_over_poisson_s_ratio():
         assert min(ratios) <= 0.1, problem
         if problem != "rectangle":  # blocks in three dimensions are too coarse for 0.45: their bars miss half the error
             assert max(ratios) >= 0.45, problem
+
+
+def test_reproduction_allows_the_round_off_of_a_solve_where_a_wave_has_decayed():
+    deep = dataclasses.replace(a_result().quantities[0], along="deep", values=[2.0e-6, 1.0e-6], error_bar=[0.0, 0.0])
+    stored = dataclasses.replace(a_result(), quantities=[*a_result().quantities, deep])
+
+    def off_by(amount):
+        other = dataclasses.replace(deep, values=[2.0e-6, 1.0e-6 + amount])
+        return results.reproduces(stored, dataclasses.replace(stored, quantities=[stored.quantities[0], other]))
+
+    assert off_by(1.5e-12) == []  # of values up to two beside it
+    (complaint,) = off_by(3e-12)
+    assert "along deep" in complaint
