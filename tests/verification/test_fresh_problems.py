@@ -155,7 +155,9 @@ def test_points_of_a_drawn_rectangle_are_middles_of_the_cells_of_its_gate():
 
     for seed in range(50):
         drawn = _rectangle(np.random.default_rng(seed))
-        assert max(drawn["nu"], *drawn.get("layer", [0.0] * 3)[1::3]) <= 0.4
+        stiffness, poissons_ratio, thickness = drawn.get("layer", [1.0, 0.0, 1.0])
+        assert max(drawn["nu"], poissons_ratio) <= 0.4
+        assert stiffness >= 1 or (stiffness >= 0.1 and thickness >= 0.5)  # what the reference's blocks resolve
         width = drawn["width"]
         steps = width * np.array([0.2, 0.4, 0.5, 0.6, 1.5, 2.0, 3.0, 5.0]) / STEP  # where fem_reference.rectangle asks
         assert np.abs(steps - np.round(steps)).max() < 1e-9
