@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import DTypeLike
 
 from bem.errors import InputError
-from bem.kept import KeptValues, bytes_of
+from bem.kept import KeptValues, bytes_of, keep_freed_memory
 from bem.transforms.padded import COMPLEX, PaddedTransform
 
 _CACHE = KeptValues(least=1)
@@ -35,8 +35,13 @@ def transform_of(
     if lengths is not None and not (len(lengths) == waves and shape[0] <= min(lengths) <= max(lengths) <= padded[0]):
         raise InputError(f"transform_of: lengths {lengths!r} must be {waves}, from {shape[0]} to {padded[0]}")
     shapes = (int(shape[0]), int(shape[1])), (int(padded[0]), int(padded[1]))
-    found = _CACHE.of((*shapes, lengths), lambda: PaddedTransform(*shapes, np.float64, lengths))
+    found = _CACHE.of((*shapes, lengths), lambda: _made(*shapes, lengths))
     return found if kind == np.float64 else found.single
+
+
+def _made(shape: tuple[int, int], padded: tuple[int, int], lengths: tuple[int, ...] | None) -> PaddedTransform:
+    keep_freed_memory()  # whoever transforms does so in a loop, with fields as large between the transforms
+    return PaddedTransform(shape, padded, np.float64, lengths)
 
 
 def set_transform_memory(limit: int) -> None:
