@@ -34,6 +34,7 @@ from bem.benchmarks.show import (
 from reports import beside, goals, large, shared, work_precision
 from reports.builder import Page, Section, figure, table, text
 from reports.experiments.kept import age, found, result_of
+from reports.experiments.large_peers import RESULT as LARGE_PEERS
 from reports.validation_origin import changed_since_stored
 
 RESULTS = Path(__file__).resolve().parent / "results" / "performance.json"
@@ -256,7 +257,8 @@ def _peer_sections(run: Run) -> Iterator[Section]:
             "routine (sum p |g| / sum p over the rms height); bem is timed at the first tolerance whose "
             "pressure is at least as good."
         )
-        yield Section("Beside other codes", words + table(PEER_HEADERS, peer_rows(run)) + shared.missing())
+        body = words + table(PEER_HEADERS, peer_rows(run.peers)) + _large_peers() + shared.missing()
+        yield Section("Beside other codes", body)
     yield from beside.sections(run)
     if result_of(SLIP).exists():
         yield Section("Partial slip beside ASPHER", _slip())
@@ -265,6 +267,19 @@ def _peer_sections(run: Run) -> Iterator[Section]:
     notes.append(("bem, this run, to 1e-8", *(None if p is None else p.cpu_median for p in mine)))
     headers, caption = ("code, s", "512", "1024", "2048"), "On a quiet machine, to a residual near 1e-6."
     yield Section("Earlier measurement of the peers", table(headers, notes, caption=caption))
+
+
+def _large_peers() -> str:
+    """The same on larger grids, from the stored experiment."""
+    if not LARGE_PEERS.exists():
+        return text(f"Larger grids were not run: python -m reports.experiments.{LARGE_PEERS.stem}")
+    rows = found(LARGE_PEERS.stem)
+    least, most = (pick(row["load_average"] for row in rows) for pick in (min, max))
+    body = text(
+        f"On larger grids, one solve each, apart from that run, on a machine with a load of {least:g} to {most:g}. "
+        f"`python -m reports.experiments.{LARGE_PEERS.stem}` repeats it."
+    )
+    return body + table(PEER_HEADERS, peer_rows(rows)) + age(LARGE_PEERS.stem)
 
 
 def _slip() -> str:

@@ -99,6 +99,8 @@ def solve():
 keep(solve)
 """,
 }
+LIMIT = 1800.0
+"""Wall time [s] that a peer may take with all its repeats."""
 TOLERANCES = {"tamaas": 1e-8, "ContactMechanics": 1e-5, "aspher": 1e-6}
 """Tolerances, each in the meaning of its code, that give a complementarity near 1e-6, tamaas of 1e-9."""
 
@@ -152,7 +154,7 @@ def run_script(  # reason: what a script finds, and how long it may take
     array: FloatArray,
     numbers: tuple[float, float],
     repeats: int,
-    limit: float = 1800.0,
+    limit: float = LIMIT,
 ) -> PeerRun:
     """A script behind `TIMER` in a process of its own, on one thread.
 
@@ -180,7 +182,7 @@ def run_script(  # reason: what a script finds, and how long it may take
 
 
 def solve_by_peer(
-    python: Path, peer: str, gap: FloatArray, repeats: int, limit: float = 1800.0
+    python: Path, peer: str, gap: FloatArray, repeats: int, limit: float = LIMIT
 ) -> tuple[list[float], float, FloatArray]:
     """One peer on a gap of side 1: processor times [s], memory beyond its inputs [bytes], pressure (n, n) in E*.
 
@@ -193,13 +195,13 @@ def solve_by_peer(
     return done.times, done.memory, np.maximum(done.result, 0.0)
 
 
-def run_peer(python: Path, peer: str, cells: int, repeats: int) -> dict[str, Any]:
+def run_peer(python: Path, peer: str, cells: int, repeats: int, limit: float = LIMIT) -> dict[str, Any]:
     """One peer on the rough surface: processor times, and its residuals by the common routine."""
     from bem.convolution import displacement_operator
     from bem.grid import Grid
 
     gap = rough_gap(cells)
-    times, _, pressure = solve_by_peer(python, peer, gap, repeats)
+    times, _, pressure = solve_by_peer(python, peer, gap, repeats, limit)
     operator = displacement_operator(Grid((cells, cells), (1 / cells, 1 / cells), periodic=PERIODIC), UNIT)
     complementarity, violation = common_residual(pressure, gap, operator)
     return {
@@ -220,13 +222,15 @@ def compare_with_peers(  # reason: what is found is put where an interrupt leave
     say: Callable[[str], None],
     rows: list[dict[str, Any]],
     failures: dict[str, str],
+    peers: Sequence[str] = tuple(SCRIPTS),
+    limit: float = LIMIT,
 ) -> None:
-    """Add rows of all peers with bem's time at equal or smaller complementarity beside, and what failed."""
+    """Add rows of the peers with bem's time at equal or smaller complementarity beside, and what failed."""
     own: dict[int, Point] = {}
-    for peer in SCRIPTS:
+    for peer in peers:
         say(f"{peer} at {cells}")
         with named_failure(failures, f"{peer} {cells}"):
-            row = run_peer(python, peer, cells, repeats)
+            row = run_peer(python, peer, cells, repeats, limit)
             for digits in range(2, 12):
                 if digits not in own:
                     own[digits] = measure_apart("peer-tolerance", cells + digits / 100, 1, max(3, repeats))

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -189,8 +189,8 @@ SPLIT_HEADERS = (
 )
 
 
-def peer_rows(run: Run) -> list[tuple[str, ...]]:
-    """Peers beside bem."""
+def peer_rows(peers: Sequence[Mapping[str, Any]]) -> list[tuple[str, ...]]:
+    """Peers beside bem, of a run's rows or others like them."""
     from statistics import median
 
     return [
@@ -204,7 +204,7 @@ def peer_rows(run: Run) -> list[tuple[str, ...]]:
             f"{row['ratio']:.1f}",
             f"{GOALS[of]:g}" if (of := (row["peer"], row["cells"])) in GOALS else "",  # of today, not of the run
         )
-        for row in run.peers
+        for row in peers
     ]
 
 
@@ -219,7 +219,7 @@ def print_run(run: Run, table: Table) -> None:
         table(("case", "time grows with size to the power"), exponents, right=(1,))
     if rows := split_rows(run):
         table(SPLIT_HEADERS, rows, title="where the time goes", right=range(1, 9))
-    if rows := peer_rows(run):
+    if rows := peer_rows(run.peers):
         table(PEER_HEADERS, rows, title="peers at equal residual, one thread", right=range(1, 8))
     if run.peer_curves:
         title = "peers: 20 loads, at equal residual and at equal error of the area"
