@@ -111,15 +111,20 @@ def solved(problem: PointProblem, shape: tuple[int, int], tolerance: float, most
 
 
 def _found(level: Level, before: tuple[Level, State] | None, goal: float, most: int) -> Outcome:
-    """The film from the first start from which there is one, else what the last left; steps and cycles are of all."""
+    """The film from the first start from which there is one, else what the last left; steps and cycles are of all.
+
+    A start whose errors hardly fall is left for the others, and gone on with where they find nothing either."""
     first, *lifted = [partial(from_dry, level, lift) for lift in LIFTS]
     nearest = [first] if before is None else [partial(interpolated, level, *before), first]
     outcome = _first_found(level, nearest, goal, most)
     others: list[Callable[..., Outcome]] = [partial(_first_found, starts=lifted)]
     if level.problem.oil(np.ones(1))[0, 0] != 0.0:  # an isoviscous oil has none that is milder
         others.insert(0, _by_way_of_milder_oils)
+    others.append(partial(_first_found, starts=[*nearest, *lifted], creeping=True))
+    crept = False
     for more in others:
-        if outcome.converged:
+        crept = crept or outcome.crept
+        if outcome.converged or (more is others[-1] and not crept):
             break
         following = more(level, goal=goal, most=most)
         spent = (outcome.steps + following.steps, outcome.cycles + following.cycles)
@@ -127,15 +132,17 @@ def _found(level: Level, before: tuple[Level, State] | None, goal: float, most: 
     return outcome
 
 
-def _first_found(level: Level, starts: Sequence[Callable[[], State]], goal: float, most: int) -> Outcome:
+def _first_found(
+    level: Level, starts: Sequence[Callable[[], State]], goal: float, most: int, *, creeping: bool = False
+) -> Outcome:
     """The film from the first of some starts from which there is one, else what the last left."""
-    steps = cycles = 0
+    steps, cycles, crept = 0, 0, False
     for start in starts:
-        outcome = newton(level, start(), goal, most)
-        steps, cycles = steps + outcome.steps, cycles + outcome.cycles
+        outcome = newton(level, start(), goal, most, creeping=creeping)
+        steps, cycles, crept = steps + outcome.steps, cycles + outcome.cycles, crept or outcome.crept
         if outcome.converged:
             break
-    return replace(outcome, steps=steps, cycles=cycles)
+    return replace(outcome, steps=steps, cycles=cycles, crept=crept)
 
 
 def _by_way_of_milder_oils(level: Level, goal: float, most: int) -> Outcome:

@@ -35,6 +35,10 @@ MOST = 60
 """Steps at the outside, where they go on beyond what was asked for."""
 HISTORY = 2
 """Steps back to the errors that one must stay below."""
+HALVED_IN = 4
+"""Steps in which squares of errors halve where a start leads to a film: all 222 grids of 180 random contacts did (M 0.1
+to 20,000, L 0 to 30). Those that did not crept on, by a hundredth of a step each, for 170 to 1,950 cycles, and whether
+they then came to a film was up to the last bits of their load."""
 
 
 @dataclass(frozen=True)
@@ -48,13 +52,15 @@ class State:
 
 @dataclass(frozen=True)
 class Outcome:
-    """State, Newton steps, multigrid cycles, largest relative error, and whether the tolerance was met."""
+    """State, Newton steps, multigrid cycles, largest relative error, whether the tolerance was met, and whether steps
+    were given up since errors hardly fell."""
 
     state: State
     steps: int
     cycles: int
     residual: float
     converged: bool
+    crept: bool = False
 
 
 @dataclass(frozen=True)
@@ -236,12 +242,24 @@ def line_search(trial: Callable[[float], B], size: float) -> B | None:
 
 
 @np.errstate(over="ignore", invalid="ignore")  # of iterates that are refused
-def newton(level: Level, start: State, tolerance: float, most: int = 40) -> Outcome:
-    """Solve on a grid from a start with positive films."""
+def newton(level: Level, start: State, tolerance: float, most: int = 40, *, creeping: bool = True) -> Outcome:
+    """Solve on a grid from a start with positive films. creeping : steps may go on where errors hardly fall."""
     mismatch = start.film - own_film(level, start.pressure, start.datum)
+    sizes: list[float] = []
+
+    def step(at: Balance, forcing: float, size: float) -> tuple[Balance | None, int]:
+        sizes.append(at.size)
+        return (None, 0) if not creeping and _creeps(sizes) else _step(at, forcing, size)
+
     # no name for the first balance: it and its factors would be kept to the end
-    at, steps, cycles, largest, converged = iterate(balance(level, start, mismatch), _step, tolerance, most, HISTORY)
-    return Outcome(at.state, steps, cycles, largest, converged)
+    at, steps, cycles, largest, converged = iterate(balance(level, start, mismatch), step, tolerance, most, HISTORY)
+    crept = not (creeping or converged) and _creeps(sizes)
+    return Outcome(at.state, steps, cycles, largest, converged, crept)
+
+
+def _creeps(sizes: list[float]) -> bool:
+    """Whether the last steps left more than half of the squares of errors."""
+    return len(sizes) > HALVED_IN and sizes[-1] > 0.5 * sizes[-1 - HALVED_IN]
 
 
 def _step(at: Balance, forcing: float, size: float) -> tuple[Balance | None, int]:

@@ -12,6 +12,7 @@ from scipy.sparse.linalg import spsolve
 from bem import Body, InputError, Layer, Lubricant, Material, Status, solve_line_film, solve_point_film
 from bem.lubrication.point import cascade
 from bem.lubrication.point.kept import certificate, least_film
+from bem.lubrication.point.newton import newton
 from bem.lubrication.point.validity import UNKNOWN, inlet_shear
 from bem.reference_solutions.hertz import ellipse_contact
 
@@ -268,11 +269,13 @@ def test_any_contact_converges_from_nothing(seed):
     assert film.convolutions < 400
 
 
-def test_light_loads_on_oils_that_thicken_steeply_are_led_there_through_milder_ones():
-    """L 22: from the dry contact alone it stalled after 1,953 cycles, 33 steps with any of three lifts."""
+@pytest.mark.parametrize("load", [7.42, 7.5, 7.56])
+def test_light_loads_on_oils_that_thicken_steeply_are_led_there_through_milder_ones(load):
+    """L 22: from the dry contact Newton's method creeps for 170 to 720 cycles, and what comes of it is up to last bits.
+    It is left where errors do not halve in four steps."""
     oil = Lubricant(0.04, pressure_viscosity=55.1e-9)
     film = solve_point_film(
-        load=7.5,
+        load=load,
         radii=(0.01, 0.0466),
         contact_modulus=1.1e11,
         speeds=((0.296, 0.0),) * 2,
@@ -281,7 +284,25 @@ def test_light_loads_on_oils_that_thicken_steeply_are_led_there_through_milder_o
     )
     assert film.status == "converged"
     assert max(film.residual, film.mass_imbalance) <= 1e-8
-    assert film.cycles < 800  # 162 to 563 over nine loads within a hundredth; 1,953 without
+    assert film.cycles < 300  # 190 to 244 over sixty loads within a hundredth; 258 to 850 where it went on creeping
+
+
+def test_a_start_that_creeps_is_gone_on_with_where_no_other_leads_to_a_film(monkeypatch):
+    case = moes(30, 8) | {"shape": (48, 48)}
+    plain = solve_point_film(**case)
+    ways = []
+
+    def leads_nowhere(level, start, goal, most, *, creeping=True):
+        ways.append(creeping)
+        outcome = newton(level, start, goal, most)
+        return outcome if creeping else replace(outcome, converged=False, crept=True)
+
+    monkeypatch.setattr(cascade, "newton", leads_nowhere)
+    found = solve_point_film(**case)
+    assert found.status == "converged"
+    # from the dry contact, three starts of the mildest oil, two thicker films, and the first again
+    assert ways == [False] * 6 + [True]
+    np.testing.assert_array_equal(found.thickness, plain.thickness)
 
 
 def test_the_oil_at_the_end_of_the_way_is_the_one_asked_for(monkeypatch):
@@ -331,8 +352,8 @@ def test_an_error_that_no_coarser_grid_gives_is_said_to_be_unknown(monkeypatch):
     """As where half as many cells have no film."""
     newton = cascade.newton
 
-    def without(level, *given):
-        found = newton(level, *given)
+    def without(level, *given, **more):
+        found = newton(level, *given, **more)
         return found if level.shape == (112, 112) else replace(found, converged=False)
 
     monkeypatch.setattr(cascade, "newton", without)
