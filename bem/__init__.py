@@ -9,7 +9,7 @@ from typing import Any
 
 from bem import surfaces
 from bem.compiled import drop_stale, provide_folder
-from bem.lazy import loader
+from bem.startup.lazy import loader
 
 provide_folder()
 drop_stale()

@@ -1,12 +1,18 @@
-"""Arguments that functions all over `bem` check alike, one message for each number out of range, and hand on."""
+"""Arguments that functions all over `bem` check alike, one message for each number out of range, and hand on; files
+among them are regular ones, not larger than what people write by hand, and read without waiting for anybody."""
 
 from __future__ import annotations
 
 import math
+import os
+import stat
 from numbers import Real
 from typing import Any
 
 from bem.errors import InputError
+
+MOST_BYTES = 1_000_000
+"""Of a file that somebody wrote by hand."""
 
 
 def is_finite(value: object) -> bool:
@@ -48,3 +54,21 @@ def check_not_negative(**values: float) -> None:
 def named(source: object, names: str) -> dict[str, Any]:
     """Attributes of an object, "load radius", by their names: what goes on as keyword arguments."""
     return {name: getattr(source, name) for name in names.split()}
+
+
+def read_small(path: str | os.PathLike[str]) -> bytes:
+    """The content of a regular file of at most `MOST_BYTES`.
+
+    Raises
+    ------
+    OSError : it cannot be opened or read. ValueError : it is a pipe or a device, or larger.
+    """
+    # a pipe that nobody writes into would keep an ordinary `open` for ever
+    descriptor = os.open(path, os.O_RDONLY | os.O_NONBLOCK | os.O_CLOEXEC)
+    with open(descriptor, "rb") as file:
+        if not stat.S_ISREG(os.fstat(descriptor).st_mode):
+            raise ValueError("not a regular file")
+        content = file.read(MOST_BYTES + 1)
+    if len(content) > MOST_BYTES:
+        raise ValueError(f"larger than {MOST_BYTES} bytes")
+    return content

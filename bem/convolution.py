@@ -23,11 +23,11 @@ from numpy.typing import DTypeLike, NDArray
 from bem.arguments import is_finite
 from bem.errors import InputError
 from bem.grid import Grid
-from bem.kept import KeptValues, Sized, bytes_of
 from bem.kernels import layered
 from bem.kernels.coefficients import Load, surface_coefficients
 from bem.kernels.spectral import surface_response
 from bem.materials import Body, Material
+from bem.numerics.cache import KeptValues, Sized, bytes_of
 from bem.threads import one_blas_thread
 from bem.transforms import (
     Multiplier,

@@ -9,10 +9,10 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1] / "bem"
 
 ORDER = [
-    {"errors", "lazy", "representation", "small_files", "compiled", "pocketfft", "quick_loads"},
-    {"extensions", "arguments", "kept", "monotone", "pieces"},
-    {"grid", "materials", "threads", "fftw", "laws"},
-    {"kernels", "reference_solutions", "subcell"},
+    {"errors", "startup", "representation", "compiled"},
+    {"extensions", "arguments"},
+    {"grid", "materials", "threads", "laws"},
+    {"numerics", "kernels", "reference_solutions"},
     {"transforms"},
     {"convolution"},
     {"stress", "heat"},

@@ -15,8 +15,9 @@ import scipy.fft
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bem import pocketfft, threads, transforms
+from bem import threads, transforms
 from bem.errors import InputError
+from bem.numerics import pocketfft
 from bem.transforms import plans
 
 SHAPES = [
@@ -331,7 +332,7 @@ def test_another_version_of_scipys_compiled_module_is_not_used(monkeypatch, tmp_
 def test_scipy_finds_the_compiled_transforms_that_were_loaded_before():
     code = """
 import sys, numpy
-from bem import pocketfft
+from bem.numerics import pocketfft
 pocketfft.cosines(numpy.ones((1, 3)))
 assert "scipy.fft._basic" not in sys.modules
 ours = pocketfft._compiled()

@@ -13,7 +13,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bem import pieces
 from bem.accuracy.bars import GRID, RESIDUAL, ErrorBars, Rule
 from bem.accuracy.sharp import is_sharp
 from bem.contact import ContactSolution, solve_contact
@@ -23,7 +22,8 @@ from bem.contact.spots import count_spots
 from bem.convolution import DisplacementOperator
 from bem.errors import InfeasibleError, Status
 from bem.grid import FloatArray, Grid
-from bem.subcell import around, top
+from bem.numerics import blocks
+from bem.numerics.subcell import around, top
 
 _AREA = Rule(0.33, 0.4, edge=0.02, rough_edge=0.05, sampled=0.33, sampled_edge=0.03)
 RULES: dict[str, Rule] = {
@@ -243,7 +243,7 @@ def _is_smooth(gap: FloatArray, grid: Grid, share: float) -> bool:
         if n < 4:
             continue
         lines, square, across = np.moveaxis(gap, axis, 0), grid.spacing[axis] ** 2, gap.size // n
-        for first, last in pieces.row_blocks(lines.shape):
+        for first, last in blocks.row_blocks(lines.shape):
             second = np.diff(lines[first : last + 3], 2, axis=0) / square  # one more than those of the block
             third = np.diff(second, axis=0)
             bends += float(np.sum(second[: last - first] ** 2)) / ((n - 2) * across)
@@ -259,7 +259,7 @@ def touches_sharply(case: ContactCase) -> bool:
 
 def mean_opening(gap: FloatArray) -> float:
     """Mean of the positive part of a gap."""
-    return pieces.mean(gap, lambda piece: np.maximum(piece, 0))
+    return blocks.mean(gap, lambda block: np.maximum(block, 0))
 
 
 def share_at_edge(case: ContactCase) -> float:
@@ -322,7 +322,7 @@ def _bend_in_cells(case: ContactCase) -> float:
         lines, touching = np.moveaxis(case.undeformed, axis, 0), np.moveaxis(inside, axis, 0)[1:-1]
         second = [
             np.diff(lines[first : last + 2], 2, axis=0)[touching[first:last]]
-            for first, last in pieces.row_blocks(touching.shape)
+            for first, last in blocks.row_blocks(touching.shape)
         ]
         bend += float(np.concatenate(second).sum()) / 24 / np.count_nonzero(inside)
     return abs(bend)
@@ -392,7 +392,7 @@ def _at_mean_gap(case: ContactCase, ends: float, bent: float, touch: float) -> d
 def _algebraic(case: ContactCase, fine: Mapping[str, float]) -> dict[str, float]:
     """What surfaces that miss contact by the residual change at most: as much of the approach and of gaps, and the
     pressure that waves of two cells of that height take, E* q h / 2."""
-    size = pieces.deviation(case.undeformed) or float(np.abs(case.solution.displacement).max())
+    size = blocks.deviation(case.undeformed) or float(np.abs(case.solution.displacement).max())
     height = case.solution.residual * size
     wavenumber = math.pi / math.sqrt(case.grid.cell_area)
     pressure = 0.5 * case.operator.modulus_at(wavenumber) * wavenumber * height

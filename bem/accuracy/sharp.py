@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.grid import FloatArray, Grid
-from bem.pieces import around, row_blocks
+from bem.numerics.blocks import around, row_blocks
 
 _STEP, _STEPS = 5.0, 0.25
 """An edge is sharp where the undeformed gap changes by so many times what it does on both sides; a contact has sharp

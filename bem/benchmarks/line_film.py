@@ -21,7 +21,7 @@ from bem.lubrication.line_kernel import LineOperator
 from bem.lubrication.line_newton import State, newton
 from bem.lubrication.line_scales import scaled_problem
 from bem.lubrication.steady import lowest_film
-from bem.monotone import MonotoneCubic
+from bem.numerics.monotone import MonotoneCubic
 from bem.reference_solutions.line_film import dowson_higginson_minimum, moes_central
 
 if TYPE_CHECKING:

@@ -2,7 +2,7 @@
 
 Each takes cells + digits / 100, one number as every size is, and gives figures whose errors `work_precision` finds from
 the two finest grids; under `raw:` and the same name stands what cells and points have, without what `bem.contact.edge`,
-`bem.contact.peak` and `bem.subcell` add. All grids of a kind see the same surface, whose waves are cut off.
+`bem.contact.peak` and `bem.numerics.subcell` add. All grids of a kind see the same surface, whose waves are cut off.
 Verified in tests/benchmarks/test_work_precision.py: all run at their smallest sizes.
 """
 

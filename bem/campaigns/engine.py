@@ -20,14 +20,14 @@ from bem.campaigns.context import CaseContext, Silent, Watcher
 from bem.campaigns.jobs import Staff, hand_out, words_of
 from bem.campaigns.refine import solve_case, words_of_levels
 from bem.errors import BemError, ConvergenceError, InputError, ResultsError, Status
-from bem.lazy import collecting
-from bem.quick_loads import quicken
 from bem.results.checkpoint import load_checkpoint, save_checkpoint
 from bem.results.directory import CASES, CHECKPOINT
 from bem.scenes.context import Outcome
 from bem.scenes.kind import get_kind
 from bem.scenes.planner import Plan
 from bem.scenes.records import pack, unpack, without
+from bem.startup.lazy import collecting
+from bem.startup.quick_loads import quicken
 from bem.threads import one_blas_thread
 
 _RECORD = "_record"

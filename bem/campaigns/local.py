@@ -136,7 +136,7 @@ class _Reporting:
 
 def serve(descriptor: int) -> None:
     """A worker's life: jobs in, results out, until the pipe closes."""
-    gc.disable()  # see `bem.lazy.collecting`
+    gc.disable()  # see `bem.startup.lazy.collecting`
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # the terminal interrupts all; the parent decides
     end_with_parent()
     connection = Connection(descriptor)

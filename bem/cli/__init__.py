@@ -88,7 +88,7 @@ def main() -> None:
 
     Nothing that takes time is imported before the `try`: an interrupt is one from the first moment.
     """
-    gc.disable()  # see `bem.lazy.collecting`
+    gc.disable()  # see `bem.startup.lazy.collecting`
     try:
         atexit.register(_done)
         signal.signal(signal.SIGTERM, _interrupt)

@@ -28,7 +28,7 @@ def register(app: typer.Typer) -> None:
         from importlib.util import find_spec
 
         from bem.errors import InputError
-        from bem.lazy import collecting
+        from bem.startup.lazy import collecting
 
         if find_spec("nicegui") is None:
             raise InputError("bem app: needs NiceGUI, which `make setup` brings; allowed: pip install 'bem[app]'")

@@ -20,7 +20,7 @@ import math
 import numpy as np
 
 from bem.grid import FloatArray, Grid
-from bem.subcell import around, top
+from bem.numerics.subcell import around, top
 
 _SMOOTH = 0.6
 """Of what a pressure without edges would be above its cells."""

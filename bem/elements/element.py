@@ -15,6 +15,7 @@ from pathlib import Path
 from types import MappingProxyType
 from typing import Any
 
+from bem.arguments import read_small
 from bem.elements.cam_follower import CamModel
 from bem.elements.contact import CONFORMING, ElementContact
 from bem.elements.gear_pair import GearModel
@@ -24,7 +25,6 @@ from bem.elements.rolling_bearing import BearingModel
 from bem.errors import InputError
 from bem.materials import Material, contact_modulus
 from bem.scenes.validate import nearest, show, validate
-from bem.small_files import read_small
 
 MODELS: dict[str, type[ElementModel]] = {
     "cam-follower": CamModel,

@@ -8,7 +8,7 @@ from functools import cached_property
 import numpy as np
 
 from bem.grid import FloatArray
-from bem.monotone import MonotoneCubic
+from bem.numerics.monotone import MonotoneCubic
 
 
 @dataclass(frozen=True, eq=False)

@@ -13,7 +13,7 @@ in the validation page.
 
 from typing import TYPE_CHECKING
 
-from bem.lazy import loader
+from bem.startup.lazy import loader
 
 if TYPE_CHECKING:
     from bem.friction.load_share import fit_load_share

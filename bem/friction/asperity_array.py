@@ -16,7 +16,7 @@ from bem.contact import solve_contact
 from bem.convolution import DisplacementOperator
 from bem.errors import InputError, Status
 from bem.grid import FloatArray, Grid
-from bem.monotone import MonotoneCubic
+from bem.numerics.monotone import MonotoneCubic
 
 LOADS = 14
 """Contacts solved for a curve; loads at depths in between are interpolated."""

@@ -18,7 +18,7 @@ import numpy as np
 from bem.errors import Status
 from bem.friction.boundary import BoundaryFriction, filled_part
 from bem.grid import FloatArray, Grid
-from bem.monotone import MonotoneCubic
+from bem.numerics.monotone import MonotoneCubic
 
 FADES = 0.05
 """Of the largest separation tabulated: over so much more the pressure falls by a factor e."""

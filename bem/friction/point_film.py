@@ -19,13 +19,13 @@ from bem.errors import Status
 from bem.friction.film import BALANCE_CELLS, PatchFilm, smooth_gap
 from bem.friction.smooth import PointContact
 from bem.grid import FloatArray
-from bem.kept import KeptValues
 from bem.lubrication import Lubricant, PointFilmSolution, solve_point_film
 from bem.lubrication.point.scales import nijenbanning_film, point_scales
 from bem.lubrication.point.solve import MOES_LOADS
 from bem.lubrication.point.validity import but_unknown
 from bem.lubrication.supply import OilLayer
 from bem.lubrication.validity import THINNEST_FILM
+from bem.numerics.cache import KeptValues
 from bem.reference_solutions.hertz import ellipse_contact
 
 if TYPE_CHECKING:

@@ -11,7 +11,7 @@ against the closed forms of `bem.reference_solutions.heat_sources` in tests/heat
 
 from typing import TYPE_CHECKING
 
-from bem.lazy import loader
+from bem.startup.lazy import loader
 
 if TYPE_CHECKING:
     from bem.heat.history import surface_temperature_history

@@ -13,7 +13,7 @@ limits, both equations by plain quadrature, order of convergence, closed forms o
 
 from typing import TYPE_CHECKING
 
-from bem.lazy import loader
+from bem.startup.lazy import loader
 
 if TYPE_CHECKING:
     from bem.lubrication.cavitation import Cavitation

@@ -12,7 +12,7 @@ from bem.grid import FloatArray
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.shear_profile import middle_stress
 from bem.lubrication.supply import Starvation
-from bem.monotone import MonotoneCubic
+from bem.numerics.monotone import MonotoneCubic
 from bem.representation import readable
 
 if TYPE_CHECKING:

@@ -17,7 +17,7 @@ from bem.lubrication.film import FilmSolution
 from bem.lubrication.line_kernel import DEFLECTION, logarithmic_integral
 from bem.lubrication.line_newton import State
 from bem.lubrication.line_scales import Scales
-from bem.monotone import MonotoneCubic
+from bem.numerics.monotone import MonotoneCubic
 from bem.threads import one_blas_thread
 
 if TYPE_CHECKING:

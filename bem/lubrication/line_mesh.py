@@ -6,7 +6,7 @@ import numpy as np
 from numba import njit
 
 from bem.grid import FloatArray
-from bem.monotone import MonotoneCubic
+from bem.numerics.monotone import MonotoneCubic
 
 FAR_INLET = 50.0
 """Where the mesh starts: this many times the larger of the exit's abscissa and sqrt(2 R h_min) upstream."""

@@ -34,7 +34,7 @@ from bem.lubrication.line_mesh import (
     trapezoidal_weights,
     upwind_extrapolation,
 )
-from bem.monotone import MonotoneCubic
+from bem.numerics.monotone import MonotoneCubic
 
 SHARP_FROM = 1500
 """Cells from which a spike is solved for by itself first: a step of them all costs more than ten of those."""

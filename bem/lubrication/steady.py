@@ -26,7 +26,7 @@ from bem.lubrication.supply import OilLayer, Starvation, Supply, checked_supply,
 from bem.lubrication.validity import Case, notes_on, why_no_line_film
 from bem.lubrication.with_heat import FilmHeat, film_with_heat
 from bem.materials import Body
-from bem.monotone import MonotoneCubic
+from bem.numerics.monotone import MonotoneCubic
 from bem.threads import one_blas_thread
 
 MAX_INLET_SHARE = 0.01

@@ -17,7 +17,7 @@ def load_matplotlib() -> Any:
     if "matplotlib" in sys.modules:
         return importlib.import_module("matplotlib")
     package = _loaded(os.environ.get("MPLBACKEND"))
-    if not gc.isenabled():  # the command, as in `bem.lazy.collecting`: nobody asks for help there
+    if not gc.isenabled():  # the command, as in `bem.startup.lazy.collecting`: nobody asks for help there
         _without_help()
     return package
 

@@ -9,7 +9,6 @@ from pathlib import Path
 from typing import Any
 
 from bem.errors import InputError, ResultsError
-from bem.lazy import collecting
 from bem.plots.cases import axes_of, first_case, first_figures
 from bem.plots.figures import FigureKind, all_figures
 from bem.plots.side_by_side import side_by_side
@@ -17,6 +16,7 @@ from bem.results.arrays import LEFT_OUT, Arrays
 from bem.results.atomic import replacing
 from bem.results.read import FinishedRun
 from bem.scenes.validate import nearest
+from bem.startup.lazy import collecting
 
 FORMATS = ("png", "pdf", "svg")
 

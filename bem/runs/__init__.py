@@ -7,7 +7,7 @@ tests/test_cli_commands.py.
 
 from typing import TYPE_CHECKING
 
-from bem.lazy import loader
+from bem.startup.lazy import loader
 
 if TYPE_CHECKING:
     from bem.runs.scene import plan_scene, run_scene

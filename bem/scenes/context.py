@@ -14,7 +14,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.errors import Status
-from bem.pieces import row_blocks
+from bem.numerics.blocks import row_blocks
 
 LARGE = 1 << 30
 """From this size on [bytes] an array of `Context.scratch` is on disk."""

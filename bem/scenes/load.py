@@ -15,6 +15,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
+from bem.arguments import read_small
 from bem.errors import InputError
 from bem.laws import Law
 from bem.scenes.common import SceneModel
@@ -23,7 +24,6 @@ from bem.scenes.laws import plain
 from bem.scenes.paths import MOST_PARTS, Key, absolute, drop, parse_key, put, values_in_file
 from bem.scenes.units import Dimension
 from bem.scenes.validate import capped, is_pair, nearest, show, validate
-from bem.small_files import read_small
 
 _DEEPEST = 20
 _LONG_KEY = re.compile(rf"(?<![\w\"'-])[\w\"'-]++(?:[ \t]*\.[ \t]*[\w\"'-]++){{{MOST_PARTS}}}", re.ASCII)

@@ -15,7 +15,7 @@ import numpy as np
 
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
-from bem.kept import KeptValues
+from bem.numerics.cache import KeptValues
 from bem.scenes.common import MeasuredSurface
 from bem.scenes.paths import checksum_of
 from bem.surfaces.examples import example_path

@@ -9,8 +9,8 @@ from collections.abc import Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
+from bem.arguments import read_small
 from bem.errors import InputError
-from bem.small_files import read_small
 from bem.surfaces.examples import example_path
 
 Key = tuple[str | int, ...]

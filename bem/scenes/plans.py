@@ -10,9 +10,9 @@ import math
 from typing import Any
 
 from bem.grid import Grid
-from bem.kept import DEFAULT_LIMIT
 from bem.laws import Law
 from bem.materials import Body
+from bem.numerics.cache import DEFAULT_LIMIT
 from bem.scenes import build
 from bem.scenes.context import LARGE
 from bem.scenes.planner import (

@@ -1,8 +1,9 @@
 """Stresses below one contact, and what is asked of them: the highest von Mises stress, where it is, what yields.
 
-The highest stress lies between points and depths (`bem.subcell`), and what yields ends between them, unless the highest
-stress lies within a cell of the surface, where a pressure that is constant on cells, or ends, leaves no smooth stress:
-then it is that of a point. Along the depth nothing is looked for across an interface of layers, where stresses jump.
+The highest stress lies between points and depths (`bem.numerics.subcell`), and what yields ends between them, unless
+the highest stress lies within a cell of the surface, where a pressure that is constant on cells, or ends, leaves no
+smooth stress: then it is that of a point. Along the depth nothing is looked for across an interface of layers, where
+stresses jump.
 
 A pressure that is bilinear between cells would leave less in the half cell next to the surface, more below it, and as
 much at the edge of contact, where errors are largest (`reports/experiments/near_surface.py`): cells stay.
@@ -22,8 +23,8 @@ from numpy.typing import ArrayLike
 
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
+from bem.numerics.subcell import area_above, around, highest_along, top
 from bem.stress.sweeps import subsurface_stress, von_mises, von_mises_planes
-from bem.subcell import area_above, around, highest_along, top
 
 _REACH = 2
 """Depths on either side of the highest one that are looked at."""

@@ -27,10 +27,10 @@ from numpy.typing import ArrayLike
 from bem.arguments import is_finite
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
-from bem.kept import DEFAULT_LIMIT, bytes_of
 from bem.kernels.coefficients import STRESS_PARITY, Load, stress_coefficients
 from bem.kernels.spectral import stress_response
 from bem.materials import Body
+from bem.numerics.cache import DEFAULT_LIMIT, bytes_of
 from bem.stress.packed import Packed, pack
 from bem.transforms import Multiplier, kernel_spectrum, multiplier, narrowed_lengths, padded_shape
 

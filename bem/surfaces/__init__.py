@@ -12,7 +12,7 @@ the same bits, files of every format and damaged ones.
 
 from typing import TYPE_CHECKING
 
-from bem.lazy import loader
+from bem.startup.lazy import loader
 
 if TYPE_CHECKING:
     from bem.surfaces.describe import (

@@ -9,7 +9,7 @@ import numpy as np
 
 from bem.errors import InputError
 from bem.grid import FloatArray
-from bem.pocketfft import fast_length, from_half_spectrum, half_spectrum
+from bem.numerics.pocketfft import fast_length, from_half_spectrum, half_spectrum
 from bem.representation import readable
 from bem.surfaces.surface import Surface, check_map, spacing_of
 

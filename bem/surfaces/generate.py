@@ -23,7 +23,7 @@ import numpy as np
 
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
-from bem.pocketfft import from_half_spectrum, half_spectrum
+from bem.numerics.pocketfft import from_half_spectrum, half_spectrum
 from bem.surfaces.moments import impose_moments, standardise
 from bem.surfaces.request import Request, check
 from bem.surfaces.spectrum import correlation_lengths, multiplicity, phases, spectrum_of

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 
 from bem.errors import InputError
 from bem.grid import FloatArray
-from bem.pocketfft import from_half_spectrum, half_spectrum
+from bem.numerics.pocketfft import from_half_spectrum, half_spectrum
 from bem.surfaces.ranks import in_order_of
 from bem.surfaces.spectrum import multiplicity
 

@@ -15,7 +15,7 @@ import numpy as np
 
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
-from bem.pocketfft import from_half_spectrum, half_spectrum
+from bem.numerics.pocketfft import from_half_spectrum, half_spectrum
 from bem.surfaces.request import Request
 
 LENGTH_TOLERANCE = 1e-3

@@ -6,7 +6,7 @@ import numpy as np
 from numpy.typing import DTypeLike
 
 from bem.errors import InputError
-from bem.kept import KeptValues, bytes_of, keep_freed_memory
+from bem.numerics.cache import KeptValues, bytes_of, keep_freed_memory
 from bem.transforms.padded import COMPLEX, PaddedTransform
 
 _CACHE = KeptValues(least=1)

@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.pocketfft import cosines, fast_length, sines
+from bem.numerics.pocketfft import cosines, fast_length, sines
 from bem.transforms.count import COUNT
 
 FloatArray = NDArray[Any]

@@ -13,10 +13,10 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from bem.fftw import pyfftw
 from bem.threads import get_threads, share
 from bem.transforms import loops
 from bem.transforms.count import COUNT
+from bem.transforms.fftw import pyfftw
 from bem.transforms.loops import ALIGNMENT, GROUP, Factor, Room, Scratch, Singles, Squares
 from bem.transforms.plans import library
 from bem.transforms.products import Multiplier, unit_factor

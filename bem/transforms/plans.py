@@ -22,7 +22,7 @@ from numba.extending import intrinsic
 from numpy.typing import NDArray
 
 from bem.errors import InputError
-from bem.fftw import pyfftw
+from bem.transforms.fftw import pyfftw
 
 if import_module("numba.core.config").DISABLE_JIT:  # loops that call FFTW by address cannot be run by Python
     raise InputError(

@@ -10,7 +10,7 @@ thickness, stiff limits, constants found again; against paper E in the validatio
 
 from typing import TYPE_CHECKING
 
-from bem.lazy import loader
+from bem.startup.lazy import loader
 
 if TYPE_CHECKING:
     from bem.tribofilm.contact_growth import ContactSample, FilmContact, GrowthTable, solve_film_contact

@@ -25,9 +25,9 @@ import numpy as np
 from scipy.optimize import least_squares
 from scipy.special import gammaincc
 
+from bem.arguments import read_small
 from bem.errors import InputError
 from bem.grid import FloatArray
-from bem.small_files import read_small
 from bem.tribofilm.evolution import GrowthRate, evolve_film
 from bem.tribofilm.growth import BOLTZMANN, ELECTRON_VOLT
 from bem.tribofilm.properties import FadingSubstrate

@@ -12,7 +12,7 @@ validation page.
 
 from typing import TYPE_CHECKING
 
-from bem.lazy import loader
+from bem.startup.lazy import loader
 
 if TYPE_CHECKING:
     from bem.wear.cycle import (

@@ -28,9 +28,9 @@ from typing import Any
 import numpy as np
 import scipy.fft
 
-from bem.fftw import pyfftw
 from bem.threads import set_threads
 from bem.transforms import transform_of
+from bem.transforms.fftw import pyfftw
 from bem.transforms.products import Multiplier
 
 RESULT = Path(__file__).resolve().parents[1] / "results" / "slab_transforms.json"

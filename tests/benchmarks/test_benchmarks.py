@@ -17,9 +17,9 @@ from bem.benchmarks.run import check_names, check_sizes, run_cases, sizes_of
 from bem.benchmarks.show import draw_run, memory_rows, thread_rows
 from bem.benchmarks.work_precision import measure_kinds
 from bem.cli import main
-from bem.fftw import pyfftw
 from bem.grid import Grid
 from bem.transforms import PaddedTransform
+from bem.transforms.fftw import pyfftw
 
 
 def point(**change):

@@ -21,7 +21,7 @@ def test_what_is_left_out_is_the_films_stress_on_cells_in_contact(speeds):
     film, touching, resists = point.patch_film, point.contact_pressure > 0, 1 if speeds[0] > speeds[1] else -1
     more = point.oil_on_contact * point.load
     assert point.film_force + more == pytest.approx(resists * film.shear_force, rel=1e-12)
-    # the contact's area is known better than by its cells, which have it too large (`bem.subcell`)
+    # the contact's area is known better than by its cells, which have it too large (`bem.numerics.subcell`)
     stress = resists * np.broadcast_to(film.shear_stress, point.grid.shape)
     counted = float(stress[touching].sum()) * point.grid.cell_area * 6e-3 / point.grid.lengths[1]
     assert 0.7 * counted < more < counted

@@ -8,7 +8,7 @@ import tracemalloc
 import numpy as np
 import pytest
 
-from bem import Body, Grid, Material, displacement_operator, generate_surface, pieces, solve_contact
+from bem import Body, Grid, Material, displacement_operator, generate_surface, solve_contact
 from bem.accuracy import ContactCase, contact_bars, solve_coarser
 from bem.stress import set_stress_memory, stress_memory, subsurface_stress, von_mises_planes
 
@@ -135,7 +135,7 @@ def test_a_contact_takes_less_than_52_bytes_a_cell_besides_its_gap(periodic):
 def test_error_bars_of_a_contact_hold_no_field_of_its_grid(monkeypatch):
     """A quarter of the cells are solved again; where the surface is sharp is told by rows: of 204 bytes a cell of a run
     of 3000 x 3000 cells half were second differences and their shifts. Beyond the coarser contact two bytes a cell."""
-    monkeypatch.setattr(pieces, "PIECE", 1 << 12)
+    monkeypatch.setattr("bem.numerics.blocks.BLOCK", 1 << 12)
     cells = 512
     grid = Grid((cells, cells), (1e-3 / cells, 1e-3 / cells), periodic=(True, True))
     operator = displacement_operator(grid, STEEL)

@@ -83,7 +83,7 @@ CALL = """
 import json, sys
 import numpy as np
 from numba.core.cpu import CPUContext
-from bem.quick_loads import quicken
+from bem.startup.quick_loads import quicken
 readied, ready = [], CPUContext.load_additional_registries
 CPUContext.load_additional_registries = lambda self: readied.append(1) or ready(self)
 quicken()

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 
 from bem.errors import ResultsError
-from bem.kept import KeptValues
+from bem.numerics.cache import KeptValues
 from bem.plots.style import largest_of, thinned
 from bem.results import open_run
 from bem.results.dataset import read_dataset, write_variables
@@ -90,7 +90,7 @@ def test_results_are_the_same_on_disk_and_in_memory(tmp_path, monkeypatch, scene
 def test_a_rough_contact_with_its_error_bars_holds_nine_and_a_half_fields(tmp_path, monkeypatch):
     """The surfaces while the second one is made (eight fields), the contact and the error bars beside the heights (a
     field each, on disk where the grid is very large); buffers of transforms, which are not traced, come on top."""
-    monkeypatch.setattr("bem.pieces.PIECE", 1 << 12)
+    monkeypatch.setattr("bem.numerics.blocks.BLOCK", 1 << 12)
     monkeypatch.setattr("bem.scenes.build.KEPT", KeptValues(0))  # no large surface is kept
     field = 8 * ROUGH["grid"]["shape"] ** 2
     run_scene(ROUGH, tmp_path / "first", figures=False)  # loops, plans, spectra, surfaces that are kept
@@ -115,7 +115,7 @@ def test_pictures_of_a_contact_hold_no_field_besides_its_own(tmp_path, monkeypat
     from bem.results.read import FinishedRun
 
     monkeypatch.setattr("bem.plots.style._MOST_CELLS", 300)
-    monkeypatch.setattr("bem.pieces.PIECE", 1 << 12)
+    monkeypatch.setattr("bem.numerics.blocks.BLOCK", 1 << 12)
     cells = 1800
     rng, x = np.random.default_rng(3), np.arange(cells) * 1e-6
     heights = rng.standard_normal((cells, cells))

@@ -8,7 +8,7 @@ from small_scenes import CONTACT
 
 import bem.surfaces
 from bem import Grid, generate_surface, run_scene
-from bem.kept import KeptValues
+from bem.numerics.cache import KeptValues
 from bem.results import open_run
 from bem.runs import run_sweep
 from bem.scenes import build, maps

@@ -4,7 +4,7 @@ are first used. Verified in tests/lubrication/test_oils.py."""
 
 from typing import TYPE_CHECKING
 
-from bem.lazy import loader
+from bem.startup.lazy import loader
 
 if TYPE_CHECKING:
     from bem.lubrication.oils.catalogue import find_oil, oil_names

@@ -12,7 +12,7 @@ from bem.contact import solve_contact
 from bem.grid import FloatArray
 from bem.lubrication.point.levels import Level, PointProblem
 from bem.lubrication.point.newton import Outcome, State, newton
-from bem.monotone import MonotoneCubic
+from bem.numerics.monotone import MonotoneCubic
 
 COARSEST = 56
 """Cells along the shorter side of the first grid, at least."""

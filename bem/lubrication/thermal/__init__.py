@@ -11,7 +11,7 @@ tests/lubrication/test_thermal_film.py, test_full_thermal.py and test_thermal_wa
 
 from typing import TYPE_CHECKING
 
-from bem.lazy import loader
+from bem.startup.lazy import loader
 
 if TYPE_CHECKING:
     from bem.lubrication.thermal.full import FullThermalFilm, solve_full_thermal_line_film

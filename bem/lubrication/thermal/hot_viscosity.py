@@ -22,7 +22,7 @@ from bem.grid import FloatArray
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.oils.oil import COLDEST, HOTTEST
 from bem.lubrication.viscosity import ROELANDS_VISCOSITY
-from bem.monotone import MonotoneCubic
+from bem.numerics.monotone import MonotoneCubic
 
 POLE = 138.0
 """Temperature at which Roelands' viscosity is infinite [K]."""

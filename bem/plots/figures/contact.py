@@ -11,7 +11,7 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from bem.pieces import deviation
+from bem.numerics.blocks import deviation
 from bem.plots.figures import FigureKind, two_dimensional
 from bem.plots.style import (
     BLACK,

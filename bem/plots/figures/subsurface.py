@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from matplotlib.markers import TICKRIGHT
 from numpy.typing import NDArray
 
-from bem.monotone import MonotoneCubic
+from bem.numerics.monotone import MonotoneCubic
 from bem.plots.figures import FigureKind
 from bem.plots.style import SKY, along_x, label, prefix
 from bem.scenes.context import release

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from bem.errors import Status
 from bem.grid import FloatArray, Grid
-from bem.pieces import deviation
+from bem.numerics.blocks import deviation
 from bem.scenes import build, plans
 from bem.scenes.context import Context, error_bars, release, set_aside, tell
 from bem.scenes.kind import Kind

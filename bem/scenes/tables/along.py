@@ -17,10 +17,10 @@ from typing import Annotated, Any
 
 from pydantic import Field, ValidationError, model_validator
 
+from bem.arguments import read_small
 from bem.scenes.common import Force, Table, check_rising, problem
 from bem.scenes.units import Length, Speed
 from bem.scenes.validate import nearest
-from bem.small_files import read_small
 
 _MOST_ROWS = 1000
 _NAMED = re.compile(r"\s*([A-Za-z_.]+)\s*(?:[\[(]\s*(.*?)\s*[\])])?\s*")

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bem.grid import Grid
-from bem.subcell import area_above, around, highest_along, top
+from bem.numerics.subcell import area_above, around, highest_along, top
 
 
 def field_at(shape, centre, function, angle=0.0):

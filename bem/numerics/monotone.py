@@ -1,7 +1,7 @@
 """Cubics through points that overshoot nowhere, for films, factors over a gap, and curves that are drawn.
 
 The same digits as those of scipy, whose splines take a fifth of a second to load and three hundred calls to set up.
-Knows arrays alone. Verified in tests/test_monotone.py: scipy's to the bit.
+Knows arrays alone. Verified in tests/numerics/test_monotone.py: scipy's to the bit.
 """
 
 from __future__ import annotations

@@ -1,6 +1,6 @@
-"""Large fields piece by piece: means as numpy forms them of the whole, without a second field in memory, and rows.
+"""Large fields block by block: means as numpy forms them of the whole, without a second field in memory, and rows.
 
-Knows only arrays. Verified in tests/test_pieces.py.
+Knows only arrays. Verified in tests/numerics/test_blocks.py.
 """
 
 from __future__ import annotations
@@ -14,8 +14,8 @@ from numpy.typing import NDArray
 
 FloatArray = NDArray[np.float64]
 
-PIECE = 1 << 18
-"""Entries of a piece: 2 MB in double, far more than calls cost."""
+BLOCK = 1 << 18
+"""Entries of a block: 2 MB in double, far more than calls cost."""
 _ALIGNED = 8
 """numpy halves what it adds up pairwise at multiples of so many entries."""
 
@@ -27,7 +27,7 @@ def total(field: FloatArray, of: Callable[[FloatArray], FloatArray] | None = Non
 
 
 def _part(flat: FloatArray, of: Callable[[FloatArray], FloatArray] | None) -> float:
-    if flat.size <= PIECE:
+    if flat.size <= BLOCK:
         return float(np.add.reduce(flat if of is None else of(flat)))
     half = flat.size // 2 - flat.size // 2 % _ALIGNED
     return _part(flat[:half], of) + _part(flat[half:], of)
@@ -41,12 +41,12 @@ def mean(field: FloatArray, of: Callable[[FloatArray], FloatArray] | None = None
 def deviation(field: FloatArray) -> float:
     """The standard deviation of a field, with the bits of `field.std()`."""
     middle = mean(field)
-    return math.sqrt(mean(field, lambda piece: np.square(piece - middle)))
+    return math.sqrt(mean(field, lambda block: np.square(block - middle)))
 
 
 def row_blocks(shape: tuple[int, ...], least: int = 1) -> Iterator[tuple[int, int]]:
-    """First and last row (exclusive) of blocks of whole rows, each of about `PIECE` entries and of `least` rows."""
-    rows = max(least, PIECE // max(1, math.prod(shape[1:])))
+    """First and last row (exclusive) of blocks of whole rows, each of about `BLOCK` entries and of `least` rows."""
+    rows = max(least, BLOCK // max(1, math.prod(shape[1:])))
     for first in range(0, shape[0], rows):
         yield first, min(shape[0], first + rows)
 

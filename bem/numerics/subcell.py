@@ -4,7 +4,7 @@ The highest value is that of a paraboloid through a centre and its eight neighbo
 the field is smooth; along the depth that of a cubic. The area is summed over cells: in each the level is a straight
 line, from the gradient at the centre and the field's mean over the cell, f + (dx^2 f_xx + dy^2 f_yy) / 24, which is
 what the curvature of field and line makes of it; a paraboloid's area is met to 0.4 % at two cells to the radius, where
-a count of centres scatters by 8 %. Verified in tests/test_subcell.py.
+a count of centres scatters by 8 %. Verified in tests/numerics/test_subcell.py.
 """
 
 from __future__ import annotations

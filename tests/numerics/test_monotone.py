@@ -6,7 +6,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from scipy.interpolate import PchipInterpolator
 
-from bem.monotone import MonotoneCubic
+from bem.numerics.monotone import MonotoneCubic
 
 
 @pytest.mark.parametrize("points", [2, 3, 4, 50, 2000])

@@ -1,0 +1,4 @@
+"""What makes a process start quickly: names that load when first used, compiled loops read without the compiler.
+
+Knows Python's imports and numba's inside, nothing of what is computed. Verified in tests/packaging/.
+"""
