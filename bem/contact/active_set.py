@@ -33,6 +33,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from bem.contact import at_once
 from bem.contact.controls import ApproachControl, Control, LoadControl, MeanGapControl
 from bem.contact.coupled import solve_coupled
 from bem.contact.energy import Accepted, best_share, lowest_point
@@ -265,6 +266,9 @@ def _approach(level: Level, control: Control, iterate: Iterate, total: float) ->
 
 def _next(level: Level, control: Control, now: _Round, effort: Effort, close: Close) -> _Step | None:
     """Take in the cells that violate their state, close the gap, and go back into the bounds; None without a cell."""
+    if close is solve_on_cells and at_once.fits(level, now.iterate, now.found, control):
+        iterate, raw = at_once.close(level, now.iterate, now.found, now.approach, control, now.goal, effort)
+        return _within(level, control, now, iterate, raw)
     iterate, opening = take_in(level, now.iterate, now.found, now.approach)
     if iterate.cells.size == 0:
         return None
@@ -274,7 +278,11 @@ def _next(level: Level, control: Control, now: _Round, effort: Effort, close: Cl
             return _Step(lifted, lifted=True)
         # it is at a bound already: what varies is closed first, or the next round would be this one
         opening = Opening(opening.values - opening.mean, 0.0)
-    raw = close(level, iterate, opening, control, now.goal, effort)
+    return _within(level, control, now, iterate, close(level, iterate, opening, control, now.goal, effort))
+
+
+def _within(level: Level, control: Control, now: _Round, iterate: Iterate, raw: FloatArray) -> _Step:
+    """Back into the bounds from pressures without."""
     clipped = clip(level, control, iterate, raw.copy())
     if clipped.cells.size <= _FEW * clipped.capped.size and clipped.cells.size < 0.5 * iterate.cells.size:
         # fully plastic: bounds matter, elasticity hardly does, and unbounded pressures say nothing

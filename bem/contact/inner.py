@@ -105,8 +105,7 @@ def solve_in_one_call(
     now = np.array([0.0, 0.0, first.last, 0.0, residual[1], first.length, 0.0, 0.0, 0.0])
     alone = get_threads() == 1
     with transform.lock, transform.lock if coarse is None else coarse.transform.lock:
-        factor = quick.multiplier.factor(transform.dtype)
-        engine = transform.room_for(factor), transform.ready(1), factor
+        engine = quick.compiled()
         inverted = preconditioner.compiled()
         while _iterate(now, inverted, vectors, balance, cells, convolved, engine, ends, first.cap, alone):
             quick.apply_to_cells(cells, way[1], convolved)

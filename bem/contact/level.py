@@ -226,8 +226,8 @@ class Level:
         pressure = iterate.cells, iterate.values, iterate.capped
         return find_violations(self.flat["displacement"], self.gap, self.state, pressure, approach)
 
-    def preconditioner(self, cells: Indices) -> Inverse:
-        """Approximate inverse of the kernel on the cells."""
+    def rows_of_inverse(self) -> SparseInverse:
+        """The preconditioner's near part on this grid; the long waves are made with it."""
         if self.sparse is None:
             reach = 2 * math.isqrt(self.tuning.squared_radius)
             self.sparse = sparse_inverse(
@@ -237,8 +237,13 @@ class Level:
                 self.tuning.squared_radius,
             )
             self.smooth = long_waves(self.operator, self.sparse.near)
+        return self.sparse
+
+    def preconditioner(self, cells: Indices) -> Inverse:
+        """Approximate inverse of the kernel on the cells."""
+        sparse = self.rows_of_inverse()
         self.near = None  # the old rows go before the new ones come
-        near = self.sparse.on(cells)
+        near = sparse.on(cells)
         self.near = cells, near
         far = None if self.smooth is None else self.smooth.on(cells, near.row_sums())
         return Inverse(near, far, np.empty(cells.size))

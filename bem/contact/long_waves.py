@@ -64,6 +64,11 @@ class LongWaves:
     columns: NDArray[np.int64]
     workspace: Workspace
 
+    def compiled(self) -> tuple[Any, ...]:
+        """What compiled loops take; the caller holds the transform's lock while they run."""
+        width = self.workspace.field.shape[1]
+        return (self.rows, self.columns, width), self.workspace, self.convolution.compiled()
+
     def on(self, cells: NDArray[Any], row_sums: FloatArray) -> LongWavesOnCells:
         """The middle factor on some cells (flat indices), for a G with these row sums there."""
         width = self.workspace.field.shape[1]
@@ -91,15 +96,9 @@ class LongWavesOnCells:
 
     def compiled(self) -> tuple[Any, ...]:
         """What the compiled loop takes; the caller holds the transform's lock while it runs."""
-        convolution = self.smooth.convolution
-        transform = convolution.transform
-        factor = convolution.multiplier.factor(transform.dtype)
-        return (
-            (self.blocks, self.weights),
-            (self.root, self.inverse_root),
-            self.smooth.workspace,
-            (transform.room_for(factor), transform.ready(1), factor),
-        )
+        smooth = self.smooth
+        cells, diagonal = (self.blocks, self.weights), (self.root, self.inverse_root)
+        return cells, diagonal, smooth.workspace, smooth.convolution.compiled()
 
 
 def long_waves(operator: DisplacementOperator, near: float) -> LongWaves | None:

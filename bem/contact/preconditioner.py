@@ -96,8 +96,16 @@ class SparseInverse:
         if _look_up((cells, lines), grid, known.offsets, known.solved, listed, columns, own, pattern):
             unsolved = True
         known.solve(pattern, unsolved=unsolved)
-        rows_on = Rows(upper, lower, pattern, known.packed)
-        return SparseInverseOnCells(rows_on, Seam(listed, columns, own, known.table), _outside(upper))
+        return self.of_rows((upper, lower, pattern), (listed, columns, own))
+
+    def of_rows(
+        self,
+        rows: tuple[NDArray[Any], NDArray[Any], NDArray[Any]],
+        seam: tuple[NDArray[Any], NDArray[Any], NDArray[Any]],
+    ) -> SparseInverseOnCells:
+        """The inverse from first neighbours and patterns, and from the seam's cells, columns and patterns; solved."""
+        known = self.patterns
+        return SparseInverseOnCells(Rows(*rows, known.packed), Seam(*seam, known.table), _outside(rows[0]))
 
 
 @dataclass(frozen=True)

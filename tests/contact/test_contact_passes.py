@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from contact_oracles import FREE, PERIODIC, notes_surface, operator
 
-from bem.contact import face, feasible, gradients, inner, judging, long_waves, passes, sets
+from bem.contact import at_once, face, feasible, gradients, inner, judging, long_waves, passes, sets
 from bem.contact.controls import ApproachControl, LoadControl
 from bem.contact.level import Effort, Iterate, Level, Stride, Tuning
 
@@ -307,6 +307,62 @@ def test_conjugate_gradients_in_one_call_are_those_pass_by_pass(n, control, alon
     for one, plain in zip(results[0][3:], results[1][3:], strict=True):
         # the transforms are in single precision
         np.testing.assert_allclose(one, plain, rtol=0, atol=1e-6 * np.abs(plain).max())
+
+
+@pytest.mark.parametrize("n", [24, 96])
+@pytest.mark.parametrize("control", [LoadControl(30.0), ApproachControl(0.1)])
+@pytest.mark.parametrize("cap", [np.inf, 8.0])
+def test_two_calls_close_the_gap_as_the_passes_one_by_one_do(n, control, cap):
+    op = operator((n, n), (1 / n, 1 / n), PERIODIC)
+    height, rng = notes_surface(n, rolloff=4).ravel(), np.random.default_rng(7)
+    cells, lower = (np.flatnonzero(height > np.quantile(height, share)) for share in (0.8, 0.7))
+    more = np.setdiff1d(lower, cells)
+    found = more[rng.random(more.size) < 0.3].astype(np.int32)
+    capped = more[:0] if np.isinf(cap) else found[::3].astype(np.int64)
+    iterate = Iterate(cells, 5 + rng.random(cells.size), capped)
+    displacement, results = 0.01 * rng.standard_normal(n * n), []
+    levels = [Level(op, 0.1 - 0.1 * height, cap, Tuning(clipping=0.0)) for _ in range(2)]
+    for level, plain in zip(levels, (False, True), strict=True):
+        effort = Effort(50)
+        for turn in range(2):  # the second has the rise of the first
+            level.flat["displacement"][:] = displacement
+            judging.mark(level.state, iterate.cells, iterate.capped)
+            level.stride.trusted = turn == 1
+            before, made = op.count.weighted, effort.iterations
+            given = level, iterate, found[turn:], 0.02
+            if plain:
+                taken, opening = face.take_in(*given)
+                raw = face.solve_on_cells(level, taken, opening, control, 1e-6, effort)
+            else:
+                assert at_once.fits(level, iterate, found[turn:], control)
+                taken, raw = at_once.close(*given, control, 1e-6, effort)
+            near, rise = level.near_on(taken.cells), level.rise or ()
+            stride, state = (level.stride.length, level.stride.taken), level.state.copy()
+            counts = effort.iterations - made, op.count.weighted - before
+            results.append(
+                (taken.cells, taken.values, taken.capped, raw, *near.rows, *near.seam, *rise, stride, state, counts)
+            )
+    assert results[0][-1][0] >= 2
+    for one, plain in zip(results[:2], results[2:], strict=True):
+        assert len(one) == len(plain)
+        for ours, theirs in zip(one, plain, strict=True):
+            np.testing.assert_array_equal(ours, theirs)
+
+
+def test_what_is_not_closed_in_two_calls(monkeypatch):
+    n = 24
+    level = Level(operator((n, n), (1 / n, 1 / n), PERIODIC), np.zeros(n * n), np.inf, Tuning())
+    cells = np.arange(n * n - 1)
+    iterate, one = Iterate(cells, np.ones(cells.size), cells[:0]), np.array([n * n - 1], np.int32)
+    nothing = Iterate(cells[:0], np.empty(0), cells[:0])
+    assert at_once.fits(level, iterate, one, LoadControl(1.0))
+    assert not at_once.fits(level, iterate, one, ApproachControl(0.1))  # full contact has ways of its own
+    assert not at_once.fits(level, nothing, one, LoadControl(1.0))  # one cell has all the load
+    assert not at_once.fits(level, nothing, one[:0], ApproachControl(0.1))
+    monkeypatch.setattr(passes, "BLOCK", cells.size)
+    assert not at_once.fits(level, iterate, one, LoadControl(1.0))
+    monkeypatch.setattr(at_once, "get_threads", lambda: 2)
+    assert not at_once.fits(level, iterate, one[:0], LoadControl(1.0))
 
 
 def test_two_pressures_are_blended():
