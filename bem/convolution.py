@@ -262,8 +262,16 @@ class DisplacementOperator:
 
     def modulus_at(self, wavenumber: float) -> float:
         """E* [Pa] that a harmonic pressure of that wavenumber [rad/m] sees: of the layers for short waves."""
-        response = sum(float(layered.surface_response(wavenumber, 0.0, body, tangential=False)) for body in self.bodies)
-        return 2 / (wavenumber * response)
+        if wavenumber not in self._moduli:
+            response = sum(
+                float(layered.surface_response(wavenumber, 0.0, body, tangential=False)) for body in self.bodies
+            )
+            self._moduli[wavenumber] = 2 / (wavenumber * response)
+        return self._moduli[wavenumber]
+
+    @cached_property
+    def _moduli(self) -> dict[float, float]:
+        return {}
 
     @property
     def symmetric(self) -> bool:

@@ -28,7 +28,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
@@ -86,14 +86,14 @@ def solve_level(
         if report is not None:
             report(effort.iterations, now.violation, now.iterate.cells.size + now.iterate.capped.size)
         if now.violation <= now.goal:
-            return replace(now.result(level), converged=True)
+            return now.result(level, converged=True)
         progress.rounds += 1
         level.stride.judge(now.violation)
         if effort.left <= 0 or progress.rounds >= tuning.rounds:
             return now.result(level)
         current = now.reached
         if progress.stalls(now.violation, current.potential(control), current.size, resolved=now.resolved):
-            return replace(now.result(level), resolved=now.resolved)
+            return now.result(level, resolved=now.resolved)
         before = current if energetic else None
         improved = progress.improves(now.violation)
         progress.set_release(now.violation, guarded=energetic)
@@ -139,9 +139,11 @@ class _Round:
         """The approach that goes with it."""
         return self.reached.approach
 
-    def result(self, level: Level) -> LevelResult:
+    def result(self, level: Level, *, converged: bool = False, resolved: bool = False) -> LevelResult:
         """As where the level ends."""
-        return level.result(self.iterate, self.approach, self.violation, fresh=self.share == 1)
+        pressure, displacement = level.handed_over(self.iterate)
+        reached = pressure, displacement, self.approach, self.violation
+        return LevelResult(*reached, converged=converged, fresh=self.share == 1, resolved=resolved)
 
 
 @dataclass(slots=True)

@@ -259,8 +259,8 @@ class Level:
         self.kept = False
         self.displace(iterate)
 
-    def result(self, iterate: Iterate, approach: float, violation: float, *, fresh: bool) -> LevelResult:
-        """A pressure with the displacement in the buffer, handed over: the level is done with its buffers."""
+    def handed_over(self, iterate: Iterate) -> tuple[FloatArray, FloatArray]:
+        """A pressure everywhere and the displacement in the buffer: the level is done with its buffers."""
         pressure = self.flat["before"]
         passes.place(pressure, iterate.cells, iterate.values, iterate.capped, self.cap)
-        return LevelResult(pressure, self.flat["displacement"], approach, violation, fresh=fresh)
+        return pressure, self.flat["displacement"]

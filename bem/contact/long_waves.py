@@ -15,6 +15,7 @@ every iterate of theirs keeps the whole positive definite, and a residual reduce
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -115,7 +116,7 @@ def long_waves(operator: DisplacementOperator, near: float) -> LongWaves | None:
     if convolution is None:
         return None
     rows, columns = (
-        np.arange(n) * m // n if periodic else np.minimum(np.arange(n) >> halvings, m - 1)
+        _coarse_cells(n, m, periodic, halvings)
         for n, m, periodic in zip(operator.grid.shape, coarse.grid.shape, operator.grid.periodic, strict=True)
     )
     cells = coarse.grid.cells
@@ -126,6 +127,14 @@ def long_waves(operator: DisplacementOperator, near: float) -> LongWaves | None:
         columns,
         Workspace(fields[0], fields[1], fields[2], fields[3], fields[4], convolution.transform.zeros_field()),
     )
+
+
+@lru_cache(maxsize=64)
+def _coarse_cells(cells: int, onto: int, periodic: bool, halvings: int) -> NDArray[np.int64]:
+    """Which of `onto` coarse cells along an axis each cell is in; kept for the next contact."""
+    found = np.arange(cells) * onto // cells if periodic else np.minimum(np.arange(cells) >> halvings, onto - 1)
+    found.flags.writeable = False
+    return found
 
 
 @_fast

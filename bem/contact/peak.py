@@ -30,21 +30,22 @@ _LEAST_RADIUS = 1.5
 
 def highest_pressure(pressure: FloatArray, grid: Grid, hardness: float = math.inf) -> float:
     """The highest of pressures (nx, ny) on cells (as waves where both axes are periodic), at most the hardness [Pa]."""
-    place = np.unravel_index(int(np.argmax(pressure)), pressure.shape)
+    place = divmod(int(np.argmax(pressure)), pressure.shape[1])
     highest = float(pressure[place])
-    patch = around(pressure, grid, (int(place[0]), int(place[1])))
+    patch = around(pressure, grid, place)
     if patch is None or highest <= 0:
         return highest
-    beside = np.concatenate([patch[:, 1], patch[1, :]])
-    if beside.min() <= 0 or patch.max() >= hardness:
+    rows: list[list[float]] = patch.tolist()
+    below, above, left, right = rows[0][1], rows[2][1], rows[1][0], rows[1][2]
+    if min(below, above, left, right) <= 0 or max(map(max, rows)) >= hardness:
         return highest
     squares = (patch / highest) ** 2
-    if patch.min() <= 0:  # outside contact a square is none: corners then say nothing of a twist
+    if min(map(min, rows)) <= 0:  # outside contact a square is none: corners then say nothing of a twist
         squares[::2, ::2] = 0.0
     found = top(squares)
     if found is None:
         return highest
-    bend = 0.0 if all(grid.periodic) else float(beside.sum() - 6 * highest)
+    bend = 0.0 if all(grid.periodic) else below + highest + above + left + highest + right - 6 * highest
     if -bend * _LEAST_RADIUS**2 > 2 * highest:
         bend = 0.0
     return min(highest * math.sqrt(found) + _SMOOTH * bend / 24, hardness)

@@ -43,10 +43,13 @@ class KeptValues:
     def of(self, key: Hashable, make: Callable[[], _Value]) -> _Value:
         """The value of a key, made where there is none; of two threads that make one, both get the first."""
         with self.lock:
-            found = self.kept.get(key)
-        made = make() if found is None else found
+            if key in self.kept:
+                self.kept.move_to_end(key)
+                found: _Value = self.kept[key]
+                return found
+        made = make()
         if self.least == 0 and made.nbytes > self.limit:  # it would drive out all others and go itself
-            return cast("_Value", made)
+            return made
         with self.lock:
             value = self.kept.setdefault(key, made)
             self.kept.move_to_end(key)

@@ -26,6 +26,9 @@ _FARTHEST = 1.0
 
 def around(field: FloatArray, grid: Grid, place: tuple[int, int]) -> FloatArray | None:
     """A cell and its neighbours, (3, 3); None at a free edge. Along an axis of fewer than three cells all are alike."""
+    i, j = place
+    if 0 < i < grid.shape[0] - 1 and 0 < j < grid.shape[1] - 1:
+        return field[i - 1 : i + 2, j - 1 : j + 2].astype(np.float64)
     rows = []
     for axis in (0, 1):
         n, i = grid.shape[axis], place[axis]
@@ -38,20 +41,20 @@ def around(field: FloatArray, grid: Grid, place: tuple[int, int]) -> FloatArray 
 def top(patch: FloatArray) -> float | None:
     """The highest value of the paraboloid through (3, 3) values with the middle one exact; None where it has no top
     within a cell of the middle."""
-    middle = float(patch[1, 1])
-    along_x, along_y = patch[:, 1], patch[1, :]
-    slope = 0.5 * np.array([along_x[2] - along_x[0], along_y[2] - along_y[0]])
-    twist = 0.25 * (patch[2, 2] - patch[2, 0] - patch[0, 2] + patch[0, 0])
-    bends = (along_x[0] - 2 * middle + along_x[2], along_y[0] - 2 * middle + along_y[2])
+    # numbers of Python: of nine values numpy's calls take longer than what they do
+    (a, below, b), (left, middle, right), (c, above, d) = patch.tolist()
+    slope = np.array([0.5 * (above - below), 0.5 * (right - left)])
+    twist = 0.25 * (d - c - b + a)
+    bends = (below - 2 * middle + above, left - 2 * middle + right)
     curvatures, directions = np.linalg.eigh(np.array([[bends[0], twist], [twist, bends[1]]]))
     rise, flat = 0.0, _FLAT * abs(middle)
-    for curvature, part in zip(curvatures, directions.T @ slope, strict=True):
+    for curvature, part in zip(curvatures.tolist(), (directions.T @ slope).tolist(), strict=True):
         if abs(part) <= flat and abs(curvature) <= flat:
             continue
         if curvature >= 0 or abs(part) > -_FARTHEST * curvature:
             return None
         rise -= part * part / (2 * curvature)
-    return middle + float(rise)
+    return middle + rise
 
 
 def highest_along(depths: FloatArray, values: FloatArray) -> tuple[float, float]:
