@@ -118,7 +118,7 @@ def newton(level: Level, start: TouchingState, least: float, tolerance: float, m
             change, cycles = _change(at, forcing)
         except (RuntimeError, LinAlgError):  # a singular matrix: nothing more can be done from here
             return None, 0
-        return line_search(lambda length: _stepped(at, change, least, length), size), cycles
+        return line_search(lambda length: _stepped(at, change, least, length), size)[0], cycles
 
     at, steps, cycles, largest, converged = iterate(
         balance(level, start, mismatch), step, tolerance, most, HISTORY, roughly=ROUGHLY, patience=patience
