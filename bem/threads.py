@@ -1,7 +1,8 @@
 """How many threads the numerical work may use, and one way to share blocks of work between them.
 
-Blocks never depend on the number of threads, so neither do the bits of a result. Linear algebra would: how many threads
-BLAS takes is the environment's choice, and the order of its sums follows it. It gets one, wherever a result is made.
+Blocks never depend on the number of threads, so neither do the bits of a result. What is small is not shared, and what
+is shared shares nothing further. Linear algebra is another matter: how many threads BLAS takes is the environment's
+choice, and the order of its sums follows it. It gets one, wherever a result is made.
 """
 
 from __future__ import annotations
@@ -15,6 +16,9 @@ from concurrent.futures import ThreadPoolExecutor
 from typing import Any, ParamSpec, TypeVar
 
 from bem.errors import InputError
+
+SHARED_FROM = 1 << 19
+"""Entries of a pass or a transform from which threads share it."""
 
 
 def _from_environment() -> int:
@@ -45,6 +49,15 @@ class _Pool:
 _POOL = _Pool()
 
 
+class _Inside(threading.local):
+    """Of each thread, whether it is at work that is shared."""
+
+    shared = False
+
+
+_INSIDE = _Inside()
+
+
 def set_threads(count: int) -> None:
     """Let transforms and elementwise passes use `count` threads (default 1, or the variable BEM_THREADS).
 
@@ -58,8 +71,13 @@ def set_threads(count: int) -> None:
 
 
 def get_threads() -> int:
-    """Number of threads that the next computation may use."""
-    return _POOL.threads
+    """Number of threads that the next computation may use: one within work that is shared already."""
+    return 1 if _INSIDE.shared else _POOL.threads
+
+
+def threads_for(entries: int) -> int:
+    """Number of threads that a pass over so many entries may use."""
+    return get_threads() if entries >= SHARED_FROM else 1
 
 
 def cores() -> int:
@@ -67,22 +85,26 @@ def cores() -> int:
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else (os.cpu_count() or 1)
 
 
-def share(work: Callable[[int, int], None], blocks: int) -> None:
-    """Call `work(worker, block)` once for every block in 0..blocks-1.
+def share(work: Callable[[int, int], None], blocks: int, entries: int) -> None:
+    """Call `work(worker, block)` once for every block in 0..blocks-1, which are passes over so many entries together.
 
     `worker` numbers the thread (0..get_threads()-1): scratch that may not be shared is indexed by it. `work` must
-    release the interpreter lock in its heavy parts for this to be worth anything, and may not call `share` again.
-    The first exception of any block is raised here.
+    release the interpreter lock in its heavy parts for this to be worth anything; what it calls has one thread, so
+    that `share` within it does its blocks itself. The first exception of any block is raised here.
     """
-    workers = min(_POOL.threads, blocks)
+    workers = min(threads_for(entries), blocks)
     if workers <= 1:
         for block in range(blocks):
             work(0, block)
         return
 
     def run(worker: int) -> None:
-        for block in range(worker, blocks, workers):
-            work(worker, block)
+        _INSIDE.shared = True
+        try:
+            for block in range(worker, blocks, workers):
+                work(worker, block)
+        finally:
+            _INSIDE.shared = False
 
     executor = _POOL.helpers(workers - 1)
     futures = [executor.submit(run, worker) for worker in range(1, workers)]

@@ -9,9 +9,14 @@ os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
 import pytest
 from hypothesis import settings
 
+from bem import threads
+
 # the same examples in every run, so that a red run can be repeated; HYPOTHESIS_PROFILE=default hunts with fresh ones
 settings.register_profile("seeded", derandomize=True, deadline=None)
 settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "seeded"))
+
+SHARED_FROM = threads.SHARED_FROM
+threads.SHARED_FROM = 1  # small fields, too, so that tests of threads need no large ones
 
 MEASURED = Path(__file__).resolve().parents[2] / "shared" / "data" / "measured"
 
@@ -22,3 +27,9 @@ def measured() -> Path:
     if not MEASURED.is_dir():
         pytest.skip(f"no measured surfaces at {MEASURED}")
     return MEASURED
+
+
+@pytest.fixture
+def shared_as_it_is(monkeypatch):
+    """Threads share what they do for users."""
+    monkeypatch.setattr(threads, "SHARED_FROM", SHARED_FROM)

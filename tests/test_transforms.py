@@ -15,9 +15,10 @@ import scipy.fft
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bem import threads, transforms
+from bem import Body, Grid, Material, displacement_operator, solve_contact, threads, transforms
 from bem.errors import InputError
 from bem.numerics import pocketfft
+from bem.stress import von_mises_field
 from bem.transforms import plans
 
 SHAPES = [
@@ -267,9 +268,48 @@ def test_errors_in_threads_are_raised():
 
     try:
         with pytest.raises(ZeroDivisionError):
-            threads.share(work, 4)
+            threads.share(work, 4, 4)
     finally:
         threads.set_threads(before)
+
+
+def test_what_is_small_or_shared_already_is_not_shared(monkeypatch, one_thread):
+    monkeypatch.setattr(threads, "SHARED_FROM", 1000)
+    threads.set_threads(2)
+    seen = []
+
+    def inner(worker, block):
+        seen.append((threading.get_ident(), worker, threads.get_threads()))
+
+    threads.share(inner, 4, 999)
+    assert seen == [(threading.get_ident(), 0, 2)] * 4
+    seen.clear()
+    threads.share(lambda worker, block: threads.share(inner, 3, 5000), 2, 1000)
+    assert len(seen) == 6
+    assert len({who for who, _, _ in seen}) == 2
+    assert {(worker, count) for _, worker, count in seen} == {(0, 1)}  # each does its own blocks, on one thread
+    assert threads.get_threads() == 2
+    assert threads.threads_for(999) == 1
+    assert threads.threads_for(1000) == 2
+
+
+@pytest.mark.usefixtures("one_thread", "shared_as_it_is")
+def test_threads_share_nothing_that_takes_less_than_handing_it_over(monkeypatch):
+    """Contacts of 256 and 512 cells lost a fifth to two threads, as did stresses at 32 depths: 2 to 16 hand-overs a
+    pass or component."""
+    handed = []
+    helpers = threads._POOL.helpers
+    monkeypatch.setattr(threads._POOL, "helpers", lambda count: (handed.append(count), helpers(count))[1])
+    threads.set_threads(2)
+    body = Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3))
+    grid = Grid((512, 512), (1e-6, 1e-6), periodic=(True, True))
+    bump = np.cos(2 * np.pi * grid.x / grid.lengths[0])[:, None] * np.cos(2 * np.pi * grid.y / grid.lengths[1])
+    contact = solve_contact(-1e-7 * bump, displacement_operator(grid, body), load=1e-2)
+    assert contact.status == "converged"
+    assert handed == []
+    small = Grid((64, 64), (1e-6, 1e-6))
+    von_mises_field(np.ones(small.shape), small, body, np.linspace(0, 1e-5, 16))
+    assert handed == [1]  # all depths at once
 
 
 def test_padded_lengths_hold_every_offset_and_prefer_powers_of_two_that_are_little_longer():

@@ -198,7 +198,7 @@ def watched() -> Iterator[dict[str, float]]:
         (preconditioner.SparseInverseOnCells, "spread", "preconditioner"),
         (preconditioner.SparseInverseOnCells, "collect", "preconditioner"),
         (long_waves.LongWavesOnCells, "apply", "preconditioner"),
-        (bem.stress.sweeps, "_share_rows", "elementwise"),
+        (bem.stress.sweeps, "_recombine", "elementwise"),
         (yielding, "segment", "pieces"),
     ]
     kept = [(owner, name, getattr(owner, name)) for owner, name, _ in targets]

@@ -106,7 +106,7 @@ def prolong(
         count = _prolong_phi(phi, marks, rows, (first, last), columns, begins, cap, cells[part], values[part])
         parts[block] = slice(part.start, part.start + count)
 
-    share(work, len(parts))
+    share(work, len(parts), shape[0] * shape[1])
     if len(parts) > 1:
         cells, values = (np.concatenate([array[part] for part in parts]) for array in (cells, values))
     else:

@@ -84,7 +84,7 @@ def sum_squares(field: Field, spacing: tuple[float, float], wraps: tuple[bool, b
         first, last = block * lines, min(nx, (block + 1) * lines)
         _cut(first, last, links, starts, field, blurred, (spacing, wraps), law, crossings)
 
-    share(work, -(-nx // lines))
+    share(work, -(-nx // lines), nx * ny)
     return Sums(*_add(squares, starts, crossings, blurred, spacing, wraps))
 
 

@@ -16,7 +16,7 @@ from numpy.typing import NDArray
 from bem.contact import gradients, inverse
 from bem.contact.inverse import Inverse, Step
 from bem.convolution import ScaledConvolution
-from bem.threads import get_threads
+from bem.threads import threads_for
 from bem.transforms.loops import convolve_cells
 
 FloatArray = NDArray[np.float64]
@@ -103,7 +103,7 @@ def solve_in_one_call(
     way = np.zeros((4, cells.size))
     vectors = pressure, residual[0], way[0], way[1], way[2], way[3]
     now = np.array([0.0, 0.0, first.last, 0.0, residual[1], first.length, 0.0, 0.0, 0.0])
-    alone = get_threads() == 1
+    alone = threads_for(transform.entries) == 1
     with transform.lock, transform.lock if coarse is None else coarse.transform.lock:
         engine = quick.compiled()
         inverted = preconditioner.compiled()

@@ -36,7 +36,7 @@ def in_blocks(size: int, results: int, kernel: Callable[..., None], *arguments: 
     def work(_worker: int, block: int) -> None:
         kernel(block * BLOCK, min(size, (block + 1) * BLOCK), partial[block], *arguments)
 
-    share(work, blocks)
+    share(work, blocks, size)
     return partial
 
 

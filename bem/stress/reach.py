@@ -20,7 +20,7 @@ from numpy.typing import ArrayLike, NDArray
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
 from bem.stress.sweeps import SHARES, Part, Sweep
-from bem.threads import get_threads
+from bem.threads import threads_for
 from bem.transforms.count import COUNT
 from bem.transforms.loops import GROUP, Squares, term_of_group
 
@@ -77,7 +77,7 @@ def reached_stress(  # reason: a request as of `von_mises_planes`, its limit and
         index = min(waiting)
         waiting.remove(index)
         asked = wanted[index] & ~computed[index]
-        if get_threads() == 1:
+        if threads_for(transform.entries) == 1:
             squares.begun[:] = np.logical_or.reduceat(asked, starts)
         _along_x(part, sweep.depths[index], squares, stress[index])
         passes += 1

@@ -288,7 +288,8 @@ _WORTH_PACKING = 1 << 16
 
 def factors_of(grid: Grid, body: Body, depth: float, acting: Loads) -> Factors:
     """Spectra of t, d, e, yz, xz, xy at a depth, computed now."""
-    COUNT.spectra += 1
+    with SPECTRA.lock:
+        COUNT.spectra += 1
     padded, lengths = padded_lengths(grid), column_lengths(grid, body)
     wraps, packed = all(grid.periodic), packs(grid)
     shared = packed and body.homogeneous and len(acting) == 2

@@ -8,9 +8,9 @@ than the stress itself, and it is never stored but as one number a point.
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
-from functools import cached_property
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, replace
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -33,7 +33,7 @@ from bem.stress.spectra import (
     packs,
     padded_lengths,
 )
-from bem.threads import get_threads, share
+from bem.threads import share, threads_for
 from bem.transforms import PaddedTransform, transform_of
 from bem.transforms.loops import BEGINS, ENDS, GOES_ON
 
@@ -71,11 +71,14 @@ def subsurface_stress(
     sweep = Sweep.of("subsurface_stress", pressure, grid, body, depths, friction, traction)
     shape = (6, len(sweep.depths), *grid.shape)
     result = check_out("subsurface_stress", out, shape)
-    for index in range(len(sweep.depths)):
-        field = sweep.at(index)
+
+    def plane(own: Sweep, index: int) -> None:
+        field = own.at(index)
         for component in range(6):
             field(component, result[component, index])
-        _share_rows(_recombine, grid.shape[0], result[:, index])
+        _recombine(result[:, index])
+
+    _each_depth(sweep, plane)
     return result
 
 
@@ -91,15 +94,15 @@ def von_mises_planes(
 ) -> Iterator[FloatArray]:
     """Von Mises stress, one plane (nx, ny) [Pa] for each depth in turn; arguments as in `subsurface_stress`.
 
-    The next plane is computed when it is asked for. Each is a new array; or `out` (nx, ny) written over; or the next of
-    `out` (nz, nx, ny).
+    The next plane is computed when it is asked for, with as many after it as there are further threads. Each is a new
+    array; or `out` (nx, ny) written over; or the next of `out` (nz, nx, ny).
     """
     sweep = Sweep.of("von_mises_planes", pressure, grid, body, depths, friction, traction)
-    if out is not None and np.ndim(out) == 3:
-        return planes(sweep, list(check_out("von_mises_planes", out, (len(sweep.depths), *grid.shape))))
-    if out is not None:
-        check_out("von_mises_planes", out, grid.shape)
-    return planes(sweep, [out] * len(sweep.depths))
+    if out is None:
+        return _planes(sweep, None)
+    stack = np.ndim(out) == 3
+    checked = check_out("von_mises_planes", out, (len(sweep.depths), *grid.shape) if stack else grid.shape)
+    return _planes(sweep, checked)
 
 
 def von_mises_field(
@@ -118,8 +121,7 @@ def von_mises_field(
     """
     sweep = Sweep.of("von_mises_field", pressure, grid, body, depths, friction, traction)
     result = check_out("von_mises_field", out, (len(sweep.depths), *grid.shape))
-    for _ in planes(sweep, list(result)):
-        pass
+    _each_depth(sweep, partial(_into, result, 0))
     return result
 
 
@@ -149,9 +151,9 @@ def _von_mises(s, out):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
-def _recombine(start, stop, stress):  # type: ignore[no-untyped-def]
+def _recombine(stress):  # type: ignore[no-untyped-def]
     """In place from (t, d, e, ...) to (xx, yy, zz, ...)."""
-    for i in range(start, stop):
+    for i in range(stress.shape[1]):
         for j in range(stress.shape[2]):
             t, d, e = stress[0, i, j], stress[1, i, j], stress[2, i, j]
             mean = (t - e) / 3.0
@@ -161,61 +163,52 @@ def _recombine(start, stop, stress):  # type: ignore[no-untyped-def]
 
 
 @njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
-def _begin(start, stop, values, weight, out):  # type: ignore[no-untyped-def]
-    for i in range(start, stop):
+def _add_square(values, weight, stage, out):  # type: ignore[no-untyped-def]
+    """A term of the sum in `out`, which it begins, goes on with, or ends with its root."""
+    for i in range(out.shape[0]):
         for j in range(out.shape[1]):
-            out[i, j] = weight * values[i, j] * values[i, j]
-
-
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
-def _accumulate(start, stop, values, weight, out):  # type: ignore[no-untyped-def]
-    for i in range(start, stop):
-        for j in range(out.shape[1]):
-            out[i, j] += weight * values[i, j] * values[i, j]
-
-
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
-def _finish(start, stop, values, weight, out):  # type: ignore[no-untyped-def]
-    for i in range(start, stop):
-        for j in range(out.shape[1]):
-            out[i, j] = np.sqrt(out[i, j] + weight * values[i, j] * values[i, j])
-
-
-_ROWS = 64  # rows in a block of elementwise work
-
-
-def _share_rows(work: Any, rows: int, *arguments: Any) -> None:
-    def block(_: int, number: int) -> None:
-        work(number * _ROWS, min(rows, (number + 1) * _ROWS), *arguments)
-
-    if get_threads() == 1:
-        work(0, rows, *arguments)
-    else:
-        share(block, -(-rows // _ROWS))
+            square = weight * values[i, j] * values[i, j]
+            total = square if stage == BEGINS else out[i, j] + square
+            out[i, j] = np.sqrt(total) if stage == ENDS else total
 
 
 SHARES = (0.0, 0.75, 1.0, 3.0, 3.0, 3.0)  # of t, d, e, yz, xz, xy squared in von Mises squared
+_STAGES = {1: BEGINS, 5: ENDS}
+"""Of the sum's terms; the others go on with it."""
 
 
-def planes(sweep: Sweep, outs: Sequence[FloatArray | None]) -> Iterator[FloatArray]:
-    """Von Mises stress of one depth after the other, each into its own array, or a new one where that is None."""
-    shape = sweep.grid.shape
-    if len(sweep.parts) == 1:
-        (part,) = sweep.parts
-        for index, out in enumerate(outs):
-            plane = np.empty(shape) if out is None else out
-            part.von_mises(part.factors(sweep.depths[index]), plane)
-            yield plane
-        return
-    scratch = sweep.parts[0].transform.zeros_field()  # aligned: written by the transform itself where y is not padded
-    for index, out in enumerate(outs):
-        plane = np.empty(shape) if out is None else out
-        field = sweep.at(index)
-        for component in range(1, 6):
-            field(component, scratch)
-            work = {1: _begin, 5: _finish}.get(component, _accumulate)
-            _share_rows(work, shape[0], scratch, SHARES[component], plane)
-        yield plane
+def _each_depth(sweep: Sweep, work: Callable[[Sweep, int], None], first: int = 0, last: int | None = None) -> None:
+    """Depths of a request, from `first` on and before `last`, shared by threads: each has transforms of its own."""
+    number = (len(sweep.depths) if last is None else last) - first
+    entries = number * sweep.entries
+    own = [sweep, *(sweep.beside(worker) for worker in range(1, min(threads_for(entries), number)))]
+    share(lambda worker, block: work(own[worker], first + block), number, entries)
+
+
+def _into(made: FloatArray, first: int, sweep: Sweep, index: int) -> None:
+    sweep.von_mises(index, made[index - first])
+
+
+def _planes(sweep: Sweep, out: FloatArray | None) -> Iterator[FloatArray]:
+    """Von Mises stress of one depth after the other: new arrays, or the one or those of `out`."""
+    number, shape = len(sweep.depths), sweep.grid.shape
+    at_once = max(1, min(threads_for(number * sweep.entries), number))
+    for first in range(0, number, at_once):
+        last = min(first + at_once, number)
+        if out is not None and out.ndim == 3:
+            made = out[first:last]
+        elif out is not None and at_once == 1:
+            made = out[None]
+        else:
+            made = np.empty((last - first, *shape))
+        _each_depth(sweep, partial(_into, made, first), first, last)
+        for plane in made:
+            if out is None or out.ndim == 3:
+                yield plane
+                continue
+            if at_once > 1:
+                out[...] = plane
+            yield out
 
 
 def check_out(name: str, out: FloatArray | None, shape: tuple[int, ...]) -> FloatArray:
@@ -256,8 +249,15 @@ class Part:
         spectrum = transform.forward(field)
         return cls(grid, body, acting, transform, spectrum, workspace, SPECTRA.begin(), turned)
 
+    def beside(self, worker: int) -> Part:
+        """The same for another thread."""
+        own = self.transform
+        transform = transform_of(own.shape, own.padded, own.dtype, own.lengths, worker)
+        return replace(self, transform=transform, workspace=np.empty_like(self.workspace))
+
     @cached_property
-    def _scratch(self) -> FloatArray:
+    def scratch(self) -> FloatArray:
+        """Room for a field."""
         return self.transform.empty_field()
 
     @cached_property
@@ -286,13 +286,13 @@ class Part:
                 factors.multiplier(component, self.workspace),
                 out,
                 weight=SHARES[component],
-                stage={1: BEGINS, 5: ENDS}.get(component, GOES_ON),
+                stage=_STAGES.get(component, GOES_ON),
                 columns=factors.columns[component],
             )
 
     def add(self, factors: Factors, component: int, out: FloatArray) -> None:
         """The same added, in the axes of the request: turned, d changes its sign and yz is xz."""
-        scratch = self._scratch
+        scratch = self.scratch
         self.inverse(factors, _TURNED[component] if self.turned else component, scratch)
         if not self.turned:
             out += scratch
@@ -333,6 +333,26 @@ class Sweep:
         if sheared is not None:
             parts += [Part.of(t, grid, body, TRACTION, turned=k == 1) for k, t in enumerate(sheared) if t.any()]
         return cls(grid, places, tuple(parts))
+
+    @property
+    def entries(self) -> int:
+        """Of the transforms of a depth."""
+        return 5 * len(self.parts) * self.parts[0].transform.entries
+
+    def beside(self, worker: int) -> Sweep:
+        """The same for another thread."""
+        return replace(self, parts=tuple(part.beside(worker) for part in self.parts))
+
+    def von_mises(self, index: int, out: FloatArray) -> None:
+        """Von Mises stress of a depth, into a contiguous array."""
+        if len(self.parts) == 1:
+            (part,) = self.parts
+            part.von_mises(part.factors(self.depths[index]), out)
+            return
+        field, scratch = self.at(index), self.parts[0].scratch
+        for component in range(1, 6):
+            field(component, scratch)
+            _add_square(scratch, SHARES[component], _STAGES.get(component, GOES_ON), out)
 
     def at(self, index: int) -> Callable[[int, FloatArray], None]:
         """What writes one of t, d, e, yz, xz, xy at a depth."""

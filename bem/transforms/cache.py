@@ -17,10 +17,12 @@ def transform_of(
     padded: tuple[int, int],
     dtype: DTypeLike = np.float64,
     lengths: tuple[int, ...] | None = None,
+    worker: int = 0,
 ) -> PaddedTransform:
     """The cached transform of fields of `shape` padded to `padded`, in float64 or float32.
 
     lengths : (py // 2 + 1,), of the transforms along x for each wavenumber along y; px for all by default.
+    worker : whose it is, where several threads transform at the same time: each has its own buffers.
 
     Raises
     ------
@@ -35,7 +37,7 @@ def transform_of(
     if lengths is not None and not (len(lengths) == waves and shape[0] <= min(lengths) <= max(lengths) <= padded[0]):
         raise InputError(f"transform_of: lengths {lengths!r} must be {waves}, from {shape[0]} to {padded[0]}")
     shapes = (int(shape[0]), int(shape[1])), (int(padded[0]), int(padded[1]))
-    found = _CACHE.of((*shapes, lengths), lambda: _made(*shapes, lengths))
+    found = _CACHE.of((*shapes, lengths, worker), lambda: _made(*shapes, lengths))
     return found if kind == np.float64 else found.single
 
 

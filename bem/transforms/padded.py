@@ -13,7 +13,7 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from bem.threads import get_threads, share
+from bem.threads import share, threads_for
 from bem.transforms import loops
 from bem.transforms.count import COUNT
 from bem.transforms.fftw import pyfftw
@@ -25,6 +25,7 @@ FloatArray = NDArray[Any]
 ComplexArray = NDArray[Any]
 
 _BLOCK_BYTES = 1 << 18
+_COUNTING = threading.Lock()
 COMPLEX: dict[np.dtype[Any], np.dtype[Any]] = {
     np.dtype(np.float64): np.dtype(np.complex128),
     np.dtype(np.float32): np.dtype(np.complex64),
@@ -73,6 +74,7 @@ class PaddedTransform:
     ) -> None:
         self.shape = shape
         self.padded = padded
+        self.entries = padded[0] * padded[1]
         self.dtype: np.dtype[Any] = np.dtype(dtype)
         self.complex_dtype: np.dtype[Any] = COMPLEX[self.dtype]
         self.spectrum_shape = (padded[1] // 2 + 1, padded[0])
@@ -97,7 +99,7 @@ class PaddedTransform:
         block_lengths = np.array([given[start] for start in columns[:-1]], np.int64)
         self.nbytes = int(half.nbytes) if beside is None else 0
         """Memory of buffers, those of `single` included."""
-        self._beside, self._lengths = beside, lengths
+        self._beside, self.lengths = beside, lengths
         self.room = Room(
             nx=shape[0],
             ny=shape[1],
@@ -119,7 +121,7 @@ class PaddedTransform:
     @cached_property
     def single(self) -> PaddedTransform:
         """The same transform in single precision; no buffer more than this one's."""
-        return PaddedTransform(self.shape, self.padded, np.float32, self._lengths, self)
+        return PaddedTransform(self.shape, self.padded, np.float32, self.lengths, self)
 
     def _half_way(self, beside: PaddedTransform | None) -> ComplexArray:
         """The array between rows and columns: its own, or the memory of another's, which is larger."""
@@ -169,7 +171,7 @@ class PaddedTransform:
         """Spectrum (py // 2 + 1, px) of a field (nx, ny) padded with zeros."""
         out = self.empty_spectrum() if out is None else out
         with self.lock:
-            self.ready(get_threads())
+            self.ready(threads_for(self.entries))
             self._each(loops.rows_forward, self._row_blocks, self._plain(values))
             self._each(loops.columns_out, self._column_blocks, out)
         self._count(forward=1, blocks=self._column_blocks)
@@ -191,7 +193,7 @@ class PaddedTransform:
         plain = out if self._is_plain(out) else np.empty(self.shape, self.dtype)
         parts = self._unit if factor is None else factor.factor(self.dtype)
         with self.lock:
-            self.ready(get_threads())
+            self.ready(threads_for(self.entries))
             wanted = self.spectrum_shape[0] if columns is None else columns
             blocks = bisect_left(self._ends, wanted)
             self._each(loops.columns_in, blocks, parts, spectrum)
@@ -214,7 +216,7 @@ class PaddedTransform:
     ) -> None:
         """The square of what `inverse` gives, times a weight: `stage` says whether it begins the sum in `out`, goes on
         with it, or ends it with its root (`loops.BEGINS`, `GOES_ON`, `ENDS`). The field itself is nowhere stored."""
-        parts, threads = factor.factor(self.dtype), get_threads()
+        parts, threads = factor.factor(self.dtype), threads_for(self.entries)
         with self.lock:
             scratch = self.ready(threads)
             blocks = bisect_left(self._ends, self.spectrum_shape[0] if columns is None else columns)
@@ -244,7 +246,7 @@ class PaddedTransform:
     ) -> None:
         """The first of the two passes of `inverse` for the terms (first, last) of a sum of squares, one factor each;
         the second one in the groups that are begun. `loops.term_of_group` does it in the others."""
-        threads, singles = get_threads(), self.singles
+        threads, singles = threads_for(self.entries), self.singles
         own = (factors, spectrum, squares, terms)
         with self.lock:
             self.ready(threads)
@@ -255,7 +257,7 @@ class PaddedTransform:
             if threads == 1:
                 work(0, 0)
             else:
-                share(work, threads)
+                share(work, threads, self.entries)
         for count in squares.columns[slice(*terms)].tolist():
             COUNT.inverse += 1
             COUNT.columns += count
@@ -290,7 +292,7 @@ class PaddedTransform:
         values = self._plain(values)
         plain = out if self._is_plain(out) else np.empty(self.shape, self.dtype)
         parts = factor.factor(self.dtype)
-        threads, room = get_threads(), self.room_for(parts)
+        threads, room = threads_for(self.entries), self.room_for(parts)
         with self.lock:
             scratch = self.ready(threads)
             if threads == 1:
@@ -309,7 +311,7 @@ class PaddedTransform:
     ) -> FloatArray:
         """`convolve` of a field with these values on some cells (flat indices, ascending), zero elsewhere, into a
         contiguous field of this precision."""
-        parts, threads = factor.factor(self.dtype), get_threads()
+        parts, threads = factor.factor(self.dtype), threads_for(self.entries)
         room = self.room_for(parts)
         with self.lock:
             scratch = self.ready(threads)
@@ -395,14 +397,14 @@ class PaddedTransform:
     def _each(self, loop: Any, blocks: int, *arguments: Any, room: Room | None = None) -> None:
         """A compiled pass over blocks that the threads share."""
         own = self.room if room is None else room
-        if get_threads() == 1 or blocks == 1:
+        if blocks == 1 or threads_for(self.entries) == 1:
             loop(own, self._scratch[0], *arguments, 0, blocks)
             return
 
         def work(number: int, block: int) -> None:
             loop(own, self._scratch[number], *arguments, block, block + 1)
 
-        share(work, blocks)
+        share(work, blocks, self.entries)
 
     def _is_plain(self, values: FloatArray) -> bool:
         return values.dtype == self.dtype and values.flags.c_contiguous and values.flags.writeable
@@ -414,8 +416,9 @@ class PaddedTransform:
     def _count(self, *, blocks: int, forward: int = 0, inverse: int = 0) -> None:
         """Add transforms whose columns are those of the first so many blocks."""
         times = forward + inverse
-        COUNT.forward += forward
-        COUNT.inverse += inverse
-        COUNT.rows += times * self.shape[0]
-        COUNT.columns += times * self._ends[blocks]
-        COUNT.numbers += times * self._numbers[blocks]
+        with _COUNTING:
+            COUNT.forward += forward
+            COUNT.inverse += inverse
+            COUNT.rows += times * self.shape[0]
+            COUNT.columns += times * self._ends[blocks]
+            COUNT.numbers += times * self._numbers[blocks]

@@ -2,11 +2,11 @@
 
     python -m reports.experiments.shared_work
 
-Two minutes. Whatever threads share goes through `bem.threads.share`, in blocks. Here a case runs as it does on so many
-threads, but one thread does all blocks, one after another, and is timed with them: what is outside is serial, and of b
-blocks n threads do at best ceil(b/n) in a row. The gain that follows is Amdahl's (*AFIPS Conf. Proc.* 30, 1967), with
-the blocks that are left over: a bound, as threads that wait for memory or for one another are not in it. It needs no
-second core and no quiet machine. The result is stored in `reports/results/shared_work.json`.
+Two minutes. Whatever threads share goes through `bem.threads.share`, in blocks, if it is large enough. Here a case runs
+as it does on so many threads, but one thread does all blocks, one after another, and is timed with them: what is
+outside is serial, and of b blocks n threads do at best ceil(b/n) in a row. The gain that follows is Amdahl's (*AFIPS
+Conf. Proc.* 30, 1967), with the blocks that are left over: a bound, as threads that wait for memory or for one another
+are not in it. It needs no second core and no quiet machine. The result is stored in `reports/results/shared_work.json`.
 """
 
 from __future__ import annotations
@@ -49,13 +49,18 @@ def counted(count: int) -> Iterator[Shared]:
     """Run as on so many threads, with all blocks done by this one."""
     found, outright, before = Shared(), threads.share, threads.get_threads()
 
-    def share(work: Callable[[int, int], None], blocks: int) -> None:
+    def share(work: Callable[[int, int], None], blocks: int, entries: int) -> None:
+        apart = threads.threads_for(entries) > 1 and blocks > 1
         start = time.thread_time()
+        if apart:
+            threads.set_threads(1)  # what is shared shares nothing further
         for block in range(blocks):
             work(0, block)
-        spent = time.thread_time() - start
-        found.alone += spent
-        found.together += spent * -(-blocks // count) / max(blocks, 1)
+        if apart:
+            threads.set_threads(count)
+            spent = time.thread_time() - start
+            found.alone += spent
+            found.together += spent * -(-blocks // count) / blocks
 
     holding = [module for module in list(sys.modules.values()) if getattr(module, "share", None) is outright]
     threads.set_threads(count)

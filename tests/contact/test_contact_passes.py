@@ -287,7 +287,7 @@ def test_conjugate_gradients_in_one_call_are_those_pass_by_pass(n, control, alon
     height = notes_surface(n, rolloff=4).ravel()
     cells = np.flatnonzero(height > np.quantile(height, 0.8))
     iterate = Iterate(cells, 5 + np.random.default_rng(6).random(cells.size), cells[:0])
-    monkeypatch.setattr(inner, "get_threads", lambda: 1 if alone else 2)
+    monkeypatch.setattr(inner, "threads_for", lambda _: 1 if alone else 2)
     calls = []
     monkeypatch.setattr(
         face, "_pass_by_pass", lambda *given, plain=face._pass_by_pass: (calls.append(1), plain(*given))[1]

@@ -60,7 +60,7 @@ def test_blocks_that_one_thread_does_are_counted_as_threads_would_share_them():
     def solve():
         for _ in range(6):
             busy()
-        threads.share(lambda worker, block: busy(), 6)
+        threads.share(lambda worker, block: busy(), 6, 1)
 
     for count, together in ((2, 0.5), (4, 1 / 3), (8, 1 / 6)):
         gains, serial = zip(*(shared_work.gain(solve, count) for _ in range(5)), strict=True)

@@ -9,14 +9,16 @@ import numpy as np
 import pytest
 
 from bem import Body, Grid, Material, displacement_operator, generate_surface, solve_contact, subsurface_stress
+from bem.stress import von_mises_planes
 from bem.threads import get_threads, one_blas_thread, set_threads
 
 CODE = """
 import hashlib, numpy as np
 from bem import Body, Grid, Material, displacement_operator, generate_surface, run_in, solve_contact, subsurface_stress
-from bem.threads import set_threads
+from bem import threads
 import sys
-set_threads(int(sys.argv[1]))
+threads.set_threads(int(sys.argv[1]))
+threads.SHARED_FROM = 1  # small fields, too
 digest = hashlib.sha256()
 steel = Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3, hardness=1.8e9))
 soft = Body(Material("soft", youngs_modulus=70e9, poissons_ratio=0.2))
@@ -59,8 +61,13 @@ def test_the_same_bits_within_a_process_over_threads_and_repeats():
         for threads in (1, 2, 3, 1):
             set_threads(threads)
             solution = solve_contact(gap, operator, load=5e-3)
-            stress = subsurface_stress(solution.pressure, grid, body, [1e-7, 5e-7], friction=0.2)
-            digests.add(hashlib.sha256(solution.pressure.tobytes() + stress.tobytes()).hexdigest())
+            depths = [1e-7, 5e-7, 9e-7, 0.0, 2e-6]
+            stress = subsurface_stress(solution.pressure, grid, body, depths, friction=0.2)
+            tractions = 0.2 * solution.pressure * np.array([0.6, 0.8])[:, None, None]
+            planes = [
+                plane.tobytes() for plane in von_mises_planes(solution.pressure, grid, body, depths, traction=tractions)
+            ]
+            digests.add(hashlib.sha256(b"".join([solution.pressure.tobytes(), stress.tobytes(), *planes])).hexdigest())
     finally:
         set_threads(before)
     assert len(digests) == 1
