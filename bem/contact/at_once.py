@@ -20,7 +20,7 @@ from bem.contact.inverse import Inverse
 from bem.contact.judging import CAPPED, CONTACT
 from bem.contact.level import Effort, Iterate, Level
 from bem.contact.patterns import NEIGHBOURS
-from bem.threads import get_threads
+from bem.threads import threads_for
 
 FloatArray = NDArray[np.float64]
 
@@ -34,7 +34,7 @@ def fits(level: Level, iterate: Iterate, found: NDArray[np.int32], control: Cont
     """Whether a round can be made so: one thread's cells in one block, rows packed, and a load or an approach given
     where the contact is not full, which has ways of its own."""
     count = iterate.cells.size + found.size
-    if not 1 < count <= passes.BLOCK or get_threads() != 1:
+    if not 1 < count <= passes.BLOCK or threads_for(level.quick.transform.entries) != 1:
         return False
     full = count == level.gap.size and level.operator.mean_free and isinstance(control, ApproachControl)
     return not full and level.rows_of_inverse().patterns.offsets.shape[0] == NEIGHBOURS

@@ -361,7 +361,7 @@ def test_what_is_not_closed_in_two_calls(monkeypatch):
     assert not at_once.fits(level, nothing, one[:0], ApproachControl(0.1))
     monkeypatch.setattr(passes, "BLOCK", cells.size)
     assert not at_once.fits(level, iterate, one, LoadControl(1.0))
-    monkeypatch.setattr(at_once, "get_threads", lambda: 2)
+    monkeypatch.setattr(at_once, "threads_for", lambda _: 2)
     assert not at_once.fits(level, iterate, one[:0], LoadControl(1.0))
 
 
