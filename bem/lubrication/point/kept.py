@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass
 
 import numpy as np
@@ -15,6 +16,8 @@ from bem.lubrication.point.setting import Setting
 
 AROUND = 4
 """Cells on either side that the central film is interpolated from."""
+OVERSHOT = 0.5
+"""Of the lowest of them, what it lies above unless their spline overshoots."""
 ASYMPTOTIC = 0.2
 """Relative difference up to which it is of second order."""
 PASSING = (0.05, 0.15)
@@ -97,10 +100,14 @@ def order_missed(difference: float, value: float) -> float:
 
 
 def central_film(level: Level, film: FloatArray) -> float:
-    """At the origin, by the cubic spline (without a knot beside its ends) through the cells around it."""
+    """At the origin, by the cubic spline (without a knot beside its ends) through the cells around it; where it falls
+    far below them, as below zero where the contact is a cell wide, by that through their logarithms."""
     i, j = (int(np.clip(np.searchsorted(a, 0.0), AROUND, len(a) - AROUND)) for a in (level.x, level.y))
     near = np.s_[i - AROUND : i + AROUND, j - AROUND : j + AROUND]
-    return float(_at_origin(level.x[near[0]]) @ film[near] @ _at_origin(level.y[near[1]]))
+    along, across, around = _at_origin(level.x[near[0]]), _at_origin(level.y[near[1]]), film[near]
+    value = float(along @ around @ across)
+    lowest = float(around.min())
+    return value if value > OVERSHOT * lowest or not lowest > 0 else math.exp(along @ np.log(around) @ across)
 
 
 def _at_origin(x: FloatArray) -> FloatArray:

@@ -39,6 +39,8 @@ STEEL = 115e9
 """E* of two bodies of steel [Pa]."""
 RIGID_BOUND = 0.1
 """Of a film's thickness, by which bodies may flatten to be taken as rigid."""
+FEWEST_ACROSS = 2.0
+"""Cells to the half of a contact and the film around it, below which figures follow the cells."""
 FEWEST_CELLS = 8.0
 """To a wave of heights, below which films and shares of the load follow the cells."""
 UNKNOWN = "the error of the film is unknown: "
@@ -215,6 +217,28 @@ def _other_cells(film: PointFilmSolution) -> str:
     )
 
 
+def _unresolved(film: PointFilmSolution, setting: Setting, level: Level) -> list[str]:
+    """Of a contact smaller than the cells, as of a ball that falls from far above onto a grid that holds its first
+    film."""
+    scales, frame = setting.scales, setting.frame
+    if setting.hertz is None or not film.central_thickness > 0:
+        return []
+    lowest = film.central_thickness / scales.film
+    rooms = [
+        half + math.sqrt(2 * lowest / curvature)
+        for half, curvature in zip(setting.hertz.semi_axes, setting.problem.curvatures, strict=True)
+    ]
+    few = min(room / step for room, step in zip(rooms, level.spacing, strict=True))
+    if few >= FEWEST_ACROSS:
+        return []
+    length = " x ".join(f"{step * scales.length:.2g}" for step in frame.pair(level.spacing))
+    size = " x ".join(f"{room * scales.length:.2g}" for room in frame.pair(rooms))
+    return [
+        f"cells of {length} m are too large for the contact and the film around it, {size} m from the centre: film and "
+        "pressure follow the cells; give a smaller extent, or take more cells"
+    ]
+
+
 def _on_grid(film: PointFilmSolution, thickness: FloatArray, setting: Setting, level: Level) -> tuple[str, ...]:
     """What the grid does to it."""
     notes = []
@@ -227,6 +251,7 @@ def _on_grid(film: PointFilmSolution, thickness: FloatArray, setting: Setting, l
             f"the grid does not reach the inlet: it begins where the gap is less than {SHORTEST_INLET:g} central "
             "films; upstream of it the pressure of rigid bodies is taken, and the film is too thick or too thin"
         )
+    notes += _unresolved(film, setting, level)
     if film.status is Status.CONVERGED and rise_beside_lowest(thickness) > STEEPEST:
         notes.append(
             "the constriction is narrower than the cells: beside the lowest one the film is more than "

@@ -373,3 +373,26 @@ def test_from_a_steady_film_that_is_not_found_it_does_not_go_on(monkeypatch):
     )
     films = march([0, 1e-4, 2e-4])
     assert [film.status for film in films] == [Status.STALLED]
+
+
+def test_a_ball_that_falls_onto_cells_larger_than_the_contact_says_so_and_its_central_film_is_positive():
+    """Its grid holds the first film, 50 um: the centre lies between cells of 31 nm beside others of 1.7 um, and the
+    spline through them was -366 nm there."""
+    films = march_point_film(
+        np.linspace(0, 2e-3, 81),
+        load=lambda t: 5.0,
+        speeds=lambda t: (0.0, 0.0),
+        radii=(0.01, 0.01),
+        contact_modulus=1.154e11,
+        lubricant=Lubricant(0.04, pressure_viscosity=20e-9),
+        shape=(48, 48),
+        initial_thickness=50e-6,
+        mass=0.01,
+        velocity=-0.1,
+    )
+    assert len(films) == 81
+    assert all(film.central_thickness > 0 for film in films)
+    last = films[-1]
+    assert last.central_thickness < last.thickness[24, 24]  # surfaces that are pressed towards each other
+    assert any("too large for the contact" in note for note in last.notes)
+    assert not any("too large for the contact" in note for note in films[0].notes)
