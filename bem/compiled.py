@@ -1,4 +1,12 @@
-"""Where compiled loops are kept, and whether they are there yet."""
+"""How loops are compiled, where they are kept, and whether they are there yet.
+
+A loop stands below one of four decorators, which say all of it: it is kept on disk, lets go of the interpreter lock,
+a division by zero gives infinity or not-a-number, and what its arithmetic allows. A loop that does not say the last two
+is compiled as its first caller is, so that bits would follow the order of calls. Annotations of a loop are for readers:
+what it takes is found when it is compiled.
+
+Verified in tests/test_compiled_loops.py and tests/packaging/test_warm_up.py.
+"""
 
 from __future__ import annotations
 
@@ -6,11 +14,40 @@ import os
 import re
 import sys
 import zlib
+from collections.abc import Iterable
 from pathlib import Path
+from typing import Any, Literal
 
 _HERE = Path(__file__).resolve().parent
 SECONDS = 15.0
 """What compiling takes, about, beside a contact that takes one [s]."""
+
+
+def compiled(function: Any) -> Any:
+    """A loop whose arithmetic is that of its text."""
+    return _loop(function)
+
+
+def contracted(function: Any) -> Any:
+    """A loop that may round a product and the sum it goes into once; sums stay in the order written."""
+    return _loop(function, {"contract"})
+
+
+def reordered(function: Any) -> Any:
+    """A loop that may add up in another order besides, and multiply by an inverse: sums over fields."""
+    return _loop(function, {"contract", "reassoc", "nsz", "arcp"})
+
+
+def inlined(function: Any) -> Any:
+    """As `compiled`, written into each loop that calls it."""
+    return _loop(function, inline="always")
+
+
+def _loop(function: Any, allowed: Iterable[str] = (), inline: Literal["never", "always"] = "never") -> Any:
+    from numba import njit
+
+    options = njit(cache=True, nogil=True, error_model="numpy", fastmath=set(allowed) or False, inline=inline)
+    return options(function)
 
 
 def provide_folder() -> None:
@@ -39,6 +76,8 @@ def provide_folder() -> None:
             return
 
 
+_LOOP = re.compile(r"^(@(compiled|contracted|reordered|inlined|intrinsic)|def compiled\(.*)$", re.MULTILINE)
+"""What a source with loops has, and this one, which says how they are compiled."""
 _IMPORTED = re.compile(r"^from bem([\w.]*) import (\([^)]*\)|[^\n]*)", re.MULTILINE)
 
 
@@ -88,7 +127,7 @@ def _drop_older(root: Path, named: Path | None, times: dict[str, int], written: 
     """Remove indices of compiled loops older than what their files import, those files in turn where they have loops
     themselves, and all of those that import what was just written."""
     texts = {path: Path(path).read_text(encoding="utf-8") for path in times}
-    looped = {path for path, text in texts.items() if "njit" in text or "@intrinsic" in text}
+    looped = {path for path, text in texts.items() if _LOOP.search(text)}
     imports = {path: _imports(root, texts[path], looped) & times.keys() for path in looped}
     dropped = []
     for path in sorted(looped):

@@ -7,12 +7,10 @@ between them, take as long as what they do.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from bem.compiled import compiled
 from bem.contact import face, gradients, inner, long_waves, passes, preconditioner, sets
 from bem.contact.controls import ApproachControl, Control, LoadControl
 from bem.contact.inner import Ends
@@ -24,7 +22,6 @@ from bem.threads import threads_for
 
 FloatArray = NDArray[np.float64]
 
-_strict: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 
 _NO_RISE = np.empty(0, np.int64), np.empty(0), 0.0
 """Where nothing is balanced."""
@@ -106,8 +103,8 @@ def _taken_in(
     return Iterate(cells, values, capped), face.Opening(residual, mean), rise
 
 
-@_strict
-def _gather(old, found, states, surface, grid, known, last, loaded):  # type: ignore[no-untyped-def]
+@compiled
+def _gather(old, found, states, surface, grid, known, last, loaded):
     """`sets.merge`; the rows of the sparse inverse on the cells as `SparseInverse.on` has them: first neighbours and
     patterns; cells of the seam, columns, patterns; whether a pattern is unsolved; and `gradients.carry`."""
     offsets, solved = known
@@ -127,8 +124,8 @@ def _gather(old, found, states, surface, grid, known, last, loaded):  # type: ig
     return (cells, values, residual, mean), (upper, lower, pattern), (listed, columns, own), unsolved, (rise, total)
 
 
-@_strict
-def _close(given, near, far, rise, quick, shares, stops, first):  # type: ignore[no-untyped-def]
+@compiled
+def _close(given, near, far, rise, quick, shares, stops, first):
     """Conjugate gradients with all that they begin with: pressures, iterations, the last step's length, whether that
     was known beforehand, convolutions of long waves and of the grid.
 
@@ -158,8 +155,8 @@ def _close(given, near, far, rise, quick, shares, stops, first):  # type: ignore
     return reached, made, length, strode, now[inner._COARSE], now[inner._APPLIED]
 
 
-@_strict
-def _far_on(far, cells, rows):  # type: ignore[no-untyped-def]
+@compiled
+def _far_on(far, cells, rows):
     """The long waves on the cells, as `long_waves._apply` takes them; none where there are none."""
     if far is None:
         return None

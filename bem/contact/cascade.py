@@ -13,9 +13,9 @@ from functools import lru_cache
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from bem.compiled import compiled
 from bem.contact import passes
 from bem.threads import share
 
@@ -162,8 +162,8 @@ _NEAR, _WITHIN = 1, 2
 it is one of the four that are interpolated from beyond this one."""
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
-def _make_phi(pressure, displacement, gap, approach, wraps_x, wraps_y):  # type: ignore[no-untyped-def]
+@compiled
+def _make_phi(pressure, displacement, gap, approach, wraps_x, wraps_y):
     """phi with c = 1 outside, and the marks; zero where no cell with pressure is within three lines and columns, as
     nothing is interpolated from there."""
     nx, ny = pressure.shape
@@ -199,8 +199,8 @@ def _make_phi(pressure, displacement, gap, approach, wraps_x, wraps_y):  # type:
     return phi, marks
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
-def _edge_means(pressure, phi, marks, cap):  # type: ignore[no-untyped-def]
+@compiled
+def _edge_means(pressure, phi, marks, cap):
     """Sums of p^2 and of -phi over the links from a cell with pressure below the cap to one without; their number."""
     nx, ny = pressure.shape
     squares = 0.0
@@ -229,16 +229,16 @@ def _edge_means(pressure, phi, marks, cap):  # type: ignore[no-untyped-def]
     return squares, opening, edges
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
-def _stretch(phi, scale):  # type: ignore[no-untyped-def]
+@compiled
+def _stretch(phi, scale):
     """phi outside with the factor c."""
     phi = phi.reshape(-1)
     for cell in range(phi.size):
         phi[cell] *= scale if phi[cell] < 0 else 1.0
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
-def _prolong_phi(phi, marks, rows, lines, columns, begins, cap, cells, values):  # type: ignore[no-untyped-def]
+@compiled
+def _prolong_phi(phi, marks, rows, lines, columns, begins, cap, cells, values):
     """Cells with pressure on those lines of the finer grid, and their pressures; returns how many."""
     (rows, row_weights), (columns, column_weights) = rows, columns
     width, ny = phi.shape[1], columns.shape[0]
@@ -276,8 +276,8 @@ def _prolong_phi(phi, marks, rows, lines, columns, begins, cap, cells, values): 
     return count
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
-def _keep_loads(pressure, fine, width, rows, columns, cap):  # type: ignore[no-untyped-def]
+@compiled
+def _keep_loads(pressure, fine, width, rows, columns, cap):
     """Multiply each region without a cell at the cap so that it has the load that it has on the coarser grid.
 
     fine : cells of the finer grid, of so many columns, and their pressures."""

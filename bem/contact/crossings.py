@@ -9,18 +9,16 @@ against every link by itself in plain Python (tests).
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from bem.compiled import compiled
 from bem.contact import passes
 from bem.grid import FloatArray
 from bem.threads import share
 from bem.transforms.addresses import fetch
-
-_strict: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 
 _LEAST_COSINE = 0.24
 _BEFORE, _BEYOND = -0.3, 1.0
@@ -88,8 +86,8 @@ def sum_squares(field: Field, spacing: tuple[float, float], wraps: tuple[bool, b
     return Sums(*_add(squares, starts, crossings, blurred, spacing, wraps))
 
 
-@_strict
-def _find_links(inside, wraps_x, wraps_y):  # type: ignore[no-untyped-def]
+@compiled
+def _find_links(inside, wraps_x, wraps_y):
     """Of the links along either axis the columns of their first cells, with how many cells are alike behind and ahead
     (a gap that reaches a free edge has no end); of the squares those of their lowest cells, with a bit for each centre
     inside, counter-clockwise from the lowest; and where each row begins among the three."""
@@ -143,8 +141,8 @@ def _find_links(inside, wraps_x, wraps_y):  # type: ignore[no-untyped-def]
     return ((down, down_runs), (across, across_runs)), (squares, codes), starts
 
 
-@_strict
-def _tell_apart(here, above, wraps, row):  # type: ignore[no-untyped-def]
+@compiled
+def _tell_apart(here, above, wraps, row):
     """In which of the other three centres a cell's square differs from the cell: bits 1, 2 and 3."""
     n = here.size
     for j in range(n - 1):
@@ -153,8 +151,8 @@ def _tell_apart(here, above, wraps, row):  # type: ignore[no-untyped-def]
     row[j] = (here[j] ^ above[j]) << 1 | (here[j] ^ above[m]) << 2 | (here[j] ^ here[m]) << 3
 
 
-@_strict
-def _ends(line, first, last, wraps):  # type: ignore[no-untyped-def]
+@compiled
+def _ends(line, first, last, wraps):
     """How many cells of a line are alike before its first link and behind its last one."""
     if wraps:
         return float(first + line.size - last), float(first + line.size - last)
@@ -162,8 +160,8 @@ def _ends(line, first, last, wraps):  # type: ignore[no-untyped-def]
     return before if line[first] else np.inf, behind if line[last + 1] else np.inf
 
 
-@_strict
-def _with_room(array, size):  # type: ignore[no-untyped-def]
+@compiled
+def _with_room(array, size):
     """The array, or a copy of it with room for twice so many rows."""
     if array.shape[0] >= size:
         return array
@@ -172,8 +170,8 @@ def _with_room(array, size):  # type: ignore[no-untyped-def]
     return larger
 
 
-@_strict
-def _cut(first, last, links, starts, field, blurred, where, law, crossings):  # type: ignore[no-untyped-def]
+@compiled
+def _cut(first, last, links, starts, field, blurred, where, law, crossings):
     """Where the edge crosses the links of the rows from one to another, as a fraction of each."""
     spacing, (wraps_x, wraps_y) = where
     nx, ny = field[0].shape
@@ -221,8 +219,8 @@ def _cut(first, last, links, starts, field, blurred, where, law, crossings):  # 
                 found[link] = crossing if lower else 1 - crossing
 
 
-@_strict
-def _crossing(held, opened, cells, normal, factor, constants, ends):  # type: ignore[no-untyped-def]
+@compiled
+def _crossing(held, opened, cells, normal, factor, constants, ends):
     """How far from the cell inside, in links; `held` is times the link's length, `cells` are alike inside and out."""
     along, across = normal
     norm = math.sqrt(along * along + across * across)
@@ -235,8 +233,8 @@ def _crossing(held, opened, cells, normal, factor, constants, ends):  # type: ig
     return min(max(crossing, _BEFORE), _BEYOND)
 
 
-@_strict
-def _add(squares, starts, crossings, blurred, spacing, wraps):  # type: ignore[no-untyped-def]
+@compiled
+def _add(squares, starts, crossings, blurred, spacing, wraps):
     """See `Sums`."""
     dx, dy = spacing
     wraps_x, wraps_y = wraps
@@ -284,8 +282,8 @@ def _add(squares, starts, crossings, blurred, spacing, wraps):  # type: ignore[n
     return area, length, sides, chords, cubes, 0.25 * corners
 
 
-@_strict
-def _polygon(centres, number, crossings):  # type: ignore[no-untyped-def]
+@compiled
+def _polygon(centres, number, crossings):
     """Of a square with some of its four centres inside: share of it inside, chord from crossing to crossing with the
     region on the left [sides], and a quarter turn to the left (1), to the right (-1) or neither.
 
@@ -320,8 +318,8 @@ def _polygon(centres, number, crossings):  # type: ignore[no-untyped-def]
     return share, u, v, turn
 
 
-@_strict
-def _chord(u, v, along, across):  # type: ignore[no-untyped-def]
+@compiled
+def _chord(u, v, along, across):
     """Length of the chord (u, v) [m], negative where it runs backwards along an edge whose normal is (along, across);
     that of a saddle is none."""
     length, norm = math.sqrt(u * u + v * v), math.sqrt(along * along + across * across)
@@ -331,8 +329,8 @@ def _chord(u, v, along, across):  # type: ignore[no-untyped-def]
     return math.copysign(min(length, _ASLANT * abs(forward)), forward)
 
 
-@_strict
-def blur(inside, wraps_x, wraps_y):  # type: ignore[no-untyped-def]
+@compiled
+def blur(inside, wraps_x, wraps_y):
     """256 times the indicator, blurred twice by 1 2 1 along each axis; beyond a free edge that of the last cell."""
     nx, ny = inside.shape
     blurred = np.empty((nx, ny), np.uint16)
@@ -353,8 +351,8 @@ def blur(inside, wraps_x, wraps_y):  # type: ignore[no-untyped-def]
     return blurred
 
 
-@_strict
-def place(i, n, wraps):  # type: ignore[no-untyped-def]
+@compiled
+def place(i, n, wraps):
     """The number of a cell along an axis of n; beyond a free end that of the last one."""
     if 0 <= i < n:  # hardly any other: a remainder each time is what a certificate would spend its time on
         return i

@@ -8,14 +8,12 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from bem.compiled import compiled, reordered
 from bem.contact import passes
 
 FloatArray = NDArray[np.float64]
-
-_fast: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "reassoc", "nsz", "arcp"})
 
 
 def squares(values: FloatArray) -> float:
@@ -23,8 +21,8 @@ def squares(values: FloatArray) -> float:
     return passes.sums(values.size, 1, _squares, values)[0]
 
 
-@_fast
-def _squares(start, stop, result, values):  # type: ignore[no-untyped-def]
+@reordered
+def _squares(start, stop, result, values):
     values = values[start:stop]
     total = 0.0
     for k in range(values.size):
@@ -41,15 +39,15 @@ def weighed_free(values: FloatArray, weights: FloatArray, total: float, out: Flo
     passes.in_blocks(values.size, 0, _less, values, mean, out)
 
 
-@_fast
-def _weighed_free(values, weights, total, out):  # type: ignore[no-untyped-def]
+@reordered
+def _weighed_free(values, weights, total, out):
     mean = np.zeros(1)
     _weighed(0, values.size, mean, values, weights)
     _less(0, values.size, mean, values, mean[0] / total, out)
 
 
-@_fast
-def _weighed(start, stop, result, values, weights):  # type: ignore[no-untyped-def]
+@reordered
+def _weighed(start, stop, result, values, weights):
     values, weights = values[start:stop], weights[start:stop]
     total = 0.0
     for k in range(values.size):
@@ -57,15 +55,15 @@ def _weighed(start, stop, result, values, weights):  # type: ignore[no-untyped-d
     result[0] = total
 
 
-@_fast
-def _less(start, stop, result, values, shift, out):  # type: ignore[no-untyped-def]
+@reordered
+def _less(start, stop, result, values, shift, out):
     values, out = values[start:stop], out[start:stop]
     for k in range(values.size):
         out[k] = values[k] - shift
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
-def carry(before, values, total, cells, out):  # type: ignore[no-untyped-def]
+@compiled
+def carry(before, values, total, cells, out):
     """out = the values on the cells `before` where these are among `cells` (both ascend), elsewhere their mean; returns
     the sum. `total` : of the values. Zero where those known are no more than half, or sum up to no more than half of
     what their number would have."""
@@ -100,8 +98,8 @@ def turn(
     return full, change
 
 
-@_fast
-def _turn(start, stop, result, preconditioned, rise, share, residual, previous):  # type: ignore[no-untyped-def]
+@reordered
+def _turn(start, stop, result, preconditioned, rise, share, residual, previous):
     residual, previous, preconditioned = residual[start:stop], previous[start:stop], preconditioned[start:stop]
     if share:
         rise = rise[start:stop]
@@ -122,8 +120,8 @@ def new_direction(direction: FloatArray, preconditioned: FloatArray, beta: float
     return passes.sums(residual.size, 1, _new_direction, direction, preconditioned, beta, residual)[0]
 
 
-@_fast
-def _new_direction(start, stop, result, direction, preconditioned, beta, residual):  # type: ignore[no-untyped-def]
+@reordered
+def _new_direction(start, stop, result, direction, preconditioned, beta, residual):
     residual, preconditioned, direction = residual[start:stop], preconditioned[start:stop], direction[start:stop]
     slope = 0.0
     for k in range(residual.size):
@@ -139,8 +137,8 @@ def gather_dot(field: NDArray[Any], cells: NDArray[Any], out: FloatArray, direct
     return total, product
 
 
-@_fast
-def _gather_dot(start, stop, result, field, cells, out, direction):  # type: ignore[no-untyped-def]
+@reordered
+def _gather_dot(start, stop, result, field, cells, out, direction):
     total = 0.0
     product = 0.0
     cells, out, direction = cells[start:stop], out[start:stop], direction[start:stop]
@@ -171,8 +169,8 @@ def advance(
     return float(partial[:, 0].sum()), float(partial[:, 1].max()), float(partial[:, 2].max())
 
 
-@_fast
-def _advance(start, stop, result, state, way, mean, step, cap):  # type: ignore[no-untyped-def]
+@reordered
+def _advance(start, stop, result, state, way, mean, step, cap):
     pressure, residual, previous = state
     direction, response = way
     squares = 0.0
@@ -211,8 +209,8 @@ def stride(
     return float(partial[:, 0].max()), float(partial[:, 1].max())
 
 
-@_fast
-def _stride(start, stop, result, pressure, way, step, cap, residual, out):  # type: ignore[no-untyped-def]
+@reordered
+def _stride(start, stop, result, pressure, way, step, cap, residual, out):
     preconditioned, direction, beta = way
     outside = 0.0
     largest = 0.0

@@ -10,12 +10,10 @@ Knows G's rows, and no contact. Verified in tests/contact/test_imposing.py again
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from bem.compiled import contracted
 from bem.contact.preconditioner import HEAD, TAIL, SparseInverseOnCells
 
 FloatArray = NDArray[np.float64]
@@ -26,8 +24,6 @@ three along an edge. One to six count alike on rough contacts, but for 0.1 less 
 
 _ONE, _TWO, _THREE, _FIVE = np.uint64(1), np.uint64(2), np.uint64(3), np.uint64(5)
 
-_fast: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
-
 
 def impose(inverse: SparseInverseOnCells, pressure: FloatArray) -> None:
     """Bring negative pressures (n,) on the inverse's cells to zero, in place. Their neighbours may become negative
@@ -35,8 +31,8 @@ def impose(inverse: SparseInverseOnCells, pressure: FloatArray) -> None:
     _impose(inverse.rows, inverse.seam, pressure, _ITERATIONS)
 
 
-@_fast
-def _impose(rows, seam, pressure, iterations):  # type: ignore[no-untyped-def]
+@contracted
+def _impose(rows, seam, pressure, iterations):
     pulls = np.empty(pressure.size, np.uint8)
     count = 0
     for k in range(pulls.size):
@@ -58,8 +54,8 @@ def _impose(rows, seam, pressure, iterations):  # type: ignore[no-untyped-def]
         pressure[k] = 0.0 if pulls[k] else pressure[k] - taken[k]
 
 
-@_fast
-def _take_off(rows, seam, pulls, count, pressure, iterations, fields):  # type: ignore[no-untyped-def]
+@contracted
+def _take_off(rows, seam, pulls, count, pressure, iterations, fields):
     """Add to the last of the fields what brings B y there nearer to the pressures on the `count` cells that pull.
     fields : amounts, and the response to them, both zero before and after; B y."""
     given, found, taken = fields
@@ -94,8 +90,8 @@ def _take_off(rows, seam, pulls, count, pressure, iterations, fields):  # type: 
         given[cells[a]] = 0.0
 
 
-@_fast
-def _reaching(rows, seam, marked):  # type: ignore[no-untyped-def]
+@contracted
+def _reaching(rows, seam, marked):
     """Rows of G that may reach a cell that is marked: of the packed ones by cell, of the seam's by number."""
     upper, lower = rows.upper, rows.lower
     before = np.empty(marked.size + 1, np.int32)  # how many are marked before each cell
@@ -119,8 +115,8 @@ def _reaching(rows, seam, marked):  # type: ignore[no-untyped-def]
     return near[:count], edge[:more]
 
 
-@_fast
-def _respond(rows, seam, near, given, found):  # type: ignore[no-untyped-def]
+@contracted
+def _respond(rows, seam, near, given, found):
     """found += G^T G given, by the rows listed."""
     upper, lower, pattern, table = rows
     for r in range(near[0].size):

@@ -7,12 +7,12 @@ again after it: what is compiled is the same, and so are the bits.
 
 from __future__ import annotations
 
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from bem.compiled import compiled
 from bem.contact import gradients, inverse
 from bem.contact.inverse import Inverse, Step
 from bem.convolution import ScaledConvolution
@@ -41,11 +41,8 @@ class Ends(NamedTuple):
     left_at_last: float
 
 
-_scalar: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
-
-
-@_scalar
-def ended(ends, squares, largest, outside):  # type: ignore[no-untyped-def]
+@compiled
+def ended(ends, squares, largest, outside):
     """Whether a residual is small enough: clipping will bring back one of about the size of what is outside the bounds,
     and it is of no use to go far below that."""
     if squares <= ends.lowest or largest <= ends.goal:
@@ -53,8 +50,8 @@ def ended(ends, squares, largest, outside):  # type: ignore[no-untyped-def]
     return squares <= ends.enough and largest <= ends.clipping * outside
 
 
-@_scalar
-def strides(ends, squares, largest, outside):  # type: ignore[no-untyped-def]
+@compiled
+def strides(ends, squares, largest, outside):
     """Whether a step of a length known beforehand ends the round.
 
     The preconditioned kernel is close to one, so the convolution that would tell the length says little: the round to
@@ -116,8 +113,8 @@ def solve_in_one_call(
     return Reached(way[3] if strode else pressure, int(made), length, strode == 1)
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
-def _iterate(  # type: ignore[no-untyped-def]  # reason: compiled, so each array is an argument
+@compiled
+def _iterate(  # reason: compiled, so each array is an argument
     now, inverted, vectors, balance, cells, convolved, engine, ends, cap, alone
 ):
     """From one convolution on to the next, all of them if `alone`; whether one is to be made before it is called again.
@@ -139,8 +136,8 @@ def _iterate(  # type: ignore[no-untyped-def]  # reason: compiled, so each array
         now[_APPLIED] += 1
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
-def _turn(now, own, far, vectors, balance, ends, cap):  # type: ignore[no-untyped-def]
+@compiled
+def _turn(now, own, far, vectors, balance, ends, cap):
     """The next direction, whose convolution is due; whether the round ends without it."""
     pressure, residual, previous, direction, preconditioned, response = vectors
     state, way = (pressure, residual, previous), (preconditioned, direction, response)
@@ -162,8 +159,8 @@ def _turn(now, own, far, vectors, balance, ends, cap):  # type: ignore[no-untype
     return False
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
-def _advance(now, vectors, balance, cells, convolved, ends, cap):  # type: ignore[no-untyped-def]
+@compiled
+def _advance(now, vectors, balance, cells, convolved, ends, cap):
     """As far along the direction as its convolution says; whether the round ends there."""
     pressure, residual, previous, direction, _, response = vectors
     found = np.zeros(3)

@@ -11,9 +11,9 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from bem.compiled import compiled
 from bem.contact import gradients, long_waves, preconditioner
 from bem.contact.long_waves import LongWavesOnCells
 from bem.contact.preconditioner import SparseInverseOnCells
@@ -73,8 +73,8 @@ class Inverse:
         return None if self.far is None else self.far.smooth.convolution
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
-def _descend(own, far, state, way, balance, step):  # type: ignore[no-untyped-def]
+@compiled
+def _descend(own, far, state, way, balance, step):
     """The preconditioned residual, and where the step known beforehand leads, of cells that fit one block: `Descent`,
     and how many convolutions the long waves took.
 

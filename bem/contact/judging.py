@@ -9,9 +9,9 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from bem.compiled import compiled, reordered
 from bem.contact import passes
 from bem.contact.ordered import ABOVE_ALL, BELOW_ALL, number_at, place_of
 
@@ -27,9 +27,6 @@ SMALL = 4
 
 NOTHING: Cells = (np.empty(0, np.int64), np.empty(0), np.empty(0, np.int64))
 """No pressure."""
-
-_fast: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "reassoc", "nsz", "arcp"})
-_strict: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 
 
 class Survey(NamedTuple):
@@ -77,8 +74,8 @@ def _in_blocks(displacement: FloatArray, gap: FloatArray, cells: NDArray[Any], v
     return np.asarray(seen)
 
 
-@_strict
-def _survey_all(displacement, gap, pressure, cap, other):  # type: ignore[no-untyped-def]
+@compiled
+def _survey_all(displacement, gap, pressure, cap, other):
     cells, values, capped = pressure
     seen, work = np.zeros(8), np.zeros(1)
     _survey(0, cells.size, seen, displacement, gap, cells, values)
@@ -95,8 +92,8 @@ def _survey_all(displacement, gap, pressure, cap, other):  # type: ignore[no-unt
     return seen[0], seen[1], seen[2], seen[3], seen[4], seen[5], seen[6], seen[7], total
 
 
-@_strict
-def _both(inside, capped):  # type: ignore[no-untyped-def]
+@compiled
+def _both(inside, capped):
     """A survey with that of the cells at the cap."""
     seen = inside.copy()
     if inside[2] == np.inf:  # no cell between the bounds
@@ -106,8 +103,8 @@ def _both(inside, capped):  # type: ignore[no-untyped-def]
     return seen
 
 
-@_fast
-def _survey(start, stop, result, displacement, gap, cells, values):  # type: ignore[no-untyped-def]
+@reordered
+def _survey(start, stop, result, displacement, gap, cells, values):
     total = 0.0
     deepest, nearest, reach = BELOW_ALL, ABOVE_ALL, place_of(0.0)
     energy = 0.0
@@ -142,8 +139,8 @@ def _survey(start, stop, result, displacement, gap, cells, values):  # type: ign
     result[7] = work
 
 
-@_fast
-def _work(start, stop, result, displacement, gap, cells, values):  # type: ignore[no-untyped-def]
+@reordered
+def _work(start, stop, result, displacement, gap, cells, values):
     cells, values = cells[start:stop], values[start:stop]
     total = 0.0
     for k in range(cells.size):
@@ -152,8 +149,8 @@ def _work(start, stop, result, displacement, gap, cells, values):  # type: ignor
     result[0] = total
 
 
-@_fast
-def mark(state, cells, capped):  # type: ignore[no-untyped-def]
+@reordered
+def mark(state, cells, capped):
     """The state of every cell."""
     state[:] = FREE
     for k in range(cells.size):
@@ -178,16 +175,16 @@ def find_violations(
     return np.concatenate(parts), float(partial[:, 1].max())
 
 
-@_strict
-def _mark_and_find(displacement, gap, state, pressure, approach, found):  # type: ignore[no-untyped-def]
+@compiled
+def _mark_and_find(displacement, gap, state, pressure, approach, found):
     mark(state, pressure[0], pressure[2])
     result = np.zeros(2)
     _find_violations(0, gap.size, result, displacement, gap, state, approach, found)
     return result[0], result[1]
 
 
-@_fast
-def _find_violations(start, stop, result, displacement, gap, state, approach, found):  # type: ignore[no-untyped-def]
+@reordered
+def _find_violations(start, stop, result, displacement, gap, state, approach, found):
     place = start
     largest = 0.0
     # most stretches have none: these are only counted, without branches, 1 less the state being the sign that counts
@@ -219,8 +216,8 @@ def separations(displacement: FloatArray, gap: FloatArray, state: NDArray[np.uin
     return float(partial[:, 0].max()), float(partial[:, 1].min())
 
 
-@_strict
-def _separations(start, stop, result, displacement, gap, state):  # type: ignore[no-untyped-def]
+@compiled
+def _separations(start, stop, result, displacement, gap, state):
     displacement, gap, state = displacement[start:stop], gap[start:stop], state[start:stop]
     deepest, nearest = BELOW_ALL, ABOVE_ALL
     for k in range(gap.size):

@@ -19,15 +19,14 @@ from functools import lru_cache
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from bem.compiled import reordered
 from bem.convolution import DisplacementOperator, ScaledConvolution
 from bem.transforms.loops import convolve
 
 FloatArray = NDArray[np.float64]
 
-_fast: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "reassoc", "nsz", "arcp"})
 
 _HALVINGS = 3
 """Of the grid, to the coarse one. Coarse cells of 16 cells in place of 8 take 1.3 to 4.6 convolutions more at 1024 and
@@ -137,8 +136,8 @@ def _coarse_cells(cells: int, onto: int, periodic: bool, halvings: int) -> NDArr
     return found
 
 
-@_fast
-def _assign(cells, rows, columns, width, weights, blocks, root, inverse):  # type: ignore[no-untyped-def]
+@reordered
+def _assign(cells, rows, columns, width, weights, blocks, root, inverse):
     """The coarse cell of each cell, the root of the sum of squared weights in each coarse cell, and its inverse."""
     ny = columns.size
     line, end, first = 0, 0, 0
@@ -156,8 +155,8 @@ def _assign(cells, rows, columns, width, weights, blocks, root, inverse):  # typ
             inverse[b] = 1.0 / root[b]
 
 
-@_fast
-def _apply(values, far, reduction, limit):  # type: ignore[no-untyped-def]
+@reordered
+def _apply(values, far, reduction, limit):
     """The middle factor; returns how many convolutions it took."""
     cells, diagonal, workspace, transform = far
     blocks, weights = cells
@@ -175,8 +174,8 @@ def _apply(values, far, reduction, limit):  # type: ignore[no-untyped-def]
     return applications
 
 
-@_fast
-def _solve(workspace, root, transform, reduction, limit):  # type: ignore[no-untyped-def]
+@reordered
+def _solve(workspace, root, transform, reduction, limit):
     """Conjugate gradients for (1 + D^1/2 F D^1/2) solution = given, on the whole coarse grid."""
     given, solution, residual, direction, response, field = workspace
     room, scratch, factor = transform

@@ -10,8 +10,10 @@ from __future__ import annotations
 from typing import Any
 
 import numpy as np
-from numba import njit, types
+from numba import types
 from numba.extending import intrinsic
+
+from bem.compiled import compiled
 
 _INFINITE = int(np.float64(np.inf).view(np.int64))
 ABOVE_ALL, BELOW_ALL = _INFINITE, ~_INFINITE
@@ -19,18 +21,16 @@ ABOVE_ALL, BELOW_ALL = _INFINITE, ~_INFINITE
 
 _MAGNITUDE = np.iinfo(np.int64).max
 
-_plain: Any = njit(cache=True, nogil=True, fastmath=False)
 
-
-@_plain
-def place_of(value):  # type: ignore[no-untyped-def]
+@compiled
+def place_of(value):
     """The place of a number among all; it is not to be asked of what is none."""
     bits = _bits(value)
     return bits ^ ((bits >> 63) & _MAGNITUDE)
 
 
-@_plain
-def number_at(place):  # type: ignore[no-untyped-def]
+@compiled
+def number_at(place):
     """The number that has a place."""
     return _number(place ^ ((place >> 63) & _MAGNITUDE))
 

@@ -10,18 +10,15 @@ from collections.abc import Callable
 from typing import Any
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from bem.compiled import compiled, reordered
 from bem.threads import share
 
 FloatArray = NDArray[np.float64]
 
 BLOCK = 1 << 15
 """Entries that one thread works on at a time: enough to hide the call, few enough to share."""
-
-_fast: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "reassoc", "nsz", "arcp"})
-_strict: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 
 
 def in_blocks(size: int, results: int, kernel: Callable[..., None], *arguments: Any) -> FloatArray:
@@ -49,8 +46,8 @@ def sums(size: int, results: int, kernel: Callable[..., None], *arguments: Any) 
     return in_blocks(size, results, kernel, *arguments).sum(axis=0).tolist()
 
 
-@_fast
-def place(field, cells, values, capped, cap):  # type: ignore[no-untyped-def]
+@reordered
+def place(field, cells, values, capped, cap):
     """field[cells] = values, field[capped] = cap, zero elsewhere."""
     field[:] = 0
     for k in range(cells.size):
@@ -59,8 +56,8 @@ def place(field, cells, values, capped, cap):  # type: ignore[no-untyped-def]
         field[capped[k]] = cap
 
 
-@_fast
-def _shifted_sum(start, stop, result, values, shift, cap):  # type: ignore[no-untyped-def]
+@reordered
+def _shifted_sum(start, stop, result, values, shift, cap):
     total = 0.0
     inside = 0
     values = values[start:stop]
@@ -75,8 +72,8 @@ def _shifted_sum(start, stop, result, values, shift, cap):  # type: ignore[no-un
     result[1] = inside
 
 
-@_strict
-def shift_to(values, start, high, wanted, cap, block):  # type: ignore[no-untyped-def]
+@compiled
+def shift_to(values, start, high, wanted, cap, block):
     """The s that makes the sum of clip(values + s, 0, cap) the one wanted: from a first one, between zero and `high`,
     by Newton's method where that stays between. All steps are one call, sums those of blocks in order."""
     low, shift = 0.0, start
@@ -112,8 +109,8 @@ def moments(values: FloatArray) -> tuple[float, float, float]:
     return float(partial[:, 0].min()), first + mean, float(np.sqrt(about[:, 0].sum() / values.size))
 
 
-@_fast
-def _least_and_sum(start, stop, result, values, first):  # type: ignore[no-untyped-def]
+@reordered
+def _least_and_sum(start, stop, result, values, first):
     lowest = values[start]
     total = 0.0
     values = values[start:stop]
@@ -124,8 +121,8 @@ def _least_and_sum(start, stop, result, values, first):  # type: ignore[no-untyp
     result[1] = total
 
 
-@_fast
-def _squares_about(start, stop, result, values, first, mean):  # type: ignore[no-untyped-def]
+@reordered
+def _squares_about(start, stop, result, values, first, mean):
     values = values[start:stop]
     total = 0.0
     for k in range(values.size):
@@ -139,8 +136,8 @@ def rescale(values: FloatArray, datum: float, factor: float, out: FloatArray) ->
     in_blocks(values.size, 0, _rescale, values, datum, factor, out)
 
 
-@_fast
-def _rescale(start, stop, result, values, datum, factor, out):  # type: ignore[no-untyped-def]
+@reordered
+def _rescale(start, stop, result, values, datum, factor, out):
     values, out = values[start:stop], out[start:stop]
     for k in range(values.size):
         out[k] = (values[k] - datum) * factor
@@ -175,8 +172,8 @@ _INFINITE = int(np.float64(np.inf).view(np.int64))
 is found in vectors, which the order of numbers, with those that are none, forbids."""
 
 
-@_strict
-def _assemble(start, stop, result, fields, units, approach, cap, results):  # type: ignore[no-untyped-def]
+@compiled
+def _assemble(start, stop, result, fields, units, approach, cap, results):
     force, volume, contact, capped = 0.0, 0.0, 0, 0
     bits = np.zeros(2, np.int64)
     violations, openings = np.empty(_STRETCH), np.empty(_STRETCH)
@@ -207,8 +204,8 @@ def _assemble(start, stop, result, fields, units, approach, cap, results):  # ty
     result[5] = volume
 
 
-@_strict
-def _judge(given, units, approach, cap, deformed, violations, openings):  # type: ignore[no-untyped-def]
+@compiled
+def _judge(given, units, approach, cap, deformed, violations, openings):
     """Into SI units; violation, deformed gap and, where no pressure is, its positive part. How many have pressure."""
     pressure, displacement, gap = given
     to_pressure, length = units
@@ -232,8 +229,8 @@ def _judge(given, units, approach, cap, deformed, violations, openings):  # type
     return touching
 
 
-@_strict
-def _raise_largest(bits, violations, displacement):  # type: ignore[no-untyped-def]
+@compiled
+def _raise_largest(bits, violations, displacement):
     """Bits of the largest violation above zero, and of the largest displacement either way."""
     largest, reach = bits[0], bits[1]
     for k in range(displacement.size):
@@ -242,8 +239,8 @@ def _raise_largest(bits, violations, displacement):  # type: ignore[no-untyped-d
     bits[0], bits[1] = largest, reach
 
 
-@_fast
-def _sum(values):  # type: ignore[no-untyped-def]
+@reordered
+def _sum(values):
     total = 0.0
     for k in range(values.size):
         total += values[k]

@@ -13,8 +13,9 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
+
+from bem.compiled import compiled
 
 FloatArray = NDArray[np.float64]
 
@@ -84,8 +85,8 @@ def patterns(squared_radius: int, short_x: bool, short_y: bool, width: int, near
     return found
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
-def row_of_inverse(factor, active, row, out):  # type: ignore[no-untyped-def]
+@compiled
+def row_of_inverse(factor, active, row, out):
     """The last row of (L L^T)^-1 over the root of its last entry, L the factor of n rows, into the places `active` (n,)
     of `out`; `row` is scratch."""
     n = active.size
@@ -100,8 +101,8 @@ def row_of_inverse(factor, active, row, out):  # type: ignore[no-untyped-def]
         out[active[a]] = row[a] * scale
 
 
-@njit(cache=True, nogil=True, fastmath=False)
-def pack(row, bits, out):  # type: ignore[no-untyped-def]
+@compiled
+def pack(row, bits, out):
     """A row (m + 1,) of the stencil that rows are packed for, as `ENTRIES` says; of any other stencil the sum alone."""
     m = row.size - 1
     total = 0.0
@@ -127,8 +128,8 @@ def pack(row, bits, out):  # type: ignore[no-untyped-def]
     out[10] = row[10]
 
 
-@njit(cache=True, nogil=True, fastmath=False)
-def _solve_patterns(pattern, offsets, near_field, table, packed, solved):  # type: ignore[no-untyped-def]
+@compiled
+def _solve_patterns(pattern, offsets, near_field, table, packed, solved):
     m = offsets.shape[0]
     count = 1 << m
     middle = near_field.shape[0] // 2

@@ -14,19 +14,14 @@ from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from bem.compiled import compiled, contracted, reordered
 from bem.contact import passes
 from bem.contact.patterns import NEIGHBOURS, PACKED, Patterns, patterns
 from bem.transforms.loops import first_from
 
 FloatArray = NDArray[np.float64]
-
-_fast: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "reassoc", "nsz", "arcp"})
-_plain: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
-_ordered: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract"})
-"""Sums in the order written: rows of the seam and others have the same bits where their entries are the same."""
 
 HEAD, TAIL = 2, 4
 """Cells at the list's ends that are of the seam, so that no packed row reaches beyond it: a row's first neighbour in a
@@ -164,8 +159,8 @@ def _outside(upper: NDArray[np.int32]) -> Outside:
 _NOTHING_OUTSIDE = Outside(np.zeros(1, np.int64), np.zeros(2, np.int64), np.empty(0))
 
 
-@_plain
-def _connect(start, stop, result, cells, grid, solved, rows):  # type: ignore[no-untyped-def]
+@compiled
+def _connect(start, stop, result, cells, grid, solved, rows):
     """Patterns and first neighbours of a block of cells, by windows that go along the lines before with them; the cells
     of the seam are listed, and where lines begin. Result: how many the former are, whether a pattern is unsolved."""
     _, ny, wrap_x, wrap_y = grid
@@ -222,8 +217,8 @@ def _connect(start, stop, result, cells, grid, solved, rows):  # type: ignore[no
     result[1] = unsolved
 
 
-@_plain
-def _enter(cells, ahead, window, begin, end):  # type: ignore[no-untyped-def]
+@compiled
+def _enter(cells, ahead, window, begin, end):
     """Cells from number `ahead` on and up to `end` go into a window whose first column is `begin`."""
     while cells[ahead] <= end:
         place = cells[ahead] - begin
@@ -233,8 +228,8 @@ def _enter(cells, ahead, window, begin, end):  # type: ignore[no-untyped-def]
     return ahead, window
 
 
-@_plain
-def _look_up(where, grid, offsets, solved, listed, columns, own, pattern):  # type: ignore[no-untyped-def]
+@compiled
+def _look_up(where, grid, offsets, solved, listed, columns, own, pattern):
     """The seam's rows, and where their sums are in the packed table; returns whether a pattern is unsolved.
 
     Neighbours one after the other in a line are one search, and a step for each."""
@@ -274,8 +269,8 @@ def _look_up(where, grid, offsets, solved, listed, columns, own, pattern):  # ty
     return unsolved
 
 
-@_plain
-def neighbours(rows, k, out):  # type: ignore[no-untyped-def]
+@compiled
+def neighbours(rows, k, out):
     """The numbers of a packed row's neighbours by offset, where they are there, into `out` (10,)."""
     bits = rows.pattern[k]
     upper, lower, own = rows.upper[k], rows.lower[k], k
@@ -293,14 +288,15 @@ def neighbours(rows, k, out):  # type: ignore[no-untyped-def]
             out[a] = own
 
 
-@_fast
-def _row_sums(rows, out):  # type: ignore[no-untyped-def]
+@reordered
+def _row_sums(rows, out):
     for k in range(out.size):
         out[k] = rows.table[np.uint64(rows.pattern[k]), 11]
 
 
-@_ordered
-def _spread(start, stop, result, rows, residual, out):  # type: ignore[no-untyped-def]
+# in the order written, here and below: rows of the seam and others of the same entries have the same bits
+@contracted
+def _spread(start, stop, result, rows, residual, out):
     upper, lower, pattern, table = rows
     first, last = max(start, HEAD), min(stop, residual.size - TAIL)
     one, two, three, four = np.uint64(1), np.uint64(2), np.uint64(3), np.uint64(4)
@@ -320,8 +316,8 @@ def _spread(start, stop, result, rows, residual, out):  # type: ignore[no-untype
         out[k] = s
 
 
-@_ordered
-def _spread_seam(seam, residual, out):  # type: ignore[no-untyped-def]
+@contracted
+def _spread_seam(seam, residual, out):
     cells, columns, pattern, table = seam
     m = columns.shape[1]
     for q in range(cells.size):
@@ -332,8 +328,8 @@ def _spread_seam(seam, residual, out):  # type: ignore[no-untyped-def]
         out[k] = s
 
 
-@_fast
-def _collect(start, stop, result, rows, values, out, outside, block):  # type: ignore[no-untyped-def]
+@reordered
+def _collect(start, stop, result, rows, values, out, outside, block):
     upper, lower, pattern, table = rows
     out[start:stop] = 0.0
     halo = outside.amounts[outside.starts[start // block] : outside.starts[start // block + 1]]
@@ -370,8 +366,8 @@ def _collect(start, stop, result, rows, values, out, outside, block):  # type: i
     result[0] = total
 
 
-@_fast
-def _collect_with_care(first, last, start, rows, values, out, halo):  # type: ignore[no-untyped-def]
+@reordered
+def _collect_with_care(first, last, start, rows, values, out, halo):
     """Rows of a block from `start` on, place by place; what is for cells before goes to the halo, which ends there."""
     upper, lower, pattern, table = rows
     shift = halo.size - start
@@ -387,8 +383,8 @@ def _collect_with_care(first, last, start, rows, values, out, halo):  # type: ig
                 out[column] += table[row, a] * s
 
 
-@_plain
-def _collect_seam(seam, values, out):  # type: ignore[no-untyped-def]
+@compiled
+def _collect_seam(seam, values, out):
     cells, columns, pattern, table = seam
     m = columns.shape[1]
     total = 0.0
@@ -403,8 +399,8 @@ def _collect_seam(seam, values, out):  # type: ignore[no-untyped-def]
     return total
 
 
-@_plain
-def _add(out, outside):  # type: ignore[no-untyped-def]
+@compiled
+def _add(out, outside):
     total = 0.0
     for b in range(outside.heads.size):
         for t in range(outside.starts[b + 1] - outside.starts[b]):

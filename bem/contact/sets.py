@@ -2,22 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from bem.compiled import compiled, reordered
 from bem.contact.judging import CAPPED
 
 FloatArray = NDArray[np.float64]
 
-_fast: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath={"contract", "reassoc", "nsz", "arcp"})
-_strict: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 
-
-@_strict
-def merge(old, found, state, cap, surface):  # type: ignore[no-untyped-def]
+@compiled
+def merge(old, found, state, cap, surface):
     """Cells (ascending) with their values and those found (as well) as one: cells, values, gap + displacement less the
     approach there, and the mean of that. What is found has no pressure, or the cap's.
 
@@ -46,8 +41,8 @@ def merge(old, found, state, cap, surface):  # type: ignore[no-untyped-def]
     return all_cells, all_values, residual, total / max(1, count)
 
 
-@_strict
-def blend(old, new, share, cap):  # type: ignore[no-untyped-def]
+@compiled
+def blend(old, new, share, cap):
     """Two pressures, (cells, values) with ascending cells, as one at a share of the way from the first to the second. A
     cell at the cap in both stays there whatever the rounding, one without pressure is left out."""
     cells, values = old
@@ -75,8 +70,8 @@ def blend(old, new, share, cap):  # type: ignore[no-untyped-def]
     return both[:k].copy(), mixed[:k].copy()
 
 
-@_strict
-def mix(start, stop, result, displacement, earlier, share):  # type: ignore[no-untyped-def]
+@compiled
+def mix(start, stop, result, displacement, earlier, share):
     """displacement = share displacement + (1 - share) earlier."""
     displacement, earlier = displacement[start:stop], earlier[start:stop]
     rest = 1 - share
@@ -84,16 +79,16 @@ def mix(start, stop, result, displacement, earlier, share):  # type: ignore[no-u
         displacement[k] = displacement[k] * share + earlier[k] * rest
 
 
-@_strict
-def descend(start, stop, result, displacement, gap, approach, step, out):  # type: ignore[no-untyped-def]
+@compiled
+def descend(start, stop, result, displacement, gap, approach, step, out):
     """out = -step (gap + displacement - approach)."""
     displacement, gap, out = displacement[start:stop], gap[start:stop], out[start:stop]
     for k in range(out.size):
         out[k] = -(step * (gap[k] + displacement[k] - approach))
 
 
-@_strict
-def held(pressure, cap):  # type: ignore[no-untyped-def]
+@compiled
+def held(pressure, cap):
     """Of a field: cells with a pressure above zero and below the cap, their pressures, and cells at the cap."""
     inside, capped = 0, 0
     for k in range(pressure.size):
@@ -115,8 +110,8 @@ def held(pressure, cap):  # type: ignore[no-untyped-def]
     return cells, values, others
 
 
-@_fast
-def positive(cells, values):  # type: ignore[no-untyped-def]
+@reordered
+def positive(cells, values):
     """The cells with values above zero, these, and their sum; what is given where that is all of them."""
     kept = 0
     total = 0.0
@@ -141,8 +136,8 @@ _MOST = 0.5
 convolution more, and a region that hardly touches loses its pressure for rounds."""
 
 
-@_fast
-def settle(cells, values, cap, shape, side):  # type: ignore[no-untyped-def]
+@reordered
+def settle(cells, values, cap, shape, side):
     """What clipping to the bounds will add to each square of `side` cells, its values between the bounds make up for in
     proportion to themselves. `cells` ascend: a square is looked up once for all that follow in its row."""
     ny, across = shape[1], (shape[1] - 1) // side + 1

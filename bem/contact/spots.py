@@ -6,16 +6,12 @@ grid, and no field is needed. Verified in tests/contact/test_contact_spots.py.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from bem.compiled import compiled
 from bem.contact.crossings import place
 from bem.grid import FloatArray, Grid
-
-_strict: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 
 
 def count_spots(pressure: FloatArray, grid: Grid) -> int:
@@ -31,8 +27,8 @@ def label_spots(pressure: FloatArray, grid: Grid) -> NDArray[np.int32]:
     return np.asarray(_number(pressure, parent))
 
 
-@_strict
-def _join_runs(pressure, wraps):  # type: ignore[no-untyped-def]
+@compiled
+def _join_runs(pressure, wraps):
     """The union-find of all runs, numbered as they come, and how many trees it has."""
     nx, ny = pressure.shape
     before = _runs_before(pressure)
@@ -54,8 +50,8 @@ def _join_runs(pressure, wraps):  # type: ignore[no-untyped-def]
     return parent, count
 
 
-@_strict
-def _runs_before(pressure):  # type: ignore[no-untyped-def]
+@compiled
+def _runs_before(pressure):
     """How many runs begin before each row, and in all."""
     nx, ny = pressure.shape
     before = np.zeros(nx + 1, np.int64)
@@ -67,24 +63,24 @@ def _runs_before(pressure):  # type: ignore[no-untyped-def]
     return before
 
 
-@_strict
-def _joined(parent, one, other):  # type: ignore[no-untyped-def]
+@compiled
+def _joined(parent, one, other):
     """Whether two runs were in trees of their own; they are in one now."""
     first, second = _root(parent, one), _root(parent, other)
     parent[max(first, second)] = min(first, second)
     return first != second
 
 
-@_strict
-def _root(parent, run):  # type: ignore[no-untyped-def]
+@compiled
+def _root(parent, run):
     while parent[run] != run:
         parent[run] = parent[parent[run]]
         run = parent[run]
     return run
 
 
-@_strict
-def _number(pressure, parent):  # type: ignore[no-untyped-def]
+@compiled
+def _number(pressure, parent):
     nx, ny = pressure.shape
     names = np.empty(parent.size, np.int32)
     count = 0

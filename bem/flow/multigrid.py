@@ -12,17 +12,15 @@ from __future__ import annotations
 
 from collections.abc import Callable
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 from scipy.sparse import coo_matrix
 
+from bem.compiled import compiled
 from bem.grid import FloatArray
 
 Index = NDArray[np.int32]
-_strict: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 
 COARSEST = 120
 """Nodes up to which a level is solved at once."""
@@ -206,8 +204,8 @@ def _eliminated(network: Network) -> tuple[FloatArray, FloatArray]:
     return np.asarray(factors), np.asarray(pivots)
 
 
-@_strict
-def _star_to_mesh(conductance):  # type: ignore[no-untyped-def]
+@compiled
+def _star_to_mesh(conductance):
     nodes = len(conductance)
     pivots = np.zeros(nodes)
     for k in range(nodes):
@@ -226,8 +224,8 @@ def _star_to_mesh(conductance):  # type: ignore[no-untyped-def]
     return conductance, pivots
 
 
-@_strict
-def _substituted(factors, pivots, source):  # type: ignore[no-untyped-def]
+@compiled
+def _substituted(factors, pivots, source):
     nodes = len(pivots)
     found = source.copy()
     for k in range(nodes):
@@ -244,8 +242,8 @@ def _substituted(factors, pivots, source):  # type: ignore[no-untyped-def]
     return found
 
 
-@_strict
-def _row_sums(start, values):  # type: ignore[no-untyped-def]
+@compiled
+def _row_sums(start, values):
     sums = np.zeros(len(start) - 1)
     for i in range(len(sums)):
         for k in range(start[i], start[i + 1]):
@@ -253,16 +251,16 @@ def _row_sums(start, values):  # type: ignore[no-untyped-def]
     return sums
 
 
-@_strict
-def _dot(a, b):  # type: ignore[no-untyped-def]
+@compiled
+def _dot(a, b):
     total = 0.0
     for i in range(len(a)):
         total += a[i] * b[i]
     return total
 
 
-@_strict
-def _leak(start, neighbour, conductance, diagonal, potential, source):  # type: ignore[no-untyped-def]
+@compiled
+def _leak(start, neighbour, conductance, diagonal, potential, source):
     out = np.empty(len(diagonal))
     for i in range(len(diagonal)):
         # differences, not products: a constant must leave nothing at all
@@ -273,8 +271,8 @@ def _leak(start, neighbour, conductance, diagonal, potential, source):  # type: 
     return out
 
 
-@_strict
-def _relax(start, neighbour, conductance, diagonal, potential, source, forward):  # type: ignore[no-untyped-def]
+@compiled
+def _relax(start, neighbour, conductance, diagonal, potential, source, forward):
     """Gauss-Seidel: cell after cell its own balance is met, from the first to the last or the other way."""
     last = len(diagonal) - 1
     for j in range(last + 1):
@@ -286,10 +284,8 @@ def _relax(start, neighbour, conductance, diagonal, potential, source, forward):
             potential[i] = value / diagonal[i]
 
 
-@_strict
-def _restricted(  # type: ignore[no-untyped-def]
-    start, neighbour, conductance, diagonal, potential, source, group, groups
-):
+@compiled
+def _restricted(start, neighbour, conductance, diagonal, potential, source, group, groups):
     """What is left of the source, summed over groups."""
     out = np.zeros(groups)
     for i in range(len(diagonal)):
@@ -301,15 +297,15 @@ def _restricted(  # type: ignore[no-untyped-def]
     return out
 
 
-@_strict
-def _prolong(potential, coarse, group):  # type: ignore[no-untyped-def]
+@compiled
+def _prolong(potential, coarse, group):
     for i in range(len(potential)):
         if group[i] >= 0:
             potential[i] += coarse[group[i]]
 
 
-@_strict
-def _pairs(start, neighbour, conductance, weight):  # type: ignore[no-untyped-def]
+@compiled
+def _pairs(start, neighbour, conductance, weight):
     """Each node with the free neighbour it is tied to most; one whose strong neighbours are all taken joins the
     strongest of them (dead ends would else stay behind on every level); nodes without a link belong to none (-1)."""
     nodes = len(weight)

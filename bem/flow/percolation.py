@@ -9,13 +9,11 @@ between two cells of one tree whose offsets do not agree closes a path round the
 from __future__ import annotations
 
 from dataclasses import dataclass
-from typing import Any
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
-_strict: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
+from bem.compiled import compiled
 
 
 @dataclass(frozen=True, eq=False)
@@ -49,8 +47,8 @@ def open_pieces(is_open: NDArray[np.bool_]) -> Pieces:
     return Pieces(labels, wound[found, 0], wound[found, 1])
 
 
-@_strict
-def _root(parent, offset, cell):  # type: ignore[no-untyped-def]
+@compiled
+def _root(parent, offset, cell):
     """The root of the tree, the path to it made short; `offset` [cells] is of a cell from its parent."""
     root, x, y = cell, 0, 0
     while parent[root] != root:
@@ -67,8 +65,8 @@ def _root(parent, offset, cell):  # type: ignore[no-untyped-def]
     return root
 
 
-@_strict
-def _forest(is_open):  # type: ignore[no-untyped-def]
+@compiled
+def _forest(is_open):
     """Root of each cell, offsets [cells] from it, and whether the tree of a root winds along x and along y."""
     nx, ny = is_open.shape
     parent = np.arange(nx * ny)

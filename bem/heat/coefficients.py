@@ -22,15 +22,14 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from typing import Any
 
-import numba as nb
 import numpy as np
 from numpy.typing import NDArray
 
+from bem.compiled import compiled
+
 FloatArray = NDArray[np.float64]
 
-COMPILE: dict[str, Any] = {"cache": True, "error_model": "numpy", "nogil": True, "fastmath": False}
 _POINTS = 14
 _REACH = 6.0
 """erfc of it is below round-off."""
@@ -109,7 +108,7 @@ def _rule(
     return nodes, weights
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _difference(high: float, low: float) -> float:
     """erf(high) - erf(low) for high > low, without cancellation where both are far out."""
     if low > 0:
@@ -119,7 +118,7 @@ def _difference(high: float, low: float) -> float:
     return math.erf(high) - math.erf(low)
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _sum(
     nodes: FloatArray,
     weights: FloatArray,

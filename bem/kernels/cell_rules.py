@@ -7,11 +7,9 @@ seen from distance d errs by about (2 d / a)^(-2 n), so few points do far away.
 
 from __future__ import annotations
 
-from typing import Any
-
-import numba as nb
 import numpy as np
 
+from bem.compiled import compiled
 from bem.grid import FloatArray
 
 NEAR = 12.0
@@ -25,10 +23,8 @@ for _n in range(1, MAX_POINTS + 1):
     NODES[_n, :_n], WEIGHTS[_n, :_n] = np.polynomial.legendre.leggauss(_n)
     WEIGHTS[_n, :_n] *= 0.5
 
-COMPILE: dict[str, Any] = {"cache": True, "error_model": "numpy", "nogil": True, "fastmath": False}
 
-
-@nb.njit(**COMPILE)
+@compiled
 def points_needed(ratio: float) -> int:
     """Gauss points per side at `ratio` = distance / half side >= NEAR.
 
@@ -44,7 +40,7 @@ def points_needed(ratio: float) -> int:
     return 6
 
 
-@nb.njit(**COMPILE)
+@compiled
 def log_ratio(upper: float, lower: float, across: float) -> float:
     """ln[(upper + R(upper)) / (lower + R(lower))] with R(t) = sqrt(t^2 + across^2), upper > lower, no cancellation.
 
@@ -61,7 +57,7 @@ def log_ratio(upper: float, lower: float, across: float) -> float:
     return np.arcsinh(upper / across) + np.arcsinh(-lower / across)
 
 
-@nb.njit(**COMPILE)
+@compiled
 def powers(x: float, y: float, z: float) -> tuple[float, float, float, float, float]:
     """R, 1/R, 1/R^3, s = 1/(R + z) and (2 R + z) s^2 / R^3: what point-force solutions are made of."""
     r = np.sqrt(x * x + y * y + z * z)
@@ -71,19 +67,19 @@ def powers(x: float, y: float, z: float) -> tuple[float, float, float, float, fl
     return r, inv, inv3, s, (2.0 * r + z) * inv3 * s * s
 
 
-@nb.njit(**COMPILE)
+@compiled
 def angle(u: float, v: float, z: float, r: float) -> float:
     """arctan(u v / (z r)); on z = 0 its limit from inside the body, 0 on an edge (the mean of both sides)."""
     return np.arctan2(u * v, z * r) if z > 0.0 else 0.5 * np.pi * np.sign(u) * np.sign(v)
 
 
-@nb.njit(**COMPILE)
+@compiled
 def chi_xx(u: float, v: float, z: float, r: float) -> float:
     """arctan(v/u) - arctan(z v / (u r)) as one angle: the corner form of d2/du2 of the integral of ln(R + z)."""
     return np.arctan2(u * v * (u * u + v * v) / (r + z), u * u * r + z * v * v) if r > 0.0 else 0.0
 
 
-@nb.njit(**COMPILE)
+@compiled
 def rule(x: float, y: float, z: float, a: float, b: float) -> int:
     """How to integrate over |x'| < a, |y'| < b seen from (x, y, z): n > 0 Gauss points a side, 0 corners, -1 cut it."""
     long = max(a, b)
@@ -97,7 +93,7 @@ def rule(x: float, y: float, z: float, a: float, b: float) -> int:
     return 0 if gap <= short else -1
 
 
-@nb.njit(**COMPILE)
+@compiled
 def cut(x: float, y: float, z: float, a: float, b: float) -> FloatArray:
     """Pieces (k, 4) of a long rectangle, each (centre x, centre y, half side, half side) with a rule of its own.
 

@@ -20,19 +20,19 @@ traction the displacement far away is a constant, of opposite sign on either sid
 
 from __future__ import annotations
 
-import numba as nb
 import numpy as np
 from numpy.typing import ArrayLike
 
+from bem.compiled import compiled
 from bem.errors import InputError
 from bem.grid import FloatArray
-from bem.kernels.cell_rules import COMPILE, NEAR, NODES, WEIGHTS, points_needed
+from bem.kernels.cell_rules import NEAR, NODES, WEIGHTS, points_needed
 from bem.kernels.half_space import check_points
 from bem.kernels.loads import Load
 from bem.materials import Material
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _wedge(x0: float, x1: float, z: float) -> float:
     """atan(x1/z) - atan(x0/z): the angle under which the strip is seen; on z = 0 the limit from inside."""
     if z == 0.0:
@@ -40,7 +40,7 @@ def _wedge(x0: float, x1: float, z: float) -> float:
     return np.arctan2((x1 - x0) * z, z * z + x0 * x1)
 
 
-@nb.njit(**COMPILE)
+@compiled
 def log_strip(x: float, a: float) -> float:
     """Integral of ln|x - x'| over |x'| < a, accurate at any distance (x and a in units of the reference length)."""
     ratio = abs(x) / a
@@ -57,7 +57,7 @@ def log_strip(x: float, a: float) -> float:
     return total
 
 
-@nb.njit(**COMPILE)
+@compiled
 def add_strip(
     x: float, z: float, a: float, nu: float, pressure: float, traction: float, along: float, out: FloatArray
 ) -> None:
@@ -111,7 +111,7 @@ def add_strip(
         out[5] -= along * log
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _many(
     x: FloatArray, z: FloatArray, a: float, nu: float, pressure: float, traction: float, along: float, out: FloatArray
 ) -> None:
@@ -123,7 +123,7 @@ def _many(
             out[c, i] = local[c] / np.pi
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _logs(x: FloatArray, a: float, out: FloatArray) -> None:
     for i in range(x.size):
         out[i] = log_strip(x[i], a)

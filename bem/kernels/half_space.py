@@ -18,18 +18,18 @@ rectangle that is too long for either is cut across its long side until one of t
 
 from __future__ import annotations
 
-import numba as nb
 import numpy as np
 from numpy.typing import ArrayLike
 
+from bem.compiled import compiled
 from bem.errors import InputError
 from bem.grid import FloatArray
-from bem.kernels.cell_rules import COMPILE, NODES, WEIGHTS, angle, chi_xx, cut, log_ratio, powers, rule
+from bem.kernels.cell_rules import NODES, WEIGHTS, angle, chi_xx, cut, log_ratio, powers, rule
 from bem.kernels.loads import DISPLACEMENT_PARITY, IN_PLANE_PARITY, Load, clear_odd
 from bem.materials import Material
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _point(x: float, y: float, z: float, nu: float, tangential: bool, weight: float, out: FloatArray) -> None:
     """Add `weight` times 4 pi G u of a unit point force at the origin."""
     _, inv, inv3, s, curl = powers(x, y, z)
@@ -44,7 +44,7 @@ def _point(x: float, y: float, z: float, nu: float, tangential: bool, weight: fl
         out[2] += weight * (2.0 * (1.0 - nu) * inv + z * z * inv3)
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _chi_x(x0: float, x1: float, y0: float, y1: float, z: float) -> float:
     """Integral of d/dx ln(R + z) over the rectangle whose corner differences are (x0, x1) x (y0, y1)."""
     total = 0.0
@@ -62,14 +62,14 @@ def _chi_x(x0: float, x1: float, y0: float, y1: float, z: float) -> float:
     return total
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _edge(far: float, near: float, side: float, z: float) -> float:
     """Integral of 1/R along an edge; on the edge's own line it is multiplied by 0 or cancels, and counts as 0."""
     across = np.sqrt(side * side + z * z)
     return log_ratio(far, near, across) if across > 0.0 else 0.0
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _corners(x: float, y: float, z: float, a: float, b: float, nu: float, tangential: bool, out: FloatArray) -> None:
     """Add 4 pi G u of unit load on |x| < a, |y| < b."""
     x0, x1, y0, y1 = x - a, x + a, y - b, y + b
@@ -112,7 +112,7 @@ def _corners(x: float, y: float, z: float, a: float, b: float, nu: float, tangen
             out[1] -= z * (v_y1 - v_y0)
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _piece(
     n: int, x: float, y: float, z: float, a: float, b: float, nu: float, tangential: bool, out: FloatArray
 ) -> None:
@@ -126,7 +126,7 @@ def _piece(
             _point(x - a * NODES[n, i], y - b * NODES[n, j], z, nu, tangential, weight, out)
 
 
-@nb.njit(**COMPILE)
+@compiled
 def add_rectangle(
     x: float, y: float, z: float, a: float, b: float, nu: float, tangential: bool, out: FloatArray
 ) -> None:
@@ -141,7 +141,7 @@ def add_rectangle(
         _piece(rule(px, py, z, ha, hb), px, py, z, ha, hb, nu, tangential, out)
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _many(
     x: FloatArray, y: FloatArray, z: FloatArray, a: float, b: float, nu: float, tangential: bool, out: FloatArray
 ) -> None:
@@ -154,7 +154,7 @@ def _many(
             out[c, i] = scale * local[c]
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _surface_table(
     nx: int, ny: int, dx: float, dy: float, nu: float, tangential: bool, first: int, out: FloatArray
 ) -> None:
@@ -170,7 +170,7 @@ def _surface_table(
             out[i, j] = scale * local[2]
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _in_plane_table(nx: int, ny: int, dx: float, dy: float, nu: float, out: FloatArray) -> None:
     """4 pi G times ux under traction along x, uy under traction along y, uy under traction along x: (3, nx, ny)."""
     scale = max(dx, dy)

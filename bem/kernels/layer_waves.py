@@ -18,8 +18,9 @@ from __future__ import annotations
 
 import math
 
-import numba
 import numpy as np
+
+from bem.compiled import compiled
 
 # Rows of a response: under unit pressure, then under unit traction along k, then under unit traction across k.
 NORMAL_U, NORMAL_W, NORMAL_TAU, NORMAL_SIGMA, NORMAL_EE, NORMAL_TT = range(6)
@@ -47,8 +48,8 @@ _SERIES = tuple(
 )  # the last term is 1e-18 of the sum at s = 1
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath=False)
-def _s_cosh_less_sinh(s):  # type: ignore[no-untyped-def]
+@compiled
+def _s_cosh_less_sinh(s):
     """s cosh s - sinh s for |s| <= 1 by its series, free of cancellation."""
     s2 = s * s
     total = s2 * 0.0
@@ -57,15 +58,15 @@ def _s_cosh_less_sinh(s):  # type: ignore[no-untyped-def]
     return total * s2 * s
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath=False)
-def _exponential(s, c):  # type: ignore[no-untyped-def]
+@compiled
+def _exponential(s, c):
     """What exp(-M s) is made of, |s| <= 1: sinh, cosh, c/2 s sinh s, c/2 (s cosh s - sinh s)."""
     sinh = np.sinh(s)
     return sinh, np.cosh(s), 0.5 * c * s * sinh, 0.5 * c * _s_cosh_less_sinh(s)
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath=False)
-def _carry(place, c, u, w, tau, sigma):  # type: ignore[no-untyped-def]
+@compiled
+def _carry(place, c, u, w, tau, sigma):
     """The state above from that on the interface."""
     sinh, cosh, gamma, delta = (
         place[_EXPONENTIAL],
@@ -81,8 +82,8 @@ def _carry(place, c, u, w, tau, sigma):  # type: ignore[no-untyped-def]
     )
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath=False)
-def _climb_thin(x, c, number, kept):  # type: ignore[no-untyped-def]
+@compiled
+def _climb_thin(x, c, number, kept):
     """Through a thin layer: what takes (u, w) below to (u, w) and (tau, sigma) above; the impedance on its top."""
     sinh, cosh, gamma, delta = _exponential(x, c)
     kept[number, _SINH] = sinh
@@ -113,8 +114,8 @@ def _climb_thin(x, c, number, kept):  # type: ignore[no-untyped-def]
     return (a11 * f22 - a12 * f21) * solve, (a12 * f11 - a11 * f12) * solve, (a22 * f11 - a21 * f12) * solve
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath=False)
-def _reflect(kappa, number, kept):  # type: ignore[no-untyped-def]
+@compiled
+def _reflect(kappa, number, kept):
     """Transmission and reflection of the waves of a thick layer by the impedance below it.
 
     With Zd, Zu the impedances of waves that decay downwards and upwards, Zu - Zd = 1 + 1/kappa (times the unit
@@ -140,8 +141,8 @@ def _reflect(kappa, number, kept):  # type: ignore[no-untyped-def]
     )
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath=False)
-def _climb_thick(x, kappa, number, kept):  # type: ignore[no-untyped-def]
+@compiled
+def _climb_thick(x, kappa, number, kept):
     """Through a thick layer, whose reflection is known: the round trip of its waves and the impedance on its top."""
     pp, pn, nn = kept[number, _REFLECTED], kept[number, _REFLECTED + 1], kept[number, _REFLECTED + 2]
     square = kept[number, _DECAY] * kept[number, _DECAY]
@@ -160,15 +161,15 @@ def _climb_thick(x, kappa, number, kept):  # type: ignore[no-untyped-def]
     return -zeta + zeta * (pp + 2.0 * pn + nn), eta + zeta * (pp - nn), -zeta + zeta * (pp - 2.0 * pn + nn)
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath=False)
-def _from_below(media, number, uu, uw, ww, kept):  # type: ignore[no-untyped-def]
+@compiled
+def _from_below(media, number, uu, uw, ww, kept):
     """The impedance below a layer, in its own units."""
     over = 1.0 / media[number, MODULUS]
     kept[number, _BELOW], kept[number, _BELOW + 1], kept[number, _BELOW + 2] = uu * over, uw * over, ww * over
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath=False)
-def _rest(media, kept):  # type: ignore[no-untyped-def]
+@compiled
+def _rest(media, kept):
     """What is the same for every wavenumber: the half-space below the lowest layer, and how it reflects."""
     bottom = media.shape[0] - 1
     kappa, g = media[bottom, KAPPA], media[bottom, MODULUS]
@@ -176,8 +177,8 @@ def _rest(media, kept):  # type: ignore[no-untyped-def]
     _from_below(media, bottom - 1, zeta, eta, zeta, kept)
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath=False)
-def _climb(q, media, reflected, kept):  # type: ignore[no-untyped-def]
+@compiled
+def _climb(q, media, reflected, kept):
     """Fill `kept` (media, _KEPT) from the lowest layer up; `reflected`: transmission and reflection of that one."""
     lowest = media.shape[0] - 2
     for number in range(lowest, -1, -1):
@@ -197,8 +198,8 @@ def _climb(q, media, reflected, kept):  # type: ignore[no-untyped-def]
             _from_below(media, number - 1, uu * g, uw * g, ww * g, kept)
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath=False)
-def _loaded_layer(q, media, kept, tau0, sigma0, waves):  # type: ignore[no-untyped-def]
+@compiled
+def _loaded_layer(q, media, kept, tau0, sigma0, waves):
     """Displacement below the outermost layer; into `waves` the amplitudes on its top less those of a half-space."""
     x = q * media[0, THICKNESS]
     kappa = media[0, KAPPA]
@@ -221,8 +222,8 @@ def _loaded_layer(q, media, kept, tau0, sigma0, waves):  # type: ignore[no-untyp
     return _transmitted(x, over, p0 + dp, n0 + dn, 0, kept, waves)
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath=False)
-def _transmitted(x, over, p, n, number, kept, waves):  # type: ignore[no-untyped-def]
+@compiled
+def _transmitted(x, over, p, n, number, kept, waves):
     """Displacement below a thick layer from the amplitudes of its downward waves on its top; `over`: 1 / kappa.
 
     Into `waves` what arrives at the interface.
@@ -234,8 +235,8 @@ def _transmitted(x, over, p, n, number, kept, waves):  # type: ignore[no-untyped
     return kept[number, _WAY] * u + kept[number, _WAY + 1] * w, kept[number, _WAY + 1] * u + kept[number, _WAY + 2] * w
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath=False)
-def _pass_layer(q, media, kept, number, u, w, waves):  # type: ignore[no-untyped-def]
+@compiled
+def _pass_layer(q, media, kept, number, u, w, waves):
     """Displacement below a layer from that on its top; into `waves` the amplitudes there."""
     x = q * media[number, THICKNESS]
     solve = kept[number, _SOLVE]
@@ -249,8 +250,8 @@ def _pass_layer(q, media, kept, number, u, w, waves):  # type: ignore[no-untyped
     return _transmitted(x, 1.0 / media[number, KAPPA], p, n, number, kept, waves)
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath=False)
-def _falling(place, over, p, n):  # type: ignore[no-untyped-def]
+@compiled
+def _falling(place, over, p, n):
     """State of waves that decay downwards, amplitudes (p, n) on the top of the medium; `over`: 1 / kappa."""
     p = p * place[_FALL]
     n = n * place[_FALL] - (2.0 * over) * place[_DOWN] * p
@@ -258,8 +259,8 @@ def _falling(place, over, p, n):  # type: ignore[no-untyped-def]
     return 0.5 * (p + n), 0.5 * (p - n), 0.5 * (-q - n), 0.5 * (n - q)
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath=False)
-def _waves_inside(place, over, medium, kept, p, n, waves):  # type: ignore[no-untyped-def]
+@compiled
+def _waves_inside(place, over, medium, kept, p, n, waves):
     """State in a thick layer: downward waves of amplitudes p, n on its top, and what its interface reflects."""
     p_sent, n_sent = waves[2], waves[3]
     p_up = (kept[medium, _REFLECTED] * p_sent + kept[medium, _REFLECTED + 1] * n_sent) * place[_BACK]
@@ -275,8 +276,8 @@ def _waves_inside(place, over, medium, kept, p, n, waves):  # type: ignore[no-un
     )
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath=False)
-def _in_plane(q, medium, carried, remainder, media, place, kept, load, waves):  # type: ignore[no-untyped-def]
+@compiled
+def _in_plane(q, medium, carried, remainder, media, place, kept, load, waves):
     """u, w and the medium's own tau, sigma under pressure (load 0) or traction along k (1)."""
     tau0, sigma0 = float(load), load - 1.0
     bottom = media.shape[0] - 1
@@ -303,15 +304,15 @@ def _in_plane(q, medium, carried, remainder, media, place, kept, load, waves):  
     return _waves_inside(place, over, medium, kept, p, n, waves)
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath=False)
-def _even_odd(decay, sinh, small):  # type: ignore[no-untyped-def]
+@compiled
+def _even_odd(decay, sinh, small):
     """1 + exp(-2 s) and 1 - exp(-2 s) from exp(-s) and, where s is small, sinh s."""
     square = decay * decay
     return 1.0 + square, 2.0 * decay * sinh if small else 1.0 - square
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath=False)
-def _anti_plane(q, medium, remainder, media, place, kept, impedances, out):  # type: ignore[no-untyped-def]
+@compiled
+def _anti_plane(q, medium, remainder, media, place, kept, impedances, out):
     """Shear across the plane: sums of positive terms only, at any thickness and ratio of moduli."""
     bottom = media.shape[0] - 1
     impedance = media[bottom, MODULUS] + q * 0.0
@@ -349,8 +350,8 @@ def _anti_plane(q, medium, remainder, media, place, kept, impedances, out):  # t
     out[ACROSS_TZ] = -out[ACROSS_ET]
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath=False)
-def _find_place(q, above, thickness, inside, carried, c, place):  # type: ignore[no-untyped-def]
+@compiled
+def _find_place(q, above, thickness, inside, carried, c, place):
     """Fill `place` (_PLACE,) for a wavenumber and a depth `above` below the top of its medium."""
     place[_DOWN] = q * above
     place[_FALL] = np.exp(-place[_DOWN])
@@ -363,8 +364,8 @@ def _find_place(q, above, thickness, inside, carried, c, place):  # type: ignore
             place[_EXPONENTIAL + 2], place[_EXPONENTIAL + 3] = gamma, delta
 
 
-@numba.njit(cache=True, error_model="numpy", fastmath=False)
-def fill(q, above, medium, media, remainder, pressed, sheared, out):  # type: ignore[no-untyped-def]
+@compiled
+def fill(q, above, medium, media, remainder, pressed, sheared, out):
     """Fill `out` (ROWS, n) for the wavenumbers q (n,) at the distance `above` below the top of a medium.
 
     `pressed`: the rows under pressure; `sheared`: those under tractions. The others are left as they are.

@@ -22,11 +22,10 @@ origin of a layer much thinner than a cell the quarters shrink geometrically, so
 
 from __future__ import annotations
 
-import numba as nb
 import numpy as np
 
+from bem.compiled import compiled
 from bem.grid import FloatArray, Grid
-from bem.kernels.cell_rules import COMPILE
 from bem.kernels.coefficients import IN_PLANE_PARITY, STRESS_PARITY, SURFACE_PARITY
 from bem.kernels.half_space import Load
 from bem.kernels.layered_hankel import (
@@ -59,20 +58,20 @@ SURFACE = {Load.NORMAL: SURFACE_NORMAL, Load.TANGENTIAL: SURFACE_TANGENTIAL}
 STRESS = {Load.NORMAL: STRESS_NORMAL, Load.TANGENTIAL: STRESS_TANGENTIAL}
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _along(x: float, y: float, r: float) -> tuple[float, float]:
     """Cosine and sine of the angle from x; what is multiplied by them vanishes at the origin."""
     r = max(r, 1e-300)
     return x / r, y / r
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _pressed(c: float, s: float, g0: float, g1: float, g2: float, g3: float) -> Six:
     c2, s2 = (c - s) * (c + s), 2.0 * s * c
     return g2 - c2 * g3, g2 + c2 * g3, g0, -s * g1, -c * g1, -s2 * g3
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _sheared(c: float, s: float, g0: float, g1: float, g2: float, g3: float, g4: float, g5: float) -> Six:
     c2, s2 = (c - s) * (c + s), 2.0 * s * c
     c3, s3 = c2 * c - s2 * s, s2 * c + c2 * s
@@ -80,7 +79,7 @@ def _sheared(c: float, s: float, g0: float, g1: float, g2: float, g3: float, g4:
     return c3 * g5 - c * g3, -(c3 * g5 + c * g4), -c * g0, s2 * g2, g1 + c2 * g2, xy
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _add_point(kind: int, x: float, y: float, r: float, g: FloatArray, weight: float, out: FloatArray) -> None:
     """Add `weight` times the response at (x, y) to `out` (components,)."""
     if kind == SURFACE_NORMAL:
@@ -112,7 +111,7 @@ _SUM = 16 * BLOCK
 _SCRATCH = 17 * BLOCK
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _add_side_by_side(
     kind: int, x: float, count: int, tables: int, panel: FloatArray, weight: float, scratch: FloatArray
 ) -> None:
@@ -161,7 +160,7 @@ def _add_side_by_side(
             add_six(weight, stress, k, scratch)
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _add_block(
     kind: int,
     x: float,
@@ -202,7 +201,7 @@ def _add_block(
                 start = stop
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _rule_for(reach: float, ripple: float, fall: float) -> int:
     """Row of the rule to use, or the number of rules where none will do; the ripples are exp(-fall) of their height."""
     row = 0
@@ -214,7 +213,7 @@ def _rule_for(reach: float, ripple: float, fall: float) -> int:
     return row
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _rules(x: float, y: float, a: float, b: float, table: RadialTable) -> tuple[int, int]:
     """Rules along x and y for a piece of half sides a, b centred at (x, y); (-1, -1) where nothing is left of it."""
     gap_x, gap_y = max(abs(x) - a, 0.0), max(abs(y) - b, 0.0)
@@ -227,7 +226,7 @@ def _rules(x: float, y: float, a: float, b: float, table: RadialTable) -> tuple[
     return along_x, along_y
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _add_cell(
     kind: int,
     x: float,
@@ -269,7 +268,7 @@ def _add_cell(
                     _add_point(kind, px, py, r, g, a * b * _WEIGHTS[along_x, i] * _WEIGHTS[along_y, j], out)
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _add_cells(
     kind: int,
     sides: tuple[float, float],

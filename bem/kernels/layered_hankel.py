@@ -23,14 +23,13 @@ from dataclasses import dataclass, field
 from functools import lru_cache
 from typing import Any, NamedTuple
 
-import numba as nb
 import numpy as np
 from numpy.typing import NDArray
 from scipy import special
 
+from bem.compiled import compiled
 from bem.grid import FloatArray
 from bem.kernels import layered
-from bem.kernels.cell_rules import COMPILE
 from bem.kernels.half_space import Load
 from bem.materials import Body
 
@@ -328,7 +327,7 @@ def _spectrum(kernels: Kernels, q: NDArray[Any]) -> NDArray[Any]:
     return kernels.spectra(np.ascontiguousarray(q).ravel()).reshape(-1, *q.shape)
 
 
-@nb.njit(**COMPILE)
+@compiled
 def panel_of(r: float, edges: FloatArray) -> int:
     """Number of the panel that r lies in, the last one beyond them."""
     low, high = 0, edges.size - 1
@@ -341,7 +340,7 @@ def panel_of(r: float, edges: FloatArray) -> int:
     return low
 
 
-@nb.njit(**COMPILE)
+@compiled
 def evaluate(r: float, edges: FloatArray, coefficients: FloatArray, out: FloatArray) -> None:
     """Values of every table at r into `out` (tables,)."""
     low = panel_of(r, edges)
@@ -354,7 +353,7 @@ def evaluate(r: float, edges: FloatArray, coefficients: FloatArray, out: FloatAr
             out[table] = out[table] * t + coefficients[low, power, table]
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _evaluate_all(r: FloatArray, edges: FloatArray, coefficients: FloatArray, out: FloatArray) -> None:
     for i in range(r.size):
         evaluate(r[i], edges, coefficients, out[i])

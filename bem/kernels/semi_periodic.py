@@ -22,12 +22,12 @@ from __future__ import annotations
 
 from typing import NamedTuple
 
-import numba as nb
 import numpy as np
 
+from bem.compiled import compiled
 from bem.grid import FloatArray, Grid
 from bem.kernels import half_space, subsurface
-from bem.kernels.cell_rules import COMPILE, NODES, WEIGHTS
+from bem.kernels.cell_rules import NODES, WEIGHTS
 from bem.kernels.euler_maclaurin import euler_maclaurin
 from bem.kernels.half_plane import add_strip, log_strip
 from bem.kernels.loads import IN_PLANE_PARITY, STRESS_PARITY, SURFACE_PARITY, Load, clear_odd
@@ -88,7 +88,7 @@ class _Means(NamedTuple):
     parity: FloatArray
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _add_pair(what: _Response, shift: float, weight: float, count: int, scratch: FloatArray) -> None:
     """Add `weight` times the point forces at +-`shift` along the periodic axis to a block of points."""
     if what.kind == _STRESS:
@@ -115,7 +115,7 @@ def _add_pair(what: _Response, shift: float, weight: float, count: int, scratch:
             scratch[k] += weight * free * (1.0 / plus + 1.0 / minus)
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _add_tail(
     what: _Response, free: float, along: FloatArray, weight: float, scratch: FloatArray, out: FloatArray
 ) -> None:
@@ -140,7 +140,7 @@ def _add_tail(
             out[c, k] += scratch[c * BLOCK + k]
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _add_integral(
     what: _Response, start: float, free: float, along: FloatArray, weight: float, scratch: FloatArray
 ) -> None:
@@ -157,7 +157,7 @@ def _add_integral(
         _add_pair(what, start + stretch * _TAIL_NODES[i] / left, w, along.size, scratch)
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _add_line(what: _Response, free: float, half: float, fraction: float, out: FloatArray, strip: FloatArray) -> None:
     """Add 2 pi times the stress (or V, or chi_x) of a strip |free'| < half; `fraction`: loaded fraction of a period."""
     if what.kind == _STRESS:
@@ -180,7 +180,7 @@ def _add_line(what: _Response, free: float, half: float, fraction: float, out: F
         out[0] += fraction * np.pi * 2.0 * min(max(free, -half), half)
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _add_cell(
     what: _Response,
     free: float,
@@ -212,14 +212,14 @@ def _add_cell(
         out[0, k] += 0.5 * displacement[2] if what.kind == _PRESSURE_DISPLACEMENT else displacement[2]
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _within_reach(what: _Response, free: float, half: float) -> tuple[float, float]:
     """The part of the cell at -`free` that is not seen as a line; empty where the ends meet."""
     reach = np.sqrt(max(_LINE * _LINE - what.z * what.z, 0.0))
     return min(max(free - reach, -half), half), min(max(free + reach, -half), half)
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _sample_cell(
     what: _Response, cells: _Cells, free: float, ends: tuple[float, float], nodes: FloatArray, scratch: FloatArray,
     out: FloatArray,
@@ -235,7 +235,7 @@ def _sample_cell(
             _add_tail(what, free - source, nodes, width * WEIGHTS[cells.points, g], scratch, out)
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _add_means(means: _Means, samples: FloatArray, row: FloatArray) -> None:
     """Add the means over the cells of what was sampled at the nodes to `row` (parts, cells)."""
     for c in range(row.shape[0]):
@@ -246,7 +246,7 @@ def _add_means(means: _Means, samples: FloatArray, row: FloatArray) -> None:
                 row[c, j] += value * shape[j]
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _fill(what: _Response, cells: _Cells, means: _Means, tail: FloatArray, out: FloatArray) -> None:
     """Fill out[component, free offset, offset along] for offsets along up to half a period.
 
@@ -286,7 +286,7 @@ def _fill(what: _Response, cells: _Cells, means: _Means, tail: FloatArray, out: 
                 out[c, i, j] += row[c, j]
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _sample(
     what: _Response, free_nodes: FloatArray, free_means: FloatArray, nodes: FloatArray, out: FloatArray
 ) -> None:

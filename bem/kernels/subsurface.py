@@ -22,12 +22,12 @@ the edges y = +-b, xy under pressure at the corners. These come out as infinitie
 
 from __future__ import annotations
 
-import numba as nb
 import numpy as np
 from numpy.typing import ArrayLike
 
+from bem.compiled import compiled
 from bem.grid import FloatArray
-from bem.kernels.cell_rules import COMPILE, NODES, WEIGHTS, angle, chi_xx, cut, log_ratio, powers, rule
+from bem.kernels.cell_rules import NODES, WEIGHTS, angle, chi_xx, cut, log_ratio, powers, rule
 from bem.kernels.half_space import check_points
 from bem.kernels.loads import STRESS_PARITY, Load, clear_odd
 
@@ -37,7 +37,7 @@ _TWO_PI = 2.0 * np.pi
 Six = tuple[float, float, float, float, float, float]
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _pressure_point(x: float, y: float, z: float, nu: float) -> Six:
     """2 pi times the six stresses of a unit point force into the body."""
     _, inv, inv3, s, curl = powers(x, y, z)
@@ -50,7 +50,7 @@ def _pressure_point(x: float, y: float, z: float, nu: float) -> Six:
     return direct + x * x * common, direct + y * y * common, z * down, y * down, x * down, x * y * common
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _traction_point(x: float, y: float, z: float, nu: float) -> Six:
     """2 pi times the six stresses of a unit point force along +x."""
     r, inv, inv3, s, curl = powers(x, y, z)
@@ -77,7 +77,7 @@ def _traction_point(x: float, y: float, z: float, nu: float) -> Six:
     )
 
 
-@nb.njit(**COMPILE)
+@compiled
 def add_point(x: float, y: float, z: float, nu: float, pressure: float, traction: float, out: FloatArray) -> None:
     """Add 2 pi times the six stresses of point forces: `pressure` into the body, `traction` along +x."""
     if pressure != 0.0:
@@ -98,7 +98,7 @@ X_AT = 6 * BLOCK
 Y_AT = 7 * BLOCK
 
 
-@nb.njit(**COMPILE)
+@compiled
 def block_of(x: FloatArray, y: FloatArray, scratch: FloatArray) -> None:
     """Begin a block of at most `BLOCK` points (x, y) in `scratch` (8 BLOCK,): no sums yet."""
     scratch[:X_AT] = 0.0
@@ -107,7 +107,7 @@ def block_of(x: FloatArray, y: FloatArray, scratch: FloatArray) -> None:
         scratch[Y_AT + k] = y[k]
 
 
-@nb.njit(**COMPILE)
+@compiled
 def add_six(weight: float, stress: Six, k: int, scratch: FloatArray) -> None:
     """Add `weight` times six stresses to the sums of point k of a block."""
     scratch[k] += weight * stress[0]
@@ -118,7 +118,7 @@ def add_six(weight: float, stress: Six, k: int, scratch: FloatArray) -> None:
     scratch[5 * BLOCK + k] += weight * stress[5]
 
 
-@nb.njit(**COMPILE)
+@compiled
 def add_points(
     right: float, on: float, z: float, nu: float, pressure: float, traction: float, count: int, scratch: FloatArray
 ) -> None:
@@ -131,7 +131,7 @@ def add_points(
             add_six(traction, _traction_point(scratch[X_AT + k] - right, scratch[Y_AT + k] - on, z, nu), k, scratch)
 
 
-@nb.njit(**COMPILE)
+@compiled
 def end_block(count: int, scratch: FloatArray, out: FloatArray) -> None:
     """Add the sums of a block to `out` (6, count)."""
     for c in range(6):
@@ -139,7 +139,7 @@ def end_block(count: int, scratch: FloatArray, out: FloatArray) -> None:
             out[c, k] += scratch[c * BLOCK + k]
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _corners(
     x: float, y: float, z: float, a: float, b: float, nu: float, pressure: float, traction: float, out: FloatArray
 ) -> None:
@@ -200,7 +200,7 @@ def _corners(
         out[5] += traction * (v_y - mixed_y)
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _piece(  # reason: plain numbers stay in registers through the rule's points; a record is taken apart at every call
     n: int,
     x: float,
@@ -223,7 +223,7 @@ def _piece(  # reason: plain numbers stay in registers through the rule's points
             add_point(x - a * NODES[n, i], y - b * NODES[n, j], z, nu, w * pressure, w * traction, out)
 
 
-@nb.njit(**COMPILE)
+@compiled
 def add_rectangle(
     x: float, y: float, z: float, a: float, b: float, nu: float, pressure: float, traction: float, out: FloatArray
 ) -> None:
@@ -238,7 +238,7 @@ def add_rectangle(
         _piece(rule(px, py, z, ha, hb), px, py, z, ha, hb, nu, pressure, traction, out)
 
 
-@nb.njit(**COMPILE)
+@compiled
 def add_rectangles(  # reason: as `_piece`, for the compiler
     x: FloatArray,
     y: FloatArray,
@@ -276,7 +276,7 @@ def add_rectangles(  # reason: as `_piece`, for the compiler
         start = stop
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _many(
     x: FloatArray,
     y: FloatArray,
@@ -297,7 +297,7 @@ def _many(
             out[c, i] = local[c] / _TWO_PI
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _table(
     dx: float, dy: float, z: float, nu: float, pressure: float, traction: float, first: int, out: FloatArray
 ) -> None:

@@ -12,8 +12,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 
+from bem.compiled import compiled
 from bem.errors import InputError
 from bem.grid import FloatArray
 
@@ -77,8 +77,8 @@ class FatigueLimit:
         return np.asarray(np.exp(np.minimum((self.bending - math.sqrt(3) * equivalent) / self.slope, 0.0)))
 
 
-@njit(cache=True, fastmath=False)
-def _ball(points, centre):  # type: ignore[no-untyped-def]
+@compiled
+def _ball(points, centre):
     """Centre, in place, of the smallest ball around points (n, 5): Frank and Wolfe's method of its dual with steps away
     from points inside, which end when the radius reached and the one proved differ by less than a part."""
     n, m = points.shape
@@ -121,8 +121,8 @@ def _ball(points, centre):  # type: ignore[no-untyped-def]
             centre[c] = centre[c] + step * (points[pick, c] - centre[c])
 
 
-@njit(cache=True, fastmath=False)
-def _deviators(path, out):  # type: ignore[no-untyped-def]
+@compiled
+def _deviators(path, out):
     """Deviators of stresses (n, 6) as points (n, 5) whose distance squared is s : s."""
     for i in range(path.shape[0]):
         xx, yy, zz = path[i, 0], path[i, 1], path[i, 2]
@@ -132,8 +132,8 @@ def _deviators(path, out):  # type: ignore[no-untyped-def]
             out[i, 2 + c] = math.sqrt(2.0) * path[i, 3 + c]
 
 
-@njit(cache=True, fastmath=False)
-def _tresca(point):  # type: ignore[no-untyped-def]
+@compiled
+def _tresca(point):
     """Largest shear of a deviator given as a point (5,), by its invariants."""
     xx = point[0] / math.sqrt(2.0) - point[1] / math.sqrt(6.0)
     yy = -point[0] / math.sqrt(2.0) - point[1] / math.sqrt(6.0)
@@ -149,8 +149,8 @@ def _tresca(point):  # type: ignore[no-untyped-def]
     return size * (math.cos(lode) - math.cos(lode + 2.0 * math.pi / 3.0))
 
 
-@njit(cache=True, fastmath=False)
-def _dang_van(paths, factor):  # type: ignore[no-untyped-def]
+@compiled
+def _dang_van(paths, factor):
     found = np.empty(paths.shape[0])
     points = np.empty((paths.shape[1], 5))
     centre, apart = np.empty(5), np.empty(5)
@@ -167,8 +167,8 @@ def _dang_van(paths, factor):  # type: ignore[no-untyped-def]
     return found
 
 
-@njit(cache=True, fastmath=False)
-def _crossland(paths, factor):  # type: ignore[no-untyped-def]
+@compiled
+def _crossland(paths, factor):
     found = np.empty(paths.shape[0])
     points, centre = np.empty((paths.shape[1], 5)), np.empty(5)
     for place in range(paths.shape[0]):

@@ -17,8 +17,8 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 
+from bem.compiled import compiled
 from bem.grid import FloatArray
 from bem.lubrication.line_equations import Equations
 from bem.lubrication.line_kernel import DEFLECTION, Level, LineOperator
@@ -48,7 +48,7 @@ class Rows:
         return out
 
 
-@njit(cache=True, fastmath=False)
+@compiled
 def _of_films(
     out: FloatArray, weights: FloatArray, before: FloatArray, here: FloatArray, after: FloatArray, elastic: float
 ) -> None:

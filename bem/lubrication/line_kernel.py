@@ -12,9 +12,9 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from bem.compiled import compiled
 from bem.grid import FloatArray
 from bem.lubrication.line_mesh import trapezoidal_weights
 
@@ -36,13 +36,13 @@ _OF_MOMENTS = tuple(1 / (k * (k + 1) * (k + 2)) for k in range(1, 14))
 """What the k-th powers of a hat's half-widths over a distance are worth of ln, seen from there."""
 
 
-@njit(cache=True, fastmath=False)
+@compiled
 def _primitive(t: float) -> float:
     """Second primitive of ln|t|: t^2/2 ln|t| - 3 t^2/4."""
     return 0.0 if t == 0 else t * t * (0.5 * math.log(abs(t)) - 0.75)
 
 
-@njit(cache=True, fastmath=False)
+@compiled
 def _weight(t: float, left: float, right: float) -> float:
     """Integral of a hat of half-widths `left`, `right` (0: half a hat) times ln|t - s|, t from the hat's node.
 
@@ -71,7 +71,7 @@ def _weight(t: float, left: float, right: float) -> float:
     return total
 
 
-@njit(cache=True, fastmath=False)
+@compiled
 def _fill(out: FloatArray, targets: FloatArray, nodes: FloatArray, first: int) -> None:
     """Rows of weights for hats at nodes first, first + 1, ... at the targets."""
     last = len(nodes) - 1
@@ -83,14 +83,14 @@ def _fill(out: FloatArray, targets: FloatArray, nodes: FloatArray, first: int) -
             out[i, j] = _weight(targets[i] - nodes[k], left, right)
 
 
-@njit(cache=True, fastmath=False)
+@compiled
 def _mean(nodes: FloatArray, i: int, k: int, log_unit: float) -> float:
     """The kernel ln(|x - x'|/unit) at node i, averaged over the hat of interior node k."""
     before, after = nodes[k] - nodes[k - 1], nodes[k + 1] - nodes[k]
     return _weight(nodes[i] - nodes[k], before, after) / (0.5 * (before + after)) - log_unit
 
 
-@njit(cache=True, fastmath=False)
+@compiled
 def _missing_row(
     out: FloatArray, nodes: FloatArray, i: int, first: int, log_unit: float, of_row: FloatArray, right: FloatArray
 ) -> None:
@@ -102,7 +102,7 @@ def _missing_row(
             out[j] -= of_row[r] * right[r, j]
 
 
-@njit(cache=True, fastmath=False)
+@compiled
 def _missing_column(
     out: FloatArray, nodes: FloatArray, k: int, first: int, log_unit: float, left: FloatArray, of_column: FloatArray
 ) -> None:
@@ -114,7 +114,7 @@ def _missing_column(
             out[i] -= left[r, i] * of_column[r]
 
 
-@njit(cache=True, fastmath=False)
+@compiled
 def _dot(one: FloatArray, other: FloatArray) -> float:
     """In four sums, which a processor adds up side by side."""
     a, b, c, d = 0.0, 0.0, 0.0, 0.0
@@ -129,7 +129,7 @@ def _dot(one: FloatArray, other: FloatArray) -> float:
     return (a + b) + (c + d)
 
 
-@njit(cache=True, fastmath=False)
+@compiled
 def _largest_unused(values: FloatArray, used: NDArray[np.bool_]) -> int:
     """Where `values` is largest among those not used yet; -1 where all are."""
     best, found = -1.0, -1
@@ -139,7 +139,7 @@ def _largest_unused(values: FloatArray, used: NDArray[np.bool_]) -> int:
     return found
 
 
-@njit(cache=True, fastmath=False)
+@compiled
 def _cross(
     nodes: FloatArray,
     rows: tuple[int, int],
@@ -213,7 +213,7 @@ MOMENTS = 30
 """Of a group, seen from three times its half-width or farther: 3^-30 is below rounding."""
 
 
-@njit(cache=True, fastmath=False)
+@compiled
 def _group_seen(targets: FloatArray, nodes: FloatArray, pressure: FloatArray, out: FloatArray) -> None:
     """Add the integral of the pressure between the first and the last of the nodes times ln|t - s| at the targets t."""
     last = len(nodes) - 1
@@ -245,7 +245,7 @@ def _group_seen(targets: FloatArray, nodes: FloatArray, pressure: FloatArray, ou
                 out[i] += pressure[k] * _weight(targets[i] - nodes[k], left, right)
 
 
-@njit(cache=True, fastmath=False)
+@compiled
 def logarithmic_integral(targets: FloatArray, nodes: FloatArray, pressure: FloatArray) -> FloatArray:
     """`logarithmic_weights(targets, nodes) @ pressure`, groups of cells by their moments where they are far away: to
     rounding the same, and for many nodes a tenth of the work."""

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
+from bem.compiled import compiled
 from bem.grid import FloatArray
 from bem.numerics.monotone import MonotoneCubic
 
@@ -61,7 +61,7 @@ def cell_sizes(offset: FloatArray, smooth: FloatArray, spike: FloatArray, cells:
     return size
 
 
-@njit(cache=True, fastmath=False)
+@compiled
 def _limit_growth(size: FloatArray, reach: FloatArray) -> None:
     """No cell is wider than its neighbours' by more than `reach`."""
     for i in range(1, len(size)):

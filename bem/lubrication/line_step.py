@@ -21,9 +21,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 from scipy.linalg import lu_factor, lu_solve
 
+from bem.compiled import compiled
 from bem.grid import FloatArray
 from bem.lubrication.cavitation import Cavitation
 from bem.lubrication.line_flow import Problem, longest_step, mean_fluidity
@@ -403,7 +403,7 @@ def _applied(bands: FloatArray, values: FloatArray) -> FloatArray:
     return out
 
 
-@njit(cache=True, fastmath=False)
+@compiled
 def _assemble(
     matrix: FloatArray,
     rows: Indices,

@@ -9,14 +9,10 @@ a count of centres scatters by 8 %. Verified in tests/numerics/test_subcell.py.
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
-from numba import njit
 
+from bem.compiled import compiled
 from bem.grid import FloatArray, Grid
-
-_strict: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 
 _FLAT = 1e-9
 """A curvature below this share of the field across a cell is none, as across the axis of a cylinder."""
@@ -81,8 +77,8 @@ def area_above(field: FloatArray, level: float, grid: Grid) -> float:
     return float(_area_above(np.ascontiguousarray(field), level, grid.periodic)) * grid.cell_area
 
 
-@_strict
-def _area_above(field, level, periodic):  # type: ignore[no-untyped-def]
+@compiled
+def _area_above(field, level, periodic):
     """In cells."""
     nx, ny = field.shape
     total = 0.0
@@ -103,8 +99,8 @@ def _area_above(field, level, periodic):  # type: ignore[no-untyped-def]
     return total
 
 
-@_strict
-def _share_above(mean, along, across):  # type: ignore[no-untyped-def]
+@compiled
+def _share_above(mean, along, across):
     """The share of a unit cell where mean + along x + across y is positive, x and y from its middle (the area of a
     square cut by a line, as of volumes of fluid: Scardovelli and Zaleski, J. Comp. Phys. 164 (2000) 228)."""
     small, large = min(along, across), max(along, across)

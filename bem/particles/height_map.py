@@ -11,9 +11,9 @@ import math
 from itertools import pairwise
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from bem.compiled import compiled
 from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.particles.particle import Particle
@@ -162,7 +162,7 @@ def label_particles(
     return labels.reshape(level.shape)
 
 
-@njit(cache=True, fastmath=False)
+@compiled
 def _root(parent: NDArray[np.int64], i: int) -> int:
     while parent[i] != i:
         parent[i] = parent[parent[i]]
@@ -170,7 +170,7 @@ def _root(parent: NDArray[np.int64], i: int) -> int:
     return i
 
 
-@njit(cache=True, fastmath=False)
+@compiled
 def _flood(
     heights: FloatArray, order: NDArray[np.int64], nx: int, ny: int, prominence: float, corners: bool
 ) -> NDArray[np.int64]:

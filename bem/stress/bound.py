@@ -5,9 +5,9 @@ from __future__ import annotations
 import math
 
 import numpy as np
-from numba import njit
 from numpy.typing import ArrayLike
 
+from bem.compiled import compiled
 from bem.grid import FloatArray, Grid
 from bem.kernels.coefficients import STRESS_PARITY, stress_coefficients
 from bem.kernels.spectral import stress_response
@@ -87,8 +87,8 @@ def _kernel_values(grid: Grid, body: Body, depth: float, friction: float) -> Flo
     return kernels
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
-def _sums_above(normal, tangential, wraps_x, wraps_y, above):  # type: ignore[no-untyped-def]
+@compiled
+def _sums_above(normal, tangential, wraps_x, wraps_y, above):
     """Sum of max(k - t, 0) over all offsets of a grid, for the thresholds t of `_THRESHOLDS`, (parts, levels + 1)."""
     count, levels = above.shape
     _, nx, ny = normal.shape
@@ -114,8 +114,8 @@ def _sums_above(normal, tangential, wraps_x, wraps_y, above):  # type: ignore[no
             above[c, level] = total - threshold * number
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
-def _signed_parts(normal, tangential, i, j, out):  # type: ignore[no-untyped-def]
+@compiled
+def _signed_parts(normal, tangential, i, j, out):
     """Parts of the kernel (see _PARTS) at offset (i, j), by the parities of both loads."""
     k = abs(i)
     m = abs(j)

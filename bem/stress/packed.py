@@ -18,9 +18,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from bem.compiled import compiled
 from bem.grid import FloatArray
 
 _BITS = 47  # and a sign
@@ -55,8 +55,8 @@ def pack(values: FloatArray) -> Packed:
     return packed
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
-def _pack(values, high, low, step):  # type: ignore[no-untyped-def]
+@compiled
+def _pack(values, high, low, step):
     top = 2.0**_BITS - 1.0
     for i in range(values.shape[0]):
         for j in range(values.shape[1]):
@@ -66,8 +66,8 @@ def _pack(values, high, low, step):  # type: ignore[no-untyped-def]
             low[i, j] = np.uint16(whole - 65536.0 * upper)
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
-def _unpack(high, low, step, out):  # type: ignore[no-untyped-def]
+@compiled
+def _unpack(high, low, step, out):
     for i in range(out.shape[0]):
         for j in range(out.shape[1]):
             out[i, j] = (65536.0 * high[i, j] + low[i, j]) * step[i]

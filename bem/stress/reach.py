@@ -14,9 +14,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 from numpy.typing import ArrayLike, NDArray
 
+from bem.compiled import compiled
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
 from bem.stress.sweeps import SHARES, Part, Sweep
@@ -103,8 +103,8 @@ def _starts(grid: Grid) -> NDArray[np.intp]:
     return np.arange(0, grid.shape[0], GROUP)
 
 
-@njit(cache=True, nogil=True, fastmath=False)
-def _clear(stress, computed):  # type: ignore[no-untyped-def]
+@compiled
+def _clear(stress, computed):
     """Zeros in rows that were not computed."""
     nz, nx, ny = stress.shape
     for k in range(nz):
@@ -126,8 +126,8 @@ def _along_x(part: Part, depth: float, squares: Squares, out: FloatArray) -> Non
         part.transform.terms_back(part.spectrum, given, squares, (first, last), out)
 
 
-@njit(cache=True, nogil=True, fastmath=False)
-def _spread(  # type: ignore[no-untyped-def]  # reason: compiled, so each array is an argument
+@compiled
+def _spread(  # reason: compiled, so each array is an argument
     room, singles, squares, out, limit, wraps, wanted, computed, exceeding
 ):
     """Compute the groups with a row that is wanted, then those beside rows above the limit, which is noted point by

@@ -21,10 +21,10 @@ from functools import cached_property
 from typing import Any
 
 import numpy as np
-from numba import njit
 from numpy.typing import ArrayLike
 
 from bem.arguments import is_finite
+from bem.compiled import compiled
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
 from bem.kernels.coefficients import STRESS_PARITY, Load, stress_coefficients
@@ -256,15 +256,15 @@ class Factors:
 _T, _E, _XZ = 0, 2, 4
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
-def _join_traction(xz, trace, factor):  # type: ignore[no-untyped-def]
+@compiled
+def _join_traction(xz, trace, factor):
     for i in range(xz.shape[0]):
         for j in range(xz.shape[1]):
             xz[i, j] = factor * xz[i, j] - 0.5 * trace[i, j]
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
-def _combine(stress):  # type: ignore[no-untyped-def]
+@compiled
+def _combine(stress):
     """In place from (xx, yy, zz, ...) to (t, d, e, ...)."""
     for i in range(stress.shape[1]):
         for j in range(stress.shape[2]):

@@ -14,9 +14,9 @@ from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
-from numba import njit
 from numpy.typing import ArrayLike, NDArray
 
+from bem.compiled import compiled
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
@@ -141,8 +141,8 @@ def von_mises(stress: ArrayLike) -> FloatArray:
     return result.reshape(components.shape[1:])
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
-def _von_mises(s, out):  # type: ignore[no-untyped-def]
+@compiled
+def _von_mises(s, out):
     for i in range(out.size):
         d = s[0, i] - s[1, i]
         e = s[2, i] - 0.5 * (s[0, i] + s[1, i])
@@ -150,8 +150,8 @@ def _von_mises(s, out):  # type: ignore[no-untyped-def]
         out[i] = np.sqrt(0.75 * d * d + e * e + 3.0 * shear)
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
-def _recombine(stress):  # type: ignore[no-untyped-def]
+@compiled
+def _recombine(stress):
     """In place from (t, d, e, ...) to (xx, yy, zz, ...)."""
     for i in range(stress.shape[1]):
         for j in range(stress.shape[2]):
@@ -162,8 +162,8 @@ def _recombine(stress):  # type: ignore[no-untyped-def]
             stress[2, i, j] = mean + e
 
 
-@njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
-def _add_square(values, weight, stage, out):  # type: ignore[no-untyped-def]
+@compiled
+def _add_square(values, weight, stage, out):
     """A term of the sum in `out`, which it begins, goes on with, or ends with its root."""
     for i in range(out.shape[0]):
         for j in range(out.shape[1]):

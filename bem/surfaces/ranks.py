@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 import numpy as np
-from numba import njit
 
+from bem.compiled import compiled
 from bem.grid import FloatArray
 
 _BITS = 11
@@ -27,8 +27,8 @@ def in_order_of(heights: FloatArray, ascending: FloatArray) -> FloatArray:
     return ranked
 
 
-@njit(cache=True, nogil=True, fastmath=False)
-def _make_keys(keys):  # type: ignore[no-untyped-def]
+@compiled
+def _make_keys(keys):
     """Bits of numbers as unsigned integers of the same order; both zeros are one."""
     for i in range(keys.size):
         key = keys[i]
@@ -37,8 +37,8 @@ def _make_keys(keys):  # type: ignore[no-untyped-def]
         keys[i] = ~key if key & _SIGN else key | _SIGN
 
 
-@njit(cache=True, nogil=True, fastmath=False)
-def _sorted(keys, spare, order, other):  # type: ignore[no-untyped-def]
+@compiled
+def _sorted(keys, spare, order, other):
     mask = np.uint64((1 << _BITS) - 1)
     counts = np.zeros((_DIGITS, 1 << _BITS), np.int64)
     for i in range(keys.size):
@@ -64,7 +64,7 @@ def _sorted(keys, spare, order, other):  # type: ignore[no-untyped-def]
     return order
 
 
-@njit(cache=True, nogil=True, fastmath=False)
-def _put(order, ascending, ranked):  # type: ignore[no-untyped-def]
+@compiled
+def _put(order, ascending, ranked):
     for k in range(order.size):
         ranked[order[k]] = ascending[k]

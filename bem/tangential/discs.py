@@ -2,21 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import numpy as np
-from numba import njit
 
+from bem.compiled import compiled
 from bem.grid import FloatArray
-
-_fast: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 
 _ROUNDS = 200
 _EXACT = 1e-14
 """Relative miss of the force at which the search for it ends."""
 
 
-@_fast
+@compiled
 def _nearest(
     wanted: FloatArray, bound: FloatArray, offset: FloatArray, force: FloatArray, out: FloatArray
 ) -> FloatArray:
@@ -45,7 +41,7 @@ def _nearest(
     return sums
 
 
-@_fast
+@compiled
 def _step(sums: FloatArray, miss: FloatArray, cells: int, limit: float) -> FloatArray:
     """Newton's step of the offset, no longer than `limit`."""
     xx, yy, xy = sums[3] + 1e-12 * cells, sums[4] + 1e-12 * cells, sums[5]
@@ -59,7 +55,7 @@ def _step(sums: FloatArray, miss: FloatArray, cells: int, limit: float) -> Float
     return step
 
 
-@_fast
+@compiled
 def nearest_with_force(wanted: FloatArray, bound: FloatArray, force: FloatArray, out: FloatArray) -> FloatArray:
     """The tractions (2, n) within `bound` nearest to wanted + offset whose sum is `force`; returns the offset (2,).
 
@@ -88,7 +84,7 @@ def nearest_with_force(wanted: FloatArray, bound: FloatArray, force: FloatArray,
     return offset
 
 
-@_fast
+@compiled
 def nearest(wanted: FloatArray, bound: FloatArray, out: FloatArray) -> None:
     """The tractions (2, n) within `bound` nearest to the wanted ones."""
     _nearest(wanted, bound, np.zeros(2), np.zeros(2), out)

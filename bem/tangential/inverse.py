@@ -14,17 +14,15 @@ from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from bem.compiled import compiled
 from bem.contact.long_waves import LongWaves, LongWavesOnCells, long_waves
 from bem.contact.patterns import Patterns, pack, row_of_inverse
 from bem.contact.preconditioner import Rows, Seam, SparseInverse, SparseInverseOnCells, neighbours, sparse_inverse
 from bem.grid import FloatArray
 from bem.tangential.along import AlongOperator
 from bem.tangential.operator import TangentialOperator
-
-_fast: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 
 _SQUARED_RADIUS = 5
 """Of the sparse inverse's stencil in cells; 2 takes a twentieth more convolutions (counted), 8 as many."""
@@ -136,7 +134,7 @@ def _with_diagonal(on: SparseInverseOnCells, patterns: Patterns, diagonal: Float
     )
 
 
-@_fast
+@compiled
 def _rows_with_diagonal(
     rows: Rows, seam: Seam, offsets: Any, near_field: FloatArray, table: FloatArray, diagonal: FloatArray
 ) -> tuple[FloatArray, FloatArray]:

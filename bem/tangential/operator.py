@@ -12,9 +12,9 @@ from functools import cached_property
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from bem.compiled import compiled
 from bem.convolution import COUNT, SMALLEST, ConvolutionCount, couples, elastic, shared
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
@@ -24,8 +24,6 @@ from bem.materials import Body
 from bem.transforms import kernel_spectrum, offset_cosines, padded_shape, transform_of
 
 ComplexArray = NDArray[np.complex128]
-
-_fast: Any = njit(cache=True, nogil=True, error_model="numpy", fastmath=False)
 
 
 class InPlaneSpectra(NamedTuple):
@@ -53,7 +51,7 @@ class PushedSpectra(NamedTuple):
         return self.x.nbytes + self.y.nbytes
 
 
-@_fast
+@compiled
 def _combine(spectra: InPlaneSpectra, along_x: ComplexArray, along_y: ComplexArray) -> None:
     """Spectra of the displacements in place of those of the tractions, (py // 2 + 1, px)."""
     rows, length = along_x.shape
@@ -67,7 +65,7 @@ def _combine(spectra: InPlaneSpectra, along_x: ComplexArray, along_y: ComplexArr
             along_y[i, j] = mixed * one + spectra.yy[i, k] * two
 
 
-@_fast
+@compiled
 def _push(odd_x: FloatArray, odd_y: FloatArray, pressure: ComplexArray, out: ComplexArray) -> None:
     """Spectra of displacement along x into `out` and along y in place of the pressure's; imaginary, odd in x or y."""
     rows, length = pressure.shape
@@ -80,7 +78,7 @@ def _push(odd_x: FloatArray, odd_y: FloatArray, pressure: ComplexArray, out: Com
             pressure[i, j] = odd_y[i, k] * turned
 
 
-@_fast
+@compiled
 def _normal(odd_x: FloatArray, odd_y: FloatArray, along_x: ComplexArray, along_y: ComplexArray) -> None:
     """Spectrum of the normal displacement in place of that of the traction along x: the adjoint of `_push`."""
     rows, length = along_x.shape

@@ -9,15 +9,12 @@ from __future__ import annotations
 from typing import Any, NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from bem.compiled import compiled, contracted
 from bem.transforms.addresses import LINE, fetch, numbers
 from bem.transforms.pairs import pairs_through
 from bem.transforms.plans import execute
-
-_plain: Any = njit(cache=True, nogil=True, fastmath=False)
-_contracted: Any = njit(cache=True, nogil=True, fastmath={"contract"}, error_model="numpy")
 
 ALIGNMENT = 64
 
@@ -103,8 +100,8 @@ class Factor(NamedTuple):
     imaginary_parity: int
 
 
-@_plain
-def convolve(room, scratch, factor, values, out):  # type: ignore[no-untyped-def]
+@compiled
+def convolve(room, scratch, factor, values, out):
     """A field padded, transformed, times the factor and back, by one thread; `out` may be `values`."""
     row_blocks = -(-room.nx // room.row_block)
     rows_forward(room, scratch, values, 0, row_blocks)
@@ -112,8 +109,8 @@ def convolve(room, scratch, factor, values, out):  # type: ignore[no-untyped-def
     rows_back(room, scratch, out, 0, row_blocks)
 
 
-@_plain
-def convolve_cells(room, scratch, factor, cells, values, out):  # type: ignore[no-untyped-def]
+@compiled
+def convolve_cells(room, scratch, factor, cells, values, out):
     """The same of a field that is zero but on some cells (`rows_forward_of_cells`)."""
     row_blocks = -(-room.nx // room.row_block)
     rows_forward_of_cells(room, scratch, cells, values, 0, row_blocks)
@@ -121,8 +118,8 @@ def convolve_cells(room, scratch, factor, cells, values, out):  # type: ignore[n
     rows_back(room, scratch, out, 0, row_blocks)
 
 
-@_plain
-def rows_forward_of_cells(room, scratch, cells, values, first, last):  # type: ignore[no-untyped-def]
+@compiled
+def rows_forward_of_cells(room, scratch, cells, values, first, last):
     """`rows_forward` of a field with these values on `cells` (flat indices, ascending), zero elsewhere: it is nowhere
     but in scratch, and blocks of rows without a cell are not transformed."""
     half, rows, ny = room.half, scratch.rows, room.ny
@@ -145,8 +142,8 @@ def rows_forward_of_cells(room, scratch, cells, values, first, last):  # type: i
         _rows_out(room, scratch, rows.ctypes.data, start, count)
 
 
-@_plain
-def first_from(cells, value, low, high):  # type: ignore[no-untyped-def]
+@compiled
+def first_from(cells, value, low, high):
     """The number of the first of the cells from `low` to before `high`, which ascend, that is no lower than a value;
     numpy's search would bring linear algebra into a run."""
     while low < high:
@@ -158,8 +155,8 @@ def first_from(cells, value, low, high):  # type: ignore[no-untyped-def]
     return low
 
 
-@_plain
-def _rows_out(room, scratch, source, start, count):  # type: ignore[no-untyped-def]
+@compiled
+def _rows_out(room, scratch, source, start, count):
     """A block of rows at an address, transformed along y and written transposed, in whole cache lines: FFTW's own
     scattered writes take a third longer."""
     plan = room.row_plans[0, 0 if count == room.row_block else 1]
@@ -167,8 +164,8 @@ def _rows_out(room, scratch, source, start, count):  # type: ignore[no-untyped-d
     _transpose(scratch.rows_spectrum, room.half, start, count, room.spectra)
 
 
-@_plain
-def rows_forward(room, scratch, values, first, last):  # type: ignore[no-untyped-def]
+@compiled
+def rows_forward(room, scratch, values, first, last):
     """Blocks of rows of a contiguous field, transformed along y and written transposed."""
     direct = room.fits and values.ctypes.data % ALIGNMENT == 0
     rows = scratch.rows
@@ -185,16 +182,16 @@ def rows_forward(room, scratch, values, first, last):  # type: ignore[no-untyped
         _rows_out(room, scratch, source, start, count)
 
 
-@_plain
-def _transpose(spectra, half, start, rows, length):  # type: ignore[no-untyped-def]
+@compiled
+def _transpose(spectra, half, start, rows, length):
     for block in range(0, length, 8):
         for j in range(block, min(length, block + 8)):
             for i in range(rows):
                 half[j, start + i] = spectra[i, j]
 
 
-@_plain
-def rows_back(room, scratch, out, first, last):  # type: ignore[no-untyped-def]
+@compiled
+def rows_back(room, scratch, out, first, last):
     """Blocks of rows of a contiguous field from their transposed spectra, which are destroyed."""
     direct = room.fits and out.ctypes.data % ALIGNMENT == 0
     rows = scratch.rows_out
@@ -212,8 +209,8 @@ def rows_back(room, scratch, out, first, last):  # type: ignore[no-untyped-def]
                 out[start + i, j] = rows[i, j]
 
 
-@_plain
-def rows_back_squared(room, scratch, weight, stage, out, first, last):  # type: ignore[no-untyped-def]
+@compiled
+def rows_back_squared(room, scratch, weight, stage, out, first, last):
     """The same, of which the squares times a weight begin a sum in `out`, go on with it, or end it with its root."""
     rows = scratch.rows_out
     for block in range(first, last):
@@ -233,16 +230,16 @@ def rows_back_squared(room, scratch, weight, stage, out, first, last):  # type: 
                     out[start + i, j] += weight * rows[i, j] * rows[i, j]
 
 
-@_plain
-def inverse_squared(room, scratch, factor, spectrum, blocks, weight, stage, out):  # type: ignore[no-untyped-def]
+@compiled
+def inverse_squared(room, scratch, factor, spectrum, blocks, weight, stage, out):
     """A spectrum times the factor, back by one thread, squares added as `rows_back_squared` does."""
     columns_in(room, scratch, factor, spectrum, 0, blocks)
     room.half[room.columns[blocks] :] = 0
     rows_back_squared(room, scratch, weight, stage, out, 0, -(-room.nx // room.row_block))
 
 
-@_plain
-def columns_through(room, scratch, factor, first, last):  # type: ignore[no-untyped-def]
+@compiled
+def columns_through(room, scratch, factor, first, last):
     """Blocks of columns: along x, times the factor, and back."""
     if room.turns.size:
         pairs_through(room, scratch, factor.real, room.columns[first], room.columns[last])
@@ -253,8 +250,8 @@ def columns_through(room, scratch, factor, first, last):  # type: ignore[no-unty
         _columns_back(room, scratch, block)
 
 
-@_plain
-def columns_out(room, scratch, spectrum, first, last):  # type: ignore[no-untyped-def]
+@compiled
+def columns_out(room, scratch, spectrum, first, last):
     """Blocks of columns into a spectrum."""
     for block in range(first, last):
         start = room.columns[block]
@@ -264,16 +261,16 @@ def columns_out(room, scratch, spectrum, first, last):  # type: ignore[no-untype
                 spectrum[start + i, j] = scratch.columns_out[i, j]
 
 
-@_plain
-def columns_in(room, scratch, factor, spectrum, first, last):  # type: ignore[no-untyped-def]
+@compiled
+def columns_in(room, scratch, factor, spectrum, first, last):
     """Blocks of columns from a spectrum times the factor."""
     for block in range(first, last):
         multiply(room, factor, spectrum, scratch.columns, block, room.columns[block])
         _columns_back(room, scratch, block)
 
 
-@_plain
-def terms_back(  # type: ignore[no-untyped-def]  # reason: compiled, so each array is an argument
+@compiled
+def terms_back(  # reason: compiled, so each array is an argument
     room, singles, scratch, factors, spectrum, squares, terms, share, out
 ):
     """The terms (first, last) of a spectrum times `factors` along x, into half-way arrays of their own, and along y in
@@ -302,8 +299,8 @@ def terms_back(  # type: ignore[no-untyped-def]  # reason: compiled, so each arr
                 term_of_group(room, singles, squares, term, group, out)
 
 
-@_plain
-def term_of_group(room, singles, squares, term, group, out):  # type: ignore[no-untyped-def]
+@compiled
+def term_of_group(room, singles, squares, term, group, out):
     """Rows of a group from a half-way array, destroyed there, added as `rows_back_squared` does."""
     start = group * GROUP
     count = min(room.nx, start + GROUP) - start
@@ -322,8 +319,8 @@ def term_of_group(room, singles, squares, term, group, out):  # type: ignore[no-
                 out[start + i, j] += weight * rows[i, j] * rows[i, j]
 
 
-@_plain
-def _columns_forward(room, scratch, block):  # type: ignore[no-untyped-def]
+@compiled
+def _columns_forward(room, scratch, block):
     """From the half-way array to `columns_out`."""
     start, plan = room.columns[block], room.column_plans[0, block]
     if room.whole:
@@ -339,8 +336,8 @@ def _columns_forward(room, scratch, block):  # type: ignore[no-untyped-def]
     execute(room.executors[1], plan, source, scratch.columns_out.ctypes.data)
 
 
-@_plain
-def _columns_back(room, scratch, block):  # type: ignore[no-untyped-def]
+@compiled
+def _columns_back(room, scratch, block):
     """From `columns` to the half-way array."""
     start, plan = room.columns[block], room.column_plans[1, block]
     if room.whole:
@@ -352,8 +349,8 @@ def _columns_back(room, scratch, block):  # type: ignore[no-untyped-def]
             room.half[start + i, j] = scratch.columns_out[i, j]
 
 
-@_plain
-def multiply(room, factor, given, target, block, offset):  # type: ignore[no-untyped-def]
+@compiled
+def multiply(room, factor, given, target, block, offset):
     """A block of columns times the factor and the inverse transform's own scale; they begin in `given` at `offset`."""
     start, count, rows = room.columns[block], room.columns[block + 1] - room.columns[block], rows_of(factor)
     source, result, scale, length = given.ctypes.data, target.ctypes.data, room.scales[block], room.lengths[block]
@@ -362,16 +359,16 @@ def multiply(room, factor, given, target, block, offset):  # type: ignore[no-unt
         multiply_column(rows, start + i, own[0], own[1], scale, length)
 
 
-@_plain
-def rows_of(factor):  # type: ignore[no-untyped-def]
+@compiled
+def rows_of(factor):
     """A factor as `multiply_column` takes it: where its parts begin, bytes from row to row of each, parities."""
     real, imaginary = factor.real, factor.imaginary
     begins, strides = (real.ctypes.data, imaginary.ctypes.data), (real.strides[0], imaginary.strides[0])
     return begins, strides, (factor.real_parity, factor.imaginary_parity)
 
 
-@_plain
-def _fetch_rows(rows, number, size):  # type: ignore[no-untyped-def]
+@compiled
+def _fetch_rows(rows, number, size):
     """Ask for a column's row of both parts, of so many bytes."""
     begins, strides, parities = rows
     for part in range(2):
@@ -381,8 +378,8 @@ def _fetch_rows(rows, number, size):  # type: ignore[no-untyped-def]
                 fetch(line)
 
 
-@_contracted
-def multiply_column(rows, number, given, target, scale, length):  # type: ignore[no-untyped-def]
+@contracted
+def multiply_column(rows, number, given, target, scale, length):
     """The column of a number times a factor (`rows_of` it) and a scale; `given`, `target` : addresses.
 
     As real numbers, two for each: a third less time than a loop of complex ones, same bits.

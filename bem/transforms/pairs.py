@@ -15,19 +15,14 @@ Knows a room's plans and scratch (`loops`). Verified in tests/test_transforms.py
 
 from __future__ import annotations
 
-from typing import Any
-
-from numba import njit
-
+from bem.compiled import compiled
 from bem.transforms.addresses import numbers
 from bem.transforms.plans import execute
 
-_plain: Any = njit(cache=True, nogil=True, fastmath=False)
-"""Nothing is contracted: of a sum of two products either may be, and each loop that takes these in would choose."""
 
-
-@_plain
-def pairs_through(room, scratch, kernel, first, last):  # type: ignore[no-untyped-def]
+# nothing is contracted: of a sum of two products either may be, and each loop that takes these in would choose
+@compiled
+def pairs_through(room, scratch, kernel, first, last):
     """The pairs of columns k and m - k from a first to before a last k: along x, times the kernel, and back."""
     waves, half, whole, nx, length = room.spectra, room.half, room.whole, room.nx, room.lengths[0]
     sines, cosines, scale = room.turns[0], room.turns[1], room.scales[0]
@@ -62,8 +57,8 @@ def pairs_through(room, scratch, kernel, first, last):  # type: ignore[no-untype
                 half[column, j] = done[place, j]
 
 
-@_plain
-def _multiply_pair(rows, here, there, length, turn, scale):  # type: ignore[no-untyped-def]
+@compiled
+def _multiply_pair(rows, here, there, length, turn, scale):
     """Columns k and m - k times the kernel. rows : addresses of its two rows. here, there : those of the columns, given
     and result (of one column where it is its own partner). turn : sine and cosine. scale : half of the factor."""
     first, second = numbers(rows[0], scale), numbers(rows[1], scale)
@@ -78,8 +73,8 @@ def _multiply_pair(rows, here, there, length, turn, scale):  # type: ignore[no-u
         _multiply_at(first[length - j], second[length - j], arrays, j, length - j, turned)
 
 
-@_plain
-def _multiply_at(first, second, arrays, j, i, turn):  # type: ignore[no-untyped-def]
+@compiled
+def _multiply_at(first, second, arrays, j, i, turn):
     """Wave j of column k and its partner, i of the other, times the kernel's values at both."""
     (one, other, own, partner), (sine, cosine, scale) = arrays, turn
     s, d = (first + second) * scale, (first - second) * scale

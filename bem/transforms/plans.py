@@ -132,10 +132,10 @@ def _handles() -> Iterator[Any]:
 
 
 @intrinsic
-def execute(typing, function, plan, source, target):  # type: ignore[no-untyped-def]
+def execute(typing: Any, function: Any, plan: Any, source: Any, target: Any) -> Any:
     """Call one of `executors` in a compiled loop, all four given as addresses."""
 
-    def generate(context, builder, signature, arguments):  # type: ignore[no-untyped-def]
+    def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         pointer = ir.IntType(8).as_pointer()
         kind = ir.FunctionType(ir.VoidType(), [pointer] * 3)
         called = builder.inttoptr(arguments[0], kind.as_pointer())

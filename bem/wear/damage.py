@@ -10,8 +10,8 @@ import time
 from typing import TYPE_CHECKING
 
 import numpy as np
-from numba import njit
 
+from bem.compiled import compiled
 from bem.wear.lengths import averaged_loads
 from bem.wear.loads import BodyCycle, Removal
 from bem.wear.yielding import depths_for, no_pieces, pieces_above, yielded_stress
@@ -43,8 +43,8 @@ def broken(cycle: BodyCycle, law: LowCycleFatigue) -> Removal:
     return Removal(body, pieces, found.computed, found.seconds, time.perf_counter() - start, damage)
 
 
-@njit(cache=True, fastmath=False)
-def move_up(stack, depths, thickness):  # type: ignore[no-untyped-def]
+@compiled
+def move_up(stack, depths, thickness):
     """Columns of a stack (nz, nx, ny) moved up, in place, by what left them (nx, ny) [m]; linear between depths, so no
     value appears that was not between two, and zero below the last."""
     nz, nx, ny = stack.shape

@@ -9,9 +9,9 @@ import time
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from bem.compiled import compiled
 from bem.contact.spots import label_spots
 from bem.grid import FloatArray, Grid
 from bem.wear.loads import BodyCycle, Removal
@@ -73,8 +73,8 @@ def junctions(pressure: FloatArray, drag: FloatArray, grid: Grid) -> Junctions:
     return Junctions(joined, np.sqrt(4 / np.pi * area * grid.cell_area), middle, extent * sizes[0], dragged)
 
 
-@njit(cache=True, fastmath=False)
-def _areas(labels, count, wraps):  # type: ignore[no-untyped-def]
+@compiled
+def _areas(labels, count, wraps):
     """Cells of each, and the mean of their places, which on a periodic axis count from the first cell found."""
     nx, ny = labels.shape
     area = np.zeros(count)
@@ -101,15 +101,15 @@ def _areas(labels, count, wraps):  # type: ignore[no-untyped-def]
     return area, total
 
 
-@njit(cache=True, fastmath=False)
-def _root(parent, n):  # type: ignore[no-untyped-def]
+@compiled
+def _root(parent, n):
     while parent[n] != n:
         n = parent[n]
     return n
 
 
-@njit(cache=True, fastmath=False)
-def _merge(middle, diameter, lengths):  # type: ignore[no-untyped-def]
+@compiled
+def _merge(middle, diameter, lengths):
     """Union-find over spots whose circles leave less between them than the smaller is wide; `lengths` of the periods,
     infinite where there is none. The root of each."""
     count = diameter.size
@@ -142,8 +142,8 @@ def _merge(middle, diameter, lengths):  # type: ignore[no-untyped-def]
     return parent
 
 
-@njit(cache=True, fastmath=False)
-def _reach(labels, drag, count):  # type: ignore[no-untyped-def]
+@compiled
+def _reach(labels, drag, count):
     """Rows that each covers, and the farthest drag of its columns."""
     nx, ny = labels.shape
     rows = np.zeros(count)
@@ -173,8 +173,8 @@ def half_spheres(middle: FloatArray, diameter: FloatArray, grid: Grid, deepest: 
     return Segmentation(names[labels], thickness, kept.size, np.zeros(kept.size + 1, np.bool_))
 
 
-@njit(cache=True, fastmath=False)
-def _carve(middle, radius, spacing, wraps, labels, thickness):  # type: ignore[no-untyped-def]
+@compiled
+def _carve(middle, radius, spacing, wraps, labels, thickness):
     nx, ny = labels.shape
     for n in range(radius.size):
         r = radius[n]

@@ -9,9 +9,9 @@ from collections.abc import Sequence
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from bem.compiled import compiled, inlined
 from bem.grid import FloatArray, Grid
 from bem.wear.loads import SurfaceLoad
 from bem.wear.segmentation import Segmentation
@@ -59,8 +59,8 @@ def averaged_loads(loads: Sequence[SurfaceLoad], grid: Grid, diameter: float) ->
     ]
 
 
-@njit(cache=True, inline="always", fastmath=False)
-def _neighbour(i, j, offsets, n, shape, wraps):  # type: ignore[no-untyped-def]
+@inlined
+def _neighbour(i, j, offsets, n, shape, wraps):
     """The cell at an offset from [i, j], round periodic edges, and whether the grid has it."""
     k, m = i + offsets.x[n], j + offsets.y[n]
     if wraps[0]:
@@ -70,8 +70,8 @@ def _neighbour(i, j, offsets, n, shape, wraps):  # type: ignore[no-untyped-def]
     return k, m, 0 <= k < shape[0] and 0 <= m < shape[1]
 
 
-@njit(cache=True, fastmath=False)
-def _spread(field, offsets, wraps):  # type: ignore[no-untyped-def]
+@compiled
+def _spread(field, offsets, wraps):
     nx, ny = field.shape
     out = np.zeros((nx, ny))
     for i in range(nx):
@@ -110,8 +110,8 @@ def holding(pieces: Segmentation, grid: Grid, diameter: float) -> Segmentation:
     )
 
 
-@njit(cache=True, fastmath=False)
-def _find_room(labels, thickness, needed, wraps, holds):  # type: ignore[no-untyped-def]
+@compiled
+def _find_room(labels, thickness, needed, wraps, holds):
     nx, ny = labels.shape
     deepest = needed.value.max()
     for i in range(nx):

@@ -13,9 +13,9 @@ from __future__ import annotations
 from dataclasses import dataclass
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from bem.compiled import compiled
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
 from bem.laws import make_laws
@@ -229,16 +229,16 @@ def _check(
         raise InputError(messages)
 
 
-@njit(cache=True, error_model="numpy", fastmath=False)
-def _is_finite(values):  # type: ignore[no-untyped-def]
+@compiled
+def _is_finite(values):
     bad = 0
     for i in range(values.size):
         bad += values[i] - values[i] != 0.0  # infinity minus itself is not a number either
     return bad == 0
 
 
-@njit(cache=True, fastmath=False)
-def _extents(cells, starts, shape, periodic):  # type: ignore[no-untyped-def]
+@compiled
+def _extents(cells, starts, shape, periodic):
     """First cell and number of cells along x and y of each piece, (count, 2) each; on a periodic axis the rectangle is
     the shortest that holds the piece, so it begins after the widest run of empty rows."""
     count = starts.size - 1

@@ -12,9 +12,9 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from bem.compiled import compiled
 from bem.grid import FloatArray
 
 
@@ -33,8 +33,8 @@ class Runs(NamedTuple):
     bottom_depth: FloatArray
 
 
-@njit(cache=True, error_model="numpy", fastmath=False)
-def yielding_columns(stack, strength):  # type: ignore[no-untyped-def]
+@compiled
+def yielding_columns(stack, strength):
     """Columns of (nz, columns) in which any value exceeds its strength."""
     above = np.zeros(strength.size, np.bool_)
     for k in range(stack.shape[0]):
@@ -47,8 +47,8 @@ _TOGETHER = 64
 """Columns that are gathered at a time: what is written stays near while all depths are gone through."""
 
 
-@njit(cache=True, fastmath=False)
-def gather_columns(stack, candidates, rows):  # type: ignore[no-untyped-def]
+@compiled
+def gather_columns(stack, candidates, rows):
     """(candidates, nz): depth runs fastest. rows : (nz, n) whether each of n parts of a plane counts; else zeros."""
     out = np.empty((candidates.size, stack.shape[0]))
     size, part = stack.shape[1] // rows.shape[1], np.empty(_TOGETHER, np.int64)
@@ -62,8 +62,8 @@ def gather_columns(stack, candidates, rows):  # type: ignore[no-untyped-def]
     return out
 
 
-@njit(cache=True, fastmath=False)
-def _slope(values, depths, k):  # type: ignore[no-untyped-def]
+@compiled
+def _slope(values, depths, k):
     """Fritsch-Butland slope at sample k: harmonic mean inside, one-sided three-point formula, limited, at the ends."""
     n = values.size
     if n == 2:
@@ -89,8 +89,8 @@ def _slope(values, depths, k):  # type: ignore[no-untyped-def]
     return slope
 
 
-@njit(cache=True, fastmath=False)
-def _crossing(values, depths, k, limit, refine, cubic):  # type: ignore[no-untyped-def]
+@compiled
+def _crossing(values, depths, k, limit, refine, cubic):
     """First fine sample beyond the crossing of the limit between samples k and k + 1, and the depth of the crossing."""
     falls = values[k] > limit
     span = depths[k + 1] - depths[k]
@@ -118,8 +118,8 @@ def _crossing(values, depths, k, limit, refine, cubic):  # type: ignore[no-untyp
     return k * refine + step, previous_depth + (previous - limit) / (previous - value) * (depth - previous_depth)
 
 
-@njit(cache=True, fastmath=False)
-def find_runs(numbers, columns, depths, strength, refine, cubic):  # type: ignore[no-untyped-def]
+@compiled
+def find_runs(numbers, columns, depths, strength, refine, cubic):
     """Runs of the columns `numbers`, whose stress is (n, nz) and strength (n,).
 
     Between two depths the interpolant is monotone: an interval with both ends above or both below yield needs no
@@ -162,16 +162,16 @@ def find_runs(numbers, columns, depths, strength, refine, cubic):  # type: ignor
     return Runs(numbers, first, top[:used], bottom[:used], bottom_depth[:used])
 
 
-@njit(cache=True, fastmath=False)
-def _root(parent, run):  # type: ignore[no-untyped-def]
+@compiled
+def _root(parent, run):
     while parent[run] != run:
         parent[run] = parent[parent[run]]
         run = parent[run]
     return run
 
 
-@njit(cache=True, fastmath=False)
-def _join(parent, a, b):  # type: ignore[no-untyped-def]
+@compiled
+def _join(parent, a, b):
     a, b = _root(parent, a), _root(parent, b)
     if a < b:
         parent[b] = a
@@ -179,8 +179,8 @@ def _join(parent, a, b):  # type: ignore[no-untyped-def]
         parent[a] = b
 
 
-@njit(cache=True, fastmath=False)
-def connect(runs, shape, periodic, connectivity):  # type: ignore[no-untyped-def]
+@compiled
+def connect(runs, shape, periodic, connectivity):
     """Union-find over runs that touch: the parent of each.
 
     Half of the neighbours suffice, the relation being symmetric.
@@ -222,8 +222,8 @@ def connect(runs, shape, periodic, connectivity):  # type: ignore[no-untyped-def
     return parent
 
 
-@njit(cache=True, fastmath=False)
-def remove(runs, parent, cap, labels, thickness):  # type: ignore[no-untyped-def]
+@compiled
+def remove(runs, parent, cap, labels, thickness):
     """Fill labels and thickness (columns of the map,) in place; returns the number of pieces.
 
     cap : whether all above a run leaves with it.

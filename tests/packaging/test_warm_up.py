@@ -73,6 +73,9 @@ def test_what_was_compiled_once_is_not_compiled_again(tmp_path):
     assert compilations("second", name, *settings, "contact.load=11 N") == 0
 
 
+LOOP = "from bem.compiled import compiled\n@compiled\n"
+
+
 @pytest.mark.parametrize("named", [False, True])
 def test_loops_go_with_what_was_compiled_into_them(named, tmp_path, monkeypatch):
     """numba keeps them while their own file is as it was."""
@@ -80,11 +83,12 @@ def test_loops_go_with_what_was_compiled_into_them(named, tmp_path, monkeypatch)
     sources = {
         "threads.py": "",
         "sizes.py": "",
-        "loops.py": "from numba import njit\nfrom bem.threads import share\nfrom bem.sizes import LINE, size\n",
-        "contact/passes.py": "from numba import njit\nfrom bem.loops import one, two\n",
-        "contact/round.py": "from numba import njit\nfrom bem.contact import (\n    passes,\n    plain,\n)\n",
+        "compiled.py": "def compiled(function):\n",
+        "loops.py": LOOP + "from bem.threads import share\nfrom bem.sizes import LINE, size\n",
+        "contact/passes.py": LOOP + "from bem.loops import one, two\n",
+        "contact/round.py": LOOP + "from bem.contact import (\n    passes,\n    plain,\n)\n",
         "contact/plain.py": "from bem.contact import alone\n",
-        "contact/alone.py": "from numba import njit\n",
+        "contact/alone.py": LOOP,
     }
     monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "cache") if named else "")
 
@@ -121,6 +125,7 @@ def test_loops_go_with_what_was_compiled_into_them(named, tmp_path, monkeypatch)
     assert edit("threads.py") == []  # nothing in a loop is plain Python
     assert edit("sizes.py") == ["loops", "passes", "round"]  # but for numbers
     assert edit("contact/plain.py") == ["round"]
+    assert edit("compiled.py") == ["alone", "compiled", "loops", "passes", "round"]  # how they are compiled
     assert edit("contact/alone.py") == ["alone"]  # nothing compiled calls it by way of a plain file
     os.utime(root / "loops.py", (1500, 1500))  # loops are newer, but of a process that may have read what was there
     assert len(compiled.drop_stale(root)) == 3

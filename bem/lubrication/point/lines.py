@@ -13,11 +13,11 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba as nb
 import numpy as np
 
+from bem.compiled import compiled
 from bem.grid import FloatArray
-from bem.lubrication.point.loops import COMPILE, fill_row
+from bem.lubrication.point.loops import fill_row
 
 BAND = 3
 """Cells on either side whose coupling along a line is solved for."""
@@ -31,14 +31,14 @@ REACH = BAND + 2
 """Cells along a line from one that changes to the furthest that a balance within the band hears of."""
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _weights(spacing: tuple[float, float]) -> tuple[float, float]:
     """Of a counterpart, on either neighbour along x and along y."""
     dx, dy = spacing
     return 0.5 * dy * dy / (dx * dx + dy * dy), 0.5 * dx * dx / (dx * dx + dy * dy)
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _changes(near: FloatArray, weights: tuple[float, float], oblique: bool, tables: FloatArray) -> None:
     """Tables (5, 10, 7): what a unit change of each kind, of the cell so far along the line, makes of what
     `_derivatives` puts beside it; nothing of one that is held, and of one that touches films alone."""
@@ -60,7 +60,7 @@ def _changes(near: FloatArray, weights: tuple[float, float], oblique: bool, tabl
             tables[kind + 2, 5:, BAND + s] = table[5:]
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _derivatives(rows: FloatArray, out: FloatArray) -> None:
     """Of a balance (10,), from `fill_row`: with pressures of four cells along the line, of both beside; with films of
     the four, of both beside."""
@@ -70,7 +70,7 @@ def _derivatives(rows: FloatArray, out: FloatArray) -> None:
         out[5 * by + 4] = rows[by, 5] + rows[by, 6]
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _eliminate(  # reason: Numba compiles plain arrays; they are the parts of one equation
     stencil: Any,
     spacing: tuple[float, float],
@@ -124,7 +124,7 @@ def _eliminate(  # reason: Numba compiles plain arrays; they are the parts of on
         kept[i, 4], kept[i, 5], kept[i, 6] = p * m4, p * m5, p * m6
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _solve_line(kept: Any, right: FloatArray) -> None:
     """Changes of the cells of a line of factors (nx, KEPT), in place of what they are to make of their balances,
     `right` (nx,)."""
@@ -139,7 +139,7 @@ def _solve_line(kept: Any, right: FloatArray) -> None:
         right[i] = x1
 
 
-@nb.njit(**COMPILE)
+@compiled
 def factorise(  # reason: Numba compiles plain arrays; they are the parts of one equation
     stencil: Any,
     spacing: tuple[float, float],
@@ -167,7 +167,7 @@ def factorise(  # reason: Numba compiles plain arrays; they are the parts of one
         _eliminate(stencil, spacing, drag, storing, along_y, tables, line, j, factors[j])
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _wanted(rows: FloatArray, oil: FloatArray, film: FloatArray, i: int, j: int) -> float:
     """What changes of oil and film (lines, cells) that are there make of the balance of cell i of line j."""
     back = max(i - 2, 0)
@@ -178,7 +178,7 @@ def _wanted(rows: FloatArray, oil: FloatArray, film: FloatArray, i: int, j: int)
     return made + rows[0, 6] * oil[j + 1, i] + rows[1, 6] * film[j + 1, i]
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _films(near: FloatArray, changes: FloatArray, across: int, film: FloatArray) -> None:
     """Add to films (cells,) of a line so many lines away what changes make of them, (2, cells + 2 BAND) of either
     kind."""
@@ -190,7 +190,7 @@ def _films(near: FloatArray, changes: FloatArray, across: int, film: FloatArray)
             film[i] += n0 * c[i + 3] + beside
 
 
-@nb.njit(**COMPILE)
+@compiled
 def relax(  # reason: Numba compiles plain arrays; they are the parts of one equation
     factors: Any,
     stencil: Any,

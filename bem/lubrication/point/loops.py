@@ -26,17 +26,16 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba as nb
 import numpy as np
 
+from bem.compiled import compiled
 from bem.grid import FloatArray
 
-COMPILE: dict[str, Any] = {"cache": True, "error_model": "numpy", "nogil": True, "fastmath": False}
 AHEAD, HERE, BEHIND = 0.375, 0.75, 0.125
 """Shares of the cells around a face in what is dragged through it."""
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _mean_fluidity(first: float, second: float) -> tuple[float, float, float]:
     """Mean of exp(-ln m), ln m linear between two cells, and its derivatives with both ends."""
     half = 0.5 * (second - first)
@@ -51,7 +50,7 @@ def _mean_fluidity(first: float, second: float) -> tuple[float, float, float]:
     return mean, (mean - low) / (2.0 * half), (high - mean) / (2.0 * half)
 
 
-@nb.njit(**COMPILE)
+@compiled
 def pressure_flow(
     p: FloatArray, h: FloatArray, oil: FloatArray, step: float, along_y: int, flow: FloatArray, stencil: FloatArray
 ) -> None:
@@ -77,7 +76,7 @@ def pressure_flow(
             stencil[3, i, j] = thin * left * (2.0 * left + right)
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _dragged_flow(m: FloatArray, share: float, along_y: int, dragged: FloatArray) -> None:
     """What is dragged through the faces along one axis (nx, ny), of oil m > 0 in the cells."""
     nx, ny = m.shape
@@ -94,7 +93,7 @@ def _dragged_flow(m: FloatArray, share: float, along_y: int, dragged: FloatArray
             dragged[i, j] = 6.0 * share * cube * cube * ahead * here * here / root[i - di, j - dj]
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _drag_change(dragged: FloatArray, g: FloatArray, along_y: int, flow: FloatArray) -> None:
     """Add its change under relative changes g of the oil in the cells."""
     nx, ny = g.shape
@@ -108,7 +107,7 @@ def _drag_change(dragged: FloatArray, g: FloatArray, along_y: int, flow: FloatAr
                 flow[i, j] += dragged[i, j] * (AHEAD * ahead + HERE * here - BEHIND * g[i - di, j - dj])
 
 
-@nb.njit(**COMPILE)
+@compiled
 def divergence(flow: FloatArray, spacing: tuple[float, float], out: FloatArray) -> None:
     """Balance of the inner cells under flows (2, nx, ny) through faces; outermost cells are left alone."""
     nx, ny = out.shape
@@ -118,7 +117,7 @@ def divergence(flow: FloatArray, spacing: tuple[float, float], out: FloatArray) 
             out[i, j] = (flow[0, i, j] - flow[0, i - 1, j]) / dx + (flow[1, i, j] - flow[1, i, j - 1]) / dy
 
 
-@nb.njit(**COMPILE)
+@compiled
 def add_dragged(drag: tuple[float, float], flow: FloatArray, stencil: FloatArray) -> None:
     """What is dragged through all faces, of the oil in `stencil[8]`, into the flow (2, nx, ny) and the stencil."""
     for axis in range(2):
@@ -127,7 +126,7 @@ def add_dragged(drag: tuple[float, float], flow: FloatArray, stencil: FloatArray
             flow[axis] += stencil[11 + axis]
 
 
-@nb.njit(**COMPILE)
+@compiled
 def flows(
     p: FloatArray,
     h: FloatArray,
@@ -146,7 +145,7 @@ def flows(
     add_dragged(drag, flow, stencil)
 
 
-@nb.njit(**COMPILE)
+@compiled
 def applied(
     stencil: FloatArray,
     spacing: tuple[float, float],
@@ -179,7 +178,7 @@ def applied(
                 out[i, j] += 6.0 * storing * s[8, i, j] * g[i, j]
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _shares(comes: float, leaves: float, first: bool) -> tuple[float, float, float, float]:
     """Derivatives of what is dragged out of a cell along an axis, less what is dragged in, with relative changes of
     the oil two cells upstream, one upstream, in the cell and downstream; of the first cell along the axis, whose oil
@@ -189,7 +188,7 @@ def _shares(comes: float, leaves: float, first: bool) -> tuple[float, float, flo
     return BEHIND * comes, -BEHIND * leaves - HERE * comes, HERE * leaves - AHEAD * comes, AHEAD * leaves
 
 
-@nb.njit(**COMPILE)
+@compiled
 def fill_row(  # reason: Numba compiles plain arrays; they are the parts of one equation
     s: FloatArray,
     spacing: tuple[float, float],
@@ -238,7 +237,7 @@ def fill_row(  # reason: Numba compiles plain arrays; they are the parts of one 
         rows[by, 6] = v3 * s[oil, over_i, over_j] + s[b + 1, e, f] * y
 
 
-@nb.njit(**COMPILE)
+@compiled
 def own_flow(s: FloatArray, spacing: tuple[float, float], out: FloatArray) -> None:
     """Derivative of the pressure flow out of inner cells with their own pressure."""
     nx, ny = out.shape
@@ -248,7 +247,7 @@ def own_flow(s: FloatArray, spacing: tuple[float, float], out: FloatArray) -> No
             out[i, j] = (s[0, i, j] - s[1, i - 1, j]) / dx + (s[4, i, j] - s[5, i, j - 1]) / dy
 
 
-@nb.njit(**COMPILE)
+@compiled
 def fill_rows(
     stencil: FloatArray,
     spacing: tuple[float, float],
@@ -274,7 +273,7 @@ def fill_rows(
                     by_film[i * ny + j, t] = rows[1, t]
 
 
-@nb.njit(**COMPILE)
+@compiled
 def add_deflected(places: Any, by_film: FloatArray, table: FloatArray, matrix: Any) -> None:
     """Add what pressures make of equations through films: derivatives with films (n, 7) of the cells `places` (n, 7),
     films `table` (nx, ny) under a unit pressure at distances 0 .. along x and y."""
@@ -290,7 +289,7 @@ def add_deflected(places: Any, by_film: FloatArray, table: FloatArray, matrix: A
                     matrix[row, k * ny + m] += value * table[abs(i - k), abs(j - m)]
 
 
-@nb.njit(**COMPILE)
+@compiled
 def carry_on(
     flow: FloatArray,
     content: FloatArray,

@@ -7,13 +7,12 @@ verified in tests/lubrication/point/test_rough_point.py.
 
 from __future__ import annotations
 
-import numba as nb
-
+from bem.compiled import compiled
 from bem.grid import FloatArray
-from bem.lubrication.point.loops import COMPILE, add_dragged, pressure_flow
+from bem.lubrication.point.loops import add_dragged, pressure_flow
 
 
-@nb.njit(**COMPILE)
+@compiled
 def _barred(factor: FloatArray, slope: FloatArray, along_y: int, flow: FloatArray, stencil: FloatArray) -> None:
     """Pressure flow through the faces along one axis and its derivatives (4, nx, ny), from those of smooth walls."""
     nx, ny = factor.shape
@@ -32,7 +31,7 @@ def _barred(factor: FloatArray, slope: FloatArray, along_y: int, flow: FloatArra
             flow[i, j] = mean * smooth
 
 
-@nb.njit(**COMPILE)
+@compiled
 def rough_flows(
     p: FloatArray,
     h: FloatArray,

@@ -12,13 +12,11 @@ from __future__ import annotations
 
 from typing import Any
 
-import numba as nb
-
+from bem.compiled import compiled
 from bem.grid import FloatArray
-from bem.lubrication.point.loops import COMPILE
 
 
-@nb.njit(**COMPILE)
+@compiled
 def contents(  # reason: Numba compiles plain arrays; they are the parts of one balance
     p: FloatArray,
     layer: float,
@@ -62,7 +60,7 @@ def contents(  # reason: Numba compiles plain arrays; they are the parts of one 
                 stencil[11, i, j] = stencil[12, i, j] = 0.0
 
 
-@nb.njit(**COMPILE)
+@compiled
 def nothing_dragged(held: Any, stencil: FloatArray) -> None:
     """No flow out of cells (nx, ny) depends on their films."""
     nx, ny = held.shape
@@ -73,7 +71,7 @@ def nothing_dragged(held: Any, stencil: FloatArray) -> None:
                 stencil[12, i, j] = 0.0
 
 
-@nb.njit(**COMPILE)
+@compiled
 def carried(held: Any, split: FloatArray, out: FloatArray) -> None:
     """Add balances (nx, ny) of inner cells that are not full to those downstream, which get what they do not keep, this
     share of it the next one along x."""

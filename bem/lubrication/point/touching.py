@@ -12,12 +12,12 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
 
-import numba as nb
 import numpy as np
 from numpy.typing import NDArray
 from scipy.sparse import csc_matrix
 from scipy.sparse.linalg import SuperLU, splu
 
+from bem.compiled import compiled
 from bem.grid import FloatArray
 from bem.lubrication.point import loops, supply_loops
 from bem.lubrication.point.linear import BoolArray, Change, HalfArray, Linear, flows, shortened
@@ -25,7 +25,7 @@ from bem.lubrication.point.linear import BoolArray, Change, HalfArray, Linear, f
 IntArray = NDArray[np.int64]
 
 
-@nb.njit(**loops.COMPILE)
+@compiled
 def _oil_rows(  # reason: Numba compiles plain arrays; they are the parts of one equation
     stencil: HalfArray,
     spacing: tuple[float, float],

@@ -6,9 +6,9 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
-from numba import njit
 from numpy.typing import NDArray
 
+from bem.compiled import compiled
 from bem.grid import FloatArray
 from bem.lubrication.thermal.across import Across, Given, across
 from bem.lubrication.thermal.field import Sources
@@ -132,7 +132,7 @@ def _blunted(driven: FloatArray, left: FloatArray) -> FloatArray:
     return np.where(driven > left, np.maximum(left, 0.0) / np.maximum(driven, 1e-300), 1.0)
 
 
-@njit(cache=True, fastmath=False)
+@compiled
 def _gather(  # reason: arrays of one loop, which cannot be a record in compiled code
     x: FloatArray,
     edge: NDArray[np.intp],
@@ -163,7 +163,7 @@ def _gather(  # reason: arrays of one loop, which cannot be a record in compiled
                 growth[column, k] += max(weight * heat[node, k] * softer[node, k], 0.0)
 
 
-@njit(cache=True, fastmath=False)
+@compiled
 def _gather_expansion(
     expanded: FloatArray,
     edge: NDArray[np.intp],
@@ -184,7 +184,7 @@ def _gather_expansion(
                         slope[step, column, k, k] += part * expanding[node, k]
 
 
-@njit(cache=True, fastmath=False)
+@compiled
 def _half_pieces(values: FloatArray, edge: NDArray[np.intp], column: int, node: int) -> float:
     """Half of what values rise by next to a node, inside a column."""
     total = 0.0
