@@ -3,16 +3,19 @@
 Blocks never depend on the number of threads, so neither do the bits of a result. What is small is not shared, and what
 is shared shares nothing further. Linear algebra is another matter: how many threads BLAS takes is the environment's
 choice, and the order of its sums follows it. It gets one, wherever a result is made.
+
+Threads besides the caller's wait on a lock each, which is let go for them. They take one block after the other, and who
+has not come when all are taken is not waited for: on a busy machine the caller does them alone.
 """
 
 from __future__ import annotations
 
 import functools
+import itertools
 import os
 import sys
 import threading
 from collections.abc import Callable
-from concurrent.futures import ThreadPoolExecutor
 from typing import Any, ParamSpec, TypeVar
 
 from bem.errors import InputError
@@ -28,27 +31,6 @@ def _from_environment() -> int:
         return 1
 
 
-class _Pool:
-    """Threads besides the caller's; made when first needed, and made anew in a forked process."""
-
-    def __init__(self) -> None:
-        self.threads = _from_environment()
-        self.lock = threading.Lock()
-        self.executor: ThreadPoolExecutor | None = None
-        self.size = 0
-        self.process = 0
-
-    def helpers(self, count: int) -> ThreadPoolExecutor:
-        with self.lock:
-            if self.executor is None or self.size < count or self.process != os.getpid():
-                self.executor = ThreadPoolExecutor(count, thread_name_prefix="bem")
-                self.size, self.process = count, os.getpid()
-            return self.executor
-
-
-_POOL = _Pool()
-
-
 class _Inside(threading.local):
     """Of each thread, whether it is at work that is shared."""
 
@@ -56,6 +38,102 @@ class _Inside(threading.local):
 
 
 _INSIDE = _Inside()
+
+
+class _Task:
+    """Blocks that threads take one after the other, until there are none or one has failed."""
+
+    def __init__(self, work: Callable[[int, int], None], blocks: int, count: int) -> None:
+        self.work, self.blocks, self.count = work, blocks, count
+        self.next = itertools.count()
+        self.lock, self.done = threading.Lock(), threading.Lock()
+        self.inside, self.closed = 0, False
+        self.errors: list[tuple[int, BaseException]] = []
+        self.done.acquire()
+
+    def take(self, worker: int) -> None:
+        """Do blocks while there are any, sharing nothing further."""
+        _INSIDE.shared = True
+        try:
+            for block in self.next:
+                if block >= self.blocks or self.errors:
+                    return
+                self.work(worker, block)
+        except BaseException as error:
+            self.errors.append((block, error))
+        finally:
+            _INSIDE.shared = False
+
+    def help(self, worker: int) -> None:
+        """The same, by a thread that the caller waits for from now on, if it does not come too late."""
+        with self.lock:
+            if self.closed or worker >= self.count:  # called for another task, and late
+                return
+            self.inside += 1
+        self.take(worker)
+        with self.lock:
+            self.inside -= 1
+            if self.closed and self.inside == 0:
+                self.done.release()
+
+    def close(self) -> None:
+        """Wait for those who came; nobody else may come."""
+        with self.lock:
+            self.closed = True
+            waits = self.inside > 0
+        if waits:
+            self.done.acquire()
+
+
+class _Pool:
+    """Threads besides the caller's; made when first needed, and made anew in a forked process."""
+
+    def __init__(self, threads: int) -> None:
+        self.threads = threads
+        self.busy = threading.Lock()
+        self.bells: list[Any] = []
+        self.task: _Task | None = None
+
+    def share(self, task: _Task) -> None:
+        """Do a task with others; the caller holds `busy`."""
+        self.task = task
+        while len(self.bells) < task.count - 1:
+            self._engage()
+        for bell in self.bells[: task.count - 1]:
+            if bell.locked():  # otherwise it has not heard the last one yet
+                bell.release()
+        try:
+            task.take(0)
+        finally:
+            task.close()
+            self.task = None
+
+    def _engage(self) -> None:
+        bell, number = threading.Lock(), len(self.bells) + 1
+        bell.acquire()
+
+        def serve() -> None:
+            while True:
+                bell.acquire()
+                task = self.task
+                if task is not None:
+                    task.help(number)
+                del task  # what it holds is not kept while waiting
+
+        threading.Thread(target=serve, name=f"bem_{number}", daemon=True).start()
+        self.bells.append(bell)
+
+
+_POOL = _Pool(_from_environment())
+
+
+def _in_forked_process() -> None:
+    """Threads stay behind: the process begins with none, and with no lock that one of them holds."""
+    _POOL.__init__(_POOL.threads)  # type: ignore[misc]
+
+
+if hasattr(os, "register_at_fork"):
+    os.register_at_fork(after_in_child=_in_forked_process)
 
 
 def set_threads(count: int) -> None:
@@ -76,8 +154,8 @@ def get_threads() -> int:
 
 
 def threads_for(entries: int) -> int:
-    """Number of threads that a pass over so many entries may use."""
-    return get_threads() if entries >= SHARED_FROM else 1
+    """Number of threads that a pass over so many entries may use: no more than there are cores."""
+    return min(get_threads(), cores()) if entries >= SHARED_FROM else 1
 
 
 def cores() -> int:
@@ -90,31 +168,21 @@ def share(work: Callable[[int, int], None], blocks: int, entries: int) -> None:
 
     `worker` numbers the thread (0..get_threads()-1): scratch that may not be shared is indexed by it. `work` must
     release the interpreter lock in its heavy parts for this to be worth anything; what it calls has one thread, so
-    that `share` within it does its blocks itself. The first exception of any block is raised here.
+    that `share` within it does its blocks itself, as does one while another thread's is under way. Threads take blocks
+    as they come. The exception of the first block that is known to have failed is raised here.
     """
     workers = min(threads_for(entries), blocks)
-    if workers <= 1:
+    if workers <= 1 or not _POOL.busy.acquire(blocking=False):
         for block in range(blocks):
             work(0, block)
         return
-
-    def run(worker: int) -> None:
-        _INSIDE.shared = True
-        try:
-            for block in range(worker, blocks, workers):
-                work(worker, block)
-        finally:
-            _INSIDE.shared = False
-
-    executor = _POOL.helpers(workers - 1)
-    futures = [executor.submit(run, worker) for worker in range(1, workers)]
+    task = _Task(work, blocks, workers)
     try:
-        run(0)
+        _POOL.share(task)
     finally:
-        errors = [future.exception() for future in futures]
-    for error in errors:
-        if error is not None:
-            raise error
+        _POOL.busy.release()
+    if task.errors:
+        raise min(task.errors, key=lambda found: found[0])[1]
 
 
 _Arguments = ParamSpec("_Arguments")

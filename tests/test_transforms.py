@@ -275,8 +275,9 @@ def test_errors_in_threads_are_raised():
 
 def test_what_is_small_or_shared_already_is_not_shared(monkeypatch, one_thread):
     monkeypatch.setattr(threads, "SHARED_FROM", 1000)
+    monkeypatch.setattr(threads, "cores", lambda: 2)
     threads.set_threads(2)
-    seen = []
+    seen, meeting = [], threading.Barrier(2, timeout=60)
 
     def inner(worker, block):
         seen.append((threading.get_ident(), worker, threads.get_threads()))
@@ -284,7 +285,8 @@ def test_what_is_small_or_shared_already_is_not_shared(monkeypatch, one_thread):
     threads.share(inner, 4, 999)
     assert seen == [(threading.get_ident(), 0, 2)] * 4
     seen.clear()
-    threads.share(lambda worker, block: threads.share(inner, 3, 5000), 2, 1000)
+    # both are there: who comes first takes all there is
+    threads.share(lambda worker, block: (meeting.wait(), threads.share(inner, 3, 5000)), 2, 1000)
     assert len(seen) == 6
     assert len({who for who, _, _ in seen}) == 2
     assert {(worker, count) for _, worker, count in seen} == {(0, 1)}  # each does its own blocks, on one thread
@@ -298,8 +300,11 @@ def test_threads_share_nothing_that_takes_less_than_handing_it_over(monkeypatch)
     """Contacts of 256 and 512 cells lost a fifth to two threads, as did stresses at 32 depths: 2 to 16 hand-overs a
     pass or component."""
     handed = []
-    helpers = threads._POOL.helpers
-    monkeypatch.setattr(threads._POOL, "helpers", lambda count: (handed.append(count), helpers(count))[1])
+    plain = threads._Pool.share
+    monkeypatch.setattr(
+        threads._Pool, "share", lambda pool, task: (handed.append(task.count - 1), plain(pool, task))[1]
+    )
+    monkeypatch.setattr(threads, "cores", lambda: 2)
     threads.set_threads(2)
     body = Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3))
     grid = Grid((512, 512), (1e-6, 1e-6), periodic=(True, True))

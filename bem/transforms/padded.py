@@ -25,6 +25,8 @@ FloatArray = NDArray[Any]
 ComplexArray = NDArray[Any]
 
 _BLOCK_BYTES = 1 << 18
+_PIECES = 2
+"""Of a pass for each thread: who begins late is to do less."""
 _COUNTING = threading.Lock()
 COMPLEX: dict[np.dtype[Any], np.dtype[Any]] = {
     np.dtype(np.float64): np.dtype(np.complex128),
@@ -395,16 +397,17 @@ class PaddedTransform:
         return [*room.row_plans.ravel().tolist(), *room.column_plans.ravel().tolist()]
 
     def _each(self, loop: Any, blocks: int, *arguments: Any, room: Room | None = None) -> None:
-        """A compiled pass over blocks that the threads share."""
-        own = self.room if room is None else room
-        if blocks == 1 or threads_for(self.entries) == 1:
+        """A compiled pass over blocks that the threads share, some in a call: a call takes time of the interpreter."""
+        own, threads = self.room if room is None else room, threads_for(self.entries)
+        pieces = min(blocks, _PIECES * threads)
+        if pieces <= 1 or threads == 1:
             loop(own, self._scratch[0], *arguments, 0, blocks)
             return
 
-        def work(number: int, block: int) -> None:
-            loop(own, self._scratch[number], *arguments, block, block + 1)
+        def work(number: int, piece: int) -> None:
+            loop(own, self._scratch[number], *arguments, piece * blocks // pieces, (piece + 1) * blocks // pieces)
 
-        share(work, blocks, self.entries)
+        share(work, pieces, self.entries)
 
     def _is_plain(self, values: FloatArray) -> bool:
         return values.dtype == self.dtype and values.flags.c_contiguous and values.flags.writeable

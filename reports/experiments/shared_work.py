@@ -47,7 +47,7 @@ class Shared:
 @contextmanager
 def counted(count: int) -> Iterator[Shared]:
     """Run as on so many threads, with all blocks done by this one."""
-    found, outright, before = Shared(), threads.share, threads.get_threads()
+    found, outright, before, cores = Shared(), threads.share, threads.get_threads(), threads.cores
 
     def share(work: Callable[[int, int], None], blocks: int, entries: int) -> None:
         apart = threads.threads_for(entries) > 1 and blocks > 1
@@ -64,6 +64,7 @@ def counted(count: int) -> Iterator[Shared]:
 
     holding = [module for module in list(sys.modules.values()) if getattr(module, "share", None) is outright]
     threads.set_threads(count)
+    vars(threads)["cores"] = lambda: count
     try:
         for module in holding:
             vars(module)["share"] = share
@@ -72,6 +73,7 @@ def counted(count: int) -> Iterator[Shared]:
         for module in holding:
             vars(module)["share"] = outright
         threads.set_threads(before)
+        vars(threads)["cores"] = cores
 
 
 def gain(solve: Callable[[], Any], count: int) -> tuple[float, float]:
