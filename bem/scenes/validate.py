@@ -80,7 +80,8 @@ def _message(mistake: Any, data: Any, model: type[BaseModel]) -> str:
         parent, _, last = key.rpartition(".")
         names = sorted(_names_at(mistake["loc"][:-1], data, model))
         place = f"in {parent}" if parent else "at the top of the scene"
-        return f"{key}: unknown key{nearest(last, names)}; allowed {place}: {', '.join(names)}"
+        hint = nearest(last, names) or _elsewhere(last, parent, model)
+        return f"{key}: unknown key{hint}; allowed {place}: {', '.join(names)}"
     if kind == "missing":
         return f"{key}: missing{allowed or _choices(annotation)}"
     if kind == "literal_error":
@@ -107,6 +108,19 @@ def _message(mistake: Any, data: Any, model: type[BaseModel]) -> str:
     if kind.startswith(("greater_than", "less_than")) and dimension and dimension.unit:
         text += f" {dimension.unit}"
     return f"{where}: {text}{allowed}"
+
+
+def _elsewhere(word: str, parent: str, model: type[BaseModel]) -> str:
+    """Where a key that is not allowed in a table would be: at the top, or in other tables of the top; or nothing."""
+    top = fields_of_table(model)
+    if parent and word in top:
+        return f" - it is a key at the top of the scene: [{word}]"
+    tables = [
+        name
+        for name, field in top.items()
+        if name != parent and word in fields_of_table(unwrap(without_none(field.annotation))[0])
+    ]
+    return f" - it is a key of {' and of '.join(f'[{name}]' for name in tables)}" if tables else ""
 
 
 def _spread(metadata: Sequence[Any]) -> Iterable[Any]:

@@ -61,6 +61,9 @@ def test_the_plain_scene_is_good():
     [
         (changed(kind="contct"), ["kind", '"contct"', 'did you mean "contact"?']),
         (changed(sead=1), ["sead", "unknown key", 'did you mean "seed"?']),
+        (changed(load=3), ["load: unknown key - it is a key of [contact]"]),
+        (changed(contact__radius="5 mm"), ["contact.radius", "it is a key of [shape]"]),
+        (changed(upper__shape={"kind": "sphere"}), ["upper.shape", "it is a key at the top of the scene: [shape]"]),
         (changed(grid__shpae=1), ["grid.shpae", 'did you mean "shape"?', "spacing"]),
         (changed(contact__load="10 nm"), ["contact.load", '"10 nm"', "is not a force"]),
         (changed(contact__behaviour="elstic"), ["contact.behaviour", '"elstic"', 'did you mean "elastic"?', '"capped"']),  # noqa: E501
