@@ -53,7 +53,7 @@ class _Task:
 
     def take(self, worker: int) -> None:
         """Do blocks while there are any, sharing nothing further."""
-        _INSIDE.shared = True
+        _INSIDE.shared, block = True, 0
         try:
             for block in self.next:
                 if block >= self.blocks or self.errors:
