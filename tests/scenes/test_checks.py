@@ -427,7 +427,7 @@ OUTCOMES = {
     ),
     "pressure_beyond_linear_elasticity": (
         BALL,
-        (contact_outcome(spot(40e9)), "0.35 of the contact modulus"),
+        (contact_outcome(spot(40e9)), "0.35 times the contact modulus, and 100 % of the load"),
         contact_outcome(spot(10e9)),
     ),
     "contact_at_the_cap": (
@@ -507,6 +507,22 @@ OUTCOMES = {
         wear_outcome([CELL], truncated_particles=5, particles_per_cycle=10.0),
     ),
 }
+
+
+def test_a_contact_most_of_whose_load_its_bodies_could_not_bear_is_outside_the_model():
+    """It was called converged, with 98 % of the load above the hardness and pressures as high as the modulus."""
+    facts = facts_of(BALL)
+    for name, high in (("elastic_pressure_above_hardness", 9e9), ("pressure_beyond_linear_elasticity", 40e9)):
+        for width, beyond in ((2, False), (8, True)):
+            summits = spot(1e9, width=8)
+            summits[8 : 8 + width, 8 : 8 + width] = high
+            (told,) = OUTCOME_CHECKS[name](facts, contact_outcome(summits))
+            share = summits[summits > 1e9].sum() / summits.sum()
+            assert bool(share > 0.5) is beyond
+            assert told.startswith(OUTSIDE) is beyond
+    (told,) = OUTCOME_CHECKS["elastic_pressure_above_hardness"](facts_of("fretting-ball"), contact_outcome(spot(98e9)))
+    assert told.startswith(OUTSIDE)
+    assert told.endswith("take a smaller load")
 
 
 def test_particles_of_running_in_that_the_depths_cut_are_told():

@@ -7,6 +7,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
+from bem.errors import OUTSIDE
 from bem.scenes.checks.contact import hertz_pressure_above_hardness, yield_below_the_surface
 from bem.scenes.checks.facts import Case, Facts
 from bem.scenes.checks.registry import outcome_check
@@ -18,6 +19,10 @@ _AT_EDGE = 1e-4
 _AT_CAP = 0.1
 _CONTACT = 0.5
 _WIDE = 0.5
+_MOST = 0.5
+"""Of the load, beyond which a contact is not the bodies' own."""
+_DRY = ("contact", "partial-slip", "rolling", "surface-temperature")
+"""Kinds of dry contacts, elastic where no cap is set."""
 
 
 def _pressures(outcome: Outcome) -> list[NDArray[np.float64]]:
@@ -93,36 +98,47 @@ def _from_seam(index: int, cells: int) -> int:
 
 @outcome_check
 def elastic_pressure_above_hardness(facts: Facts, outcome: Outcome) -> Iterator[str]:
-    """Elastic summits carry any pressure; real ones flow at the hardness of the softer body."""
-    if not facts.of_kind("contact") or facts.cases[0].cap is not None or facts.cases[0].softest is None:
+    """Elastic summits carry any pressure; real ones flow at the hardness of the softer body. Where that is most of the
+    load, the contact is not one that these bodies have."""
+    case, maps = facts.cases[0], _pressures(outcome)
+    if not facts.of_kind(*_DRY) or not maps or case.cap is not None or case.softest is None:
         return
-    pressure, hardness = outcome.variables["pressure"].values, facts.cases[0].softest
-    highest = float(pressure.max())
-    if highest > hardness and not list(hertz_pressure_above_hardness(facts)):
-        share = float(pressure[pressure > hardness].sum() / pressure.sum())
+    plane, hardness = maps[-1][-1], case.softest
+    highest, share = float(plane.max()), _share_above(plane, hardness)
+    beyond = share > _MOST
+    if highest > hardness and (beyond or not list(hertz_pressure_above_hardness(facts))):
+        flow = "these bodies" if beyond else "real summits"
+        how = 'behaviour = "capped"' if facts.of_kind("contact") else "a smaller load"
         yield (
-            f"elastic pressures reach {si(highest, 'Pa')}, {highest / hardness:.2g} times the softer hardness, and "
-            f"{percent(share)} "
-            'of the load is carried above it: real summits would flow; take behaviour = "capped"'
+            f"{OUTSIDE if beyond else ''}elastic pressures reach {si(highest, 'Pa')}, {highest / hardness:.2g} times "
+            f"the softer hardness, and {percent(share)} of the load is carried above it: {flow} would flow; take {how}"
         )
 
 
 @outcome_check
 def pressure_beyond_linear_elasticity(facts: Facts, outcome: Outcome) -> Iterator[str]:
     """Strain under a contact is about p (1 - nu^2) / E of each body: 0.2 of the contact modulus is no small strain."""
-    if not facts.of_kind("contact"):
+    case, maps = facts.cases[0], _pressures(outcome)
+    if not facts.of_kind(*_DRY) or not maps:
         return
     from bem.materials import contact_modulus
 
-    case = facts.cases[0]
     modulus = contact_modulus(case.lower.material, None if case.upper is None else case.upper.material)
-    highest = float(outcome.variables["pressure"].values.max())
-    if highest > 0.2 * modulus and not (case.smooth is not None and case.smooth.ratio > 0.2):
+    plane, limit = maps[-1][-1], 0.2 * modulus
+    highest, share = float(plane.max()), _share_above(plane, limit)
+    if highest > limit and (share > _MOST or not (case.smooth is not None and case.smooth.ratio > 0.2)):
         yield (
-            f"pressures reach {si(highest, 'Pa')}, {highest / modulus:.2g} of the contact modulus: strains are of that "
-            "order, where linear elasticity ends at about 0.1; check units, smooth the surface, or cap the pressure "
-            "at a hardness"
+            f"{OUTSIDE if share > _MOST else ''}pressures reach {si(highest, 'Pa')}, {highest / modulus:.2g} times the "
+            f"contact modulus, and {percent(share)} of the load is carried above 0.2 of it: strains are of that order, "
+            "where linear elasticity ends at about 0.1; check units, smooth the surface, or cap the pressure at a "
+            "hardness"
         )
+
+
+def _share_above(pressure: NDArray[np.float64], limit: float) -> float:
+    """Of the load, what cells above a pressure carry."""
+    total = float(pressure.sum())
+    return float(pressure[pressure > limit].sum()) / total if total > 0 else 0.0
 
 
 @outcome_check
