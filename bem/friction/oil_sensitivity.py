@@ -14,7 +14,7 @@ from bem.errors import Status
 from bem.friction.balance import Balance, BalanceStart, Regime, share_load
 from bem.friction.film import BALANCE_CELLS, BALANCE_POINTS, COARSE_TOLERANCE, PatchFilm, SolvedFilm
 from bem.friction.films import films_of
-from bem.friction.forces import Forces, friction_forces
+from bem.friction.forces import friction_forces
 from bem.friction.oil_beside import OilBeside
 from bem.friction.oil_volume import OilVolume
 from bem.friction.rough_contact import rough_contact
@@ -68,22 +68,19 @@ def oil_beside(
         return own
     forces = friction_forces(other.film, other.contact, counted, speeds)
     carried = 0.0 if other.contact is None else other.contact.load / setup.load
-    more = _left_to_surfaces(other, setup.load) - carried if other.regime is Regime.MIXED else 0.0
-    other_friction = float(forces.boundary + forces.film) / setup.load + more * _slides(forces, other)
-    slope = other.slope if other.regime is Regime.MIXED else None
-    return replace(own, loaded_contact_share=carried + more, loaded_friction=other_friction, slope=slope)
+    other_friction = float(forces.boundary + forces.film) / setup.load
+    if other.regime is not Regime.MIXED or other.contact is None:  # at an end: nothing is left open
+        return replace(own, loaded_contact_share=carried, loaded_friction=other_friction)
+    more = _left_to_surfaces(other, setup.load) - carried
+    # more on the surfaces slides with their friction; that the film rubs less takes next to nothing away
+    other_friction += more * forces.boundary / other.contact.load
+    return replace(own, loaded_contact_share=carried + more, loaded_friction=float(other_friction), slope=other.slope)
 
 
 def _left_to_surfaces(found: Balance, load: float) -> float:
     """Share of the load on the surfaces where they would hold the film's oil exactly, by the slope of a balance."""
     film_load = found.film.load * math.exp(-math.log1p(found.oil_imbalance) / found.slope)
     return 1 - min(film_load / load, 1.0)
-
-
-def _slides(forces: Forces, found: Balance) -> float:
-    """What a share of the load more on the surfaces adds to friction; that the film rubs less adds next to nothing."""
-    assert found.contact is not None
-    return forces.boundary / found.contact.load
 
 
 def _first_load(found: float, load: float, before: OilBeside | None) -> float:

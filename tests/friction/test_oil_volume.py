@@ -107,6 +107,22 @@ def test_at_both_ends_it_does_not_matter(speed, regime):
     assert patch.oil_imbalance == loaded.oil_imbalance == 0
 
 
+def test_surfaces_that_touch_by_the_oil_beside_alone_are_compared_with_a_full_film():
+    """A plateau as wide as the contact: it stands out of the patch's mean plane, but not out of what carries."""
+    grid = bearing(112)["grid"]
+    height = np.broadcast_to(0.5e-6 * np.exp(-((grid.x / 3e-4) ** 8))[:, None], grid.shape)
+    patch, loaded = (
+        solve_mixed(**bearing(112, oil_volume=counted, height=height), speeds=(0.3, 0.0)) for counted in OilVolume
+    )
+    assert (patch.regime, loaded.regime) == (Regime.MIXED, Regime.FULL_FILM)
+    assert patch.status is loaded.status is Status.CONVERGED
+    assert patch.contact_load > 0.01 * patch.load
+    assert patch.oil.loaded_contact_share == loaded.contact_load == 0
+    assert patch.oil.loaded_friction == pytest.approx(loaded.friction, rel=2e-3)  # of a film on few points
+    assert patch.oil.decides
+    assert outside(patch.notes)
+
+
 @pytest.mark.parametrize("model", ["coupled", "uncoupled"])
 def test_the_oil_is_there_recomputed_from_what_is_returned(model):
     case = bearing(80, oil_volume="loaded", contact_model=model)
