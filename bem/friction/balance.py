@@ -57,6 +57,14 @@ _SAME = 1e-9
 """Logarithms of loads that are one and the same."""
 
 
+NO_FILM_NOTE = (
+    "boundary lubrication: the film's model ends under a load at which the film is thinner than "
+    f"{1e9 * THINNEST_FILM:g} nm, a few molecules, and yet thicker than the surfaces leave open; it is taken for none, "
+    "and the contact was solved under all the load (friction jumps at the speed from which such films are found)"
+)
+"""What to say where the film's share of the load is none by that rule, and not by a balance."""
+
+
 class Regime(StrEnum):
     """Which end of the balance, or neither, a solution is at."""
 
@@ -140,7 +148,8 @@ def share_load(
             effort.contact_tolerance = min(effort.contact_tolerance, rough.tolerance)
             finest = replace(search, level=len(film.errors) - 1)  # a film as good as was asked for
             if search.is_no_film(trial):
-                return _certified(finest.under_the_rest(), rough, load, tolerance, Regime.BOUNDARY, effort, slope)
+                probe = finest.under_the_rest()
+                return _certified(probe, rough, load, tolerance, Regime.BOUNDARY, effort, slope, short=True)
             return _certified(finest.under_the_rest(at), rough, load, tolerance, regime, effort, slope, short=True)
     balance = _certified(trial, rough, load, tolerance, regime, effort, slope)
     if regime is not Regime.MIXED or len(film.errors) == 1 or balance.status is not Status.CONVERGED:
@@ -372,7 +381,7 @@ def _certified(
     short: bool = False,
 ) -> Balance:
     """Judge film and contact by themselves, and whether they carry the load and hold the same oil; `short` where they
-    carry too little at the end of the film's range."""
+    carry too little at the end of the film's range, or, at the boundary, where the film there is taken for none."""
     film, contact = trial.film, trial.contact
     imbalance = _excess(film, contact, load)
     notes = [*film.notes, *(() if contact is None else contact.notes)]
@@ -380,10 +389,10 @@ def _certified(
     if contact is not None and regime is Regime.MIXED:
         oil_imbalance, held = contact.opening / _oil(film, rough) - 1, _holds_oil(trial, rough, tolerance)
     if regime is Regime.BOUNDARY:
-        notes.append(boundary_note(film.load / load))
+        notes.append(NO_FILM_NOTE if short else boundary_note(film.load / load))
         if contact is not None:
             film = film.left_in(contact.opening, _oil(film, rough))
-    if short:
+    elif short:
         notes.append(_short_note(film.load))
     status = Status.CONVERGED
     if film.status is not Status.CONVERGED:
@@ -391,7 +400,7 @@ def _certified(
     elif contact is not None and contact.status is not Status.CONVERGED:
         status = contact.status
     elif abs(imbalance) > tolerance or not held:
-        status = Status.INFEASIBLE if short else Status.STALLED
+        status = Status.INFEASIBLE if short and regime is not Regime.BOUNDARY else Status.STALLED
     return Balance(
         film=film,
         contact=contact,

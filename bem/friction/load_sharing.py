@@ -115,7 +115,8 @@ def solve_mixed(  # reason: the signature is a promise to users' scripts; behind
     contact (boundary_friction F_C for a coefficient), F_film the shear force of the film on the flat outside the cells
     in contact. `status` is converged only where the returned film and contact carry the load to
     `tolerance`; `notes` say where a model is outside its validity. A film that is left with less than a tenth of the
-    tolerance is boundary lubrication: the contact is then solved for all the rest of the load.
+    tolerance is boundary lubrication: the contact is then solved for all the rest of the load. So it is, and a note
+    tells it apart, where the film's model ends while the film is a few molecules thick.
 
     Raises
     ------

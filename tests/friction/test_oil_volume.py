@@ -12,7 +12,7 @@ from bem import Body, Grid, InputError, Lubricant, Material, Status, generate_su
 from bem.benchmarks.lubricated_cases import mixed_case
 from bem.errors import outside
 from bem.friction import load_sharing, oil_sensitivity
-from bem.friction.balance import BalanceStart, Regime, share_load
+from bem.friction.balance import NO_FILM_NOTE, BalanceStart, Regime, share_load
 from bem.friction.falling_zero import _parabola, falling_zero
 from bem.friction.film import PatchFilm
 from bem.friction.oil_beside import OilBeside, oil_notes
@@ -210,6 +210,19 @@ def test_where_the_films_model_ends_before_the_oil_fits_it_is_infeasible(counted
     assert balance.oil_imbalance < -1e-3  # of the contact and the film that are returned
     (said,) = (note for note in balance.notes if "model ends at a load" in note)
     assert "thicker there than the surfaces leave open" in said
+
+
+@pytest.mark.parametrize(("thickness", "rms_height", "by_rule"), [(1e-9, 1e-10, True), (1e-14, 1e-7, False)])
+def test_a_film_taken_for_none_is_told_apart_from_one_that_is_left_with_none(thickness, rms_height, by_rule):
+    case = bearing(64, oil_volume="loaded")
+    load, height = case["load"], case["height"] * (rms_height / case["height"].std())
+    film = FlatFilm(thickness * 0.1 * load, (64, 32), largest_load=0.1 * load)
+    rough = rough_contact(setup_of(case), height, (0.1, 0.0))
+    balance = share_load(film, rough, load, 1e-4, film.under(0.1 * load, 0, None), BalanceStart(0.05 * load))
+    assert balance.status is Status.CONVERGED
+    assert balance.regime is Regime.BOUNDARY
+    assert (NO_FILM_NOTE in balance.notes) == by_rule
+    assert any("the film is left with less than" in note for note in balance.notes) != by_rule
 
 
 def test_the_film_at_the_end_of_its_model_is_as_good_as_was_asked_for():
