@@ -35,6 +35,7 @@ from reports import beside, goals, large, shared, work_precision
 from reports.builder import Page, Section, figure, table, text
 from reports.experiments.kept import age, found, result_of
 from reports.experiments.large_peers import RESULT as LARGE_PEERS
+from reports.experiments.preconditioned_spectrum import RESULT as SPECTRUM
 from reports.validation_origin import changed_since_stored
 
 RESULTS = Path(__file__).resolve().parent / "results" / "performance.json"
@@ -322,7 +323,27 @@ def convolutions() -> str:
         )
         for row in found(COUNTS)
     ]
-    return body + table(headers, rows) + age(COUNTS) + random_convolutions()
+    return body + table(headers, rows) + age(COUNTS) + _digits_a_convolution() + random_convolutions()
+
+
+def _digits_a_convolution() -> str:
+    """What the preconditioned kernel allows, from the stored experiment."""
+    if not SPECTRUM.exists():
+        return text(f"Not run: python -m reports.experiments.{SPECTRUM.stem}")
+    body = text(
+        "How many digits a convolution can take off: eigenvalues of the kernel on the cells that touch, "
+        "preconditioned, and what follows for steps of one length and for conjugate gradients. "
+        f"`python -m reports.experiments.{SPECTRUM.stem}` repeats it."
+    )
+    rows = [
+        (
+            *(row["kind"], row["cells"], row["touching"]),
+            *(f"{row[key]:.2f}" for key in ("least", "largest", "digits_of_steps", "digits_of_gradients")),
+        )
+        for row in found(SPECTRUM.stem)
+    ]
+    headers = ("axes", "cells a side", "of them touch", "least", "largest", "digits, steps", "digits, gradients")
+    return body + table(headers, rows) + age(SPECTRUM.stem)
 
 
 def random_convolutions() -> str:
