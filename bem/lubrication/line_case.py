@@ -56,6 +56,8 @@ class LineCase:
             messages.append(f"lubricant: {type(self.lubricant).__name__} is not a Lubricant")
         if not (isinstance(self.points, (int, np.integer)) and 100 <= self.points <= 20000):
             messages.append(f"points: {self.points!r} must be an integer from 100 to 20000")
+        if not (isinstance(self.max_iterations, (int, np.integer)) and self.max_iterations >= 1):
+            messages.append(f"max_iterations: {self.max_iterations!r} must be an integer of 1 or more")
         if not (is_finite(self.tolerance) and 1e-11 <= self.tolerance <= 1e-2):
             messages.append(f"tolerance: {self.tolerance!r} must lie between 1e-11 and 1e-2")
         if position is not None:
@@ -75,7 +77,7 @@ class LineCase:
             if scales.load > high:
                 advice = "The film cannot carry that: lower the load, or raise speed or viscosity."
             raise InputError(
-                f"load: {self.load!r} N/m is {scales.load:.3g} in Moes' units w / sqrt(2 E* R mu (u1+u2)); a film is "
+                f"load: {case[0]!r} N/m is {scales.load:.3g} in Moes' units w / sqrt(2 E* R mu (u1+u2)); a film is "
                 f"looked for between {low:g} and {high:g}. {advice}"
             )
         if not rigid:
