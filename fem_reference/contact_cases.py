@@ -38,8 +38,10 @@ from meshes.contact_block import ContactBlock
 
 LEVELS = 3
 SIZES = [0.5**level for level in range(LEVELS)]
-REACH = {"sphere": 1e5, "cylinder": 1e4}
-"""Distance of the far boundary, in patches."""
+REACH = {"sphere": 1e5, "cylinder": 1e6}
+"""Distance of the far boundary, in patches. Under a line load the surface moves sideways by as much however far away,
+so that sides held fast stretch a stiff layer: of a contact on one 21 times as stiff and five half-widths thick it had
+0.0015 of the reference pressure as tension too much with sides 1e4 patches away, and 1.4e-4 with 1e5."""
 ROW_DEPTH = 4.0
 """Depth of the periodic cell in wavelengths: what varies along x has decayed by exp(-8 pi) there."""
 
@@ -373,6 +375,13 @@ PROBLEMS = (
         {
             "contact-cylinder-plain": {},
             "contact-cylinder-low-nu-stiff": {"nu": 0.1, "layer": list(layers.LAYERS["stiff"])},
+            # held fast nearer, its sides would stretch the layer
+            "contact-cylinder-stiff-thick": {
+                "nu": 0.143,
+                "layer": [21.3, 0.289, 2.75],
+                "indenter": [1.21, 0.395],
+                "loads": [0.202, 0.54, 0.719],
+            },
             "contact-cylinder-high-nu-soft": {"nu": 0.48, "layer": list(layers.LAYERS["soft"])},
             **{f"contact-cylinder-{name}": {"layer": list(layers.LAYERS[name])} for name in ("soft", "stiff")},
         },

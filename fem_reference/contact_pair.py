@@ -129,7 +129,7 @@ NORMALISATION = {
 FAR_FIELD = {
     "sphere": "Sides and bottom are held fast 1e5 patch widths away; the displacement of the load there, at most 5e-6 "
     "of the approach, is added to the error bars of displacements.",
-    "cylinder": "Sides and bottom are held fast 1e4 patch widths away; displacements are relative to x = 0, where what "
+    "cylinder": "Sides and bottom are held fast 1e6 patch widths away; displacements are relative to x = 0, where what "
     "is left is of second order in distance over size.",
     "row": "Half a wavelength between two planes of symmetry, four wavelengths deep on a bottom that moves sideways "
     "freely: strains along x are zero on average, what varies along x has decayed by exp(-8 pi).",
