@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable, Iterator, Sequence
+from contextlib import contextmanager
 from enum import StrEnum
 
 OUTSIDE = "outside the model: "
@@ -76,3 +77,20 @@ class ResultsError(BemError, OSError):
     """Results that cannot be written or read: folder read-only, disk full, damaged file, folder in use."""
 
     exit_code = 4
+
+
+@contextmanager
+def interrupts_as_they_are() -> Iterator[None]:
+    """An interrupt that fell into the call of a compiled loop, of which Python makes a SystemError that it caused, is
+    raised as itself: what goes on after an interrupt would take it for a mistake of the program.
+
+    Raises
+    ------
+    KeyboardInterrupt : there was one.
+    """
+    try:
+        yield
+    except SystemError as error:
+        if isinstance(error.__cause__, KeyboardInterrupt):
+            raise error.__cause__ from None
+        raise

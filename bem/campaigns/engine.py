@@ -19,7 +19,7 @@ from bem.campaigns.collect import Given, collect, words_of_bars
 from bem.campaigns.context import CaseContext, Silent, Watcher
 from bem.campaigns.jobs import Staff, hand_out, words_of
 from bem.campaigns.refine import solve_case, words_of_levels
-from bem.errors import BemError, ConvergenceError, InputError, ResultsError, Status
+from bem.errors import BemError, ConvergenceError, InputError, ResultsError, Status, interrupts_as_they_are
 from bem.results.checkpoint import load_checkpoint, save_checkpoint
 from bem.results.directory import CASES, CHECKPOINT
 from bem.scenes.context import Outcome
@@ -72,7 +72,7 @@ class CaseJob:
         quicken()
         context = CaseContext(self.case, self.file, state, watcher, self.epoch)
         try:
-            with collecting():
+            with interrupts_as_they_are(), collecting():
                 record = solve_case(get_kind(self.case.scene.kind), self.case.scene, context)
         except ResultsError:
             raise  # no case can be kept on a disk that is full

@@ -16,7 +16,7 @@ import signal
 import sys
 from typing import TYPE_CHECKING, Any
 
-from bem.errors import BemError
+from bem.errors import BemError, interrupts_as_they_are
 
 if TYPE_CHECKING:
     import typer
@@ -96,7 +96,8 @@ def main() -> None:
         for stream in (sys.stdout, sys.stderr):  # a name or a unit that the terminal cannot spell is no reason to stop
             if isinstance(stream, io.TextIOWrapper):
                 stream.reconfigure(errors="backslashreplace")
-        build()(standalone_mode=True)
+        with interrupts_as_they_are():
+            build()(standalone_mode=True)
     except BemError as error:
         lines = getattr(error, "messages", None) or str(error).splitlines()
         for line in lines[:_MOST_LINES]:

@@ -15,7 +15,7 @@ import pytest
 from bem.campaigns import campaign_of, compute, jobs, plan
 from bem.campaigns.engine import Board, notes_of
 from bem.campaigns.local import compute_locally
-from bem.errors import ConvergenceError, InputError
+from bem.errors import ConvergenceError, InputError, interrupts_as_they_are
 from bem.results import open_run
 from bem.runs import plan_scene, run_scene
 from bem.scenes import load_scene, wearing
@@ -169,6 +169,24 @@ def test_a_case_that_fails_is_named_and_the_others_are_kept(tmp_path, monkeypatc
     assert any("failed: cycle 3" in text for text in telling.notes)
     with pytest.raises(ConvergenceError, match="stalled"):
         run_scene(SCENE, tmp_path / "all", settings=['cylinder.loads=["5 N"]'], figures=False, workers=1)
+
+
+def test_an_interrupt_that_falls_into_a_compiled_call_pauses_the_run(tmp_path, monkeypatch):
+    """numba rebuilds what a loop returns by Python; what is raised there Python tells as a SystemError. A paused run
+    was called failed."""
+
+    def interrupted(*given):
+        try:
+            raise KeyboardInterrupt
+        except KeyboardInterrupt as error:
+            raise SystemError("CPUDispatcher(_gather) returned a result with an exception set") from error
+
+    monkeypatch.setattr("bem.campaigns.engine.solve_case", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        run_scene({**SCENE, "repetitions": 1}, tmp_path / "run", workers=1)
+    monkeypatch.undo()
+    with pytest.raises(SystemError), interrupts_as_they_are():
+        raise SystemError("of its own")
 
 
 def test_notes_say_which_cases_they_are_of():

@@ -100,14 +100,15 @@ def order_missed(difference: float, value: float) -> float:
 
 
 def central_film(level: Level, film: FloatArray) -> float:
-    """At the origin, by the cubic spline (without a knot beside its ends) through the cells around it; where it falls
-    far below them, as below zero where the contact is a cell wide, by that through their logarithms."""
+    """At the origin, by the cubic spline (without a knot beside its ends) through the cells around it; by that through
+    their logarithms where it falls far below them and the bodies, undeformed, would overlap there: a contact of a cell,
+    whose film the spline would have below zero."""
     i, j = (int(np.clip(np.searchsorted(a, 0.0), AROUND, len(a) - AROUND)) for a in (level.x, level.y))
-    near = np.s_[i - AROUND : i + AROUND, j - AROUND : j + AROUND]
+    near, nearest = np.s_[i - AROUND : i + AROUND, j - AROUND : j + AROUND], np.s_[i - 1 : i + 1, j - 1 : j + 1]
     along, across, around = _at_origin(level.x[near[0]]), _at_origin(level.y[near[1]]), film[near]
-    value = float(along @ around @ across)
-    lowest = float(around.min())
-    return value if value > OVERSHOT * lowest or not lowest > 0 else math.exp(along @ np.log(around) @ across)
+    value, lowest = float(along @ around @ across), float(around.min())
+    apart = bool((film[nearest] > level.gap[nearest]).all())
+    return value if apart or value > OVERSHOT * lowest or not lowest > 0 else math.exp(along @ np.log(around) @ across)
 
 
 def _at_origin(x: FloatArray) -> FloatArray:
