@@ -563,6 +563,31 @@ def test_a_check_of_results_fires_where_it_should_and_not_next_to_it(name):
     assert list(OUTCOME_CHECKS[name](facts, good)) == []
 
 
+@pytest.mark.parametrize(("length", "told"), [(8e-6, 0), (15e-6, 1)])
+def test_a_particle_is_held_against_the_grid_of_its_own_load(length, told):
+    """A piece of the largest load was held against the grid of the smallest: 119 um long on one of 23.9 um."""
+    facts = facts_of("wear-steel-steel")
+    sides = [case.grid.lengths[0] for case in facts.cases]
+    outcome = wear_outcome([CELL, length])
+    outcome.variables["cell"] = Variable(("load",), np.array(sides) / 240, "m", "cell")
+    outcome.variables["particle_case"] = Variable(("particle",), np.array([0, len(sides) - 1]), "1", "case")
+    found = list(OUTCOME_CHECKS["particles_as_large_as_the_grid"](facts, outcome))
+    assert len(found) == told
+    assert all(f"15 um long on a grid of {si(sides[-1], 'm')}" in text for text in found)
+
+
+@pytest.mark.parametrize(("length", "width", "told"), [(4, 1, 1), (4, 2, 0), (8, 1, 0)])
+def test_particles_of_one_cell_are_known_where_cells_are_longer_than_wide(length, width, told):
+    """Cells of 4 x 1 were held against 1.5 times the root of their area: 56 % of particles were one, none was told."""
+    facts = facts_of("wear-steel-steel", "domain.half_widths=", "domain.cells=[64,256]", "domain.lengths=12.8 um")
+    outcome = wear_outcome([length * 50e-9] * 3)
+    outcome.variables["cell"] = Variable(("load",), np.full(3, 100e-9), "m", "cell")
+    outcome.variables["particle_width"] = Variable(("particle",), np.full(3, width * 50e-9), "m", "width")
+    found = list(OUTCOME_CHECKS["particles_of_one_cell"](facts, outcome))
+    assert len(found) == told
+    assert all("one cell wide (200 nm x 50 nm)" in text for text in found)
+
+
 def test_running_in_tells_of_particles_of_one_cell_by_their_mean():
     facts, check = facts_of("running-in-stribeck"), OUTCOME_CHECKS["particles_of_one_cell"]
     found = list(check(facts, Outcome({"number_mean_radius_nm": [300.0, 500.0, 0.0]}, {})))

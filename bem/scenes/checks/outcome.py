@@ -2,17 +2,19 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bem.errors import OUTSIDE
+from bem.grid import Grid
 from bem.scenes.checks.contact import hertz_pressure_above_hardness, yield_below_the_surface
 from bem.scenes.checks.facts import Case, Facts
 from bem.scenes.checks.registry import outcome_check
 from bem.scenes.checks.roughened import roughened
-from bem.scenes.checks.words import joined, numbers, percent, si
+from bem.scenes.checks.words import joined, numbers, percent, si, times
 from bem.scenes.context import Outcome
 
 _AT_EDGE = 1e-4
@@ -255,27 +257,43 @@ def particles_of_one_cell(facts: Facts, outcome: Outcome) -> Iterator[str]:
 
 def _counted(facts: Facts, outcome: Outcome) -> Iterator[str]:
     length, width, volume = (outcome.variables[f"particle_{name}"].values for name in ("length", "width", "volume"))
-    if not length.size or "cell" not in outcome.variables:
+    grids = _grids_of_particles(facts, outcome)
+    if not grids:
         return
-    cells = np.asarray(outcome.variables["cell"].values, dtype=np.float64).ravel()  # of every case, in their order
-    of = outcome.variables.get("particle_case")
-    cell = cells[np.zeros(length.size, dtype=int) if of is None else np.asarray(of.values, dtype=int)]
-    one = np.maximum(length, width) < 1.5 * cell
+    spacings = np.array([grid.spacing for grid in grids])
+    one = (length < 1.5 * spacings.max(axis=1)) & (width < 1.5 * spacings.min(axis=1))
     if one.mean() > 0.5:
+        cell = min((grid.spacing for grid in grids), key=math.prod)
         yield (
             f"{percent(float(one.mean()))} of the particles, with {percent(float(volume[one].sum() / volume.sum()))} "
-            f"of their volume, are one cell wide ({si(float(cell.min()), 'm')}): their number and means by number are "
+            f"of their volume, are one cell wide ({times(cell, 'm')}): their number and means by number are "
             "the mesh's; take a finer grid, or means by volume where their share is small"
         )
+
+
+def _grids_of_particles(facts: Facts, outcome: Outcome) -> list[Grid]:
+    """The grid of each particle's case, known by the size of its cells; empty where none or no cells are known."""
+    length, cell = (outcome.variables.get(name) for name in ("particle_length", "cell"))
+    grids = [case.grid for case in facts.cases if case.grid is not None]
+    if length is None or cell is None or not length.values.size or not grids:
+        return []
+    sizes = np.sqrt([grid.cell_area for grid in grids])
+    nearest = np.abs(np.asarray(cell.values, dtype=np.float64).reshape(-1, 1) / sizes - 1).argmin(axis=1)
+    of = outcome.variables.get("particle_case")
+    cases = np.zeros(length.values.size, dtype=int) if of is None else np.asarray(of.values, dtype=int)
+    return [grids[nearest[case]] for case in cases]
 
 
 @outcome_check
 def particles_as_large_as_the_grid(facts: Facts, outcome: Outcome) -> Iterator[str]:
     """A piece that fills the slice says nothing of its size."""
-    length, grid = outcome.variables.get("particle_length"), facts.cases[0].grid
-    if length is None or grid is None or not length.values.size:
+    grids = _grids_of_particles(facts, outcome)
+    if not grids:
         return
-    largest, side = float(length.values.max()), min(grid.lengths)
+    lengths = outcome.variables["particle_length"].values
+    largest, side = max(
+        zip(lengths, (min(grid.lengths) for grid in grids), strict=True), key=lambda pair: pair[0] / pair[1]
+    )
     if largest > _WIDE * side:
         yield (
             f"the largest particle is {si(largest, 'm')} long on a grid of {si(side, 'm')}: the grid decides its size; "
