@@ -5,7 +5,6 @@ from __future__ import annotations
 import hashlib
 import json
 import os
-from collections import Counter
 from collections.abc import Mapping, Sequence
 from contextlib import closing
 from dataclasses import dataclass
@@ -30,6 +29,7 @@ from bem.runs.table import dataset_variables, table_text
 from bem.scenes import get_kind
 from bem.scenes.asked import Asked, with_accuracy
 from bem.scenes.axes import Axis
+from bem.scenes.checks.words import without_numbers
 from bem.scenes.common import SceneModel
 from bem.scenes.context import Variable
 from bem.scenes.load import dump_scene, read_table, scene_from_table, scenes_at, words_at
@@ -146,7 +146,8 @@ def run_sweep(  # reason: a promise to users' scripts
         computed, failed = _compute(missing, len(summaries), staff, watcher or Silent())
         summaries |= computed
         in_order = [summaries[name] for name in names]
-        _tell_notes(in_order, watcher or Silent())
+        labels = [words_at((a.key for a in swept), at) for at in product(*(a.values for a in swept))]
+        _tell_notes(in_order, labels, watcher or Silent())
         variables = _collect(folder, scenes[0], axes, in_order)
         write_text(folder / TABLE, table_text(axes, in_order, names, failed))
         if any(in_order):
@@ -157,13 +158,19 @@ def run_sweep(  # reason: a promise to users' scripts
     return FinishedSweep(folder, len(missing) - len(failed), failed, tuple(stuck))
 
 
-def _tell_notes(summaries: Sequence[Mapping[str, Any] | None], watcher: Watcher) -> None:
+def _tell_notes(summaries: Sequence[Mapping[str, Any] | None], labels: Sequence[str], watcher: Watcher) -> None:
     """What the points' summaries say of their validity, each once: first what is outside the model, then the most
-    frequent."""
-    told = Counter(text for summary in summaries if summary for text in dict.fromkeys(summary.get("notes") or ()))
-    in_order = sorted(told.most_common(), key=lambda item: OUTSIDE not in item[0])
-    for text, number in in_order[:_MOST_NOTES]:
-        watcher.note(f"{number} of {len(summaries)} points: {text}")
+    frequent. Notes that differ in figures alone are one, in the words of the first, at the point of that label."""
+    told: dict[str, dict[str, set[int]]] = {}  # by what is said: in which words, of which points
+    for point, summary in enumerate(summaries):
+        for text in (summary or {}).get("notes") or ():
+            told.setdefault(without_numbers(text), {}).setdefault(text, set()).add(point)
+    number = {said: len(set().union(*by_words.values())) for said, by_words in told.items()}
+    in_order = sorted(told, key=lambda said: (OUTSIDE not in said, -number[said]))
+    for said in in_order[:_MOST_NOTES]:
+        text, points = next(iter(told[said].items()))
+        of = f" (figures of {labels[min(points)]})" if len(told[said]) > 1 else ""
+        watcher.note(f"{number[said]} of {len(summaries)} points{of}: {text}")
     if len(told) > _MOST_NOTES:
         watcher.note(f"and {len(told) - _MOST_NOTES} more, in the summary.json of points")
 

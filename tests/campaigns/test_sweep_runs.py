@@ -27,6 +27,7 @@ from bem.runs import run_sweep
 from bem.runs.point import Done, Point, store
 from bem.runs.scene import run_planned
 from bem.runs.sweep import _tell_notes
+from bem.scenes.checks.words import without_numbers
 
 OVER = ["contact.mean_pressure=log:20 MPa:80 MPa:3", "seed=1:2"]
 
@@ -425,8 +426,31 @@ def test_notes_of_points_are_told_once_with_how_many_have_them(tmp_path):
 
 def test_what_is_outside_the_model_is_among_the_notes_of_a_sweep_that_are_told():
     """With more than twenty notes it was cut off where it was of one point."""
-    many = [{"notes": [f"note {i}" for i in range(30)]}, {"notes": [f"note {i}" for i in range(30)]}]
-    many[1]["notes"].append(OUTSIDE + "half of it")
-    _tell_notes(many, told := Telling())
+    words = [f"note {letter}" for letter in "abcdefghijklmnopqrstuvwxyzABCD"]
+    many = [{"notes": words}, {"notes": [*words, OUTSIDE + "half of it"]}]
+    _tell_notes(many, ["a = 1", "a = 2"], told := Telling())
     assert told.notes[0] == f"1 of 2 points: {OUTSIDE}half of it"
     assert told.notes[-1] == "and 11 more, in the summary.json of points"
+
+
+def test_notes_that_differ_in_figures_alone_are_told_once_with_those_of_the_first_point():
+    """A sweep of 27 points told twenty times that its particles were as large as the grid, and cut off the rest."""
+    points = [
+        {"notes": [f"largest {10 * i + 9.5:g} um, {i} % on a grid of {i}e-05 m", "same 2 GPa"]} for i in range(30)
+    ]
+    points[3]["notes"] += ["1 GPa at load 2 N", "1 GPa at load 20 mN"]  # of two cases of one point
+    points[7]["notes"].append(f"{OUTSIDE}7 of it")
+    points[1] = None
+    _tell_notes(points, [f"a = {i}" for i in range(30)], told := Telling())
+    assert told.notes == [
+        f"1 of 30 points: {OUTSIDE}7 of it",
+        "29 of 30 points (figures of a = 0): largest 9.5 um, 0 % on a grid of 0e-05 m",
+        "29 of 30 points: same 2 GPa",
+        "1 of 30 points (figures of a = 3): 1 GPa at load 2 N",
+    ]
+
+
+def test_names_with_digits_and_units_that_differ_keep_notes_apart():
+    assert without_numbers("S235 at 3 GPa") != without_numbers("S355 at 3 GPa")
+    assert without_numbers("12 m of it") != without_numbers("12 s of it")
+    assert without_numbers("12 um, -1e-09 Pa") == without_numbers("0.3 nm, 4.5 MPa")
