@@ -16,7 +16,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.errors import InputError, Status
-from bem.friction.balance import NEGLIGIBLE, Balance, BalanceStart, Regime, boundary_note, share_load
+from bem.friction.balance import NEGLIGIBLE, NO_FILM_NOTE, Balance, BalanceStart, Regime, boundary_note, share_load
 from bem.friction.film import PatchFilm, middle_line
 from bem.friction.film_table import FilmTable
 from bem.friction.films import films_of
@@ -57,6 +57,8 @@ Temperatures are those of the surfaces in contact, mean by pressure and highest;
 0 where no heat was asked for."""
 
 REGIMES = tuple(Regime)
+_TAKEN_FOR_NONE = len(REGIMES)
+"""Index of boundary lubrication by rule: where the film's model ends and the film is too thin to count."""
 FEW = 0.01
 """Share of the load on particles up to which the oil beside the contact is judged without them."""
 _OIL_UNKNOWN = (
@@ -183,10 +185,10 @@ class MixedContact:
         last, notes = self._last, []
         if last is None:
             return ()
-        boundary = int(np.sum(self.rows["regime"] == REGIMES.index(Regime.BOUNDARY)))
-        if boundary:
-            share = NEGLIGIBLE * self.setup.tolerance
-            notes.append(f"{boundary} of {len(self.rows)} cycles: {boundary_note(share)}")
+        left = boundary_note(NEGLIGIBLE * self.setup.tolerance)
+        for regime, said in ((REGIMES.index(Regime.BOUNDARY), left), (_TAKEN_FOR_NONE, NO_FILM_NOTE)):
+            if number := int(np.sum(self.rows["regime"] == regime)):
+                notes.append(f"{number} of {len(self.rows)} cycles: {said}")
         friction = float(self.rows["friction"].max())
         notes += [*self.film_notes, *validity_notes(friction, last.forces, last.balance.film, self._whole, self.setup)]
         oil = self.oil()
@@ -227,7 +229,7 @@ class MixedContact:
             balance.imbalance,
             *((unrubbed(setup),) * 2 if heat is None else (heat.mean, heat.maximum)),
             max(balance.films, 1),
-            REGIMES.index(balance.regime),
+            _TAKEN_FOR_NONE if NO_FILM_NOTE in balance.notes else REGIMES.index(balance.regime),
         )
         self.rows = np.append(self.rows, new)
         self._last = LastCycle(balance, heights, forces, coupling_notes(forces, rough.traction, setup), borne)

@@ -27,7 +27,7 @@ from bem.friction.balance import BalanceStart, Regime, share_load
 from bem.friction.film import PatchFilm
 from bem.friction.rough_contact import boundary_traction, rough_contact
 from bem.friction.setup import MixedSetup
-from bem.wear.mixed import MixedContact
+from bem.wear.mixed import MixedContact, pack_balance, unpack_balance
 
 POLYMER = Body(Material("polymer", youngs_modulus=3e9, poissons_ratio=0.38))
 GRID = Grid((64, 32), (0.8e-6, 0.8e-6), periodic=(False, True))
@@ -79,6 +79,22 @@ def test_boundary_lubrication_is_an_answer(speed, rms_height, oil):
     # few trials: the whole load's film, one in between, the end (coarse and fine alike with 200 nodes)
     assert point.evaluations <= 4
     assert point.contact_solves <= 3
+
+
+@pytest.mark.parametrize(("speed", "rms_height", "by_rule"), [(1e-4, 400e-9, False), (1e-9, 1e-9, True)])
+def test_cycles_whose_film_is_taken_for_none_say_so_as_one_speed_does(speed, rms_height, by_rule):
+    """They said that the film is left with less than a share of the load, which no balance had found."""
+    height = rms_height / HEIGHT.std() * HEIGHT
+    step, _, point = both(height, (speed, 0.0), lubricant=THIN_OIL)
+    assert (balance_model.NO_FILM_NOTE in point.notes) == by_rule
+    resumed = MixedContact(step.setup, (speed, 0.0), **unpack_balance(pack_balance(step)))
+    resumed(height, None)
+    for cycles, found in ((1, step), (2, resumed)):
+        told = [note for note in found.notes if "boundary lubrication" in note]
+        assert len(told) == 1
+        assert told[0].startswith(f"{cycles} of {cycles} cycles: ")
+        assert told[0].endswith(balance_model.NO_FILM_NOTE) == by_rule
+        assert ("is left with less than" in told[0]) != by_rule
 
 
 def test_a_cycle_at_the_boundary_end_starts_there():
