@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.compiled import compiled, reordered
+from bem.compiled import compiled
 from bem.contact import passes
 
 FloatArray = NDArray[np.float64]
@@ -21,7 +21,7 @@ def squares(values: FloatArray) -> float:
     return passes.sums(values.size, 1, _squares, values)[0]
 
 
-@reordered
+@compiled
 def _squares(start, stop, result, values):
     values = values[start:stop]
     total = 0.0
@@ -39,14 +39,14 @@ def weighed_free(values: FloatArray, weights: FloatArray, total: float, out: Flo
     passes.in_blocks(values.size, 0, _less, values, mean, out)
 
 
-@reordered
+@compiled
 def _weighed_free(values, weights, total, out):
     mean = np.zeros(1)
     _weighed(0, values.size, mean, values, weights)
     _less(0, values.size, mean, values, mean[0] / total, out)
 
 
-@reordered
+@compiled
 def _weighed(start, stop, result, values, weights):
     values, weights = values[start:stop], weights[start:stop]
     total = 0.0
@@ -55,7 +55,7 @@ def _weighed(start, stop, result, values, weights):
     result[0] = total
 
 
-@reordered
+@compiled
 def _less(start, stop, result, values, shift, out):
     values, out = values[start:stop], out[start:stop]
     for k in range(values.size):
@@ -98,7 +98,7 @@ def turn(
     return full, change
 
 
-@reordered
+@compiled
 def _turn(start, stop, result, preconditioned, rise, share, residual, previous):
     residual, previous, preconditioned = residual[start:stop], previous[start:stop], preconditioned[start:stop]
     if share:
@@ -120,7 +120,7 @@ def new_direction(direction: FloatArray, preconditioned: FloatArray, beta: float
     return passes.sums(residual.size, 1, _new_direction, direction, preconditioned, beta, residual)[0]
 
 
-@reordered
+@compiled
 def _new_direction(start, stop, result, direction, preconditioned, beta, residual):
     residual, preconditioned, direction = residual[start:stop], preconditioned[start:stop], direction[start:stop]
     slope = 0.0
@@ -137,7 +137,7 @@ def gather_dot(field: NDArray[Any], cells: NDArray[Any], out: FloatArray, direct
     return total, product
 
 
-@reordered
+@compiled
 def _gather_dot(start, stop, result, field, cells, out, direction):
     total = 0.0
     product = 0.0
@@ -169,7 +169,7 @@ def advance(
     return float(partial[:, 0].sum()), float(partial[:, 1].max()), float(partial[:, 2].max())
 
 
-@reordered
+@compiled
 def _advance(start, stop, result, state, way, mean, step, cap):
     pressure, residual, previous = state
     direction, response = way
@@ -209,7 +209,7 @@ def stride(
     return float(partial[:, 0].max()), float(partial[:, 1].max())
 
 
-@reordered
+@compiled
 def _stride(start, stop, result, pressure, way, step, cap, residual, out):
     preconditioned, direction, beta = way
     outside = 0.0

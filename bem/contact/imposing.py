@@ -13,7 +13,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.compiled import contracted
+from bem.compiled import compiled
 from bem.contact.preconditioner import HEAD, TAIL, SparseInverseOnCells
 
 FloatArray = NDArray[np.float64]
@@ -31,7 +31,7 @@ def impose(inverse: SparseInverseOnCells, pressure: FloatArray) -> None:
     _impose(inverse.rows, inverse.seam, pressure, _ITERATIONS)
 
 
-@contracted
+@compiled
 def _impose(rows, seam, pressure, iterations):
     pulls = np.empty(pressure.size, np.uint8)
     count = 0
@@ -54,7 +54,7 @@ def _impose(rows, seam, pressure, iterations):
         pressure[k] = 0.0 if pulls[k] else pressure[k] - taken[k]
 
 
-@contracted
+@compiled
 def _take_off(rows, seam, pulls, count, pressure, iterations, fields):
     """Add to the last of the fields what brings B y there nearer to the pressures on the `count` cells that pull.
     fields : amounts, and the response to them, both zero before and after; B y."""
@@ -90,7 +90,7 @@ def _take_off(rows, seam, pulls, count, pressure, iterations, fields):
         given[cells[a]] = 0.0
 
 
-@contracted
+@compiled
 def _reaching(rows, seam, marked):
     """Rows of G that may reach a cell that is marked: of the packed ones by cell, of the seam's by number."""
     upper, lower = rows.upper, rows.lower
@@ -115,7 +115,7 @@ def _reaching(rows, seam, marked):
     return near[:count], edge[:more]
 
 
-@contracted
+@compiled
 def _respond(rows, seam, near, given, found):
     """found += G^T G given, by the rows listed."""
     upper, lower, pattern, table = rows

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.compiled import compiled, reordered
+from bem.compiled import compiled
 from bem.contact import passes
 from bem.contact.ordered import ABOVE_ALL, BELOW_ALL, number_at, place_of
 
@@ -103,7 +103,7 @@ def _both(inside, capped):
     return seen
 
 
-@reordered
+@compiled
 def _survey(start, stop, result, displacement, gap, cells, values):
     total = 0.0
     deepest, nearest, reach = BELOW_ALL, ABOVE_ALL, place_of(0.0)
@@ -139,7 +139,7 @@ def _survey(start, stop, result, displacement, gap, cells, values):
     result[7] = work
 
 
-@reordered
+@compiled
 def _work(start, stop, result, displacement, gap, cells, values):
     cells, values = cells[start:stop], values[start:stop]
     total = 0.0
@@ -149,7 +149,7 @@ def _work(start, stop, result, displacement, gap, cells, values):
     result[0] = total
 
 
-@reordered
+@compiled
 def mark(state, cells, capped):
     """The state of every cell."""
     state[:] = FREE
@@ -183,7 +183,7 @@ def _mark_and_find(displacement, gap, state, pressure, approach, found):
     return result[0], result[1]
 
 
-@reordered
+@compiled
 def _find_violations(start, stop, result, displacement, gap, state, approach, found):
     place = start
     largest = 0.0

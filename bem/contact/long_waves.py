@@ -21,7 +21,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.compiled import reordered
+from bem.compiled import compiled
 from bem.convolution import DisplacementOperator, ScaledConvolution
 from bem.transforms.loops import convolve
 
@@ -136,7 +136,7 @@ def _coarse_cells(cells: int, onto: int, periodic: bool, halvings: int) -> NDArr
     return found
 
 
-@reordered
+@compiled
 def _assign(cells, rows, columns, width, weights, blocks, root, inverse):
     """The coarse cell of each cell, the root of the sum of squared weights in each coarse cell, and its inverse."""
     ny = columns.size
@@ -155,7 +155,7 @@ def _assign(cells, rows, columns, width, weights, blocks, root, inverse):
             inverse[b] = 1.0 / root[b]
 
 
-@reordered
+@compiled
 def _apply(values, far, reduction, limit):
     """The middle factor; returns how many convolutions it took."""
     cells, diagonal, workspace, transform = far
@@ -174,7 +174,7 @@ def _apply(values, far, reduction, limit):
     return applications
 
 
-@reordered
+@compiled
 def _solve(workspace, root, transform, reduction, limit):
     """Conjugate gradients for (1 + D^1/2 F D^1/2) solution = given, on the whole coarse grid."""
     given, solution, residual, direction, response, field = workspace

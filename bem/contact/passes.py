@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.compiled import compiled, reordered
+from bem.compiled import compiled
 from bem.threads import share
 
 FloatArray = NDArray[np.float64]
@@ -46,7 +46,7 @@ def sums(size: int, results: int, kernel: Callable[..., None], *arguments: Any) 
     return in_blocks(size, results, kernel, *arguments).sum(axis=0).tolist()
 
 
-@reordered
+@compiled
 def place(field, cells, values, capped, cap):
     """field[cells] = values, field[capped] = cap, zero elsewhere."""
     field[:] = 0
@@ -56,7 +56,7 @@ def place(field, cells, values, capped, cap):
         field[capped[k]] = cap
 
 
-@reordered
+@compiled
 def _shifted_sum(start, stop, result, values, shift, cap):
     total = 0.0
     inside = 0
@@ -109,7 +109,7 @@ def moments(values: FloatArray) -> tuple[float, float, float]:
     return float(partial[:, 0].min()), first + mean, float(np.sqrt(about[:, 0].sum() / values.size))
 
 
-@reordered
+@compiled
 def _least_and_sum(start, stop, result, values, first):
     lowest = values[start]
     total = 0.0
@@ -121,7 +121,7 @@ def _least_and_sum(start, stop, result, values, first):
     result[1] = total
 
 
-@reordered
+@compiled
 def _squares_about(start, stop, result, values, first, mean):
     values = values[start:stop]
     total = 0.0
@@ -136,7 +136,7 @@ def rescale(values: FloatArray, datum: float, factor: float, out: FloatArray) ->
     in_blocks(values.size, 0, _rescale, values, datum, factor, out)
 
 
-@reordered
+@compiled
 def _rescale(start, stop, result, values, datum, factor, out):
     values, out = values[start:stop], out[start:stop]
     for k in range(values.size):
@@ -239,7 +239,7 @@ def _raise_largest(bits, violations, displacement):
     bits[0], bits[1] = largest, reach
 
 
-@reordered
+@compiled
 def _sum(values):
     total = 0.0
     for k in range(values.size):

@@ -16,7 +16,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.compiled import compiled, contracted, reordered
+from bem.compiled import compiled
 from bem.contact import passes
 from bem.contact.patterns import NEIGHBOURS, PACKED, Patterns, patterns
 from bem.transforms.loops import first_from
@@ -288,14 +288,14 @@ def neighbours(rows, k, out):
             out[a] = own
 
 
-@reordered
+@compiled
 def _row_sums(rows, out):
     for k in range(out.size):
         out[k] = rows.table[np.uint64(rows.pattern[k]), 11]
 
 
 # in the order written, here and below: rows of the seam and others of the same entries have the same bits
-@contracted
+@compiled
 def _spread(start, stop, result, rows, residual, out):
     upper, lower, pattern, table = rows
     first, last = max(start, HEAD), min(stop, residual.size - TAIL)
@@ -316,7 +316,7 @@ def _spread(start, stop, result, rows, residual, out):
         out[k] = s
 
 
-@contracted
+@compiled
 def _spread_seam(seam, residual, out):
     cells, columns, pattern, table = seam
     m = columns.shape[1]
@@ -328,7 +328,7 @@ def _spread_seam(seam, residual, out):
         out[k] = s
 
 
-@reordered
+@compiled
 def _collect(start, stop, result, rows, values, out, outside, block):
     upper, lower, pattern, table = rows
     out[start:stop] = 0.0
@@ -366,7 +366,7 @@ def _collect(start, stop, result, rows, values, out, outside, block):
     result[0] = total
 
 
-@reordered
+@compiled
 def _collect_with_care(first, last, start, rows, values, out, halo):
     """Rows of a block from `start` on, place by place; what is for cells before goes to the halo, which ends there."""
     upper, lower, pattern, table = rows

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.compiled import compiled, reordered
+from bem.compiled import compiled
 from bem.contact.judging import CAPPED
 
 FloatArray = NDArray[np.float64]
@@ -110,7 +110,7 @@ def held(pressure, cap):
     return cells, values, others
 
 
-@reordered
+@compiled
 def positive(cells, values):
     """The cells with values above zero, these, and their sum; what is given where that is all of them."""
     kept = 0
@@ -136,7 +136,7 @@ _MOST = 0.5
 convolution more, and a region that hardly touches loses its pressure for rounds."""
 
 
-@reordered
+@compiled
 def settle(cells, values, cap, shape, side):
     """What clipping to the bounds will add to each square of `side` cells, its values between the bounds make up for in
     proportion to themselves. `cells` ascend: a square is looked up once for all that follow in its row."""

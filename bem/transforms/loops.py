@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.compiled import compiled, contracted
+from bem.compiled import compiled
 from bem.transforms.addresses import LINE, fetch, numbers
 from bem.transforms.pairs import pairs_through
 from bem.transforms.plans import execute
@@ -378,7 +378,7 @@ def _fetch_rows(rows, number, size):
                 fetch(line)
 
 
-@contracted
+@compiled
 def multiply_column(rows, number, given, target, scale, length):
     """The column of a number times a factor (`rows_of` it) and a scale; `given`, `target` : addresses.
 

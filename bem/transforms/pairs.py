@@ -20,7 +20,6 @@ from bem.transforms.addresses import numbers
 from bem.transforms.plans import execute
 
 
-# nothing is contracted: of a sum of two products either may be, and each loop that takes these in would choose
 @compiled
 def pairs_through(room, scratch, kernel, first, last):
     """The pairs of columns k and m - k from a first to before a last k: along x, times the kernel, and back."""
