@@ -214,6 +214,9 @@ def contact_bars(case: ContactCase, coarser: Coarser) -> ErrorBars:
         for name, rule in RULES.items()
         if name not in given
     }
+    if case.load is not None and not case.from_touch:
+        # a load displaces the mean by so much: the mean gap misses what the approach does, not a share of itself
+        grid["mean_gap"] = max(grid["mean_gap"], grid["approach"])
     sharp = touches_sharply(case)
     if sharp and case.hardness is not None:  # the cap is the limit, which finer cells would come to
         grid["max_pressure"] = max(case.hardness - fine["max_pressure"], 0.0)
@@ -355,7 +358,8 @@ def _ends(case: ContactCase) -> float:
         ends = np.moveaxis(np.take(case.solution.gap, (0, 1, -2, -1), axis), axis, 0)
         opened = np.maximum(ends, 0)
         turn = (opened[3] - opened[2] - opened[1] + opened[0]) / spacing
-        error += abs(float(turn.mean())) * spacing**2 / 24 / (n * spacing)
+        # slopes are known a cell inside the ends: that they go on turning is n / (n - 2) of their change
+        error += abs(float(turn.mean())) * spacing**2 / 24 / ((n - 2) * spacing)
     return error
 
 
@@ -371,8 +375,8 @@ def _at_mean_gap(case: ContactCase, ends: float, bent: float, touch: float) -> d
     """
     solution = case.solution
     inside = solution.pressure > 0
-    if not ends + bent > 0 or not inside.any():
-        return {"approach": touch}
+    if not ends + bent > 0 or not inside.any():  # bodies that stand off do so by what their mean is off, too
+        return {"approach": touch + ends}
     even = inside.astype(np.float64)
     displaced = case.operator(even)
     pushed, mean = float(displaced[inside].mean()), float(displaced.mean())

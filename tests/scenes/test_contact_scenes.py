@@ -253,3 +253,10 @@ def test_same_bits_on_two_threads():
         set_threads(before)
     for name, item in one.variables.items():
         assert item.values.tobytes() == two.variables[name].values.tobytes(), name
+
+
+@pytest.mark.parametrize("asked", [{"mean_gap": "5 um"}, {"approach": "-1 um"}])
+def test_bodies_that_do_not_touch_say_so(asked):
+    _, outcome, context = run(rough() | {"contact": asked})
+    assert outcome.summary["load_N"] == 0
+    assert any("do not touch" in note for note in context.notes)

@@ -133,6 +133,7 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
     with context.timer("contact"):
         solution, history = _solve(scene, grid, undeformed, context)
     tell(context, solution.notes)
+    tell(context, _standing_off(solution))
     below: StressBelow | None = None
     if scene.outputs.wanted_depths():
         with context.timer("stresses"):
@@ -184,6 +185,18 @@ def _solve(
     solved = solution, np.array(history, dtype=np.float64).reshape(-1, 2)
     keep(context, solved)
     return solved
+
+
+def _standing_off(solution: ContactSolution) -> tuple[str, ...]:
+    """What is said of bodies that do not touch, so that figures of zero are not taken for those of a contact."""
+    if solution.pressure.any() or solution.status is not Status.CONVERGED or solution.approach >= 0:
+        return ()
+    from bem.accuracy.contact import mean_opening
+
+    return (
+        f"the bodies do not touch: they stand {-solution.approach:.3g} m off; take a larger approach, a smaller mean "
+        f"gap (they touch at {mean_opening(solution.gap) + solution.approach:.3g} m) or a load",
+    )
 
 
 def _begin(context: Context, grid: Grid) -> FloatArray | None:
