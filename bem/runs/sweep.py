@@ -143,10 +143,10 @@ def run_sweep(  # reason: a promise to users' scripts
             if summary is None
         ]
         staff = Staff(workers, scheduler, threads, type(scenes[0]).__module__, root)
-        computed, failed = _compute(missing, len(summaries), staff, watcher or Silent())
+        labels = [words_at((a.key for a in swept), at) for at in product(*(a.values for a in swept))]
+        computed, failed = _compute(missing, labels, len(summaries), staff, watcher or Silent())
         summaries |= computed
         in_order = [summaries[name] for name in names]
-        labels = [words_at((a.key for a in swept), at) for at in product(*(a.values for a in swept))]
         _tell_notes(in_order, labels, watcher or Silent())
         variables = _collect(folder, scenes[0], axes, in_order)
         write_text(folder / TABLE, table_text(axes, in_order, names, failed))
@@ -209,23 +209,23 @@ def _take(folder: Path, definition: Mapping[str, Any], resume: bool) -> None:
 
 
 def _compute(
-    missing: Sequence[Point], total: int, staff: Staff, watcher: Watcher
+    missing: Sequence[Point], labels: Sequence[str], total: int, staff: Staff, watcher: Watcher
 ) -> tuple[dict[str, dict[str, Any] | None], dict[str, str]]:
-    """Compute points; their summaries, and what went wrong, by folder."""
+    """Compute points; their summaries, and what went wrong, by folder; `labels` : of all points, by their places."""
     summaries: dict[str, dict[str, Any] | None] = {}
     failed: dict[str, str] = {}
     before = total - len(missing)
     if missing:
         watcher.progress(before, total, "points", {})
     with closing(hand_out(missing, staff, lambda index: Silent(), watcher.note)) as results:  # ends all work at once
-        for _, done in results:
+        for index, done in results:
             load_what_draws()  # once, while others compute
             if done.files and staff.folder is not None:
                 store(done, staff.folder / done.name)
             summaries[done.name] = done.summary
             if done.error:
                 failed[done.name] = done.error
-                watcher.note(f"{done.name}: {done.error}")
+                watcher.note(f"{labels[index]} ({done.name}): {done.error}")
             figures = {"failed": float(len(failed))} if failed else {}
             watcher.progress(before + len(summaries), total, "points", figures)
     return summaries, failed

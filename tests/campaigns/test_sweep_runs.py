@@ -231,9 +231,12 @@ def test_a_point_that_fails_does_not_end_the_sweep(tmp_path, here, monkeypatch):
     done = run_sweep(SCENE, ["seed=1:3"], tmp_path / "s", watcher=watcher)
     assert done.computed == 2
     assert list(done.failed.values()) == ["lower.surface: cannot be generated"]
-    assert "cannot be generated" in watcher.notes[0]
+    (name,) = done.failed
+    assert watcher.notes[0] == f"seed = 2 ({name}): lower.surface: cannot be generated"  # a folder's name says nothing
     assert np.isnan(done.dataset["load_N"].sel(seed=2))
     assert "cannot be generated" in (tmp_path / "s" / "sweep.csv").read_text()
+    run_sweep(SCENE, ["seed=1:3"], tmp_path / "s", resume=True, watcher=(again := Telling()))
+    assert again.notes[0] == watcher.notes[0]  # the second of three, alone
     monkeypatch.setattr("bem.runs.point.run_planned", run_planned)
     assert run_sweep(SCENE, ["seed=1:3"], tmp_path / "s", resume=True).computed == 1
 
