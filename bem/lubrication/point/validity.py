@@ -219,14 +219,15 @@ def _other_cells(film: PointFilmSolution) -> str:
 
 def _unresolved(film: PointFilmSolution, setting: Setting, level: Level) -> list[str]:
     """Of a contact smaller than the cells, as of a ball that falls from far above onto a grid that holds its first
-    film."""
+    film. Rigid bodies have the film alone: the gap is twice its lowest sqrt(2 R h) from the centre."""
     scales, frame = setting.scales, setting.frame
-    if setting.hertz is None or not film.central_thickness > 0:
+    if not film.central_thickness > 0:
         return []
     lowest = film.central_thickness / scales.film
+    contact = (0.0, 0.0) if setting.hertz is None else setting.hertz.semi_axes
     rooms = [
         half + math.sqrt(2 * lowest / curvature)
-        for half, curvature in zip(setting.hertz.semi_axes, setting.problem.curvatures, strict=True)
+        for half, curvature in zip(contact, setting.problem.curvatures, strict=True)
     ]
     few = min(room / step for room, step in zip(rooms, level.spacing, strict=True))
     if few >= FEWEST_ACROSS:

@@ -536,6 +536,21 @@ def test_rigid_bodies_that_steel_would_not_be_say_so():
     assert light.central_thickness == pytest.approx(steel.central_thickness, rel=1e-2)  # what the bound says
 
 
+def test_cells_that_a_rigid_film_falls_between_are_said():
+    """Cells as wide as the film is (sqrt(2 R h) is 7 um) or more make 0.5 to 9 times the film, with `converged` and no
+    word of the centre; finer ones make it to 1 %."""
+    ball = {"radii": (0.01, 0.01), "speeds": (0.5, 0.5), "shape": (48, 48), "contact_modulus": math.inf}
+    ball |= {"lubricant": Lubricant(0.04), "load": 5.0}
+    right = solve_point_film(**ball)
+    assert not any("too large for the contact" in note for note in right.notes)
+    for half in (1e-5, 3e-4):
+        film = solve_point_film(**ball, extent=(-2 * half, half, -1.5 * half, 1.5 * half))
+        off = abs(film.central_thickness / right.central_thickness - 1)
+        said = any("too large for the contact" in note for note in film.notes)
+        assert said == (half > 1e-5)
+        assert said or off < 0.01
+
+
 @pytest.mark.parametrize(
     ("change", "words"),
     [
