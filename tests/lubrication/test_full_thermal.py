@@ -455,6 +455,11 @@ def test_what_is_not_met_is_not_converged(monkeypatch):
     assert found.status is Status.STALLED
     assert full.NOT_FOLLOWED in found.notes
     assert found.as_film().status is Status.STALLED
+    assert np.isnan(found.temperature).all()
+    assert np.isnan(found.surface_temperatures).all()
+    assert np.isnan([found.mean_film_temperature, found.highest_film_temperature, *found.power_into]).all()
+    assert math.isnan(found.as_film().maximum_temperature)
+    assert math.isnan(found.as_film().mean_temperature)
 
 
 def test_a_spike_without_limit_does_not_keep_heat_from_its_film(monkeypatch):
