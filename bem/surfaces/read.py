@@ -280,7 +280,21 @@ def _read_table(file: Path) -> FloatArray:
         raise _unreadable(file, problem) from problem
     if len({len(row) for row in rows}) != 1:
         raise SurfaceFileError(f"{file}: its lines do not all hold the same number of values; the file is damaged")
-    return np.array(rows, dtype=np.float64)
+    table = np.array(rows, dtype=np.float64)
+    if _lists_points(table):
+        raise SurfaceFileError(
+            f"{file}: its three columns are x, y and z of points on a grid, not a map; write a table of the heights, "
+            "one line for each x"
+        )
+    return table
+
+
+def _lists_points(table: FloatArray) -> bool:
+    """Whether three columns name each place of a grid of at least 2 x 2 points once, with a height."""
+    if table.shape[1] != 3 or len(table) < 4:
+        return False
+    sides = [len(np.unique(table[:, k])) for k in (0, 1)]
+    return min(sides) > 1 and math.prod(sides) == len(table) == len(np.unique(table[:, :2], axis=0))
 
 
 def _as_floats(file: Path, array: np.ndarray) -> FloatArray:
