@@ -27,7 +27,7 @@ from bem.reference_solutions.line_film import dowson_higginson_minimum, moes_cen
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
-LOADS = (0.003, 0.03, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0)
+LOADS = (0.003, 0.03, 0.3, 1.0, 3.0, 10.0, 30.0, 100.0, 300.0, 1000.0, 3000.0, 9900.0)
 PIEZO = (0.0, 2.0, 5.0, 10.0, 15.0)
 VISCOSITY, PRESSURE_VISCOSITY, RADIUS, ENTRAINMENT = 0.36, 25e-9, 2e-3, 1.0
 """The oil of the thesis' paper A: with Roelands' law M and L leave its constants to be said."""

@@ -26,10 +26,10 @@ ATTEMPTS = ((160, 4.0), (240, 2.0), (200, 1.5))
 SPIKE_CELLS = (2e-3, 7e-4, 2.5e-4)
 """Smallest cells at a spike, as shares of the exit's abscissa, on the way to the last mesh, up to the load `SHARPER`.
 The film is off by about five times the last one where the spike has no limit."""
-SHARPER = 1e3
+SHARPER = 300.0
 """Load M from which the last of these cells follow the outlet's length. The steepest fall of pressure is in the
-constriction there, spike or not: on cells of the same size the least film was 0.4 % too thick at M = 3e3, 1.5 % at
-1e4, whatever the number of nodes."""
+constriction there, spike or not: on cells of the same size the least film was 0.1 % too thick at M = 1e3, 1.5 % at
+1e4, whatever the number of nodes; it is within 0.02 % on 2000 now (`bem.benchmarks.line_film`)."""
 SPIKE_SHIFT = 0.75
 """A spike's distance from the exit, and the length of the constriction, go about like M^(-3/4), in units of the exit's
 abscissa."""
@@ -46,11 +46,14 @@ LEAST_SHARE = 1e-3
 FIRST_FACTOR = 4.0
 
 
+def smallest_cell(load: float) -> float:
+    """Of the last mesh at a load M, as a share of the exit's abscissa."""
+    return SPIKE_CELLS[-1] * min(1.0, (SHARPER / load) ** SPIKE_SHIFT)
+
+
 def spike_cells(load: float) -> tuple[float, ...]:
-    """`SPIKE_CELLS` at a load M."""
-    if load <= SHARPER:
-        return SPIKE_CELLS
-    last = SPIKE_CELLS[-1] * (SHARPER / load) ** SPIKE_SHIFT
+    """Those of all meshes on the way to it: `SPIKE_CELLS`, and more of about their ratio."""
+    last = smallest_cell(load)
     steps = math.ceil(math.log(SPIKE_CELLS[1] / last) / math.log(SPIKE_CELLS[1] / SPIKE_CELLS[2]))
     between = (SPIKE_CELLS[1] * (last / SPIKE_CELLS[1]) ** (step / steps) for step in range(1, steps))
     return (*SPIKE_CELLS[:2], *between, last)
@@ -76,7 +79,7 @@ def from_neighbour(  # reason: a state and the case that it is of, a problem and
         return refined(problem, _like(problem, kept, load), ATTEMPTS[0][0], cells, tolerance, limit)
     outcome = newton(problem, state, tolerance, min(limit, 20))
     if outcome.converged and mesh_imbalance(problem, outcome.state) > MAX_IMBALANCE:
-        again = newton(problem, remesh(problem, outcome.state, cells, spike_cells(problem.load)[-1]), tolerance, limit)
+        again = newton(problem, remesh(problem, outcome.state, cells, smallest_cell(problem.load)), tolerance, limit)
         outcome = replace(again, iterations=again.iterations + outcome.iterations)
     return outcome
 
@@ -90,7 +93,7 @@ def neighbour(problem: Problem, kept: State, load: float, unit: float, cells: in
     moves = not same or SPIKE_SHIFT * change * spike_cells_to_exit(state) > MAX_SHIFT
     if moves and spike_cell(problem, state, min(cells, MIDDLE)) < SPIKE_CELLS[0]:
         return None
-    return state if same else remesh(problem, state, cells, spike_cells(problem.load)[-1])
+    return state if same else remesh(problem, state, cells, smallest_cell(problem.load))
 
 
 def _like(problem: Problem, kept: State, load: float) -> State:

@@ -14,7 +14,7 @@ from typing import Protocol
 
 import numpy as np
 
-from bem.lubrication.line_continuation import COARSE_TOLERANCE, MIDDLE, from_neighbour, refined, spike_cells
+from bem.lubrication.line_continuation import COARSE_TOLERANCE, MIDDLE, from_neighbour, refined, smallest_cell
 from bem.lubrication.line_flow import Problem
 from bem.lubrication.line_kernel import LineOperator
 from bem.lubrication.line_newton import Outcome, State, newton, remesh, stretched
@@ -220,7 +220,7 @@ class _Search:
     def _take_reference(self) -> None:
         """The flooded film on a coarse mesh."""
         if len(self.flooded.offset) != self.cells + 1:
-            coarse = remesh(self.problem, self.flooded, self.cells, spike_cells(self.problem.load)[-1])
+            coarse = remesh(self.problem, self.flooded, self.cells, smallest_cell(self.problem.load))
             outcome = newton(self.problem, coarse, COARSE_TOLERANCE, self.limit)
             self.spent += outcome.iterations
             self.reference = outcome.state if outcome.converged else self.flooded
@@ -305,4 +305,4 @@ def _cut(problem: Problem, state: State, length: float, cells: int) -> State:
         nodes, pressure, film = offset * (length / -offset[0]), state.pressure, state.film
     pressure = np.append(0.0, pressure[1:])
     bare = replace(state, offset=nodes, pressure=pressure, film=film, operator=LineOperator.of(nodes))
-    return remesh(problem, bare, cells, spike_cells(problem.load)[-1])
+    return remesh(problem, bare, cells, smallest_cell(problem.load))

@@ -105,7 +105,7 @@ def test_heavy_isoviscous_films_follow_their_similarity(points):
         film = solve_line_film(**case, points=points)
         assert film.status is Status.CONVERGED
         found.append([size / unit * load**0.2 for size in (film.minimum_thickness, film.central_thickness)])
-    # what is left at 1e3 is the next order, M^(-3/4) of a few: 1e-3; the mesh's own error is a half of that
+    # what is left at 1e3 is the next order, M^(-3/4) of a few: 1e-3; the mesh's own error is a tenth of that
     np.testing.assert_allclose(found, np.tile(found[-1], (len(loads), 1)), rtol=2e-3)
 
 
@@ -113,7 +113,7 @@ TABLE = Path(__file__).parents[2] / "reports" / "results" / "line_film.csv"
 """Converged films over M and L; `python -m bem.benchmarks.line_film` with this path makes it again."""
 
 
-@pytest.mark.parametrize("index", [0, 20, 24, 29, 34, 41, 49])
+@pytest.mark.parametrize("index", [0, 20, 24, 29, 34, 41, 49, 55, 59])
 def test_table(index):
     row = read_table(TABLE)[index]
     case, unit = similarity_case(row.load, row.piezo)
@@ -129,16 +129,17 @@ def test_table_promises():
     rows = read_table(TABLE)
     assert {(row.load, row.piezo) for row in rows} == {(m, piezo) for m in LOADS for piezo in PIEZO}
     for row in rows:
-        assert abs(row.error_minimum_400) < 0.3
-        assert abs(row.error_central_400) < 0.3
-        assert abs(row.error_minimum_2000) < 0.1  # cells at a spike or steep exit have a least width
+        # second order from 400 points on would leave 0.005 on 2000: cells at a spike or steep exit have a least width
+        assert abs(row.error_minimum_400) < 0.15
+        assert abs(row.error_central_400) < 0.15
+        assert abs(row.error_minimum_2000) < 0.02
         # second order; the minimum sits where cells change width most, which scatters its order (1.79 to 2.24)
         assert 1.75 < row.order_minimum < 2.3
         assert 1.85 < row.order_central < 2.15
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize("index", [0, 37, 49])
+@pytest.mark.parametrize("index", [0, 37, 49, 59])
 def test_table_is_made_again(index):
     expected = read_table(TABLE)[index]
     found = film_row(expected.load, expected.piezo)

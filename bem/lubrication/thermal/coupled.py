@@ -13,7 +13,7 @@ import numpy as np
 from bem.grid import FloatArray
 from bem.heat.bodies import Conductor
 from bem.lubrication.film import FilmSolution
-from bem.lubrication.line_continuation import MAX_IMBALANCE, neighbour, spike_cells
+from bem.lubrication.line_continuation import MAX_IMBALANCE, neighbour, smallest_cell
 from bem.lubrication.line_flow import Problem
 from bem.lubrication.line_newton import Outcome, State, mesh_imbalance, newton, remesh, spike_cell
 from bem.lubrication.thermal.across import Given
@@ -209,7 +209,7 @@ def _given(coupling: Coupling, near: Neighbour, state: State, most: float) -> He
 
 
 def _sketch_of(coupling: Coupling, state: State) -> State:
-    return remesh(coupling.problem, state, SKETCH, spike_cells(coupling.problem.load)[-1])
+    return remesh(coupling.problem, state, SKETCH, smallest_cell(coupling.problem.load))
 
 
 def _from_sketch(coupling: Coupling, sketch: Heated, cells: int) -> Tried:
@@ -231,7 +231,7 @@ def _cold(coupling: Coupling, start: Outcome) -> Heated:
 
 def _on_cells(coupling: Coupling, sketch: Heated, cells: int) -> Heated | None:
     """On so many cells from fewer, with the steps that took; None where Reynolds' equation is not followed there."""
-    state = remesh(coupling.problem, sketch.outcome.state, cells, spike_cells(coupling.problem.load)[-1])
+    state = remesh(coupling.problem, sketch.outcome.state, cells, smallest_cell(coupling.problem.load))
     there = moved(sketch.outcome.state.offset, sketch.found, state.offset)
     fine = newton(coupling.hot(there), state, COARSE, coupling.limit)
     if not fine.converged:
@@ -257,7 +257,7 @@ def _rounds(coupling: Coupling, at: Heated, tolerance: float = 0.0) -> Heated:
         ):
             remeshed += 1
             state = remesh(
-                coupling.problem, outcome.state, len(outcome.state.offset) - 1, spike_cells(coupling.problem.load)[-1]
+                coupling.problem, outcome.state, len(outcome.state.offset) - 1, smallest_cell(coupling.problem.load)
             )
             there = moved(outcome.state.offset, kept, state.offset)
             again = newton(coupling.hot(there), state, goal, coupling.limit)
@@ -350,7 +350,7 @@ def _is_misplaced(problem: Problem, state: State, residual: float) -> bool:
         return False
     width = np.diff(state.offset)
     top = int(np.argmin(np.diff(state.pressure) / width))
-    wanted = max(spike_cell(problem, state, len(width)), spike_cells(problem.load)[-1]) * state.exit
+    wanted = max(spike_cell(problem, state, len(width)), smallest_cell(problem.load)) * state.exit
     return bool(width[top] > MISPLACED * wanted)
 
 
