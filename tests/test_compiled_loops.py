@@ -14,7 +14,7 @@ import pytest
 
 import bem
 from bem import compiled
-from bem.contact import gradients, passes
+from bem.contact import gradients
 
 PACKAGE = Path(bem.__file__).parent
 DECORATORS = {"compiled", "inlined"}
@@ -64,7 +64,7 @@ LOOPS = {  # what follows start, stop and the results
     gradients._turn: (FIELDS[0], FIELDS[1], 0.3, FIELDS[2], FIELDS[3]),
     gradients._new_direction: (FIELDS[0], FIELDS[1], 0.3, FIELDS[2]),
     gradients._advance: (tuple(FIELDS[:3]), tuple(FIELDS[3:5]), 0.1, 0.3, 2.0),
-    passes._least_and_sum: (FIELDS[0], 0.1),
+    gradients._squares: (FIELDS[0],),
 }
 
 

@@ -4,6 +4,7 @@ import numpy as np
 import pytest
 from contact_oracles import FREE, HALF_X, HALF_Y, PERIODIC, notes_surface, operator
 
+from bem.contact import imposing
 from bem.contact.imposing import _ITERATIONS, impose
 from bem.contact.level import Level, Tuning
 from bem.contact.preconditioner import sparse_inverse
@@ -128,3 +129,16 @@ def test_rows_of_the_seam_and_at_the_ends_of_the_list_take_part(shape, periodic)
         rows = dense_rows(on, cells.size)
         # a few hundred products of order one
         np.testing.assert_allclose(found, plainly(rows.T @ rows, raw), rtol=0, atol=1e-12 * np.abs(raw).max())
+
+
+def test_rows_take_off_by_the_arithmetic_of_their_text():
+    """Bit for bit what the interpreter makes of the loop. Of its sums of products the compiler fused one or another, by
+    what had been compiled in the same process, and contacts had other bits."""
+    near, _, raw = contact_of(PERIODIC, 0.4, 1)
+    listed = imposing._reaching(near.rows, near.seam, (raw < 0).astype(np.uint8))
+    found = np.zeros((2, raw.size))
+    imposing._respond(near.rows, near.seam, listed, raw, found[0])
+    imposing._respond.py_func(near.rows, near.seam, listed, raw, found[1])
+    assert min(rows.size for rows in listed) > 10
+    assert found[0].any()
+    assert found[0].tobytes() == found[1].tobytes()
