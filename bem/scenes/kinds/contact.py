@@ -14,6 +14,7 @@ from bem.errors import Status
 from bem.grid import FloatArray, Grid
 from bem.numerics.blocks import deviation
 from bem.scenes import build, plans
+from bem.scenes.checks.words import si
 from bem.scenes.context import Context, error_bars, release, set_aside, tell
 from bem.scenes.kind import Kind
 from bem.scenes.packing import keep, kept, kept_coarser
@@ -194,8 +195,8 @@ def _standing_off(solution: ContactSolution) -> tuple[str, ...]:
     from bem.accuracy.contact import mean_opening
 
     return (
-        f"the bodies do not touch: they stand {-solution.approach:.3g} m off; take a larger approach, a smaller mean "
-        f"gap (they touch at {mean_opening(solution.gap) + solution.approach:.3g} m) or a load",
+        f"the bodies do not touch: they stand {si(-solution.approach, 'm')} off; take a larger approach, a smaller "
+        f"mean gap (they touch at {si(mean_opening(solution.gap) + solution.approach, 'm')}) or a load",
     )
 
 
