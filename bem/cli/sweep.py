@@ -76,8 +76,8 @@ def sweep(  # reason: each argument is an option of the command, with its help
     for what, name in (("dataset", DATASET), ("table  ", TABLE), ("figure ", f"{FIGURE}.png")):
         if (done.path / name).exists():
             print(f"{what}: {done.path / name}")
-    for folder, words in done.failed.items():
-        typer.echo(f"bem: failed: {done.path / folder}: {words}", err=True)
+    if done.failed:  # each was told as it failed
+        typer.echo(f"bem: failed points: {len(done.failed)}; {done.path / TABLE} says why", err=True)
     for folder in done.not_converged:
         typer.echo(f"bem: not converged: {done.path / folder}", err=True)
     if done.failed or done.not_converged:

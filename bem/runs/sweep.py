@@ -32,10 +32,9 @@ from bem.scenes.axes import Axis
 from bem.scenes.checks.words import without_numbers
 from bem.scenes.common import SceneModel
 from bem.scenes.context import Variable
-from bem.scenes.load import dump_scene, read_table, scene_from_table, scenes_at, words_at
+from bem.scenes.load import dump_scene, gather, read_table, refuse, scene_from_table, scenes_at, words_at
 from bem.scenes.planner import Plan, check_memory
 from bem.scenes.ranges import parse_axes
-from bem.scenes.validate import capped
 
 if TYPE_CHECKING:
     import xarray
@@ -181,16 +180,16 @@ def _plan_points(
     """The resolved scenes of all points with their plans; mistakes of all points at once."""
     table = read_table(source, settings)
     scene_from_table(table)  # a mistake of the scene itself is said once, not for every point
-    planned, messages = [], []
+    planned: list[tuple[SceneModel, Plan]] = []
+    mistakes: dict[str, list[str]] = {}
     for scene, values in zip(scenes_at(table, over), product(*over.values()), strict=True):
         try:
             resolved, plan = plan_scene(scene)
             check_memory(plan)
             planned.append((resolved, plan))
         except InputError as error:
-            messages += [f"over: at {words_at(over, values)}: {message}" for message in error.messages]
-    if messages:
-        raise InputError(capped(messages))
+            gather(mistakes, words_at(over, values), error)
+    refuse(mistakes)
     return planned
 
 

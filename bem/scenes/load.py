@@ -88,7 +88,8 @@ def scenes_at(data: Mapping[str, Any], over: Mapping[str, Sequence[Any]]) -> lis
     ------
     InputError : what is wrong with any of them, with the values that make it so.
     """
-    found, messages = [], []
+    found: list[SceneModel] = []
+    mistakes: dict[str, list[str]] = {}
     for values in product(*over.values()):
         own = dict(data)
         try:
@@ -99,10 +100,25 @@ def scenes_at(data: Mapping[str, Any], over: Mapping[str, Sequence[Any]]) -> lis
                 put(own, parsed, plain_value(value) if isinstance(value, str) else value, pair=_is_pair(own, parsed))
             found.append(scene_from_table(own))
         except InputError as error:
-            messages += [f"over: at {words_at(over, values)}: {message}" for message in error.messages]
-    if messages:
-        raise InputError(capped(list(dict.fromkeys(messages))))
+            gather(mistakes, words_at(over, values), error)
+    refuse(mistakes)
     return found
+
+
+def gather(mistakes: dict[str, list[str]], place: str, error: InputError) -> None:
+    """Enter what is wrong at a place; `mistakes` : places by what is wrong there."""
+    for message in dict.fromkeys(error.messages):
+        mistakes.setdefault(message, []).append(place)
+
+
+def refuse(mistakes: Mapping[str, Sequence[str]]) -> None:
+    """Raise an InputError with each mistake once, at the first of its places; none without mistakes."""
+    messages = [
+        f"over: at {places[0]}{f' and {len(places) - 1} more' if len(places) > 1 else ''}: {message}"
+        for message, places in mistakes.items()
+    ]
+    if messages:
+        raise InputError(capped(messages))
 
 
 def words_at(over: Iterable[str], values: Sequence[Any]) -> str:

@@ -220,6 +220,29 @@ def test_bad_points_are_found_before_any_work(tmp_path, here):
     assert os.listdir(tmp_path) == []
 
 
+def test_a_mistake_of_many_points_is_one_message(tmp_path, here):
+    """One for each point, to twenty of them."""
+    for over, words in (
+        (
+            ["contact.laod=1,2,3", "seed=1:2"],
+            ["over: at contact.laod = 1, seed = 1 and 5 more: contact.laod: unknown key"],
+        ),
+        (
+            ["contact.mean_pressure=-1,2", "seed=1:2"],
+            ["over: at contact.mean_pressure = -1, seed = 1 and 1 more: contact.mean_pressure"],
+        ),
+        (
+            ["contact.mean_pressure=-1,-2"],
+            ["over: at contact.mean_pressure = -1: c", "over: at contact.mean_pressure = -2: c"],
+        ),
+    ):
+        with pytest.raises(InputError) as caught:
+            run_sweep(SCENE, over, tmp_path / "s")
+        assert len(caught.value.messages) == len(words)
+        assert all(said.startswith(word) for said, word in zip(caught.value.messages, words, strict=True))
+    assert os.listdir(tmp_path) == []
+
+
 def test_a_point_that_fails_does_not_end_the_sweep(tmp_path, here, monkeypatch):
     def some(directory, scene, *more, **named):
         if scene.seed == 2:
