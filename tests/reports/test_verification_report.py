@@ -52,7 +52,7 @@ def test_every_gate_has_a_section_with_figure_and_table(page, few_gates):
 def test_line_films_are_shown_with_orders_and_fits(page):
     (body,) = [section.body for section in page.sections if section.title == "Line-contact film"]
     assert "data:image/png" in body
-    assert body.count("<tr>") == 51  # ten loads, five piezoviscous parameters, the head
+    assert body.count("<tr>") == 61  # twelve loads, five piezoviscous parameters, the head
     assert "Moes" in body
     assert "Dowson" in body
 

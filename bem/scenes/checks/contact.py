@@ -75,7 +75,7 @@ def yield_below_the_surface(facts: Facts) -> Iterator[str]:
         if onset < case.smooth.maximum_pressure <= (case.softest or 0.0):
             yield (
                 f"Hertz pressure {si(case.smooth.maximum_pressure, 'Pa')} is "
-                f"{case.smooth.maximum_pressure / onset:.2g} times that at which the softer body begins to yield below "
+                f"{case.smooth.maximum_pressure / onset:.3g} times that at which the softer body begins to yield below "
                 f"its surface, {si(onset, 'Pa')}{case.at}: elastic stresses there are too high, and the first loadings "
                 "leave residual stresses; lower the load or allow for it"
             )
