@@ -100,8 +100,13 @@ def redoes(run: Any, source: str) -> bool:
 
 
 def label_of(dataset: Any, axes: Sequence[str], place: Sequence[int]) -> str:
-    """What is at a place along axes, of those with more than one value."""
-    words = [value_words(dataset[axis], i) for axis, i in zip(axes, place, strict=True) if dataset.sizes[axis] > 1]
+    """What is at a place along axes, of those with more than one value; a number without a unit, with its name."""
+    words = []
+    for axis, i in zip(axes, place, strict=True):
+        if dataset.sizes[axis] > 1:
+            bare = dataset[axis].values.dtype.kind in "if" and str(dataset[axis].attrs.get("units", "1")) == "1"
+            name = f"{axis.rsplit('.', 1)[-1].replace('_', ' ')} " if bare else ""
+            words.append(name + value_words(dataset[axis], i))
     return ", ".join(words)
 
 

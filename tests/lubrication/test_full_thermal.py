@@ -458,6 +458,7 @@ def test_what_is_not_met_is_not_converged(monkeypatch):
     assert np.isnan(found.temperature).all()
     assert np.isnan(found.surface_temperatures).all()
     assert np.isnan([found.mean_film_temperature, found.highest_film_temperature, *found.power_into]).all()
+    assert np.isnan([found.shear_force, found.sliding_force, found.friction_power]).all()
     assert math.isnan(found.as_film().maximum_temperature)
     assert math.isnan(found.as_film().mean_temperature)
 

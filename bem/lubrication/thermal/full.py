@@ -46,7 +46,7 @@ UNKNOWN_EXPANSION = (
 )
 NOT_FOLLOWED = (
     "no film was found that carries the load with the heat it makes: the last one that was is shown without its "
-    "temperatures and what enters the bodies, which are not known; its friction is not to be used"
+    "temperatures, friction and heat, which are not known"
 )
 BLUNTED_BY = (
     " (the pressure spike of an incompressible oil has no limit, and its heat changes with it: density_law "
@@ -75,7 +75,8 @@ class FullThermalFilm(HeatedFilm):
     residual : of Reynolds' equation at these temperatures, relative to the film; surface_residual : by how much the
         surfaces are not as warm as the heat into them makes them, over the largest rise.
     rounds : temperature fields solved for. iterations : Newton steps of all films. status : of film and temperatures;
-        where it is not converged all temperatures and heat flows are NaN. notes : sentences.
+        where it is not converged all temperatures,
+        heat flows, stresses and friction are NaN. notes : sentences.
     """
 
     height: FloatArray
@@ -227,8 +228,11 @@ def _result(found: Heated, cold: FilmSolution, tolerance: float, reversed_: bool
     right = max(imbalance, missed) <= ENERGY_TOLERANCE and found.residual <= tolerance
     order = slice(None, None, -1) if reversed_ else slice(None)
     sign = -1.0 if reversed_ else 1.0
-    # a field that is not found may hold any number (6e29 K was seen): none of it is shown
+    # a field that is not found may hold any number (6e29 K was seen): none of it is shown, nor what follows from it
     known = 1.0 if right else math.nan
+    made = known * sources.made.sum(axis=1)
+    oil, surfaces, stress, into = known * oil, known * surfaces, known * stress, known * into
+    couette, taken, power = known * couette, known * taken, known * power
     notes = notes_of_heat(lubricant, known * float(field.temperature.max()), film.speeds)
     if expansion_of(lubricant) is None:
         notes += (UNKNOWN_EXPANSION,)
@@ -238,16 +242,16 @@ def _result(found: Heated, cold: FilmSolution, tolerance: float, reversed_: bool
         position=sign * duct.middles[order],
         width=width[order],
         height=0.5 * (1 + middles(duct.layers)),
-        temperature=known * oil[order],
-        surface_temperatures=known * surfaces[:, order],
+        temperature=oil[order],
+        surface_temperatures=surfaces[:, order],
         sliding_stress=-sign * stress[order],
-        heat_made=known * (sources.made.sum(axis=1) / width)[order],
-        heat_into=known * (into / width)[:, order],
+        heat_made=(made / width)[order],
+        heat_into=(into / width)[:, order],
         shear_force=sign * couette + film.rolling_force,
         sliding_force=sign * couette,
         friction_power=power,
-        power_into=(known * float(into[0].sum()), known * float(into[1].sum())),
-        power_carried=known * taken,
+        power_into=(float(into[0].sum()), float(into[1].sum())),
+        power_carried=taken,
         energy_imbalance=imbalance,
         residual=found.residual,
         surface_residual=missed,

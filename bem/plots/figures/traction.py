@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from bem.plots.cases import axes_of, first_case, grouped
+from bem.plots.cases import Array, axes_of, first_case, grouped
 from bem.plots.figures import FigureKind
 from bem.plots.over import COLOURS, axis_of, lines_over
 from bem.plots.style import BLACK, BLUE, GREEN, VERMILION, label, prefix
@@ -37,9 +37,14 @@ def _curve(run: Any, figure: Figure) -> None:
         panels[0].legend()
 
 
+def _known(run: Any, name: str) -> list[tuple[str, Array]]:
+    """Label and values of the cases whose temperatures were found."""
+    return [(case, values) for case, values in grouped(run, name) if np.isfinite(values).any()]
+
+
 def _temperatures(run: Any, figure: Figure) -> None:
     axes = figure.add_subplot()
-    cases = grouped(run, "oil_temperature")
+    cases = _known(run, "oil_temperature")
     shown = cases if len(cases) <= 4 else [cases[i] for i in np.linspace(0, len(cases) - 1, 4).round().astype(int)]
     x = run.dataset["x"].values
     x = x if x.ndim == 1 else first_case(run.dataset)["x"].values
@@ -56,7 +61,7 @@ def _temperatures(run: Any, figure: Figure) -> None:
 
 
 def _field(run: Any, figure: Figure) -> None:
-    case, field = grouped(run, "field")[-1]
+    case, field = _known(run, "field")[-1]
     data, data_of = first_case(run.dataset), dict(grouped(run, "thickness"))
     x, height = data["x"].values, data["height"].values
     upper, lower = figure.subplots(2, 1, sharex=True)
@@ -201,14 +206,16 @@ FIGURES = (
         "Mean temperature of the oil along the film, and of both surfaces.",
         ("oil_temperature", "lower_surface_temperature", "upper_surface_temperature"),
         _temperatures,
+        applies=lambda run: bool(_known(run, "oil_temperature")),
     ),
     FigureKind(
         "temperature-field",
-        "Temperature of the oil along and across the film of the last case, below it that of both surfaces and of the "
-        "hottest layer.",
+        "Temperature of the oil along and across the film of the last case where it was found, below it that of both "
+        "surfaces and of the hottest layer.",
         ("field", "height"),
         _field,
         size=(6.0, 6.0),
+        applies=lambda run: bool(_known(run, "field")),
     ),
     FigureKind(
         "starvation-curve",
