@@ -119,7 +119,7 @@ def value_words(item: Any, i: int) -> str:
     if unit == "K":
         return f"{value - 273.15:.4g} °C"
     if unit == "1":
-        return f"{value:.6g}"
+        return f"{value:.4g}" if isinstance(value, float) else str(value)
     factor, shown = prefix([value], unit)
     return f"{value * factor:.4g} {shown}"
 

@@ -23,7 +23,7 @@ def _factors(run: Any, figure: Figure) -> None:
     left, right = figure.subplots(1, 2)
     for axes, name, text in ((left, "pressure_x", "pressure flow factor"), (right, "shear_x", "shear flow factor")):
         for colour, (case, values), (_, h) in zip(_COLOURS * 9, grouped(run, name), ratio, strict=False):
-            axes.plot(h.mean(axis=0), values.mean(axis=0), "o-", markersize=3, color=colour, label=_words(run, case))
+            axes.plot(h.mean(axis=0), values.mean(axis=0), "o-", markersize=3, color=colour, label=case or "along x")
             if len(values) > 1:
                 axes.fill_between(h.mean(axis=0), values.min(axis=0), values.max(axis=0), color=colour, alpha=0.2)
         _published(axes, run, float(max(h.max() for _, h in ratio)), pressure=name == "pressure_x")
@@ -66,13 +66,6 @@ def _elongations(run: Any) -> list[float]:
 def _tabulated(gamma: float) -> float:
     """Patir and Cheng's gamma next to an elongation; 0 where none is near."""
     return next((row for row in PATIR_CHENG if abs(gamma / row - 1) < 0.02), 0.0)
-
-
-def _words(run: Any, case: str) -> str:
-    if not case:
-        return "along x"
-    over = run.scene.get("over") or {}
-    return f"elongation {float(case):.3g}" if list(over) == [_ELONGATION] else case
 
 
 def _heights(run: Any, figure: Figure) -> None:
