@@ -39,6 +39,19 @@ def test_a_heavily_loaded_roller_has_the_friction_of_oils(speed, law):
     assert about(film, "up to which viscosity_law")
 
 
+def test_a_spike_alone_is_not_the_middle_of_the_contact():
+    """At 0.6 GPa by Hertz a spike of some GPa, as high as the mesh is fine, had viscosities in the middle extrapolated.
+    Half an ellipse of pressure above p_c holds 10 % of a line's load from p0 = 1.003 p_c on."""
+    light = ROLLER | {"load": math.pi * 10e-3 * 0.6e9**2 / MODULUS}
+    oil = Lubricant(viscosity=0.04, pressure_viscosity=20e-9)
+    film = solve_line_film(**light, speeds=(3.0, 3.0), lubricant=oil)
+    assert film.pressure.max() > 1e9
+    assert film.status == "converged"
+    assert not about(film, "up to which viscosity_law")
+    above = ROLLER | {"load": math.pi * 10e-3 * 1.03e9**2 / MODULUS}
+    assert about(solve_line_film(**above, speeds=(3.0, 3.0), lubricant=oil), "up to which viscosity_law")
+
+
 def test_a_newtonian_oil_by_name_says_that_it_is_none():
     film = roller(3.0, shear_law="newtonian")
     assert film.shear_force / film.load > 1e3
