@@ -17,7 +17,7 @@ from pydantic import Field, model_validator
 from bem.elements.contact import ElementContact
 from bem.elements.model import Contacts, ElementModel
 from bem.scenes.common import PositiveLength, problem
-from bem.scenes.units import Angle, Dimension, Force, Rate
+from bem.scenes.units import Angle, Dimension, Force, RotationSpeed
 
 Stiffness = Annotated[float, Dimension("N/m", "a stiffness", "20 N/mm")]
 Mass = Annotated[float, Dimension("kg", "a mass", "100 g")]
@@ -38,7 +38,7 @@ class CamModel(ElementModel):
     stiffness: Annotated[Stiffness, Field(ge=0)]
     preload: Annotated[Force, Field(ge=0)] = 0.0
     mass: Annotated[Mass, Field(ge=0)] = 0.0
-    speed: Annotated[Rate, Field(gt=0)]
+    speed: Annotated[RotationSpeed, Field(gt=0)]
     points: Annotated[int, Field(strict=True, ge=5, le=2001)] = 73
 
     @model_validator(mode="after")

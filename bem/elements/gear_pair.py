@@ -26,7 +26,7 @@ from bem.elements.model import Contacts, ElementModel
 from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.scenes.common import PositiveLength, problem
-from bem.scenes.units import Angle, Dimension, Rate, Ratio
+from bem.scenes.units import Angle, Dimension, Ratio, RotationSpeed
 
 Torque = Annotated[float, Dimension("N*m", "a torque", "30 N*m")]
 Teeth = Annotated[int, Field(strict=True, ge=6, le=2000)]
@@ -53,7 +53,7 @@ class GearModel(ElementModel):
     tip_diameters: tuple[PositiveLength, PositiveLength] | None = None
     face_width: PositiveLength
     torque: Annotated[Torque, Field(gt=0)]
-    speed: Annotated[Rate, Field(gt=0)]
+    speed: Annotated[RotationSpeed, Field(gt=0)]
     points: Annotated[int, Field(strict=True, ge=5, le=2001)] = 41
 
     @model_validator(mode="after")

@@ -21,7 +21,7 @@ from bem.materials import contact_modulus
 from bem.reference_solutions.line_film import InletFilm
 from bem.scenes.common import PositiveLength, Table, problem
 from bem.scenes.tables.along import columns_or_file
-from bem.scenes.units import Angle, Force, Pressure, Rate, Ratio
+from bem.scenes.units import Angle, Force, Pressure, Ratio, RotationSpeed
 
 _LEAST_CROWN = 1e-9
 """How far the middle of a face stands out over its edges at least [m]: the film of a flat one is not this one."""
@@ -65,7 +65,7 @@ class PistonRingModel(ElementModel):
     bore: PositiveLength
     stroke: PositiveLength
     rod: PositiveLength
-    speed: Annotated[Rate, Field(gt=0)]
+    speed: Annotated[RotationSpeed, Field(gt=0)]
     height: PositiveLength
     face_radius: PositiveLength
     crown: Annotated[Ratio, Field(gt=0, lt=1)] = 0.5

@@ -20,7 +20,7 @@ from bem.elements.model import Contacts, ElementModel
 from bem.materials import contact_modulus
 from bem.reference_solutions.hertz import ellipse_contact
 from bem.scenes.common import PositiveLength, problem
-from bem.scenes.units import Force, Length, Rate, Ratio
+from bem.scenes.units import Force, Length, Ratio, RotationSpeed
 
 _STEEL_DENSITY = 7800.0  # kg/m^3, of elements whose material says none
 
@@ -42,7 +42,7 @@ class BearingModel(ElementModel):
     groove: Annotated[Ratio, Field(gt=0.5, lt=1)] = 0.52
     radial_load: Annotated[Force, Field(gt=0)]
     clearance: Annotated[Length, Field(ge=0)] = 0.0
-    speed: Annotated[Rate, Field(gt=0)]
+    speed: Annotated[RotationSpeed, Field(gt=0)]
 
     @model_validator(mode="after")
     def _fits(self) -> Self:

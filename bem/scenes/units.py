@@ -20,6 +20,7 @@ _NUMBER_AND_UNIT = re.compile(r"\s*([+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})
 _UNIT_TEXT = re.compile(r"[A-Za-zµμÅ°Ω%][A-Za-z0-9µμÅ°Ω%*/^ ().-]{0,39}|1\s*/[A-Za-z0-9µμÅ°Ω%*/^ ().-]{1,39}")
 _BLANK_PRODUCT = re.compile(r"(?<=[\w)])\s+(?=[A-Za-zµμÅ(])")
 _LONG_EXPONENT = re.compile(r"\d{2,}|\*\*\s*\S*\*\*|\^\s*\S*\^")
+_ANGLE_IN_UNIT = re.compile("rpm|rad|deg|°|rev|turn|cycle", re.IGNORECASE)
 _COMMON_UNITS = (
     *("m", "mm", "um", "nm", "angstrom", "m^2", "um^2", "mm^2", "m^3", "nm^3", "angstrom^3", "1/m"),
     *("N", "mN", "uN", "nN", "kN", "N/m", "Pa", "kPa", "MPa", "GPa", "1/Pa", "1/MPa", "1/GPa", "Pa*s", "mPa*s", "cP"),
@@ -42,7 +43,7 @@ _COMMON_UNITS = (
         "W/(m*K)",
         "J/(kg*K)",
     ),
-    *("%", "deg", "rad"),
+    *("%", "deg", "rad", "rpm", "rad/s"),
 )
 
 
@@ -116,6 +117,17 @@ class Dimension:
         return {"anyOf": [number, {"type": "string"}], "description": self.allowed, "examples": [self.example]}
 
 
+@dataclass(frozen=True)
+class Rotation(Dimension):
+    """A speed of rotation, whose unit must say the angle: "1500 1/min" are turns to most and radians to SI."""
+
+    def _parse_text(self, text: str) -> float:
+        found = super()._parse_text(text)
+        if _ANGLE_IN_UNIT.search(text) is None:
+            raise self._error("says no angle, of which turns and radians differ by 6.28")
+        return found
+
+
 def convert(digits: str, unit: str, dimension: Dimension) -> float:
     """`digits` of `unit` in the SI unit of `dimension`, rounded once: "45 nm" is exactly 45e-9."""
     if dimension.unit == "K" and unit.strip() == "C":  # what a temperature is written in; a charge elsewhere
@@ -184,6 +196,7 @@ Pressure = Annotated[float, Dimension("Pa", "a pressure", "1.8 GPa")]
 Speed = Annotated[float, Dimension("m/s", "a speed", "0.1 m/s")]
 Time = Annotated[float, Dimension("s", "a time", "45 min")]
 Rate = Annotated[float, Dimension("1/s", "a rate", "6.9e-4 1/s")]
+RotationSpeed = Annotated[float, Rotation("rad/s", "a speed of rotation", "1500 rpm")]
 InverseLength = Annotated[float, Dimension("1/m", "an inverse length", "1.24e7 1/m")]
 Viscosity = Annotated[float, Dimension("Pa*s", "a dynamic viscosity", "0.36 Pa*s")]
 KinematicViscosity = Annotated[float, Dimension("m^2/s", "a kinematic viscosity", "68 mm^2/s")]

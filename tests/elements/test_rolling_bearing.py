@@ -115,7 +115,9 @@ def test_rollers_touch_in_lines():
         ({"first": "stel-52100"}, 'did you mean "steel-52100"'),
         ({"element": "journal-bearing"}, "conform"),
         ({"element": "bering"}, "not allowed"),
-        ({"speed": "3 m"}, "is not a rate"),
+        ({"speed": "3 m"}, "is not a speed of rotation"),
+        ({"speed": "1500 1/min"}, "says no angle"),  # was read as radians: 6.28 times too slow, without a word
+        ({"speed": "25 Hz"}, "says no angle"),
     ],
 )
 def test_mistakes_are_said_with_what_is_allowed(change, words):
