@@ -23,7 +23,8 @@ from bem.elements.model import Contacts, ElementModel
 from bem.elements.piston_ring import PistonRingModel
 from bem.elements.rolling_bearing import BearingModel
 from bem.errors import InputError
-from bem.materials import Material, contact_modulus
+from bem.materials import Body, Material, contact_modulus
+from bem.scenes.checks.hertz import smooth_contact
 from bem.scenes.validate import nearest, show, validate
 
 MODELS: dict[str, type[ElementModel]] = {
@@ -166,6 +167,8 @@ class Element:
                 f"({conforming[0]}, ...): there the gap of conforming bodies is up to 7 % and more over the parabola "
                 "of Hertz and of scenes, on a half-space that such bodies are not"
             )
+        if (soft := self._yielding()) is not None:
+            said.append(soft)
         cold = [one.name for one in self._bodies() if not one.thermal_diffusivity]
         if self.model.oil is not None and cold:
             said.append(
@@ -180,6 +183,26 @@ class Element:
                 "touch there, which films here and in kind traction leave out; kind friction shares the load"
             )
         return tuple(said)
+
+    def _yielding(self) -> str | None:
+        """Where Hertz' pressure is beyond what the softer material carries elastically."""
+        bodies = [Body(one) for one in self._bodies()]
+        found = []
+        for one in self.found.contacts:
+            force = one.load if one.length is None else one.load / one.length
+            smooth = smooth_contact(bodies[0], bodies[1], (one.radius, one.across), load=force)
+            assert smooth is not None
+            onset = smooth.yields_from(*bodies)
+            if onset is not None and smooth.maximum_pressure > onset:
+                found.append((smooth.maximum_pressure / onset, onset, one))
+        if not found:
+            return None
+        ratio, onset, one = max(found, key=lambda each: each[0])
+        return (
+            f"at {len(found)} of {len(self.found.contacts)} places the softer body yields below its surface: Hertz' "
+            f"pressure is {ratio:.3g} times that at which it begins, {onset / 1e9:.3g} GPa, at {one.name}; contacts "
+            "here and in scenes are elastic"
+        )
 
     def _bodies(self) -> tuple[Material, Material]:
         return self.model.first.build(), self.model.second.build()

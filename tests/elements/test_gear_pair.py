@@ -231,3 +231,19 @@ def test_helical_teeth_whose_transverse_sections_alone_lose_each_other_mesh():
     assert path.contact_ratio < 1
     shortest = path.lines(path.base_pitch * np.arange(64) / 64).min()
     assert shortest == pytest.approx((path.contact_ratio + leaning - 1) / leaning)
+
+
+def test_flanks_that_yield_are_told_with_where_and_how_far():
+    """Under 50 kN m they were pressed with 26 GPa by Hertz, and nothing was said. Hertz (1882) of a cylinder:
+    p0 = sqrt(F E* / (pi R b)); von Mises begins at 1.79 of the yield stress (Johnson 1985, section 6.1)."""
+    soft = {"youngs_modulus": "206 GPa", "poissons_ratio": 0.3, "yield_stress": "1 GPa", "hardness": "3 GPa"}
+    heavy = made(torque="500 N*m", second=soft)
+    (told,) = [text for text in heavy.notes() if "yields below its surface" in text]
+    one = heavy.worst()
+    highest = math.sqrt(one.load * heavy.modulus / (math.pi * one.radius * one.length))
+    assert f"{highest / 1.79e9:.3g} times that at which it begins, 1.79 GPa, at {one.name}" in told
+    above = sum(math.sqrt(c.load * heavy.modulus / (math.pi * c.radius * c.length)) > 1.79e9
+                for c in heavy.found.contacts)  # fmt: skip
+    assert 0 < above < len(heavy.found.contacts)
+    assert told.startswith(f"at {above} of {len(heavy.found.contacts)} places")
+    assert not [text for text in made(second=soft).notes() if "yields" in text]

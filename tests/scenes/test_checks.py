@@ -277,6 +277,44 @@ def test_a_ball_in_oil_that_yields_is_told_as_a_dry_one(kind):
     assert "begins to yield" in " ".join(fired("yield_below_the_surface", softer))
 
 
+def test_a_roller_in_oil_that_yields_or_is_no_half_space_is_told_as_a_dry_one():
+    """A polymer roller was pressed to 3 times its hardness over 0.38 of its radius, converged and without a word; on a
+    path the worst row is said, once."""
+    soft = {"kind": "traction", "thermal": "off", "lower": {"material": "peek"}, "upper": {"material": STEEL}}
+    soft |= {"oil": {"viscosity": "0.1 Pa s", "pressure_viscosity": "18 1/GPa"}}
+    soft |= {"rolling": {"mean_speed": "1 m/s", "slide_roll_ratio": 0.1}}
+    heavy = soft | {"roller": {"radius": "10 mm", "width": "10 mm", "load": "50 kN"}}
+    assert "Hertz pressure 829 MPa is 3 times the softer hardness" in fired("hertz_pressure_above_hardness", heavy)[0]
+    assert "contact radius 0.38 of the body's" in fired("contact_large_for_its_radius", heavy)[0]
+    lighter = with_(heavy, roller__load="5 kN")  # 262 MPa: above 179 MPa, below the hardness
+    assert fired("hertz_pressure_above_hardness", lighter) == []
+    assert "1.47 times" in fired("yield_below_the_surface", lighter)[0]
+    path = soft | {"roller": {"width": "10 mm"}}
+    path.pop("rolling")
+    path["along"] = {
+        "position": ["0 mm", "1 mm", "2 mm"], "radius": ["10 mm"] * 3, "load": ["3 kN", "5 kN", "1 kN"],
+        "lower_speed": ["1 m/s"] * 3, "upper_speed": ["1 m/s"] * 3,
+    }  # fmt: skip
+    (told,) = fired("yield_below_the_surface", path)
+    assert "1.47 times" in told
+    assert "(1 mm)" in told
+
+
+@pytest.mark.parametrize("kind", ["rolling", "partial-slip", "surface-temperature"])
+def test_every_dry_elastic_kind_is_told_of_yield(kind):
+    heavy = {"kind": kind, **{key: value for key, value in BALL.items() if key != "kind"}}
+    heavy = with_(heavy, contact__load="20 kN", grid__lengths="4 mm")
+    if kind == "surface-temperature":
+        heavy = with_(heavy, contact__friction=0.1)
+    heavy |= {
+        "rolling": {"roll": {"friction": 0.3, "creepage": 1e-3}},
+        "partial-slip": {"push": {"friction": 0.4, "share": 0.6}},
+        "surface-temperature": {"heat": {"lower_speed": "3 m/s", "upper_speed": "1 m/s"}},
+    }[kind]
+    (told,) = fired("hertz_pressure_above_hardness", heavy)
+    assert "times the softer hardness" in told
+
+
 def test_a_friction_curve_is_told_of_yield_as_a_dry_contact_where_no_cap_is():
     """By model: of a capped and an elastic one the elastic one is. The disk of 110 HV yields below its surface at
     0.7 GPa and is indented at 1.1; 200 N make 0.8 GPa, 600 N 1.35."""
@@ -667,6 +705,7 @@ def test_a_map_smaller_than_the_grid_is_refused_by_the_plan(maps):
 
 GOOD_REASONS = {
     "micropitting-rig": {"patch_of_few_correlation_lengths"},  # ridges of longitudinal lay are as long as the contact
+    "uniform-asperities": {"yield_below_the_surface"},  # elastic as in the paper, pressed in by up to 4.2 GPa
     "hardness-optimum": {"few_cells_per_wave"},  # the thesis' cell, two to the shortest wave
     "running-in-stribeck": {"few_cells_per_wave", "few_cells_per_correlation_length"},  # likewise
     "running-in-ball": {"few_cells_per_wave", "few_cells_per_correlation_length"},  # likewise, the same surfaces

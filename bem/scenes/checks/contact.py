@@ -11,9 +11,8 @@ from bem.scenes.checks.units_of import suspected_units
 from bem.scenes.checks.words import percent, si
 
 _SLOPE_AT_EDGE = 0.2
-_LUBRICATED = ("friction", "running-in", "running-in-life")
-_ELASTIC = ("contact", "film", "point-film", "point-film-time", *_LUBRICATED)
-"""Kinds whose smooth contact is as elastic as Hertz' where nothing caps it."""
+_CAPPED_BY_ITS_FILM = "tribofilm"
+"""The kind whose contact is capped by a hardness that its cases do not say, where that follows a law."""
 
 
 @scene_check
@@ -44,8 +43,8 @@ def hertz_pressure_above_hardness(facts: Facts) -> Iterator[str]:
     """An elastic contact has no limit; a real one flows. Only where no cap is set."""
     values = (
         (case.smooth.maximum_pressure / case.softest, case)
-        for case in facts.cases
-        if case.smooth is not None and case.cap is None and case.softest is not None and facts.of_kind(*_ELASTIC)
+        for case in _elastic(facts)
+        if case.smooth is not None and case.softest is not None
     )
     found = worst(values)
     if found is not None and found[0] > 1:
@@ -63,22 +62,29 @@ def hertz_pressure_above_hardness(facts: Facts) -> Iterator[str]:
 def yield_below_the_surface(facts: Facts) -> Iterator[str]:
     """A sphere yields below its surface from p0 = 1.60 Y, a cylinder from 1.79 Y; von Mises, nu = 0.3.
 
-    Johnson (1985), section 6.1. The inverse of the largest von Mises stress, 0.620 and 0.558 p0. Only where the
-    pressure stays below the hardness, so that one sentence says it.
+    Only where the pressure stays below the hardness, so that one sentence says it.
     """
-    for case in facts.cases:
-        strengths = [body.material.yield_stress for body in case.bodies.values() if body.homogeneous]
-        known = [value for value in strengths if value is not None]
-        if case.smooth is None or case.cap is not None or not known or not facts.of_kind(*_ELASTIC):
-            continue
-        onset = (1.79 if case.smooth.line else 1.60) * min(known)
-        if onset < case.smooth.maximum_pressure <= (case.softest or 0.0):
-            yield (
-                f"Hertz pressure {si(case.smooth.maximum_pressure, 'Pa')} is "
-                f"{case.smooth.maximum_pressure / onset:.3g} times that at which the softer body begins to yield below "
-                f"its surface, {si(onset, 'Pa')}{case.at}: elastic stresses there are too high, and the first loadings "
-                "leave residual stresses; lower the load or allow for it"
-            )
+    found = worst(
+        (case.smooth.maximum_pressure / onset, case)
+        for case in _elastic(facts)
+        if case.smooth is not None
+        and (onset := case.smooth.yields_from(*case.bodies.values())) is not None
+        and onset < case.smooth.maximum_pressure <= (case.softest or 0.0)
+    )
+    if found is not None:
+        ratio, case = found
+        assert case.smooth is not None
+        pressure = case.smooth.maximum_pressure
+        yield (
+            f"Hertz pressure {si(pressure, 'Pa')} is {ratio:.3g} times that at which the softer body begins to yield "
+            f"below its surface, {si(pressure / ratio, 'Pa')}{case.at}: elastic stresses there are too high, and the "
+            "first loadings leave residual stresses; lower the load or allow for it"
+        )
+
+
+def _elastic(facts: Facts) -> Iterator[Case]:
+    """Contacts as elastic as Hertz'."""
+    return (case for case in facts.cases if case.cap is None and not facts.of_kind(_CAPPED_BY_ITS_FILM))
 
 
 @scene_check

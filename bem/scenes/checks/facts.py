@@ -289,6 +289,13 @@ def _point_film(scene: Any) -> list[Case]:
     return [Case(smooth=smooth_contact(bodies["lower"], bodies["upper"], scene.ball.radii, load=force), **bodies)]
 
 
+def _traction(scene: Any) -> list[Case]:
+    bodies, roller = _bodies(scene), scene.roller
+    load, radii = roller.per_length(build.modulus_of(scene)), (roller.radius, math.inf)
+    smooth = smooth_contact(bodies["lower"], bodies["upper"], radii, load=load)
+    return [Case(smooth=smooth, width=roller.width, shape="cylinder", **bodies)]
+
+
 def _asperities(scene: Any) -> list[Case]:
     (spacing,), array, bodies = scene.array.spacings, scene.array, _bodies(scene)
     radii = (array.radius, array.radius)
@@ -316,6 +323,7 @@ _CASES: dict[str, Callable[[Any], list[Case]]] = {
     "friction": _lubricated,
     "running-in": _lubricated,
     "running-in-life": _lubricated,
+    "traction": _traction,
     "tribofilm": _tribofilm,
     "wear": _wear,
 }

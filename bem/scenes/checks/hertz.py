@@ -37,6 +37,16 @@ class SmoothContact:
         """The largest of semi-axis over radius, which is the slope at the edge of the contact."""
         return max(a / r for a, r in zip(self.semi_axes, self.radii, strict=True) if math.isfinite(r))
 
+    def yields_from(self, *bodies: Body) -> float | None:
+        """Hertz pressure at which the softest of the bodies begins to yield [Pa]; None where no strength is known.
+
+        Of layered ones the stress is not Hertz'. The inverse of the largest von Mises stress at nu = 0.3, 0.620 p0
+        below a sphere and 0.558 p0 below a cylinder (Johnson 1985, section 6.1).
+        """
+        strengths = [body.material.yield_stress for body in bodies if body.homogeneous]
+        known = [value for value in strengths if value is not None]
+        return (1.79 if self.line else 1.60) * min(known) if known else None
+
     @property
     def depth_of_largest_stress(self) -> float:
         """Depth of the largest von Mises stress without friction [m].
