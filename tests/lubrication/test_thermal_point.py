@@ -21,9 +21,11 @@ from bem import (
 from bem.friction.point_film import cold_film, point_film
 from bem.friction.setup import MixedSetup
 from bem.friction.smooth import PointContact
+from bem.lubrication.thermal import lumped_point
 from bem.lubrication.thermal.conductors import moving_bodies
 from bem.lubrication.thermal.inlet import InletHeating
 from bem.lubrication.thermal.lumped_point import SPREADS, point_heat, thinning
+from bem.lubrication.thermal.notes import HEAT_NOT_FOUND
 from bem.lubrication.with_heat import FilmHeat
 from bem.reference_solutions.hertz import ellipse_contact
 
@@ -84,6 +86,16 @@ def test_strong_heat_is_found():
     hot = point_film(PointContact((5e-3, 5e-3), MODULUS, OIL, heat=HEAT), (5.0, 0.0), 20.0, 32)
     assert hot.status is Status.CONVERGED
     assert hot.mean_temperature > 333.15 + 100
+
+
+def test_heat_that_is_not_found_is_not_shown(monkeypatch):
+    monkeypatch.setattr(lumped_point, "RESIDUAL", -1.0)
+    found = point_film(PointContact((5e-3, 5e-3), MODULUS, OIL, heat=HEAT), (5.0, 0.0), 20.0, 32)
+    assert found.status is Status.STALLED
+    assert np.isnan([found.mean_temperature, found.maximum_temperature, found.friction]).all()
+    assert np.isnan(found.temperature).all()
+    assert found.central_thickness > 0
+    assert HEAT_NOT_FOUND in found.notes
 
 
 @pytest.mark.parametrize(

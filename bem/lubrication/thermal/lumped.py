@@ -39,7 +39,7 @@ from bem.lubrication.thermal.energy import Channel, Temperatures, film_temperatu
 from bem.lubrication.thermal.heated_film import HeatedFilm
 from bem.lubrication.thermal.hot_viscosity import HotViscosity
 from bem.lubrication.thermal.inlet import InletHeating, hertz_over_modulus, inlet_heating_factor
-from bem.lubrication.thermal.notes import notes_of_film, notes_of_heat
+from bem.lubrication.thermal.notes import HEAT_NOT_FOUND, notes_of_film, notes_of_heat
 from bem.lubrication.thermal.strip import Strip, cell_edges, derivative_of, strip_of, summed
 from bem.lubrication.viscosity import ViscosityLaw
 from bem.materials import Body
@@ -96,7 +96,8 @@ class ThermalFilm(HeatedFilm):
         carried on by the oil. energy_imbalance : of the three, relative to the friction.
     inlet : factor of inlet heating. inlet_missed : by how much the film misses it, relative, of sketches.
     inlet_viscosity : at ambient pressure that leaves such a film [Pa s].
-    films : solved. iterations : Newton steps of all films. status : of film and temperatures. notes : sentences.
+    films : solved. iterations : Newton steps of all films. notes : sentences. status : of film and temperatures; where
+        it is not converged all temperatures, heat flows, stresses and friction are NaN.
     """
 
     film_temperature: FloatArray
@@ -402,22 +403,26 @@ def _result(
     right = found.residual <= 1e-6 and thinned.missed <= FACTOR_TOLERANCE
     status = film.status if film.status is not Status.CONVERGED or right else Status.STALLED
     order = slice(None, None, -1) if kept.reversed else slice(None)
-    hottest = max(float(found.oil.max()), float(found.surfaces.max()))
+    # as of full heat: what is not found may be -3865 K, and nothing of it is shown, nor what follows from it
+    known = 1.0 if status is Status.CONVERGED else math.nan
+    hottest = known * max(float(found.oil.max()), float(found.surfaces.max()))
+    notes = notes_of_heat(lubricant, hottest, film.speeds)
+    couette, power = known * couette, known * power
     return ThermalFilm(
         film=without_equations(film),
         isothermal=without_equations(thinned.films[0]),
         position=sign * (0.5 * (strip.edges[1:] + strip.edges[:-1]))[order],
         width=width[order],
-        film_temperature=found.oil[order],
-        surface_temperatures=found.surfaces[:, order],
-        sliding_stress=sign * stress[order],
-        heat_made=found.made[order],
-        heat_into=found.into[:, order],
+        film_temperature=known * found.oil[order],
+        surface_temperatures=known * found.surfaces[:, order],
+        sliding_stress=known * sign * stress[order],
+        heat_made=known * found.made[order],
+        heat_into=known * found.into[:, order],
         shear_force=sign * couette + film.rolling_force,
         sliding_force=sign * couette,
         friction_power=power,
-        power_into=(float(into[0]), float(into[1])),
-        power_carried=carried,
+        power_into=(known * float(into[0]), known * float(into[1])),
+        power_carried=known * carried,
         energy_imbalance=imbalance,
         inlet=inlet,
         inlet_missed=thinned.missed,
@@ -425,7 +430,7 @@ def _result(
         films=len(thinned.films),
         iterations=thinned.steps,
         status=status,
-        notes=notes_of_heat(lubricant, hottest, film.speeds),
+        notes=notes if status is Status.CONVERGED else (*notes, HEAT_NOT_FOUND),
     )
 
 

@@ -26,7 +26,7 @@ from bem.lubrication.thermal.energy import Channel, film_temperatures
 from bem.lubrication.thermal.hot_viscosity import HotViscosity
 from bem.lubrication.thermal.inlet import InletHeating
 from bem.lubrication.thermal.lumped import FACTOR_TOLERANCE, LARGEST_RISE, MOST_FILMS, heat_limits, thinned_oil
-from bem.lubrication.thermal.notes import notes_of_heat
+from bem.lubrication.thermal.notes import HEAT_NOT_FOUND, notes_of_heat
 from bem.lubrication.validity import HEATING_NOTES
 from bem.materials import Body
 
@@ -123,18 +123,21 @@ def with_heat(
     rise = mean - float(lubricant.temperature or 0.0)
     notes = tuple(note for note in film.notes if note not in HEATING_NOTES)
     right = heat.residual <= RESIDUAL and missed <= FACTOR_TOLERANCE
+    status = film.status if film.status is not Status.CONVERGED or right else Status.STALLED
+    known = 1.0 if status is Status.CONVERGED else math.nan  # as of a line
     made = replace(
         film,
-        middle_stress=middle,
-        temperature=heat.temperature,
-        mean_temperature=mean,
-        maximum_temperature=float(heat.temperature.max()),
-        status=film.status if film.status is not Status.CONVERGED or right else Status.STALLED,
+        middle_stress=known * middle,
+        temperature=known * heat.temperature,
+        mean_temperature=known * mean,
+        maximum_temperature=known * float(heat.temperature.max()),
+        status=status,
         notes=(
             *notes,
             *heat_limits(inlet, (first, second), rise),
             *((SPREADS,) if rise > LARGEST_RISE and _spread(conductors, half_axes) > LARGEST_SPREAD else ()),
-            *notes_of_heat(lubricant, hottest, (first, second), HALF_AXIS),
+            *notes_of_heat(lubricant, known * hottest, (first, second), HALF_AXIS),
+            *(() if status is Status.CONVERGED else (HEAT_NOT_FOUND,)),
         ),
     )
     forces, rolling = made.forces()

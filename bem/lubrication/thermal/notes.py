@@ -12,6 +12,12 @@ from bem.lubrication.oils.oil import EXTRAPOLATED, HOTTEST, Oil
 from bem.lubrication.oils.over_temperature import CELSIUS
 from bem.lubrication.validity import HEATING_NOTES, Case, notes_on, why_no_line_film
 
+HEAT_NOT_FOUND = (
+    "no temperatures of the oil were found that the heat made at them leaves: the film is shown without temperatures, "
+    "friction and heat, which are not known"
+)
+"""Of lumped heat; a friction without a limiting shear stress is the usual cause."""
+
 
 def notes_of_film(
     film: FilmSolution,
