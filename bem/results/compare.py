@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from bem.errors import OUTSIDE
+from bem.results.differing import leaves
 from bem.results.directory import SCENE
 from bem.results.read import FinishedRun
 
@@ -109,21 +110,6 @@ def shown(value: Any, unit: str = "", digits: int = 5) -> str:
     else:
         text = str(value)
     return f"{text} {unit}".rstrip()
-
-
-def leaves(value: Any, key: str = "") -> dict[str, Any]:
-    """The plain values of nested tables by dotted key; a list of plain values is one, others are `bodies[0].material`.
-
-    >>> leaves({"grid": {"shape": [2, 3]}})
-    {'grid.shape': [2, 3]}
-    """
-    if isinstance(value, Mapping):
-        parts = [leaves(item, f"{key}.{name}" if key else str(name)) for name, item in value.items()]
-    elif isinstance(value, list) and any(isinstance(item, Mapping | list) for item in value):
-        parts = [leaves(item, f"{key}[{i}]") for i, item in enumerate(value)]
-    else:
-        return {key: value}
-    return {name: item for part in parts for name, item in part.items()}
 
 
 def _figures(summary: Mapping[str, Any]) -> dict[str, Any]:

@@ -17,6 +17,7 @@ from typing import Any
 from bem.errors import InputError, ResultsError
 from bem.results.atomic import force_names, reason, write_text
 from bem.results.checkpoint import load_checkpoint, save_checkpoint
+from bem.results.differing import words_of_difference
 
 SCENE, SUMMARY, RESULTS, REPORT = "scene.toml", "summary.json", "results.nc", "report.html"
 FIGURES, CHECKPOINT, CHECKSUMS, LOCK = "figures", "checkpoint.bin", "checksums.json", ".lock"
@@ -359,20 +360,8 @@ def _same_file(descriptor: int, path: Path) -> bool:
 
 
 def _difference(old: str, new: str) -> str:
-    """Names of the keys in which two scene texts differ."""
+    """Where two scene texts differ, in words."""
     try:
-        first, second = _leaves(tomllib.loads(old)), _leaves(tomllib.loads(new))
+        return words_of_difference(tomllib.loads(old), tomllib.loads(new)) or "comments"
     except ValueError:
         return "scene files"
-    names = sorted(key for key in first.keys() | second.keys() if first.get(key) != second.get(key))
-    return ", ".join(names[:6]) + (", ..." if len(names) > 6 else "") if names else "comments"
-
-
-def _leaves(table: Mapping[str, Any], prefix: str = "") -> dict[str, Any]:
-    found: dict[str, Any] = {}
-    for key, value in table.items():
-        if isinstance(value, Mapping):
-            found |= _leaves(value, f"{prefix}{key}.")
-        else:
-            found[prefix + key] = value
-    return found

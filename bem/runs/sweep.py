@@ -22,6 +22,7 @@ from bem.plots.draw import load_what_draws
 from bem.results import RunDirectory
 from bem.results.atomic import force_names, reason, write_text
 from bem.results.dataset import read_dataset, write_variables
+from bem.results.differing import words_of_difference
 from bem.results.directory import SCENE
 from bem.runs.point import Point, finished_summary, store
 from bem.runs.scene import check_workers, plan_scene
@@ -32,7 +33,8 @@ from bem.scenes.axes import Axis
 from bem.scenes.checks.words import without_numbers
 from bem.scenes.common import SceneModel
 from bem.scenes.context import Variable
-from bem.scenes.load import dump_scene, gather, read_table, refuse, scene_from_table, scenes_at, words_at
+from bem.scenes.load import dump_scene, gather, read_table, refuse, scene_from_table, scene_table, scenes_at, words_at
+from bem.scenes.paths import parse_key, value_at
 from bem.scenes.planner import Plan, check_memory
 from bem.scenes.ranges import parse_axes
 
@@ -96,7 +98,8 @@ def run_sweep(  # reason: a promise to users' scripts
     scheduler : address of a Dask scheduler, instead of processes on this machine.
     threads : threads of each run.
     resume : go on in a folder that holds a sweep. Points are known by their resolved scene, so values may be added to
-        a finished sweep, and no finished point is computed again.
+        a finished sweep, and no finished point is computed again; the scene and settings but for the keys swept now
+        are those of the sweep in the folder.
     watcher : told of progress and notes.
     pdf : draw the figure as PDF too, for print.
     fields : keep what of a point is a map at each of several depths, times or cases, too (`von_mises`, `stress`,
@@ -109,13 +112,14 @@ def run_sweep(  # reason: a promise to users' scripts
 
     Raises
     ------
-    InputError : a bad scene or range, or a scheduler that does not answer; nothing is written.
+    InputError : a bad scene or range, a scheduler that does not answer, or `resume` in a folder that holds a sweep of
+        another scene; nothing is written.
     ResultsError : the folder is in use, holds a sweep already, or cannot be written.
     KeyboardInterrupt : passed on; the sweep can be resumed.
     """
     swept, settings = parse_axes(over), with_accuracy(settings, accuracy)
     check_workers(workers)
-    planned = _plan_points(source, {axis.key: axis.values for axis in swept}, settings)
+    base, planned = _plan_points(source, {axis.key: axis.values for axis in swept}, settings)
     scenes = [scene for scene, _ in planned]
     axes = axes_of_keys({axis.key: axis.values for axis in swept}, scenes)
     names = [f"{_POINTS}/{hashlib.sha256(dump_scene(scene).encode()).hexdigest()[:16]}" for scene in scenes]
@@ -126,6 +130,7 @@ def run_sweep(  # reason: a promise to users' scripts
         "version": bem.__version__,
         "settings": list(settings),
         "over": {axis.key: list(axis.values) for axis in swept},
+        "base": scene_table(base),
     }
     try:
         _take(folder, definition, resume)
@@ -176,10 +181,11 @@ def _tell_notes(summaries: Sequence[Mapping[str, Any] | None], labels: Sequence[
 
 def _plan_points(
     source: str | os.PathLike[str] | Mapping[str, Any], over: Mapping[str, Sequence[str]], settings: Sequence[str]
-) -> list[tuple[SceneModel, Plan]]:
-    """The resolved scenes of all points with their plans; mistakes of all points at once."""
+) -> tuple[SceneModel, list[tuple[SceneModel, Plan]]]:
+    """The scene itself, as it was given, and the resolved ones of all points with their plans; mistakes of all points
+    at once."""
     table = read_table(source, settings)
-    scene_from_table(table)  # a mistake of the scene itself is said once, not for every point
+    base = scene_from_table(table)  # a mistake of the scene itself is said once, not for every point
     planned: list[tuple[SceneModel, Plan]] = []
     mistakes: dict[str, list[str]] = {}
     for scene, values in zip(scenes_at(table, over), product(*over.values()), strict=True):
@@ -190,7 +196,7 @@ def _plan_points(
         except InputError as error:
             gather(mistakes, words_at(over, values), error)
     refuse(mistakes)
-    return planned
+    return base, planned
 
 
 def _take(folder: Path, definition: Mapping[str, Any], resume: bool) -> None:
@@ -200,11 +206,42 @@ def _take(folder: Path, definition: Mapping[str, Any], resume: bool) -> None:
         raise ResultsError(f"{folder}: holds a single run; give another --out")
     if path.exists() and not resume:
         raise ResultsError(f"{folder}: holds a sweep already; --resume goes on in it (and may add values)")
+    if path.exists():
+        _check_same_base(folder, definition)
     write_text(path, json.dumps(definition, indent=1, ensure_ascii=False) + "\n")
     try:
         (folder / _POINTS).mkdir(exist_ok=True)
     except OSError as error:
         raise ResultsError(f"{folder / _POINTS}: cannot be made ({reason(error)})") from error
+
+
+def _check_same_base(folder: Path, definition: Mapping[str, Any]) -> None:
+    """InputError unless the sweep in the folder is of the same scene and settings, but for the keys swept now."""
+    try:
+        there = json.loads((folder / DEFINITION).read_text("utf-8"))["base"]
+    except (OSError, ValueError, KeyError, TypeError):
+        raise InputError(
+            f"--resume: {folder / DEFINITION} does not say of which scene its sweep is; allowed: another --out"
+        ) from None
+    now = json.loads(json.dumps(definition["base"]))
+    for key in definition["over"]:
+        for table in (there, now):
+            _take_out(table, parse_key(key) or ())
+    differ = words_of_difference(there, now)
+    if differ:
+        raise InputError(
+            f"--resume: the sweep in {folder} is of another scene or other settings (they differ in {differ}); "
+            "allowed: the same, of which more values may be swept, or another --out"
+        )
+
+
+def _take_out(table: Any, key: Sequence[str | int]) -> None:
+    """Take what stands at a key out, in place, if anything does; the other items of a list stay where they are."""
+    place = value_at(table, key[:-1])
+    if isinstance(place, dict):
+        place.pop(key[-1], None)
+    elif isinstance(place, list) and isinstance(key[-1], int) and key[-1] < len(place):
+        place[key[-1]] = "swept"
 
 
 def _compute(

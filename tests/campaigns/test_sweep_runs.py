@@ -186,6 +186,48 @@ def test_a_finished_point_is_never_computed_again(tmp_path, here):
     assert wider.dataset.sizes["seed"] == 3
 
 
+def files_of(folder):
+    return {path: (path.stat().st_mtime_ns, path.read_bytes()) for path in folder.rglob("*") if path.is_file()}
+
+
+def test_a_resumed_sweep_refuses_another_scene_and_says_where_it_differs(tmp_path, here):
+    """Points of two scenes stood in one table; what is swept now may differ, and nothing is touched."""
+    folder, over = tmp_path / "s", ["seed=1:2"]
+    run_sweep(SCENE, over, folder, settings=["contact.friction=0.1"])
+    before = files_of(folder)
+    changed = SCENE | {"grid": SCENE["grid"] | {"shape": [16, 32]}}
+    for scene, settings, says in (
+        (changed, ["contact.friction=0.1"], r"differ in grid.shape: \[16, 16\] there, \[16, 32\] now\)"),
+        (SCENE, ["contact.friction=0.2"], r"differ in contact.friction: 0.1 there, 0.2 now\)"),
+        (SCENE, [], "differ in contact.friction: 0.1 there, 0.0 now"),
+    ):
+        with pytest.raises(InputError, match=says) as told:
+            run_sweep(scene, over, folder, settings=settings, resume=True)
+        assert len(told.value.messages) == 1
+    assert files_of(folder) == before
+    assert len(here) == 2
+
+    # the same, however it is written; a base value of what is swept does not matter, one of two items neither
+    same = SCENE | {"seed": 7, "contact": SCENE["contact"] | {"friction": 0.1}}
+    assert run_sweep(same, ["seed=1:3"], folder, resume=True).computed == 1
+    run_sweep(changed, ["seed=1:2", "grid.shape[1]=16"], tmp_path / "t")
+    assert run_sweep(SCENE, ["seed=1:2", "grid.shape[1]=16,32"], tmp_path / "t", resume=True).computed == 2
+    with pytest.raises(InputError, match=r"differ in grid.shape: \[16, 'swept'\] there, \[32, 'swept'\] now"):
+        run_sweep(SCENE, ["seed=1", "grid.shape[1]=16"], tmp_path / "t", settings=["grid.shape[0]=32"], resume=True)
+
+
+def test_a_folder_that_does_not_say_of_which_scene_it_is_takes_no_more_points(tmp_path, here):
+    run_sweep(SCENE, ["seed=1"], tmp_path / "s")
+    definition = tmp_path / "s" / "sweep.json"
+    told = json.loads(definition.read_text())
+    del told["base"]
+    for text in (json.dumps(told), "{", "[]"):
+        definition.write_text(text)
+        with pytest.raises(InputError, match=r"sweep.json does not say of which scene"):
+            run_sweep(SCENE, ["seed=1:2"], tmp_path / "s", resume=True)
+        assert definition.read_text() == text
+
+
 def test_a_damaged_point_is_computed_again(tmp_path, here):
     run_sweep(SCENE, ["seed=1:2"], tmp_path / "s")
     victim = tmp_path / "s" / here[0] / "summary.json"

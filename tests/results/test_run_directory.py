@@ -337,7 +337,7 @@ def test_a_swap_that_is_cut_short_is_ended_by_the_next(tmp_path, monkeypatch, st
 
 def test_resuming_another_scene_is_refused(tmp_path):
     RunDirectory.start(tmp_path, "a", "a = 1\n[b]\nc = 2\n").close()
-    with pytest.raises(InputError, match=r"another scene \(they differ in b.c\)"):
+    with pytest.raises(InputError, match=r"another scene \(they differ in b.c: 2 there, 3 now\)"):
         RunDirectory.start(tmp_path, "a", "a = 1\n[b]\nc = 3\n", resume=True)
     assert (tmp_path / "scene.toml").read_text() == "a = 1\n[b]\nc = 2\n"
 
