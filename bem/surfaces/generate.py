@@ -8,7 +8,7 @@ again). What is left, in the Gaussian case too, is closed by Newton on a quadrat
 waves outside the spectrum, so skewness, kurtosis and rms height of the sample are met.
 
 Each phase is a function of seed and wavevector alone: the same seed on a finer grid of the same size
-gives the same waves and adds finer ones.
+gives the same waves at the same places and adds finer ones.
 
 Knows the request, its spectrum and its moments, each a file of its own. Verified in
 tests/surfaces/test_surface_generate.py.
@@ -26,7 +26,7 @@ from bem.grid import FloatArray, Grid
 from bem.numerics.pocketfft import from_half_spectrum, half_spectrum
 from bem.surfaces.moments import impose_moments, standardise
 from bem.surfaces.request import Request, check
-from bem.surfaces.spectrum import correlation_lengths, multiplicity, phases, spectrum_of
+from bem.surfaces.spectrum import correlation_lengths, multiplicity, phases, spectrum_of, to_centres
 
 SAMPLE_LENGTH_TOLERANCE = 0.15
 """Relative tolerance of the correlation lengths of a surface with prescribed skewness and kurtosis."""
@@ -85,7 +85,11 @@ def generate_surface(  # reason: the arguments are a promise to users' scripts; 
     )
     check(grid, request)
     amplitude = spectrum_of(grid, request)
-    heights = standardise(from_half_spectrum(amplitude * phases(grid.shape, int(seed)), grid.shape[1]))
+    waves = phases(grid.shape, int(seed))
+    waves *= amplitude
+    to_centres(waves, grid.shape)
+    heights = standardise(from_half_spectrum(waves, grid.shape[1]))
+    del waves
     heights = impose_moments(heights, amplitude, float(skewness), float(kurtosis))
     if request.lengths is not None and (skewness, kurtosis) != (0.0, 3.0):
         _check_lengths(heights, grid, request.lengths)

@@ -167,6 +167,19 @@ def phases(shape: tuple[int, int], seed: int) -> np.ndarray:
     return np.where(real, np.where(uniform < 0.5, 1.0, -1.0), phase)
 
 
+def to_centres(waves: np.ndarray, shape: tuple[int, int]) -> None:
+    """Move the waves of a real transform, in place, so that the first centre lies half a cell from the grid's corner.
+
+    Phases are those at the corner, heights stand at the centres of cells: so the same waves stand at the same places on
+    every grid of one rectangle. The wave of two cells is taken as a cosine about their centres, as in `waves.on_cells`.
+    """
+    for axis, n in enumerate(shape):
+        number = np.arange(waves.shape[axis])
+        number = np.where(2 * number < n, number, number - n)
+        turn = np.where(2 * np.abs(number) == n, 1.0, np.exp(1j * np.pi * number / n))
+        waves *= turn[:, None] if axis == 0 else turn[None, :]
+
+
 def _mix(code: np.ndarray) -> np.ndarray:
     """Finaliser of splitmix64 (Steele, Lea & Flood, OOPSLA 2014)."""
     code = code + np.uint64(0x9E3779B97F4A7C15)

