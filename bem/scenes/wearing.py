@@ -381,8 +381,7 @@ class WornSurface:
 
         strip : the rows (nx,) or cells (nx, ny) that roughness and depth are told of, or the part of each, from the
         last pressure."""
-        from bem.wear.criterion import LocalWear
-        from bem.wear.outcome import criterion_wear_rate, step_error, strip_wear
+        from bem.wear.outcome import criterion_wear_rate, strip_wear
 
         assert result.pressure is not None
         cycles, particles, last = result.cycles, scene.sizes.particles(result), scene.cycles.settled
@@ -395,9 +394,7 @@ class WornSurface:
             "particles_per_cycle": float(late.size / len(settled)),
             "convolutions_per_cycle": float(cycles["convolutions"].mean()),
             "truncated_particles": int(late["truncated"].sum()),
-            "step_error": step_error(result.state.memories[result.wearing[0]])
-            if isinstance(scene.wear.criterion, LocalWear)
-            else None,
+            "step_error": result.step_error,
             "criterion_wear_rate": criterion_wear_rate(
                 cycles[-last:],
                 load,

@@ -121,19 +121,6 @@ def criterion_wear_rate(cycles: NDArray[np.void], load: float, slide: float) -> 
     return float(cycles["volume"].mean() / (load * slide)) if slide > 0 else None
 
 
-def step_error(memory: FloatArray | None) -> float | None:
-    """What the steps of a local law leave open of the depth worn [m], an estimate of first order; None without steps.
-
-    A step has the pressure of its end, and half of what the next changes is its error. Those of earlier steps shrink:
-    where too little left, the pressure is higher from then on. So it is half the change between the last two steps,
-    at most, where both wear; `memory` : their depths, (2, rows, ny) [m].
-    """
-    if memory is None:
-        return None
-    both = (memory > 0).all(axis=0)
-    return float(0.5 * np.abs(memory[1] - memory[0])[both if both.any() else ...].max())
-
-
 def drift(series: ArrayLike, window: int = 25, tolerance: float = 0.02) -> float | None:
     """By how much of itself a figure still changes at the last cycle; None where it has settled, or of one cycle.
 

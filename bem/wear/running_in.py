@@ -8,6 +8,7 @@ Knows cycles (`wear.cycle`) and records; no scene, no file. Verified in tests/we
 
 from __future__ import annotations
 
+import copy
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
@@ -20,8 +21,9 @@ from bem.errors import ConvergenceError, InputError, Status
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
 from bem.representation import tabled
-from bem.wear.criterion import Detachment
+from bem.wear.criterion import Detachment, LocalWear
 from bem.wear.cycle import ContactOutcome, ContactStep, WearModel, WearSetup, dry_contact, wear_cycle
+from bem.wear.halved import step_error
 from bem.wear.loads import LOWER, UPPER, Removal, SurfaceLoad
 from bem.wear.outcome import contact_strip
 from bem.wear.segmentation import describe_pieces
@@ -75,6 +77,7 @@ class RunningIn:
     status: Status
     wearing: tuple[int, ...] = (LOWER,)
     notes: tuple[str, ...] = ()
+    step_error: float | None = None
 
     def worn_heights(self) -> FloatArray:
         """Heights of the (first) wearing body at the end [m]."""
@@ -172,6 +175,24 @@ def run_in(  # reason: the arguments are a promise to users' scripts; behind it 
         status=Status.CONVERGED,
         wearing=wearing,
         notes=(() if state.rubbing is None else state.rubbing.notes) + _crowded(choices.particles, state),
+        step_error=_step_error(state, setup, choices, contact_step, give, counterface),
+    )
+
+
+def _step_error(
+    state: RunningInState,
+    setup: WearSetup,
+    model: WearModel,
+    contact_step: ContactStep | None,
+    give: float,
+    counterface: int,
+) -> float | None:
+    """As `wear.halved.step_error`; a contact that keeps a record of its calls is left as it was."""
+    if not isinstance(model.law, LocalWear) or not state.cycle:
+        return None
+    half, rows = _contact_steps(setup, model, copy.copy(contact_step), 0.5 * give)(state), setup.grid.shape[0]
+    return step_error(
+        state, setup, model, half, lambda heights, body: _window(heights, state.offset * (body == counterface), rows)
     )
 
 

@@ -87,6 +87,18 @@ def test_a_film_that_clears_the_roughness_by_less_than_a_particle_is_no_full_fil
     assert found.third_bodies.load > 0
 
 
+def test_halves_of_the_last_step_are_no_cycles_of_a_contact_in_oil():
+    setup, contact = step().setup, step()
+    law = {"kind": "archard", "specific_wear_rate": 1e-15, "distance": 1e-3}
+    found = run_in(
+        *(ROUGH, np.zeros_like(ROUGH)), grid=setup.grid, bodies=(SOFT, HARD), load=setup.load / setup.slices,
+        depths=np.array([0.0, 1e-7]), gap=np.broadcast_to(setup.grid.x[:, None] ** 2 / 4e-3, setup.grid.shape),
+        friction=0.1, hardness=2e9, cycles=2, criterion=law, contact_step=contact,
+    )  # fmt: skip
+    assert found.step_error > 0
+    assert len(contact.rows) == 2
+
+
 def loop(cycles, state=None, callback=None, contact=True, **particle):
     law = {"kind": "archard", "specific_wear_rate": 1e-15, "distance": 1e-3}
     table = {"diameter": D, "number_per_area": 1e8, "shed": 0.5, "leaving": 0.25} | particle
@@ -118,6 +130,7 @@ def test_what_wears_feeds_them_and_some_leave_every_cycle(contact):
     assert number[0] == 1e8
     assert number[1:] == pytest.approx(0.75 * number[:-1] + 0.5 * worn[:-1] / (area * each), rel=1e-12)
     assert number[-1] > number[0]
+    assert found.step_error > 0
     if not contact:  # a loop in oil goes on with its balance, too, which kinds keep
         again = loop(4, state=kept[1], contact=contact, removed=0.01)
         assert np.array_equal(again.lower_heights, found.lower_heights)

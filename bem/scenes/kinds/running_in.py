@@ -127,7 +127,7 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
     worn_depth: Annotated[float, Figure("nm", "mean depth worn in Hertz' strip")]
     step_error: Annotated[
         float | None,
-        Figure("nm", "what the steps leave open of a depth worn by pressure", optional=True, unjudged=True),
+        Figure("nm", "what its step leaves open of a depth worn by pressure, last cycle", optional=True, unjudged=True),
     ]
     criterion_wear_rate: Annotated[
         float | None, Figure("mm3_Nm", "wear rate of the criterion itself, by load and distance")

@@ -140,7 +140,7 @@ class WearRecord(pieces.MeanSizes, pieces.ParticleTable, wearing.WornRecord):
         float | None,
         Figure(
             "nm",
-            "what the steps leave open of a depth worn by pressure",
+            "what its step leaves open of a depth worn by pressure, last cycle",
             optional=True,
             headline=True,
             unjudged=True,

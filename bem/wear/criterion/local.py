@@ -26,8 +26,8 @@ class LocalWear(Detachment):
 
     Steps of a dry contact are implicit: the pressure is that at their end, found with what wears as a compliance of
     each place, so no step is too long to be stable, and the volume is k F s to round-off. Under a film and in partial
-    slip the pressure is that at their start, and a step must not overshoot. `bem.wear.outcome.step_error` is what the
-    steps leave open. In partial slip each place slides what the traction law's loops give it, and there is no distance.
+    slip the pressure is that at their start, and a step must not overshoot. `bem.wear.halved` tells what steps
+    leave open. In partial slip each place slides what the traction law's loops give it, and there is no distance.
     """
 
     distance: float = parameter(
@@ -75,7 +75,7 @@ class LocalWear(Detachment):
         """Volume by load and distance [m^3/(N m)], of the lower body."""
 
     def detach(self, cycle: BodyCycle) -> Removal:
-        """A depth (nx, ny), of no piece; those of the last two cycles are remembered."""
+        """A depth (nx, ny), of no piece; that of the last cycle is remembered."""
         from bem.wear.loads import Removal
         from bem.wear.yielding import no_pieces
 
@@ -85,9 +85,8 @@ class LocalWear(Detachment):
         if cycle.slid is not None:
             self._check_step(rate * float(cycle.slid.max()), cycle.setup)
         worn = bare * rate * (self.distance if cycle.slid is None else cycle.slid) * cycle.pressure
-        before = np.zeros_like(worn) if cycle.memory is None else cycle.memory[1]
-        pieces, memory = no_pieces(cycle.setup.grid.shape), np.stack([before, worn])
-        return Removal(cycle.body, pieces, 0, 0.0, time.perf_counter() - began, memory, worn)
+        pieces = no_pieces(cycle.setup.grid.shape)
+        return Removal(cycle.body, pieces, 0, 0.0, time.perf_counter() - began, worn[None], worn)
 
 
 @register
