@@ -425,6 +425,14 @@ def wear_outcome(lengths, **more):
     return Outcome(more, variables)
 
 
+def scar_outcome(depth, half_width=0.0):
+    """A cylinder's scar, of which the grid holds the middle [m]."""
+    before, pressure = np.zeros((300, 2)), np.zeros((300, 2))
+    pressure[150 - round(half_width / 2e-6) : 150 + round(half_width / 2e-6)] = 1e8
+    maps = {"height_before": before, "height_after": before - depth, "pressure": pressure}
+    return Outcome({}, {name: Variable(("x", "y"), values, "m", name) for name, values in maps.items()})
+
+
 def loop_outcome(sq, friction=(0.1, 0.1, 0.1, 0.1)):
     """Two loops of four cycles with 100 nm at the start; the second is at rest."""
     over = {"rms_height_over_cycles": np.linspace(sq, sq, 4) * 1e-9, "friction_over_cycles": np.array(friction)}
@@ -510,6 +518,11 @@ OUTCOMES = {
         "wear-steel-steel",
         (wear_outcome([], particles_per_cycle=[2.0, 0.0, 1.0]), "came off by the criterion von_mises (5 N)"),
         wear_outcome([CELL], particles_per_cycle=[2.0, 0.1, 1.0]),
+    ),
+    "worn_beyond_small_slopes": (
+        "wear-cylinder-scar",
+        (scar_outcome(120e-6), "worn 120 um deep at a radius of 5 mm: the scar's edge has a slope of 0.22"),
+        scar_outcome(80e-6),
     ),
     "rougher_by_its_own_pieces": (
         "running-in-stribeck",
@@ -813,3 +826,33 @@ def test_what_a_plan_says_of_a_self_affine_surface_is_that_of_all_of_it(monkeypa
     assert said.correlation_length == pytest.approx(drawn.correlation_length, rel=1e-3)
     vast = Grid((65536, 65536), (1e-7 / 64, 1e-7 / 64), periodic=(True, True))
     assert surfaces_of.rough_surface("lower", table, vast, 1).rms_slope == pytest.approx(said.rms_slope, rel=1e-9)
+
+
+def test_a_scar_as_wide_as_its_body_is_outside_the_model():
+    """Deeper than the radius it said `converged`, with a note on the grid's edge; the width counts where depths do not
+    say it."""
+    facts = scar_facts()
+    for outcome, slope, beyond in (
+        (scar_outcome(6e-3), "1.5", True),
+        (scar_outcome(626e-6), "0.5", True),
+        (scar_outcome(620e-6), "0.5", False),
+    ):
+        (text,) = [note for note in outcome_warnings(facts, outcome) if "scar's edge" in note]
+        assert f"slope of {slope}," in text
+        assert text.startswith(OUTSIDE) == beyond
+    facts = scar_facts("cylinder.radius=1 mm")
+    (text,) = [note for note in outcome_warnings(facts, scar_outcome(5e-6, half_width=250e-6)) if "scar's edge" in note]
+    assert "slope of 0.25," in text
+    assert not [note for note in outcome_warnings(facts, scar_outcome(0.0, half_width=250e-6)) if "scar's edge" in note]
+
+
+def scar_facts(*settings):
+    return examine(plan_scene("wear-cylinder-scar", settings)[0])
+
+
+def test_a_cylinder_worn_through_says_so_in_its_run(tmp_path):
+    settings = ["cycles.count=20", 'wear.criterion.distance="10 km"', "cycles.settled=5"]
+    run = run_scene("wear-cylinder-scar", tmp_path / "run", settings=settings, figures=False)
+    assert run.summary["status"] == "converged"
+    (text,) = [text for text in run.summary["outside_model"] if "scar's edge" in text]
+    assert "slope of 2.6," in text

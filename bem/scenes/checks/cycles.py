@@ -1,14 +1,18 @@
-"""Checks of wear loops: a surface that grows rough by its own pieces, figures that still drift at the last cycle, loops
-that nothing is compared with.
+"""Checks of wear loops: a surface that grows rough by its own pieces, figures that still drift at the last cycle, scars
+too wide for their bodies, loops that nothing is compared with.
 
 Read off what a run gives; the rule of drift is `bem.wear.outcome.drift`. Verified in tests/scenes/test_checks.py.
 """
 
 from __future__ import annotations
 
+import math
 from collections.abc import Iterator
 
+import numpy as np
+
 from bem.errors import OUTSIDE
+from bem.grid import FloatArray, Grid
 from bem.scenes.checks.facts import Facts
 from bem.scenes.checks.outcome import at_the_cap
 from bem.scenes.checks.registry import outcome_check
@@ -115,6 +119,66 @@ def least_area_of_worn_surfaces(facts: Facts, outcome: Outcome) -> Iterator[str]
             f"at the hardness{_of(len(many), len(areas))}, the cells in contact of the last cycle are {max(many):.2f} "
             "times as many: take a finer grid"
         )
+
+
+_SLOPE, _STEEP = 0.2, 0.5
+"""At the edge of a worn contact: where a smooth one is warned of (`checks.contact`), and where rough surfaces are
+(`checks.surfaces`)."""
+
+
+@outcome_check
+def worn_beyond_small_slopes(facts: Facts, outcome: Outcome) -> Iterator[str]:
+    """A scar of half-width a on a radius R is a^2 / 2R deep, and at its edge the bodies meet at the slope a / R, as in
+    a contact that was pressed so wide: half-spaces and parabolas need a << R (Johnson 1985, section 4.1).
+
+    A parabola misses a circle by (a/R)^2 / 4 of the depth and lengths along the surface by (a/R)^2 / 2: 1 % and 2 % at
+    0.2, 6 % and 12 % at 0.5. The slope is that of the last contact's half-width or that of the depth, whichever is
+    larger: the contact ends where the grid does, the depth does not. Of pieces the depth is the mean one.
+    """
+    curved = [(case, case.smooth) for case in facts.cases if case.smooth is not None]
+    if not facts.of_kind("wear", "running-in") or not curved:
+        return
+    depths, pressures = _largest_depths(facts, outcome), _planes(outcome, "pressure")
+    radius = min(radius for _, smooth in curved for radius in smooth.radii)
+    slopes = [math.sqrt(2 * max(depth, 0.0) / radius) for depth in depths]
+    for number, plane in enumerate(pressures[: len(depths)]):
+        case, smooth = curved[number if len(curved) == len(depths) else 0]
+        if depths[number] > 0 and case.grid is not None:
+            slopes[number] = max(slopes[number], _slope_of_width(plane, case.grid, smooth.radii))
+    largest, unworn = max(slopes, default=0.0), max(smooth.ratio for _, smooth in curved)
+    if largest <= (_STEEP if unworn > _SLOPE else _SLOPE):  # of a contact too wide before any wear it is said there
+        return
+    yield (
+        f"{OUTSIDE if largest > _STEEP else ''}the bodies are worn {si(max(depths), 'm')} deep at a radius of "
+        f"{si(radius, 'm')}{_of(sum(slope > _SLOPE for slope in slopes), len(slopes))}: the scar's edge has a slope of "
+        f"{largest:.2g}, where half-spaces and parabolas hold below about 0.2, and pressure, depth and width of the "
+        "scar are not those of such bodies; take less wear (a shorter wear.criterion.distance, fewer cycles.count), "
+        "or the volume by load and distance alone"
+    )
+
+
+def _slope_of_width(pressure: FloatArray, grid: Grid, radii: tuple[float, float]) -> float:
+    """The largest half-width of a contact (nx, ny) over the radius [m] along its axis."""
+    largest = 0.0
+    for axis, radius in enumerate(radii):
+        touching = np.flatnonzero(pressure.any(axis=1 - axis))
+        if touching.size and math.isfinite(radius):
+            largest = max(largest, 0.5 * float(np.ptp(touching) + 1) * grid.spacing[axis] / radius)
+    return largest
+
+
+def _largest_depths(facts: Facts, outcome: Outcome) -> list[float]:
+    """The depth worn in each loop [m]: the largest, or in pieces, which leave holes, the mean one."""
+    if with_pieces(facts):
+        return [1e-9 * depth for depth in numbers(outcome.summary.get("worn_depth_nm"))]
+    pairs = zip(_planes(outcome, "height_before"), _planes(outcome, "height_after"), strict=True)
+    return [float((before - after).max()) for before, after in pairs]
+
+
+def _planes(outcome: Outcome, name: str) -> list[FloatArray]:
+    """The maps (nx, ny) of all loops."""
+    maps = outcome.variables.get(name)
+    return [] if maps is None else list(maps.values.reshape(-1, *maps.values.shape[-2:]))
 
 
 _STEPS = 0.1
