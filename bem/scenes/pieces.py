@@ -7,6 +7,7 @@ tests/scenes/test_wear_kind.py and tests/accuracy/test_wear_bars.py.
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
@@ -19,11 +20,12 @@ from bem.grid import FloatArray, Grid
 from bem.scenes.common import PositiveLength, Table
 from bem.scenes.records import Figure, Record, Series, without_bars
 from bem.scenes.units import Length, WearCoefficient
-from bem.wear.loads import wearing_bodies
+from bem.wear.loads import LOWER, UPPER, wearing_bodies
 
 if TYPE_CHECKING:
     from bem.wear import RunningIn
 
+BODIES = ("lower", "upper")
 QUANTITIES = ("equivalent_radius", "length", "width", "thickness")
 
 
@@ -58,11 +60,19 @@ class SizesScene(Table):
 
     def particles(self, result: RunningIn) -> NDArray[np.void]:
         """The particles that are reported of a wear loop."""
-        return result.particles[result.particles["body"] == self.body(result)]
+        return result.particles[result.particles["body"] == self.body(result.wearing)]
 
-    def body(self, result: RunningIn) -> int:
-        """Index of the body whose they are."""
-        return {"wearing": result.wearing[0], "lower": 0, "upper": 1}[self.particles_of]
+    def body(self, wearing: Sequence[int]) -> int:
+        """Index of the body whose they are, of those that wear; the first of these where none is named."""
+        return {"wearing": wearing[0], "lower": LOWER, "upper": UPPER}[self.particles_of]
+
+
+def particles_of(scene: Any) -> dict[str, str]:
+    """For summaries, the body whose particles are reported; nothing where cases may differ in it (`over`)."""
+    if scene.over is not None:
+        return {}
+    wearing = wearing_bodies((scene.lower.build(), scene.upper.build()), scene.wear.wears)
+    return {"particles_of": BODIES[scene.sizes.body(wearing)]}
 
 
 particle_rows = partial(Series, ("particle",), rows=True)

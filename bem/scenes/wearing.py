@@ -288,7 +288,7 @@ def stress_below_strength(scene: Any, result: RunningIn, grid: Grid, load: float
     bodies = (scene.lower.build(), scene.upper.build())
     setup = WearSetup(grid, bodies, np.zeros(grid.shape), load, friction, scene.depths.build())
     acting = SurfaceLoad(pressure, friction)
-    return largest_stress(acting, setup, wear_model(scene), scene.sizes.body(result))[0]
+    return largest_stress(acting, setup, wear_model(scene), scene.sizes.body(result.wearing))[0]
 
 
 def wear_loop(

@@ -433,6 +433,12 @@ def scar_outcome(depth, half_width=0.0):
     return Outcome({}, {name: Variable(("x", "y"), values, "m", name) for name, values in maps.items()})
 
 
+def both_outcome(volume):
+    """Two cycles, and a particle of half of what wore in them [m^3]."""
+    worn = Variable(("cycle",), np.array([0.0, volume]), "m^3", "volume")
+    return Outcome({}, {"volume": worn, "particle_volume": Variable(("particle",), np.array([volume / 2]), "m^3", "v")})
+
+
 def loop_outcome(sq, friction=(0.1, 0.1, 0.1, 0.1)):
     """Two loops of four cycles with 100 nm at the start; the second is at rest."""
     over = {"rms_height_over_cycles": np.linspace(sq, sq, 4) * 1e-9, "friction_over_cycles": np.array(friction)}
@@ -523,6 +529,11 @@ OUTCOMES = {
         "wear-cylinder-scar",
         (scar_outcome(120e-6), "worn 120 um deep at a radius of 5 mm: the scar's edge has a slope of 0.22"),
         scar_outcome(80e-6),
+    ),
+    "particles_and_heights_of_one_of_two": (
+        library()["wear-steel-steel"] | {"wear": {"wears": "both"}},
+        (both_outcome(2e-18), "particles, their sizes and numbers are those of the lower body, 50 % of the volume"),
+        both_outcome(0.0),
     ),
     "rougher_by_its_own_pieces": (
         "running-in-stribeck",

@@ -11,6 +11,8 @@ from small_scenes import WEAR
 from bem.campaigns import campaign_of, compute, plan
 from bem.errors import InfeasibleError, InputError
 from bem.scenes import load_scene
+from bem.scenes.checks import examine, outcome_warnings
+from bem.scenes.checks.words import percent
 from bem.scenes.kind import get_kind
 
 KEYS = {
@@ -221,6 +223,37 @@ def test_a_cylinder_wears_to_the_flat_of_archards_law():
     assert 0 < summary["step_error_nm"] < 0.02 * 1e9 * worn.max()
     assert summary["criterion_wear_rate_mm3_Nm"] == pytest.approx(1e-6, rel=1e-9)
     assert summary["particles_per_cycle"] == 0
+
+
+def test_what_is_listed_where_both_bodies_wear_says_of_which_it_is(scene_file):
+    """Particles were those of the lower body, about half of the volume, and nothing said so."""
+    both = scene_file(WEAR.replace("steel-cylinder", "steel-disk") + '\n[wear]\nwears = "both"\n')
+    found = {}
+    for name in ("lower", "upper"):
+        scene = load_scene(both, (f"sizes.particles_of={name}",))
+        outcome = found[name] = compute(campaign_of(get_kind("wear").resolve(scene))).outcome
+        values = {key: item.values for key, item in outcome.variables.items()}
+        assert outcome.summary["particles_of"] == name
+        assert set(values["particle_body"]) == {("lower", "upper").index(name)}
+        share = values["particle_volume"].sum() / values["volume"].sum()
+        (note,) = [text for text in outcome_warnings(examine(scene), outcome) if "both bodies wear" in text]
+        assert "worn depth are those of the lower one, volumes of both" in note
+        assert f"are those of the {name} body, {percent(share)} of the volume" in note
+    volumes = [outcome.variables["particle_volume"].values.sum() for outcome in found.values()]
+    assert sum(volumes) == pytest.approx(found["lower"].variables["volume"].values.sum(), rel=1e-12)
+    assert "0 lower, 1 upper" in found["lower"].variables["particle_body"].description
+
+
+def test_particles_asked_for_of_a_body_that_does_not_wear_are_told(scene_file):
+    scene = load_scene(scene_file(WEAR + '\n[wear]\nwears = "lower"\n'), ("sizes.particles_of=upper",))
+    outcome = compute(campaign_of(get_kind("wear").resolve(scene))).outcome
+    assert outcome.summary["particles_per_cycle"] == 0
+    assert [text for text in outcome_warnings(examine(scene), outcome) if "only the lower one wears" in text]
+    scene = load_scene(scene_file(WEAR + '\n[wear]\nwears = "lower"\n'))
+    outcome = compute(campaign_of(get_kind("wear").resolve(scene))).outcome
+    told = outcome_warnings(examine(scene), outcome)
+    assert outcome.summary["particles_of"] == "lower"
+    assert not [text for text in told if "bodies wear" in text or "one wears" in text]
 
 
 STAY = '\n[wear.third_bodies]\ndiameter = "300 nm"\n'

@@ -19,6 +19,7 @@ from bem.scenes.checks.registry import outcome_check
 from bem.scenes.checks.roughened import roughened, with_pieces
 from bem.scenes.checks.words import joined, numbers, percent, si
 from bem.scenes.context import Outcome
+from bem.scenes.pieces import BODIES
 
 _SERIES = {
     "rms_height_over_cycles": "Sq of the worn surface",
@@ -179,6 +180,35 @@ def _planes(outcome: Outcome, name: str) -> list[FloatArray]:
     """The maps (nx, ny) of all loops."""
     maps = outcome.variables.get(name)
     return [] if maps is None else list(maps.values.reshape(-1, *maps.values.shape[-2:]))
+
+
+@outcome_check
+def particles_and_heights_of_one_of_two(facts: Facts, outcome: Outcome) -> Iterator[str]:
+    """Sizes and numbers are those of one body; volumes, and what they are divided by, of all that wear."""
+    wearing = next((case.wearing_bodies for case in facts.cases if case.wear is not None), ())
+    if not facts.of_kind("wear", "running-in") or not wearing:
+        return
+    named, pieces = facts.scene.sizes.body(wearing), with_pieces(facts)
+    worn = outcome.variables.get("volume", outcome.variables.get("volume_over_cycles"))
+    if worn is None or not worn.values.sum() > 0:  # that nothing comes off is said by itself
+        return
+    if pieces and named not in wearing:
+        yield (
+            f"particles are asked for of the {BODIES[named]} body (sizes.particles_of), and only the "
+            f"{BODIES[wearing[0]]} one wears: sizes and numbers, 0, are no result"
+        )
+    if len(wearing) < 2:
+        return
+    told = f"both bodies wear: heights, Sq and worn depth are those of the {BODIES[wearing[0]]} one, volumes of both"
+    if not pieces:
+        yield told
+        return
+    listed = outcome.variables.get("particle_volume")
+    share = "" if listed is None else f", {percent(float(listed.values.sum() / worn.values.sum()))} of the volume"
+    yield (
+        f"{told}; particles, their sizes and numbers are those of the {BODIES[named]} body{share}, and "
+        f'sizes.particles_of = "{BODIES[1 - named]}" tells those of the other'
+    )
 
 
 _STEPS = 0.1

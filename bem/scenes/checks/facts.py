@@ -82,12 +82,16 @@ class Case:
     @property
     def wearing(self) -> list[Material]:
         """Surface materials of the bodies that wear in a wear loop."""
+        return [list(self.bodies.values())[body].surface_material for body in self.wearing_bodies]
+
+    @property
+    def wearing_bodies(self) -> tuple[int, ...]:
+        """Which bodies wear in a wear loop: 0 the lower, 1 the upper one."""
         if self.wear is None or self.upper is None:
-            return []
+            return ()
         from bem.wear.loads import wearing_bodies
 
-        pair = (self.lower, self.upper)
-        return [pair[body].surface_material for body in wearing_bodies(pair, self.wear.wears)]
+        return wearing_bodies((self.lower, self.upper), self.wear.wears)
 
     @property
     def softest(self) -> float | None:

@@ -132,9 +132,15 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
     criterion_wear_rate: Annotated[
         float | None, Figure("mm3_Nm", "wear rate of the criterion itself, by load and distance")
     ]
-    particles_per_cycle: Annotated[float, Figure("", "particles per cycle, settled", no_bar=pieces.FOLLOWS_CELL)]
-    particles_first_cycle: Annotated[float, Figure("", "particles of the first cycle", no_bar=pieces.FOLLOWS_CELL)]
-    particles_last_cycles: Annotated[float, Figure("", "particles of the last cycles", no_bar=pieces.FOLLOWS_CELL)]
+    particles_per_cycle: Annotated[
+        float, Figure("", "particles per cycle of one body, settled", no_bar=pieces.FOLLOWS_CELL)
+    ]
+    particles_first_cycle: Annotated[
+        float, Figure("", "particles of the first cycle, of one body", no_bar=pieces.FOLLOWS_CELL)
+    ]
+    particles_last_cycles: Annotated[
+        float, Figure("", "particles of the last cycles, of one body", no_bar=pieces.FOLLOWS_CELL)
+    ]
     film_table_error: Annotated[float, Figure("", "error of the film that is interpolated in the table", unjudged=True)]
     contact_temperature: Annotated[float | None, _heated("surfaces in contact, mean by pressure, run in")]
     flash_temperature: Annotated[float | None, _heated("surfaces in contact, highest, run in")]
@@ -146,8 +152,8 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
     minimum_film_over_cycles: Annotated[FloatArray, _over("m", "minimum film thickness")]
     contact_share: Annotated[FloatArray, _over("1", "share of the load carried by contact")]
     rms_height_over_cycles: Annotated[FloatArray, _over("m", "Sq of the worn surface in the strip in contact")]
-    volume_over_cycles: Annotated[FloatArray, _over("m^3", "volume worn per cycle")]
-    particles_over_cycles: Annotated[FloatArray, _over("1", "particles per cycle")]
+    volume_over_cycles: Annotated[FloatArray, _over("m^3", "volume worn per cycle, of all bodies that wear")]
+    particles_over_cycles: Annotated[FloatArray, _over("1", "particles per cycle of one body")]
     film_thickness_patch: Annotated[FloatArray, _line("m", "film")]
     film_pressure_patch: Annotated[FloatArray, _line("Pa", "film pressure")]
     separation: Annotated[FloatArray, _line("m", "distance of mean planes")]
@@ -265,7 +271,7 @@ def _record(
 ) -> RunningInRecord:
     """The figures of a wear loop and what is kept of it."""
     from bem.wear.mixed_outcome import run_in
-    from bem.wear.outcome import hertz_area
+    from bem.wear.outcome import hertz_area, sizes_over_cycles
 
     setup, cycles, rows, averaged = step.setup, result.cycles, step.rows, scene.cycles.averaged
     grid, load = setup.grid, scene.contact.on_patch(setup.load, setup.grid.lengths)
@@ -274,7 +280,8 @@ def _record(
     worn = wearing.WornSurface.of(scene, initial, result, grid, load, lambda pressure: strip)
     figures = run_in(step, cycles, averaged)
     over: dict[str, Any] = {f"{n}_over_cycles": rows[n].copy() for n in ("friction", "film_load", "minimum_film")}
-    over |= {f"{n}_over_cycles": cycles[n].astype(np.float64) for n in ("rms_height", "volume", "particles")}
+    over |= {f"{n}_over_cycles": cycles[n].astype(np.float64) for n in ("rms_height", "volume")}
+    over["particles_over_cycles"] = sizes_over_cycles(cycles["cycle"], worn.particles)[1]
     return filled(
         RunningInRecord,
         figures,
@@ -299,7 +306,8 @@ def summarise(scene: RunningInScene, axes: Sequence[Axis], records: Sequence[Run
     """What is the same for all cases, and the hardness of least friction where several were tried."""
     from bem.wear.mixed_outcome import least_friction
 
-    summary = {"cycles": scene.cycles.count, "load_N": scene.load, "reported_mean": scene.sizes.report}
+    summary: dict[str, Any] = {"cycles": scene.cycles.count, "load_N": scene.load, "reported_mean": scene.sizes.report}
+    summary |= pieces.particles_of(scene)
     if len(scene.hardnesses) <= 2:
         return summary
     (hardnesses, _, _), friction = over_last(3, axes, [np.nan if r is None else r.friction_run_in for r in records])

@@ -125,14 +125,14 @@ class WearRecord(pieces.MeanSizes, pieces.ParticleTable, wearing.WornRecord):
         *("first_cycles_radius", "criterion_wear_rate"),
     )
     particles_per_cycle: Annotated[
-        float, Figure("", "particles per cycle, settled", headline=True, no_bar=pieces.FOLLOWS_CELL)
+        float, Figure("", "particles per cycle of one body, settled", headline=True, no_bar=pieces.FOLLOWS_CELL)
     ]
     Sq_initial: Annotated[float, Figure("nm", "Sq in the contact strip, unworn", headline=True)]
     Sq_final: Annotated[float, Figure("nm", "Sq in the contact strip, run in", headline=True)]
     worn_depth: Annotated[float, Figure("nm", "mean depth worn in the contact strip")]
     contact_area_fraction: Annotated[float, Figure("", "real contact area over that of the slice", headline=True)]
     mean_contact_pressure: Annotated[float, Figure("Pa", "mean pressure over the real contact area")]
-    worn_volume_per_cycle: Annotated[float, Figure("um3", "volume worn per cycle")]
+    worn_volume_per_cycle: Annotated[float, Figure("um3", "volume worn per cycle, of all bodies that wear")]
     first_cycles_radius: Annotated[
         float, Figure("nm", "volume-mean radius of the particles of the first five cycles", chance=pieces.OF_PIECES)
     ]
@@ -170,8 +170,8 @@ class WearRecord(pieces.MeanSizes, pieces.ParticleTable, wearing.WornRecord):
         float | None, Figure("", "friction of surfaces and rolling particles", optional=True, no_bar=THIRD_BODIES)
     ] = None
     radius: Annotated[FloatArray, _over("m", "volume-mean equivalent radius of the particles")]
-    particles: Annotated[FloatArray, _over("1", "particles per cycle")]
-    volume: Annotated[FloatArray, _over("m^3", "volume worn per cycle")]
+    particles: Annotated[FloatArray, _over("1", "particles per cycle of one body")]
+    volume: Annotated[FloatArray, _over("m^3", "volume worn per cycle, of all bodies that wear")]
     contact_area: Annotated[FloatArray, _over("m^2", "contact area")]
     plastic_area: Annotated[FloatArray, _over("m^2", "area at the hardness")]
     contact_load: Annotated[FloatArray, _over("N", "load carried by contact")]
@@ -179,6 +179,7 @@ class WearRecord(pieces.MeanSizes, pieces.ParticleTable, wearing.WornRecord):
     depths_computed: Annotated[FloatArray, _over("1", "depths at which stress was computed")]
     convolutions: Annotated[FloatArray, _over("1", "convolutions of the contact solve")]
     particle_cycle: Annotated[wearing.IntArray, pieces.particle_rows("1", "cycle in which a particle came off")]
+    particle_body: Annotated[wearing.IntArray, pieces.particle_rows("1", "body that it came off: 0 lower, 1 upper")]
     x: Annotated[FloatArray, Series(("x",), "m", "x, along sliding", of="last")]
     y: Annotated[FloatArray, Series(("y",), "m", "y", of="last")]
     height_before: Annotated[FloatArray, _map("m", "height of the wearing surface, unworn")]
@@ -284,12 +285,13 @@ def _record(
 
 
 _PER_CYCLE = ("volume", "contact_area", "plastic_area", "contact_load", "rms_height", "depths_computed", "convolutions")
-_PER_PARTICLE = ("cycle", "volume", "length", "width", "thickness", "x", "y")
+_PER_PARTICLE = ("cycle", "body", "volume", "length", "width", "thickness", "x", "y")
 
 
 def summarise(scene: WearScene, axes: Any, records: Any) -> dict[str, Any]:
     """What the means are of."""
-    return {"reported_mean": scene.sizes.report, "smallest_radius_nm": 1e9 * scene.sizes.smallest}
+    told = {"reported_mean": scene.sizes.report, "smallest_radius_nm": 1e9 * scene.sizes.smallest}
+    return told | pieces.particles_of(scene)
 
 
 def scattering(scene: WearScene) -> tuple[str, ...]:
