@@ -10,7 +10,8 @@ from typer.testing import CliRunner
 from bem.cli import build
 from bem.errors import InputError, ResultsError
 from bem.materials import Body, Layer, Material
-from bem.verification import disc, patches, refinement, registry, rows, stored
+from bem.stress import von_mises
+from bem.verification import contact, disc, patches, refinement, registry, rows, stored
 from bem.verification.rows import Curve, Gate
 
 KEYS = {"case", "quantity", "bem", "reference", "error_bar", "difference", "tolerance", "passed"}
@@ -184,3 +185,19 @@ def test_cells_of_a_disc_have_an_error_of_the_second_order_beside_its_edge():
     ]
     assert found[0] / found[1] == pytest.approx(4, rel=0.1)
     assert abs(found[1]) < 1e-3 * 0.1145  # 5.8e-4 measured, 1.4e-4 with cells half as wide
+
+
+def test_von_mises_moves_by_no_more_than_the_bars_of_its_stresses_allow():
+    rng = np.random.default_rng(4)
+    stress, errors = rng.normal(size=(6, 200)), 1e-3 * rng.normal(size=(6, 200))
+    moved = np.abs(von_mises(stress + errors) - von_mises(stress))
+    points = np.zeros((200, 3))
+    curves = [
+        stored.StoredCurve(name, "p", "axis", points, values, np.abs(bars), None, "")
+        for name, values, bars in zip(stored.STRESS_NAMES, stress, errors, strict=True)
+    ]
+    case = stored.StoredCase("", "contact-row", "", {}, tuple(curves), {})
+    whole = stored.StoredCurve("von_mises", "p", "axis", points, von_mises(stress), np.zeros(200), None, "")
+    bars = contact._of_components(case, whole)
+    assert (moved <= bars * (1 + 1e-3)).all()  # second order in errors of a thousandth
+    assert moved.max() > 0.5 * bars.min()
