@@ -439,6 +439,11 @@ def both_outcome(volume):
     return Outcome({}, {"volume": worn, "particle_volume": Variable(("particle",), np.array([volume / 2]), "m^3", "v")})
 
 
+def oil_outcome(volume):
+    """One cycle in oil and what wore in it [m^3]."""
+    return Outcome({}, {"volume_over_cycles": Variable(("cycle",), np.array([volume]), "m^3", "volume")})
+
+
 def loop_outcome(sq, friction=(0.1, 0.1, 0.1, 0.1)):
     """Two loops of four cycles with 100 nm at the start; the second is at rest."""
     over = {"rms_height_over_cycles": np.linspace(sq, sq, 4) * 1e-9, "friction_over_cycles": np.array(friction)}
@@ -534,6 +539,12 @@ OUTCOMES = {
         library()["wear-steel-steel"] | {"wear": {"wears": "both"}},
         (both_outcome(2e-18), "particles, their sizes and numbers are those of the lower body, 50 % of the volume"),
         both_outcome(0.0),
+    ),
+    "steps_of_wear_in_oil_that_overshoot": (
+        library()["running-in-stribeck"]
+        | {"wear": {"criterion": {"kind": "archard", "specific_wear_rate": 1e-16, "distance": 1.0}}},
+        (oil_outcome(1e-18), "steps overshoot: a cycle takes 1e-16 m/Pa off, more than twice the 2."),
+        oil_outcome(0.0),
     ),
     "rougher_by_its_own_pieces": (
         "running-in-stribeck",
@@ -867,3 +878,11 @@ def test_a_cylinder_worn_through_says_so_in_its_run(tmp_path):
     assert run.summary["status"] == "converged"
     (text,) = [text for text in run.summary["outside_model"] if "scar's edge" in text]
     assert "slope of 2.6," in text
+
+
+def test_steps_of_wear_in_oil_may_take_off_twice_what_bodies_give_way_by():
+    check, worn = OUTCOME_CHECKS["steps_of_wear_in_oil_that_overshoot"], oil_outcome(1e-18)
+    for distance, told in ((0.0385, 0), (0.0475, 1)):  # 1.7 and 2.1 times 2.26e-18 m/Pa
+        law = {"kind": "archard", "specific_wear_rate": 1e-16, "distance": distance}
+        facts = facts_of(library()["running-in-stribeck"] | {"wear": {"criterion": law}})
+        assert len(list(check(facts, worn))) == told

@@ -211,6 +211,37 @@ def particles_and_heights_of_one_of_two(facts: Facts, outcome: Outcome) -> Itera
     )
 
 
+@outcome_check
+def steps_of_wear_in_oil_that_overshoot(facts: Facts, outcome: Outcome) -> Iterator[str]:
+    """Under a film a step wears by the pressure of its start. Where that takes off more than twice what bodies
+    give way by, what alternates from cell to cell grows from step to step, as in any explicit step: a gear's
+    rough flanks kept Sq to four digits at 1.5 times, and at 10 times lost whole contacts in one step."""
+    from bem.wear.criterion import LocalWear
+    from bem.wear.criterion.local import cell_to_cell_compliance
+
+    worn = outcome.variables.get("volume_over_cycles")
+    if not facts.of_kind("running-in") or worn is None or not worn.values.sum() > 0:
+        return
+    for case in facts.cases:
+        law, grid, upper = case.wear and case.wear.criterion, case.grid, case.upper
+        if not isinstance(law, LocalWear) or grid is None or upper is None or facts.scene.wear.film_defect is not None:
+            continue
+        pair = (case.lower, upper)
+        give = law.distance * sum(
+            law.rate(pair[body], case.friction) * (law.upper_over_lower if body else 1.0)
+            for body in case.wearing_bodies
+        )
+        most = cell_to_cell_compliance(grid, pair)
+        if give > 2 * most:
+            yield (
+                f"{OUTSIDE}the wear law's steps overshoot{case.at}: a cycle takes {give:.3g} m/Pa off, more than twice "
+                f"the {most:.3g} m/Pa by which the bodies give way from cell to cell, so that depths, roughness and "
+                f"contact are those of the steps; take {0.99 * most / give:.2g} times the wear.criterion.distance, in "
+                "more cycles.count"
+            )
+            return
+
+
 _STEPS = 0.1
 """Of the mean depth: below that the error of the steps is beside those that bars have."""
 

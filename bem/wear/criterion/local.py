@@ -15,6 +15,7 @@ from bem.wear.criterion.base import Detachment
 from bem.wear.loads import UPPER
 
 if TYPE_CHECKING:
+    from bem.grid import Grid
     from bem.materials import Body
     from bem.wear.cycle import WearSetup
     from bem.wear.loads import BodyCycle, Removal
@@ -59,11 +60,7 @@ class LocalWear(Detachment):
     def _check_step(self, give: float, setup: WearSetup) -> None:
         """Raises InputError where what a step wears by pressure [m/Pa] exceeds the bodies' compliance in the roughest
         pattern of the grid: the next contact would alternate from cell to cell."""
-        from bem.convolution import displacement_operator
-
-        middle = tuple(n // 2 for n in setup.grid.shape)
-        signs = np.where(np.indices(setup.grid.shape).sum(axis=0) % 2 == 0, 1.0, -1.0)
-        most = abs(float(displacement_operator(setup.grid, setup.bodies)(signs)[middle]))
+        most = cell_to_cell_compliance(setup.grid, setup.bodies)
         if give > most:
             raise InputError(
                 f"criterion {self.name}: {give:.3g} m/Pa worn in a cycle is more than the {most:.3g} m/Pa by which the "
@@ -87,6 +84,15 @@ class LocalWear(Detachment):
         worn = bare * rate * (self.distance if cycle.slid is None else cycle.slid) * cycle.pressure
         pieces = no_pieces(cycle.setup.grid.shape)
         return Removal(cycle.body, pieces, 0, 0.0, time.perf_counter() - began, worn[None], worn)
+
+
+def cell_to_cell_compliance(grid: Grid, bodies: tuple[Body, Body]) -> float:
+    """By how much bodies give way by pressure that alternates from cell to cell [m/Pa]: the least of any pattern."""
+    from bem.convolution import displacement_operator
+
+    middle = tuple(n // 2 for n in grid.shape)
+    signs = np.where(np.indices(grid.shape).sum(axis=0) % 2 == 0, 1.0, -1.0)
+    return abs(float(displacement_operator(grid, bodies)(signs)[middle]))
 
 
 @register
