@@ -96,8 +96,7 @@ class ThermalFilm(HeatedFilm):
         carried on by the oil. energy_imbalance : of the three, relative to the friction.
     inlet : factor of inlet heating. inlet_missed : by how much the film misses it, relative, of sketches.
     inlet_viscosity : at ambient pressure that leaves such a film [Pa s].
-    films : solved. iterations : Newton steps of all films. notes : sentences. status : of film and temperatures; where
-        it is not converged all temperatures, heat flows, stresses and friction are NaN.
+    films : solved. iterations : Newton. notes : sentences. status : if not converged, what follows from heat is NaN.
     """
 
     film_temperature: FloatArray
@@ -404,9 +403,8 @@ def _result(
     status = film.status if film.status is not Status.CONVERGED or right else Status.STALLED
     order = slice(None, None, -1) if kept.reversed else slice(None)
     # as of full heat: what is not found may be -3865 K, and nothing of it is shown, nor what follows from it
-    known = 1.0 if status is Status.CONVERGED else math.nan
+    known, lost = (1.0, ()) if status is Status.CONVERGED else (math.nan, (HEAT_NOT_FOUND,))
     hottest = known * max(float(found.oil.max()), float(found.surfaces.max()))
-    notes = notes_of_heat(lubricant, hottest, film.speeds)
     couette, power = known * couette, known * power
     return ThermalFilm(
         film=without_equations(film),
@@ -430,7 +428,7 @@ def _result(
         films=len(thinned.films),
         iterations=thinned.steps,
         status=status,
-        notes=notes if status is Status.CONVERGED else (*notes, HEAT_NOT_FOUND),
+        notes=(*notes_of_heat(lubricant, hottest, film.speeds), *lost),
     )
 
 
