@@ -26,6 +26,7 @@ Cells = Annotated[int, Field(strict=True, ge=1, le=65536)]
 Loads = Annotated[list[Annotated[Force, Field(gt=0)]], Field(min_length=1, max_length=64)]
 Repetitions = Annotated[int, Field(strict=True, ge=1, le=1000)]
 Axis = Literal["none", "x", "y", "both"]
+BODIES = ("lower", "upper")
 
 
 class Variant(Table):

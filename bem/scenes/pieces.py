@@ -17,7 +17,7 @@ from numpy.typing import NDArray
 from pydantic import Field
 
 from bem.grid import FloatArray, Grid
-from bem.scenes.common import PositiveLength, Table
+from bem.scenes.common import BODIES, PositiveLength, Table
 from bem.scenes.records import Figure, Record, Series, without_bars
 from bem.scenes.units import Length, WearCoefficient
 from bem.wear.loads import LOWER, UPPER, wearing_bodies
@@ -25,7 +25,6 @@ from bem.wear.loads import LOWER, UPPER, wearing_bodies
 if TYPE_CHECKING:
     from bem.wear import RunningIn
 
-BODIES = ("lower", "upper")
 QUANTITIES = ("equivalent_radius", "length", "width", "thickness")
 
 

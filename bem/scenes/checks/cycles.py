@@ -18,8 +18,8 @@ from bem.scenes.checks.outcome import at_the_cap
 from bem.scenes.checks.registry import outcome_check
 from bem.scenes.checks.roughened import roughened, with_pieces
 from bem.scenes.checks.words import joined, numbers, percent, si
+from bem.scenes.common import BODIES
 from bem.scenes.context import Outcome
-from bem.scenes.pieces import BODIES
 
 _SERIES = {
     "rms_height_over_cycles": "Sq of the worn surface",
@@ -216,12 +216,12 @@ def steps_of_wear_in_oil_that_overshoot(facts: Facts, outcome: Outcome) -> Itera
     """Under a film a step wears by the pressure of its start. Where that takes off more than twice what bodies
     give way by, what alternates from cell to cell grows from step to step, as in any explicit step: a gear's
     rough flanks kept Sq to four digits at 1.5 times, and at 10 times lost whole contacts in one step."""
-    from bem.wear.criterion import LocalWear
-    from bem.wear.criterion.local import cell_to_cell_compliance
-
     worn = outcome.variables.get("volume_over_cycles")
     if not facts.of_kind("running-in") or worn is None or not worn.values.sum() > 0:
         return
+    from bem.wear.criterion import LocalWear
+    from bem.wear.criterion.local import cell_to_cell_compliance
+
     for case in facts.cases:
         law, grid, upper = case.wear and case.wear.criterion, case.grid, case.upper
         if not isinstance(law, LocalWear) or grid is None or upper is None or facts.scene.wear.film_defect is not None:
