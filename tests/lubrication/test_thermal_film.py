@@ -14,7 +14,7 @@ from bem.lubrication.thermal import lumped, solve_full_thermal_line_film, solve_
 from bem.lubrication.thermal.energy import Channel, film_temperatures
 from bem.lubrication.thermal.hot_viscosity import HotViscosity
 from bem.lubrication.thermal.inlet import inlet_heating_factor
-from bem.lubrication.thermal.notes import HEAT_NOT_FOUND
+from bem.lubrication.thermal.notes import FAST_INLET, HEAT_NOT_FOUND, SLOW_SURFACE
 from bem.materials import CATALOGUE, Body, Material
 
 MODULUS = 115.5e9
@@ -166,13 +166,13 @@ def test_surfaces_are_as_warm_as_the_solver_on_a_grid_says(solve, tolerance):
 
 @pytest.mark.parametrize(
     ("mean", "slide", "words"),
-    [(1.9, 0.5, ()), (1.9, 2.0, (lumped.SLOW_SURFACE,)), (6.0, 0.5, (lumped.FAST_INLET,)),
-     (15.0, 1.6, (lumped.FAST_INLET, lumped.SLOW_SURFACE))],
+    [(1.9, 0.5, ()), (1.9, 2.0, (SLOW_SURFACE,)), (6.0, 0.5, (FAST_INLET,)),
+     (15.0, 1.6, (FAST_INLET, SLOW_SURFACE))],
 )  # fmt: skip
 def test_lumped_heat_says_where_it_was_found_wrong(mean, slide, words):
     """Rows of the stored comparison with full heat: friction 53 % too high had come without a word."""
     notes = film(mean, slide).notes
-    assert {note for note in notes if note in (lumped.FAST_INLET, lumped.SLOW_SURFACE)} == set(words)
+    assert {note for note in notes if note in (FAST_INLET, SLOW_SURFACE)} == set(words)
 
 
 def test_heat_across_a_film_between_good_conductors_is_crooks():

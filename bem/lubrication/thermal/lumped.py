@@ -39,7 +39,7 @@ from bem.lubrication.thermal.energy import Channel, Temperatures, film_temperatu
 from bem.lubrication.thermal.heated_film import HeatedFilm
 from bem.lubrication.thermal.hot_viscosity import HotViscosity
 from bem.lubrication.thermal.inlet import InletHeating, hertz_over_modulus, inlet_heating_factor
-from bem.lubrication.thermal.notes import HEAT_NOT_FOUND, notes_of_film, notes_of_heat
+from bem.lubrication.thermal.notes import HEAT_NOT_FOUND, heat_limits, notes_of_film, notes_of_heat
 from bem.lubrication.thermal.strip import Strip, cell_edges, derivative_of, strip_of, summed
 from bem.lubrication.viscosity import ViscosityLaw
 from bem.materials import Body
@@ -58,25 +58,6 @@ NEAR = 1e-3
 then takes half the steps."""
 LARGEST_STRESS = 1e12
 """On the way to the temperatures [Pa]: cold oil that has no limit would carry more than can be computed with."""
-EXTRAPOLATED_INLET = (
-    "the formula of inlet heating (Gupta et al. 1992) is extrapolated: so much load and speed was not in it, and the "
-    "film's thickness is an estimate"
-)
-LARGEST_LOADING = 0.05
-"""Thermal loading of the inlet up to which film and friction were within 5 % of full heat's at slide-to-roll ratios
-up to 0.5, at 0.004 and 0.02; at 0.24 friction was up to 27 %, at 1.4 up to 58 % off:
-reports/experiments/lumped_heat.py."""
-LARGEST_SLIDE, LARGEST_RISE = 1.0, 5.0
-"""Slide-to-roll ratio above which, with a rise of the oil's mean temperature [K] of more than that, films were up to
-2.8 times as thick as full heat's: the same experiment; at a ratio of 1 up to 1.17 times, and that at 3 GPa."""
-FAST_INLET = (
-    "the inlet heats the oil beyond what lumped heat describes (mu0 beta u^2/k above 0.05): against full heat its film "
-    "was found up to a third too thin, its friction 10 to 60 % off"
-)
-SLOW_SURFACE = (
-    "heat of the slower surface warms the inlet, which lumped heat leaves out: at a slide-to-roll ratio of 2 its "
-    "flooded film was found 1.2 to 2.8 times as thick as with full heat"
-)
 
 
 @dataclass(frozen=True)
@@ -96,7 +77,9 @@ class ThermalFilm(HeatedFilm):
         carried on by the oil. energy_imbalance : of the three, relative to the friction.
     inlet : factor of inlet heating. inlet_missed : by how much the film misses it, relative, of sketches.
     inlet_viscosity : at ambient pressure that leaves such a film [Pa s].
-    films : solved. iterations : Newton. notes : sentences. status : if not converged, what follows from heat is NaN.
+    films : solved. iterations : Newton steps of all films. notes : sentences.
+    status : of film and temperatures. Where it is not converged, temperatures, heat flows, stresses and friction are
+        NaN: what was not found may be -3865 K.
     """
 
     film_temperature: FloatArray
@@ -402,7 +385,6 @@ def _result(
     right = found.residual <= 1e-6 and thinned.missed <= FACTOR_TOLERANCE
     status = film.status if film.status is not Status.CONVERGED or right else Status.STALLED
     order = slice(None, None, -1) if kept.reversed else slice(None)
-    # as of full heat: what is not found may be -3865 K, and nothing of it is shown, nor what follows from it
     known, lost = (1.0, ()) if status is Status.CONVERGED else (math.nan, (HEAT_NOT_FOUND,))
     hottest = known * max(float(found.oil.max()), float(found.surfaces.max()))
     couette, power = known * couette, known * power
@@ -436,15 +418,3 @@ def _limits(found: ThermalFilm, lubricant: Lubricant) -> tuple[str, ...]:
     """Where what was left out was seen to matter."""
     rise = found.mean_film_temperature - float(lubricant.temperature or 0.0)
     return heat_limits(found.inlet, found.film.speeds, rise)
-
-
-def heat_limits(inlet: InletHeating, speeds: tuple[float, float], rise: float) -> tuple[str, ...]:
-    """Of inlet heating, speeds of both walls [m/s] and the rise of the oil's mean temperature [K]."""
-    first, second = speeds
-    slides = abs(first - second) > LARGEST_SLIDE * 0.5 * abs(first + second) and rise > LARGEST_RISE
-    said = {
-        EXTRAPOLATED_INLET: inlet.extrapolated,
-        FAST_INLET: inlet.loading > LARGEST_LOADING,
-        SLOW_SURFACE: slides,
-    }
-    return tuple(note for note, holds in said.items() if holds)

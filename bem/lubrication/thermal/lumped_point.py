@@ -25,8 +25,8 @@ from bem.lubrication.thermal.conductors import moving_bodies
 from bem.lubrication.thermal.energy import Channel, film_temperatures
 from bem.lubrication.thermal.hot_viscosity import HotViscosity
 from bem.lubrication.thermal.inlet import InletHeating
-from bem.lubrication.thermal.lumped import FACTOR_TOLERANCE, LARGEST_RISE, MOST_FILMS, heat_limits, thinned_oil
-from bem.lubrication.thermal.notes import HEAT_NOT_FOUND, notes_of_heat
+from bem.lubrication.thermal.lumped import FACTOR_TOLERANCE, MOST_FILMS, thinned_oil
+from bem.lubrication.thermal.notes import HEAT_NOT_FOUND, LARGEST_RISE, heat_limits, notes_of_heat
 from bem.lubrication.validity import HEATING_NOTES
 from bem.materials import Body
 

@@ -10,6 +10,7 @@ from bem.lubrication.line_kept import KeptSteady
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.oils.oil import EXTRAPOLATED, HOTTEST, Oil
 from bem.lubrication.oils.over_temperature import CELSIUS
+from bem.lubrication.thermal.inlet import InletHeating
 from bem.lubrication.validity import HEATING_NOTES, Case, notes_on, why_no_line_film
 
 HEAT_NOT_FOUND = (
@@ -17,6 +18,25 @@ HEAT_NOT_FOUND = (
     "friction and heat, which are not known"
 )
 """Of lumped heat; a friction without a limiting shear stress is the usual cause."""
+EXTRAPOLATED_INLET = (
+    "the formula of inlet heating (Gupta et al. 1992) is extrapolated: so much load and speed was not in it, and the "
+    "film's thickness is an estimate"
+)
+LARGEST_LOADING = 0.05
+"""Thermal loading of the inlet up to which film and friction were within 5 % of full heat's at slide-to-roll ratios
+up to 0.5, at 0.004 and 0.02; at 0.24 friction was up to 27 %, at 1.4 up to 58 % off:
+reports/experiments/lumped_heat.py."""
+LARGEST_SLIDE, LARGEST_RISE = 1.0, 5.0
+"""Slide-to-roll ratio above which, with a rise of the oil's mean temperature [K] of more than that, films were up to
+2.8 times as thick as full heat's: the same experiment; at a ratio of 1 up to 1.17 times, and that at 3 GPa."""
+FAST_INLET = (
+    "the inlet heats the oil beyond what lumped heat describes (mu0 beta u^2/k above 0.05): against full heat its film "
+    "was found up to a third too thin, its friction 10 to 60 % off"
+)
+SLOW_SURFACE = (
+    "heat of the slower surface warms the inlet, which lumped heat leaves out: at a slide-to-roll ratio of 2 its "
+    "flooded film was found 1.2 to 2.8 times as thick as with full heat"
+)
 
 
 def notes_of_film(
@@ -74,3 +94,15 @@ def _hot_oil(oil: Oil, hottest: float) -> list[str]:
             f"{oil.viscosity.highest - CELSIUS:.6g} degC: it is extrapolated"
         ]
     return []
+
+
+def heat_limits(inlet: InletHeating, speeds: tuple[float, float], rise: float) -> tuple[str, ...]:
+    """Of inlet heating, speeds of both walls [m/s] and the rise of the oil's mean temperature [K]."""
+    first, second = speeds
+    slides = abs(first - second) > LARGEST_SLIDE * 0.5 * abs(first + second) and rise > LARGEST_RISE
+    said = {
+        EXTRAPOLATED_INLET: inlet.extrapolated,
+        FAST_INLET: inlet.loading > LARGEST_LOADING,
+        SLOW_SURFACE: slides,
+    }
+    return tuple(note for note, holds in said.items() if holds)
