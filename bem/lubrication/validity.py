@@ -12,6 +12,7 @@ from dataclasses import dataclass
 from functools import cached_property
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bem.errors import InputError
 from bem.grid import FloatArray
@@ -138,8 +139,7 @@ def shear_beyond_measurements(case: Case) -> str | None:
 def shear_at_the_limit(case: Case) -> str | None:
     """The friction is the limit's."""
     cut = case.sliding_stress < case.lubricant.shear_stress(case.newtonian_stress)
-    share = case.integral(np.where(cut, case.pressure, 0.0)) / max(case.integral(case.pressure), 1e-300)
-    if share < LOAD_AT_THE_LIMIT:
+    if _load_share(case, cut) < LOAD_AT_THE_LIMIT:
         return None
     law = case.lubricant.shear_law
     limit = (
@@ -166,16 +166,20 @@ def film_slips(case: Case) -> str | None:
     )
 
 
+def _load_share(case: Case, where: NDArray[np.bool_]) -> float:
+    """Share of the load over the places (as the pressure) where something holds."""
+    return float(case.integral(np.where(where, case.pressure, 0.0)) / max(case.integral(case.pressure), 1e-300))
+
+
 def viscosity_beyond_range(case: Case) -> str | None:
     """The viscosity law is used at pressures that it was not made for: of elastic bodies under a share of the load that
     is more than a spike's, which holds up to 5 % of it at many times Hertz' pressure, as high as the mesh makes it."""
-    oil, highest = case.lubricant, case.pressure.max(initial=0.0)
-    largest = oil.viscosity_law.largest_pressure
-    if highest <= largest:
+    oil, largest = case.lubricant, case.lubricant.viscosity_law.largest_pressure
+    beyond = case.pressure > largest
+    spike = math.isfinite(case.contact_modulus) and _load_share(case, beyond) < LOAD_AT_THE_LIMIT
+    if spike or not beyond.any():
+        highest = case.pressure[~beyond].max(initial=0.0)
         return _glass(oil) if case.not_found is None and oil.viscosity_at(np.array([highest]))[0] > GLASS else None
-    beyond = case.integral(np.where(case.pressure > largest, case.pressure, 0.0))
-    if math.isfinite(case.contact_modulus) and beyond < LOAD_AT_THE_LIMIT * case.integral(case.pressure):
-        return None
     said = (
         f'the pressure exceeds {largest / 1e9:g} GPa, up to which viscosity_law "{oil.viscosity_law.name}" describes '
         "oils: viscosities in the middle of the contact are extrapolated"

@@ -1,6 +1,7 @@
 """The limiting shear stress of the oil, and notes where a film's model is outside its validity."""
 
 import math
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -9,6 +10,7 @@ from hypothesis import strategies as st
 
 from bem.errors import InputError
 from bem.lubrication import Lubricant, march_line_film, solve_line_film
+from bem.lubrication.validity import viscosity_beyond_range
 from bem.runs import plan_scene
 from bem.scenes import PlainContext, get_kind
 
@@ -50,6 +52,22 @@ def test_a_spike_alone_is_not_the_middle_of_the_contact():
     assert not about(film, "up to which viscosity_law")
     above = ROLLER | {"load": math.pi * 10e-3 * 1.03e9**2 / MODULUS}
     assert about(solve_line_film(**above, speeds=(3.0, 3.0), lubricant=oil), "up to which viscosity_law")
+
+
+def test_a_spike_beyond_the_law_does_not_hide_a_glass():
+    """Nine tenths of the law's range under almost all of the load, and one node far beyond it."""
+    pressure = np.full(100, 0.45e9)
+    pressure[90] = 3e9
+    words = {}
+    for alpha in (20e-9, 80e-9):
+        oil = Lubricant(viscosity=0.04, pressure_viscosity=alpha, viscosity_law="barus")
+        case = SimpleNamespace(
+            lubricant=oil, pressure=pressure, integral=np.sum, contact_modulus=MODULUS, not_found=None
+        )
+        words[alpha] = viscosity_beyond_range(case)
+    # 0.04 Pa s exp(alpha p): 324 and 2e14 Pa s
+    assert words[20e-9] is None
+    assert "are as glasses" in words[80e-9]
 
 
 def test_a_newtonian_oil_by_name_says_that_it_is_none():
