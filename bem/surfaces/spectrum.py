@@ -168,7 +168,7 @@ def phases(shape: tuple[int, int], seed: int) -> np.ndarray:
 
 
 def to_centres(waves: np.ndarray, shape: tuple[int, int]) -> None:
-    """Move the waves of a real transform, in place, so that the first centre lies half a cell from the grid's corner.
+    """Move waves (nx, ny // 2 + 1), in place, so that the first centre lies half a cell from the grid's corner.
 
     Phases are those at the corner, heights stand at the centres of cells: so the same waves stand at the same places on
     every grid of one rectangle. The wave of two cells is taken as a cosine about their centres, as in `waves.on_cells`.

@@ -95,6 +95,12 @@ def test_centrifugal_force_is_in_the_outer_contact_alone():
     assert any("centrifugal" in note for note in load_element(BALLS | {"speed": "30000 rpm"}).notes())
 
 
+def test_speeds_of_rotation_by_their_angle():
+    speeds = ("1500 rpm", "25 rps", "25 turn/s", "9000 deg/s", "157.07963267949 rad/s", 157.07963267949)
+    found = [load_element(BALLS | {"speed": speed}).model.speed for speed in speeds]
+    assert found == pytest.approx([50 * math.pi] * len(speeds), rel=1e-12)
+
+
 def test_rollers_touch_in_lines():
     found = load_element(ROLLERS)
     worst = found.worst()
