@@ -6,11 +6,11 @@ import math
 from collections.abc import Iterator
 
 from bem.scenes.checks.facts import Case, Facts, worst
+from bem.scenes.checks.hertz import LARGEST_SLOPE
 from bem.scenes.checks.registry import scene_check
 from bem.scenes.checks.units_of import suspected_units
 from bem.scenes.checks.words import percent, si
 
-_SLOPE_AT_EDGE = 0.2
 _CAPPED_BY_ITS_FILM = "tribofilm"
 """The kind whose contact is capped by a hardness that its cases do not say, where that follows a law."""
 
@@ -23,7 +23,7 @@ def contact_large_for_its_radius(facts: Facts) -> Iterator[str]:
     (a/R)^2 / 2, 2 % at 0.2; Tabor's representative strain is 0.2 a/R, 4 %.
     """
     found = worst((case.smooth.ratio, case) for case in facts.cases if case.smooth is not None)
-    if found is not None and found[0] > _SLOPE_AT_EDGE:
+    if found is not None and found[0] > LARGEST_SLOPE:
         ratio, case = found
         yield (
             f"contact radius {ratio:.2g} of the body's{case.at}: half-spaces and small strains hold below about 0.2; "

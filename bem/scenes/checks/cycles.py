@@ -14,6 +14,7 @@ import numpy as np
 from bem.errors import OUTSIDE
 from bem.grid import FloatArray, Grid
 from bem.scenes.checks.facts import Facts
+from bem.scenes.checks.hertz import LARGEST_SLOPE, STEEP
 from bem.scenes.checks.outcome import at_the_cap
 from bem.scenes.checks.registry import outcome_check
 from bem.scenes.checks.roughened import roughened, with_pieces
@@ -122,11 +123,6 @@ def least_area_of_worn_surfaces(facts: Facts, outcome: Outcome) -> Iterator[str]
         )
 
 
-_SLOPE, _STEEP = 0.2, 0.5
-"""At the edge of a worn contact: where a smooth one is warned of (`checks.contact`), and where rough surfaces are
-(`checks.surfaces`)."""
-
-
 @outcome_check
 def worn_beyond_small_slopes(facts: Facts, outcome: Outcome) -> Iterator[str]:
     """A scar of half-width a on a radius R is a^2 / 2R deep, and at its edge the bodies meet at the slope a / R, as in
@@ -147,14 +143,15 @@ def worn_beyond_small_slopes(facts: Facts, outcome: Outcome) -> Iterator[str]:
         if depths[number] > 0 and case.grid is not None:
             slopes[number] = max(slopes[number], _slope_of_width(plane, case.grid, smooth.radii))
     largest, unworn = max(slopes, default=0.0), max(smooth.ratio for _, smooth in curved)
-    if largest <= (_STEEP if unworn > _SLOPE else _SLOPE):  # of a contact too wide before any wear it is said there
+    # of a contact too wide before any wear it is said there
+    if largest <= (STEEP if unworn > LARGEST_SLOPE else LARGEST_SLOPE):
         return
     yield (
-        f"{OUTSIDE if largest > _STEEP else ''}the bodies are worn {si(max(depths), 'm')} deep at a radius of "
-        f"{si(radius, 'm')}{_of(sum(slope > _SLOPE for slope in slopes), len(slopes))}: the scar's edge has a slope of "
-        f"{largest:.2g}, where half-spaces and parabolas hold below about 0.2, and pressure, depth and width of the "
-        "scar are not those of such bodies; take less wear (a shorter wear.criterion.distance, fewer cycles.count), "
-        "or the volume by load and distance alone"
+        f"{OUTSIDE if largest > STEEP else ''}the bodies are worn {si(max(depths), 'm')} deep at a radius of "
+        f"{si(radius, 'm')}{_of(sum(slope > LARGEST_SLOPE for slope in slopes), len(slopes))}: the scar's edge has a "
+        f"slope of {largest:.2g}, where half-spaces and parabolas hold below about {LARGEST_SLOPE:g}, and pressure, "
+        "depth and width of the scar are not those of such bodies; take less wear (a shorter wear.criterion.distance, "
+        "fewer cycles.count), or the volume by load and distance alone"
     )
 
 

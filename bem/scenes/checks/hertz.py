@@ -8,6 +8,12 @@ from dataclasses import dataclass
 from bem.materials import Body, contact_modulus
 from bem.scenes.checks.words import si
 
+LARGEST_SLOPE = 0.2
+"""At the edge of a contact, semi-axis over radius: half-spaces and parabolas need small ones (Johnson 1985, section
+4.1); at 0.2 a parabola misses 1 % of a circle's depth, and lengths along the surface 2 %."""
+STEEP = 0.5
+"""A slope at which lengths along a surface are 12 % off (slope^2 / 2): no result of half-spaces is to be believed."""
+
 
 @dataclass(frozen=True)
 class SmoothContact:

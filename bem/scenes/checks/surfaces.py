@@ -6,11 +6,11 @@ import math
 from collections.abc import Iterator
 
 from bem.scenes.checks.facts import Facts
+from bem.scenes.checks.hertz import STEEP
 from bem.scenes.checks.registry import scene_check
 from bem.scenes.checks.surfaces_of import RoughSurface
 from bem.scenes.checks.words import percent, si, times
 
-_SLOPE = 0.5
 _FILLED = 0.03
 _POINTS = 32
 _ROUND_OFF = 1e-9
@@ -22,7 +22,7 @@ def steep_roughness(facts: Facts) -> Iterator[str]:
     """Half-spaces and heights over a plane need small slopes: lengths along the surface are off by slope^2 / 2, 12 % at
     an rms slope of 0.5, and summits at twice the rms slope are cliffs."""
     for slope, case, surface in facts.worst_surfaces(lambda surface: surface.rms_slope):
-        if slope > _SLOPE:
+        if slope > STEEP:
             yield (
                 f"{surface.body}.surface: rms slope {slope:.2g}{case.at}; a half-space stands for slopes well below "
                 "one, and pressures grow with them: filter the surface (low_pass, cutoff_wavelength), or read the "
