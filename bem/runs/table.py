@@ -21,6 +21,8 @@ from bem.scenes.records import Figure, described
 _SKIPPED = ("scene", "kind", "version", "notes", "seconds_by_stage")
 _SAID = "outside_model"
 """Sentences, in one text."""
+_FAILED = "failed"
+"""Status of a point that has no result, beside those of solvers."""
 Summaries = Sequence[Mapping[str, Any] | None]
 """Of the points in the order of the swept values' product; None where there is no result."""
 
@@ -49,6 +51,8 @@ def dataset_variables(
         if name in found:
             continue
         values = [None if summary is None else summary.get(name) for summary in summaries]
+        if name == "status":  # a reader must not have to guess why the figures of a point are no numbers
+            values = [_FAILED if summary is None else summary.get(name) for summary in summaries]
         if name == _SAID:
             found[name] = laid_out(axes, ["; ".join(value or ()) for value in values], "1", "outside the model")
             continue
@@ -122,7 +126,7 @@ def table_text(axes: Sequence[Axis], summaries: Summaries, folders: Sequence[str
     writer.writerow([*heads, "status", *columns, "error", "folder"])
     for own, row, folder in zip(product(*(axis.values for axis in axes)), rows, folders, strict=True):
         error = errors.get(folder, "")
-        status = row.get("status", "failed" if error else "missing")
+        status = row.get("status", _FAILED if error else "missing")
         writer.writerow([*own, status, *(row.get(name, "") for name in columns), error, folder])
     return buffer.getvalue()
 

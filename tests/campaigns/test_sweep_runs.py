@@ -299,6 +299,8 @@ def test_a_point_that_fails_does_not_end_the_sweep(tmp_path, here, monkeypatch):
     (name,) = done.failed
     assert watcher.notes[0] == f"seed = 2 ({name}): lower.surface: cannot be generated"  # a folder's name says nothing
     assert np.isnan(done.dataset["load_N"].sel(seed=2))
+    assert done.dataset["status"].values.tolist() == ["converged", "failed", "converged"]
+    assert read_dataset(tmp_path / "s" / "sweep.nc")["status"].values.tolist() == ["converged", "failed", "converged"]
     assert "cannot be generated" in (tmp_path / "s" / "sweep.csv").read_text()
     run_sweep(SCENE, ["seed=1:3"], tmp_path / "s", resume=True, watcher=(again := Telling()))
     assert again.notes[0] == watcher.notes[0]  # the second of three, alone
