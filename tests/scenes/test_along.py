@@ -4,8 +4,10 @@ import math
 
 import numpy as np
 import pytest
+from matplotlib.figure import Figure
 
 from bem import InputError, load_scene, solve_thermal_line_film
+from bem.plots.draw import figure_kind
 from bem.runs import run_scene
 from bem.scenes.load import dump_scene
 
@@ -57,6 +59,17 @@ def test_each_row_is_its_contact(gear):
     pressure = math.sqrt(1.7e3 / 14e-3 * modulus / (math.pi * 8.6e-3))
     assert found["hertz_pressure_Pa"][2] == pytest.approx(pressure, rel=1e-9)
     assert (gear.path / "figures" / "along-the-way.png").exists()
+
+
+def test_lambda_is_read_beside_the_minimum_film(gear):
+    """A dotted curve on a scale of its own lay upon the central film's."""
+    figure = Figure()
+    figure_kind(gear, "along-the-way").draw(gear, figure)
+    films, (beside,) = figure.axes[0], [axes for axes in figure.axes if axes.get_ylabel().startswith("lambda")]
+    assert not beside.lines
+    minimum = next(line for line in films.lines if line.get_label() == "minimum").get_ydata()
+    share = np.asarray(minimum) / films.get_ylim()[1]
+    np.testing.assert_allclose(share * beside.get_ylim()[1], gear.summary["lambda_ratio"], rtol=1e-9)
 
 
 def test_friction_turns_at_the_pitch_point_and_has_power_on_either_side(gear):

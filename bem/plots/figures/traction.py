@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 from bem.plots.cases import Array, axes_of, first_case, grouped
 from bem.plots.figures import FigureKind
 from bem.plots.over import COLOURS, axis_of, lines_over
-from bem.plots.style import BLACK, BLUE, GREEN, VERMILION, label, prefix
+from bem.plots.style import BLACK, BLUE, VERMILION, label, prefix
 
 ALL_CASES = True
 _CELSIUS = 273.15
@@ -141,13 +141,13 @@ def _along(run: Any, figure: Figure) -> None:
     panels[0].set_ylim(0)
     panels[0].legend()
     panels[1].plot(place, np.abs(_row(data, "traction_coefficient")), "o-", markersize=3, color=BLACK)
-    panels[1].set_ylabel("traction coefficient")
+    panels[1].set_ylabel("traction coefficient (magnitude)")
     panels[1].set_ylim(0)
     panels[2].plot(place, _row(data, "friction_power"), "o-", markersize=3, color=BLACK)
     panels[2].set_ylabel("friction power (W)")
     panels[2].set_ylim(0)
     if "lambda_ratio" in data.variables:
-        _lambda_beside(panels[0], place, _row(data, "lambda_ratio"))
+        _lambda_beside(panels[0], _row(data, "lambda_ratio") / _row(data, "minimum_thickness"))
     if hot:
         for name, words, colour in _SURFACES:
             panels[3].plot(place, _row(data, name) - _CELSIUS, "o-", markersize=3, color=colour, label=words)
@@ -170,12 +170,14 @@ def _row(data: Any, name: str) -> Any:
     return item.values[place]
 
 
-def _lambda_beside(axes: Any, place: Any, ratio: Any) -> None:
-    """The ratio on an axis of its own."""
-    beside = axes.twinx()
-    beside.plot(place, ratio, linestyle=":", color=GREEN)
-    beside.set_ylim(0)
-    beside.set_ylabel("lambda (dotted)", color=GREEN)
+def _lambda_beside(axes: Any, by_film: Any) -> None:
+    """The ratio of the minimum film, on an axis on which its curve is that film's: a curve of its own on a scale of its
+    own lay upon the central film's."""
+    known = by_film[np.isfinite(by_film)]
+    if known.size:
+        beside = axes.twinx()
+        beside.set_ylim(0, axes.get_ylim()[1] * 1e-9 * float(known[0]))
+        beside.set_ylabel("lambda, of the minimum", color=VERMILION)
 
 
 def _has_way(run: Any) -> bool:
