@@ -26,9 +26,9 @@ cells does at the edge is told by their distance."""
 REASON = (
     "cells of 1/80 of the radius, 1/160 over thin layers, smaller ones near points at the surface or at the load's edge"
 )
-STRESS = (2e-3, 3e-3)
+STRESS = (1e-3, 1.5e-3)
 """Under pressure, under traction (whose direct stresses along the surface are logarithmic at the load's edge)."""
-COUPLED = 1.5e-3
+COUPLED = 7.5e-4
 """Displacements across the load are a few times smaller and bend sharply at its edge."""
 
 
@@ -44,7 +44,7 @@ def curves(case: StoredCase) -> list[Curve]:
         quantity = curve.name + (f" ({curve.side})" if curve.side else "")
         if curve.name == "tangential_displacement" and tangential:
             quantity += f", {curve.along.partition(', ')[2]}"
-        allowance = STRESS[tangential] if stress else COUPLED if across else 5e-4
+        allowance = STRESS[tangential] if stress else COUPLED if across else 2.5e-4
         found.append(curve.beside(quantity, values, allowance, REASON))
     return found
 
