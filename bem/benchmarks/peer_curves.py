@@ -94,7 +94,7 @@ keep(solve)
 }
 
 
-def curves_beside(  # reason: what is found is put where an interrupt leaves it
+def curves_beside(
     python: Path,
     quick: bool,
     repeats: int,
@@ -136,7 +136,7 @@ def curves_beside(  # reason: what is found is put where an interrupt leaves it
                 found.append(replace(row, limit_apart=apart))
 
 
-def _beside(  # reason: what a row is made of
+def _beside(
     peer: str,
     start: str,
     gap: FloatArray,

@@ -147,7 +147,7 @@ class PeerRun:
     more: dict[str, tuple[list[float], float]]
 
 
-def run_script(  # reason: what a script finds, and how long it may take
+def run_script(
     python: Path,
     what: str,
     script: str,
@@ -215,7 +215,7 @@ def run_peer(python: Path, peer: str, cells: int, repeats: int, limit: float = L
     }
 
 
-def compare_with_peers(  # reason: what is found is put where an interrupt leaves it
+def compare_with_peers(
     python: Path,
     cells: int,
     repeats: int,

@@ -148,9 +148,7 @@ def curves(run: Run) -> list[Curve]:
     return found
 
 
-def _curve(  # reason: what a curve is made of
-    kind: str, figure: str, solver: str, digits: int, points: Sequence[Point], key: str, limit: float
-) -> Curve:
+def _curve(kind: str, figure: str, solver: str, digits: int, points: Sequence[Point], key: str, limit: float) -> Curve:
     return Curve(
         kind,
         figure,

@@ -18,7 +18,7 @@ def register(app: typer.Typer) -> None:
     app.command(short_help="Run time and memory against error.")(bench)
 
 
-def bench(  # reason: the arguments are the options
+def bench(
     only: Annotated[
         list[str] | None, typer.Option("--only", metavar="NAME", help="A case; may be repeated. Without it, all.")
     ] = None,

@@ -16,7 +16,7 @@ def register(app: typer.Typer) -> None:
     app.command(short_help="Fit a tribofilm's constants to measurements.")(calibrate)
 
 
-def calibrate(  # reason: the arguments are the options
+def calibrate(
     data: Annotated[
         Path,
         typer.Argument(help="CSV with units in its header: temperature [degC], time [min], thickness [nm], ..."),

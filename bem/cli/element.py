@@ -18,7 +18,7 @@ def register(app: typer.Typer) -> None:
     app.command(short_help="Bearing, gear pair, cam, piston ring: contacts, and scenes of them.")(element)
 
 
-def element(  # reason: the arguments are the options
+def element(
     file: Annotated[Path, typer.Argument(help="An element's file; `bem new gear-pair` writes one to start from.")],
     scene: Annotated[Path | None, typer.Option(metavar="FILE", help="Write a scene of one contact.")] = None,
     kind: Annotated[

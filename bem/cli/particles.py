@@ -16,7 +16,7 @@ def register(app: typer.Typer) -> None:
     app.command(short_help="Find wear particles in a measured AFM height map.")(particles)
 
 
-def particles(  # reason: the arguments are the options
+def particles(
     map_: Annotated[Path, typer.Argument(metavar="MAP", help="An AFM height map: any instrument's file, or .npz.")],
     threshold: Annotated[str, typer.Option(help="Height above the plate from which a particle is one.")] = "50 nm",
     background: Annotated[str, typer.Option(help="How to level: plane, curvature, offset or none.")] = "plane",

@@ -70,7 +70,7 @@ def register(app: typer.Typer) -> None:
     app.command()(run)
 
 
-def run(  # reason: the arguments are the options
+def run(
     scene: SceneArgument,
     out: Annotated[Path | None, typer.Option(help="The run's folder; without it the next free runs/NAME-001.")] = None,
     set_: SetOption = None,

@@ -42,7 +42,7 @@ def register(app: typer.Typer) -> None:
     app.add_typer(group)
 
 
-def generate(  # reason: the arguments are the options
+def generate(
     out: Annotated[Path, typer.Argument(metavar="OUT", help="File to write, .npz.")],
     cells: Annotated[str, typer.Option(help="Cells along x and y, such as 512 or 512,256.")],
     spacing: Annotated[str, typer.Option(help='Cell side, such as "100 nm", or two.')],

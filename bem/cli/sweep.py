@@ -15,7 +15,7 @@ def register(app: typer.Typer) -> None:
     app.command(short_help="Run a scene at every combination of values of its keys.")(sweep)
 
 
-def sweep(  # reason: each argument is an option of the command, with its help
+def sweep(
     scene: SceneArgument,
     over: Annotated[
         list[str] | None,

@@ -114,9 +114,7 @@ def solve_in_one_call(
 
 
 @compiled
-def _iterate(  # reason: compiled, so each array is an argument
-    now, inverted, vectors, balance, cells, convolved, engine, ends, cap, alone
-):
+def _iterate(now, inverted, vectors, balance, cells, convolved, engine, ends, cap, alone):
     """From one convolution on to the next, all of them if `alone`; whether one is to be made before it is called again.
 
     vectors : p, r, r before, t, z, q; the last is p where the step known beforehand leads.

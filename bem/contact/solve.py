@@ -44,7 +44,7 @@ convolutions for 10.70; begun at 64 cells they take 10.93)."""
 
 
 @one_blas_thread
-def solve_contact(  # reason: a promise to users' scripts, each of them a choice of the user's
+def solve_contact(
     gap: FloatArray,
     operator: DisplacementOperator,
     *,

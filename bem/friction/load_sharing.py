@@ -42,7 +42,7 @@ LARGEST_ERROR = 0.01
 """Of a film under the whole load, whose minimum makes the lambda ratio."""
 
 
-def solve_mixed(  # reason: the signature is a promise to users' scripts; behind it is one set-up
+def solve_mixed(
     *,
     height: FloatArray,
     grid: Grid,

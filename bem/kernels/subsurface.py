@@ -201,7 +201,7 @@ def _corners(
 
 
 @compiled
-def _piece(  # reason: plain numbers stay in registers through the rule's points; a record is taken apart at every call
+def _piece(
     n: int,
     x: float,
     y: float,
@@ -239,7 +239,7 @@ def add_rectangle(
 
 
 @compiled
-def add_rectangles(  # reason: as `_piece`, for the compiler
+def add_rectangles(
     x: FloatArray,
     y: FloatArray,
     z: float,

@@ -59,7 +59,7 @@ def spike_cells(load: float) -> tuple[float, ...]:
     return (*SPIKE_CELLS[:2], *between, last)
 
 
-def from_neighbour(  # reason: a state and the case that it is of, a problem and how well it is solved
+def from_neighbour(
     problem: Problem,
     kept: State,
     load: float,

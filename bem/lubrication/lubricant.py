@@ -68,7 +68,7 @@ class Lubricant:
     oil: Oil | None = None
     film_rheology: str = "newtonian"
 
-    def __init__(  # reason: what an oil is, named as users write it; a promise
+    def __init__(
         self,
         viscosity: float,
         *,

@@ -32,7 +32,7 @@ from bem.threads import one_blas_thread
 MAX_INLET_SHARE = 0.01
 
 
-def solve_line_film(  # reason: the signature is a promise to users' scripts
+def solve_line_film(
     *,
     load: float,
     radius: float,

@@ -46,7 +46,7 @@ LineState = MarchState[Film, FilmSolution]
 
 
 @one_blas_thread
-def march_line_film(  # reason: the signature is a promise to users' scripts; frozen groups are made of it at once
+def march_line_film(
     times: FloatArray,
     *,
     load: Callable[[float], float],

@@ -25,7 +25,7 @@ RECTANGLES = ("axis_aligned", "minimum_area")
 BORDERS = ("exclude", "include")
 
 
-def particles_from_height_map(  # reason: a promise to users' scripts: what to see, how to level, what to keep
+def particles_from_height_map(
     heights: FloatArray,
     spacing: tuple[float, float],
     *,

@@ -44,7 +44,7 @@ class SyntheticMap:
     position: FloatArray = field(repr=False)
 
 
-def synthetic_afm_map(  # reason: each argument is a property of the map, with a default from the thesis' sample
+def synthetic_afm_map(
     *,
     seed: int,
     shape: tuple[int, int] = (1024, 1024),

@@ -54,7 +54,7 @@ def plan_scene(
         raise
 
 
-def run_scene(  # reason: a promise to users' scripts; each is an option of the command
+def run_scene(
     source: str | os.PathLike[str] | Mapping[str, Any] | SceneModel,
     out: str | os.PathLike[str] | None = None,
     *,

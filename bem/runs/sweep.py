@@ -69,7 +69,7 @@ class FinishedSweep:
         return read_dataset(self.path / DATASET)
 
 
-def run_sweep(  # reason: a promise to users' scripts
+def run_sweep(
     source: str | os.PathLike[str] | Mapping[str, Any],
     over: Sequence[str],
     out: str | os.PathLike[str] | None = None,

@@ -43,7 +43,7 @@ class ReachedStress:
     passes: int
 
 
-def reached_stress(  # reason: a request as of `von_mises_planes`, its limit and its reach
+def reached_stress(
     pressure: ArrayLike,
     grid: Grid,
     body: Body,
@@ -127,9 +127,7 @@ def _along_x(part: Part, depth: float, squares: Squares, out: FloatArray) -> Non
 
 
 @compiled
-def _spread(  # reason: compiled, so each array is an argument
-    room, singles, squares, out, limit, wraps, wanted, computed, exceeding
-):
+def _spread(room, singles, squares, out, limit, wraps, wanted, computed, exceeding):
     """Compute the groups with a row that is wanted, then those beside rows above the limit, which is noted point by
     point: how many rows, and which are, or are beside, rows above the limit."""
     nx, done, again = room.nx, 0, True

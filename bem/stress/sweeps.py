@@ -315,7 +315,7 @@ class Sweep:
     parts: tuple[Part, ...]
 
     @classmethod
-    def of(  # reason: a request as users make it
+    def of(
         cls,
         name: str,
         pressure: ArrayLike,

@@ -32,7 +32,7 @@ SAMPLE_LENGTH_TOLERANCE = 0.15
 """Relative tolerance of the correlation lengths of a surface with prescribed skewness and kurtosis."""
 
 
-def generate_surface(  # reason: the arguments are a promise to users' scripts; behind it they are one record
+def generate_surface(
     grid: Grid,
     *,
     rms_height: float | None = None,

@@ -52,7 +52,7 @@ def read_surface(
     spacing: tuple[float, float] | None = None,
     height_unit: str | None = None,
     despike: float | None = None,
-) -> Surface:  # reason: the arguments are a promise to users' scripts
+) -> Surface:
     """Read a measured surface.
 
     Parameters

@@ -54,7 +54,7 @@ class CoupledSolution:
 
 
 @one_blas_thread
-def solve_coupled_slip(  # reason: a promise to users' scripts, each of them a choice of the user's
+def solve_coupled_slip(
     gap: FloatArray,
     grid: Grid,
     bodies: Body | tuple[Body, Body],

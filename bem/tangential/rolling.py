@@ -43,7 +43,7 @@ _KRYLOV = 60
 
 
 @one_blas_thread
-def solve_rolling(  # reason: a promise to users' scripts, each of them a choice of the user's
+def solve_rolling(
     contact: ContactSolution | FloatArray,
     grid: Grid,
     bodies: Body | tuple[Body, Body],

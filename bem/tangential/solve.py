@@ -34,7 +34,7 @@ _TIGHTER = 0.9
 
 
 @one_blas_thread
-def solve_partial_slip(  # reason: a promise to users' scripts, each of them a choice of the user's
+def solve_partial_slip(
     contact: ContactSolution | FloatArray,
     grid: Grid,
     bodies: Body | tuple[Body, Body],
@@ -238,7 +238,7 @@ def _turned(grid: Grid, rotation: float) -> FloatArray:
     )
 
 
-def _certified(  # reason: what a step was asked and what came of it, nothing of which belongs together elsewhere
+def _certified(
     request: Request,
     found: Slipped | None,
     imposed: FloatArray,

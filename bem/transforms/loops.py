@@ -270,9 +270,7 @@ def columns_in(room, scratch, factor, spectrum, first, last):
 
 
 @compiled
-def terms_back(  # reason: compiled, so each array is an argument
-    room, singles, scratch, factors, spectrum, squares, terms, share, out
-):
+def terms_back(room, singles, scratch, factors, spectrum, squares, terms, share, out):
     """The terms (first, last) of a spectrum times `factors` along x, into half-way arrays of their own, and along y in
     the groups that are begun, while they are near. share : this thread's number, and of how many."""
     given, source, done = spectrum.ctypes.data, scratch.columns[0].ctypes.data, scratch.columns_out[0]

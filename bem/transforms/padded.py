@@ -206,7 +206,7 @@ class PaddedTransform:
             out[...] = plain
         return out
 
-    def inverse_squared(  # reason: a term of a sum: what is transformed, how it counts, where it goes
+    def inverse_squared(
         self,
         spectrum: ComplexArray,
         factor: Multiplier,

@@ -65,7 +65,7 @@ class TribofilmGrowth:
         )
 
 
-def grow_tribofilm(  # reason: the signature is a promise to users' scripts
+def grow_tribofilm(
     times: FloatArray,
     contact: FilmContact,
     *,

@@ -94,7 +94,7 @@ def equivalent_radius(volume: FloatArray) -> FloatArray:
     return np.asarray(np.cbrt(3 * volume / (4 * np.pi)))
 
 
-def run_in(  # reason: the arguments are a promise to users' scripts; behind it surfaces, a set-up, a model, a state
+def run_in(
     lower_heights: FloatArray,
     upper_heights: FloatArray,
     *,

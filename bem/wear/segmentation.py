@@ -44,7 +44,7 @@ class Segmentation:
     reaches_bottom: NDArray[np.bool_]
 
 
-def segment(  # reason: a request as users make it, and what is known of the stack
+def segment(
     equivalent_stress: FloatArray,
     depths: FloatArray,
     *,

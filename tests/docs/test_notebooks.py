@@ -16,10 +16,6 @@ def cells(path, kind):
     ]
 
 
-def test_there_are_four():
-    assert len(NOTEBOOKS) == 4
-
-
 @pytest.mark.parametrize("path", NOTEBOOKS, ids=lambda path: path.stem)
 def test_a_notebook_runs(path, tmp_path, monkeypatch):
     matplotlib.use("Agg")

@@ -71,7 +71,7 @@ def _derivatives(rows: FloatArray, out: FloatArray) -> None:
 
 
 @compiled
-def _eliminate(  # reason: Numba compiles plain arrays; they are the parts of one equation
+def _eliminate(
     stencil: Any,
     spacing: tuple[float, float],
     drag: tuple[float, float],
@@ -140,7 +140,7 @@ def _solve_line(kept: Any, right: FloatArray) -> None:
 
 
 @compiled
-def factorise(  # reason: Numba compiles plain arrays; they are the parts of one equation
+def factorise(
     stencil: Any,
     spacing: tuple[float, float],
     drag: tuple[float, float],
@@ -191,7 +191,7 @@ def _films(near: FloatArray, changes: FloatArray, across: int, film: FloatArray)
 
 
 @compiled
-def relax(  # reason: Numba compiles plain arrays; they are the parts of one equation
+def relax(
     factors: Any,
     stencil: Any,
     spacing: tuple[float, float],

@@ -189,7 +189,7 @@ def _shares(comes: float, leaves: float, first: bool) -> tuple[float, float, flo
 
 
 @compiled
-def fill_row(  # reason: Numba compiles plain arrays; they are the parts of one equation
+def fill_row(
     s: FloatArray,
     spacing: tuple[float, float],
     drag: tuple[float, float],

@@ -119,7 +119,7 @@ class _Asked:
 
 
 @one_blas_thread
-def solve_rough_point_film(  # reason: those of `solve_point_film`, the surface and its least film
+def solve_rough_point_film(
     *,
     load: float,
     radii: Sequence[float],

@@ -37,7 +37,7 @@ Speeds = tuple[tuple[float, float], tuple[float, float]]
 
 
 @one_blas_thread
-def solve_point_film(  # reason: the signature is a promise to users' scripts
+def solve_point_film(
     *,
     load: float,
     radii: Sequence[float],

@@ -17,7 +17,7 @@ from bem.grid import FloatArray
 
 
 @compiled
-def contents(  # reason: Numba compiles plain arrays; they are the parts of one balance
+def contents(
     p: FloatArray,
     layer: float,
     drag: tuple[float, float],

@@ -26,7 +26,7 @@ IntArray = NDArray[np.int64]
 
 
 @compiled
-def _oil_rows(  # reason: Numba compiles plain arrays; they are the parts of one equation
+def _oil_rows(
     stencil: HalfArray,
     spacing: tuple[float, float],
     drag: tuple[float, float],

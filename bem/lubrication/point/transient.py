@@ -35,7 +35,7 @@ PointState = MarchState[Moment, PointFilmSolution]
 
 
 @one_blas_thread
-def march_point_film(  # reason: the signature is a promise to users' scripts; frozen groups are made of it at once
+def march_point_film(
     times: FloatArray,
     *,
     load: Callable[[float], float],

@@ -120,7 +120,7 @@ class FullThermalFilm(HeatedFilm):
         )
 
 
-def solve_full_thermal_line_film(  # reason: the arguments of `solve_line_film`, and what heat needs
+def solve_full_thermal_line_film(
     *,
     load: float,
     radius: float,

@@ -132,7 +132,7 @@ class ThinnedLaw(ViscosityLaw):
         return self.law.log_viscosity_ratio(pressure, viscosity / self.share, pressure_viscosity)
 
 
-def solve_thermal_line_film(  # reason: the arguments of `solve_line_film`, and what heat needs
+def solve_thermal_line_film(
     *,
     load: float,
     radius: float,

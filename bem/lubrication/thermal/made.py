@@ -133,7 +133,7 @@ def _blunted(driven: FloatArray, left: FloatArray) -> FloatArray:
 
 
 @compiled
-def _gather(  # reason: arrays of one loop, which cannot be a record in compiled code
+def _gather(
     x: FloatArray,
     edge: NDArray[np.intp],
     right: NDArray[np.intp],
