@@ -28,7 +28,8 @@ if TYPE_CHECKING:
 
 SWEEP = "sweep.nc"
 _ROW = "point"
-_TEMPERATURE, _CYLINDER, _RATIO = "oil.temperature", "speeds.cylinder", "slide_roll_ratio"
+_TEMPERATURE, _RATIO = "oil.temperature", "slide_roll_ratio"
+_CYLINDER, _SLIP = "speeds.cylinder", "speeds.slide_roll_ratio"
 
 
 @dataclass(frozen=True)
@@ -176,7 +177,16 @@ def _from_scene(scene: Mapping[str, Any], columns: Mapping[str, Any]) -> list[tu
     if _TEMPERATURE not in columns and isinstance(oil, Mapping) and oil.get("temperature") is not None:
         found.append((_TEMPERATURE, TEMPERATURE.parse(oil["temperature"])))
     if speeds is not None:
-        given = speeds.get("cylinder", 0.0) if isinstance(speeds, Mapping) else 0.0
-        share = np.asarray(columns.get(_CYLINDER, given), dtype=np.float64)
-        found.append((_RATIO, 2 * (1 - share) / (1 + share)))
+        found.append((_RATIO, _slide_roll_ratio(speeds, columns)))
     return found
+
+
+def _slide_roll_ratio(speeds: Any, columns: Mapping[str, Any]) -> Any:
+    """Slide-roll ratio of every point: from the varied keys of `speeds`, else from the table of the scene."""
+    from bem.scenes.lubrication import slide_roll_ratio, speed_ratio
+
+    table = speeds if isinstance(speeds, Mapping) else {}
+    if _SLIP in columns:
+        return np.asarray(columns[_SLIP], dtype=np.float64)
+    cylinder = np.asarray(columns.get(_CYLINDER, table.get("cylinder", 0.0)), dtype=np.float64)
+    return slide_roll_ratio(speed_ratio(cylinder, table.get("slide_roll_ratio")))

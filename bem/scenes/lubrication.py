@@ -104,8 +104,17 @@ class SpeedsScene(Table):
     @property
     def other_over_flat(self) -> float:
         """Speed of the cylinder or ball over the flat's."""
-        slip = self.slide_roll_ratio
-        return self.cylinder if slip is None else (2 - slip) / (2 + slip)
+        return float(speed_ratio(self.cylinder, self.slide_roll_ratio))
+
+
+def speed_ratio(cylinder: Any, slip: float | None) -> Any:
+    """Speed of the cylinder or ball over the flat's, from the keys `cylinder` and `slide_roll_ratio` of `speeds`."""
+    return cylinder if slip is None else (2 - slip) / (2 + slip)
+
+
+def slide_roll_ratio(other_over_flat: Any) -> Any:
+    """Slide-roll ratio 2 (u1 - u2)/(u1 + u2) from the ratio u2/u1 of both speeds."""
+    return 2 * (1 - other_over_flat) / (1 + other_over_flat)
 
 
 class LubricatedScene(SmoothShapeScene):

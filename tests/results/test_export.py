@@ -80,5 +80,21 @@ def test_load_share_temperature_and_slide_roll_ratio():
     np.testing.assert_allclose(points.columns["slide_roll_ratio"], 2 * 0.5 / 1.5)
     fit = points.load_share()
     assert (fit.b, fit.c) == (pytest.approx(0.6, rel=1e-6), pytest.approx(1.4, rel=1e-6))
+    by_slip = scene | {"speeds": {"first": 0.01, "last": 1.0, "slide_roll_ratio": 0.02}}
+    slipping = _laid_out(data, names, ("oil.temperature", "load", "speed"), by_slip, "made up")
+    np.testing.assert_allclose(slipping.columns["slide_roll_ratio"], 0.02, rtol=1e-12)
     cold = _laid_out(data.isel({"oil.temperature": 0}, drop=True), names, ("load", "speed"), scene, "made up")
     np.testing.assert_allclose(cold.columns["oil.temperature"], 293.15)
+
+
+@pytest.mark.parametrize(
+    ("key", "values", "expected"),
+    [
+        ("speeds.slide_roll_ratio", [0.02, 0.5], [0.02, 0.5]),
+        ("speeds.cylinder", [0.98, 0.5], [2 * 0.02 / 1.98, 2 * 0.5 / 1.5]),
+    ],
+)
+def test_a_varied_slide_roll_ratio_is_that_of_its_own_rows(key, values, expected):
+    data = xarray.Dataset({"friction": ((key,), [0.1, 0.2], {"units": "1"})}, {key: (key, values, {"units": "1"})})
+    points = _laid_out(data, ["friction"], (key,), {"speeds": {"values": [1.0]}}, "made up")
+    np.testing.assert_allclose(points.columns["slide_roll_ratio"], expected)
