@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+import re
 import sys
 import time
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
@@ -97,6 +99,86 @@ def _bars() -> Any:
     )
 
 
+@dataclass(frozen=True)
+class Column:
+    """A column of a table on the terminal.
+
+    right : whether its cells are aligned to the right. narrowest, widest : widths [characters] at which every word and
+    number of it is whole, and at which nothing of it is wrapped.
+    """
+
+    head: str
+    cells: tuple[str, ...]
+    right: bool
+    narrowest: int
+    widest: int
+
+    @classmethod
+    def of(cls, head: str, cells: Sequence[str], *, right: bool = False) -> Column:
+        """The column with the widths that its texts need: heads and sentences may be wrapped, numbers not."""
+        texts = [] if right else [cell for cell in cells if len(cell) > _LONG and not _NUMBER.match(cell)]
+        words = [min(len(word), _LONG) for text in texts for word in text.split()]
+        whole = [len(cell) for cell in cells if cell not in texts]
+        longest = max((min(len(word), _LONG) for word in head.split()), default=0)
+        narrowest = max([longest, *words, *whole])
+        return cls(head, tuple(cells), right, narrowest, max([len(head), narrowest, *map(len, texts)]))
+
+
+_LONG = 24
+"""Longer texts may be wrapped between words, and longer words inside."""
+_NUMBER = re.compile(r"[-+–(]?[\d.]")
+_GAP = 2
+"""Spaces between columns."""
+_MOST_TURNED = 6
+"""The most rows that become columns where a table is too wide."""
+
+
+def fitted_widths(columns: Sequence[Column], room: int) -> list[int] | None:
+    """Widths of the columns in so many characters; None if words or numbers of them would have to be cut."""
+    widths = [column.narrowest for column in columns]
+    left = room - sum(widths) - _GAP * (len(columns) - 1)
+    if left < 0:
+        return None
+    while left > 0 and (short := [i for i, column in enumerate(columns) if widths[i] < column.widest]):
+        for i in short:
+            more = min(columns[i].widest - widths[i], max(left // len(short), 1), left)
+            widths[i] += more
+            left -= more
+    return widths
+
+
+def tables_within(columns: Sequence[Column], leading: int, room: int) -> list[list[Column]]:
+    """The columns as one or several tables, each of which fits in so many characters.
+
+    A table of few rows that is too wide is turned: its rows become columns. Others are divided into tables that repeat
+    the leading columns. Where not even one column fits beside these, every row becomes a table of its own.
+    """
+    if fitted_widths(columns, room) is not None or len(columns) < 2:
+        return [list(columns)]
+    first, rest = columns[:leading], columns[leading:]
+    count = len(columns[0].cells)
+    if first and rest and len(columns) > 2 and count <= min(_MOST_TURNED, len(rest)):
+        turned = [_turned(columns, range(count))]
+        if fitted_widths(turned[0], room) is not None:
+            return turned
+    parts: list[list[Column]] = [[]]
+    for column in rest:
+        if parts[-1] and fitted_widths([*first, *parts[-1], column], room) is None:
+            parts.append([])
+        parts[-1].append(column)
+    found = [[*first, *part] for part in parts]
+    if all(fitted_widths(part, room) is not None for part in found):
+        return found
+    return [_turned(columns, [row]) for row in range(count)] if len(columns) > 2 else [list(columns)]
+
+
+def _turned(columns: Sequence[Column], rows: Iterable[int]) -> list[Column]:
+    """Some rows of a table as columns, beside a column of its heads."""
+    rows = list(rows)
+    heads = Column.of(columns[0].head, [column.head for column in columns[1:]])
+    return [heads, *(Column.of(columns[0].cells[i], [column.cells[i] for column in columns[1:]]) for i in rows)]
+
+
 def table(
     head: Sequence[str],
     rows: Sequence[Sequence[str]],
@@ -104,42 +186,67 @@ def table(
     title: str = "",
     right: Sequence[int] = (),
     wide_only: Sequence[int] = (),
+    leading: int = 1,
 ) -> None:
-    """A table: ruled on a terminal, without the columns `wide_only` if it is narrow; aligned columns when piped.
+    """A table: ruled and within the width of a terminal, without the columns `wide_only` if that is narrow; aligned
+    columns when piped. Columns without any text are left out.
 
     Columns without names have no line of names above them.
+
+    leading : the number of first columns that say what a row is; a table that is divided repeats them.
     """
+    columns = {
+        i: Column.of(head[i], [str(row[i]) for row in rows], right=i in right)
+        for i in range(len(head))
+        if i < leading or not rows or any(str(row[i]) for row in rows)
+    }
     if sys.stdout.isatty():
-        from rich import box
         from rich.console import Console
-        from rich.table import Table
-        from rich.text import Text
 
         console = Console()
-        kept = [i for i in range(len(head)) if console.width >= 130 or i not in wide_only]
-        shown = Table(
-            title=title or None,
-            box=box.SIMPLE_HEAD,
-            title_justify="left",
-            title_style="bold",
-            padding=(0, 1),
-            show_header=any(head),
-        )
-        for i in kept:
-            short = max((len(str(row[i])) for row in rows), default=0) <= 24
-            shown.add_column(head[i], justify="right" if i in right else "left", no_wrap=short)
-        for row in rows:
-            shown.add_row(*(Text(str(row[i])) for i in kept))
-        console.print(shown)
+        kept = [column for i, column in columns.items() if console.width >= 130 or i not in wide_only]
+        for number, part in enumerate(tables_within(kept, leading, console.width)):
+            _print_ruled(console, part, title if number == 0 else "")
         return
     if title:
         print(title)
-    widths = [max(len(str(row[i])) for row in [head, *rows]) for i in range(len(head))]
-    for row in [head, *rows] if any(head) else rows:
+    lines = zip(*((column.head, *column.cells) for column in columns.values()), strict=True)
+    for line in list(lines)[0 if any(head) else 1 :]:
         cells = [
-            str(c).rjust(w) if i in right else str(c).ljust(w) for i, (c, w) in enumerate(zip(row, widths, strict=True))
+            cell.rjust(column.widest) if column.right else cell.ljust(column.widest)
+            for cell, column in zip(line, columns.values(), strict=True)
         ]
-        print("  ".join(cells).rstrip())
+        print((" " * _GAP).join(cells).rstrip())
+
+
+def _print_ruled(console: Any, columns: Sequence[Column], title: str) -> None:
+    """One table with a rule below its heads; texts are wrapped, never cut."""
+    from rich import box
+    from rich.table import Table
+    from rich.text import Text
+
+    widths = fitted_widths(columns, console.width)
+    shown = Table(
+        box=box.SIMPLE_HEAD,
+        show_edge=False,
+        pad_edge=False,
+        padding=(0, 1),
+        collapse_padding=True,
+        show_header=any(column.head for column in columns),
+    )
+    for i, column in enumerate(columns):
+        shown.add_column(
+            Text(column.head),
+            justify="right" if column.right else "left",
+            overflow="fold",
+            width=None if widths is None else widths[i],
+        )
+    for row in zip(*(column.cells for column in columns), strict=True):
+        shown.add_row(*map(Text, row))
+    console.print()
+    if title:
+        console.print(Text(title, style="bold"))
+    console.print(shown)
 
 
 def show_warnings(warnings: Sequence[str]) -> None:
@@ -165,7 +272,7 @@ def show_warnings(warnings: Sequence[str]) -> None:
 def print_numbers(summary: Mapping[str, Any], headline: Sequence[str]) -> None:
     """The figures of a run."""
     from bem.plots.report import with_error
-    from bem.plots.tables import figure_tables, is_list
+    from bem.plots.tables import is_list
 
     known = [name for name in headline if summary.get(name) is not None]
     rows = [with_error(name, summary) for name in known if not is_list(summary[name])]
@@ -173,8 +280,28 @@ def print_numbers(summary: Mapping[str, Any], headline: Sequence[str]) -> None:
     rows += [("outside the model", text) for text in summary.get("outside_model", ())]
     rows.append(("time", f"{summary['wall_time_s']:.1f} s"))
     table(("figure", "value"), rows, title=f"{summary['scene']} ({summary['kind']})")
-    for item in figure_tables(summary, known):
-        table(item.head, item.rows, title=item.title)
+    print_lists(summary, known)
+
+
+def print_lists(summary: Mapping[str, Any], names: Sequence[str]) -> None:
+    """Those of the named figures that are lists, as tables with a row for each case."""
+    from bem.plots.tables import MOST_COLUMNS, figure_tables
+
+    most = sys.maxsize if sys.stdout.isatty() else MOST_COLUMNS
+    for item in figure_tables(summary, names, columns=most):
+        table(item.head, item.rows, title=item.title, leading=item.leading)
+
+
+def print_points(figures: Mapping[str, Any]) -> None:
+    """The figures of a sweep, a row for each case of each point; of a single one, a row for each figure."""
+    from bem.plots.report import with_error
+    from bem.plots.tables import is_error
+
+    names = [name for name in figures if name != "over" and not is_error(name, figures)]
+    if all(len(figures[name]) == 1 for name in names):
+        table(("figure", "value"), [with_error(name, figures) for name in names])
+    else:
+        print_lists(figures, names)
 
 
 def print_files(folder: Path) -> None:

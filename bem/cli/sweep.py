@@ -41,7 +41,7 @@ def sweep(
     ] = False,
     pdf: Annotated[bool, typer.Option("--pdf", help="Draw the figure as PDF too, for print.")] = False,
 ) -> None:
-    """Run a scene at every combination of values: sweep.nc, sweep.csv and a figure.
+    """Run a scene at every combination of values: a table of results, sweep.nc, sweep.csv and a figure.
 
     Exit codes: 0 done, 2 bad scene or range (nothing is written), 3 points failed or did not converge (the others
     are kept), 4 results cannot be written, 130 interrupted (resumable).
@@ -54,7 +54,7 @@ def sweep(
       bem sweep rough-contact --over seed=1:4 --set outputs.von_mises=true --fields
       bem sweep rough-contact --over seed=1:9 --scheduler tcp://10.0.0.1:8786
     """
-    from bem.cli._terminal import resumable
+    from bem.cli._terminal import print_points, resumable
     from bem.runs.sweep import DATASET, FIGURE, TABLE, run_sweep
 
     with resumable() as terminal:
@@ -72,6 +72,7 @@ def sweep(
             pdf=pdf,
             fields=fields,
         )
+    print_points(done.figures)
     print(f"points computed: {done.computed}")
     for what, name in (("dataset", DATASET), ("table  ", TABLE), ("figure ", f"{FIGURE}.png")):
         if (done.path / name).exists():

@@ -14,24 +14,21 @@ from typing import Any
 
 from bem.plots.draw import Drawn
 from bem.plots.labels import prefix
-from bem.plots.tables import accuracy_tables, figure_tables, is_error, is_list, name_and_unit, origin_table, within
+from bem.plots.tables import (
+    ABOUT_THE_RUN,
+    accuracy_tables,
+    figure_tables,
+    is_error,
+    is_list,
+    is_size_of_no_particles,
+    name_and_unit,
+    origin_table,
+    shown_values,
+    varied_keys,
+    within,
+)
 from bem.results.atomic import write_text
 from bem.results.directory import REPORT
-
-_HIDDEN = (
-    "notes",
-    "outside_model",
-    "seconds_by_stage",
-    "scene",
-    "kind",
-    "version",
-    "seed",
-    "status",
-    "where",
-    "wall_time_s",
-    "accuracy",
-    "seconds_by_level",
-)
 
 
 def write_report(run: Any, drawn: Sequence[Drawn], headline: Sequence[str]) -> Path:
@@ -44,7 +41,7 @@ def write_report(run: Any, drawn: Sequence[Drawn], headline: Sequence[str]) -> P
     template = environment.from_string((resources.files("bem.plots") / "templates" / "report.html").read_text("utf-8"))
     summary = run.summary
     first = [name for name in headline if summary.get(name) is not None]
-    rest = [name for name in summary if name not in first and name not in _HIDDEN and not is_error(name, summary)]
+    rest = [name for name in summary if name not in first and name not in ABOUT_THE_RUN and not is_error(name, summary)]
     scene_text = (run.path / "scene.toml").read_text("utf-8")
     page = template.render(
         summary=summary,
@@ -79,7 +76,12 @@ _PREFIXED = ("m", "Pa", "N", "s", "m²", "m³", "nm", "µm")
 def with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
     """Name and value of a figure as `spelled`, with its error where it has one: `1.2 ± 0.013 GPa`."""
     value, error = _only(summary[name]), _only(summary.get(f"{name}_error"))
+    if name in (varied := varied_keys(summary)):
+        unit, cells = shown_values(name, [value], varied[name])
+        return name, f"{cells[0]} {unit}".rstrip()
     text, shown = spelled(name, value)
+    if is_size_of_no_particles(name, value):
+        return text, "-"
     if not isinstance(error, float) or not isinstance(value, int | float) or isinstance(value, bool) or value == 0:
         none = f"{name}_error" in summary and error is None and value is not None
         return text, f"{shown} (no error bar)" if none else shown

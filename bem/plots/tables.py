@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -15,18 +16,29 @@ _PREFIXED = ("m", "Pa", "N", "s", "nm", "µm")
 _SPREAD, _ERROR = "_spread", "_error"
 _TELLING = tuple(f"{name}_{unit}" for name, unit in TELLING.items())
 """Figures that say which row it is; texts (a variant's name) do so too."""
+ABOUT_THE_RUN = (
+    *("scene", "kind", "version", "seed", "status", "where", "wall_time_s", "notes", "outside_model", "over"),
+    *("accuracy", "seconds_by_stage", "seconds_by_level"),
+)
+"""Keys of a summary that hold no figure. A list of these, such as the notes, has no entry for each case."""
 _SIGNS = (("^2", "²"), ("^3", "³"), ("degC", "°C"), ("um", "µm"))
-_MOST_COLUMNS, _MOST_ROWS = 7, 200
+MOST_COLUMNS = 7
+"""Columns of a table on a page and in a file; more would not fit beside each other."""
+_MOST_ROWS = 200
 _ROUND_OFF = 1e-6  # a spread below this share of its mean is none
 
 
 @dataclass(frozen=True)
 class FigureTable:
-    """A table of the report: a title (empty for none), heads of the columns, rows of texts."""
+    """A table of the report: a title (empty for none), heads of the columns, rows of texts.
+
+    leading : the number of first columns that say which case a row is of.
+    """
 
     title: str
     head: tuple[str, ...]
     rows: tuple[tuple[str, ...], ...]
+    leading: int = 1
 
 
 def name_and_unit(name: str) -> tuple[str, str]:
@@ -117,24 +129,76 @@ def short(number: float, digits: int = 2) -> str:
     return "–" if not np.isfinite(number) else f"{float(f'{number:.{digits}g}'):g}"
 
 
-def figure_tables(summary: Mapping[str, Any], names: Sequence[str], title: str = "") -> list[FigureTable]:
+def varied_keys(summary: Mapping[str, Any]) -> dict[str, str]:
+    """Keys of the scene that `over` varies, with their SI units ("1" for none).
+
+    Summaries written before `over` was stored there have no units; a dot in a name tells a key from a figure.
+    """
+    stored = summary.get("over")
+    if isinstance(stored, Mapping):
+        return {str(key): str(unit) for key, unit in stored.items()}
+    return {name: "1" for name in summary if "." in name}
+
+
+def figure_tables(
+    summary: Mapping[str, Any], names: Sequence[str], title: str = "", *, columns: int = MOST_COLUMNS
+) -> list[FigureTable]:
     """Tables of those of the named figures that are lists.
 
-    Lists of one length share a table, a row for each entry, its first columns those that say which it is (speed, load,
-    variant); a spread stands beside its mean. A list of cases (tables of their own) becomes one table of its plain
-    values, and one for each case that holds lists.
+    Lists of one length share a table with a row for each entry. Its first columns say which case the row is of: the
+    varied keys of the scene, speed, load or variant. A spread stands beside its mean. A list of cases (tables of their
+    own) becomes one table of its plain values, and one for each case that holds lists.
+
+    columns : the largest number of columns of a table; further columns go into another one.
     """
     found = []
     plain = [n for n in names if is_list(summary.get(n)) and not any(isinstance(v, Mapping | list) for v in summary[n])]
     for length in dict.fromkeys(len(summary[name]) for name in plain):
-        found += _columns(summary, [name for name in plain if len(summary[name]) == length], title)
+        found += _columns(summary, [name for name in plain if len(summary[name]) == length], title, columns)
     for name in names:
         value = summary.get(name)
         if isinstance(value, list) and value and all(isinstance(item, Mapping) for item in value):
             known = {n: summary[n] for n in _TELLING if is_list(summary.get(n))}
+            known |= {"over": varied_keys(summary)}
             further = [case for case in value if any(summary.get(key) != case[key] for key in case)]
-            found += _cases(name_and_unit(name)[0], further, known)
+            found += _cases(name_and_unit(name)[0], further, known, columns)
     return found
+
+
+def summary_of_points(
+    over: Mapping[str, str],
+    places: Sequence[Sequence[Any]],
+    summaries: Sequence[Mapping[str, Any] | None],
+    names: Sequence[str],
+) -> dict[str, Any]:
+    """Figures of the points of a sweep as lists, an entry for each case of each point, for `figure_tables`.
+
+    over : the swept keys with their SI units. places : their values at each point. summaries : of the points, None
+    where a point has no result. names : of the figures; those that no point has are left out.
+    """
+    found: dict[str, list[Any]] = {key: [] for key in over}
+    wanted = [
+        key
+        for name in names
+        for key in (name, name + _ERROR, name + _SPREAD)
+        if name not in over and any(summary and summary.get(key) is not None for summary in summaries)
+    ]
+    found |= {name: [] for name in wanted}
+    failed = any(summary is None for summary in summaries)
+    states: list[str] = []
+    for place, given in zip(places, summaries, strict=True):
+        summary = given or {}
+        count = max((len(v) for n in wanted if isinstance(v := summary.get(n), list)), default=1)
+        for key, value in zip(over, place, strict=True):
+            found[key] += [value] * count
+        for name in wanted:
+            value = summary.get(name)
+            entries = value if isinstance(value, list) else [value]
+            entries = entries * count if len(entries) == 1 else entries
+            found[name] += entries if len(entries) == count else [None] * count
+        states += ["failed" if given is None else str(summary.get("status", ""))] * count
+    told = {"result": states} if failed or any(state != "converged" for state in states) else {}
+    return {"over": dict(over), **found, **told}
 
 
 def accuracy_tables(summary: Mapping[str, Any]) -> list[FigureTable]:
@@ -154,40 +218,80 @@ def accuracy_tables(summary: Mapping[str, Any]) -> list[FigureTable]:
     return [FigureTable(title, head, tuple(rows[:_MOST_ROWS]))]
 
 
-def _columns(summary: Mapping[str, Any], names: Sequence[str], title: str) -> list[FigureTable]:
-    """Lists of one length side by side, in tables of a few columns that repeat the first."""
+def _columns(summary: Mapping[str, Any], names: Sequence[str], title: str, columns: int) -> list[FigureTable]:
+    """Lists of one length side by side, in tables of at most so many columns that repeat the leading ones."""
     names = [name for name in names if not _is_spread(name, summary) and not is_error(name, summary)]
     if not names:
         return []
-    length = len(summary[names[0]])
+    length, varied = len(summary[names[0]]), varied_keys(summary)
     step = -(-length // _MOST_ROWS)
     leading = _leading(summary, length) or list(names[:1])
+    repeated = [n for n in names if n in _TELLING and _repeats_key(n, summary)]
     rest = [
         _column(name, summary[name], _beside(name, summary), bars=f"{name}{_ERROR}" in summary)
         for name in names
-        if name not in leading
+        if name not in leading and name not in varied and name not in repeated
     ]
-    first = [_column(name, summary[name], None) for name in leading]
-    wide = max(1, _MOST_COLUMNS - len(first))
+    first = [
+        _varied(name, summary[name], varied[name]) if name in varied else _column(name, summary[name], None)
+        for name in leading
+    ]
+    wide = max(1, columns - len(first))
     found = []
     for start in range(0, max(1, len(rest)), wide):
         part = [*first, *rest[start : start + wide]]
         rows = tuple(zip(*(cells[::step] for _, cells in part), strict=True))
         words = f"{title} (one row in {step})".strip() if step > 1 else title
-        found.append(FigureTable(words if start == 0 else "", tuple(head for head, _ in part), rows))
+        found.append(FigureTable(words if start == 0 else "", tuple(head for head, _ in part), rows, len(first)))
     return found
 
 
 def _leading(summary: Mapping[str, Any], length: int) -> list[str]:
-    """Lists of this length that say which row it is: what varies along it, each once."""
+    """Lists of this length that say which row it is: what varies along it, each once, the keys of `over` first."""
+    varied = varied_keys(summary)
     lists = [name for name, value in summary.items() if isinstance(value, list) and len(value) == length > 1]
-    telling = [n for n in lists if n in _TELLING or all(isinstance(item, str) for item in summary[n])]
-    return [n for n in telling if len(set(summary[n])) > 1]
+    texts = [n for n in lists if n not in ABOUT_THE_RUN and all(isinstance(item, str) for item in summary[n])]
+    telling = [n for n in (*_TELLING, *texts) if n in lists and n not in varied and not _repeats_key(n, summary)]
+    return [n for n in (*(n for n in lists if n in varied), *telling) if len(set(summary[n])) > 1]
+
+
+def _repeats_key(name: str, summary: Mapping[str, Any]) -> bool:
+    """Return True if a figure repeats the values of a varied key: a load, or a temperature in degrees Celsius."""
+    lists = (summary[key] for key in varied_keys(summary) if isinstance(summary.get(key), list))
+    return any(_same_values(summary[name], values) for values in lists if len(values) == len(summary[name]))
+
+
+def _same_values(figures: Sequence[Any], values: Sequence[Any]) -> bool:
+    """Return True if all numbers are equal, or differ by the zero of the Celsius scale."""
+    try:
+        differences = np.asarray(values, dtype=np.float64) - np.asarray(figures, dtype=np.float64)
+        scale = 1e-9 * np.abs(np.asarray(values, dtype=np.float64))
+    except (TypeError, ValueError):
+        return False
+    return bool((np.abs(differences) <= scale).all() or (np.abs(differences - 273.15) <= scale).all())
+
+
+def shown_values(key: str, values: Sequence[Any], unit: str) -> tuple[str, list[str]]:
+    """Unit and texts of the values of a varied key; absolute temperatures are shown in degrees Celsius."""
+    numbers = [v for v in values if isinstance(v, int | float) and not isinstance(v, bool)]
+    if unit == "K" and key.endswith("temperature"):
+        return "°C", [v if isinstance(v, str) else _cell(v - 273.15) for v in values]
+    factor, unit = prefix(numbers, unit) if numbers else (1.0, "" if unit == "1" else unit)
+    for written, sign in _SIGNS:
+        unit = unit.replace(written, sign)
+    return unit, [v if isinstance(v, str) else _cell(v, factor) for v in values]
+
+
+def _varied(key: str, values: Sequence[Any], unit: str) -> tuple[str, list[str]]:
+    """Column of a varied key, whose head is spelt as in the scene."""
+    unit, cells = shown_values(key, values, unit)
+    return label(key, unit), cells
 
 
 def _column(name: str, values: Sequence[Any], spread: Any, *, bars: bool = False) -> tuple[str, list[str]]:
     """Head with its unit, and the values in it; not-a-number and nothing are a dash."""
     words, unit = name_and_unit(name)
+    values = [None if is_size_of_no_particles(name, value) else value for value in values]
     numbers = [v for v in values if isinstance(v, int | float) and not isinstance(v, bool)]
     factor = 1.0
     if unit in _PREFIXED and numbers:
@@ -205,6 +309,16 @@ def _column(name: str, values: Sequence[Any], spread: Any, *, bars: bool = False
     return label(words, unit), cells
 
 
+_SIZES = re.compile(
+    r"particle_(equivalent_radius|length|width|thickness)|(number|area|volume)_mean_\w+|first_cycles_radius"
+)
+
+
+def is_size_of_no_particles(name: str, value: Any) -> bool:
+    """Return True for a mean size of particles that is zero: no particle was found, so there is no size to show."""
+    return _SIZES.match(name) is not None and isinstance(value, int | float) and value == 0
+
+
 def _cell(value: Any, factor: float = 1.0) -> str:
     if isinstance(value, bool | str):
         return str(value).replace("_", " ")
@@ -213,20 +327,29 @@ def _cell(value: Any, factor: float = 1.0) -> str:
     return str(value) if isinstance(value, int) and factor == 1.0 else f"{value * factor:.4g}"
 
 
-def _cases(title: str, cases: Sequence[Mapping[str, Any]], known: Mapping[str, Any]) -> list[FigureTable]:
+def _cases(title: str, cases: Sequence[Mapping[str, Any]], known: Mapping[str, Any], most: int) -> list[FigureTable]:
     """Cases in one table where their values are plain; a table for each, over the `known` lists, where they are not."""
+    varied = known["over"]
     keys = list(dict.fromkeys(key for case in cases for key in case))
     plain = [key for key in keys if not any(isinstance(case.get(key), list | Mapping) for case in cases)]
     plain = [key for key in plain if any(case.get(key) not in ("", None) for case in cases)]
     found = []
     if any(isinstance(value, list | Mapping) for case in cases for value in case.values()):
         for case in cases:
-            words = ", ".join(_with_unit(key, case[key]) for key in plain if case.get(key) not in ("", None))
-            found += figure_tables({**known, **case}, list({**known, **case}), f"{title}: {words}" if words else title)
+            words = ", ".join(
+                _key_with_unit(key, case[key], varied[key]) if key in varied else _with_unit(key, case[key])
+                for key in plain
+                if case.get(key) not in ("", None)
+            )
+            summary = {**known, **case}
+            heading = f"{title}: {words}" if words else title
+            found += figure_tables(summary, [n for n in summary if n != "over"], heading, columns=most)
     elif plain:
         table = {key: [case.get(key) for case in cases] for key in plain}
         shown = {k: v for k, v in table.items() if not _is_spread(k, table) and not is_error(k, table)}
-        columns = [_column(k, v, _beside(k, table)) for k, v in shown.items()]
+        columns = [
+            _varied(k, v, varied[k]) if k in varied else _column(k, v, _beside(k, table)) for k, v in shown.items()
+        ]
         rows = tuple(zip(*(cells for _, cells in columns), strict=True))
         found.append(FigureTable(title, tuple(head for head, _ in columns), rows))
     return found
@@ -244,3 +367,9 @@ def _is_spread(name: str, among: Mapping[str, Any]) -> bool:
 
 def _with_unit(name: str, value: Any) -> str:
     return f"{_cell(value)} {name_and_unit(name)[1]}".rstrip()
+
+
+def _key_with_unit(key: str, value: Any, unit: str) -> str:
+    """A varied key with its value in words: "oil.temperature 40 °C"."""
+    unit, (cell,) = shown_values(key, [value], unit)
+    return f"{key} {cell} {unit}".rstrip()

@@ -14,7 +14,9 @@ from bem.results.differing import leaves
 from bem.results.directory import SCENE
 from bem.results.read import FinishedRun
 
-_NO_FIGURES = ("scene", "kind", "version", "notes", "outside_model", "seconds_by_stage", "wall_time_s", "where")
+_NO_FIGURES = (
+    *("scene", "kind", "version", "notes", "outside_model", "over", "seconds_by_stage", "wall_time_s", "where"),
+)
 _MOST_IN_A_LABEL = 2
 
 

@@ -203,6 +203,7 @@ def _write(
         "status": Status(outcome.status).value,
         "where": outcome.where,
         **plain(outcome.summary),
+        **({"over": {key: outcome.variables[key].units for key in scene.over}} if scene.over else {}),
         **_told(computed.notes),
         "seconds_by_stage": seconds,
     }

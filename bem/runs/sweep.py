@@ -7,7 +7,7 @@ import json
 import os
 from collections.abc import Mapping, Sequence
 from contextlib import closing
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from itertools import product
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -19,6 +19,7 @@ from bem.campaigns.context import Silent, Watcher
 from bem.campaigns.jobs import Staff, hand_out
 from bem.errors import OUTSIDE, InputError, ResultsError
 from bem.plots.draw import load_what_draws
+from bem.plots.tables import summary_of_points
 from bem.results import RunDirectory
 from bem.results.atomic import force_names, reason, write_text
 from bem.results.dataset import read_dataset, write_variables
@@ -56,12 +57,15 @@ class FinishedSweep:
     computed : how many points this call computed; the others were there.
     failed : what went wrong, by the folder of the point.
     not_converged : folders of points whose solver did not converge.
+    figures : the figures that a run shows first, as lists with an entry for each case of each point, behind the
+        values of the swept keys; laid out as the summary of a run.
     """
 
     path: Path
     computed: int
     failed: dict[str, str]
     not_converged: tuple[str, ...]
+    figures: dict[str, Any] = field(default_factory=dict)
 
     @property
     def dataset(self) -> xarray.Dataset:
@@ -159,7 +163,13 @@ def run_sweep(
             _draw(folder, scenes[0].kind, variables, spacings, pdf)
         force_names(folder)
     stuck = [name for name, summary in summaries.items() if summary and summary.get("status") != "converged"]
-    return FinishedSweep(folder, len(missing) - len(failed), failed, tuple(stuck))
+    shown = summary_of_points(
+        {axis.name: axis.si for axis in axes},
+        list(product(*(axis.values for axis in axes))),
+        in_order,
+        (*(scenes[0].over or ()), *get_kind(scenes[0].kind).headline),
+    )
+    return FinishedSweep(folder, len(missing) - len(failed), failed, tuple(stuck), shown)
 
 
 def _tell_notes(summaries: Sequence[Mapping[str, Any] | None], labels: Sequence[str], watcher: Watcher) -> None:

@@ -5,8 +5,8 @@ from types import SimpleNamespace
 
 import pytest
 
-from bem.plots.report import spelled, write_report
-from bem.plots.tables import figure_tables, name_and_unit
+from bem.plots.report import spelled, with_error, write_report
+from bem.plots.tables import figure_tables, name_and_unit, summary_of_points
 from bem.scenes.records import UNITS
 
 SUMMARY = {
@@ -81,3 +81,87 @@ def test_the_report_has_no_paragraph_of_numbers(tmp_path):
 )
 def test_no_thousand_of_a_unit_is_shown(name, value, shown):
     assert spelled(name, value)[1] == shown
+
+
+OVER = {
+    "over": {"oil.temperature": "K", "contact.behaviour": "1", "contact.load": "N"},
+    "oil.temperature": [293.15, 293.15, 313.15, 313.15],
+    "contact.behaviour": ["elastic", "capped"] * 2,
+    "contact.load": [2000.0] * 4,
+    "sliding_traction": [0.1, 0.2, 0.3, 0.4],
+    "film_nm": [400.0, 300.0, 200.0, 100.0],
+}
+
+
+def test_notes_are_no_column_where_there_are_as_many_as_rows():
+    texts = {
+        "notes": ["first", "second", "third"],
+        "outside_model": ["a", "b", "c"],
+        "seconds_by_level": ["d", "e", "f"],
+    }
+    (table,) = figure_tables(texts | SUMMARY, ["speed_m_s", "friction"])
+    assert table.head == ("speed (m/s)", "friction")
+    (table,) = figure_tables(SUMMARY | texts, ["friction", "film_load_N"])
+    assert table.head[0] == "speed (m/s)"
+    (table,) = figure_tables({"seed": 1, "friction": [0.1, 0.2], "notes": ["x", "y"]}, ["friction"])
+    assert table.head == ("friction",)
+
+
+def test_varied_keys_say_which_row_it_is_in_every_table():
+    (table,) = figure_tables(OVER, ["sliding_traction", "film_nm"])
+    assert table.head == ("oil.temperature (°C)", "contact.behaviour", "sliding traction", "film (nm)")
+    assert table.leading == 2
+    assert [row[:2] for row in table.rows] == [(t, b) for t in ("20", "40") for b in ("elastic", "capped")]
+    old = {key: value for key, value in OVER.items() if key != "over"}  # a run of before units were stored
+    (table,) = figure_tables(old, ["sliding_traction"])
+    assert table.head == ("oil.temperature", "contact.behaviour", "sliding traction")
+    assert len(figure_tables(OVER, ["sliding_traction", "film_nm"], columns=3)) == 2
+
+
+def test_a_figure_that_repeats_a_varied_key_is_not_shown_twice():
+    summary = {"over": {"oil.temperature": "K"}, "oil.temperature": [293.15, 313.15], "temperature_C": [20.0, 40.0]}
+    (table,) = figure_tables(summary | {"friction": [0.1, 0.2]}, ["temperature_C", "friction"])
+    assert table.head == ("oil.temperature (°C)", "friction")
+
+
+def test_varied_keys_are_named_in_the_titles_of_further_cases():
+    cases = [{"oil.temperature": t, "speed_m_s": [0.1, 1.0], "friction": [0.1, 0.05]} for t in (293.15, 313.15)]
+    summary = {"over": {"oil.temperature": "K"}, **cases[0], "curves": cases}
+    (table,) = figure_tables(summary, ["curves"])
+    assert table.title == "curves: oil.temperature 40 °C"
+    assert with_error("oil.temperature", summary) == ("oil.temperature", "20 °C")
+
+
+def test_sizes_of_no_particles_are_a_dash():
+    summary = {"speed_m_s": [0.1, 1.0], "particle_equivalent_radius_nm": [0.0, 30.0], "area_mean_length_nm": [0, 0]}
+    (table,) = figure_tables(summary, list(summary))
+    assert table.rows == (("0.1", "–", "–"), ("1", "30", "–"))
+    assert with_error("particle_length_nm", {"particle_length_nm": 0.0, "particle_length_nm_error": None})[1] == "-"
+    assert with_error("particles_per_cycle", {"particles_per_cycle": 0.0})[1] == "0"
+
+
+def test_points_of_a_sweep_are_rows_behind_the_swept_keys():
+    points = [
+        {
+            "status": "converged",
+            "friction": [0.1, 0.2],
+            "friction_error": [0.01, 0.02],
+            "speed_m_s": [1.0, 2.0],
+            "Sq_nm": 5.0,
+        },
+        None,
+        {
+            "status": "stalled",
+            "friction": [0.3, 0.4],
+            "friction_error": [0.01, 0.02],
+            "speed_m_s": [1.0, 2.0],
+            "Sq_nm": 6.0,
+        },
+    ]
+    names = ["speed_m_s", "friction", "Sq_nm", "no_such_figure"]
+    summary = summary_of_points({"contact.load": "N"}, [(1.0,), (2.0,), (3.0,)], points, names)
+    (table,) = figure_tables(summary, [name for name in summary if name != "over"])
+    assert table.head == ("contact.load (N)", "speed (m/s)", "result", "friction", "Sq (nm)")
+    assert table.rows[0] == ("1", "1", "converged", "0.1 ± 0.01", "5")
+    assert table.rows[2] == ("2", "–", "failed", "–", "–")
+    assert table.rows[4][2:] == ("stalled", "0.4 ± 0.02", "6")
