@@ -25,6 +25,7 @@ from bem.elements.rolling_bearing import BearingModel
 from bem.errors import InputError
 from bem.materials import Body, Material, contact_modulus
 from bem.scenes.checks.hertz import smooth_contact
+from bem.scenes.template import without_description
 from bem.scenes.validate import nearest, show, validate
 
 MODELS: dict[str, type[ElementModel]] = {
@@ -345,7 +346,7 @@ def element_template(name: str) -> str:
         raise InputError(f'"{word}": not here: {NOT_HERE[word]}')
     if word not in MODELS:
         raise InputError(f'"{name}": no machine element{nearest(word, MODELS)}; allowed: {", ".join(MODELS)}')
-    return (resources.files("bem.elements") / "templates" / f"{word}.toml").read_text("utf-8")
+    return without_description((resources.files("bem.elements") / "templates" / f"{word}.toml").read_text("utf-8"))
 
 
 def degrees(contact: ElementContact, unit: str) -> str:

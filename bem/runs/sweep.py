@@ -234,6 +234,8 @@ def _check_same_base(folder: Path, definition: Mapping[str, Any]) -> None:
             f"--resume: {folder / DEFINITION} does not say of which scene its sweep is; allowed: another --out"
         ) from None
     now = json.loads(json.dumps(definition["base"]))
+    for table in (there, now):
+        table.pop("description", None)  # it names settings, which may be of keys that are swept now
     for key in definition["over"]:
         for table in (there, now):
             _take_out(table, parse_key(key) or ())

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import copy
 import json
 import os
 import re
@@ -174,14 +175,52 @@ def _read(source: str | os.PathLike[str] | Mapping[str, Any], settings: Sequence
     else:
         data, folder = _read_named(os.fspath(source))
     messages: list[str] = []
+    changes: list[str] = []
+    given = data.get("description")
     for setting in settings:
+        before = copy.deepcopy(data)
         try:
             _set(data, setting)
         except InputError as error:
             messages += error.messages
+        if data != before and setting.partition("=")[0].strip().partition(".")[0] not in _SAME_CASE:
+            changes.append(setting)
     if messages:
         raise InputError(messages)
+    if changes and isinstance(given, str) and data.get("description") == given:
+        data["description"] = changed_description(given, changes)
     return data, folder
+
+
+_SAME_CASE = ("name", "description", "redoes", "accuracy", "outputs")
+"""Keys that change what is written about a scene, not the contact that it describes."""
+_LONGEST_NAMED = 60
+"""Characters of a changed key with its value in a description."""
+_BASED_ON, _CHANGED = "based on ", "changed: "
+
+
+def changed_description(description: str, changes: Sequence[str]) -> str:
+    """The description of a scene after changes of its keys, which it names.
+
+    The description of a built-in scene may state what has changed, so only the name of that scene is taken over. An
+    own description is kept. Without a description there is nothing to correct.
+
+    description : before the changes. changes : the settings, `key=value`.
+    """
+    if not description:
+        return ""
+    before, mark, named = description.rpartition(_CHANGED)
+    marked = bool(mark) and (before.startswith(_BASED_ON) or before.endswith(" ("))
+    earlier = named.removesuffix(")" if before.endswith("(") else "").split("; ") if marked else []
+    texts = {text.partition("=")[0].strip(): text for text in earlier}
+    for change in changes:
+        text = " ".join(change.split()) if _is_text(change) else "a key"
+        texts[text.partition("=")[0].strip()] = text if len(text) <= _LONGEST_NAMED else f"{text[:_LONGEST_NAMED]}..."
+    words = _CHANGED + "; ".join(texts.values())
+    if marked:
+        return before + words + (")" if before.endswith("(") else "")
+    built_in = next((name for name, table in library().items() if table.get("description") == description), "")
+    return f"{_BASED_ON}{built_in}, {words}" if built_in else f"{description} ({words})"
 
 
 def _read_named(source: str) -> tuple[dict[str, Any], Path]:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 import typing
 from collections.abc import Iterator, Mapping
 from typing import Any
@@ -91,7 +92,7 @@ def scene_template(kind: str) -> str:
     """
     kind = kind_meant(kind)
     if kind not in kind_names() and kind in library():
-        return library_text(kind)
+        return without_description(library_text(kind))
     if kind not in kind_names():
         listed = ", ".join(f'"{name}"' for name in kind_names())
         close = nearest(kind, [*kind_names(), *_ALSO, *library()])
@@ -100,6 +101,7 @@ def scene_template(kind: str) -> str:
         )
     found = get_kind(kind)
     name, data = shortest_scene(kind)
+    data = {key: value for key, value in data.items() if key != "description"}
     lines = [
         f"# {found.title}",
         f"# Values are those of the built-in scene `{name}`; lines behind a # are other keys with their defaults.",
@@ -108,6 +110,13 @@ def scene_template(kind: str) -> str:
         *_table(found.model, data, (), commented=False),
     ]
     return "\n".join(lines).rstrip() + "\n"
+
+
+def without_description(text: str) -> str:
+    """The TOML text of an example with its description as a comment: what is made of it is another case."""
+    return re.sub(
+        r'^(description = ".*")$', r"# \1  # of the example; write your own", text, count=1, flags=re.MULTILINE
+    )
 
 
 def shortest_scene(kind: str) -> tuple[str, dict[str, Any]]:

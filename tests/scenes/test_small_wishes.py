@@ -7,8 +7,10 @@ import numpy as np
 import pytest
 
 from bem import CATALOGUE, Body, InputError, Layer, Material, contact_modulus, load_scene, plan_scene, run_scene
+from bem.elements.element import element_template, load_element
 from bem.scenes.build import heights_of
-from bem.scenes.load import dump_scene
+from bem.scenes.form import library_scene, with_value
+from bem.scenes.load import changed_description, dump_scene, library
 from bem.scenes.template import scene_template
 from bem.surfaces.examples import FOLDER
 
@@ -55,6 +57,46 @@ def test_new_gives_built_in_scenes_and_near_spellings():
     assert "Hertz' point contact" in scene_template("hertz-sphere")
     with pytest.raises(InputError, match='did you mean "stribeck"'):
         scene_template("stribek")
+
+
+@pytest.mark.parametrize("name", ["traction", "contact", "traction-curve", "hertz-sphere"])
+def test_a_new_scene_has_no_description_of_another_case(name, tmp_path):
+    (tmp_path / "own.toml").write_text(scene_template(name))
+    assert load_scene(tmp_path / "own.toml").description == ""
+
+
+@pytest.mark.parametrize("name", ["gear-pair", "rolling-bearing", "cam-follower", "piston-ring"])
+def test_a_new_element_has_no_description_of_another_case(name, tmp_path):
+    (tmp_path / "own.toml").write_text(element_template(name))
+    assert load_element(tmp_path / "own.toml").model.description == ""
+
+
+def test_a_changed_scene_says_what_it_is_based_on(tmp_path):
+    own = load_scene("traction-curve").description
+    changed = load_scene("traction-curve", ('oil.grade="ISO VG 220"', "film.points=300"))
+    assert "VG 68" not in changed.description
+    assert "traction-curve" in changed.description
+    assert 'oil.grade="ISO VG 220"; film.points=300' in changed.description
+    assert load_scene("traction-curve", ("name=mine", "accuracy=1%")).description == own
+    assert load_scene("traction-curve", ('oil.grade="ISO VG 68"',)).description == own  # as it was
+    assert load_scene("traction-curve", ("description=mine", "film.points=300")).description == "mine"
+    (tmp_path / "run.toml").write_text(dump_scene(changed))
+    again = load_scene(tmp_path / "run.toml", ("film.points=400",)).description
+    assert again == changed.description.replace("=300", "=400")
+
+
+def test_an_own_description_is_kept_with_the_changes_behind_it():
+    table = {key: item for key, item in library()["hertz-sphere"].items() if key != "description"}
+    assert load_scene(table, ("contact.load=7 N",)).description == ""
+    own = load_scene(table | {"description": "my ball"}, ("contact.load=7 N",)).description
+    assert own == "my ball (changed: contact.load=7 N)"
+    assert changed_description(own, ["contact.load=8 N"]) == "my ball (changed: contact.load=8 N)"
+
+
+def test_the_form_of_the_page_marks_a_changed_built_in_scene():
+    table = with_value(library_scene("traction-curve"), "oil.grade", "ISO VG 220")
+    assert "VG 68" not in table["description"]
+    assert "traction-curve" in table["description"]
 
 
 def test_the_catalogue_knows_near_spellings_and_is_a_body():
