@@ -20,6 +20,7 @@ from bem.plots.tables import (
     figure_tables,
     is_error,
     is_list,
+    is_second_name,
     is_size_of_no_particles,
     name_and_unit,
     origin_table,
@@ -42,6 +43,7 @@ def write_report(run: Any, drawn: Sequence[Drawn], headline: Sequence[str]) -> P
     summary = run.summary
     first = [name for name in headline if summary.get(name) is not None]
     rest = [name for name in summary if name not in first and name not in ABOUT_THE_RUN and not is_error(name, summary)]
+    rest = [name for name in rest if not is_second_name(name, summary)]
     scene_text = (run.path / "scene.toml").read_text("utf-8")
     page = template.render(
         summary=summary,

@@ -46,7 +46,30 @@ def name_and_unit(name: str) -> tuple[str, str]:
     words, unit = unit_of(name)
     for written, sign in _SIGNS:
         unit = unit.replace(written, sign)
-    return " ".join(words.split("_")).replace("von mises", "von Mises"), unit
+    return _LABELS.get(words, " ".join(words.split("_")).replace("von mises", "von Mises")), unit
+
+
+_LABELS = {
+    "Sq": "Sq of both surfaces",
+    "Sq_initial": "Sq of the contact region, initial",
+    "Sq_final": "Sq of the contact region, final",
+    "worn_depth": "worn depth of the contact region",
+    "lower_Sq": "Sq of the lower surface",
+    "upper_Sq": "Sq of the upper surface",
+    "lower_Sq_initial": "Sq of the lower surface, initial",
+    "lower_Sq_final": "Sq of the lower surface, final",
+    "lower_worn_depth": "worn depth of the lower surface",
+    "upper_Sq_initial": "Sq of the upper surface, initial",
+    "upper_Sq_final": "Sq of the upper surface, final",
+    "upper_worn_depth": "worn depth of the upper surface",
+    "combined_Sq": "Sq of both surfaces",
+}
+"""Labels that say the region of a figure, by its name without the unit."""
+
+
+def is_second_name(name: str, among: Mapping[str, Any]) -> bool:
+    """Return True for a figure that stands under a name with its body, too: `Sq_final_nm`, of `lower_Sq_final_nm`."""
+    return f"lower_{name}" in among
 
 
 _SHARES = ("fraction", "share")
@@ -152,6 +175,7 @@ def figure_tables(
     columns : the largest number of columns of a table; further columns go into another one.
     """
     found = []
+    names = [name for name in names if not is_second_name(name, summary)]
     plain = [n for n in names if is_list(summary.get(n)) and not any(isinstance(v, Mapping | list) for v in summary[n])]
     for length in dict.fromkeys(len(summary[name]) for name in plain):
         found += _columns(summary, [name for name in plain if len(summary[name]) == length], title, columns)
@@ -333,6 +357,7 @@ def _cases(title: str, cases: Sequence[Mapping[str, Any]], known: Mapping[str, A
     keys = list(dict.fromkeys(key for case in cases for key in case))
     plain = [key for key in keys if not any(isinstance(case.get(key), list | Mapping) for case in cases)]
     plain = [key for key in plain if any(case.get(key) not in ("", None) for case in cases)]
+    plain = [key for key in plain if not is_second_name(key, dict.fromkeys(keys))]
     found = []
     if any(isinstance(value, list | Mapping) for case in cases for value in case.values()):
         for case in cases:

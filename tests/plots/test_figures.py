@@ -184,7 +184,7 @@ def test_prefixes(value, unit, expected):
         ("approach_m", 4.2e-7, ("approach", "420 nm")),
         ("particle_equivalent_radius_nm", 151.23, ("particle equivalent radius", "151.2 nm")),
         ("cycles", 200, ("cycles", "200")),
-        ("worn_depth_nm", 129100.0, ("worn depth", "129.1 µm")),
+        ("worn_depth_nm", 129100.0, ("worn depth of the contact region", "129.1 µm")),
         ("spacing_um", 2500.0, ("spacing", "2.5 mm")),
         ("yielded_volume_m3", 5.697e-16, ("yielded volume", "569.7 µm³")),
         ("friction", [0.1, 0.2], ("friction", "0.1, 0.2")),

@@ -7,7 +7,8 @@ import pytest
 
 from bem.plots.report import spelled, with_error, write_report
 from bem.plots.tables import figure_tables, name_and_unit, summary_of_points
-from bem.scenes.records import UNITS
+from bem.scenes import get_kind
+from bem.scenes.records import UNITS, figures
 
 SUMMARY = {
     "speed_m_s": [0.01, 0.1, 1.0],
@@ -161,7 +162,26 @@ def test_points_of_a_sweep_are_rows_behind_the_swept_keys():
     names = ["speed_m_s", "friction", "Sq_nm", "no_such_figure"]
     summary = summary_of_points({"contact.load": "N"}, [(1.0,), (2.0,), (3.0,)], points, names)
     (table,) = figure_tables(summary, [name for name in summary if name != "over"])
-    assert table.head == ("contact.load (N)", "speed (m/s)", "result", "friction", "Sq (nm)")
+    assert table.head == ("contact.load (N)", "speed (m/s)", "result", "friction", "Sq of both surfaces (nm)")
     assert table.rows[0] == ("1", "1", "converged", "0.1 ± 0.01", "5")
     assert table.rows[2] == ("2", "–", "failed", "–", "–")
     assert table.rows[4][2:] == ("stalled", "0.4 ± 0.02", "6")
+
+
+@pytest.mark.parametrize("kind", ["wear", "running-in", "running-in-life", "friction", "flow-factors", "contact"])
+def test_every_roughness_says_of_which_region_it_is(kind):
+    """`Sq initial` was the roughness of the contact region in two kinds, and of a whole surface in a third."""
+    record, regions = get_kind(kind).record, ("contact region", "surface")
+    names = [name for name in figures(record) if ("Sq" in name and "over_Sq" not in name) or "worn_depth" in name]
+    assert names
+    for name in names:
+        assert any(region in name_and_unit(name)[0] for region in regions), name
+    shown = [name for name in names if name in get_kind(kind).headline]
+    meant = {"wear": "contact region", "running-in": "contact region"}.get(kind, "surface")
+    assert all(meant in name_and_unit(name)[0] for name in shown)
+
+
+def test_a_figure_of_a_life_is_shown_under_one_name():
+    summary = {"lower_Sq_final_nm": [1.0, 2.0], "Sq_final_nm": [1.0, 2.0], "speed_m_s": [0.1, 0.2]}
+    (table,) = figure_tables(summary, list(summary))
+    assert table.head == ("speed (m/s)", "Sq of the lower surface, final (nm)")

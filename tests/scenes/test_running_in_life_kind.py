@@ -47,6 +47,9 @@ def test_a_life_wears_grows_counts_pieces_and_goes_on_to_the_same_bits():
     record, context = run(scene)
     assert record.status == "converged"
     assert record.Sq_final < record.Sq_initial
+    for name in ("Sq_initial", "Sq_final", "worn_depth"):  # second names of figures of the lower surface
+        assert getattr(record, name) == getattr(record, f"lower_{name}")
+        assert record.errors[name] == record.errors[f"lower_{name}"]
     assert record.friction_over_cycles[0] == pytest.approx(record.friction_initial, rel=0.02)
     assert record.friction_over_cycles[-1] == pytest.approx(record.friction_final, rel=1e-12)
     assert record.worn_depth > 0 < record.upper_worn_depth

@@ -44,7 +44,9 @@ def _wear(run: Any, figure: Figure) -> None:
     missed = 1e9 * data["depth_error_over_cycles"].values
     for name, colour in (("lower", BLUE), ("upper", VERMILION)):
         depth = 1e9 * data[f"{name}_depth_over_cycles"].values
-        axes.plot(cycle, 1e9 * data[f"{name}_rms_over_cycles"].values, "--", color=colour, label=f"Sq, {name}")
+        axes.plot(
+            cycle, 1e9 * data[f"{name}_rms_over_cycles"].values, "--", color=colour, label=f"Sq, whole {name} surface"
+        )
         axes.plot(cycle, depth, color=colour, label=f"depth worn, {name}")
         axes.fill_between(cycle, depth - missed, depth + missed, color=colour, alpha=0.2, linewidth=0)
     axes.set_ylabel("Sq and mean depth worn (nm)")

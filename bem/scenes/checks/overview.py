@@ -32,7 +32,7 @@ def bodies(facts: Facts) -> Rows:
         if found:
             rough = found[0]
             rows.append((f"{name} surface", rough.made[0]))
-            rows += [("", text) for text in (*rough.made[1:], f"on the grid: {rough.describe()}")]
+            rows += [("", text) for text in (*rough.made[1:], f"on the whole grid: {rough.describe()}")]
             others = found[1:]
             if others:
                 steep, high = (
@@ -42,6 +42,8 @@ def bodies(facts: Facts) -> Rows:
                 rows.append(("", f"over the {len(found)} grids and variants: Sq {high}, rms slope {steep}"))
         elif name in first.surfaces:
             rows.append((f"{name} surface", "smooth"))
+    if facts.surfaces and facts.of_kind("wear", "running-in"):
+        rows.append(("", "results give Sq of the contact region, which differs from Sq of the whole grid"))
     rows.append(("upper shape", _shape(first)))
     return rows
 

@@ -113,8 +113,8 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
     particle_equivalent_radius: Annotated[
         float, Figure("nm", "equivalent radius of the particles, settled", headline=True, no_bar=_FOLLOWS_CELL)
     ]
-    Sq_initial: Annotated[float, Figure("nm", "Sq in Hertz' strip, unworn", headline=True)]
-    Sq_final: Annotated[float, Figure("nm", "Sq in Hertz' strip, run in", headline=True)]
+    Sq_initial: Annotated[float, Figure("nm", "Sq in the contact region (Hertz' contact), unworn", headline=True)]
+    Sq_final: Annotated[float, Figure("nm", "Sq in the contact region (Hertz' contact), run in", headline=True)]
     contact_load: Annotated[float, Figure("N", "load carried by contact, run in", headline=True)]
     film_load: Annotated[float, Figure("N", "load carried by the film, run in", headline=True)]
     lambda_ratio: Annotated[float, Figure("", "film under the whole load over roughness, run in", headline=True)]
@@ -124,7 +124,7 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
     contact_load_initial: Annotated[float, Figure("N", "load carried by contact in the first cycle")]
     minimum_film: Annotated[float, Figure("nm", "minimum film thickness, run in")]
     contact_area_fraction: Annotated[float, Figure("", "real contact area over patch, run in")]
-    worn_depth: Annotated[float, Figure("nm", "mean depth worn in Hertz' strip")]
+    worn_depth: Annotated[float, Figure("nm", "mean depth worn in the contact region (Hertz' contact)")]
     step_error: Annotated[
         float | None,
         Figure("nm", "what its step leaves open of a depth worn by pressure, last cycle", optional=True, unjudged=True),
@@ -151,7 +151,7 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
     film_load_over_cycles: Annotated[FloatArray, _over("N", "load carried by the film")]
     minimum_film_over_cycles: Annotated[FloatArray, _over("m", "minimum film thickness")]
     contact_share: Annotated[FloatArray, _over("1", "share of the load carried by contact")]
-    rms_height_over_cycles: Annotated[FloatArray, _over("m", "Sq of the worn surface in the strip in contact")]
+    rms_height_over_cycles: Annotated[FloatArray, _over("m", "Sq of the worn surface in the contact region")]
     volume_over_cycles: Annotated[FloatArray, _over("m^3", "volume worn per cycle, of all bodies that wear")]
     particles_over_cycles: Annotated[FloatArray, _over("1", "particles per cycle of one body")]
     film_thickness_patch: Annotated[FloatArray, _line("m", "film")]

@@ -149,12 +149,17 @@ class RunningInLifeRecord(GridRecord):
 
     friction_initial: Annotated[float, Figure("", "friction of the unworn surfaces", headline=True)]
     friction_final: Annotated[float, Figure("", "friction at the end", headline=True)]
-    Sq_initial: Annotated[float, Figure("nm", "Sq of the lower surface, unworn", headline=True)]
-    Sq_final: Annotated[float, Figure("nm", "Sq of the lower surface at the end, its film on it", headline=True)]
-    worn_depth: Annotated[float, Figure("nm", "mean depth worn of the lower surface", headline=True)]
-    upper_Sq_initial: Annotated[float, Figure("nm", "Sq of the upper surface, unworn")]
-    upper_Sq_final: Annotated[float, Figure("nm", "Sq of the upper surface at the end")]
-    upper_worn_depth: Annotated[float, Figure("nm", "mean depth worn of the upper surface")]
+    lower_Sq_initial: Annotated[float, Figure("nm", "Sq of the whole lower surface, unworn", headline=True)]
+    lower_Sq_final: Annotated[
+        float, Figure("nm", "Sq of the whole lower surface at the end, its film on it", headline=True)
+    ]
+    lower_worn_depth: Annotated[float, Figure("nm", "mean depth worn of the whole lower surface", headline=True)]
+    Sq_initial: Annotated[float, Figure("nm", "second name of lower_Sq_initial")]
+    Sq_final: Annotated[float, Figure("nm", "second name of lower_Sq_final")]
+    worn_depth: Annotated[float, Figure("nm", "second name of lower_worn_depth")]
+    upper_Sq_initial: Annotated[float, Figure("nm", "Sq of the whole upper surface, unworn")]
+    upper_Sq_final: Annotated[float, Figure("nm", "Sq of the whole upper surface at the end")]
+    upper_worn_depth: Annotated[float, Figure("nm", "mean depth worn of the whole upper surface")]
     lambda_ratio_initial: Annotated[float, Figure("", "film over roughness, unworn")]
     lambda_ratio: Annotated[float, Figure("", "film under the whole load over roughness, at the end", headline=True)]
     contact_share_initial: Annotated[float, Figure("", "share of the load on contact, unworn")]

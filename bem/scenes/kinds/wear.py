@@ -127,9 +127,9 @@ class WearRecord(pieces.MeanSizes, pieces.ParticleTable, wearing.WornRecord):
     particles_per_cycle: Annotated[
         float, Figure("", "particles per cycle of one body, settled", headline=True, no_bar=pieces.FOLLOWS_CELL)
     ]
-    Sq_initial: Annotated[float, Figure("nm", "Sq in the contact strip, unworn", headline=True)]
-    Sq_final: Annotated[float, Figure("nm", "Sq in the contact strip, run in", headline=True)]
-    worn_depth: Annotated[float, Figure("nm", "mean depth worn in the contact strip")]
+    Sq_initial: Annotated[float, Figure("nm", "Sq in the contact region (rows in contact), unworn", headline=True)]
+    Sq_final: Annotated[float, Figure("nm", "Sq in the contact region (rows in contact), run in", headline=True)]
+    worn_depth: Annotated[float, Figure("nm", "mean depth worn in the contact region (rows in contact)")]
     contact_area_fraction: Annotated[float, Figure("", "real contact area over that of the slice", headline=True)]
     mean_contact_pressure: Annotated[float, Figure("Pa", "mean pressure over the real contact area")]
     worn_volume_per_cycle: Annotated[float, Figure("um3", "volume worn per cycle, of all bodies that wear")]
@@ -175,7 +175,7 @@ class WearRecord(pieces.MeanSizes, pieces.ParticleTable, wearing.WornRecord):
     contact_area: Annotated[FloatArray, _over("m^2", "contact area")]
     plastic_area: Annotated[FloatArray, _over("m^2", "area at the hardness")]
     contact_load: Annotated[FloatArray, _over("N", "load carried by contact")]
-    rms_height: Annotated[FloatArray, _over("m", "rms height Sq of the worn surface in the contact strip")]
+    rms_height: Annotated[FloatArray, _over("m", "rms height Sq of the worn surface in the contact region")]
     depths_computed: Annotated[FloatArray, _over("1", "depths at which stress was computed")]
     convolutions: Annotated[FloatArray, _over("1", "convolutions of the contact solve")]
     particle_cycle: Annotated[wearing.IntArray, pieces.particle_rows("1", "cycle in which a particle came off")]
