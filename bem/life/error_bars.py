@@ -29,25 +29,22 @@ JUMPS, POSITIONS = "cycle jumps", "positions"
 """The origins of errors of a life, beside `GRID` and `POINTS`."""
 END = {
     "friction_final": "friction",
-    "lower_Sq_final": "lower_rms",
+    "Sq_final": "lower_rms",
     "upper_Sq_final": "upper_rms",
-    "lower_worn_depth": "lower_depth",
+    "worn_depth": "lower_depth",
     "upper_worn_depth": "upper_depth",
     "lambda_ratio": "lambda_ratio",
     "contact_share_final": "contact_share",
     "contact_area_fraction": "area_share",
     "minimum_film": "minimum_film",
-    "Sq_final": "lower_rms",
-    "worn_depth": "lower_depth",
 }
-"""Figures at the end by columns of the march; the last two are second names of figures of the lower surface."""
+"""Figures at the end by columns of the march."""
 START = {
     "friction_initial": "friction",
-    "lower_Sq_initial": "lower_rms",
+    "Sq_initial": "lower_rms",
     "upper_Sq_initial": "upper_rms",
     "lambda_ratio_initial": "lambda_ratio",
     "contact_share_initial": "contact_share",
-    "Sq_initial": "lower_rms",
 }
 """Those of the unworn surfaces."""
 _SAMPLED = {
@@ -75,7 +72,7 @@ _SCATTERED = {
 """Factors on what positions scatter, which are spread evenly and not drawn; 1 elsewhere."""
 _MINIMUM_FILM = 0.6
 """On what half the points change of it."""
-_HEIGHTS = {"lower_Sq_final": 0.75, "Sq_final": 0.75, "upper_Sq_final": 1.0}
+_HEIGHTS = {"Sq_final": 0.75, "upper_Sq_final": 1.0}
 """Factors on what `missed_roughness` tells."""
 _NONE = (
     "no error bars: a life on the grid of twice the cell needs even numbers of cells, 24 at least (or, along y, "
@@ -184,8 +181,7 @@ def _of_films(end: LifeState, other: OtherLives) -> dict[str, float]:
     for which, figures in zip(apart, (START, END), strict=True):
         found |= {name: which[column] for name, column in figures.items() if column in which}
     found["minimum_film"] *= _MINIMUM_FILM
-    for name in ("lower_Sq_final", "Sq_final", "upper_Sq_final"):
-        start = name.replace("final", "initial")
+    for name, start in (("Sq_final", "Sq_initial"), ("upper_Sq_final", "upper_Sq_initial")):
         found[name] = part * abs(float(end.over(END[name])[-1]) - float(end.over(START[start])[0]))
     return found
 

@@ -6,7 +6,7 @@ A case is one life: one speed, one pair of surfaces.
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any, Literal
@@ -246,7 +246,16 @@ def run(scene: RunningInLifeScene, context: Context) -> RunningInLifeRecord:
         context.note(note)
     wanted = scene.life.coarser_lives
     bars = error_bars(context, wanted, lambda: lives.bars(scene, initial, end)) or {"errors": jump_bars(end)}
+    bars["errors"] = _with_body(bars["errors"])
+    if "error_parts" in bars:
+        bars["error_parts"] = {origin: _with_body(part) for origin, part in bars["error_parts"].items()}
     return replace(_record(scene, setup, end, beside), **bars)
+
+
+def _with_body(figures: Mapping[str, Any]) -> dict[str, Any]:
+    """Figures, or their errors, with those of the lower surface also under names that say so."""
+    names = ("Sq_initial", "Sq_final", "worn_depth")
+    return {**figures, **{f"lower_{name}": figures[name] for name in names if name in figures}}
 
 
 def _tell(scene: RunningInLifeScene, context: Context, setup: MixedSetup, contact: MixedPasses) -> None:
@@ -279,7 +288,7 @@ def _record(scene: RunningInLifeScene, setup: MixedSetup, end: LifeState, beside
     return filled(
         RunningInLifeRecord,
         setup.grid,
-        life_figures(end),
+        _with_body(life_figures(end)),
         over,
         beside.figures(cycle, end),
         cycle=cycle,
