@@ -97,7 +97,8 @@ def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...])
         tuple(one if isinstance(one, str) else _spelled(name, one) for name, one in zip(found, row, strict=True))
         for row in zip(*found.values(), strict=True)
     ]
-    table(tuple(name.partition(" [")[0].replace("_", " ") for name in found), lines, right=range(2, len(found)))
+    head = tuple(_BY_FORMULA.get(name, name.partition(" [")[0].replace("_", " ")) for name in found)
+    table(head, lines, right=range(2, len(found)), leading=2)
     if out is not None:
         write_text(out, csv_text(found))
         print(f"written: {out}")
@@ -128,8 +129,11 @@ def _running(found: Element) -> dict[str, list[float]]:
         )
         if not all(map(math.isnan, row))
     ]
-    head = ("", "where", "film", "over Sq", "friction", "power", "oil", "hottest surface", "wear 1", "wear 2 per pass")
-    table(head, lines, title="as it runs", right=range(2, len(head)))
+    head = (
+        *("", "where", "minimum film (solved)", "lambda ratio (solved)", "friction", "power", "oil", "hottest surface"),
+        *("wear 1 per pass", "wear 2 per pass"),
+    )
+    table(head, lines, title="as it runs", right=range(2, len(head)), leading=2)
     table(("", ""), summary(found, runs))
     show_warnings(notes(runs))
     return solved
@@ -164,9 +168,17 @@ def _show(found: Element, chosen: ElementContact) -> None:
             cells.append(spelled("x_m", columns["minimum_film [m]"][i])[1])
         if "film_over_roughness" in columns:
             cells.append(f"{columns['film_over_roughness'][i]:.3g}")
-        mark = "<" if one is chosen else ""
+        number = f"{i + 1} <" if one is chosen else str(i + 1)
         where = one.name if found.found.along_unit == "rad" else degrees(one, found.found.along_unit)
-        rows.append((str(i + 1), where, *cells, mark))
+        rows.append((number, where, *cells))
     head = ["", "where", *(name for name, _, _ in shown), "mean speed", "slide-roll"]
-    head += ["film (fit)"] * ("minimum_film [m]" in columns) + ["over Sq"] * ("film_over_roughness" in columns)
-    table((*head, ""), rows, title=f"{found.model.name}: {found.model.element}", right=range(2, len(head)))
+    head += [_BY_FORMULA[name] for name in _BY_FORMULA if name in columns]
+    title = f"{found.model.name}: {found.model.element}"
+    table(head, rows, title=title, right=range(2, len(head)), leading=2)
+
+
+_BY_FORMULA = {
+    "minimum_film [m]": "minimum film (formula)",
+    "film_over_roughness": "lambda ratio (formula)",
+}
+"""Heads of the columns that follow from a film formula; those of a solved film are another figure."""
