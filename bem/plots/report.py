@@ -79,8 +79,8 @@ def with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
     """Name and value of a figure as `spelled`, with its error where it has one: `1.2 ± 0.013 GPa`."""
     value, error = _only(summary[name]), _only(summary.get(f"{name}_error"))
     if name in (varied := varied_keys(summary)):
-        unit, cells = shown_values(name, [value], varied[name])
-        return name, f"{cells[0]} {unit}".rstrip()
+        sign, cells = shown_values(name, [value], varied[name])
+        return name, f"{cells[0]} {sign}".rstrip()
     text, shown = spelled(name, value)
     if is_size_of_no_particles(name, value):
         return text, "-"

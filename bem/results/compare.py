@@ -42,8 +42,9 @@ class Difference:
 
 
 def scene_differences(*runs: FinishedRun) -> list[Difference]:
-    """Keys in which the resolved scenes differ, but for the name."""
-    return [item for item in _union([leaves(run.scene) for run in runs]) if item.key != "name" and not item.equal]
+    """Keys in which the resolved scenes differ, but for name and description, which change no contact."""
+    found = _union([leaves(run.scene) for run in runs])
+    return [item for item in found if item.key not in ("name", "description") and not item.equal]
 
 
 def figure_differences(*runs: FinishedRun) -> list[Difference]:

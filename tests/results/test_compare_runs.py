@@ -18,7 +18,7 @@ from bem.runs import run_scene
 from bem.scenes import kind_names
 from reports.gallery import gallery_scene
 
-SCENE = CONTACT | {"name": "one"}
+SCENE = CONTACT | {"name": "one", "description": "a contact whose changes are named in its description"}
 
 
 @pytest.fixture(scope="module")
