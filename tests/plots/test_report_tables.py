@@ -66,7 +66,7 @@ def test_what_tells_rows_apart_comes_first_in_every_table():
 def test_the_report_has_no_paragraph_of_numbers(tmp_path):
     summary = SUMMARY | {
         "scene": "s", "kind": "friction", "version": "1", "seed": 1, "wall_time_s": 1.0, "status": "converged",
-        "where": "", "notes": [], "seconds_by_stage": {},
+        "where": "", "notes": ["one", "two", "three"], "outside_model": ["a", "b", "c"], "seconds_by_stage": {},
     }  # fmt: skip
     (tmp_path / "scene.toml").write_text('kind = "friction"\n')
     run = SimpleNamespace(path=tmp_path, summary=json.loads(json.dumps(summary)), scene={}, dataset=None)

@@ -9,6 +9,8 @@ import pytest
 from bem import CATALOGUE, Body, InputError, Layer, Material, contact_modulus, load_scene, plan_scene, run_scene
 from bem.elements.element import element_template, load_element
 from bem.scenes.build import heights_of
+from bem.scenes.checks import examine
+from bem.scenes.checks.overview import bodies
 from bem.scenes.form import library_scene, with_value
 from bem.scenes.load import changed_description, dump_scene, library
 from bem.scenes.template import scene_template
@@ -97,6 +99,14 @@ def test_the_form_of_the_page_marks_a_changed_built_in_scene():
     table = with_value(library_scene("traction-curve"), "oil.grade", "ISO VG 220")
     assert "VG 68" not in table["description"]
     assert "traction-curve" in table["description"]
+
+
+@pytest.mark.parametrize(("name", "told"), [("wear-steel-steel", True), ("rough-contact", False)])
+def test_a_plan_says_of_which_region_its_roughness_is(name, told):
+    """A plan said Sq 226 nm of a surface whose results began with Sq 154.7 nm, that of the contact region."""
+    rows = [text for _, text in bodies(examine(plan_scene(name)[0]))]
+    assert any(text.startswith("on the whole grid: Sq") for text in rows)
+    assert any("contact region" in text for text in rows) == told
 
 
 def test_the_catalogue_knows_near_spellings_and_is_a_body():
