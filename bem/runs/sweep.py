@@ -34,7 +34,17 @@ from bem.scenes.axes import Axis
 from bem.scenes.checks.words import without_numbers
 from bem.scenes.common import SceneModel
 from bem.scenes.context import Variable
-from bem.scenes.load import dump_scene, gather, read_table, refuse, scene_from_table, scene_table, scenes_at, words_at
+from bem.scenes.load import (
+    changed_description,
+    dump_scene,
+    gather,
+    read_table,
+    refuse,
+    scene_from_table,
+    scene_table,
+    scenes_at,
+    words_at,
+)
 from bem.scenes.paths import parse_key, value_at
 from bem.scenes.planner import Plan, check_memory
 from bem.scenes.ranges import parse_axes
@@ -196,6 +206,8 @@ def _plan_points(
     at once."""
     table = read_table(source, settings)
     base = scene_from_table(table)  # a mistake of the scene itself is said once, not for every point
+    if base.description:  # of the points: sorted keys without values, so that a resumed sweep finds its points
+        table = {**table, "description": changed_description(base.description, sorted(over))}
     planned: list[tuple[SceneModel, Plan]] = []
     mistakes: dict[str, list[str]] = {}
     for scene, values in zip(scenes_at(table, over), product(*over.values()), strict=True):

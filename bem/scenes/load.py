@@ -183,11 +183,11 @@ def _read(source: str | os.PathLike[str] | Mapping[str, Any], settings: Sequence
             _set(data, setting)
         except InputError as error:
             messages += error.messages
-        if data != before and setting.partition("=")[0].strip().partition(".")[0] not in _SAME_CASE:
+        if data != before:
             changes.append(setting)
     if messages:
         raise InputError(messages)
-    if changes and isinstance(given, str) and data.get("description") == given:
+    if isinstance(given, str) and data.get("description") == given:
         data["description"] = changed_description(given, changes)
     return data, folder
 
@@ -205,10 +205,11 @@ def changed_description(description: str, changes: Sequence[str]) -> str:
     The description of a built-in scene may state what has changed, so only the name of that scene is taken over. An
     own description is kept. Without a description there is nothing to correct.
 
-    description : before the changes. changes : the settings, `key=value`.
+    description : before the changes. changes : keys, or settings `key=value`; those of `_SAME_CASE` change nothing.
     """
-    if not description:
-        return ""
+    changes = [text for text in changes if text.partition("=")[0].strip().partition(".")[0] not in _SAME_CASE]
+    if not description or not changes:
+        return description
     before, mark, named = description.rpartition(_CHANGED)
     marked = bool(mark) and (before.startswith(_BASED_ON) or before.endswith(" ("))
     earlier = named.removesuffix(")" if before.endswith("(") else "").split("; ") if marked else []

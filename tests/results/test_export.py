@@ -12,6 +12,7 @@ from small_scenes import CONTACT
 from bem import InputError, ResultsError
 from bem.results.dataset import read_dataset
 from bem.results.export import _laid_out, points_of
+from bem.results.read import open_run
 from bem.runs import run_scene, run_sweep
 
 PRESSURES = ["40 MPa", "80 MPa"]
@@ -37,7 +38,15 @@ def test_a_run_over_keys_is_a_row_for_each(tmp_path):
 
 
 def test_a_sweep_is_the_same_table_and_the_command_writes_it(tmp_path):
-    sweep = run_sweep(CONTACT, ["contact.mean_pressure=40 MPa,80 MPa"], tmp_path / "sweep", workers=1)
+    scene = CONTACT | {"description": "at 40 MPa"}
+    sweep = run_sweep(scene, ["contact.mean_pressure=40 MPa,80 MPa"], tmp_path / "sweep", workers=1)
+    assert sweep.figures["over"] == {"contact.mean_pressure": "Pa"}  # what the command prints
+    assert sweep.figures["contact.mean_pressure"] == [40e6, 80e6]
+    for point in (tmp_path / "sweep" / "points").iterdir():
+        described = open_run(point).scene["description"]
+        assert described == "at 40 MPa (changed: contact.mean_pressure)"
+        summary = open_run(point).summary
+        assert summary["contact_area_fraction"] in sweep.figures["contact_area_fraction"]
     points = points_of(sweep.path)
     np.testing.assert_allclose(points.columns["contact.mean_pressure"], [40e6, 80e6])
     assert (np.diff(points.columns["contact_area_fraction"]) > 0).all()
