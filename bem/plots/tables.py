@@ -276,7 +276,7 @@ def _leading(summary: Mapping[str, Any], length: int) -> list[str]:
     lists = [name for name, value in summary.items() if isinstance(value, list) and len(value) == length > 1]
     texts = [n for n in lists if n not in ABOUT_THE_RUN and all(isinstance(item, str) for item in summary[n])]
     telling = [n for n in (*_TELLING, *texts) if n in lists and n not in varied and not _repeats_key(n, summary)]
-    return [n for n in (*(n for n in lists if n in varied), *telling) if len(set(summary[n])) > 1]
+    return [n for n in (*(n for n in varied if n in lists), *telling) if len(set(summary[n])) > 1]
 
 
 def _repeats_key(name: str, summary: Mapping[str, Any]) -> bool:

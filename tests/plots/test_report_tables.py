@@ -117,6 +117,10 @@ def test_varied_keys_say_which_row_it_is_in_every_table():
     (table,) = figure_tables(old, ["sliding_traction"])
     assert table.head == ("oil.temperature", "contact.behaviour", "sliding traction")
     assert len(figure_tables(OVER, ["sliding_traction", "film_nm"], columns=3)) == 2
+    (table,) = figure_tables(
+        dict(reversed(OVER.items())), ["film_nm"]
+    )  # in the order of `over`, the first key outermost
+    assert table.head[:2] == ("oil.temperature (°C)", "contact.behaviour")
 
 
 def test_a_figure_that_repeats_a_varied_key_is_not_shown_twice():
