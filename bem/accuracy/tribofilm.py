@@ -34,7 +34,7 @@ from bem.tribofilm.evolution import steady_thickness
 
 FIGURES = (
     "film_thickness",
-    "largest_thickness",
+    "largest_mean_thickness",
     "film_wear_rate",
     "wear_depth",
     "total_wear_depth",
@@ -79,7 +79,7 @@ def history_figures(
     """Headline figures of a film, SI units; None of what it has not."""
     return {
         "film_thickness": float(history.thickness[-1]),
-        "largest_thickness": float(history.thickness.max()),
+        "largest_mean_thickness": float(history.thickness.max()),
         "film_wear_rate": float(history.wear_rate[-1]),
         "wear_depth": None if report is None else history.wear_depth(*report),
         "total_wear_depth": float(history.substrate_wear[-1]),

@@ -23,13 +23,13 @@ RULES: dict[str, Rule] = {
     ),
     "afm_tip_plateau_with_and_without_delay_is_the": Rule(
         lambda s: (
-            f"{at(s, 'film_thickness_nm', 1)} and {at(s, 'film_thickness_nm', 2)}, largest with delay "
-            f"{at(s, 'largest_thickness_nm', 2)}"
+            f"{at(s, 'film_thickness_nm', 1)} and {at(s, 'film_thickness_nm', 2)}, largest mean with delay "
+            f"{at(s, 'largest_mean_thickness_nm', 2)}"
         ),
         lambda s: (
             abs(s["film_thickness_nm"][2] / s["film_thickness_nm"][1] - 1) < READING
-            and s["largest_thickness_nm"][2] > (1 + READING) * s["film_thickness_nm"][2]
-            and s["largest_thickness_nm"][1] < (1 + READING) * s["film_thickness_nm"][1]
+            and s["largest_mean_thickness_nm"][2] > (1 + READING) * s["film_thickness_nm"][2]
+            and s["largest_mean_thickness_nm"][1] < (1 + READING) * s["film_thickness_nm"][1]
         ),
     ),
     "afm_tip_stress_relaxation_alone_does_not": Rule(

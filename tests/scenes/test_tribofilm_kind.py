@@ -58,6 +58,15 @@ def test_summary_lists_run_over_temperatures(tmp_path):
         assert depth == pytest.approx(expected, rel=0.05)  # 3 e-foldings after the start the film is 95 % there
     history = outcome.variables["thickness"].values
     assert history.shape == (1, 2, 1, 1, len(outcome.variables["time"].values))
+    # the wear between the two times of the report is a part of the total, and means lie below the local maximum
+    total = outcome.variables["substrate_wear"].values[..., -1].ravel()
+    assert outcome.summary["total_wear_depth_nm"] == pytest.approx(1e9 * total)
+    assert all(0 < part < 0.7 * whole for part, whole in zip(worn, 1e9 * total, strict=True))
+    mean, local = (outcome.summary[f"largest_{which}thickness_nm"] for which in ("mean_", ""))
+    assert mean == pytest.approx(1e9 * history.max(axis=-1).ravel())
+    maps = outcome.variables["film_map"].values
+    assert local == pytest.approx(1e9 * maps.reshape(-1, *maps.shape[-2:]).max(axis=(1, 2)))
+    assert all(highest > average for highest, average in zip(local, mean, strict=True))
 
 
 def test_loads_and_variants_come_in_the_order_of_the_scene(tmp_path):

@@ -97,9 +97,9 @@ FIGURES = (
     _line("film-wear-rate", "Rate at which the film itself wears.", "wear_rate", "wear rate of the film", "m/s"),
     _line(
         "substrate-wear",
-        "Depth of substrate that has left with the film.",
+        "Total depth of substrate that has left with the film since the start of rubbing.",
         "substrate_wear",
-        "wear depth of the substrate",
+        "total wear depth of the substrate",
         "m",
         _wears_substrate,
     ),

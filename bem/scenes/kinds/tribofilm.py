@@ -124,12 +124,17 @@ class FilmRecord(GridRecord):
     """What a film gives: its end, its history, the contacts that were solved for it, maps at the end."""
 
     film_thickness: Annotated[float, Figure("nm", "mean film thickness at the end", headline=True)]
-    largest_thickness: Annotated[float, Figure("nm", "largest mean film thickness")]
+    largest_mean_thickness: Annotated[float, Figure("nm", "largest mean film thickness over the time of rubbing")]
+    largest_thickness: Annotated[
+        float, Figure("nm", "largest local film thickness at the end", no_bar="it is the thickness of a single cell")
+    ]
     film_wear_rate: Annotated[float, Figure("nm_s", "wear rate of the film at the end", headline=True)]
     wear_depth: Annotated[
-        float | None, Figure("nm", "depth of substrate worn between the two reporting times", headline=True)
+        float | None, Figure("nm", "depth of substrate worn between the two times of rubbing.report", headline=True)
     ]
-    total_wear_depth: Annotated[float, Figure("nm", "depth of substrate worn")]
+    total_wear_depth: Annotated[
+        float, Figure("nm", "total depth of substrate worn, from the start of rubbing to its end", headline=True)
+    ]
     final_concentration: Annotated[
         float, Figure("", "concentration of substrate at the surface, at the end", name="concentration", headline=True)
     ]
@@ -146,7 +151,7 @@ class FilmRecord(GridRecord):
     thickness: Annotated[FloatArray, _over_time("m", "mean film thickness")]
     grown: Annotated[FloatArray, _over_time("m", "film grown so far")]
     worn: Annotated[FloatArray, _over_time("m", "film worn so far")]
-    substrate_wear: Annotated[FloatArray, _over_time("m", "depth of substrate worn")]
+    substrate_wear: Annotated[FloatArray, _over_time("m", "total depth of substrate worn so far")]
     growth_rate: Annotated[FloatArray, _over_time("m/s", "growth rate of the film")]
     wear_rate: Annotated[FloatArray, _over_time("m/s", "wear rate of the film")]
     concentration: Annotated[FloatArray, _over_time("1", "concentration of substrate at the surface of the film")]
@@ -188,6 +193,7 @@ def run(scene: TribofilmScene, context: Context) -> FilmRecord:
         columns(film.samples, _SAMPLED, "sample_"),
         grid,
         shares,
+        largest_thickness=float(film.film_map.max()),
         flash_temperature=None if contact.speeds is None else max(one.temperature for one in film.samples),
         **error_bars(context, scene.outputs.errors, lambda: tribofilm_bars(case, figures)),
     )
