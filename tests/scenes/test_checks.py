@@ -90,6 +90,12 @@ def brittle(**strength):
     return with_(steel, wear__criterion={"kind": "maximum_tension"}, depths={"count": 8, "spacing": "100 nm"})
 
 
+def coated(depths):
+    """A layer of 2 um on an interlayer of 0.5 um, with stresses at some depths."""
+    layers = [{"material": "dlc", "thickness": "2 um"}, {"material": "tungsten-carbide", "thickness": "0.5 um"}]
+    return with_(BALL, lower__layers=layers, outputs__von_mises=True, outputs__depths=depths)
+
+
 CASES = {
     "implausible_modulus": (
         (with_(BALL, lower__material=material(115.0)), 'youngs_modulus = "115 GPa"'),
@@ -176,6 +182,10 @@ CASES = {
         (with_(BALL, outputs__von_mises=True, outputs__depths=["0 um", "10 um", "100 um"]), "51.7 um below"),
         with_(BALL, outputs__von_mises=True, outputs__depths=["0 um", "50 um", "100 um"]),
     ),
+    "few_depths_in_a_layer": (
+        (coated(["0.5 um", "1 um", "1.9 um", "2.2 um", "3 um"]), "only 1 depth lies in layer 2 (2 um to 2.5 um)"),
+        coated(["0.5 um", "1 um", "1.9 um", "2.1 um", "2.2 um", "2.4 um", "2.6 um"]),
+    ),
     "depths_coarser_than_cells": (
         (wear('depths.spacing="500 nm"'), "9.9 cells (2.5 N)"),
         "wear-steel-steel",
@@ -249,6 +259,16 @@ def test_a_check_of_scenes_fires_where_it_should_and_not_next_to_it(name):
     assert found, "nothing is said"
     assert words in " ".join(found)
     assert fired(name, good) == []
+
+
+def test_interfaces_that_no_depths_bracket_are_named():
+    """Three depths in every layer, and none near the interface at 2 um; one at the interface lies in the layer above."""
+    depths = ["0.5 um", "1 um", "1.5 um", "2.2 um", "2.3 um", "2.4 um", "2.55 um"]
+    (said,) = fired("few_depths_in_a_layer", coated(depths))
+    assert "the interface at 2 um of" in said
+    assert "in layer" not in said
+    at_interfaces = ["1 um", "1.5 um", "2 um", "2.05 um", "2.4 um", "2.5 um", "2.55 um"]
+    assert fired("few_depths_in_a_layer", coated(at_interfaces)) == []
 
 
 def test_only_a_body_stiffer_than_any_solid_may_be_meant_as_rigid():
@@ -745,6 +765,7 @@ GOOD_REASONS = {
     "running-in-stribeck": {"few_cells_per_wave", "few_cells_per_correlation_length"},  # likewise
     "running-in-ball": {"few_cells_per_wave", "few_cells_per_correlation_length"},  # likewise, the same surfaces
     "wear-criteria": {"few_cells_per_length_of_the_criterion"},  # a sphere of two cells: its sizes never settle
+    "multilayer-coating": {"few_depths_in_a_layer"},  # the depths that `deepest` gives: two in layers far down
     "tribofilm-macro": {"few_cells_per_wave"},  # 430 um on 256 cells hold waves of 4 um with 2.4 cells
     "wear-hard-roughness": {"steep_roughness"},  # Sq 1500 nm is the variant's point; its slope is 5
     "wear-soft-roughness": {"steep_roughness"},  # likewise, slope 1

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 
+from bem.materials import Body
 from bem.scenes.checks.facts import Case, Facts, worst
 from bem.scenes.checks.registry import scene_check
 from bem.scenes.checks.surfaces_of import RoughSurface
-from bem.scenes.checks.words import si
+from bem.scenes.checks.words import joined, si
 from bem.scenes.common import GeneratedSurface
 
 _CELLS_ACROSS = 8
@@ -147,6 +148,59 @@ def depths_miss_the_largest_stress(facts: Facts) -> Iterator[str]:
                 f"outputs.depths: the largest von Mises stress lies {si(at, 'm')} below the surface, the nearest depth "
                 f"is {si(nearest, 'm')}: it is missed; take depths every {si(0.1 * size, 'm')} there"
             )
+
+
+_FEWEST_DEPTHS = 3
+"""Depths in a layer below which the course of a stress through it is unknown."""
+
+_NEAR_INTERFACE = 0.25
+"""Distance of a depth from an interface, over the thickness of the thinner layer beside it, that counts as close."""
+
+
+@scene_check
+def few_depths_in_a_layer(facts: Facts) -> Iterator[str]:
+    """Stresses along the surface jump at an interface, and a thin layer lies between two depths of a graded list: the
+    largest stress of a coating was reported 50 % wrong from a single depth in its interlayer."""
+    for case in facts.cases:
+        outputs = getattr(facts.scene, "outputs", None)
+        name = getattr(outputs, "body", "lower")
+        body = case.bodies.get(name)
+        if body is None or body.homogeneous or not case.depths or facts.of_kind("wear", "running-in"):
+            continue
+        ends = (0.0, *body.interfaces)
+        found = []
+        for number, (top, bottom) in enumerate(zip(ends, ends[1:], strict=False), start=1):
+            inside = sum(top <= depth <= bottom for depth in case.depths)
+            if inside < _FEWEST_DEPTHS:
+                only = {0: "no depth lies", 1: "only 1 depth lies"}.get(inside, f"only {inside} depths lie")
+                found.append(f"{only} in layer {number} ({si(top, 'm')} to {si(bottom, 'm')})")
+        missed = [
+            si(interface, "m")
+            for interface, thickness in zip(body.interfaces, _thinner_beside(body), strict=True)
+            if not _bracketed(interface, _NEAR_INTERFACE * thickness, case.depths)
+        ]
+        if missed:
+            found.append(f"no depths lie close on both sides of the interface at {joined(missed)}")
+        if found:
+            yield (
+                f"outputs.depths: {joined(found)} of the {name} body: the largest stresses there may be missed; set "
+                f"outputs.depths with {_FEWEST_DEPTHS} or more in every layer and one just above and just below every "
+                "interface"
+            )
+            return
+
+
+def _thinner_beside(body: Body) -> list[float]:
+    """Thickness [m] of the thinner layer beside each interface, from the surface down."""
+    layers = [layer.thickness for layer in body.layers]
+    return [min(layers[i : i + 2]) for i in range(len(layers))]
+
+
+def _bracketed(interface: float, near: float, depths: Sequence[float]) -> bool:
+    """Whether depths [m] lie on both sides of an interface, no further from it than `near`; one at the interface counts
+    as above it."""
+    above = any(interface - near <= depth <= interface for depth in depths)
+    return above and any(interface < depth <= interface + near for depth in depths)
 
 
 def _depth_steps(facts: Facts) -> Iterator[tuple[float, Case]]:
