@@ -103,31 +103,31 @@ def _approach(request: Request, units: Units, result: LevelResult) -> float:
 
 
 _SHORT, _MANY = 0.98, 1.1
-"""Of load / cap: an area of edges that is less, where cells are more, is not known to a tenth."""
+"""Of load / cap: where the area by elastic edges is less and the cells in contact are more, spots are a cell or two wide
+and the area is not known to a tenth."""
 
 
 def _regions(
     request: Request, pressure: FloatArray, deformed: FloatArray, load: float, *, capped: bool
 ) -> tuple[Region, Region, tuple[str, ...]]:
-    """What touches, what of that is at the cap, and a sentence where the cells do not tell the area.
+    """Return the contact, the part of it that is at the cap, and a sentence where the cells do not tell the area.
 
     capped : whether a cell is at the cap."""
     operator, grid, cap = request.operator, request.operator.grid, request.cap
     modulus = operator.modulus_at(0.5 * math.pi / math.sqrt(grid.cell_area))
-    contact = contact_region(pressure, deformed, request.gap, grid, modulus)
-    least = load / cap  # no more than the cap on average, also where no cell is at it
+    contact = contact_region(pressure, deformed, request.gap, grid, modulus, cap=cap)
+    least = load / cap  # the pressure is nowhere above the cap
     doubt: tuple[str, ...] = ()
-    if contact.area < _SHORT * least and contact.counted_area > _MANY * least:
+    if contact.elastic_edge_area < _SHORT * least and contact.counted_area > _MANY * least:
         doubt = (
-            "spots of contact are too small for these cells: the contact area shown is the least that carries the load "
-            f"at the hardness, the cells in contact are {contact.counted_area / least:.2f} times as many; take a finer "
-            "grid",
+            "spots of contact are too small for these cells: the contact area lies between the least that carries the "
+            f"load at the hardness and the cells in contact, {contact.counted_area / least:.2f} times as many; take a "
+            "finer grid",
         )
-    contact = contact.of_area(max(contact.area, least))
     if not capped:
-        return contact, Region(0.0, 0.0, 0.0, 0.0), doubt
+        return contact, Region(0.0, 0.0, 0.0, 0.0, 0.0), doubt
     plastic = plastic_region(pressure, deformed, request.gap, cap, grid, modulus)
-    # the rest carries what the load has beyond it
+    # the rest carries the remaining load
     return contact, plastic.of_area(min(plastic.area, least)), doubt
 
 

@@ -9,7 +9,7 @@ against every link by itself in plain Python (tests).
 from __future__ import annotations
 
 import math
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -70,8 +70,20 @@ class Sums(NamedTuple):
     turns: float
 
 
-def sum_squares(field: Field, spacing: tuple[float, float], wraps: tuple[bool, bool], law: Law) -> Sums:
-    """Over the squares between four centres."""
+class Crossed(NamedTuple):
+    """Where the edge crosses the links: the smoothed indicator; links along either axis (columns of their first cells,
+    cells that are alike behind and ahead); squares (columns of their lowest cells, bits of their centres); where each
+    row begins among the three; crossings along either axis, as fractions of each link."""
+
+    blurred: NDArray[np.uint16]
+    links: tuple[tuple[NDArray[np.int32], FloatArray], tuple[NDArray[np.int32], FloatArray]]
+    squares: tuple[NDArray[np.int32], NDArray[np.uint8]]
+    starts: NDArray[np.int64]
+    crossings: tuple[FloatArray, FloatArray]
+
+
+def cross_links(field: Field, spacing: tuple[float, float], wraps: tuple[bool, bool], law: Law) -> Crossed:
+    """Find all links between cells inside and outside, and where the edge crosses them."""
     nx, ny = field.inside.shape
     blurred = blur(field.inside, *wraps)
     links, squares, starts = _find_links(field.inside, *wraps)
@@ -83,7 +95,49 @@ def sum_squares(field: Field, spacing: tuple[float, float], wraps: tuple[bool, b
         _cut(first, last, links, starts, field, blurred, (spacing, wraps), law, crossings)
 
     share(work, -(-nx // lines), nx * ny)
-    return Sums(*_add(squares, starts, crossings, blurred, spacing, wraps))
+    return Crossed(blurred, links, squares, starts, crossings)
+
+
+def sum_squares(crossed: Crossed, spacing: tuple[float, float], wraps: tuple[bool, bool]) -> Sums:
+    """Add up areas, lengths and turns over the squares between four centres."""
+    return Sums(*_add(crossed.squares, crossed.starts, crossed.crossings, crossed.blurred, spacing, wraps))
+
+
+def cells_at_edge(
+    crossed: Crossed, inside: NDArray[np.uint8], spacing: tuple[float, float], wraps: tuple[bool, bool]
+) -> tuple[NDArray[np.int64], FloatArray]:
+    """The cells inside with a link to one outside (m,), as numbers row by row, and the fraction of each cell that lies
+    beyond the edge (m,), to first order: half a link less the crossing's distance from the centre, summed over the
+    cell's links with the square of the cosine between link and normal, as the squares of both cosines add up to one."""
+    nx, ny = inside.shape
+    flat, blurred = inside.reshape(-1), crossed.blurred.reshape(-1).astype(np.int64)
+    cells, beyond = [], []
+    for axis in (0, 1):
+        count = int(crossed.starts[nx, axis])
+        i = np.repeat(np.arange(nx), np.diff(crossed.starts[:, axis]))
+        j = crossed.links[axis][0][:count].astype(np.int64)
+
+        def at(along: int, aside: int, i: Any = i, j: Any = j, axis: int = axis) -> Any:
+            row, column = (along, aside) if axis == 0 else (aside, along)
+            return _places(i + row, nx, wraps[0]) * ny + _places(j + column, ny, wraps[1])
+
+        first, second = at(0, 0), at(1, 0)
+        along = blurred[at(2, 0)] + blurred[second] - blurred[first] - blurred[at(-1, 0)]
+        across = blurred[at(0, 1)] + blurred[at(1, 1)] - blurred[at(0, -1)] - blurred[at(1, -1)]
+        squares = (along / spacing[axis]) ** 2, (across / spacing[1 - axis]) ** 2
+        norm = squares[0] + squares[1]
+        cosine = np.where(norm > 0, squares[0] / np.where(norm > 0, norm, 1.0), 1.0)
+        lower = flat[first] != 0
+        crossing = crossed.crossings[axis][:count]
+        cells.append(np.where(lower, first, second))
+        beyond.append(cosine * (0.5 - np.where(lower, crossing, 1 - crossing)))
+    numbers, order = np.unique(np.concatenate(cells), return_inverse=True)
+    return numbers, np.bincount(order.reshape(-1), np.concatenate(beyond), numbers.size)
+
+
+def _places(numbers: NDArray[np.int64], n: int, wraps: bool) -> NDArray[np.int64]:
+    """As `place`, of an array."""
+    return np.asarray(numbers % n if wraps else np.clip(numbers, 0, n - 1))
 
 
 @compiled

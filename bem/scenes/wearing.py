@@ -246,8 +246,8 @@ def on_twice_the_cell(
 
 
 def with_least_area(bars: ErrorBars, found: Any, cap: float | None) -> ErrorBars:
-    """Bars of the contact area and the mean pressure where the area is the least that carries the load at the hardness
-    [Pa], in every loop alike: what is touched may be as large as the cells in contact of the last cycle."""
+    """Widen the bars of the contact area and the mean pressure where nearly all of the contact is at the hardness [Pa],
+    in every loop alike: the area may be as large as the cells in contact of the last cycle."""
     from bem.accuracy.bars import GRID
 
     area, bar = found.contact_area_fraction, bars.values.get("contact_area_fraction")
@@ -261,8 +261,9 @@ def with_least_area(bars: ErrorBars, found: Any, cap: float | None) -> ErrorBars
     return bars | bars.together({GRID: parts})
 
 
-_LEAST = 1.01
-"""Of the least area: loads on the contact change a little from cycle to cycle."""
+_LEAST = 1.1
+"""Contact area over the least that carries the load at the hardness, below which nearly all of it is at the hardness.
+"""
 
 
 def wear_model(scene: Any, particles: ThirdBodies | None = None, defect: FilmDefect | None = None) -> WearModel:

@@ -578,7 +578,7 @@ OUTCOMES = {
     ),
     "least_area_of_worn_surfaces": (
         "running-in-stribeck",
-        (least_area_outcome(0.25), "the cells in contact of the last cycle are 2.00 times as many"),
+        (least_area_outcome(0.25), "the cells in contact, 2.00 times as many in the last cycle"),
         least_area_outcome(0.4),
     ),
     "long_steps_of_wear_by_pressure": (

@@ -99,7 +99,7 @@ def _worn(outcome: Outcome, loops: int) -> list[bool]:
 
 
 _MANY = 1.1
-"""Cells in contact over the least area: as of a single contact (`bem.contact.certificate`)."""
+"""Cells in contact, or their area, over the least area: as of a single contact (`bem.contact.certificate`)."""
 
 
 @outcome_check
@@ -114,12 +114,12 @@ def least_area_of_worn_surfaces(facts: Facts, outcome: Outcome) -> Iterator[str]
         return
     least = [float(plane.mean()) / cap for plane in planes]
     counted = [float((plane > 0).mean()) for plane in planes]
-    many = [c / low for area, low, c in zip(areas, least, counted, strict=True) if area <= 1.01 * low < c / _MANY]
+    many = [c / low for area, low, c in zip(areas, least, counted, strict=True) if area <= _MANY * low < c]
     if many:
         yield (
-            "spots of contact are too small for these cells: the contact area shown is the least that carries the load "
-            f"at the hardness{_of(len(many), len(areas))}, the cells in contact of the last cycle are {max(many):.2f} "
-            "times as many: take a finer grid"
+            "spots of contact are too small for these cells: the contact area lies between the least that carries the "
+            f"load at the hardness{_of(len(many), len(areas))} and the cells in contact, {max(many):.2f} times as many "
+            "in the last cycle; take a finer grid"
         )
 
 
