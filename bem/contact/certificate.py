@@ -103,8 +103,8 @@ def _approach(request: Request, units: Units, result: LevelResult) -> float:
 
 
 _SHORT, _MANY = 0.98, 1.1
-"""Of load / cap: where the area by elastic edges is less and the cells in contact are more, spots are a cell or two wide
-and the area is not known to a tenth."""
+"""Of load / cap: where the area by elastic edges is less and the cells in contact are more, spots are a cell or two
+wide and the area is not known to a tenth."""
 
 
 def _regions(
@@ -115,7 +115,7 @@ def _regions(
     capped : whether a cell is at the cap."""
     operator, grid, cap = request.operator, request.operator.grid, request.cap
     modulus = operator.modulus_at(0.5 * math.pi / math.sqrt(grid.cell_area))
-    contact = contact_region(pressure, deformed, request.gap, grid, modulus, cap=cap)
+    contact = contact_region(pressure, deformed, request.gap, grid, modulus, cap=cap, compliance=operator.compliance)
     least = load / cap  # the pressure is nowhere above the cap
     doubt: tuple[str, ...] = ()
     if contact.elastic_edge_area < _SHORT * least and contact.counted_area > _MANY * least:

@@ -49,12 +49,14 @@ class Field(NamedTuple):
 class Law(NamedTuple):
     """How the edge follows from them: the factor of the opening; the hardness where contact turns plastic as it opens,
     seen from its elastic part (strength is then what the pressure given is below it, and the opening has its sign
-    turned), zero for none; the polynomials in the cosine; what narrow regions add inside and outside."""
+    turned), zero for none; the polynomials in the cosine; what narrow regions add inside and outside; the factor times
+    what each cell gives way besides, by its own pressure [m/Pa], zero for none."""
 
     factor: float
     hardness: float
     constants: FloatArray
     ends: tuple[float, float]
+    give: float = 0.0
 
 
 class Sums(NamedTuple):
@@ -231,7 +233,7 @@ def _cut(first, last, links, starts, field, blurred, where, law, crossings):
     nx, ny = field[0].shape
     inside, strength, opening = field[0].reshape(-1), field[1].reshape(-1), field[2].reshape(-1)
     shape, blurred = field[3].reshape(-1), blurred.reshape(-1)
-    factor, hardness, constants, ends = law
+    factor, hardness, constants, ends, give = law
     addresses = strength.ctypes.data, opening.ctypes.data, shape.ctypes.data
     for i in range(first, last):
         # by their cells' numbers: rows before, here, beyond and behind those
@@ -269,21 +271,24 @@ def _cut(first, last, links, starts, field, blurred, where, law, crossings):
                 along = np.int64(blurred[d]) + blurred[c] - blurred[b] - blurred[a]
                 across = np.int64(blurred[f]) + blurred[h] - blurred[e] - blurred[g]
                 normal = along / spacing[axis], across / spacing[1 - axis]
-                crossing = _crossing(held * spacing[axis], opened, cells, normal, factor, constants, ends)
+                crossing = _crossing(held, opened, cells, normal, spacing[axis], (factor, give), constants, ends)
                 found[link] = crossing if lower else 1 - crossing
 
 
 @compiled
-def _crossing(held, opened, cells, normal, factor, constants, ends):
-    """How far from the cell inside, in links; `held` is times the link's length, `cells` are alike inside and out."""
+def _crossing(held, opened, cells, normal, link, factors, constants, ends):
+    """How far from the cell inside, in links; `link` is their length, `cells` are alike inside and out. Where cells
+    give way by their own pressure alone, the overlap give x pressure and the gap are linear across the edge."""
+    factor, give = factors
     along, across = normal
     norm = math.sqrt(along * along + across * across)
     cosine = max(abs(along) / norm, _LEAST_COSINE) if norm > 0 else 1.0
-    ratio = factor * max(opened, 0.0) / (held * cosine)
+    ratio = factor * max(opened, 0.0) / (held * link * cosine)
+    give = give / (link * cosine)
     a = ((constants[0, 0] * cosine + constants[0, 1]) * cosine + constants[0, 2]) * cosine + constants[0, 3]
     b = ((constants[1, 0] * cosine + constants[1, 1]) * cosine + constants[1, 2]) * cosine + constants[1, 3]
     c = ((constants[2, 0] * cosine + constants[2, 1]) * cosine + constants[2, 2]) * cosine + constants[2, 3]
-    crossing = (a - b * ratio) / (c + ratio) + ends[0] / cells[0] - ends[1] / cells[1]
+    crossing = (a - b * ratio + give) / (c + ratio + give) + ends[0] / cells[0] - ends[1] / cells[1]
     return min(max(crossing, _BEFORE), _BEYOND)
 
 

@@ -56,6 +56,11 @@ _LEAST_SHARE = 0.1
 """Of the cells' area: spots that barely touch a single cell have an area that no cell can tell."""
 
 
+_KINK = 5.0
+"""The undeformed gap has a kink where its slope changes this many times as much as beside it. The slope of a parabola
+changes twice as much over two links as over one."""
+
+
 @dataclass(frozen=True)
 class Region:
     """Part of the surface: area [m^2] and perimeter [m], of second order; the area of its cells as counted [m^2]; the
@@ -85,6 +90,7 @@ def contact_region(
     modulus: float,
     ends: tuple[float, float] | None = None,
     cap: float = math.inf,
+    compliance: float = 0.0,
 ) -> Region:
     """The cells in contact; under a cap no less than what carries their load at the cap.
 
@@ -92,7 +98,8 @@ def contact_region(
     ----------
     pressure : (nx, ny) [Pa], zero outside contact. gap, undeformed : (nx, ny), deformed and undeformed gap [m].
     grid : of the cells. modulus : E* as the length of a cell sees it [Pa]. ends : what narrow contact and narrow gaps
-    add, in place of the fitted constants. cap : highest pressure of a cell, the hardness [Pa].
+    add, in place of the fitted constants. cap : highest pressure of a cell, the hardness [Pa]. compliance : what each
+    cell gives way besides, by its own pressure [m/Pa].
 
     At an edge whose cells are at the cap the pressure has no root to follow, and the law cuts off too much: 3 % of the
     area where a tenth of the edge is so, 30 % where nearly all is. There the edge lies half-way between centres, cells
@@ -101,7 +108,7 @@ def contact_region(
     `tests/contact/test_contact_edge.py`).
     """
     inside = pressure > 0
-    found, crossed = _region(inside, pressure, gap, undeformed, grid, modulus, ends)
+    found, crossed = _region(inside, pressure, gap, undeformed, grid, modulus, ends, compliance=compliance)
     area = found.area
     if math.isfinite(cap) and inside.any():
         area = max(area, _capped_area(inside, pressure, cap, crossed, grid))
@@ -115,6 +122,65 @@ def _capped_area(inside: NDArray[np.bool_], pressure: FloatArray, cap: float, cr
     below_cap = np.maximum(1 - pressure.reshape(-1)[numbers] / cap, 0.0)
     beyond = np.where(below_cap > 0, np.minimum(beyond, below_cap), 0.0)
     return float(np.count_nonzero(inside) - beyond.sum()) * grid.cell_area
+
+
+def rows_in_contact(
+    pressure: FloatArray,
+    gap: FloatArray,
+    undeformed: FloatArray,
+    grid: Grid,
+    modulus: float,
+    *,
+    cap: float = math.inf,
+    compliance: float = 0.0,
+) -> FloatArray:
+    """The fraction of each row of cells (nx,) within the strip along y that is in contact anywhere; 1 everywhere where
+    nothing touches.
+
+    The strip ends at the outermost crossing of the edge with the links along x, inside the last row that touches or the
+    row beyond it, or at a kink of the gap as what each cell gives way has left it, as at the edge of a scar. Means over
+    the strip thus converge with the cell. Parameters as in `contact_region`.
+    """
+    inside = pressure > 0
+    touched = inside.any(axis=1)
+    rows = touched.astype(np.float64)
+    if touched.all() or not touched.any():
+        return np.ones_like(rows)
+    _, crossed = _region(inside, pressure, gap, undeformed, grid, modulus, compliance=compliance)
+    worn = undeformed + compliance * pressure
+    nx = rows.size
+    count = int(crossed.starts[nx, 0])
+    first, column = np.repeat(np.arange(nx), np.diff(crossed.starts[:, 0])), crossed.links[0][0][:count]
+    second, crossing = (first + 1) % nx, crossed.crossings[0][:count]
+    for outwards, row, beyond in ((1, first, second), (-1, second, first)):
+        outward = inside[row, column] & ~touched[beyond]
+        place = crossing if outwards > 0 else 1 - crossing
+        place = np.where(pressure[row, column] >= cap, 0.5, place)[outward]
+        row, at = row[outward], column[outward]
+        kink = _kink(worn, row, at, outwards, grid.periodic[0])
+        furthest = np.full(nx, -np.inf)
+        np.maximum.at(furthest, row, np.where(np.isnan(kink), place, kink))
+        for end in np.flatnonzero(np.isfinite(furthest)):
+            past = furthest[end] - 0.5
+            rows[end if past < 0 else (end + outwards) % nx] += past
+    return np.clip(rows, 0.0, 1.0)
+
+
+def _kink(gap: FloatArray, row: NDArray[np.int64], column: NDArray[np.int32], outwards: int, wraps: bool) -> FloatArray:
+    """Where an undeformed gap has a kink in the link from a cell inside (row, column) to the next row outwards (m,),
+    in links from the cell; not-a-number where it has none.
+
+    Bodies that are worn where they touch meet at an angle where the contact ends. The kink is where the straight lines
+    through the last two cells inside and the first two outside cross.
+    """
+    nx = gap.shape[0]
+    rows = [row + outwards * step for step in range(-2, 4)]
+    rows = [one % nx if wraps else np.clip(one, 0, nx - 1) for one in rows]
+    slopes = np.diff([gap[one, column] for one in rows], axis=0)
+    bend = slopes[3] - slopes[1]
+    beside = np.maximum(np.abs(slopes[1] - slopes[0]), np.abs(slopes[4] - slopes[3]))
+    place = np.divide(slopes[3] - slopes[2], bend, out=np.full(bend.shape, np.nan), where=bend > _KINK * beside)
+    return np.asarray(np.where((place >= 0) & (place <= 1), place, np.nan))
 
 
 def plastic_region(
@@ -137,11 +203,12 @@ def _region(
     modulus: float,
     ends: tuple[float, float] | None = None,
     hardness: float = 0.0,
+    compliance: float = 0.0,
 ) -> tuple[Region, Crossed]:
     constants, fitted = (_WAVES, _WAVES_ENDS) if all(grid.periodic) else (_CELLS, _CELLS_ENDS)
     marks = np.ascontiguousarray(inside).view(np.uint8)
     field = Field(marks, *(np.ascontiguousarray(field) for field in (strength, opening, undeformed)))
-    law = Law(0.75 * modulus, hardness, constants, ends or fitted)
+    law = Law(0.75 * modulus, hardness, constants, ends or fitted, 0.75 * modulus * compliance)
     crossed = cross_links(field, grid.spacing, grid.periodic, law)
     sums = sum_squares(crossed, grid.spacing, grid.periodic)
     count = int(np.count_nonzero(inside))

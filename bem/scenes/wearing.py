@@ -376,12 +376,11 @@ class WornSurface:
         result: RunningIn,
         grid: Grid,
         load: float,
-        strip: Callable[[FloatArray], NDArray[Any]],
+        strip: NDArray[Any],
     ) -> WornSurface:
         """That of a scene's loop, which started from `initial` heights of both bodies; `load` [N] on the grid.
 
-        strip : the rows (nx,) or cells (nx, ny) that roughness and depth are told of, or the part of each, from the
-        last pressure."""
+        strip : the fraction of each row (nx,) or cell (nx, ny) over which roughness and depth are averaged."""
         from bem.wear.outcome import criterion_wear_rate, strip_wear
 
         assert result.pressure is not None
@@ -389,7 +388,7 @@ class WornSurface:
         settled = cycles["cycle"][-last:]
         late = particles[particles["cycle"] >= settled[0]]
         before, after = initial[result.wearing[0]], result.worn_heights()[: grid.shape[0]]
-        worn = strip_wear(before, after, strip(result.pressure))
+        worn = strip_wear(before, after, strip)
         figures = {
             "cycle": np.arange(1, len(cycles) + 1),
             "particles_per_cycle": float(late.size / len(settled)),

@@ -5,6 +5,7 @@ Every choice that the source leaves open is a field of `WearModel`, one name awa
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
@@ -13,7 +14,8 @@ import numpy as np
 
 from bem.arguments import named
 from bem.contact import ContactSolution, solve_contact
-from bem.convolution import displacement_operator
+from bem.contact.edge import rows_in_contact
+from bem.convolution import DisplacementOperator, displacement_operator
 from bem.errors import InputError, Status
 from bem.grid import FloatArray, Grid
 from bem.laws import make_laws
@@ -176,7 +178,8 @@ class ContactOutcome:
 
     rubbing : of a cycle in partial slip, which `wear_cycle` adds; None where all slides. third_bodies : what particles
     between the surfaces do; None where there are none. temperature : (nx, ny) [K] of surfaces that rubbing heats; None
-    where no heat was asked for.
+    where no heat was asked for. strip : the fraction of each row (nx,) within the strip that is in contact anywhere;
+    None takes whole rows by the pressure.
     """
 
     pressure: FloatArray
@@ -191,6 +194,7 @@ class ContactOutcome:
     rubbing: Rubbing | None = None
     third_bodies: ThirdBodyLoad | None = None
     temperature: FloatArray | None = None
+    strip: FloatArray | None = None
 
 
 ContactStep = Callable[[FloatArray, FloatArray | None], ContactOutcome]
@@ -214,15 +218,27 @@ def dry_contact(setup: WearSetup, *, tolerance: float = 1e-6, compliance: float 
             tolerance=tolerance,
             initial_pressure=last_pressure,
         )
-        return outcome_of(solution, setup)
+        return outcome_of(solution, setup, operator)
 
     return step
 
 
-def outcome_of(solution: ContactSolution, setup: WearSetup) -> ContactOutcome:
-    """What a cycle needs to know of a dry contact."""
+def outcome_of(solution: ContactSolution, setup: WearSetup, operator: DisplacementOperator) -> ContactOutcome:
+    """What a cycle needs to know of a dry contact that was solved with an operator."""
     told = named(solution, "pressure contact_area plastic_area load residual convolutions status")
-    return ContactOutcome(**told, friction=setup.friction)
+    modulus = operator.modulus_at(0.5 * math.pi / math.sqrt(setup.grid.cell_area))
+    strip = rows_of_contact(solution, setup.grid, modulus, cap=setup.hardness, compliance=operator.compliance)
+    return ContactOutcome(**told, friction=setup.friction, strip=strip)
+
+
+def rows_of_contact(
+    solution: ContactSolution, grid: Grid, modulus: float, *, cap: float | None = None, compliance: float = 0.0
+) -> FloatArray:
+    """The fraction of each row (nx,) within the strip in contact of a solution; see `rows_in_contact`."""
+    undeformed = solution.gap - solution.displacement  # but for a constant
+    limit = math.inf if cap is None else cap
+    pressure, gap = solution.pressure, solution.gap
+    return rows_in_contact(pressure, gap, undeformed, grid, modulus, cap=limit, compliance=compliance)
 
 
 def wear_cycle(

@@ -15,6 +15,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
+from bem.contact import ContactSolution
 from bem.errors import InputError, Status
 from bem.friction.balance import NEGLIGIBLE, NO_FILM_NOTE, Balance, BalanceStart, Regime, boundary_note, share_load
 from bem.friction.film import PatchFilm, middle_line
@@ -29,7 +30,7 @@ from bem.friction.rough_contact import CoupledContact, RoughContact, boundary_tr
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray
 from bem.materials import Body
-from bem.wear.cycle import ContactOutcome
+from bem.wear.cycle import ContactOutcome, rows_of_contact
 from bem.wear.state import pack_table, unpack_table
 from bem.wear.third_bodies import ThirdBodies
 from bem.wear.third_body_mixed import ContactWithBodies
@@ -235,6 +236,10 @@ class MixedContact:
         self._last = LastCycle(balance, heights, forces, coupling_notes(forces, rough.traction, setup), borne)
         self.contact_solves += balance.contacts
         solution = None if contact is None else contact.solution
+        strip = None
+        if isinstance(solution, ContactSolution):
+            modulus = setup.smooth.contact_modulus
+            strip = rows_of_contact(solution, setup.grid, modulus, cap=setup.hardness)
         return ContactOutcome(
             pressure=np.zeros(setup.grid.shape) if solution is None else solution.pressure,
             contact_area=0.0 if solution is None else solution.contact_area,
@@ -247,6 +252,7 @@ class MixedContact:
             minimum_film=film.minimum_thickness,
             third_bodies=bodies,
             temperature=None if heat is None else heat.temperature,
+            strip=strip,
         )
 
 

@@ -38,10 +38,16 @@ def strip_wear(before: FloatArray, after: FloatArray, strip: NDArray[Any]) -> St
     return StripWear(rms(before), rms(after), float(np.average(before - after, weights=counts)))
 
 
-def contact_strip(pressure: FloatArray) -> NDArray[np.bool_]:
-    """The rows (nx,) of a pressure (nx, ny) that are in contact anywhere; all where none is."""
+def contact_strip(pressure: FloatArray, rows: FloatArray | None = None) -> FloatArray:
+    """The fraction of each row (nx,) within the strip in contact: `rows` as the contact gave them, or else whole rows
+    of the pressure (nx, ny) that are in contact anywhere; all rows where none is.
+
+    Whole rows jump from grid to grid: the depth of one scar was 185, 200 and 194 nm on 48, 52 and 160 cells.
+    """
+    if rows is not None and rows.any():
+        return rows
     touched = np.asarray((pressure != 0).any(axis=1))
-    return touched if touched.any() else ~touched
+    return (touched if touched.any() else ~touched).astype(np.float64)
 
 
 _CUTS = 8

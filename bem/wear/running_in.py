@@ -25,7 +25,7 @@ from bem.wear.criterion import Detachment, LocalWear
 from bem.wear.cycle import ContactOutcome, ContactStep, WearModel, WearSetup, dry_contact, wear_cycle
 from bem.wear.halved import step_error
 from bem.wear.loads import LOWER, UPPER, Removal, SurfaceLoad
-from bem.wear.outcome import contact_strip
+from bem.wear.outcome import contact_strip, strip_wear
 from bem.wear.segmentation import describe_pieces
 from bem.wear.state import CYCLE_FIELDS, PARTICLE_FIELDS, TIME_FIELDS, RunningInState, initial_state
 from bem.wear.third_bodies import ThirdBodies
@@ -290,6 +290,7 @@ def advance(
         ),
         memories=(remembered[LOWER], remembered[UPPER]),
         rubbing=rubbing,
+        strip=contact.strip,
     )
 
 
@@ -404,7 +405,7 @@ def _cycle_row(
     grid: Grid,
 ) -> NDArray[np.void]:
     besides = sum(float(removal.worn.sum()) for removal in removals if removal.worn is not None) * grid.cell_area
-    strip, rubbing, third = worn[contact_strip(contact.pressure)], contact.rubbing, contact.third_bodies
+    strip, rubbing, third = contact_strip(contact.pressure, contact.strip), contact.rubbing, contact.third_bodies
     besides += 0.0 if third is None else float(sum(cut.sum() for cut in third.cut)) * grid.cell_area
     return np.array(
         [
@@ -417,7 +418,7 @@ def _cycle_row(
                 contact.load,
                 contact.friction,
                 contact.minimum_film,
-                strip.std(),
+                strip_wear(worn, worn, strip).rms_after,
                 contact.residual,
                 contact.convolutions,
                 sum(removal.depths_computed for removal in removals),

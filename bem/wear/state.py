@@ -68,7 +68,8 @@ class RunningInState:
     offset : cells that the counterface has slid. pressure : of the last cycle, None before the first.
     removed : what left from each column of the (first) wearing body in the last cycle [m], None before the first.
     memories : what the criterion keeps of the material of the lower and the upper body, (planes, rows, ny) on the
-        heights' own rows; None for nothing. rubbing : of the last cycle; None in gross sliding.
+        heights' own rows; None for nothing. rubbing : of the last cycle; None in gross sliding. strip : the fraction of
+    each row (nx,) within the strip in contact of the last cycle; None takes whole rows by the pressure.
     """
 
     cycle: int
@@ -81,6 +82,7 @@ class RunningInState:
     times: NDArray[np.void]
     memories: tuple[FloatArray | None, FloatArray | None] = (None, None)
     rubbing: Rubbing | None = None
+    strip: FloatArray | None = None
 
 
 def pack_state(state: RunningInState) -> dict[str, Any]:
@@ -95,6 +97,7 @@ def pack_state(state: RunningInState) -> dict[str, Any]:
         "lower_memory": state.memories[LOWER],
         "upper_memory": state.memories[UPPER],
         "rubbing": None if state.rubbing is None else pack_rubbing(state.rubbing),
+        "strip": state.strip,
         **{name: pack_table(getattr(state, name)) for name in ("cycles", "particles", "times")},
     }
 
@@ -112,6 +115,7 @@ def unpack_state(packed: dict[str, Any]) -> RunningInState:
         times=unpack_table(packed["times"], TIME_FIELDS),
         memories=(packed["lower_memory"], packed["upper_memory"]),
         rubbing=None if packed["rubbing"] is None else unpack_rubbing(packed["rubbing"]),
+        strip=packed.get("strip"),
     )
 
 

@@ -63,7 +63,7 @@ def third_body_contact(
         convolutions = sum(contact.convolutions for contact in sharing.tried)
         depths, load = particles.indented(last.gap, hardnesses)[1], carried(last.gap)
         cut = tuple(particles.cut(depths[body], hardnesses[body], slide) for body in (LOWER, UPPER))
-        found = replace(outcome_of(last, setup), convolutions=convolutions)
+        found = replace(outcome_of(last, setup, operator), convolutions=convolutions)
         missing = abs(found.load + load - setup.load) / setup.load
         if missing > BALANCE and found.status is Status.CONVERGED:
             found = replace(found, status=Status.STALLED, residual=missing)

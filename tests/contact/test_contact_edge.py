@@ -294,7 +294,7 @@ def test_the_edge_is_what_single_links_and_squares_make(wraps, shape, hardness, 
         monkeypatch.undo()
         assert found[0] == found[1]
         blurred = crossings.blur(field.inside, *wraps)
-        plain = edge_oracle.sum_squares((*field, blurred), (0.7, 1.1), wraps, (0.75, hardness), *law[2:])
+        plain = edge_oracle.sum_squares((*field, blurred), (0.7, 1.1), wraps, (0.75, hardness), *law[2:4])
         # lengths of chords are rounded otherwise than by math.hypot
         np.testing.assert_allclose(found[0], plain, rtol=1e-13, atol=1e-13 * inside.size)
 

@@ -262,7 +262,7 @@ def test_a_check_of_scenes_fires_where_it_should_and_not_next_to_it(name):
 
 
 def test_interfaces_that_no_depths_bracket_are_named():
-    """Three depths in every layer, and none near the interface at 2 um; one at the interface lies in the layer above."""
+    """Three depths in every layer and none near the interface at 2 um; a depth at it lies in the layer above."""
     depths = ["0.5 um", "1 um", "1.5 um", "2.2 um", "2.3 um", "2.4 um", "2.55 um"]
     (said,) = fired("few_depths_in_a_layer", coated(depths))
     assert "the interface at 2 um of" in said

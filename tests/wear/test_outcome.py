@@ -43,7 +43,7 @@ def test_contact_strip_is_the_rows_that_touch_or_all():
     pressure = np.zeros((4, 3))
     assert contact_strip(pressure).all()
     pressure[2, 1] = 1e9
-    assert contact_strip(pressure).tolist() == [False, False, True, False]
+    assert contact_strip(pressure).tolist() == [0.0, 0.0, 1.0, 0.0]
 
 
 def test_strip_wear_sees_the_strip_only():

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import itertools
 import math
 from collections.abc import Iterator, Sequence
 
@@ -169,7 +170,7 @@ def few_depths_in_a_layer(facts: Facts) -> Iterator[str]:
             continue
         ends = (0.0, *body.interfaces)
         found = []
-        for number, (top, bottom) in enumerate(zip(ends, ends[1:], strict=False), start=1):
+        for number, (top, bottom) in enumerate(itertools.pairwise(ends), start=1):
             inside = sum(top <= depth <= bottom for depth in case.depths)
             if inside < _FEWEST_DEPTHS:
                 only = {0: "no depth lies", 1: "only 1 depth lies"}.get(inside, f"only {inside} depths lie")

@@ -277,7 +277,7 @@ def _record(
     grid, load = setup.grid, scene.contact.on_patch(setup.load, setup.grid.lengths)
     # the same strip before and after, at all speeds
     strip = hertz_area(grid, setup.smooth.half_axes(setup.load))
-    worn = wearing.WornSurface.of(scene, initial, result, grid, load, lambda pressure: strip)
+    worn = wearing.WornSurface.of(scene, initial, result, grid, load, strip)
     figures = run_in(step, cycles, averaged)
     over: dict[str, Any] = {f"{n}_over_cycles": rows[n].copy() for n in ("friction", "film_load", "minimum_film")}
     over |= {f"{n}_over_cycles": cycles[n].astype(np.float64) for n in ("rms_height", "volume")}

@@ -257,7 +257,9 @@ def _record(
     from bem.particles import volume_mean_radius
     from bem.wear.outcome import contact_strip, settled_means, sizes_over_cycles
 
-    worn = wearing.WornSurface.of(scene, initial, result, grid, share, contact_strip)
+    assert result.pressure is not None
+    strip = contact_strip(result.pressure, result.state.strip)
+    worn = wearing.WornSurface.of(scene, initial, result, grid, share, strip)
     cycles, particles, late, (load,) = result.cycles, worn.particles, worn.late, scene.cylinder.loads
     radius, number = sizes_over_cycles(cycles["cycle"], particles)
     between, borne = scene.wear.third_bodies, worn.figures.get("third_body_load_share", 0.0)
