@@ -35,11 +35,11 @@ class LoopRule(NamedTuple):
 _SIZE = LoopRule(1.0, share=0.1)
 RULES: dict[str, LoopRule] = {
     "Sq_initial": LoopRule(0.9, wear=0.12),
-    "Sq_final": LoopRule(0.9, wear=0.45),
+    "Sq_final": LoopRule(0.9, wear=0.45, share=0.001),
     "contact_area_fraction": LoopRule(1.0, wear=1.0),
     "mean_contact_pressure": LoopRule(1.0, wear=1.0),  # that of the area, relatively: the load is given
     "worn_volume_per_cycle": LoopRule(1.2, wear=0.4),
-    "worn_depth": LoopRule(0.8, wear=0.6),
+    "worn_depth": LoopRule(0.8, wear=0.6, share=0.0005),
     "first_cycles_radius": LoopRule(0.6, wear=0.05, share=0.025),
     **{f"{by}_mean_{size}": _SIZE for by in ("area", "volume") for size in ("equivalent_radius", "thickness")},
 }

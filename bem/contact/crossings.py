@@ -9,7 +9,7 @@ against every link by itself in plain Python (tests).
 from __future__ import annotations
 
 import math
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -105,34 +105,53 @@ def sum_squares(crossed: Crossed, spacing: tuple[float, float], wraps: tuple[boo
     return Sums(*_add(crossed.squares, crossed.starts, crossed.crossings, crossed.blurred, spacing, wraps))
 
 
+class Links(NamedTuple):
+    """The links along an axis between a cell inside and one outside (m,): numbers of their first and second cells along
+    the axis and of both across it, the crossings as fractions of each link, and the cosines between link and normal.
+    """
+
+    first: NDArray[np.int64]
+    second: NDArray[np.int64]
+    aside: NDArray[np.int64]
+    crossing: FloatArray
+    cosine: FloatArray
+
+
+def links_along(crossed: Crossed, axis: int, spacing: tuple[float, float], wraps: tuple[bool, bool]) -> Links:
+    """Return the links along an axis with their crossings, and the cosines by the smoothed indicator."""
+    shape = crossed.blurred.shape
+    count = int(crossed.starts[shape[0], axis])
+    row = np.repeat(np.arange(shape[0]), np.diff(crossed.starts[:, axis]))
+    column = crossed.links[axis][0][:count].astype(np.int64)
+    first, aside = (row, column) if axis == 0 else (column, row)
+
+    def blurred(along: int, across: int) -> NDArray[np.int64]:
+        places = [_places(first + along, shape[axis], wraps[axis])]
+        places.insert(1 - axis, _places(aside + across, shape[1 - axis], wraps[1 - axis]))
+        return crossed.blurred[places[0], places[1]].astype(np.int64)
+
+    along = (blurred(2, 0) + blurred(1, 0) - blurred(0, 0) - blurred(-1, 0)) / spacing[axis]
+    across = (blurred(0, 1) + blurred(1, 1) - blurred(0, -1) - blurred(1, -1)) / spacing[1 - axis]
+    norm = np.hypot(along, across)
+    cosine = np.divide(np.abs(along), norm, out=np.ones(count), where=norm > 0)
+    second = _places(first + 1, shape[axis], wraps[axis])
+    return Links(first, second, aside, crossed.crossings[axis][:count], cosine)
+
+
 def cells_at_edge(
     crossed: Crossed, inside: NDArray[np.uint8], spacing: tuple[float, float], wraps: tuple[bool, bool]
 ) -> tuple[NDArray[np.int64], FloatArray]:
     """The cells inside with a link to one outside (m,), as numbers row by row, and the fraction of each cell that lies
     beyond the edge (m,), to first order: half a link less the crossing's distance from the centre, summed over the
     cell's links with the square of the cosine between link and normal, as the squares of both cosines add up to one."""
-    nx, ny = inside.shape
-    flat, blurred = inside.reshape(-1), crossed.blurred.reshape(-1).astype(np.int64)
     cells, beyond = [], []
     for axis in (0, 1):
-        count = int(crossed.starts[nx, axis])
-        i = np.repeat(np.arange(nx), np.diff(crossed.starts[:, axis]))
-        j = crossed.links[axis][0][:count].astype(np.int64)
-
-        def at(along: int, aside: int, i: Any = i, j: Any = j, axis: int = axis) -> Any:
-            row, column = (along, aside) if axis == 0 else (aside, along)
-            return _places(i + row, nx, wraps[0]) * ny + _places(j + column, ny, wraps[1])
-
-        first, second = at(0, 0), at(1, 0)
-        along = blurred[at(2, 0)] + blurred[second] - blurred[first] - blurred[at(-1, 0)]
-        across = blurred[at(0, 1)] + blurred[at(1, 1)] - blurred[at(0, -1)] - blurred[at(1, -1)]
-        squares = (along / spacing[axis]) ** 2, (across / spacing[1 - axis]) ** 2
-        norm = squares[0] + squares[1]
-        cosine = np.where(norm > 0, squares[0] / np.where(norm > 0, norm, 1.0), 1.0)
-        lower = flat[first] != 0
-        crossing = crossed.crossings[axis][:count]
+        links = links_along(crossed, axis, spacing, wraps)
+        ends = [(end, links.aside) if axis == 0 else (links.aside, end) for end in (links.first, links.second)]
+        lower = inside[ends[0]] != 0
+        first, second = (row * inside.shape[1] + column for row, column in ends)
         cells.append(np.where(lower, first, second))
-        beyond.append(cosine * (0.5 - np.where(lower, crossing, 1 - crossing)))
+        beyond.append(links.cosine**2 * (0.5 - np.where(lower, links.crossing, 1 - links.crossing)))
     numbers, order = np.unique(np.concatenate(cells), return_inverse=True)
     return numbers, np.bincount(order.reshape(-1), np.concatenate(beyond), numbers.size)
 

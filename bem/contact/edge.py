@@ -27,7 +27,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.contact.crossings import Crossed, Field, Law, cells_at_edge, cross_links, sum_squares
+from bem.contact.crossings import Crossed, Field, Law, cells_at_edge, cross_links, links_along, sum_squares
 from bem.grid import FloatArray, Grid
 
 _CELLS = np.array(
@@ -110,9 +110,27 @@ def contact_region(
     inside = pressure > 0
     found, crossed = _region(inside, pressure, gap, undeformed, grid, modulus, ends, compliance=compliance)
     area = found.area
+    if compliance > 0 and inside.any():
+        area += _beyond_kinks(inside, undeformed + compliance * pressure, crossed, grid)
+        area = min(max(area, 0.0), grid.area)
     if math.isfinite(cap) and inside.any():
         area = max(area, _capped_area(inside, pressure, cap, crossed, grid))
     return found.of_area(area)
+
+
+def _beyond_kinks(inside: NDArray[np.bool_], worn: FloatArray, crossed: Crossed, grid: Grid) -> float:
+    """The area [m^2] that the contact gains where its edge lies at a kink of the worn gap (nx, ny) [m] instead of where
+    the law of a smooth gap has put it."""
+    gained = 0.0
+    for axis in (0, 1):
+        first, second, column, crossing, cosine = links_along(crossed, axis, grid.spacing, grid.periodic)
+        across, within = (worn, inside) if axis == 0 else (worn.T, inside.T)
+        for outwards, row in ((1, first), (-1, second)):
+            outward = within[row, column]
+            place = (crossing if outwards > 0 else 1 - crossing)[outward]
+            kink = _kink(across, row[outward], column[outward], outwards, grid.periodic[axis])
+            gained += float(np.nansum(cosine[outward] ** 2 * (kink - place)))
+    return gained * grid.cell_area
 
 
 def _capped_area(inside: NDArray[np.bool_], pressure: FloatArray, cap: float, crossed: Crossed, grid: Grid) -> float:
@@ -149,9 +167,7 @@ def rows_in_contact(
     _, crossed = _region(inside, pressure, gap, undeformed, grid, modulus, compliance=compliance)
     worn = undeformed + compliance * pressure
     nx = rows.size
-    count = int(crossed.starts[nx, 0])
-    first, column = np.repeat(np.arange(nx), np.diff(crossed.starts[:, 0])), crossed.links[0][0][:count]
-    second, crossing = (first + 1) % nx, crossed.crossings[0][:count]
+    first, second, column, crossing, _ = links_along(crossed, 0, grid.spacing, grid.periodic)
     for outwards, row, beyond in ((1, first, second), (-1, second, first)):
         outward = inside[row, column] & ~touched[beyond]
         place = crossing if outwards > 0 else 1 - crossing

@@ -74,8 +74,13 @@ def test_a_thin_strip_of_surfaces_that_do_not_change_along_it_is_coarsened_along
     summary = run_scene("wear-cylinder-scar", tmp_path / "run", settings=asked, figures=False).summary
     assert summary["status"] == "converged"
     assert 0 < summary["contact_area_fraction_error"] < 0.1 * summary["contact_area_fraction"]
-    # the flat of Archard's law: 400 of 600 um
-    assert abs(summary["contact_area_fraction"] - 2 / 3) < summary["contact_area_fraction_error"]
+    # the flat of Archard's law is 400 of 600 um at the end, and a mean over two of eight cycles is a little less
+    assert summary["contact_area_fraction"] == pytest.approx(2 / 3, rel=0.01)
+    # bars are those of the cells, and a grid four times finer tells what these leave open
+    finer = (*asked[:3], "domain.cells=[400, 2]")
+    fine = run_scene("wear-cylinder-scar", tmp_path / "fine", settings=finer, figures=False).summary
+    error = abs(summary["contact_area_fraction"] - fine["contact_area_fraction"])
+    assert error < min(summary["contact_area_fraction_error"], 0.002)
     grid = Grid((48, 2), (1e-6, 1e-6), periodic=(False, True))
     even, rough = np.zeros(grid.shape), np.random.default_rng(1).normal(size=grid.shape)
     seen = on_every_second_cell((even, even), grid, lambda heights, across: (heights[0].shape, across))
