@@ -571,6 +571,11 @@ OUTCOMES = {
         (loop_outcome(480.0), "in 1 of 2 loops instead of running in, from Sq 100 nm to 480 nm"),
         loop_outcome(140.0),
     ),
+    "no_wear_rate_of_a_metal": (
+        "wear-steel-steel",
+        (Outcome({"criterion_wear_rate_mm3_Nm": [0.26, 1e-5]}, {}), "criterion_wear_rate up to 0.26"),
+        Outcome({"criterion_wear_rate_mm3_Nm": [5e-4, 1e-5]}, {}),
+    ),
     "drifting_at_the_last_cycle": (
         "running-in-stribeck",
         (loop_outcome(100.0, (0.13, 0.12, 0.11, 0.1)), "not settled: friction by 16 % in 1 of 2 loops"),
@@ -836,6 +841,16 @@ def test_numbers_in_words():
     assert times((1e-6, 2e-6), "m") == "1 um x 2 um"
     assert percent(0.004) == "0.4 %"
     assert percent(0.9999) == "100 %"
+
+
+@pytest.mark.parametrize("kind", ["wear-steel-steel", "running-in-stribeck"])
+def test_both_kinds_of_wear_loops_tell_of_a_surface_of_twice_its_roughness(kind):
+    """Sq of a strip grew from 36 to 74 nm on a counterface of 50 nm; it was compared with all of both surfaces."""
+    facts = facts_of(kind)
+    for after, told in ((74.0, 1), (60.0, 0)):
+        outcome = Outcome({"Sq_initial_nm": [36.0], "Sq_final_nm": [after]}, {})
+        notes = [note for note in outcome_warnings(facts, outcome) if "grew rough" in note]
+        assert len(notes) == told == len(outside(notes))
 
 
 def test_a_scar_worn_by_pressure_is_meant_to_grow():

@@ -56,6 +56,26 @@ def rougher_by_its_own_pieces(facts: Facts, outcome: Outcome) -> Iterator[str]:
     )
 
 
+_SEVERE = 1e-4
+"""The largest specific wear rate of metals in severe dry wear [mm^3/(N m)]: 0.1 / hardness of a soft one (Archard 1953,
+Rabinowicz 1995)."""
+
+
+@outcome_check
+def no_wear_rate_of_a_metal(facts: Facts, outcome: Outcome) -> Iterator[str]:
+    """Under a criterion of pieces all that yields leaves at once, in every cycle, where a real surface takes many
+    passes: volumes by load and distance are then thousands of times those of any metal."""
+    rates = numbers(outcome.summary.get("criterion_wear_rate_mm3_Nm"))
+    if not facts.of_kind("wear", "running-in") or not with_pieces(facts):
+        return
+    beyond = [rate for rate in rates if rate > 10 * _SEVERE]
+    if beyond:
+        yield (
+            f"criterion_wear_rate up to {max(beyond):.2g} mm3/(N m){_of(len(beyond), len(rates))} is not a wear rate: "
+            f"metals have 1e-9 to {_SEVERE:g}; take volumes from a measured rate ([archard], or the criterion archard)"
+        )
+
+
 @outcome_check
 def drifting_at_the_last_cycle(facts: Facts, outcome: Outcome) -> Iterator[str]:
     """Figures of a loop that has not settled are those of its number of cycles; rule: `bem.wear.outcome.drift`."""

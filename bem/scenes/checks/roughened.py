@@ -10,16 +10,18 @@ from dataclasses import dataclass
 
 from bem.scenes.checks.facts import Facts
 from bem.scenes.checks.words import numbers
+from bem.scenes.common import BODIES
 from bem.scenes.context import Outcome
 
-_GROWN = 1.5
-"""Of the roughness of both surfaces together: what touches may take over the other's, and pieces leave edges."""
+_GROWN, _BEYOND_BOTH = 1.5, 1.1
+"""A surface grew rough where its Sq is this many times as large as unworn, and this many times that of the unworn strip
+and the counterface together: what touches may take over the counterface's roughness, not more."""
 
 
 @dataclass(frozen=True)
 class Roughened:
-    """Rms heights [nm]: of both unworn surfaces together, of what wears before each loop, and before and after of those
-    that grew rough."""
+    """Rms heights [nm]: of both unworn surfaces together, of the wearing surface before each loop, and before and after
+    of the surfaces that grew rough."""
 
     both: float = 0.0
     before: tuple[float, ...] = ()
@@ -39,6 +41,17 @@ def roughened(facts: Facts, outcome: Outcome) -> Roughened:
     for _, surface in facts.surfaces:
         rough[surface.body] = max(rough[surface.body], surface.rms_height)
     both = 1e9 * math.hypot(*rough.values())
+    counterface = max((rough[name] for name in _counterfaces(facts)), default=0.0)
     before, after = (numbers(outcome.summary.get(f"Sq_{when}_nm")) for when in ("initial", "final"))
-    grown = ((b, a) for b, a in zip(before, after, strict=False) if a > _GROWN * max(b, both) > 0)
+    grown = (
+        (b, a)
+        for b, a in zip(before, after, strict=False)
+        if a > max(_GROWN * b, _BEYOND_BOTH * math.hypot(b, 1e9 * counterface)) > 0
+    )
     return Roughened(both, tuple(before), tuple(grown) if both > 0 else ())
+
+
+def _counterfaces(facts: Facts) -> set[str]:
+    """The bodies whose heights are not those that Sq is reported of."""
+    reported = {BODIES[case.wearing_bodies[0]] for case in facts.cases if case.wearing_bodies}
+    return {"lower", "upper"} - reported

@@ -130,7 +130,7 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
         Figure("nm", "what its step leaves open of a depth worn by pressure, last cycle", optional=True, unjudged=True),
     ]
     criterion_wear_rate: Annotated[
-        float | None, Figure("mm3_Nm", "wear rate of the criterion itself, by load and distance")
+        float | None, Figure("mm3_Nm", "volume that the criterion removes by load and distance")
     ]
     particles_per_cycle: Annotated[
         float, Figure("", "particles per cycle of one body, settled", no_bar=pieces.FOLLOWS_CELL)

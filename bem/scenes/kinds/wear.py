@@ -147,7 +147,7 @@ class WearRecord(pieces.MeanSizes, pieces.ParticleTable, wearing.WornRecord):
         ),
     ]
     criterion_wear_rate: Annotated[
-        float | None, Figure("mm3_Nm", "wear rate of the criterion itself, by load and distance", headline=True)
+        float | None, Figure("mm3_Nm", "volume that the criterion removes by load and distance", headline=True)
     ]
     cycles: Annotated[int, Figure("", "cycles", headline=True, unjudged=True)]
     cell: Annotated[float, Figure("nm", "root of the cell's area", unjudged=True)]
