@@ -153,7 +153,8 @@ def cells_at_edge(
         cells.append(np.where(lower, first, second))
         beyond.append(links.cosine**2 * (0.5 - np.where(lower, links.crossing, 1 - links.crossing)))
     numbers, order = np.unique(np.concatenate(cells), return_inverse=True)
-    return numbers, np.bincount(order.reshape(-1), np.concatenate(beyond), numbers.size)
+    total = np.bincount(order.reshape(-1), np.concatenate(beyond), numbers.size)
+    return numbers.astype(np.int64), total.astype(np.float64)
 
 
 def _places(numbers: NDArray[np.int64], n: int, wraps: bool) -> NDArray[np.int64]:

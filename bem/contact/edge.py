@@ -61,6 +61,11 @@ _KINK = 5.0
 changes twice as much over two links as over one."""
 
 
+_ELASTIC_SHARE = 0.05
+"""Of the part of a partly loaded cell beyond pressure / cap, the least that touches as well: 0.05 to 0.1 of it do on
+eight times finer cells, at slopes of 6 to 26 times the hardness over E*."""
+
+
 @dataclass(frozen=True)
 class Region:
     """Part of the surface: area [m^2] and perimeter [m], of second order; the area of its cells as counted [m^2]; the
@@ -134,11 +139,11 @@ def _beyond_kinks(inside: NDArray[np.bool_], worn: FloatArray, crossed: Crossed,
 
 
 def _capped_area(inside: NDArray[np.bool_], pressure: FloatArray, cap: float, crossed: Crossed, grid: Grid) -> float:
-    """The area of cells in contact [m^2], each with the share of it that lies within the edge: all of a cell at the
-    cap, and of others no less than their pressure over the cap."""
+    """The area of cells in contact [m^2], each with the fraction of it that lies within the edge: all of a cell at the
+    cap, and of others a little more than their pressure over the cap, at least."""
     numbers, beyond = cells_at_edge(crossed, inside.view(np.uint8), grid.spacing, grid.periodic)
     below_cap = np.maximum(1 - pressure.reshape(-1)[numbers] / cap, 0.0)
-    beyond = np.where(below_cap > 0, np.minimum(beyond, below_cap), 0.0)
+    beyond = np.where(below_cap > 0, np.minimum(beyond, (1 - _ELASTIC_SHARE) * below_cap), 0.0)
     return float(np.count_nonzero(inside) - beyond.sum()) * grid.cell_area
 
 
@@ -160,8 +165,8 @@ def rows_in_contact(
     the strip thus converge with the cell. Parameters as in `contact_region`.
     """
     inside = pressure > 0
-    touched = inside.any(axis=1)
-    rows = touched.astype(np.float64)
+    touched = np.asarray(inside.any(axis=1))
+    rows: FloatArray = touched.astype(np.float64)
     if touched.all() or not touched.any():
         return np.ones_like(rows)
     _, crossed = _region(inside, pressure, gap, undeformed, grid, modulus, compliance=compliance)
@@ -182,7 +187,7 @@ def rows_in_contact(
     return np.clip(rows, 0.0, 1.0)
 
 
-def _kink(gap: FloatArray, row: NDArray[np.int64], column: NDArray[np.int32], outwards: int, wraps: bool) -> FloatArray:
+def _kink(gap: FloatArray, row: NDArray[np.int64], column: NDArray[np.int64], outwards: int, wraps: bool) -> FloatArray:
     """Where an undeformed gap has a kink in the link from a cell inside (row, column) to the next row outwards (m,),
     in links from the cell; not-a-number where it has none.
 

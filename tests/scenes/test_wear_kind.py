@@ -70,6 +70,19 @@ def test_summary_has_its_figures_and_the_balance_holds(scene_file):
     assert outcome.variables["radius"].values.shape == (1, 1, 1, 12)  # load, variant, repetition, cycle
 
 
+def test_the_mean_contact_pressure_is_a_result(scene_file):
+    """It was the hardness in every cycle, as the area was no less than what carries the load at the hardness."""
+    outcome = run(scene_file())
+    pressure = (outcome.variables["contact_load"].values / outcome.variables["contact_area"].values).ravel()
+    hardness = max(pressure.max(), outcome.variables["pressure"].values.max())
+    assert hardness == outcome.variables["pressure"].values.max()  # nothing is above the hardness
+    assert np.count_nonzero(pressure < hardness * (1 - 1e-5)) > pressure.size / 2
+    assert np.ptp(pressure) > 1e-3 * hardness
+    # the mean over whole cells is the least that it can be
+    cells = outcome.variables["pressure"].values
+    assert cells[cells > 0].mean() < pressure[-1] < hardness
+
+
 def test_loads_variants_and_repetitions_make_lists_in_the_order_of_the_scene(scene_file):
     text = (
         WEAR + '[[variants]]\nname = "coarse"\ncells = 20\n[[variants]]\nname = "rough"\nupper_rms_height = "60 nm"\n'
