@@ -228,9 +228,10 @@ class Workspace:
             (path / OWN / PROGRESS).unlink(missing_ok=True)
             with open(path / OWN / LOG, "ab") as log:
                 child = subprocess.Popen(
-                    [sys.executable, "-m", "bem.app.worker", str(path)],
+                    [sys.executable, "-P", "-m", "bem.app.worker", str(path)],  # no modules from the user's folder
                     stdin=subprocess.DEVNULL, stdout=log, stderr=log, cwd=self.folder,
-                    env={**os.environ, "OPENBLAS_NUM_THREADS": "1"},  # as on the command line: the same bits
+                    # as on the command line: the same bits; its own processes leave out the folder, too
+                    env={**os.environ, "OPENBLAS_NUM_THREADS": "1", "PYTHONSAFEPATH": "1"},
                     start_new_session=True,  # it outlives this server
                 )  # fmt: skip
             self._children.append(child)

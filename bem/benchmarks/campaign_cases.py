@@ -36,7 +36,8 @@ def wear_campaign(cycles: float) -> Timed:
         from bem.results import open_run
 
         with tempfile.TemporaryDirectory() as folder:
-            command = [sys.executable, "-m", "bem", "run", "wear-steel-steel", *settings, "--workers", str(workers)]
+            bem = [sys.executable, "-P", "-m", "bem"]
+            command = [*bem, "run", "wear-steel-steel", *settings, "--workers", str(workers)]
             start = time.perf_counter()
             subprocess.run([*command, "--out", f"{folder}/run"], check=True, capture_output=True)
             seconds = time.perf_counter() - start

@@ -220,7 +220,7 @@ def measure_apart(case: str, size: float, threads: int, repeats: int, limit: flo
     """
     environment = os.environ | dict.fromkeys(THREAD_VARIABLES, "1") | {"BEM_THREADS": str(threads)}
     done = subprocess.run(
-        [sys.executable, "-m", "bem.benchmarks", case, repr(size), str(threads), str(repeats)],
+        [sys.executable, "-P", "-m", "bem.benchmarks", case, repr(size), str(threads), str(repeats)],
         capture_output=True,
         text=True,
         timeout=limit,

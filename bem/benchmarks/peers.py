@@ -165,7 +165,7 @@ def run_script(
     with tempfile.TemporaryDirectory() as folder:
         np.save(f"{folder}/gap.npy", array)
         done = subprocess.run(
-            [str(python), "-c", TIMER + script, folder, *map(repr, numbers), str(repeats)],
+            [str(python), "-P", "-c", TIMER + script, folder, *map(repr, numbers), str(repeats)],
             capture_output=True,
             text=True,
             timeout=limit,

@@ -1,7 +1,8 @@
 """Jobs on this machine: one process per worker, replaced when it dies.
 
 Workers are started as `python -c` with a pipe, not by `multiprocessing`: a script that runs a scene need not guard its
-main part, and nothing of it is run again. They end with this process, however that ends.
+main part, and nothing of it is run again. They import from where this process does, not from the folder it is in
+(`-P`), and end with this process, however that ends.
 """
 
 from __future__ import annotations
@@ -40,7 +41,7 @@ class _Worker:
         self.connection, theirs = Pipe()
         paths = [path or os.getcwd() for path in sys.path]
         self.process = subprocess.Popen(
-            [sys.executable, "-c", _SERVE.format(descriptor=theirs.fileno())],
+            [sys.executable, "-P", "-c", _SERVE.format(descriptor=theirs.fileno())],
             pass_fds=[theirs.fileno()],
             stdin=subprocess.DEVNULL,
             env={**os.environ, "PYTHONPATH": os.pathsep.join(paths), "OPENBLAS_NUM_THREADS": "1"},

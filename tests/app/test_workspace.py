@@ -18,7 +18,9 @@ SMALL = {key: CONTACT[key] for key in ("kind", "grid", "lower", "contact")} | {"
 
 @pytest.fixture
 def workspace(tmp_path):
-    return Workspace(tmp_path / "work")
+    made = Workspace(tmp_path / "work")
+    yield made
+    until(lambda: all(child.poll() is not None for child in made._children))
 
 
 def until(what, seconds=120.0):
@@ -76,6 +78,16 @@ def test_a_run_is_a_process_and_a_folder(workspace):
     with pytest.raises(InputError, match="allowed"):
         download(state.path, "../summary.json")
     assert Workspace(workspace.folder).runs() == workspace.runs()  # another server sees the same
+
+
+def test_a_run_executes_no_python_file_of_the_project_folder(workspace):
+    for name in ("numba", "numpy", "json", "bem"):
+        (workspace.folder / f"{name}.py").write_text("open('executed', 'w').close()\n")
+    workspace.save_scene("small", SMALL)
+    workspace.start("small")
+    until(lambda: workspace.runs()[0].finished)
+    assert workspace.runs()[0].state == "converged"
+    assert not list(workspace.folder.rglob("executed"))
 
 
 def test_a_bad_scene_starts_nothing(workspace):

@@ -84,6 +84,15 @@ def test_two_workers_each_get_cases_and_the_bits_are_the_same(alone, tmp_path, m
     assert content(both) == content(alone)
 
 
+def test_workers_execute_no_python_file_of_the_folder_that_they_are_started_in(alone, tmp_path, monkeypatch):
+    for name in ("numba", "numpy", "bem"):
+        (tmp_path / f"{name}.py").write_text("open('executed', 'w').close()\n")
+    monkeypatch.chdir(tmp_path)
+    both = run_scene(SCENE, tmp_path / "run", figures=False, workers=2)
+    assert not (tmp_path / "executed").exists()
+    assert content(both) == content(alone)
+
+
 def test_the_last_of_three_has_both_cores_and_the_same_bits(tmp_path, monkeypatch):
     threads = []
     outright = jobs.compute_locally
