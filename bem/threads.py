@@ -15,6 +15,7 @@ import itertools
 import os
 import sys
 import threading
+import weakref
 from collections.abc import Callable
 from typing import Any, ParamSpec, TypeVar
 
@@ -22,6 +23,55 @@ from bem.errors import InputError
 
 SHARED_FROM = 1 << 19
 """Entries of a pass or a transform from which threads share it."""
+
+
+class ForkSafeLock:
+    """Reentrant lock that a forked process never finds held by a thread that stayed behind.
+
+    Every lock of this package that outlives a call is one.
+
+    whole : True makes a fork wait until the lock is free, so that the child finds what it guards complete; only for a
+        lock whose holders take no other one. False gives the child a new lock; what it guards must then be usable in
+        every state that its holder leaves it in.
+    """
+
+    def __init__(self, *, whole: bool = False) -> None:
+        self._lock, self._whole, self._held = threading.RLock(), whole, False
+        _LOCKS.add(self)
+
+    def __enter__(self) -> None:
+        self._lock.acquire()
+
+    def __exit__(self, *error: object) -> None:
+        self._lock.release()
+
+    def before_fork(self) -> None:
+        """Wait until what the lock guards is complete."""
+        if self._whole:
+            self._lock.acquire()
+            self._held = True
+
+    def in_parent(self) -> None:
+        """Release the lock after a fork."""
+        if self._held:
+            self._held = False
+            self._lock.release()
+
+    def in_child(self) -> None:
+        """Leave the lock free, or with the thread that forked."""
+        self.in_parent()
+        self._lock = _free(self._lock)
+
+
+def _free(lock: Any) -> Any:
+    """Return the reentrant lock, or a new one in place of one that another thread holds."""
+    if not lock.acquire(blocking=False):
+        return threading.RLock()
+    lock.release()
+    return lock
+
+
+_LOCKS: weakref.WeakSet[ForkSafeLock] = weakref.WeakSet()
 
 
 def _from_environment() -> int:
@@ -127,13 +177,38 @@ class _Pool:
 _POOL = _Pool(_from_environment())
 
 
-def _in_forked_process() -> None:
+def _before_fork() -> None:
+    for lock in list(_LOCKS):
+        lock.before_fork()
+
+
+def _in_parent() -> None:
+    for lock in list(_LOCKS):
+        lock.in_parent()
+
+
+def _in_child() -> None:
     """Threads stay behind: the process begins with none, and with no lock that one of them holds."""
+    for lock in list(_LOCKS):
+        lock.in_child()
+    if sys.version_info < (3, 12):
+        _renew_locks_of_cached_properties()
     _POOL.__init__(_POOL.threads)  # type: ignore[misc]
 
 
+def _renew_locks_of_cached_properties() -> None:
+    """Before Python 3.12 each cached property has a lock, held while a value is computed."""
+    package = __name__.partition(".")[0]
+    modules = [module for name, module in list(sys.modules.items()) if name.partition(".")[0] == package]
+    classes = {found for module in modules for found in list(vars(module).values()) if isinstance(found, type)}
+    for owner in classes:
+        for found in list(vars(owner).values()):
+            if isinstance(found, functools.cached_property):
+                found.lock = _free(found.lock)  # type: ignore[attr-defined]
+
+
 if hasattr(os, "register_at_fork"):
-    os.register_at_fork(after_in_child=_in_forked_process)
+    os.register_at_fork(before=_before_fork, after_in_parent=_in_parent, after_in_child=_in_child)
 
 
 def set_threads(count: int) -> None:

@@ -1,7 +1,11 @@
 """How blocks of work are handed over to threads: by whom they are done, and who is waited for."""
 
+import multiprocessing
 import os
+import subprocess
+import sys
 import threading
+import warnings
 
 import numpy as np
 import pytest
@@ -95,3 +99,99 @@ def test_a_convolution_is_three_tasks_of_two_pieces_a_thread(monkeypatch):
     assert found == [6, 6, 6]
     threads.set_threads(1)
     assert transform.convolve(field, factor).tobytes() == together.tobytes()
+
+
+FORKS = """
+import os, sys, threading, time, warnings
+import numpy as np
+from bem import Body, Grid, Material, displacement_operator, solve_contact
+from bem.stress import stress_below
+
+warnings.simplefilter("ignore")  # later Pythons warn of any fork beside threads
+grid, steel = Grid((64, 64), (1e-6, 1e-6)), Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3))
+gap = grid.x[:, None] ** 2 / 2e-3 + grid.y**2 / 2e-3
+
+def solve(load):
+    found = solve_contact(gap, displacement_operator(grid, steel), load=load)
+    stress_below(found.pressure, grid, steel, np.array([0.0, 1e-5 * load]))
+    return found.pressure
+
+def solve_forever():
+    load = 1.0
+    while True:
+        load += 0.01
+        solve(load)
+
+whole = solve(1.0)
+threading.Thread(target=solve_forever, daemon=True).start()
+left = []
+for number in range(8):
+    time.sleep(0.05 + 0.013 * number)
+    child = os.fork()
+    if child == 0:
+        os._exit(0 if np.array_equal(solve(1.0), whole) else 1)
+    left.append(child)
+end, codes = time.monotonic() + 60, []
+while left and time.monotonic() < end:
+    child = left.pop(0)
+    done, status = os.waitpid(child, os.WNOHANG)
+    if done:
+        codes.append(os.waitstatus_to_exitcode(status))
+    else:
+        left.append(child)
+        time.sleep(0.02)
+for child in left:
+    os.kill(child, 9)
+print(len(left), codes, flush=True)
+os._exit(0)
+"""
+
+
+@pytest.mark.skipif(not hasattr(os, "fork"), reason="this system has no fork")
+def test_children_forked_while_a_thread_solves_solve_the_same():
+    done = subprocess.run([sys.executable, "-c", FORKS], capture_output=True, text=True, timeout=300, check=True)
+    assert done.stdout.split("\n")[0] == f"0 {[0] * 8}"
+
+
+def test_a_lock_of_another_thread_is_free_in_the_child_and_one_that_guards_a_whole_is_waited_for():
+    torn, whole = threads.ForkSafeLock(), threads.ForkSafeLock(whole=True)
+    entered, state = threading.Event(), []
+
+    def change():
+        with torn, whole:
+            entered.set()
+            threading.Event().wait(0.2)
+            state.append("complete")
+
+    def child():
+        for lock in (torn, whole):
+            with lock:
+                pass
+        return state == ["complete"]
+
+    thread = threading.Thread(target=change)
+    thread.start()
+    entered.wait()
+    with warnings.catch_warnings():
+        warnings.simplefilter("ignore")  # later Pythons warn of any fork beside threads
+        process = multiprocessing.get_context("fork").Process(target=lambda: sys.exit(0 if child() else 1))
+        process.start()
+    process.join(60)
+    code = process.exitcode
+    process.kill()
+    thread.join()
+    assert code == 0
+
+
+def test_the_thread_that_forks_keeps_the_locks_that_it_holds():
+    lock = threads.ForkSafeLock(whole=True)
+    with lock:
+        threads._before_fork()
+        threads._in_parent()
+        threads._before_fork()
+        threads._in_child()
+        taken = []
+        other = threading.Thread(target=lambda: taken.append(lock._lock.acquire(blocking=False)))
+        other.start()
+        other.join()
+        assert taken == [False]

@@ -8,7 +8,6 @@ tests/contact/test_sparse_rows.py.
 
 from __future__ import annotations
 
-import threading
 from dataclasses import dataclass
 from functools import lru_cache
 
@@ -16,6 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.compiled import compiled
+from bem.threads import ForkSafeLock
 
 FloatArray = NDArray[np.float64]
 
@@ -68,7 +68,7 @@ class Patterns:
                 _solve_patterns(wanted, self.offsets, self.near_field, self.table, self.packed, self.solved)
 
 
-_SOLVING = threading.Lock()
+_SOLVING = ForkSafeLock(whole=True)
 
 
 @lru_cache(maxsize=64)

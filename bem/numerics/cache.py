@@ -7,7 +7,6 @@ tests/frugality/test_allocations.py.
 from __future__ import annotations
 
 import math
-import threading
 from collections import OrderedDict
 from collections.abc import Callable, Hashable
 from typing import Any, Protocol, TypeVar, cast
@@ -15,6 +14,7 @@ from typing import Any, Protocol, TypeVar, cast
 import numpy as np
 
 from bem.errors import InputError
+from bem.threads import ForkSafeLock
 
 DEFAULT_LIMIT = 1 << 29
 """Bytes that a store may hold where nobody says otherwise."""
@@ -38,7 +38,7 @@ class KeptValues:
         self.limit = limit
         self.least = least
         self.kept: OrderedDict[Hashable, Any] = OrderedDict()
-        self.lock = threading.Lock()
+        self.lock = ForkSafeLock()
 
     def of(self, key: Hashable, make: Callable[[], _Value]) -> _Value:
         """The value of a key, made where there is none; of two threads that make one, both get the first."""

@@ -15,7 +15,6 @@ fit, the first ones are kept and the rest is computed anew every time: the best 
 from __future__ import annotations
 
 import math
-import threading
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any
@@ -32,6 +31,7 @@ from bem.kernels.spectral import stress_response
 from bem.materials import Body
 from bem.numerics.cache import DEFAULT_LIMIT, bytes_of
 from bem.stress.packed import Packed, pack
+from bem.threads import ForkSafeLock
 from bem.transforms import Multiplier, kernel_spectrum, multiplier, narrowed_lengths, padded_shape
 
 
@@ -76,7 +76,7 @@ class SweepCache:
         self.sweep = 0
         self.families: dict[Any, int] = {}
         self.named = 0
-        self.lock = threading.Lock()
+        self.lock = ForkSafeLock()
 
     def begin(self) -> int:
         """Number of a new sweep."""

@@ -9,13 +9,14 @@ from __future__ import annotations
 import importlib
 import importlib.util
 import sys
-import threading
 from importlib.machinery import ModuleSpec
 from pathlib import Path
 from types import ModuleType
 from typing import Any
 
-_LOCK = threading.RLock()
+from bem.threads import ForkSafeLock
+
+_LOCK = ForkSafeLock()
 
 
 class _Unopened(ModuleType):

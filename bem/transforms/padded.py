@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-import threading
 import weakref
 from bisect import bisect_left
 from collections.abc import Sequence
@@ -13,7 +12,7 @@ from typing import Any, cast
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
 
-from bem.threads import share, threads_for
+from bem.threads import ForkSafeLock, share, threads_for
 from bem.transforms import loops
 from bem.transforms.count import COUNT
 from bem.transforms.fftw import pyfftw
@@ -27,7 +26,7 @@ ComplexArray = NDArray[Any]
 _BLOCK_BYTES = 1 << 18
 _PIECES = 2
 """Of a pass for each thread: who begins late is to do less."""
-_COUNTING = threading.Lock()
+_COUNTING = ForkSafeLock()
 COMPLEX: dict[np.dtype[Any], np.dtype[Any]] = {
     np.dtype(np.float64): np.dtype(np.complex128),
     np.dtype(np.float32): np.dtype(np.complex64),
@@ -93,7 +92,7 @@ class PaddedTransform:
         self._ends: list[int] = columns.tolist()
         """Columns in the first so many blocks, none first; and below how many numbers they are together."""
         self._numbers = [0, *np.cumsum(np.diff(columns) * [given[start] for start in columns[:-1]]).tolist()]
-        self.lock: Any = threading.RLock() if beside is None else beside.lock
+        self.lock: ForkSafeLock = ForkSafeLock() if beside is None else beside.lock
         self._unit = unit_factor(self.dtype)
         self._scratch: list[Scratch] = []
         self._prepared = 0

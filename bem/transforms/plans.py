@@ -8,7 +8,6 @@ one is not, nor destroying one: both are done here only, under one lock.
 from __future__ import annotations
 
 import ctypes
-import threading
 from collections.abc import Iterable, Iterator
 from functools import cache
 from importlib import import_module
@@ -22,6 +21,7 @@ from numba.extending import intrinsic
 from numpy.typing import NDArray
 
 from bem.errors import InputError
+from bem.threads import ForkSafeLock
 from bem.transforms.fftw import pyfftw
 
 if import_module("numba.core.config").DISABLE_JIT:  # loops that call FFTW by address cannot be run by Python
@@ -32,7 +32,7 @@ if import_module("numba.core.config").DISABLE_JIT:  # loops that call FFTW by ad
 
 _DESTROY_INPUT, _ESTIMATE = 1 << 0, 1 << 6
 _FORWARD, _BACKWARD = -1, 1
-_PLANNER = threading.RLock()
+_PLANNER = ForkSafeLock(whole=True)
 """Held while a plan is made or destroyed. A thread that holds it may be made to collect garbage, plans among it."""
 
 
