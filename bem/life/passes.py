@@ -143,12 +143,13 @@ class DryPasses:
 class MixedPasses:
     """Contacts that share their load with a film; `table` holds the films of the set-up at its speeds.
 
-    What wears in a pass is a compliance of its contact, so that the balance is that at its end.
+    What wears in a pass is a compliance of its contact, so that the balance is that at its end. `film_notes` : of the
+    film of the last pass.
     """
 
     def __init__(self, setup: MixedSetup, table: FilmTable) -> None:
         self.setup, self.table = setup, table
-        self.film: PatchFilm | None = None
+        self.film_notes: tuple[str, ...] = ()
         self._whole: PatchFilm | None = None
 
     def __call__(self, heights: FloatArray, start: PassStart, compliance: float) -> Pass:
@@ -174,7 +175,7 @@ class MixedPasses:
         )
         _check(balance.status, abs(balance.imbalance))
         film, contact = balance.film, balance.contact
-        self.film = film
+        self.film_notes = film.notes
         forces = friction_forces(film, contact, setup, speeds)
         pressure = np.zeros(setup.grid.shape) if contact is None else contact.pressure
         again = start if contact is None else PassStart(pressure, film.load, balance.slope)

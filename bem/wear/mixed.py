@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections import deque
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import Any
 
@@ -78,8 +78,15 @@ class MixedState:
 
 @dataclass(frozen=True, eq=False)
 class LastCycle:
-    """What a cycle leaves besides its row: the balance, the heights (nx, ny) [m] that it is of, forces, what to say of
-    how they couple, and the share of the load that particles bear."""
+    """State of the last cycle besides its row: all that notes, film and separation of a finished loop are computed
+    from, and part of its checkpoint.
+
+    balance : of film and contact; its film is without `solution`.
+    heights : (nx, ny) [m], sum of both bodies in that cycle.
+    forces : of friction.
+    coupling : notes on how friction couples into the normal gap.
+    borne : share of the load on particles.
+    """
 
     balance: Balance
     heights: FloatArray
@@ -97,7 +104,7 @@ class MixedContact:
         1e-5 of itself, and where the balance cannot be met for it, the contact is solved better.
     speeds : (u1, u2) of flat and cylinder [m/s].
     table : films of the same set-up and speeds, to share; a new one by default.
-    state, rows : to go on from, as they were after the last cycle.
+    state, rows, last : to go on from, as they were after the last cycle.
 
     `rows` has a row of `MIXED_FIELDS` per cycle, of this contact and of all that `bearing` makes of it; `film` is the
     last cycle's film and `separation` the distance (nx,) of the mean planes [m]. A cycle in which the film clears the
@@ -117,6 +124,7 @@ class MixedContact:
         table: FilmTable | None = None,
         state: MixedState | None = None,
         rows: NDArray[np.void] | None = None,
+        last: LastCycle | None = None,
     ) -> None:
         if setup.repeated_cell:
             raise InputError("grid: a cell that repeats does not wear; take a patch that holds the contact of the ball")
@@ -126,7 +134,7 @@ class MixedContact:
         self.state = state if state is not None else MixedState(0.5 * setup.load)
         self.rows = rows if rows is not None else np.zeros(0, MIXED_FIELDS)
         self.contact_solves = 0
-        self._last: LastCycle | None = None
+        self.last = last
 
     @cached_property
     def _whole(self) -> PatchFilm:
@@ -165,25 +173,25 @@ class MixedContact:
     @property
     def film(self) -> PatchFilm | None:
         """The last cycle's."""
-        return None if self._last is None else self._last.balance.film
+        return None if self.last is None else self.last.balance.film
 
     @property
     def separation(self) -> FloatArray | None:
         """Distance (nx,) of the mean planes in the last cycle [m]."""
-        if self._last is None:
+        if self.last is None:
             return None
-        film, contact = self._last.balance.film, self._last.balance.contact
+        film, contact = self.last.balance.film, self.last.balance.contact
         return middle_line(film.thickness) if contact is None else contact.separation
 
     @property
     def film_notes(self) -> tuple[str, ...]:
         """What the last cycle's film says of its model."""
-        return () if self._last is None else self._last.balance.film.notes
+        return () if self.last is None else self.last.balance.film.notes
 
     @property
     def notes(self) -> tuple[str, ...]:
         """What to say of the cycles so far: those in boundary lubrication, and models outside their validity."""
-        last, notes = self._last, []
+        last, notes = self.last, []
         if last is None:
             return ()
         left = boundary_note(NEGLIGIBLE * self.setup.tolerance)
@@ -201,7 +209,7 @@ class MixedContact:
 
     def oil(self) -> OilBeside | None:
         """How far the last cycle's load sharing hangs on the oil beside Hertz' contact; one more balance."""
-        last = self._last
+        last = self.last
         if last is None or last.borne > FEW:
             return None  # with particles it would be another contact's
         friction = float(self.rows["friction"][-1])
@@ -233,7 +241,8 @@ class MixedContact:
             _TAKEN_FOR_NONE if NO_FILM_NOTE in balance.notes else REGIMES.index(balance.regime),
         )
         self.rows = np.append(self.rows, new)
-        self._last = LastCycle(balance, heights, forces, coupling_notes(forces, rough.traction, setup), borne)
+        kept = replace(balance, film=replace(film, solution=None))
+        self.last = LastCycle(kept, heights, forces, coupling_notes(forces, rough.traction, setup), borne)
         self.contact_solves += balance.contacts
         solution = None if contact is None else contact.solution
         strip = None
@@ -282,7 +291,8 @@ class BearingContact:
 
 
 def pack_balance(step: MixedContact) -> dict[str, Any]:
-    """Where the next balance starts and the rows so far, as plain arrays and numbers, for a checkpoint."""
+    """Where the next balance starts and the rows so far, as plain arrays and numbers, for a checkpoint. It lacks the
+    last cycle (`MixedContact.last`), which the caller packs."""
     return {"film_load": step.state.film_load, "slope": step.state.slope, "rows": pack_table(step.rows)}
 
 
@@ -316,6 +326,7 @@ def shared_film_table(setup: MixedSetup, speeds: Sequence[float]) -> FilmTable:
 __all__ = [
     "MIXED_FIELDS",
     "BearingContact",
+    "LastCycle",
     "MixedContact",
     "MixedState",
     "film_table",

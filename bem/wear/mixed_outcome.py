@@ -48,7 +48,9 @@ def run_in(step: MixedContact, cycles: NDArray[np.void], averaged: int) -> RunIn
     """Of a loop with rows of `CYCLE_FIELDS`, its means over so many of the last cycles."""
     setup, rows = step.setup, step.rows
     mean = {name: float(rows[name][-averaged:].mean()) for name in _MEANS}
-    film = step.film if step.film is not None else step.table.under(float(rows["film_load"][-1]))
+    film, separation = step.film, step.separation
+    assert film is not None
+    assert separation is not None
     return RunIn(
         friction_initial=float(rows["friction"][0]),
         contact_load_initial=float(rows["contact_load"][0]),
@@ -59,7 +61,7 @@ def run_in(step: MixedContact, cycles: NDArray[np.void], averaged: int) -> RunIn
         contact_share=rows["contact_load"] / setup.load,
         film_thickness_patch=middle_line(film.thickness),
         film_pressure_patch=middle_line(film.pressure),
-        separation=step.separation if step.separation is not None else middle_line(film.thickness),
+        separation=separation,
         **mean,
     )
 

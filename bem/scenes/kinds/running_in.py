@@ -20,6 +20,7 @@ from bem.scenes.common import PositivePressure, Repetitions
 from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.kind import Kind
 from bem.scenes.lubrication import notes_of_balance
+from bem.scenes.packing import packed, unpacked
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, GridRecord, Series, filled, without_bars
 from bem.scenes.resolutions import CELLS, of_loop
@@ -227,7 +228,7 @@ def wear_down(
     sharing, (speeds,), saved = scene.sharing, scene.speeds.build(), context.saved()
     setup = scene.setup(**sharing.model_dump(), heat_mesh=heat_mesh)
     frames = [] if saved is None else [np.asarray(frame) for frame in saved["frames"]]
-    balance = {} if saved is None else unpack_balance(saved)
+    balance = {} if saved is None else unpack_balance(saved) | {"last": unpacked(saved["last_cycle"])}
     load = scene.contact.on_patch(setup.load, setup.grid.lengths)
     step = MixedContact(setup, speeds, table=shared_film_table(setup, speeds), **balance)
 
@@ -242,7 +243,7 @@ def wear_down(
         context,
         initial,
         watch=watch,
-        keep=lambda: {"frames": list(frames), **pack_balance(step)},
+        keep=lambda: {"frames": list(frames), **pack_balance(step), "last_cycle": packed(step.last)},
         grid=setup.grid,
         load=load,
         friction=scene.contact.nominal_friction(

@@ -18,7 +18,7 @@ from bem.grid import FloatArray
 from bem.scenes import build, film_plans, lives, plans
 from bem.scenes.axes import Axis
 from bem.scenes.common import Repetitions, problem
-from bem.scenes.context import Context, error_bars
+from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.kind import Kind
 from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step, padded_points
@@ -231,10 +231,11 @@ def run(scene: RunningInLifeScene, context: Context) -> RunningInLifeRecord:
         state = beside.begun(begun(case, *initial))
     else:
         state, beside = saved[0], replace(beside, pieces=saved[1], pits=saved[2], last=saved[0])
+        contact.film_notes = saved[3]
 
     def after(now: LifeState) -> LifeState:
         now = beside.after(now)
-        keep(context, (now, beside.pieces, beside.pits))
+        keep(context, (now, beside.pieces, beside.pits, contact.film_notes))
         done = np.log1p(now.cycles / case.first_step) / np.log1p(case.cycles / case.first_step)
         context.progress(round(1000 * done), 1000, "cycles", friction=float(now.over("friction")[-1]))
         return now
@@ -273,9 +274,7 @@ def _tell(scene: RunningInLifeScene, context: Context, setup: MixedSetup, contac
             f"wear.law.distance {wear.distance:.3g} m is not what these speeds make a place slide while the "
             f"{setup.grid.lengths[0]:.3g} m of the patch pass, {slid:.3g} m"
         )
-    if contact.film is not None:
-        for note in contact.film.notes:
-            context.note(f"film: {note}")
+    tell(context, contact.film_notes, "film: ")
 
 
 def _record(scene: RunningInLifeScene, setup: MixedSetup, end: LifeState, beside: Beside) -> RunningInLifeRecord:
