@@ -17,6 +17,7 @@ from bem.accuracy.bars import GRID, RESIDUAL, ErrorBars, Rule
 from bem.accuracy.sharp import is_sharp
 from bem.contact import ContactSolution, solve_contact
 from bem.contact.cascade import sample
+from bem.contact.certificate import free_edges_reached
 from bem.contact.edge import plastic_region
 from bem.contact.spots import count_spots
 from bem.convolution import DisplacementOperator
@@ -112,14 +113,11 @@ def coarser_before(case: ContactCase, solution: ContactSolution) -> Coarser | No
     """The contact as it was solved before each cell was cut in four; None where that was another, or cannot serve."""
     (nx, ny), (dx, dy) = case.grid.shape, case.grid.spacing
     halved = solution.pressure.shape == (nx / 2, ny / 2) and solution.status is Status.CONVERGED
-    if not halved or _reaches_edge(solution) or _reaches_edge(case.solution):
+    periodic = case.grid.periodic
+    if not halved or any(free_edges_reached(periodic, each.pressure) for each in (solution, case.solution)):
         return None
     grid = Grid((nx // 2, ny // 2), (2 * dx, 2 * dy), periodic=case.grid.periodic)
     return Coarser(grid, solution, nested=True)
-
-
-def _reaches_edge(solution: ContactSolution) -> bool:
-    return any("reaches the edge" in note for note in solution.notes)
 
 
 def _is_narrow(case: ContactCase) -> bool:
@@ -131,7 +129,7 @@ def _is_narrow(case: ContactCase) -> bool:
 
 def solve_coarser(case: ContactCase, max_iterations: int = 2000) -> Coarser:
     """Solve the case on the grid of twice the cell, from its own pressure."""
-    if _reaches_edge(case.solution):
+    if free_edges_reached(case.grid.periodic, case.solution.pressure):
         return Coarser(None, None, _FREE_EDGE)
     if _is_narrow(case):
         return Coarser(None, None, _FEW)

@@ -137,10 +137,15 @@ def _relative(error: float, reference: float) -> float:
     return error / reference if reference > 0 else math.inf
 
 
+def free_edges_reached(periodic: tuple[bool, bool], pressure: FloatArray) -> tuple[int, ...]:
+    """Return the free axes (0: x, 1: y) at whose ends cells carry pressure (nx, ny); axes of one cell do not count."""
+    free = [axis for axis in range(2) if not periodic[axis] and pressure.shape[axis] > 1]
+    return tuple(axis for axis in free if (np.take(pressure, (0, -1), axis) > 0).any())
+
+
 def _notes(grid: Grid, pressure: FloatArray) -> tuple[str, ...]:
     """What a user should know of a contact whatever its status."""
-    free = [axis for axis in range(2) if not grid.periodic[axis] and grid.shape[axis] > 1]
-    reached = " and ".join("xy"[axis] for axis in free if (np.take(pressure, (0, -1), axis) > 0).any())
+    reached = " and ".join("xy"[axis] for axis in free_edges_reached(grid.periodic, pressure))
     if not reached:
         return ()
     return (

@@ -104,7 +104,8 @@ class Balance:
     latter, where oil is counted; 0 at the ends. films,
     contacts : evaluated on the way; convolutions : of the contacts. status : converged where both imbalances are within
     the tolerance (that of the oil, or what the contact's own tolerance leaves of it) and film and contact are converged
-    themselves. notes : what to tell the user.
+    themselves. notes : what to tell the user. film_neglected : whether the film's model ends before the balance, where
+    the film is so thin that the contact was solved under all the load.
     """
 
     film: PatchFilm
@@ -119,6 +120,7 @@ class Balance:
     notes: tuple[str, ...] = ()
     oil_imbalance: float = 0.0
     refinement: float = 0.0
+    film_neglected: bool = False
 
 
 def share_load(
@@ -413,6 +415,7 @@ def _certified(
         status=status,
         notes=tuple(notes),
         oil_imbalance=oil_imbalance,
+        film_neglected=short and regime is Regime.BOUNDARY,
     )
 
 

@@ -238,7 +238,7 @@ class MixedContact:
             balance.imbalance,
             *((unrubbed(setup),) * 2 if heat is None else (heat.mean, heat.maximum)),
             max(balance.films, 1),
-            _TAKEN_FOR_NONE if NO_FILM_NOTE in balance.notes else REGIMES.index(balance.regime),
+            _TAKEN_FOR_NONE if balance.film_neglected else REGIMES.index(balance.regime),
         )
         self.rows = np.append(self.rows, new)
         kept = replace(balance, film=replace(film, solution=None))

@@ -137,6 +137,16 @@ def test_a_contact_at_a_free_edge_has_no_bars():
     assert "free edge" in note
 
 
+def test_the_free_edge_is_seen_from_the_pressure_and_not_from_the_words_of_notes():
+    case = ball(32, load=40.0)
+    silent = replace(case, solution=replace(case.solution, notes=()))
+    assert solve_coarser(silent).solution is None
+    assert solve_coarser(silent).why == solve_coarser(case).why != ""
+    within = ball(32)
+    noisy = replace(within, solution=replace(within.solution, notes=case.solution.notes))
+    assert solve_coarser(noisy).solution is not None
+
+
 def test_an_approach_that_other_cells_cannot_meet_has_no_bars():
     """In full contact a doubly periodic body comes no closer than its mean gap, which the coarser grid's is not."""
     grid = Grid((32, 32), (1e-6, 1e-6), periodic=(True, True))

@@ -27,6 +27,7 @@ from bem.friction.balance import BalanceStart, Regime, share_load
 from bem.friction.film import PatchFilm
 from bem.friction.rough_contact import boundary_traction, rough_contact
 from bem.friction.setup import MixedSetup
+from bem.wear import mixed as mixed_cycles
 from bem.wear.mixed import MixedContact, pack_balance, unpack_balance
 
 POLYMER = Body(Material("polymer", youngs_modulus=3e9, poissons_ratio=0.38))
@@ -95,6 +96,20 @@ def test_cycles_whose_film_is_taken_for_none_say_so_as_one_speed_does(speed, rms
         assert told[0].startswith(f"{cycles} of {cycles} cycles: ")
         assert told[0].endswith(balance_model.NO_FILM_NOTE) == by_rule
         assert ("is left with less than" in told[0]) != by_rule
+
+
+@pytest.mark.parametrize(("speed", "rms_height"), [(1e-4, 400e-9), (1e-9, 1e-9)])
+def test_the_regime_of_a_cycle_does_not_hang_on_the_words_of_notes(speed, rms_height, monkeypatch):
+    height = rms_height / HEIGHT.std() * HEIGHT
+
+    def regime():
+        step = MixedContact(MixedSetup(**CASE | {"lubricant": THIN_OIL}), (speed, 0.0))
+        step(height, None)
+        return step.rows["regime"][0]
+
+    found = regime()
+    monkeypatch.setattr(mixed_cycles, "share_load", lambda *given: dataclasses.replace(share_load(*given), notes=()))
+    assert regime() == found
 
 
 def test_a_cycle_at_the_boundary_end_starts_there():

@@ -221,7 +221,7 @@ def test_a_film_taken_for_none_is_told_apart_from_one_that_is_left_with_none(thi
     balance = share_load(film, rough, load, 1e-4, film.under(0.1 * load, 0, None), BalanceStart(0.05 * load))
     assert balance.status is Status.CONVERGED
     assert balance.regime is Regime.BOUNDARY
-    assert (NO_FILM_NOTE in balance.notes) == by_rule
+    assert (NO_FILM_NOTE in balance.notes) == by_rule == balance.film_neglected
     assert any("the film is left with less than" in note for note in balance.notes) != by_rule
 
 
