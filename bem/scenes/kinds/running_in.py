@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from bem.wear.mixed import MixedContact
 
 _CONVOLUTIONS = 15  # of the two or three contacts of a cycle: 14 and 15 were counted
+_SOLVES = 2.5
 _CONTACTS = "two or three contacts each, from the last pressure; none in full film"
 _DEPTHS_NEEDED = 6
 
@@ -79,7 +80,8 @@ def plan(scene: RunningInScene) -> Plan:
     grid = scene.check()
     # what these lack is said before any work
     wearing.between(scene, grid, scene.contact.on_patch(scene.load, grid.lengths))
-    cycles = {"convolutions": _CONVOLUTIONS, "usual": _DEPTHS_NEEDED, "first": 4 * _DEPTHS_NEEDED}
+    cycles = {"convolutions": _CONVOLUTIONS, "solves": _SOLVES, "usual": _DEPTHS_NEEDED, "first": 4 * _DEPTHS_NEEDED}
+    loops = 1 if wearing.film_is_halved(scene) else 2  # a film that cannot be halved takes a second one
     return Plan.of(
         plans.surfaces(grid, scene.lower.surface, scene.upper.surface),
         film_plans.tables(scene.sharing.film_points, "cycles and repetitions"),
@@ -87,8 +89,7 @@ def plan(scene: RunningInScene) -> Plan:
         *wearing.cycle_steps(
             scene, grid, contacts=_CONTACTS, friction=float(scene.contact.boundary_friction != 0), **cycles
         ),
-        # a film that cannot be halved takes a second loop
-        wearing.bars_step(scene, grid, _CONVOLUTIONS * (1 if wearing.film_is_halved(scene) else 2)),
+        wearing.bars_step(scene, grid, _CONVOLUTIONS * loops, _SOLVES * loops),
         plans.figures(grid.cells),
     )
 

@@ -93,7 +93,8 @@ def plan(scene: WearScene) -> Plan:
         )
     particles, _ = wearing.between(scene, grid, load)  # what these lack is said before any work
     solves = 1 if particles is None else _SHARING
-    cycles = {"convolutions": solves * _CONVOLUTIONS, "usual": _DEPTHS_NEEDED, "first": _DEPTHS_AT_FIRST}
+    depths = {"usual": _DEPTHS_NEEDED, "first": _DEPTHS_AT_FIRST}
+    cycles = {"convolutions": solves * _CONVOLUTIONS, "solves": solves, **depths}
     return Plan.of(
         *plans.of_bodies(scene, grid, scene.cylinder.friction, min(scene.depths.count, _DEPTHS_NEEDED)),
         *wearing.cycle_steps(
@@ -105,7 +106,7 @@ def plan(scene: WearScene) -> Plan:
             if isinstance(scene.wear.criterion, WearCriterion)
             else []
         ),
-        wearing.bars_step(scene, grid, _CONVOLUTIONS),
+        wearing.bars_step(scene, grid, _CONVOLUTIONS, solves),
         plans.figures(grid.cells),
     )
 
