@@ -7,16 +7,25 @@ from typing import Any
 
 import numpy as np
 
+from bem.numerics.blocks import BLOCK, row_blocks
 from bem.scenes.context import release
 
 _PREFIXES = {-4: "p", -3: "n", -2: "µ", -1: "m", 0: "", 1: "k", 2: "M", 3: "G", 4: "T"}
-_PART = 1 << 20
 _PREFIXED = ("m", "Pa", "N", "s", "m/s", "N/m", "J", "W")
 _POWERS = {"m²": 2, "m³": 3}
 _OF_NAMES = {"nm": 1e-9, "µm": 1e-6}
 """Lengths in the unit that ends their names, in metres: kept below 1000 of it, and shown in a larger one from there."""
 _ROUNDED = 1.00005
 """What is shown as 1000 in the four digits that tables have is 1 of the next unit."""
+ZERO_CELSIUS = 273.15
+_DIFFERENCES = ("rise", "difference", "error", "spread")
+_KEY_WORDS = {
+    "slide_roll_ratio": "slide-to-roll ratio",
+    "roll.creepage": "creepage along x",
+    "roll.creepage_across": "creepage along y",
+    "roll.share": "force over friction x load",
+}
+"""Names of keys whose words are not the key's with spaces."""
 
 
 def prefix(values: Any, unit: str) -> tuple[float, str]:
@@ -41,17 +50,48 @@ def prefix(values: Any, unit: str) -> tuple[float, str]:
 
 
 def largest_of(values: Any) -> float:
-    """The largest finite absolute value, 0 where there is none; large arrays are gone through in parts."""
+    """The largest finite absolute value, 0 where there is none; large arrays are read block by block."""
     array = np.asarray(values, dtype=np.float64)
+    array = array if array.ndim else array[np.newaxis]
     largest = 0.0
-    for part in array if array.size > _PART else (array,):
-        if part.size > _PART and part.ndim > 1:
-            largest = max(largest, largest_of(part))
+    for first, last in row_blocks(array.shape):
+        block = array[first:last]
+        if block.size > BLOCK and len(block) == 1 and array.ndim > 1:
+            largest = max(largest, largest_of(block[0]))
         else:
-            finite = np.abs(part[np.isfinite(part)])
+            finite = np.abs(block[np.isfinite(block)])
             largest = max(largest, float(finite.max()) if finite.size else 0.0)
         release(array)
     return largest
+
+
+def is_difference(name: str, words: str = "") -> bool:
+    """Whether a quantity in kelvin is a difference of temperatures, which stays in kelvin.
+
+    name, words : name of the variable and its description; rises, differences, errors and spreads are differences.
+    """
+    said = f"{name} {words}".lower()
+    return any(word in said for word in _DIFFERENCES)
+
+
+def in_celsius(values: Any, unit: str, name: str, words: str = "") -> tuple[Any, str]:
+    """Temperatures in °C with that unit; differences of temperature, and other quantities, as they are."""
+    if unit != "K" or is_difference(name, words):
+        return values, unit
+    return np.asarray(values) - ZERO_CELSIUS, "°C"
+
+
+def key_words(key: str, words: str = "") -> str:
+    """A key of a scene as an axis names it: `rolling.slide_roll_ratio` is "slide-to-roll ratio".
+
+    words : description of its values; used where it is not the key again.
+    """
+    if words and words != key:
+        return words
+    *tables, name = key.split(".")
+    side = next((table for table in tables if table in ("lower", "upper")), "")
+    plain = _KEY_WORDS.get(".".join([*tables[-1:], name]), _KEY_WORDS.get(name, name.replace("_", " ")))
+    return f"{plain} ({side})" if side else plain
 
 
 def label(text: str, unit: str) -> str:

@@ -14,6 +14,7 @@ from typing import Any
 import numpy as np
 
 from bem.grid import FloatArray
+from bem.plots.labels import in_celsius, key_words
 from bem.plots.style import prefix
 from bem.scenes.records import TELLING
 
@@ -119,9 +120,13 @@ def _over_axis(dataset: Any, variable: Any, title: str) -> Panel | None:
             lines.append(Line(words, x, y))
     if len(grouped) > _MOST_CASES:
         title += f" (the first {_MOST_CASES} of {len(grouped)} cases)"
-    unit = str(axis.attrs.get("units", ""))
-    words = str(axis.attrs.get("long_name", axis.name))
-    return Panel(title, words, "" if unit == "1" else unit, _unit(variable), tuple(lines)) if lines else None
+    words = key_words(str(axis.name), str(axis.attrs.get("long_name", axis.name)))
+    lines = [
+        Line(line.case, _shown(line.x, axis, str(axis.name))[0], _shown(line.y, variable, str(variable.name))[0])
+        for line in lines
+    ]
+    along_unit, unit = (_shown(0.0, item, str(item.name))[1] for item in (axis, variable))
+    return Panel(title, words, along_unit, unit, tuple(lines)) if lines else None
 
 
 def _axis_of_cases(dataset: Any, dimensions: Sequence[str]) -> Any:
@@ -161,6 +166,11 @@ def _counted(variable: Any, title: str) -> Panel | None:
     return Panel(title, title, unit, "share not larger", (Line("", sizes, share),))
 
 
+def _shown(values: Any, item: Any, name: str) -> tuple[Any, str]:
+    """Values in the unit that is shown, temperatures in °C, and that unit."""
+    return in_celsius(values, _unit(item), name, str(item.attrs.get("long_name", "")))
+
+
 def _unit(variable: Any) -> str:
     unit = str(variable.attrs.get("units", ""))
     return "" if unit == "1" else unit
@@ -171,5 +181,6 @@ def _value(item: Any) -> str:
     value = item.values.item()
     if isinstance(value, str):
         return value.replace("_", " ")
-    factor, unit = prefix([value], _unit(item))
+    value, unit = _shown(value, item, str(item.name))
+    factor, unit = prefix([value], unit)
     return f"{value * factor:.4g} {unit}".rstrip()

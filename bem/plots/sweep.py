@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from dataclasses import replace
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -11,12 +12,15 @@ import numpy as np
 from matplotlib.ticker import MaxNLocator
 
 from bem.errors import OUTSIDE
+from bem.plots.labels import in_celsius, key_words
 from bem.plots.style import label, logarithmic_axis, prefix, said_above, style
 from bem.plots.tables import name_and_unit
 from bem.scenes.context import Variable
 
 _MOST_PANELS, _MOST_LINES = 4, 8
 _CHANCE = ("seed", "repetition")
+_NOISE = 1e-6
+"""A figure varies where its values differ by more than this fraction of the largest."""
 _LINES, _MARKERS = ("-", "--", ":", "-."), ("o", "s", "^", "D", "v", "P", "X", "*")
 
 
@@ -68,6 +72,7 @@ def fill(figure: Any, variables: Mapping[str, Variable], spacings: Mapping[str, 
     """Fill an empty matplotlib figure with the panels of `draw_sweep`, and make it as large as they need."""
     keys = list(spacings)
     names = _chosen(variables, keys, headline)
+    variables = {name: _in_celsius(name, item) for name, item in variables.items()}
     columns = 2 if len(names) > 1 else 1
     rows = -(-len(names) // columns)
     figure.set_size_inches(3.5 * columns, 2.7 * rows + 0.3)
@@ -75,7 +80,7 @@ def fill(figure: Any, variables: Mapping[str, Variable], spacings: Mapping[str, 
         _panel(figure.add_subplot(rows, columns, i + 1), variables, name, keys, spacings)
     if figure.axes and len(figure.axes[0].get_legend_handles_labels()[1]) > 1:
         handles = figure.axes[0].get_legend_handles_labels()
-        figure.legend(*handles, loc="outside lower center", ncols=2, fontsize=7.5)
+        figure.legend(*handles, loc="outside lower center", ncols=2, fontsize=8)
 
 
 def _chosen(variables: Mapping[str, Variable], keys: Sequence[str], headline: Sequence[str]) -> list[str]:
@@ -83,9 +88,25 @@ def _chosen(variables: Mapping[str, Variable], keys: Sequence[str], headline: Se
     others = [name for name in variables if name not in keys and name not in headline]
     known = [name for name in (*headline, *others) if name in variables and _drawable(variables[name], name)]
     known = [name for name in known if not any(_is_key(variables, name, key) for key in keys)]
-    varying = [name for name in known if np.nanmax(variables[name].values) > np.nanmin(variables[name].values)]
+    varying = [name for name in known if _varies(variables[name].values)]
     preferred = [name for name in varying if name in headline]
     return (preferred or varying or known)[:_MOST_PANELS]
+
+
+def varies(variables: Mapping[str, Variable], keys: Sequence[str], headline: Sequence[str]) -> bool:
+    """Whether any figure that would be drawn over the keys differs along them."""
+    return any(_varies(variables[name].values) for name in _chosen(variables, keys, headline))
+
+
+def _varies(values: Any) -> bool:
+    low, high = float(np.nanmin(values)), float(np.nanmax(values))
+    return high - low > _NOISE * max(abs(low), abs(high))
+
+
+def _in_celsius(name: str, variable: Variable) -> Variable:
+    """Temperatures in °C; every other variable is the same."""
+    values, unit = in_celsius(variable.values, variable.units, name, variable.description)
+    return variable if unit == variable.units else replace(variable, values=values, units=unit)
 
 
 def _drawable(variable: Variable, name: str) -> bool:
@@ -174,9 +195,9 @@ def _positions(variable: Variable | None, size: int, name: str) -> tuple[Any, li
     if variable is None:
         return np.arange(size), [], name.replace("_", " "), ""
     if variable.values.dtype.kind in "US":
-        return np.arange(size), [str(value) for value in variable.values], name, ""
+        return np.arange(size), [str(value) for value in variable.values], key_words(name, variable.description), ""
     factor, unit = prefix(variable.values, variable.units if variable.units != "1" else "")
-    return variable.values * factor, [], name, unit
+    return variable.values * factor, [], key_words(name, variable.description), unit
 
 
 def _value(variable: Variable | None, name: str, index: int) -> str:

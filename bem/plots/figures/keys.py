@@ -8,7 +8,7 @@ from matplotlib.figure import Figure
 
 from bem.plots.cases import axes_of
 from bem.plots.figures import FigureKind
-from bem.plots.sweep import fill
+from bem.plots.sweep import fill, varies
 from bem.scenes.context import Variable
 from bem.scenes.kind import get_kind
 from bem.scenes.records import figures
@@ -20,13 +20,24 @@ def _keys(run: Any) -> list[str]:
     return [axis for axis in axes_of(run.dataset) if axis in (run.scene.get("over") or {})]
 
 
-def _figures(run: Any, figure: Figure) -> None:
-    kind, data, keys = get_kind(run.summary["kind"]), run.dataset, _keys(run)
+def _variables(run: Any) -> dict[str, Variable]:
+    """Axes of the cases and figures over them, by their names in the summary."""
+    kind, data = get_kind(run.summary["kind"]), run.dataset
     variables = {name: _variable(data[name]) for name in axes_of(data)}
     for key, name in figures(kind.record).items():
         if name in data.variables and set(data[name].dims) <= set(axes_of(data)):
             variables[key] = _variable(data[name])
-    fill(figure, variables, dict.fromkeys(keys, "linear"), kind.headline)
+    return variables
+
+
+def _figures(run: Any, figure: Figure) -> None:
+    fill(figure, _variables(run), dict.fromkeys(_keys(run), "linear"), get_kind(run.summary["kind"]).headline)
+
+
+def _applies(run: Any) -> bool:
+    """Whether any headline figure differs along the keys: flat curves say nothing."""
+    keys = _keys(run)
+    return bool(keys) and varies(_variables(run), keys, get_kind(run.summary["kind"]).headline)
 
 
 def _variable(item: Any) -> Variable:
@@ -40,6 +51,6 @@ FIGURES = (
         (),
         _figures,
         (7.0, 5.6),
-        lambda run: bool(_keys(run)),
+        _applies,
     ),
 )
