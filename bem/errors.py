@@ -9,6 +9,8 @@ from enum import StrEnum
 OUTSIDE = "outside the model: "
 """How a note begins whose results are solved, but are not what they are called: what holds up to its first semicolon
 stands beside status and figures wherever these are shown."""
+UNRESOLVED_SPIKE = "the pressure spike is narrower than the mesh resolves"
+"""Begins the note on a film whose pressure spike is as high as its mesh makes it; figures then clip the spike."""
 
 
 def outside(notes: Iterable[str]) -> tuple[str, ...]:

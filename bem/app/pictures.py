@@ -8,7 +8,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.plots.labels import label, largest_of, prefix
+from bem.plots.labels import (
+    FEWEST_CELLS,
+    ZERO_CELSIUS,
+    beyond_ends,
+    in_celsius,
+    key_words,
+    label,
+    largest_of,
+    prefix,
+    uniform_value,
+)
 from bem.plots.tables import is_error, is_list, name_and_unit
 from bem.results.arrays import Array, Arrays
 
@@ -17,6 +27,10 @@ MOST_CELLS = 384
 """Along each axis of a map that is sent: every n-th cell of larger ones, which the title then says."""
 MOST_CURVES = 24
 _PREFIXED = ("m", "Pa", "N", "s")
+_LONGEST = 5.0
+"""Ratio of a map's sides up to which both have one scale."""
+_LONE = 1.5
+"""Range of all values over that between the percentiles, from which lone points would take the colours."""
 _MARGIN = {"l": 60, "r": 10, "t": 36, "b": 46}
 COLOURS = "Viridis"
 
@@ -52,20 +66,25 @@ def map_picture(
     *,
     solid: bool = False,
 ) -> Picture:
-    """A map (nx, ny) over x and y [m] that zooms, or as a surface in space; colours end at the 0.2nd and 99.8th
-    percentile where lone points would take them all."""
+    """A map (nx, ny) over x and y [m] that zooms, or as a surface in space.
+
+    Colours end at the 0.2nd and 99.8th percentile where lone points would take them all, which the bar then says. A
+    uniform field has one colour. A map of less than `FEWEST_CELLS` cells along one axis becomes lines along the other.
+    """
+    if min(values.shape) < FEWEST_CELLS <= max(values.shape):
+        return _rows_picture(values, sides, words, unit)
     steps = [max(1, -(-n // MOST_CELLS)) for n in values.shape]
     seen = values[steps[0] // 2 :: steps[0], steps[1] // 2 :: steps[1]]
-    factor, shown = scaled(values[np.isfinite(values)], unit)
+    known = values[np.isfinite(values)]
+    factor, shown = scaled(known, unit)
     length, length_unit = prefix([float(np.ptp(side)) for side in sides], "m")
     x, y = (side[step // 2 :: step] * length for side, step in zip(sides, steps, strict=True))
-    finite = seen[np.isfinite(seen)] * factor
-    low, high = (float(v) for v in np.percentile(finite, [0.2, 99.8])) if finite.size else (0.0, 1.0)
-    if not high > low:
-        low, high = (float(finite.min()), float(finite.max())) if finite.size else (0.0, 1.0)
+    low, high, said = _colours(seen[np.isfinite(seen)] * factor, known, factor)
+    if (value := uniform_value(values)) is not None:
+        seen = np.where(np.isfinite(seen), value, np.nan)
     thinned = f" (every {max(steps)}th cell)" if max(steps) > 1 else ""
     common = {"x": numbers(x), "y": numbers(y), "z": numbers((seen * factor).T), "colorscale": COLOURS}
-    bar = {"colorbar": {"title": {"text": shown}}}
+    bar = {"colorbar": {"title": {"text": f"{shown}<br>{said}" if said else shown}}}
     title = {"title": heading(words + thinned)}
     axes = {"xaxis": axis_title(label("x", length_unit)), "yaxis": axis_title(label("y", length_unit))}
     if solid:
@@ -73,9 +92,46 @@ def map_picture(
         scene = {**axes, "zaxis": axis_title(shown), "aspectratio": {"x": 1, "y": 1, "z": 0.35}}
         return {"data": [trace], "layout": {**title, "scene": scene, "margin": _MARGIN, "height": 460}}
     trace = {"type": "heatmap", **common, **bar, "zmin": low, "zmax": high, "zsmooth": False}
-    axes["yaxis"] |= {"scaleanchor": "x", "constrain": "domain"}
-    axes["xaxis"] |= {"constrain": "domain"}
+    if _LONGEST > float(np.ptp(x)) / max(float(np.ptp(y)), 1e-300) > 1 / _LONGEST:
+        axes["yaxis"] |= {"scaleanchor": "x", "constrain": "domain"}
+        axes["xaxis"] |= {"constrain": "domain"}
     return {"data": [trace], "layout": {**title, **axes, "margin": _MARGIN, "height": 460}, "config": _CONFIG}
+
+
+def _colours(shown: NDArray[np.float64], known: NDArray[np.float64], factor: float) -> tuple[float, float, str]:
+    """Ends of the colours of a map, and what its bar says of them.
+
+    shown : finite values drawn, in their unit. known : all finite values; times `factor` in that unit.
+    """
+    if not shown.size:
+        return 0.0, 1.0, ""
+    least, most = float(known.min()) * factor, float(known.max()) * factor
+    if (value := uniform_value(known)) is not None:
+        around = sorted((0.9 * value * factor, 1.1 * value * factor)) if value else (-1.0, 1.0)
+        return around[0], around[1], f"uniform, {value * factor:.4g}"
+    low, high = (float(v) for v in np.percentile(shown, [0.2, 99.8]))
+    if not high > low or most - least < _LONE * (high - low):
+        return least, most, ""
+    return low, high, beyond_ends((low, high), (least, most))[1].replace("; ", "<br>")
+
+
+def _rows_picture(
+    values: NDArray[np.float64], sides: tuple[NDArray[np.float64], NDArray[np.float64]], words: str, unit: str
+) -> Picture:
+    """A map of few cells along one axis: a line along the other for each of a few rows."""
+    factor, shown = scaled(values[np.isfinite(values)], unit)
+    names, rows, (along, across) = ("x", "y"), values.T, sides
+    if values.shape[0] < values.shape[1]:
+        names, rows, (across, along) = ("y", "x"), values, sides
+    length, length_unit = prefix([float(np.ptp(along))], "m")
+    chosen = np.unique(np.linspace(0, len(rows) - 1, min(4, len(rows))).round().astype(int))
+    data = [_line(f"{names[1]} {_one(across[i], 'm')}", along * length, rows[i] * factor) for i in chosen]
+    return _curves(data, words, label(names[0], length_unit), shown)
+
+
+def is_map(picture: Picture) -> bool:
+    """Whether a picture of `map_picture` is a map, not lines."""
+    return bool(picture["data"][0]["type"] in ("heatmap", "surface"))
 
 
 def sections_picture(
@@ -109,31 +165,43 @@ def curve_names(arrays: Arrays) -> list[str]:
         and item.size // item.shape[-1] <= MOST_CURVES
         and _is_numeric(item)
         and "_error" not in name
+        and _says_something(item.values)
     ]
 
 
-def curve_picture(arrays: Arrays, name: str) -> Picture:
-    """A variable along its last axis, a line for each case, with error bars where it has them."""
+def _says_something(values: Any) -> bool:
+    """Whether there is a number other than zero to draw."""
+    numbers_of = np.asarray([np.nan if value is None else value for value in np.ravel(values)], dtype=np.float64)
+    return bool(np.any(np.isfinite(numbers_of) & (numbers_of != 0)))
+
+
+def curve_picture(arrays: Arrays, name: str, case: str = "") -> Picture:
+    """A variable along its last axis, a line for each case, with error bars where it has them.
+
+    case : which of several cases the variable is of, in words.
+    """
     item, axis = arrays[name], arrays[arrays[name].dims[-1]]
     errors = arrays.get(f"{name}_error")
-    unit, along, under = unit_of(item), np.asarray(axis.values), unit_of(axis)
+    words = str(item.attrs.get("long_name", name))
+    along, under = in_celsius(np.asarray(axis.values), unit_of(axis), item.dims[-1])
     if under in _PREFIXED and along.dtype.kind in "fiu":
         length, under = prefix(along, under)
         along = along * length
-    rows = np.asarray(item.values, dtype=np.float64).reshape(-1, item.shape[-1])
+    values, unit = in_celsius(np.asarray(item.values, dtype=np.float64), unit_of(item), name, words)
+    rows = values.reshape(-1, item.shape[-1])
     bars = None
     if errors is not None and errors.shape == item.shape:
         bars = np.asarray(errors.values, dtype=np.float64).reshape(rows.shape)
     factor, shown = scaled(rows[np.isfinite(rows)], unit)
     names = layers_of(Arrays({**arrays.variables, "_": stood_up(item)}, {}), "_") or [""] * len(rows)
     data = [
-        _line(words, along, row * factor, None if bars is None else bars[i] * factor)
-        for i, (words, row) in enumerate(zip(names, rows, strict=True))
+        _line(line, along, row * factor, None if bars is None else bars[i] * factor)
+        for i, (line, row) in enumerate(zip(names, rows, strict=True))
     ]
-    head = label(str(axis.attrs.get("long_name", item.dims[-1])), under)
-    picture = _curves(data, str(item.attrs.get("long_name", name)), head, shown, along)
+    head = label(key_words(item.dims[-1], str(axis.attrs.get("long_name", ""))), under)
+    picture = _curves(data, f"{words}, {case}" if case else words, head, shown, along)
     if name.startswith("residual"):  # from one down to a part in a thousand million
-        picture["layout"]["yaxis"]["type"] = "log"
+        picture["layout"]["yaxis"] = axis_title(shown) | _POWERS_OF_TEN
     return picture
 
 
@@ -155,7 +223,7 @@ def figures_over(summary: Mapping[str, Any]) -> list[tuple[str, str]]:
         if not is_list(value) or name in known or is_error(name, summary) or name.endswith("_spread"):
             continue
         along = next((key for key in known if len(summary[key]) == len(value) and len(set(summary[key])) > 1), None)
-        if along is not None and all(isinstance(v, int | float | None) for v in value):
+        if along is not None and all(isinstance(v, int | float | None) for v in value) and _says_something(value):
             found.append((name, along))
     return found
 
@@ -169,6 +237,7 @@ def scaled(values: Any, unit: str) -> tuple[float, str]:
     return factor**power, f"{side}{'²' if power == 2 else '³'}"
 
 
+_POWERS_OF_TEN = {"type": "log", "exponentformat": "power"}
 _CONFIG = {"displaylogo": False, "modeBarButtonsToRemove": ["sendDataToCloud"]}
 
 
@@ -201,7 +270,11 @@ def _curves(data: list[Picture], title: str, x: str, y: str, along: Any = None) 
         "showlegend": len(data) > 1,
     }
     if along is not None and _is_wide(along):
-        layout["xaxis"]["type"] = "log"
+        layout["xaxis"] |= _POWERS_OF_TEN
+    heights = [trace["y"] for trace in data]
+    level = uniform_value(np.array([np.nan if v is None else v for row in heights for v in row], dtype=np.float64))
+    if level:
+        layout["yaxis"]["range"] = sorted((0.0, 1.2 * level))
     return {"data": data, "layout": layout, "config": _CONFIG}
 
 
@@ -227,6 +300,8 @@ def stood_up(item: Array, kept: int = 1) -> Array:
 def _one(value: Any, unit: str) -> str:
     if isinstance(value, str | np.str_):
         return str(value)
+    if unit == "K":
+        return f"{float(value) - ZERO_CELSIUS:.4g} °C"
     factor, shown = scaled([float(value)], unit)
     return f"{float(value) * factor:.4g} {shown}".strip()
 

@@ -16,6 +16,8 @@ from bem.app.downloads import WHAT
 from bem.app.layout import badge, page, rows, say
 from bem.app.workspace import RunState, Workspace
 from bem.errors import OUTSIDE, BemError
+from bem.plots.cases import case_shown
+from bem.plots.labels import in_celsius
 from bem.plots.report import with_error
 from bem.plots.tables import figure_tables, is_list
 from bem.results.compare import Difference, shown
@@ -230,7 +232,8 @@ def _curves(found: FinishedRun) -> None:
     names = pictures.curve_names(found.arrays)
     with ui.element("div").classes("w-full").style(_GRID):
         for name in [item for item in names if found.arrays[item].dims[-1] not in ("speed", "load")][:6]:
-            ui.plotly(pictures.curve_picture(found.arrays, name)).classes("w-full")
+            case = case_shown(found.arrays, found.summary["kind"], [name])
+            ui.plotly(pictures.curve_picture(found.arrays, name, case)).classes("w-full")
 
 
 def _solids(found: FinishedRun) -> None:
@@ -266,7 +269,7 @@ class Maps:
     """A map of the run that zooms; a click shows the sections through that place."""
 
     def __init__(self, found: FinishedRun) -> None:
-        self._arrays = found.arrays
+        self._arrays, self._kind = found.arrays, str(found.summary["kind"])
         names = pictures.map_names(found.arrays)
         if not names:
             return
@@ -297,11 +300,17 @@ class Maps:
         values = pictures.layer(self._arrays, name, layer)
         sides = tuple(np.asarray(self._arrays[axis].values, dtype=np.float64) for axis in ("x", "y"))
         words, unit = str(item.attrs.get("long_name", name)), str(item.attrs.get("units", "")).removeprefix("1")
+        values, unit = in_celsius(values, unit, name, words)
+        layers = pictures.layers_of(self._arrays, name)
+        case = layers[layer] if layers else case_shown(self._arrays, self._kind, [name])
+        words = f"{words}, {case}" if case else words
         self._at = self._at if self._at is not None else _peak(values)
         self._place.clear()
         with self._place:
             picture = pictures.map_picture(values, (sides[0], sides[1]), words, unit, solid=bool(self._solid.value))
             shown = ui.plotly(picture).classes("w-full").style("flex: 3; min-width: 0")
+            if not pictures.is_map(picture):
+                return
             cut = ui.plotly(pictures.sections_picture(values, (sides[0], sides[1]), self._at, words, unit))
             cut.classes("w-full").style("flex: 2; min-width: 0")
 

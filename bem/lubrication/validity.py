@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.errors import InputError
+from bem.errors import UNRESOLVED_SPIKE, InputError
 from bem.grid import FloatArray
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.shear import LimitedShear
@@ -223,7 +223,7 @@ def spike_unresolved(case: Case) -> str | None:
     remedy = (
         ' (density_law "dowson_higginson" blunts it)' if case.lubricant.density_law.name == "incompressible" else ""
     )
-    return f"the pressure spike is narrower than the mesh resolves: its height is not to be used{remedy}"
+    return f"{UNRESOLVED_SPIKE}: its height is not to be used{remedy}"
 
 
 def inlet_heating(case: Case) -> str | None:

@@ -13,13 +13,17 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.plots.labels import prefix
+from bem.plots.labels import ZERO_CELSIUS, prefix
 from bem.results.arrays import Array as ArrayOfRun
 from bem.results.arrays import Arrays
 from bem.scenes.kind import get_kind
-from bem.scenes.records import figures
+from bem.scenes.records import Series, described, figures
 
 REPETITION = "repetition"
+_PLACES = frozenset(("x", "y", "film_x", "frame"))
+"""Axes of maps, films and sections."""
+_NAMED = ("m", "Pa")
+"""Units of axes that say too little without the axis' name."""
 Array = NDArray[Any]
 
 
@@ -42,6 +46,38 @@ def first_case(dataset: Any) -> Any:
 
     one = {name: first(dataset[name]) for name in dataset.variables if name not in axes}
     return Arrays(one, {**dataset.attrs, "axes": ""})
+
+
+def case_shown(data: Any, kind: str, names: Sequence[str]) -> str:
+    """Which of several cases variables are of, in words with units, such as "0.01 m/s, 5.5 N"; empty for a single case.
+
+    Parameters
+    ----------
+    data : arrays of a run. kind : of the run.
+    names : variables that are drawn together; those that keep the first or the last case alone decide.
+    """
+    known = described(get_kind(kind).record) if kind else {}
+    series = [item for name in names if isinstance(item := known.get(name), Series)]
+    kept = {item.of for item in series if item.of != "each" and not _PLACES.isdisjoint(item.dimensions)}
+    if not kept:
+        return ""
+    return case_words(data, "last" if "last" in kept else "first", speed="shown_speed" in known)
+
+
+def case_words(data: Any, of: str = "first", *, speed: bool = False) -> str:
+    """The first or last case in words: speed shown (of curves over speed), load, and what differs between cases."""
+    axes = [axis for axis in axes_of(data) if axis in data.sizes]
+    place = [0 if of == "first" else data.sizes[axis] - 1 for axis in axes]
+    words = [value_words(data["shown_speed"], ())] if speed and "shown_speed" in data.variables else []
+    for axis, i in zip(axes, place, strict=True):
+        if axis == "load" and speed and data.sizes[axis] == 1 and axis in data.variables:
+            words.append(value_words(data[axis], i))
+        elif axis in data.variables:
+            name = f"{axis.rsplit('.', 1)[-1].replace('_', ' ')} " if data[axis].attrs.get("units") in _NAMED else ""
+            words.append(name + value if (value := label_of(data, (axis,), (i,))) else "")
+        elif data.sizes[axis] > 1:
+            words.append(f"{axis.replace('_', ' ')} {i + 1}")
+    return ", ".join(word for word in words if word)
 
 
 def first_figures(summary: Mapping[str, Any]) -> dict[str, Any]:
@@ -110,14 +146,16 @@ def label_of(dataset: Any, axes: Sequence[str], place: Sequence[int]) -> str:
     return ", ".join(words)
 
 
-def value_words(item: Any, i: int) -> str:
-    """A value of an axis with its unit."""
+def value_words(item: Any, i: Any) -> str:
+    """A value of an axis with its unit; index () of a single number."""
     value = item.values[i]
     unit = str(item.attrs.get("units", "1"))
     if isinstance(value, bytes | str):
         return value.decode() if isinstance(value, bytes) else str(value)
     if unit == "K":
-        return f"{value - 273.15:.4g} °C"
+        return f"{value - ZERO_CELSIUS:.4g} °C"
+    if unit == "m/s":  # as on the axes of curves over speed
+        return f"{value:.4g} m/s"
     if unit == "1":
         return f"{value:.4g}" if isinstance(value, float) else str(value)
     factor, shown = prefix([value], unit)

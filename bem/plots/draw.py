@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import Any
 
 from bem.errors import InputError, ResultsError
-from bem.plots.cases import axes_of, first_case, first_figures
+from bem.plots.cases import axes_of, case_shown, case_words, first_case, first_figures
 from bem.plots.figures import FigureKind, all_figures
 from bem.plots.side_by_side import side_by_side
 from bem.results.arrays import LEFT_OUT, Arrays
@@ -43,6 +43,14 @@ def _for(run: Any, kind: FigureKind) -> Any:
     if kind.all_cases or not axes_of(run.dataset):
         return run
     return _Seen(run.path, run.scene, first_figures(run.summary), first_case(run.dataset))
+
+
+def _case_of(run: Any, kind: FigureKind) -> str:
+    """Which of several cases a figure shows, in words; empty where it shows all of them, or where there is one."""
+    several = bool(axes_of(run.dataset)) and not kind.all_cases
+    return case_shown(run.dataset, run.summary.get("kind", ""), kind.needs) or (
+        case_words(run.dataset) if several else ""
+    )
 
 
 @dataclass(frozen=True)
@@ -130,14 +138,17 @@ def draw(
     from matplotlib.figure import Figure
 
     from bem.plots.pictures import DOTS, settle, write
-    from bem.plots.style import named_axes, said_beyond, style
+    from bem.plots.style import name_case, named_axes, said_beyond, style
 
-    run = _for(_seen(run), kind)
+    whole = _seen(run)
+    run = _for(whole, kind)
     with style(), named_axes(run.dataset), collecting():
         # at the dots of the file from the start: sizes of texts that the layout asks for serve the picture too
         figure = Figure(figsize=size or kind.size, dpi=DOTS, layout="constrained")
         FigureCanvasAgg(figure)
         kind.draw(run, figure)
+        if not figure.get_suptitle():
+            name_case(figure, _case_of(whole, kind))
         said_beyond(figure, run.summary)
         if size is not None:  # what is asked for goes before what the maps need
             figure.set_size_inches(size)

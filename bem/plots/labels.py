@@ -6,6 +6,7 @@ import math
 from typing import Any
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bem.numerics.blocks import BLOCK, row_blocks
 from bem.scenes.context import release
@@ -18,6 +19,10 @@ _OF_NAMES = {"nm": 1e-9, "µm": 1e-6}
 _ROUNDED = 1.00005
 """What is shown as 1000 in the four digits that tables have is 1 of the next unit."""
 ZERO_CELSIUS = 273.15
+UNIFORM = 1e-5
+"""A field that differs by less than this fraction of its largest value is drawn as uniform: solvers leave 1e-6."""
+FEWEST_CELLS = 8
+"""Maps with fewer cells along one axis are drawn as lines along the other."""
 _DIFFERENCES = ("rise", "difference", "error", "spread")
 _KEY_WORDS = {
     "slide_roll_ratio": "slide-to-roll ratio",
@@ -92,6 +97,39 @@ def key_words(key: str, words: str = "") -> str:
     side = next((table for table in tables if table in ("lower", "upper")), "")
     plain = _KEY_WORDS.get(".".join([*tables[-1:], name]), _KEY_WORDS.get(name, name.replace("_", " ")))
     return f"{plain} ({side})" if side else plain
+
+
+def beyond_ends(ends: tuple[float, float], reached: tuple[float, float]) -> tuple[str, str]:
+    """How a colour bar is extended ("neither", "min", "max", "both"), and what it says of values beyond its ends.
+
+    ends : of the colours. reached : least and largest value, in the same unit.
+    """
+    slack = 1e-6 * max(abs(ends[0]), abs(ends[1]))
+    below, above = reached[0] < ends[0] - slack, reached[1] > ends[1] + slack
+    if below and above:
+        words = f"colours end at {ends[0]:.3g} and {ends[1]:.3g}; values {reached[0]:.3g} to {reached[1]:.3g}"
+    elif above:
+        words = f"colours end at {ends[1]:.3g}; maximum {reached[1]:.3g}"
+    elif below:
+        words = f"colours end at {ends[0]:.3g}; minimum {reached[0]:.3g}"
+    else:
+        return "neither", ""
+    return {(True, True): "both", (True, False): "min", (False, True): "max"}[below, above], words
+
+
+def uniform_value(values: NDArray[np.float64]) -> float | None:
+    """The value of a field that is the same everywhere but for rounding; None of any other field, and of an empty one.
+
+    Not-a-number is not looked at.
+    """
+    finite = np.isfinite(values)
+    low, high = (
+        float(np.min(values, where=finite, initial=np.inf)),
+        float(np.max(values, where=finite, initial=-np.inf)),
+    )
+    if not low <= high or high - low > UNIFORM * max(abs(low), abs(high)):
+        return None
+    return 0.5 * (low + high)
 
 
 def label(text: str, unit: str) -> str:

@@ -12,9 +12,9 @@ import numpy as np
 from cycler import cycler
 from numpy.typing import NDArray
 
-from bem.errors import OUTSIDE
+from bem.errors import OUTSIDE, UNRESOLVED_SPIKE
 from bem.plots.backend import load_matplotlib
-from bem.plots.labels import label, largest_of, prefix
+from bem.plots.labels import FEWEST_CELLS, beyond_ends, label, largest_of, prefix, uniform_value
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -65,6 +65,11 @@ _MOST_CELLS = 1400
 """Along each axis of a map: twice the dots of the widest."""
 
 
+_MOST_LINES = 4
+SPIKE_LIMIT = 1.25
+"""Times the highest pressure beside an unresolved spike at which the pressure axis ends."""
+_LOADED, _WIDEST_SPIKE = 0.01, 0.35
+"""Fraction of the highest pressure from which a place is loaded; widest spike over the loaded length."""
 _ALONG = ContextVar("along x", default="x, sliding")
 
 
@@ -149,8 +154,12 @@ def map_of(
     """A colour map of values[ix, iy] with its bar; not-a-number is drawn as open.
 
     Of a map with more cells than dots, every n-th is drawn; unit and colours are those of all, or of the `ends` of the
-    scale, in the unit of the values.
+    scale, in the unit of the values. Where values lie beyond the ends, the bar says so. A uniform field has one colour
+    and its value on the bar. A map of less than `FEWEST_CELLS` cells along one axis becomes lines; None is returned.
     """
+    if min(values.shape) < FEWEST_CELLS <= max(values.shape):
+        _lines_of_map(axes, x, y, values, text, unit)
+        return None
     factor, shown = prefix(values if ends is None else ends, unit)
     if ends is not None:
         more = {"vmin": ends[0] * factor, "vmax": ends[1] * factor} | more
@@ -159,11 +168,118 @@ def map_of(
     drawn = thinned(values)
     if drawn.size < values.size and np.isfinite(drawn).any():
         more = {"vmin": float(np.nanmin(values)) * factor, "vmax": float(np.nanmax(values)) * factor} | more
-    image = axes.imshow(drawn.T * factor, extent=extent, origin="lower", aspect=axes.get_aspect(), **more)
-    bar = figure.colorbar(image, ax=axes, shrink=0.9, pad=0.03)
-    bar.set_label(label(text, shown))
+    if (value := uniform_value(values)) is not None:
+        value *= factor
+        around = sorted((0.9 * value, 1.1 * value)) if value else (-1.0, 1.0)
+        colours = {"vmin": around[0], "vmax": around[1]}
+        level = np.where(np.isfinite(drawn), value, np.nan).T
+        image = axes.imshow(level, extent=extent, origin="lower", aspect=axes.get_aspect(), **(more | colours))
+        bar = figure.colorbar(image, ax=axes, shrink=0.9, pad=0.03, ticks=[value])
+        bar.set_label(f"{label(text, shown)}, uniform")
+    else:
+        image = axes.imshow(drawn.T * factor, extent=extent, origin="lower", aspect=axes.get_aspect(), **more)
+        colour_bar(figure, axes, image, values, factor, label(text, shown))
+        return image
     bar.outline.set_linewidth(0.6)
     return image
+
+
+def colour_bar(figure: Figure, axes: Any, image: Any, values: NDArray[np.float64], factor: float, text: str) -> Any:
+    """The colour bar of an image of `values` times `factor`; it says where its colours end before the values do."""
+    low, high = (float(end) for end in image.get_clim())
+    finite = np.isfinite(values)
+    least = float(np.min(values, where=finite, initial=np.inf)) * factor
+    most = float(np.max(values, where=finite, initial=-np.inf)) * factor
+    extend, words = beyond_ends((low, high), (least, most))
+    bar = figure.colorbar(image, ax=axes, shrink=0.9, pad=0.03, extend=extend)
+    bar.set_label(f"{text}\n{words}" if words else text)
+    bar.outline.set_linewidth(0.6)
+    return bar
+
+
+def _lines_of_map(
+    axes: Axes, x: NDArray[np.float64], y: NDArray[np.float64], values: NDArray[np.float64], text: str, unit: str
+) -> None:
+    """Values of a map along its long axis, a line for each of a few rows."""
+    along, across, rows, names = (x, y, values.T, ("x", "y"))
+    if len(x) < len(y):
+        along, across, rows, names = (y, x, values, ("y", "x"))
+    factor, shown = prefix(values, unit)
+    length, length_unit = prefix([float(np.ptp(along))], "m")
+    chosen = np.unique(np.linspace(0, len(rows) - 1, min(_MOST_LINES, len(rows))).round().astype(int))
+    for row in chosen:
+        side, side_unit = prefix([across[row]], "m")
+        words = f"{names[1]} = {across[row] * side:.3g} {side_unit}"
+        axes.plot(along * length, rows[row] * factor, label=words)
+    axes.set_xlabel(label(along_x() if names[0] == "x" else "y", length_unit))
+    axes.set_ylabel(label(text, shown))
+    if len(chosen) > 1:
+        axes.legend()
+
+
+def spike_in(x: NDArray[np.float64], pressure: NDArray[np.float64]) -> tuple[int, int, int] | None:
+    """First, highest and last index of the pressure spike of a section over x (n,); None where there is none.
+
+    The spike is the narrow local maximum that stands highest above the pressure in the valley before it. It reaches
+    from that valley to the next one, or to where the pressure ends.
+    """
+    loaded = np.flatnonzero(pressure > _LOADED * pressure.max(initial=0.0))
+    if not loaded.size:
+        return None
+    widest = _WIDEST_SPIKE * abs(float(x[loaded[-1]] - x[loaded[0]]))
+    peaks = np.flatnonzero((pressure[1:-1] > pressure[:-2]) & (pressure[1:-1] >= pressure[2:])) + 1
+    found, height = None, 0.0
+    for peak in peaks[pressure[peaks] > 0.2 * pressure.max()]:
+        first = last = int(peak)
+        while first > loaded[0] and pressure[first - 1] < pressure[first]:
+            first -= 1
+        while last < loaded[-1] and pressure[last + 1] < pressure[last]:
+            last += 1
+        above = float(pressure[peak] - max(pressure[first], pressure[last]))
+        if abs(float(x[last] - x[first])) < widest and above > height:
+            found, height = (first, int(peak), last), above
+    return found
+
+
+def mark_spike(axes: Axes, x: NDArray[np.float64], pressure: NDArray[np.float64]) -> None:
+    """Draw an unresolved spike of a section in grey, end the pressure axis at `SPIKE_LIMIT`, and say so at the spike.
+
+    x, pressure : (n,) in the units of the axes, on which the section is drawn already.
+    """
+    spike = spike_in(x, pressure)
+    if spike is None:
+        return
+    first, peak, last = spike
+    limit = SPIKE_LIMIT * float(np.concatenate([pressure[: first + 1], pressure[last:]]).max())
+    place = slice(first, last + 1)
+    axes.plot(x[place], pressure[place], color="white", linewidth=2.2)
+    axes.plot(x[place], pressure[place], color="0.6", linestyle=":", linewidth=1.2)
+    axes.set_ylim(0, limit)
+    axes.annotate(
+        "spike not resolved",
+        (float(x[peak]), min(float(pressure[peak]), limit)),
+        (-6, -2),
+        textcoords="offset points",
+        ha="right",
+        va="top",
+        fontsize=8,
+        color="0.35",
+    )
+
+
+def has_unresolved_spike(summary: Mapping[str, Any], case: str = "") -> bool:
+    """Whether a note of the run says that the mesh does not resolve the pressure spike.
+
+    case : key and value of the case drawn, as notes begin with them; notes on other cases do not count.
+    """
+    before = [note.partition(UNRESOLVED_SPIKE)[0] for note in summary.get("notes", ()) if UNRESOLVED_SPIKE in note]
+    return any(not words or " more" in words or (case and case in words) for words in before)
+
+
+def name_case(figure: Any, words: str) -> None:
+    """Write above a figure which of several cases it shows; nothing for a single one."""
+    if words:
+        figure.suptitle(f"shown: {words}", fontsize=9.5)
 
 
 def map_of_heights(
@@ -172,7 +288,6 @@ def map_of_heights(
     """A colour map of heights about zero [m], one look for all surfaces; see `height_limit`."""
     limit = height_limit(heights)
     factor, unit = prefix([limit], "m")
-    beyond = limit < largest_of(heights)
     extent = field_axes(axes, x, y)
     image = axes.imshow(
         thinned(heights).T * factor,
@@ -183,9 +298,7 @@ def map_of_heights(
         vmin=-limit * factor if limit else None,
         vmax=limit * factor if limit else None,
     )
-    bar = figure.colorbar(image, ax=axes, shrink=0.9, pad=0.03, extend="both" if beyond else "neither")
-    bar.set_label(label("height", unit))
-    bar.outline.set_linewidth(0.6)
+    colour_bar(figure, axes, image, heights, factor, label("height", unit))
     return image
 
 
@@ -207,14 +320,15 @@ def logarithmic_axis(axes: Axes, values: NDArray[Any]) -> None:
         axes.minorticks_off()
 
 
-_LETTERS = 18
-"""Of seven points on an inch: half as wide as high, and a tenth of the line left free."""
+_LETTERS = 15
+"""Of eight points on an inch: half as wide as high, and a tenth of the line left free."""
 
 
 def said_above(figure: Any, words: str) -> None:
     """Write what must be known of a figure above it, in red."""
     wide = int(_LETTERS * figure.get_figwidth())
-    figure.suptitle("\n".join(textwrap.wrap(words, wide)), fontsize=7, color=VERMILION)
+    lines = [figure.get_suptitle(), *textwrap.wrap(words, wide)]
+    figure.suptitle("\n".join(line for line in lines if line), fontsize=8, color=VERMILION)
 
 
 def said_beyond(figure: Any, summary: Mapping[str, Any]) -> None:

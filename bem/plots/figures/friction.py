@@ -13,9 +13,23 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from bem.plots.cases import grouped, many_speeds
+from bem.plots.cases import case_words, grouped, many_speeds
 from bem.plots.figures import FigureKind
-from bem.plots.style import BLACK, BLUE, GREEN, ORANGE, PINK, SKY, VERMILION, label, prefix, speed_axis
+from bem.plots.style import (
+    BLACK,
+    BLUE,
+    GREEN,
+    ORANGE,
+    PINK,
+    SKY,
+    VERMILION,
+    has_unresolved_spike,
+    label,
+    mark_spike,
+    name_case,
+    prefix,
+    speed_axis,
+)
 
 _COLOURS = (BLUE, VERMILION, GREEN, ORANGE, SKY, PINK, BLACK) * 9
 _MODEL_NAMES = {
@@ -66,7 +80,7 @@ def _stribeck(run: Any, figure: Figure) -> None:
                 axes.plot(speed, part, color="0.45", linestyle=dots, linewidth=1.1, label=text)
     axes.set_ylabel("coefficient of friction")
     speed_axis(axes, speed)
-    axes.legend(fontsize=6.5 if many else 7.5, ncols=2 if many else 1)
+    axes.legend(ncols=2 if many else 1)
 
 
 def _sharing(run: Any, figure: Figure) -> None:
@@ -83,6 +97,13 @@ def _sharing(run: Any, figure: Figure) -> None:
     _band(lower, speed, film * factor, BLUE, "")
     lower.set_ylabel(label("minimum film", unit))
     speed_axis(lower, speed)
+    _name_first_curve(run, figure)
+
+
+def _name_first_curve(run: Any, figure: Figure) -> None:
+    """Say which curve is shown where there are several."""
+    words = [part for part in case_words(run.dataset).split(", ") if part and not part.startswith("repetition")]
+    name_case(figure, ", ".join(_MODEL_NAMES.get(part, part) for part in words))
 
 
 def _temperatures(run: Any, figure: Figure) -> None:
@@ -99,7 +120,7 @@ def _temperatures(run: Any, figure: Figure) -> None:
     speed_axis(axes, speed)
     axes.set_ylim(auto=True)
     axes.autoscale(axis="y")
-    axes.legend(fontsize=7)
+    axes.legend(fontsize=8)
 
 
 def _section(run: Any, figure: Figure) -> None:
@@ -127,7 +148,7 @@ def _section(run: Any, figure: Figure) -> None:
     high = 1.4e9 * float(np.quantile(data["film_thickness_patch"].values[seen], 0.75))
     upper.set_ylim(low * 1.05, max(high, deformed[seen].max() * 1e9 * 1.4))
     upper.set_ylabel("height (nm)")
-    upper.legend(fontsize=7, ncols=2, loc="upper center")
+    upper.legend(fontsize=8, ncols=2, loc="upper center")
     upper.set_title(
         f"{float(data['shown_speed']):.3g} m/s: surfaces {1e9 * float(shift.mean()):.3g} nm closer than the film",
         fontsize=8.5,
@@ -143,7 +164,7 @@ def _section(run: Any, figure: Figure) -> None:
     lower.set_xlabel(label("x", unit_x))
     lower.set_ylabel("pressure (MPa)")
     lower.set_ylim(0)
-    lower.legend(fontsize=7)
+    lower.legend(fontsize=8)
 
 
 def _film(run: Any, figure: Figure) -> None:
@@ -160,6 +181,8 @@ def _film(run: Any, figure: Figure) -> None:
     axes.set_xlabel(label("x", unit_x))
     axes.set_ylabel(label("film pressure", unit), color=BLUE)
     axes.set_ylim(0)
+    if has_unresolved_spike(run.summary):
+        mark_spike(axes, x[seen] * factor_x, pressure[seen] * factor)
     other = axes.twinx()
     other.spines["right"].set_visible(True)
     other.plot(x[seen] * factor_x, film[seen] * 1e9, color=VERMILION)
@@ -261,7 +284,8 @@ FIGURES = (
     ),
     FigureKind(
         "film-pressure",
-        "Pressure and thickness of the smooth film.",
+        "Pressure and thickness of the smooth film; a spike that the mesh does not resolve is dotted, and the axis ends "
+        "at 1.25 times the highest pressure beside it.",
         ("film_x", "film_pressure", "film_thickness", "shown_speed"),
         _film,
         (5.4, 3.4),

@@ -12,7 +12,7 @@ from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
 from bem.plots.figures import FigureKind, two_dimensional
-from bem.plots.style import OPEN, field_axes, label, prefix, thinned
+from bem.plots.style import OPEN, colour_bar, field_axes, label, prefix, thinned
 
 _BEYOND = 1.15
 """Of the half-axes of what carries friction, what is shown."""
@@ -78,8 +78,7 @@ def _friction_map(run: Any, figure: Figure) -> None:
         values = thinned(np.where(shown > least, shown, np.nan)).T * factor
         image = axes.imshow(values, extent=extent, origin="lower", aspect=axes.get_aspect(), vmin=0, vmax=most)
         axes.set_title(f"{text}: {_few(share)} of friction{''.join(left)}", fontsize=8.5)
-    bar = figure.colorbar(image, ax=panels, shrink=0.9, pad=0.03)
-    bar.set_label(label("shear stress", unit))
+    colour_bar(figure, list(panels), image, carries[window], factor, label("shear stress", unit))
 
 
 def _some(run: Any) -> bool:

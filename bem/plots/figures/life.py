@@ -7,7 +7,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
@@ -51,7 +50,7 @@ def _wear(run: Any, figure: Figure) -> None:
         axes.fill_between(cycle, depth - missed, depth + missed, color=colour, alpha=0.2, linewidth=0)
     axes.set_ylabel("Sq and mean depth worn (nm)")
     axes.set_ylim(0)
-    axes.legend(fontsize=7)
+    axes.legend()
 
 
 def _film(run: Any, figure: Figure) -> None:
@@ -100,8 +99,8 @@ def _pits(run: Any, figure: Figure) -> None:
 
 def _damage(run: Any, figure: Figure) -> None:
     data = run.dataset
-    shown = np.minimum(data["damage_map"].values, 1.0)
-    map_of(figure, figure.add_subplot(), data["x"].values, data["y"].values, shown, "damage", "", vmin=0, vmax=1)
+    damage = data["damage_map"].values
+    map_of(figure, figure.add_subplot(), data["x"].values, data["y"].values, damage, "damage", "", ends=(0.0, 1.0))
 
 
 _WIDE = (6.0, 3.6)
@@ -147,6 +146,7 @@ FIGURES = (
         ("cycle", "micropitted_over_cycles"),
         _pits,
         _WIDE,
+        lambda run: bool((run.dataset["micropitted_over_cycles"].values > 0).any()),
     ),
     FigureKind(
         "damage-map",

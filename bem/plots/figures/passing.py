@@ -10,7 +10,7 @@ from matplotlib.figure import Figure
 
 from bem.plots.figures import FigureKind
 from bem.plots.figures.point_film import finely_coloured
-from bem.plots.style import BLACK, BLUE, SEQUENTIAL, VERMILION, field_axes, label, prefix, said_beyond
+from bem.plots.style import BLACK, BLUE, SEQUENTIAL, VERMILION, colour_bar, field_axes, label, prefix, said_beyond
 
 _SECTIONS = 6
 _MOST = 3.0
@@ -109,9 +109,9 @@ def _sections(run: Any, figure: Figure) -> None:
         other.set_ylim(0, 1.05 * float(pressure.max()) * force)
         other.set_ylabel(label("p", force_unit), color=VERMILION)
         axes.set_ylabel(label("h", film_unit))
-        axes.set_title(f"{times[index] * factor:.3g} {time_unit}", fontsize="small", loc="left")
+        axes.set_title(f"{times[index] * factor:.3g} {time_unit}", loc="left")
     panels[0].plot([], [], color=VERMILION, linestyle="--", linewidth=0.9, label="pressure, right")
-    panels[0].legend(fontsize="x-small", loc="upper center")
+    panels[0].legend(loc="upper center", ncols=3)
     panels[-1].set_xlabel(label("x, through the middle", unit))
 
 
@@ -127,7 +127,7 @@ def _over_time(run: Any, figure: Figure) -> None:
     )  # fmt: skip
     axes.set_xlabel(label("x, through the middle", unit))
     axes.set_ylabel(label("time", time_unit))
-    figure.colorbar(picture, ax=axes, label=label("film thickness", film_unit))
+    colour_bar(figure, axes, picture, thickness, film, label("film thickness", film_unit))
 
 
 _NEEDS = ("film_x", "film_y", "frame", "frame_thickness", "frame_pressure", "thickness", "film_pressure")
@@ -146,7 +146,7 @@ FIGURES = (
         "Film (line), pressure (dashed, right) and depth of the surfaces that pass, along x through the middle.",
         (*_NEEDS, "surface_heights", "time"),
         _sections,
-        (6.0, 8.4),
+        (6.0, 9.0),
     ),
     FigureKind(
         "passing-over-time",

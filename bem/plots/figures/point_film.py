@@ -88,7 +88,8 @@ def _touching(run: Any, figure: Figure) -> None:
     x, y, thickness, oil, surfaces = (
         _array(run, name) for name in ("x", "y", "thickness", "oil_pressure", "contact_pressure")
     )
-    left, middle, right = figure.subplots(1, 3)
+    left, middle, right, empty = figure.subplots(2, 2).ravel()
+    empty.remove()
     most = _THICK * _typical(run, thickness)
     film = np.where(thickness < most, thickness, np.nan)
     drawn = map_of(figure, left, x, y, film, "film thickness", "m", ends=(0.0, most))
@@ -172,7 +173,7 @@ FIGURES = (
         "Film thickness up to three times that of the middle, and film pressure; blank where there is none.",
         _NEEDS,
         _maps,
-        (9.0, 3.8),
+        (7.6, 3.4),
     ),
     FigureKind(
         "touching-film-maps",
@@ -180,7 +181,7 @@ FIGURES = (
         "and of the surfaces where they touch.",
         (*_NEEDS, "oil_pressure", "contact_pressure"),
         _touching,
-        (12.0, 3.6),
+        (7.6, 6.2),
     ),
     FigureKind(
         "point-film-sections",

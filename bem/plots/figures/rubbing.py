@@ -49,6 +49,6 @@ FIGURES = (
         "What the surfaces slide against each other in a loop of the last cycle, and the depth worn (last run).",
         ("x", "y", "slid", "pressure", "traction_x", "height_before", "height_after"),
         _slip_and_wear,
-        (10.0, 3.6),
+        (7.8, 3.4),
     ),
 )

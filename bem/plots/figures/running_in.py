@@ -16,9 +16,9 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
-from bem.plots.cases import along, grouped, many_speeds, redoes
+from bem.plots.cases import along, case_shown, grouped, many_speeds, redoes
 from bem.plots.figures import FigureKind
-from bem.plots.style import BLUE, OPEN, SEQUENTIAL, VERMILION, said_beyond, speed_axis
+from bem.plots.style import BLUE, OPEN, SEQUENTIAL, VERMILION, name_case, said_beyond, speed_axis
 
 _MEASURED_RADIUS = (210e-9, 236e-9)  # dynamic light scattering at 0.01 m/s, 223 +- 13 nm; thesis, paper D
 Array = NDArray[Any]
@@ -61,7 +61,7 @@ def _cycles(name: str, text: str) -> Any:
         axes.xaxis.set_major_locator(MaxNLocator(integer=True))
         axes.set_ylim(0)
         if len(groups) > 1:
-            axes.legend(fontsize=7, loc="center left", bbox_to_anchor=(1.0, 0.5))
+            axes.legend(loc="center left", bbox_to_anchor=(1.0, 0.5))
 
     return draw
 
@@ -153,6 +153,7 @@ def _animate(run: Any, path: Path) -> None:
     right.set_xlabel("cycle")
     right.set_ylabel("coefficient of friction")
     right.set_ylim(0)
+    name_case(figure, case_shown(run.dataset, run.summary["kind"], ["pressure_frames"]))
 
     def show(index: int) -> None:
         image.set_data(np.where(frames[index] > 0, frames[index], np.nan))
@@ -191,6 +192,7 @@ FIGURES = (
         ("cycle", "contact_share", "speed", "hardness"),
         _cycles("contact_share", "share of the load on contact"),
         (6.2, 3.6),
+        lambda run: bool((run.dataset["contact_share"].values > 0).any()),
     ),
     FigureKind(
         "particle-radius-over-speed",

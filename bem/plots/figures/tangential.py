@@ -9,7 +9,7 @@ from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 
 from bem.plots.figures import FigureKind, two_dimensional
-from bem.plots.style import BLACK, BLUE, ORANGE, VERMILION, label, map_of, prefix
+from bem.plots.style import BLACK, BLUE, OPEN, ORANGE, VERMILION, field_axes, label, map_of, prefix, thinned
 
 
 def _sticks(run: Any, figure: Figure) -> None:
@@ -17,13 +17,11 @@ def _sticks(run: Any, figure: Figure) -> None:
     data = run.dataset
     left, right = figure.subplots(1, 2)
     x, y = data["x"].values, data["y"].values
-    factor, unit = prefix([float(np.ptp(x)), float(np.ptp(y))], "m")
-    extent = (x[0] * factor, x[-1] * factor, y[0] * factor, y[-1] * factor)
-    colours = ListedColormap(["white", BLUE, VERMILION])
-    left.imshow(data["stick_state"].values.T, origin="lower", extent=extent, cmap=colours, vmin=0, vmax=2)
+    colours = ListedColormap([OPEN, BLUE, VERMILION])
+    extent = field_axes(left, x, y)
+    state = thinned(data["stick_state"].values).T
+    left.imshow(state, origin="lower", extent=extent, aspect=left.get_aspect(), cmap=colours, vmin=0, vmax=2)
     left.set_title("blue sticks, red slips")
-    left.set_xlabel(label("x", unit))
-    left.set_ylabel(label("y", unit))
     slid = np.where(data["stick_state"].values > 0, data["slip"].values, np.nan)
     rolls = data["slip"].attrs.get("units", "m") == "1"
     words, of = ("sliding over rolling velocity", "") if rolls else ("distance slid", "m")

@@ -18,7 +18,8 @@ def _map(run: Any, figure: Figure) -> None:
     axes = figure.add_subplot()
     x, y = data["x"].values, data["y"].values
     celsius = data["surface_temperature"].values - _CELSIUS
-    map_of(figure, axes, x, y, celsius, "surface temperature", "°C", cmap="inferno")
+    if map_of(figure, axes, x, y, celsius, "surface temperature", "°C", cmap="inferno") is None:
+        return
     factor, _ = prefix([float(np.ptp(x))], "m")
     i, j = np.unravel_index(int(np.argmax(celsius)), celsius.shape)
     axes.plot(x[i] * factor, y[j] * factor, "+", color="white", markersize=8)

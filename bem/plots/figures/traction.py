@@ -7,13 +7,15 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from bem.plots.cases import Array, axes_of, first_case, grouped
+from bem.plots.cases import Array, axes_of, case_words, first_case, grouped, label_of
 from bem.plots.figures import FigureKind
 from bem.plots.over import COLOURS, axis_of, lines_over
-from bem.plots.style import BLACK, BLUE, VERMILION, label, prefix
+from bem.plots.style import BLACK, BLUE, VERMILION, has_unresolved_spike, label, mark_spike, name_case, prefix
 
 ALL_CASES = True
 _CELSIUS = 273.15
+_MOST_TEMPERATURES = 6
+"""Cases that are drawn with temperatures of oil and surfaces; of more, every n-th."""
 
 
 def _ratio_of(run: Any) -> str | None:
@@ -45,7 +47,8 @@ def _known(run: Any, name: str) -> list[tuple[str, Array]]:
 def _temperatures(run: Any, figure: Figure) -> None:
     axes = figure.add_subplot()
     cases = _known(run, "oil_temperature")
-    shown = cases if len(cases) <= 4 else [cases[i] for i in np.linspace(0, len(cases) - 1, 4).round().astype(int)]
+    chosen = np.linspace(0, len(cases) - 1, min(len(cases), _MOST_TEMPERATURES)).round().astype(int)
+    shown = [cases[i] for i in chosen]
     x = run.dataset["x"].values
     x = x if x.ndim == 1 else first_case(run.dataset)["x"].values
     surfaces = {name: dict(grouped(run, f"{name}_surface_temperature")) for name in ("lower", "upper")}
@@ -58,6 +61,8 @@ def _temperatures(run: Any, figure: Figure) -> None:
     axes.set_xlabel("x over the Hertz half-width")
     axes.set_ylabel("temperature (°C)")
     axes.legend()
+    if len(shown) < len(cases):
+        axes.set_title(f"{len(shown)} of {len(cases)} cases")
 
 
 def _field(run: Any, figure: Figure) -> None:
@@ -92,6 +97,9 @@ def _film(run: Any, figure: Figure) -> None:
     upper.set_xlabel("x over the Hertz half-width")
     upper.set_ylabel(label("pressure", unit), color=BLUE)
     upper.set_ylim(0)
+    name_case(figure, case_words(run.dataset))
+    if has_unresolved_spike(run.summary, _key_and_value(run)):
+        mark_spike(upper, x, data["pressure"].values * factor)
     if "film_reduction" in data.variables and (data["pressure"].values == 0).any():
         meniscus = x[np.flatnonzero(data["pressure"].values > 0)[0]]
         if meniscus > x[0]:
@@ -103,6 +111,12 @@ def _film(run: Any, figure: Figure) -> None:
     lower.plot(x, data["thickness"].values * factor, color=VERMILION, label="film")
     lower.set_ylim(0, 2.5 * factor * float(data["thickness"].values[inside].max()))
     lower.set_ylabel(label("film thickness", unit), color=VERMILION)
+
+
+def _key_and_value(run: Any) -> str:
+    """The first case as notes name it, such as "rolling.slide_roll_ratio 0.01"; empty for a single case."""
+    axes = [axis for axis in axes_of(run.dataset) if run.dataset.sizes[axis] > 1]
+    return f"{axes[0]} {run.dataset[axes[0]].values[0]:g}:" if len(axes) == 1 else ""
 
 
 def _starvation(run: Any, figure: Figure) -> None:
@@ -132,28 +146,70 @@ def _starvation(run: Any, figure: Figure) -> None:
 
 def _along(run: Any, figure: Figure) -> None:
     data = run.dataset
-    hot = "film_temperature" in data.variables
-    panels = figure.subplots(4 if hot else 3, 1, sharex=True)
-    place = data["position"].values * 1e3
+    hot, place = "film_temperature" in data.variables, data["position"].values * 1e3
+    loads = _rows_along(run)
+    film, friction, power, *others = figure.subplots(3 + hot + (2 if loads else 1), 1, sharex=True)
+    dots: dict[str, Any] = {"markersize": 3, "color": BLACK}
     for name, colour in (("central", BLUE), ("minimum", VERMILION)):
-        panels[0].plot(place, _row(data, f"{name}_thickness") * 1e9, "o-", markersize=3, color=colour, label=name)
-    panels[0].set_ylabel("film (nm)")
-    panels[0].set_ylim(0)
-    panels[0].legend()
-    panels[1].plot(place, np.abs(_row(data, "traction_coefficient")), "o-", markersize=3, color=BLACK)
-    panels[1].set_ylabel("traction coefficient (magnitude)")
-    panels[1].set_ylim(0)
-    panels[2].plot(place, _row(data, "friction_power"), "o-", markersize=3, color=BLACK)
-    panels[2].set_ylabel("friction power (W)")
-    panels[2].set_ylim(0)
+        film.plot(place, _row(data, f"{name}_thickness") * 1e9, "o-", markersize=3, color=colour, label=name)
+    film.set_ylabel("film (nm)")
+    film.legend()
+    friction.plot(place, np.abs(_row(data, "traction_coefficient")), "o-", **dots)
+    friction.set_ylabel("friction,\nmagnitude")
+    power.plot(place, _row(data, "friction_power"), "o-", **dots)
+    power.set_ylabel("friction\npower (W)")
+    pressed = others[-1]
+    factor, unit = prefix(_row(data, "hertz_pressure"), "Pa")
+    pressed.plot(place, _row(data, "hertz_pressure") * factor, "o-", markersize=3, color=BLUE)
+    pressed.set_ylabel(label("Hertz\npressure", unit), color=BLUE)
+    for axes in (film, friction, power, pressed):
+        axes.set_ylim(0)
+    if loads:
+        factor, unit = prefix(loads["load"], "N")
+        beside = pressed.twinx()
+        beside.plot(place, loads["load"] * factor, "s--", markersize=3, color=VERMILION)
+        beside.set_ylabel(label("load", unit), color=VERMILION)
+        beside.set_ylim(0)
+        sliding = others[-2]
+        sliding.plot(place, loads["sliding_speed"], "o-", **dots)
+        sliding.axhline(0, color="0.6", linewidth=0.6)
+        sliding.set_ylabel("sliding\nspeed (m/s)")
+        for zero in _zeros(place, loads["sliding_speed"]):  # of a gear pair the pitch point C
+            for axes in (film, friction, power, *others):
+                axes.axvline(zero, color="0.6", linestyle=":", linewidth=0.8)
+            sliding.annotate("pure rolling", (zero, 0), (4, 4), textcoords="offset points", fontsize=8, color="0.35")
     if "lambda_ratio" in data.variables:
-        _lambda_beside(panels[0], _row(data, "lambda_ratio") / _row(data, "minimum_thickness"))
+        _lambda_beside(film, _row(data, "lambda_ratio") / _row(data, "minimum_thickness"))
     if hot:
         for name, words, colour in _SURFACES:
-            panels[3].plot(place, _row(data, name) - _CELSIUS, "o-", markersize=3, color=colour, label=words)
-        panels[3].set_ylabel("temperature (°C)")
-        panels[3].legend()
-    panels[-1].set_xlabel("place along the way (mm)")
+            others[0].plot(place, _row(data, name) - _CELSIUS, "o-", markersize=3, color=colour, label=words)
+        others[0].set_ylabel("temperature\n(°C)")
+        others[0].legend()
+    pressed.set_xlabel("place along the way (mm)")
+    name_case(
+        figure, ", ".join(part for axis in axes_of(data) if axis != "position" and (part := _first_of(data, axis)))
+    )
+
+
+def _first_of(data: Any, axis: str) -> str:
+    return label_of(data, (axis,), (0,)) if axis in data.variables else ""
+
+
+def _rows_along(run: Any) -> dict[str, Any]:
+    """Load [N] and sliding speed, lower less upper surface [m/s], of the rows of the scene; empty where unknown."""
+    rows = run.scene.get("along") or {}
+    names = ("load", "lower_speed", "upper_speed")
+    load, lower, upper = (np.asarray(rows.get(name, ()), dtype=np.float64) for name in names)
+    if any(values.shape != (run.dataset.sizes["position"],) for values in (load, lower, upper)):
+        return {}
+    return {"load": load, "sliding_speed": lower - upper}
+
+
+def _zeros(place: Any, values: Any) -> list[float]:
+    """Where values (n,) over place (n,) change their sign, between two rows by a straight line."""
+    at = np.flatnonzero(values[:-1] * values[1:] < 0)
+    between = [place[i] - values[i] * (place[i + 1] - place[i]) / (values[i + 1] - values[i]) for i in at]
+    return [float(zero) for zero in (*between, *place[values == 0])]
 
 
 _SURFACES = (
@@ -205,7 +261,10 @@ FIGURES = (
     ),
     FigureKind(
         "film-temperatures",
-        "Mean temperature of the oil along the film, and of both surfaces.",
+        "Mean temperature of the oil along the film, and of both surfaces. Shear and backflow warm the oil before the "
+        'contact. With thermal = "full" oil that expands behind a pressure spike cools, by up to the adiabatic '
+        "drop, expansion x T x pressure drop / heat capacity by volume, and may be colder than the supply there; where "
+        "the mesh does not resolve the spike, this dip follows the mesh.",
         ("oil_temperature", "lower_surface_temperature", "upper_surface_temperature"),
         _temperatures,
         applies=lambda run: bool(_known(run, "oil_temperature")),
@@ -230,11 +289,18 @@ FIGURES = (
     ),
     FigureKind(
         "along-the-way",
-        "Film, friction, its power and temperatures over the rows of a way, such as a line of action.",
+        "Film, friction, its power, temperatures, sliding speed (lower less upper surface), Hertz pressure "
+        "and load (dashed, right) over the rows of a way, such as a line of action.",
         ("traction_coefficient", "friction_power"),
         _along,
-        size=(5.5, 9.0),
+        size=(5.5, 10.5),
         applies=_has_way,
     ),
-    FigureKind("rolling-film", "Pressure and film thickness of the first case.", ("pressure", "thickness"), _film),
+    FigureKind(
+        "rolling-film",
+        "Pressure and film thickness of the first case; a spike that the mesh does not resolve is dotted, and the axis "
+        "ends at 1.25 times the highest pressure beside it.",
+        ("pressure", "thickness"),
+        _film,
+    ),
 )

@@ -66,13 +66,21 @@ def _pressure(run: Any, figure: Figure) -> None:
 def _maps(run: Any, figure: Figure, name: str, text: str, unit: str) -> None:
     chosen = [(film, np.where(maps[0] > 0, maps[0], np.nan)) for film, maps in grouped(run, name)][:4]
     values = np.array([shown for _, shown in chosen])
-    figure.set_size_inches(1 + 3.2 * len(chosen), figure.get_figheight())  # of few maps the rest was empty
+    columns = min(len(chosen), 2)
+    rows = -(-len(chosen) // columns)
+    figure.set_size_inches(1 + 3.3 * columns, 3.0 * rows + 0.2)  # of few maps the rest was empty
     limit = float(np.nanmax(values)) if np.isfinite(values).any() else 1.0
     x, y = run.dataset["x"].values, run.dataset["y"].values
-    for axes, (film, shown) in zip(np.atleast_1d(figure.subplots(1, len(chosen))), chosen, strict=True):
+    for place, (film, shown) in enumerate(chosen, 1):
+        axes = figure.add_subplot(rows, columns, place)
         picture = shown if np.isfinite(shown).any() else np.zeros_like(shown)
         map_of(figure, axes, x, y, picture, text, unit, ends=(0.0, limit))
         axes.set_title(film)
+
+
+def _any(name: str) -> Callable[[Any], bool]:
+    """Whether a variable is anywhere other than zero: an empty chart is not drawn."""
+    return lambda run: bool((np.nan_to_num(run.dataset[name].values) != 0).any())
 
 
 def _wears_substrate(run: Any) -> bool:
@@ -88,13 +96,20 @@ def _line(
 
 def _map(name: str, caption: str, variable: str, text: str, unit: str) -> FigureKind:
     draw = partial(_maps, name=variable, text=text, unit=unit)
-    return FigureKind(name, caption, ("x", "y", variable), draw, (10.0, 3.4))
+    return FigureKind(name, caption, ("x", "y", variable), draw, (7.6, 3.4), _any(variable))
 
 
 ALL_CASES = True
 FIGURES = (
     _line("film-thickness", "Mean film thickness.", "thickness", "mean film thickness", "m"),
-    _line("film-wear-rate", "Rate at which the film itself wears.", "wear_rate", "wear rate of the film", "m/s"),
+    _line(
+        "film-wear-rate",
+        "Rate at which the film itself wears.",
+        "wear_rate",
+        "wear rate of the film",
+        "m/s",
+        _any("wear_rate"),
+    ),
     _line(
         "substrate-wear",
         "Total depth of substrate that has left with the film since the start of rubbing.",

@@ -14,6 +14,8 @@ from bem.plots.cases import Array, grouped, redoes
 from bem.plots.figures import FigureKind
 from bem.plots.style import BLACK, BLUE, GREEN, ORANGE, PINK, SKY, VERMILION, label, map_of, prefix
 
+_LONG = 2.0
+"""Length of a map over its width from which two of them are one above the other."""
 _DLS_STEEL = (110e-9, 175e-9)  # dynamic light scattering, both materials; thesis, papers B and C
 
 
@@ -120,8 +122,12 @@ def _worn_surface(run: Any, figure: Figure) -> None:
     before, after = run.dataset["height_before"].values, run.dataset["height_after"].values
     both = np.stack([before, after])
     low, high = np.percentile(both, [0.5, 99.5])  # of the worn one too: a scar deeper than the roughness is seen
+    above = len(x) * float(x[1] - x[0]) > _LONG * len(y) * float(y[1] - y[0]) if min(len(x), len(y)) > 1 else True
     for axes, values, title in zip(
-        figure.subplots(1, 2), (before, after), ("before", "after the last cycle"), strict=True
+        figure.subplots(*((2, 1) if above else (1, 2))),
+        (before, after),
+        ("before", "after the last cycle"),
+        strict=True,
     ):
         map_of(
             figure,
@@ -162,13 +168,13 @@ def _shapes(run: Any, figure: Figure) -> None:
         colours = matplotlib.colormaps["viridis"](Normalize(0, 1e9 * deepest)(1e9 * steps[:-1, :-1]))
         axes.plot_surface(grid_x, grid_y, 1e9 * steps, facecolors=colours, rstride=1, cstride=1, shade=True)
         radius = (3 * volume[index] * cell[0] * cell[1] / (4 * np.pi)) ** (1 / 3)
-        axes.set_title(f"radius {1e9 * radius:.0f} nm", fontsize=8)
+        axes.set_title(f"radius {1e9 * radius:.0f} nm", fontsize=9)
         spans = (along[0][-1], along[1][-1], 2e9 * float(depth.max()))
-        axes.set_box_aspect(spans, zoom=0.85)
-        axes.tick_params(labelsize=5, pad=-3)
-        axes.set_xlabel("x (nm)", fontsize=6, labelpad=-6)
-        axes.set_ylabel("y (nm)", fontsize=6, labelpad=-5)
-        axes.set_zlabel("thickness (nm)", fontsize=6, labelpad=-9)
+        axes.set_box_aspect(spans, zoom=0.9)
+        axes.tick_params(labelsize=8, pad=-2)
+        axes.set_xlabel("x (nm)", fontsize=8, labelpad=-3)
+        axes.set_ylabel("y (nm)", fontsize=8, labelpad=-3)
+        axes.set_zlabel("thickness (nm)", fontsize=8, labelpad=-5)
         axes.xaxis.set_major_locator(MaxNLocator(3))
         axes.yaxis.set_major_locator(MaxNLocator(3))
         axes.zaxis.set_major_locator(MaxNLocator(2))
@@ -211,6 +217,7 @@ FIGURES = (
         ("contact_load", "contact_area", "cycle", "load"),
         _pressure,
         (5.0, 3.4),
+        lambda run: bool((run.dataset["contact_load"].values > 0).any()),
     ),
     FigureKind(
         "roughness-over-cycles",
@@ -240,14 +247,14 @@ FIGURES = (
         "The worn surface before and after, in one colour scale (last run).",
         ("x", "y", "height_before", "height_after"),
         _worn_surface,
-        (9.0, 3.8),
+        (7.6, 3.4),
     ),
     FigureKind(
         "particle-shapes",
         "The six largest particles of the last cycle, upside down; their thickness is drawn to twice its scale.",
         ("radius", "x", "y", "removed"),
         _shapes,
-        (9.0, 5.2),
+        (8.0, 5.8),
         _something_left,
     ),
 )
