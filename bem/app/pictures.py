@@ -12,6 +12,7 @@ from bem.plots.labels import (
     FEWEST_CELLS,
     ZERO_CELSIUS,
     beyond_ends,
+    colour_ends,
     in_celsius,
     key_words,
     label,
@@ -29,8 +30,6 @@ MOST_CURVES = 24
 _PREFIXED = ("m", "Pa", "N", "s")
 _LONGEST = 5.0
 """Ratio of a map's sides up to which both have one scale."""
-_LONE = 1.5
-"""Range of all values over that between the percentiles, from which lone points would take the colours."""
 _MARGIN = {"l": 60, "r": 10, "t": 36, "b": 46}
 COLOURS = "Viridis"
 
@@ -109,10 +108,10 @@ def _colours(shown: NDArray[np.float64], known: NDArray[np.float64], factor: flo
     if (value := uniform_value(known)) is not None:
         around = sorted((0.9 * value * factor, 1.1 * value * factor)) if value else (-1.0, 1.0)
         return around[0], around[1], f"uniform, {value * factor:.4g}"
-    low, high = (float(v) for v in np.percentile(shown, [0.2, 99.8]))
-    if not high > low or most - least < _LONE * (high - low):
+    low, high = colour_ends(shown, 0.2, 99.8)
+    if high - low == float(np.ptp(shown)):  # of all cells, though fewer are sent
         return least, most, ""
-    return low, high, beyond_ends((low, high), (least, most))[1].replace("; ", "<br>")
+    return low, high, beyond_ends((low, high), (least, most))[1].replace("\n", "<br>")
 
 
 def _rows_picture(

@@ -13,7 +13,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.plots.labels import ZERO_CELSIUS, prefix
+from bem.plots.labels import ZERO_CELSIUS, key_words, prefix
 from bem.results.arrays import Array as ArrayOfRun
 from bem.results.arrays import Arrays
 from bem.scenes.kind import get_kind
@@ -73,7 +73,7 @@ def case_words(data: Any, of: str = "first", *, speed: bool = False) -> str:
         if axis == "load" and speed and data.sizes[axis] == 1 and axis in data.variables:
             words.append(value_words(data[axis], i))
         elif axis in data.variables:
-            name = f"{axis.rsplit('.', 1)[-1].replace('_', ' ')} " if data[axis].attrs.get("units") in _NAMED else ""
+            name = f"{key_words(axis.rsplit('.', 1)[-1])} " if data[axis].attrs.get("units") in _NAMED else ""
             words.append(name + value if (value := label_of(data, (axis,), (i,))) else "")
         elif data.sizes[axis] > 1:
             words.append(f"{axis.replace('_', ' ')} {i + 1}")
@@ -141,7 +141,7 @@ def label_of(dataset: Any, axes: Sequence[str], place: Sequence[int]) -> str:
     for axis, i in zip(axes, place, strict=True):
         if dataset.sizes[axis] > 1:
             bare = dataset[axis].values.dtype.kind in "if" and str(dataset[axis].attrs.get("units", "1")) == "1"
-            name = f"{axis.rsplit('.', 1)[-1].replace('_', ' ')} " if bare else ""
+            name = f"{key_words(axis.rsplit('.', 1)[-1])} " if bare else ""
             words.append(name + value_words(dataset[axis], i))
     return ", ".join(words)
 

@@ -23,6 +23,8 @@ UNIFORM = 1e-5
 """A field that differs by less than this fraction of its largest value is drawn as uniform: solvers leave 1e-6."""
 FEWEST_CELLS = 8
 """Maps with fewer cells along one axis are drawn as lines along the other."""
+LONE = 1.5
+"""Range of a field over that between percentiles of it, from which lone values would take all colours."""
 _DIFFERENCES = ("rise", "difference", "error", "spread")
 _KEY_WORDS = {
     "slide_roll_ratio": "slide-to-roll ratio",
@@ -106,15 +108,35 @@ def beyond_ends(ends: tuple[float, float], reached: tuple[float, float]) -> tupl
     """
     slack = 1e-6 * max(abs(ends[0]), abs(ends[1]))
     below, above = reached[0] < ends[0] - slack, reached[1] > ends[1] + slack
+    low, high = _three(ends[0]), _three(ends[1])
     if below and above:
-        words = f"colours end at {ends[0]:.3g} and {ends[1]:.3g}; values {reached[0]:.3g} to {reached[1]:.3g}"
+        said = f"colours end at ±{high}" if low == f"-{high}" else f"colours end at {low}, {high}"
+        words = f"{said};\nvalues {_three(reached[0])} to {_three(reached[1])}"
     elif above:
-        words = f"colours end at {ends[1]:.3g}; maximum {reached[1]:.3g}"
+        words = f"colours end at {high};\nmaximum {_three(reached[1])}"
     elif below:
-        words = f"colours end at {ends[0]:.3g}; minimum {reached[0]:.3g}"
+        words = f"colours end at {low};\nminimum {_three(reached[0])}"
     else:
         return "neither", ""
     return {(True, True): "both", (True, False): "min", (False, True): "max"}[below, above], words
+
+
+def _three(number: float) -> str:
+    """A number in three digits, without a power of ten up to a million."""
+    return f"{float(f'{number:.3g}'):g}"
+
+
+def colour_ends(values: NDArray[np.float64], low: float, high: float) -> tuple[float, float]:
+    """Where the colours of a field end: at percentiles where lone values would take them all, else at its extremes.
+
+    low, high : percentiles.
+    """
+    finite = values[np.isfinite(values)]
+    if not finite.size:
+        return 0.0, 1.0
+    first, last = (float(end) for end in np.percentile(finite, [low, high]))
+    least, most = float(finite.min()), float(finite.max())
+    return (first, last) if last > first and most - least > LONE * (last - first) else (least, most)
 
 
 def uniform_value(values: NDArray[np.float64]) -> float | None:

@@ -21,6 +21,7 @@ from typing import Any
 from bem.errors import InputError
 from bem.extensions import load_extensions, same_origin
 from bem.plots.backend import load_matplotlib
+from bem.plots.labels import FEWEST_CELLS
 
 _NAME = re.compile(r"[a-z][a-z0-9-]{0,63}")
 
@@ -30,8 +31,14 @@ def _always(run: Any) -> bool:
 
 
 def two_dimensional(run: Any) -> bool:
-    """Whether a run has more than one cell along both axes, for `applies` of maps."""
+    """Whether a run has more than one cell along both axes, for `applies` of maps that may become lines."""
     return min(run.dataset.sizes["x"], run.dataset.sizes["y"]) > 1
+
+
+def wide_enough(run: Any) -> bool:
+    """Whether a map of a run is more than a hairline, for `applies` of maps that have no lines instead."""
+    sides = (run.dataset.sizes["x"], run.dataset.sizes["y"])
+    return min(sides) > 1 and not min(sides) < FEWEST_CELLS <= max(sides)
 
 
 @dataclass(frozen=True)

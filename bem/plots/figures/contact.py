@@ -12,7 +12,7 @@ from matplotlib.ticker import MaxNLocator
 from numpy.typing import NDArray
 
 from bem.numerics.blocks import deviation
-from bem.plots.figures import FigureKind, two_dimensional
+from bem.plots.figures import FigureKind, two_dimensional, wide_enough
 from bem.plots.style import (
     BLACK,
     BLUE,
@@ -181,7 +181,7 @@ def _in_contact(run: Any) -> bool:
 
 
 def _rough(run: Any) -> bool:
-    return two_dimensional(run) and any(name in run.dataset for name in ("lower_height", "upper_height"))
+    return wide_enough(run) and any(name in run.dataset for name in ("lower_height", "upper_height"))
 
 
 def _map_in_contact(run: Any) -> bool:
@@ -202,7 +202,7 @@ FIGURES = (
         "the contact area of the figures has its edges between their centres.",
         ("x", "y", "contact_state"),
         _contact_map,
-        applies=two_dimensional,
+        applies=wide_enough,
     ),
     FigureKind(
         "contact-section",

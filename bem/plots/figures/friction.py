@@ -150,7 +150,7 @@ def _section(run: Any, figure: Figure) -> None:
     upper.set_ylabel("height (nm)")
     upper.legend(fontsize=8, ncols=2, loc="upper center")
     upper.set_title(
-        f"{float(data['shown_speed']):.3g} m/s: surfaces {1e9 * float(shift.mean()):.3g} nm closer than the film",
+        f"surfaces {1e9 * float(shift.mean()):.3g} nm closer than the film",
         fontsize=8.5,
     )
     lower.plot(x[seen] * factor_x, data["film_pressure_patch"].values[seen] * 1e-6, color=BLUE, label="film")
@@ -284,8 +284,8 @@ FIGURES = (
     ),
     FigureKind(
         "film-pressure",
-        "Pressure and thickness of the smooth film; a spike that the mesh does not resolve is dotted, and the axis ends "
-        "at 1.25 times the highest pressure beside it.",
+        "Pressure and thickness of the smooth film; a spike that the mesh does not resolve is dotted, and the axis "
+        "ends at 1.25 times the highest pressure beside it.",
         ("film_x", "film_pressure", "film_thickness", "shown_speed"),
         _film,
         (5.4, 3.4),

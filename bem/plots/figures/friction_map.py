@@ -11,7 +11,8 @@ import numpy as np
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
-from bem.plots.figures import FigureKind, two_dimensional
+from bem.plots.figures import FigureKind, wide_enough
+from bem.plots.labels import colour_ends
 from bem.plots.style import OPEN, colour_bar, field_axes, label, prefix, thinned
 
 _BEYOND = 1.15
@@ -54,7 +55,8 @@ def _friction_map(run: Any, figure: Figure) -> None:
     window = tuple(_middle(seen.any(axis=1 - axis), len(at)) for axis, at in enumerate((x, y)))
     factor, unit = prefix(carries, "Pa")
     # a few spikes would take all colours
-    most = float(np.percentile(thinned(carries[window])[thinned(seen[window])], 99.5)) * factor
+    shown = thinned(carries[window])
+    most = colour_ends(shown[thinned(seen[window])], 0, 99.5)[1] * factor
     ratio = float(np.ptp(x[window[0]])) / max(float(np.ptp(y[window[1]])), y[1] - y[0])
     named = (("surfaces in contact", boundary), ("oil between them", oil))
     shared = list(zip(named, _shares(run), strict=True))
@@ -82,7 +84,7 @@ def _friction_map(run: Any, figure: Figure) -> None:
 
 
 def _some(run: Any) -> bool:
-    return two_dimensional(run) and bool((run.dataset["boundary_stress"].values > 0).any())
+    return wide_enough(run) and bool((run.dataset["boundary_stress"].values > 0).any())
 
 
 FIGURES = (

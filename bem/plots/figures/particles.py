@@ -8,6 +8,7 @@ import numpy as np
 from matplotlib.figure import Figure
 
 from bem.plots.figures import FigureKind
+from bem.plots.labels import colour_ends
 from bem.plots.style import BLUE, ORANGE, VERMILION, label, map_of, prefix
 
 
@@ -15,7 +16,7 @@ def _map(run: Any, figure: Figure) -> None:
     data = run.dataset
     axes = figure.add_subplot()
     x, y, level = data["x"].values, data["y"].values, data["level_height"].values
-    low, high = np.percentile(level, [1, 99.8])
+    low, high = colour_ends(level, 1, 99.8)
     map_of(figure, axes, x, y, level, "height above the plate", "m", ends=(low, high), cmap="cividis")
     scale, _ = prefix([x[-1] - x[0], y[-1] - y[0]], "m")
     axes.plot(

@@ -8,7 +8,7 @@ import numpy as np
 from matplotlib.colors import ListedColormap
 from matplotlib.figure import Figure
 
-from bem.plots.figures import FigureKind, two_dimensional
+from bem.plots.figures import FigureKind, wide_enough
 from bem.plots.style import BLACK, BLUE, OPEN, ORANGE, VERMILION, field_axes, label, map_of, prefix, thinned
 
 
@@ -69,7 +69,7 @@ FIGURES = (
         ("x", "y", "stick_state", "slip"),
         _sticks,
         (8.0, 3.6),
-        applies=two_dimensional,
+        applies=wide_enough,
     ),
     FigureKind(
         "traction-section",

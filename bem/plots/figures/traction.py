@@ -186,9 +186,8 @@ def _along(run: Any, figure: Figure) -> None:
         others[0].set_ylabel("temperature\n(°C)")
         others[0].legend()
     pressed.set_xlabel("place along the way (mm)")
-    name_case(
-        figure, ", ".join(part for axis in axes_of(data) if axis != "position" and (part := _first_of(data, axis)))
-    )
+    others_of = (_first_of(data, axis) for axis in axes_of(data) if axis != "position")
+    name_case(figure, ", ".join(filter(None, others_of)))
 
 
 def _first_of(data: Any, axis: str) -> str:

@@ -12,6 +12,7 @@ from matplotlib.ticker import MaxNLocator
 
 from bem.plots.cases import Array, grouped, redoes
 from bem.plots.figures import FigureKind
+from bem.plots.labels import colour_ends
 from bem.plots.style import BLACK, BLUE, GREEN, ORANGE, PINK, SKY, VERMILION, label, map_of, prefix
 
 _LONG = 2.0
@@ -121,14 +122,12 @@ def _worn_surface(run: Any, figure: Figure) -> None:
     x, y = run.dataset["x"].values, run.dataset["y"].values
     before, after = run.dataset["height_before"].values, run.dataset["height_after"].values
     both = np.stack([before, after])
-    low, high = np.percentile(both, [0.5, 99.5])  # of the worn one too: a scar deeper than the roughness is seen
-    above = len(x) * float(x[1] - x[0]) > _LONG * len(y) * float(y[1] - y[0]) if min(len(x), len(y)) > 1 else True
-    for axes, values, title in zip(
-        figure.subplots(*((2, 1) if above else (1, 2))),
-        (before, after),
-        ("before", "after the last cycle"),
-        strict=True,
-    ):
+    low, high = colour_ends(both, 0.5, 99.5)  # of the worn one too: a scar deeper than the roughness is seen
+    above = float(np.ptp(x)) > _LONG * float(np.ptp(y))
+    if above:
+        figure.set_size_inches(6.0, 6.0)
+    panels = figure.subplots(*((2, 1) if above else (1, 2)))
+    for axes, values, title in zip(panels, (before, after), ("before", "after the last cycle"), strict=True):
         map_of(
             figure,
             axes,
@@ -170,7 +169,7 @@ def _shapes(run: Any, figure: Figure) -> None:
         radius = (3 * volume[index] * cell[0] * cell[1] / (4 * np.pi)) ** (1 / 3)
         axes.set_title(f"radius {1e9 * radius:.0f} nm", fontsize=9)
         spans = (along[0][-1], along[1][-1], 2e9 * float(depth.max()))
-        axes.set_box_aspect(spans, zoom=0.9)
+        axes.set_box_aspect(spans, zoom=0.8)
         axes.tick_params(labelsize=8, pad=-2)
         axes.set_xlabel("x (nm)", fontsize=8, labelpad=-3)
         axes.set_ylabel("y (nm)", fontsize=8, labelpad=-3)
