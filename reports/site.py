@@ -25,6 +25,8 @@ from reports.prose import prose
 WORDS: dict[str, Any] = prose("site")
 SITE = HERE / "site"
 _MOST_PICTURES = 3
+_SPEEDS = 9
+"""Points of a curve over speed in the guide's pictures."""
 
 
 def pages(runs: Mapping[str, FinishedRun | str]) -> list[Page]:
@@ -125,7 +127,7 @@ def _errors(kind: str) -> str:
 def build(folder: Path = SITE) -> list[Path]:
     """Run what pictures are missing of, and write the site; what was written, the index last."""
     names = [scene for kind in documented() for scene in words_of(kind)["scenes"]]
-    runs = run_gallery(folder / "runs", names=names, reduced=True, say=_say)
+    runs = run_gallery(folder / "runs", names=names, reduced=True, speeds=_SPEEDS, say=_say)
     for name, found in runs.items():
         if isinstance(found, str):
             _say(f"no picture of {name}: {found}")

@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 
 from bem.errors import OUTSIDE, UNRESOLVED_SPIKE
 from bem.plots.backend import load_matplotlib
-from bem.plots.labels import FEWEST_CELLS, beyond_ends, label, largest_of, prefix, uniform_value
+from bem.plots.labels import FEWEST_CELLS, LONE, beyond_ends, label, largest_of, prefix, uniform_value
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
@@ -285,8 +285,12 @@ def name_case(figure: Any, words: str) -> None:
 def map_of_heights(
     figure: Figure, axes: Axes, x: NDArray[np.float64], y: NDArray[np.float64], heights: NDArray[np.float64]
 ) -> Any:
-    """A colour map of heights about zero [m], one look for all surfaces; see `height_limit`."""
-    limit = height_limit(heights)
+    """A colour map of heights about zero [m], one look for all surfaces, to the largest height.
+
+    Where lone heights are more than `LONE` times `height_limit`, colours end at that limit, and the bar says so.
+    """
+    limit, largest = height_limit(heights), largest_of(heights)
+    limit = largest if largest < LONE * limit else limit
     factor, unit = prefix([limit], "m")
     extent = field_axes(axes, x, y)
     image = axes.imshow(

@@ -10,6 +10,7 @@ from bem.app.pictures import (
     curve_picture,
     figure_picture,
     figures_over,
+    is_map,
     layers_of,
     map_names,
     map_picture,
@@ -132,3 +133,55 @@ def test_particles_in_space_have_their_sizes_and_places():
     assert first["z"].max() == pytest.approx(0.0, abs=1e-6)
     assert first["x"].mean() == pytest.approx(1e6 * rows["x"][1, 7], abs=1e-3)
     assert max(max(trace[axis]) for axis in "ijk") < len(trace["x"])
+
+
+def test_a_bar_in_the_browser_says_where_its_colours_end():
+    spiked = 13e9 * (1 + HEIGHTS / 1e-7) / 2
+    spiked[3, 4] = 32e9
+    trace = map_picture(spiked, (X, Y), "pressure", "Pa")["data"][0]
+    assert trace["zmax"] < 13.1
+    assert "32" in trace["colorbar"]["title"]["text"].replace(";", " ").replace("<br>", " ").split()
+    calm = map_picture(HEIGHTS, (X, Y), "height", "m")["data"][0]
+    assert calm["zmax"] == pytest.approx(1e9 * HEIGHTS.max())
+
+
+def test_noise_does_not_fill_the_colours_of_the_browser():
+    noise = 83.3337e6 * (1 + 1e-6 * np.random.default_rng(3).normal(size=(40, 30)))
+    trace = map_picture(noise, (X, Y), "pressure", "Pa")["data"][0]
+    assert np.ptp(trace["z"]) == 0
+    assert trace["zmin"] < 80 < 87 < trace["zmax"]
+    assert "uniform" in trace["colorbar"]["title"]["text"]
+    picture = sections_picture(noise, (X, Y), (10, 20), "pressure", "Pa")
+    low, high = picture["layout"]["yaxis"]["range"]
+    assert low == 0 < 84 < high
+
+
+def test_a_hairline_map_becomes_lines_in_the_browser():
+    x, y = np.arange(300) * 1e-6, np.arange(2) * 1e-6
+    picture = map_picture(np.random.default_rng(4).random((300, 2)), (x, y), "pressure", "Pa")
+    assert not is_map(picture)
+    assert [len(trace["y"]) for trace in picture["data"]] == [300, 300]
+    long = map_picture(np.ones((300, 20)) * x[:, None], (x, np.arange(20) * 1e-6), "pressure", "Pa")
+    assert is_map(long)
+    assert "scaleanchor" not in long["layout"]["yaxis"]
+
+
+def test_the_browser_draws_no_empty_charts_and_names_case_and_temperature():
+    variables = {
+        "speed": Variable(("speed",), np.array([0.001, 0.1]), "m/s", "speed"),
+        "radius": Variable(("speed",), np.full(2, np.nan), "m", "radius of the particles"),
+        "worn": Variable(("speed",), np.zeros(2), "m", "depth worn"),
+        "oil_temperature": Variable(("speed",), np.array([343.15, 353.15]), "K", "oil in the contact"),
+        "iteration": Variable(("iteration",), np.arange(3.0), "1", "iteration"),
+        "residual_history": Variable(("iteration",), np.array([1.0, 1e-4, 1e-9]), "1", "residual"),
+    }
+    arrays = to_arrays(variables, {})
+    assert curve_names(arrays) == ["oil_temperature", "residual_history"]
+    picture = curve_picture(arrays, "oil_temperature", "0.01 m/s, 5.5 N")
+    assert picture["data"][0]["y"] == pytest.approx([70.0, 80.0])
+    assert picture["layout"]["yaxis"]["title"]["text"] == "°C"
+    assert "0.01 m/s, 5.5 N" in picture["layout"]["title"]["text"]
+    axis = curve_picture(arrays, "residual_history")["layout"]["yaxis"]
+    assert (axis["type"], axis["exponentformat"]) == ("log", "power")
+    summary = {"speed_m_s": [0.1, 1.0], "worn_depth_nm": [0.0, 0.0], "radius_nm": [None, None], "friction": [0.1, 0.2]}
+    assert figures_over(summary) == [("friction", "speed_m_s")]

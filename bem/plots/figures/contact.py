@@ -163,7 +163,7 @@ def _convergence(run: Any, figure: Figure) -> None:
 
 def _surfaces(run: Any, figure: Figure) -> None:
     names = [name for name in ("lower_height", "upper_height") if name in run.dataset]
-    figure.set_size_inches(3.8 * len(names) + 0.2, figure.get_figheight())  # of one the other half was empty
+    figure.set_size_inches(3.9 * len(names), figure.get_figheight())  # of one the other half was empty
     for axes, name in zip(np.atleast_1d(figure.subplots(1, len(names))), names, strict=True):
         values = _array(run, name)
         map_of_heights(figure, axes, _array(run, "x"), _array(run, "y"), values)
@@ -226,7 +226,8 @@ FIGURES = (
     ),
     FigureKind(
         "surface-maps",
-        "The surfaces as they enter the contact; the colours end at the 99.8th percentile.",
+        "The surfaces as they enter the contact; where lone heights would take all colours, these end at the 99.8th "
+        "percentile, which the bar says.",
         ("x", "y"),
         _surfaces,
         (7.8, 3.4),

@@ -24,6 +24,8 @@ def _over_time(run: Any, figure: Figure) -> None:
     panels = figure.subplots(3 if sliding else 2, 1, sharex=True)
     panels[0].plot(time, data["speed"].values, color=BLACK)
     panels[0].set_ylabel("speed (m/s)")
+    if (data["speed"].values >= 0).all():
+        panels[0].set_ylim(0)
     factor, unit = prefix(data["central_film"].values, "m")
     panels[1].plot(time, data["central_film"].values * factor, color=BLUE, label="central")
     panels[1].plot(time, data["minimum_film"].values * factor, color=VERMILION, linestyle="--", label="minimum")

@@ -7,6 +7,7 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
+from bem.errors import UNRESOLVED_SPIKE
 from bem.plots.cases import Array, axes_of, case_words, first_case, grouped, label_of
 from bem.plots.figures import FigureKind
 from bem.plots.over import COLOURS, axis_of, lines_over
@@ -61,8 +62,10 @@ def _temperatures(run: Any, figure: Figure) -> None:
     axes.set_xlabel("x over the Hertz half-width")
     axes.set_ylabel("temperature (°C)")
     axes.legend()
-    if len(shown) < len(cases):
-        axes.set_title(f"{len(shown)} of {len(cases)} cases")
+    said = [f"{len(shown)} of {len(cases)} cases"] if len(shown) < len(cases) else []
+    if any(UNRESOLVED_SPIKE in note for note in run.summary.get("notes", ())):
+        said.append("temperature at an unresolved pressure spike follows the mesh")
+    axes.set_title("; ".join(said), fontsize=8.5)
 
 
 def _field(run: Any, figure: Figure) -> None:
@@ -177,7 +180,7 @@ def _along(run: Any, figure: Figure) -> None:
         for zero in _zeros(place, loads["sliding_speed"]):  # of a gear pair the pitch point C
             for axes in (film, friction, power, *others):
                 axes.axvline(zero, color="0.6", linestyle=":", linewidth=0.8)
-            sliding.annotate("pure rolling", (zero, 0), (4, 4), textcoords="offset points", fontsize=8, color="0.35")
+            sliding.annotate("pure rolling", (zero, 0), (6, -12), textcoords="offset points", fontsize=8, color="0.35")
     if "lambda_ratio" in data.variables:
         _lambda_beside(film, _row(data, "lambda_ratio") / _row(data, "minimum_thickness"))
     if hot:

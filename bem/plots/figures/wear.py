@@ -169,7 +169,8 @@ def _shapes(run: Any, figure: Figure) -> None:
         radius = (3 * volume[index] * cell[0] * cell[1] / (4 * np.pi)) ** (1 / 3)
         axes.set_title(f"radius {1e9 * radius:.0f} nm", fontsize=9)
         spans = (along[0][-1], along[1][-1], 2e9 * float(depth.max()))
-        axes.set_box_aspect(spans, zoom=0.8)
+        axes.set_box_aspect(spans, zoom=0.75)
+        axes.patch.set_visible(False)  # it would cover the words of the axes beside it
         axes.tick_params(labelsize=8, pad=-2)
         axes.set_xlabel("x (nm)", fontsize=8, labelpad=-3)
         axes.set_ylabel("y (nm)", fontsize=8, labelpad=-3)

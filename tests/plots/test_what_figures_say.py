@@ -1,0 +1,306 @@
+"""Figures name their case, mark what is not resolved, and draw nothing where there is nothing."""
+
+from types import SimpleNamespace
+
+import numpy as np
+import pytest
+from matplotlib.figure import Figure
+
+from bem.errors import UNRESOLVED_SPIKE
+from bem.plots import draw as drawing
+from bem.plots.cases import case_shown, case_words
+from bem.plots.figures import all_figures
+from bem.plots.figures.keys import FIGURES as KEYS
+from bem.plots.labels import beyond_ends, colour_ends, in_celsius, key_words, uniform_value
+from bem.plots.style import SPIKE_LIMIT, has_unresolved_spike, map_of, mark_spike, spike_in, style
+from bem.plots.sweep import fill
+from bem.results.arrays import to_arrays
+from bem.scenes.context import Variable
+
+X = np.linspace(-1e-5, 1e-5, 40)
+RATIO = "rolling.slide_roll_ratio"
+
+
+def run_of(kind, axes, variables, **more):
+    scene, summary = more.get("scene", {}), {"kind": kind, **more.get("summary", {})}
+    return SimpleNamespace(
+        dataset=to_arrays(variables, {"axes": axes}), summary=summary, scene=scene, path=more.get("path")
+    )
+
+
+def friction_run(speed=0.02, load=(5.5,), **summary):
+    x = np.linspace(-1e-4, 1e-5, 200)
+    pressure = 1e9 * np.sqrt(np.maximum(1 - (x / 1e-5) ** 2, 0))
+    count = (len(load), 2, 3)
+    return run_of(
+        "friction",
+        "load model",
+        {
+            "load": Variable(("load",), np.array(load), "N", "load"),
+            "model": Variable(("model",), np.array(["capped", "elastic"]), "1", "model"),
+            "speed": Variable(("speed",), np.array([0.001, speed, 0.4]), "m/s", "speed"),
+            "shown_speed": Variable((), np.array(speed), "m/s", "speed at which the fields are shown"),
+            "film_x": Variable(("film_x",), x, "m", "x"),
+            "film_pressure": Variable(("film_x",), pressure, "Pa", "film pressure"),
+            "film_thickness": Variable(("film_x",), np.full(200, 1e-7), "m", "film thickness"),
+            "contact_load": Variable(("load", "model", "speed"), np.ones(count), "N", "load on contact"),
+            "film_load": Variable(("load", "model", "speed"), np.ones(count), "N", "load on the film"),
+            "minimum_film": Variable(("load", "model", "speed"), np.full(count, 1e-7), "m", "minimum film"),
+        },
+        summary=summary,
+    )
+
+
+def drawn_figure(run, name, tmp_path, monkeypatch):
+    """The figure that `draw` makes, as a matplotlib object."""
+    kept = []
+    monkeypatch.setattr("bem.plots.pictures.write", lambda figure, *rest: kept.append(figure) or [])
+    drawing.draw(run, all_figures()[name], tmp_path)
+    return kept[0]
+
+
+def test_a_film_says_at_which_speed_and_load_it_is(tmp_path, monkeypatch):
+    for speed, load in ((0.02, 5.5), (0.3, 8.0)):
+        run = friction_run(speed, (load, 20.0))
+        title = drawn_figure(run, "film-pressure", tmp_path, monkeypatch).get_suptitle()
+        assert f"{speed:g} m/s" in title
+        assert f"{load:g} N" in title
+        assert "20 N" not in title
+    assert "capped" in drawn_figure(friction_run(), "load-sharing", tmp_path, monkeypatch).get_suptitle()
+
+
+def test_a_map_of_the_first_of_several_cases_names_it(tmp_path, monkeypatch):
+    maps = np.ones((3, 40, 40)) * np.linspace(1, 2, 40)[None, :, None]
+    for loads, said in (([1.0, 2.0, 5.0], "1 N"), ([2.5], "")):
+        run = run_of(
+            "contact",
+            "load",
+            {
+                "load": Variable(("load",), np.array(loads), "N", "load"),
+                "x": Variable(("x",), X, "m", "x"),
+                "y": Variable(("y",), X, "m", "y"),
+                "pressure": Variable(("load", "x", "y"), 1e9 * maps[: len(loads)], "Pa", "contact pressure"),
+            },
+        )
+        assert drawn_figure(run, "pressure-map", tmp_path, monkeypatch).get_suptitle().endswith(said)
+        assert bool(case_words(run.dataset)) == bool(said)
+
+
+def test_the_last_case_is_named_where_the_last_is_kept():
+    data = to_arrays(
+        {
+            "load": Variable(("load",), np.array([1.0, 4.0]), "N", "load"),
+            "temperature": Variable(("temperature",), np.array([293.15, 353.15]), "K", "temperature"),
+            "height_after": Variable(("x", "y"), np.zeros((4, 4)), "m", "height"),
+        },
+        {"axes": "load temperature"},
+    )
+    assert case_shown(data, "wear", ["height_after"]) == "4 N, 80 °C"
+    assert case_shown(data, "wear", ["load"]) == ""
+
+
+def pressures(spike):
+    """Places over the half-width, and a Hertz pressure [GPa] with a spike of some height before the outlet."""
+    x = np.linspace(-2.5, 1.5, 401)
+    return x, np.sqrt(np.maximum(1 - x**2, 0)) + spike * np.exp(-(((x - 0.85) / 0.02) ** 2))
+
+
+@pytest.mark.parametrize("spike", [0.4, 1.0, 20.0])
+def test_an_unresolved_spike_leaves_the_pressure_axis_to_the_rest(spike):
+    x, pressure = pressures(spike)
+    axes = Figure().add_subplot()
+    axes.plot(x, pressure)
+    mark_spike(axes, x, pressure)
+    assert axes.get_ylim()[1] == pytest.approx(SPIKE_LIMIT, rel=0.01)  # the rest reaches 1
+    assert len(axes.texts) == 1
+    assert axes.texts[0].xy[0] == pytest.approx(0.85, abs=0.02)
+    first, peak, last = spike_in(x, pressure)
+    assert x[first] < 0.85 < x[last]
+    assert x[peak] == pytest.approx(0.85, abs=0.02)
+
+
+def test_a_pressure_without_a_spike_is_left_as_it_is():
+    x, pressure = pressures(0.0)
+    assert spike_in(x, pressure) is None
+    axes = Figure().add_subplot()
+    axes.plot(x, pressure)
+    before = axes.get_ylim()
+    mark_spike(axes, x, pressure)
+    assert axes.get_ylim() == before
+    assert not axes.texts
+
+
+def test_a_spike_of_another_case_is_not_this_ones():
+    notes = {"notes": [f"{RATIO} 0.01; {RATIO} 0.02: {UNRESOLVED_SPIKE}: its height is not to be used"]}
+    assert has_unresolved_spike(notes, f"{RATIO} 0.01")
+    assert not has_unresolved_spike(notes, f"{RATIO} 0.5")
+    assert has_unresolved_spike({"notes": [f"{UNRESOLVED_SPIKE}: so"]}, f"{RATIO} 0.5")
+    assert not has_unresolved_spike({"notes": ["another"]})
+
+
+def traction_run(cases, notes=()):
+    x, pressure = pressures(5.0)
+    oil = 343.15 + np.arange(cases)[:, None] + np.zeros_like(x)
+    rows = {f"{name}_surface_temperature": oil - 0.5 for name in ("lower", "upper")} | {"oil_temperature": oil}
+    variables = {name: Variable((RATIO, "x"), row, "K", "temperature") for name, row in rows.items()}
+    variables |= {
+        RATIO: Variable((RATIO,), 0.01 * np.arange(cases), "1", RATIO),
+        "x": Variable(("x",), x, "1", "x over the Hertz half-width"),
+        "pressure": Variable((RATIO, "x"), 1e9 * np.tile(pressure, (cases, 1)), "Pa", "film pressure"),
+        "thickness": Variable((RATIO, "x"), np.full((cases, 401), 2e-7), "m", "film thickness"),
+        "film_temperature": Variable((RATIO,), oil[:, 0], "K", "oil in the contact, mean by pressure"),
+        "film_rise": Variable((RATIO,), oil[:, 0] - 343.15, "K", "that over the cooler body's bulk"),
+    }
+    scene = {"over": {RATIO: list(0.01 * np.arange(cases))}}
+    return run_of("traction", RATIO, variables, scene=scene, summary={"notes": list(notes)})
+
+
+def test_the_first_films_spike_is_clipped_where_its_own_note_says_so(tmp_path, monkeypatch):
+    for note, clipped in ((f"{UNRESOLVED_SPIKE}: x", True), (f"{RATIO} 0.02: {UNRESOLVED_SPIKE}: x", False)):
+        figure = drawn_figure(traction_run(4, [note]), "rolling-film", tmp_path, monkeypatch)
+        assert (figure.axes[0].get_ylim()[1] < 2) == clipped
+        assert "slide-to-roll ratio 0" in figure.get_suptitle()
+
+
+@pytest.mark.parametrize(("cases", "shown"), [(1, 1), (5, 5), (6, 6), (41, 6)])
+def test_every_curve_of_film_temperatures_is_in_the_legend(cases, shown):
+    figure = Figure()
+    all_figures()["film-temperatures"].draw(traction_run(cases), figure)
+    (axes,) = figure.axes
+    entries = [text.get_text() for text in axes.get_legend().get_texts()]
+    assert sum("oil" in entry for entry in entries) == shown
+    assert (f"of {cases} cases" in axes.get_title()) == (shown < cases)
+
+
+def test_temperatures_over_keys_are_in_celsius_and_keys_have_names():
+    figure, (kind,) = Figure(), KEYS
+    run = traction_run(4)
+    assert kind.applies(run)
+    kind.draw(run, figure)
+    (axes,) = (axes for axes in figure.axes if "temperature" in axes.get_ylabel())
+    assert "°C" in axes.get_ylabel()
+    np.testing.assert_allclose(axes.lines[0].get_ydata(), [70.0, 71.0, 72.0, 73.0])
+    assert all(each.get_xlabel() == "slide-to-roll ratio" for each in figure.axes)
+    still = {"temperature": Variable(("load",), np.array([300.0, 310.0]), "K", "of the oil")}
+    still |= {"load": Variable(("load",), np.array([1.0, 2.0]), "N", "load")}
+    figure = Figure()
+    fill(figure, still, {"load": "list"}, ("temperature",))
+    np.testing.assert_allclose(figure.axes[0].lines[0].get_ydata(), [26.85, 36.85])
+
+
+def test_differences_of_temperature_stay_in_kelvin():
+    assert in_celsius(300.0, "K", "oil_temperature")[1] == "°C"
+    for name, words in (("film_rise", ""), ("film_temperature_error", ""), ("t", "error of oil in the contact")):
+        assert in_celsius(3.0, "K", name, words) == (3.0, "K")
+    assert in_celsius(3.0, "Pa", "pressure") == (3.0, "Pa")
+    assert key_words("lower.surface.elongation") == "elongation (lower)"
+    assert key_words("load", "load of the contact") == "load of the contact"
+
+
+def mapped(values, **more):
+    figure = Figure()
+    side = [1e-6 * np.arange(n) for n in values.shape]
+    with style():
+        return map_of(figure, figure.add_subplot(), *side, values, "pressure", "Pa", **more), figure
+
+
+def test_a_field_of_one_value_has_one_colour_and_says_so():
+    noise = 83.3337e6 * (1 + 1e-6 * np.random.default_rng(1).normal(size=(20, 20)))
+    image, figure = mapped(noise)
+    assert np.ptp(image.get_array()) == 0
+    low, high = image.get_clim()
+    assert low < 80
+    assert high > 87
+    assert "uniform" in figure.axes[1].get_ylabel()
+    assert uniform_value(np.full((3, 3), np.nan)) is None
+    assert uniform_value(np.zeros((3, 3))) == 0.0
+    image, figure = mapped(noise * np.linspace(1, 1.1, 20))
+    assert np.ptp(image.get_array()) > 0
+    assert "uniform" not in figure.axes[1].get_ylabel()
+
+
+def test_a_bar_says_where_its_colours_end_and_how_far_values_go():
+    values = np.linspace(0, 10e6, 400).reshape(20, 20)
+    values[3, 3] = 32e6
+    image, figure = mapped(values, ends=(0.0, 13e6))
+    assert image.get_clim() == (0.0, 13.0)
+    assert image.colorbar.extend == "max"
+    assert {"13", "32"} <= set(figure.axes[1].get_ylabel().replace(";", " ").split())
+    image, _ = mapped(values)
+    assert image.colorbar.extend == "neither"
+    assert beyond_ends((-1.0, 1.0), (-3.0, 4.0))[0] == "both"
+    assert beyond_ends((0.0, 1.0), (0.0, 1.0)) == ("neither", "")
+    smooth = np.linspace(0, 1, 1000)
+    assert colour_ends(smooth, 0.2, 99.8) == (0.0, 1.0)
+    assert colour_ends(np.append(smooth, 50.0), 0.2, 99.8)[1] < 1.01
+
+
+@pytest.mark.parametrize("shape", [(300, 2), (3, 200)])
+def test_a_map_of_a_few_rows_is_drawn_as_lines(shape):
+    values = np.random.default_rng(2).random(shape)
+    image, figure = mapped(values)
+    assert image is None
+    (axes,) = figure.axes
+    assert not axes.images
+    assert len(axes.lines) == min(shape)
+    assert len(axes.lines[0].get_xdata()) == max(shape)
+    run = SimpleNamespace(dataset=SimpleNamespace(sizes=dict(zip("xy", shape, strict=True))))
+    from bem.plots.figures import wide_enough
+
+    assert not wide_enough(run)
+
+
+def test_flat_figures_over_keys_and_films_that_are_nowhere_are_not_drawn():
+    (kind,) = KEYS
+    for spread, drawn in ((0.0, False), (1e-8, False), (0.01, True)):
+        run = traction_run(3)
+        for name, unit in (("film_temperature", "K"), ("film_rise", "K")):
+            flat = Variable((RATIO,), 350.0 * (1 + spread * np.arange(3)), unit, name)
+            run.dataset.variables[name] = to_arrays({name: flat}, {})[name]
+        assert kind.applies(run) == drawn
+    films = all_figures()
+    empty = SimpleNamespace(
+        dataset=to_arrays(
+            {name: Variable(("x", "y"), np.zeros((9, 9)), "m", name) for name in ("film_map", "wear_rate")}, {}
+        )
+    )
+    assert not films["film-map"].applies(empty)
+    assert not films["film-wear-rate"].applies(empty)
+
+
+def way_run():
+    place = 1e-3 * np.linspace(-4, 6, 11)
+    rows = {
+        "central_thickness": (2e-7, "m"),
+        "minimum_thickness": (1e-7, "m"),
+        "traction_coefficient": (0.05, "1"),
+        "friction_power": (3.0, "W"),
+        "hertz_pressure": (1e9, "Pa"),
+    }
+    variables = {name: Variable(("position",), np.full(11, value), unit, name) for name, (value, unit) in rows.items()}
+    variables["position"] = Variable(("position",), place, "m", "place along the way")
+    speeds = {"lower_speed": (5 + 500 * place).tolist(), "upper_speed": (5 - 500 * place).tolist()}
+    scene = {"along": {"position": place.tolist(), "load": (100.0 + np.arange(11)).tolist(), **speeds}}
+    return run_of("traction", "position", variables, scene=scene)
+
+
+def test_the_way_of_a_gear_has_its_loads_pressures_and_sliding_speed():
+    figure = Figure()
+    run = way_run()
+    all_figures()["along-the-way"].draw(run, figure)
+    by_name = {axes.get_ylabel().replace("\n", " "): axes for axes in figure.axes}
+    sliding = by_name["sliding speed (m/s)"].lines[0].get_ydata()
+    np.testing.assert_allclose(sliding, 1000 * np.asarray(run.scene["along"]["position"]))
+    np.testing.assert_allclose(by_name["load (N)"].lines[0].get_ydata(), 100.0 + np.arange(11))
+    assert by_name["Hertz pressure (GPa)"].lines[0].get_ydata()[0] == pytest.approx(1.0)
+    marks = [line.get_xdata()[0] for line in by_name["film (nm)"].lines if line.get_linestyle() == ":"]
+    assert marks == pytest.approx([0.0])  # pure rolling
+
+
+def test_no_text_of_a_figure_is_smaller_than_eight_points(tmp_path, monkeypatch):
+    for run, name in ((friction_run(), "load-sharing"), (traction_run(5), "film-temperatures")):
+        figure = drawn_figure(run, name, tmp_path, monkeypatch)
+        for axes in figure.axes:
+            texts = [*axes.get_xticklabels(), *axes.get_yticklabels(), axes.xaxis.label, axes.title]
+            texts += axes.get_legend().get_texts() if axes.get_legend() else []
+            assert min(text.get_fontsize() for text in texts if text.get_text()) >= 8
