@@ -12,7 +12,7 @@ import numpy as np
 from matplotlib.ticker import MaxNLocator
 
 from bem.errors import OUTSIDE
-from bem.plots.labels import in_celsius, key_words
+from bem.plots.labels import in_celsius, key_words, largest_of
 from bem.plots.style import label, logarithmic_axis, prefix, said_above, style
 from bem.plots.tables import name_and_unit
 from bem.scenes.context import Variable
@@ -88,6 +88,7 @@ def _chosen(variables: Mapping[str, Variable], keys: Sequence[str], headline: Se
     others = [name for name in variables if name not in keys and name not in headline]
     known = [name for name in (*headline, *others) if name in variables and _drawable(variables[name], name)]
     known = [name for name in known if not any(_is_key(variables, name, key) for key in keys)]
+    known = [name for name in known if not _is_rounding(variables, name)]
     varying = [name for name in known if _varies(variables[name].values)]
     preferred = [name for name in varying if name in headline]
     return (preferred or varying or known)[:_MOST_PANELS]
@@ -114,6 +115,20 @@ def _drawable(variable: Variable, name: str) -> bool:
     if name.startswith("speed_") and variable.dimensions[-1] == "speed":  # what the curves run over themselves
         return False
     return plain and name not in ("wall_time_s", "seed", "iterations", "convolutions", "residual")
+
+
+def _is_rounding(variables: Mapping[str, Variable], name: str) -> bool:
+    """Whether a figure is nothing beside the one that it is a component of, such as the force across beside the
+    force: a curve of rounding errors."""
+    words = name_and_unit(name)[0]
+    whole = [
+        other
+        for other, item in variables.items()
+        if item.values.dtype.kind == "f" and item.units == variables[name].units != "1"
+        and words.startswith(name_and_unit(other)[0] + " ")
+    ]  # fmt: skip
+    largest = largest_of(variables[name].values)
+    return any(largest < _NOISE * largest_of(variables[other].values) for other in whole)
 
 
 def _is_key(variables: Mapping[str, Variable], name: str, key: str) -> bool:

@@ -4,10 +4,12 @@ import re
 
 import pytest
 
+from bem.runs import plan_scene
 from bem.scenes import library
 from bem.scenes.kind import _of_the_package
 from reports import guide, site
 from reports.builder import render, write_site
+from reports.gallery import gallery_scene
 
 
 @pytest.fixture(scope="module")
@@ -50,3 +52,15 @@ def test_every_kind_has_a_page_with_errors_and_limits_and_nothing_is_from_a_netw
     # a list of contents is for several sections
     short, long = ((tmp_path / f"{name}.html").read_text("utf-8") for name in ("elements", "start"))
     assert ('class="contents"' in short, 'class="contents"' in long) == (False, True)
+
+
+def test_curves_over_speed_in_the_guide_have_nine_points_over_their_whole_range(tmp_path):
+    names = [name for kind in ("friction", "running-in") for name in site.WORDS["kinds"][kind]["scenes"]]
+    full = [name for name in names if len(library()[name]["speeds"].get("values", range(9))) >= 9]
+    assert len(full) >= 3
+    for name in full:
+        scene, _ = plan_scene(gallery_scene(name, tmp_path, reduced=True, speeds=site._SPEEDS))
+        speeds = scene.speeds.resolve()
+        whole, _ = plan_scene(gallery_scene(name, tmp_path))
+        assert len(speeds) == 9
+        assert (speeds[0], speeds[-1]) == pytest.approx((whole.speeds.resolve()[0], whole.speeds.resolve()[-1]))

@@ -325,6 +325,20 @@ def test_what_compression_heats_is_the_integral_over_the_pressure():
         assert hot.expanded(np.array([pressure]))[0] == pytest.approx(integral, rel=1e-9)
 
 
+def test_oil_colder_than_its_supply_behind_the_spike_is_cooled_by_its_expansion(monkeypatch):
+    """In pure rolling: less than the adiabatic drop, expansion T dp/(rho c), and not at all without expansion."""
+    expanding = film(2.0, 0.0, hertz=1.1e9)
+    lubricant = expanding.film.lubricant
+    adiabatic = Oil.of(lubricant).expanded(np.array([expanding.film.pressure.max()]))[0] * 333.15
+    adiabatic /= lubricant.density * lubricant.heat_capacity
+    coldest = int(expanding.film_temperature.argmin())
+    assert 0.1 < 333.15 - expanding.film_temperature[coldest] < adiabatic
+    loaded = expanding.film.position[expanding.film.pressure > 0.02 * expanding.film.pressure.max()]
+    assert expanding.position[coldest] > 0.8 * loaded[-1]
+    monkeypatch.setattr("bem.lubrication.thermal.layers.expansion_of", lambda lubricant: 0.0)
+    assert film(2.0, 0.0, hertz=1.1e9).film_temperature.min() >= 333.15
+
+
 def test_a_spike_of_a_few_nodes_is_warmed_and_cooled_alike():
     """A contact of the stored survey on twice its points: summed over nodes, compression took up to 16 W/m from the
     column at the spike, or 7, as the spike stood between two of them; 80 rounds left 1.5e-4, and nine find it."""

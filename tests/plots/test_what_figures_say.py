@@ -304,3 +304,15 @@ def test_no_text_of_a_figure_is_smaller_than_eight_points(tmp_path, monkeypatch)
             texts = [*axes.get_xticklabels(), *axes.get_yticklabels(), axes.xaxis.label, axes.title]
             texts += axes.get_legend().get_texts() if axes.get_legend() else []
             assert min(text.get_fontsize() for text in texts if text.get_text()) >= 8
+
+
+def test_rounding_errors_of_a_component_get_no_panel():
+    loads = {"load": Variable(("load",), np.array([1.0, 2.0, 3.0]), "N", "load")}
+    force = Variable(("load",), np.array([300.0, 700.0, 1500.0]), "N", "force")
+    for across, panels in (([-7e-6, 5e-7, 1e-8], 1), ([-7.0, 5.0, 1.0], 2)):
+        figure = Figure()
+        side = Variable(("load",), np.array(across), "N", "force across")
+        fill(
+            figure, loads | {"force_N": force, "force_across_N": side}, {"load": "list"}, ("force_N", "force_across_N")
+        )
+        assert len(figure.axes) == panels

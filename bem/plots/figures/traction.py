@@ -265,8 +265,8 @@ FIGURES = (
         "film-temperatures",
         "Mean temperature of the oil along the film, and of both surfaces. Shear and backflow warm the oil before the "
         'contact. With thermal = "full" oil that expands behind a pressure spike cools, by up to the adiabatic '
-        "drop, expansion x T x pressure drop / heat capacity by volume, and may be colder than the supply there; where "
-        "the mesh does not resolve the spike, this dip follows the mesh.",
+        "drop, expansion x T x pressure drop / heat capacity by volume, and may be colder than the supply there; the "
+        "depth of this dip depends on the mesh.",
         ("oil_temperature", "lower_surface_temperature", "upper_surface_temperature"),
         _temperatures,
         applies=lambda run: bool(_known(run, "oil_temperature")),
