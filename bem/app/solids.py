@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.app.pictures import COLOURS, Picture, axis_title, heading, layer, layers_of, numbers, scaled, stood_up, unit_of
-from bem.plots.labels import label, prefix
+from bem.plots.labels import beyond_ends, label, prefix
 from bem.results.arrays import Arrays
 
 PARTICLES = "particles"
@@ -62,6 +62,8 @@ def field_picture(values: NDArray[np.float64], axes: Sequence[NDArray[np.float64
     down, along, across = np.meshgrid(-depth * length, x * length, y * length, indexing="ij")
     finite = seen[np.isfinite(seen)] * factor
     low, high = (float(v) for v in np.percentile(finite, [60, 99.8])) if finite.size else (0.0, 1.0)
+    most = float(finite.max()) if finite.size else high
+    said = beyond_ends((low, high), (low, most))[1].replace("\n", "<br>")
     trace = {
         "type": "isosurface",
         "x": numbers(along.ravel()),
@@ -74,7 +76,7 @@ def field_picture(values: NDArray[np.float64], axes: Sequence[NDArray[np.float64
         "surface": {"count": _LEVELS},
         "caps": {"x": {"show": False}, "y": {"show": False}},
         "colorscale": COLOURS,
-        "colorbar": {"title": {"text": shown}},
+        "colorbar": {"title": {"text": "<br>".join(part for part in (shown, said) if part)}},
     }
     thinned = f" (every {step}th cell)" if step > 1 else ""
     return {"data": [trace], "layout": _space(words + thinned, length_unit)}

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Mapping, Sequence
 from dataclasses import replace
 from itertools import product
@@ -164,6 +165,7 @@ def _panel(
     sizes = [values.shape[dimensions.index(d)] for d in others]
     for number, place in enumerate(product(*(range(size) for size in sizes))):
         if number == _MOST_LINES:
+            axes.set_title(f"{_MOST_LINES} of {math.prod(sizes)} cases", fontsize=8)
             break
         index: list[Any] = [slice(None)] * len(dimensions)
         for other, i in zip(others, place, strict=True):

@@ -316,3 +316,15 @@ def test_rounding_errors_of_a_component_get_no_panel():
             figure, loads | {"force_N": force, "force_across_N": side}, {"load": "list"}, ("force_N", "force_across_N")
         )
         assert len(figure.axes) == panels
+
+
+def test_a_panel_that_leaves_lines_out_says_how_many():
+    for count in (8, 12):
+        load = Variable(("load",), np.arange(1.0, 3.0), "N", "load")
+        ratio = Variable(("ratio",), np.arange(float(count)), "1", "ratio")
+        friction = Variable(("load", "ratio"), np.arange(2.0 * count).reshape(2, count), "1", "friction")
+        figure = Figure()
+        fill(figure, {"load": load, "ratio": ratio, "friction": friction}, dict.fromkeys(("load", "ratio"), "list"), ())
+        (axes,) = figure.axes
+        assert len(axes.lines) == 8
+        assert (f"8 of {count}" in axes.get_title()) == (count > 8)

@@ -11,8 +11,9 @@ from matplotlib.figure import Figure
 
 from bem.plots.cases import grouped, rows_of
 from bem.plots.figures import FigureKind
-from bem.plots.style import BLACK, BLUE, GREEN, ORANGE, PINK, SKY, VERMILION, label, map_of, prefix
+from bem.plots.style import BLACK, BLUE, GREEN, ORANGE, PINK, SKY, VERMILION, label, map_of, name_case, prefix
 
+_MOST_MAPS = 4
 _COLOURS = (BLUE, VERMILION, GREEN, ORANGE, PINK, SKY, BLACK)
 
 
@@ -64,7 +65,9 @@ def _pressure(run: Any, figure: Figure) -> None:
 
 
 def _maps(run: Any, figure: Figure, name: str, text: str, unit: str) -> None:
-    chosen = [(film, np.where(maps[0] > 0, maps[0], np.nan)) for film, maps in grouped(run, name)][:4]
+    found = grouped(run, name)
+    chosen = [(film, np.where(maps[0] > 0, maps[0], np.nan)) for film, maps in found[:_MOST_MAPS]]
+    name_case(figure, f"{len(chosen)} of {len(found)} cases" if len(chosen) < len(found) else "")
     values = np.array([shown for _, shown in chosen])
     columns = min(len(chosen), 2)
     rows = -(-len(chosen) // columns)
