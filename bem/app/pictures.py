@@ -47,7 +47,7 @@ def layers_of(arrays: Arrays, name: str) -> list[str]:
         at = arrays.get(dim)
         values = np.arange(size) if at is None else at.values
         unit = "" if at is None else unit_of(at)
-        words = [f"{before}{dim} {_one(value, unit)}, " for before in words for value in values]
+        words = [f"{before}{key_words(dim)} {_one(value, unit)}, " for before in words for value in values]
     return [text.removesuffix(", ") for text in words] if item.ndim > 2 else []
 
 

@@ -302,8 +302,8 @@ class Maps:
         words, unit = str(item.attrs.get("long_name", name)), str(item.attrs.get("units", "")).removeprefix("1")
         values, unit = in_celsius(values, unit, name, words)
         layers = pictures.layers_of(self._arrays, name)
-        case = layers[layer] if layers else case_shown(self._arrays, self._kind, [name])
-        words = f"{words}, {case}" if case else words
+        case = (layers[layer] if layers else "", case_shown(self._arrays, self._kind, [name]))
+        words = ", ".join(filter(None, (words, *case)))
         self._at = self._at if self._at is not None else _peak(values)
         self._place.clear()
         with self._place:
