@@ -26,6 +26,7 @@ from bem.contact.one_grid import (
     without_contact,
 )
 from bem.contact.request import Units, checked_request
+from bem.contact.several_answers import note_on_several_answers
 from bem.contact.solution import ContactSolution
 from bem.convolution import DisplacementOperator
 from bem.errors import Status
@@ -72,9 +73,11 @@ def solve_contact(
     max_iterations : limit on iterations of conjugate gradients over all grids.
     callback : called with iterations, residual and fraction of cells in contact after each round on the grid itself.
 
-    An elastic contact on a free axis may have no answer for a `mean_gap`: a layer much stiffer than its base bends and
-    stands off somewhere, however hard it is pressed. Where that is proved the status is "infeasible", and `notes` has a
-    bound on the mean gaps there are.
+    An elastic contact on a free axis may have no answer for a `mean_gap`, or several: a layer much stiffer than its
+    base bends and stands off somewhere, however hard it is pressed, and the mean gap then grows with the load. Where a
+    larger or smaller load is found to have the same mean gap, `notes` says so; the search begins without contact and
+    returns, as a rule, the answer of the smallest load. Where it is proved that there is none the status is
+    "infeasible", and `notes` has a bound on the mean gaps there are.
 
     Raises
     ------
@@ -107,7 +110,7 @@ def solve_contact(
     start = None if initial_pressure is None else np.asarray(initial_pressure, np.float64).reshape(-1) / units.pressure
     flat = is_flat(roughness, elastic_length(request))
     result = _solution(problem, units.control(request), start, flat=flat)
-    return certify(
+    solution = certify(
         request,
         units,
         roughness,
@@ -116,6 +119,10 @@ def solve_contact(
         iterations=shared.effort.iterations,
         convolutions_before=before,
     )
+    if mean_gap is None or solution.status is not Status.CONVERGED:
+        return solution
+    several = note_on_several_answers(request.gap, operator, solution, mean_gap, hardness)
+    return replace(solution, notes=solution.notes + several) if several else solution
 
 
 def _scaled(gap: FloatArray, units: Units) -> FloatArray:
