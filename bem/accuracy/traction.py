@@ -29,6 +29,7 @@ from bem.lubrication import (
 )
 from bem.lubrication.supply import Supply
 from bem.materials import Body
+from bem.plausibility import without_argument_notes
 from bem.reference_solutions.starved_inlet import inlet_length
 
 FILM_SHARE = 1.0
@@ -85,7 +86,8 @@ class TractionCase:
         start = initial if initial is None or isinstance(initial, FilmSolution) else initial.as_film()
         asked = named(self, "load radius contact_modulus speeds lubricant") | {"points": points, "initial": start}
         if self.bodies is None:
-            return solve_line_film(**asked, supply=self.supply)
+            film = solve_line_film(**asked, supply=self.supply)
+            return replace(film, notes=without_argument_notes(film.notes))
         asked |= {"bodies": self.bodies, "bulk": self.bulk}
         if self.thermal == "full":
             columns = min(max(COLUMNS, self.points // 6), MOST_CELLS) // coarseness

@@ -25,6 +25,7 @@ from bem.elements.rolling_bearing import BearingModel
 from bem.errors import InputError
 from bem.materials import Body, Material, contact_modulus
 from bem.scenes.checks.hertz import smooth_contact
+from bem.scenes.checks.plausible import notes_on_table
 from bem.scenes.template import without_description
 from bem.scenes.validate import nearest, show, validate
 
@@ -160,7 +161,7 @@ class Element:
 
     def notes(self) -> tuple[str, ...]:
         """What the reader must know: of the element, and where half-space and line film do not carry."""
-        said = list(self.found.notes)
+        said = [*notes_on_table(self.model), *self.found.notes]
         conforming = [one.name for one in self.found.contacts if one.conforming(self.modulus)]
         if conforming:
             said.append(

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bem.convolution import couples
+from bem.errors import OUTSIDE
 from bem.friction.boundary import filled_part
 from bem.friction.contact_heat import ContactHeat, contact_heat
 from bem.friction.film import PatchFilm
@@ -87,7 +88,7 @@ def validity_notes(
     if friction > max(LARGEST_FRICTION, 1.01 * forces.coefficient):
         stressed = float(np.abs(film.shear_stress).max()) > float(film.pressure.max())
         notes.append(
-            f"friction {friction:.3g} is above any physical bound (about {LARGEST_FRICTION:g}): "
+            f"{OUTSIDE}friction {friction:.3g} is above any physical bound (about {LARGEST_FRICTION:g}): "
             + (
                 "the oil carries more shear stress than pressure; give it a shear law with a limit"
                 if stressed

@@ -37,6 +37,7 @@ from bem.lubrication.line_kept import without_equations
 from bem.lubrication.rough_walls import WallFactors
 from bem.lubrication.supply import Supply
 from bem.materials import Body
+from bem.plausibility import body_arguments, lubricant_arguments, notes_on_arguments
 
 LARGEST_ERROR = 0.01
 """Of a film under the whole load, whose minimum makes the lambda ratio."""
@@ -153,7 +154,23 @@ def solve_mixed(
         supply=supply,
         thermal=thermal,
     )
-    return solve_setup(setup, height, speeds, initial)
+    found = solve_setup(setup, height, speeds, initial)
+    return dataclasses.replace(found, notes=_notes_on_arguments(setup, found.speeds) + found.notes)
+
+
+def _notes_on_arguments(setup: MixedSetup, speeds: tuple[float, float]) -> tuple[str, ...]:
+    """Notes on arguments of `solve_mixed` outside their usual ranges."""
+    radii = (setup.radius,) if setup.radii is None else tuple(setup.radii)
+    arguments = {
+        "load": ("load", setup.load),
+        "radius" if setup.radii is None else "radii": ("radius", tuple(one for one in radii if one is not None)),
+        "width": ("length of a body", setup.width),
+        "speeds": ("speed", speeds),
+        "hardness": ("hardness", setup.hardness),
+        "grid": ("cell of the grid", setup.grid.spacing),
+        "boundary_friction": ("friction", setup.boundary_law.constant),
+    }
+    return notes_on_arguments(arguments | lubricant_arguments(setup.lubricant) | body_arguments(setup.bodies))
 
 
 def stribeck_curve(speeds: Sequence[float | Sequence[float]], **as_solve_mixed: Any) -> list[MixedSolution]:
@@ -181,7 +198,7 @@ def stribeck_curve(speeds: Sequence[float | Sequence[float]], **as_solve_mixed: 
     curve: list[MixedSolution] = []
     for pair in pairs:
         initial = solve_setup(setup, height, pair, initial)
-        curve.append(initial)
+        curve.append(dataclasses.replace(initial, notes=_notes_on_arguments(setup, initial.speeds) + initial.notes))
     return curve
 
 

@@ -26,6 +26,7 @@ from bem.lubrication.point.validity import but_unknown
 from bem.lubrication.supply import OilLayer
 from bem.lubrication.validity import THINNEST_FILM
 from bem.numerics.cache import KeptValues
+from bem.plausibility import without_argument_notes
 from bem.reference_solutions.hertz import ellipse_contact
 
 if TYPE_CHECKING:
@@ -296,7 +297,7 @@ def _solved(contact: PointContact, speeds: Sequence[float], load: float, cells: 
         flow_factors=contact.flow_factors,
         supply=contact.supply,
     )
-    return replace(film, notes=but_unknown(film.notes), state=None)
+    return replace(film, notes=without_argument_notes(but_unknown(film.notes)), state=None)
 
 
 def sampled_point(

@@ -27,6 +27,7 @@ from bem.lubrication.validity import Case, notes_on, why_no_line_film
 from bem.lubrication.with_heat import FilmHeat, film_with_heat
 from bem.materials import Body
 from bem.numerics.monotone import MonotoneCubic
+from bem.plausibility import body_arguments, lubricant_arguments, notes_on_arguments
 from bem.threads import one_blas_thread
 
 MAX_INLET_SHARE = 0.01
@@ -105,12 +106,27 @@ def solve_line_film(
     case = LineCase(
         load, radius, contact_modulus, speeds, lubricant, points, tolerance, initial, max_iterations, flow_factors
     )
+    said = _notes_on_arguments(case, bodies, bulk)
     if thermal == "off":
-        return without_equations(line_film(case, position=position, cavitation=cavitation, supply=supply))
+        film = without_equations(line_film(case, position=position, cavitation=cavitation, supply=supply))
+        return replace(film, notes=said + film.notes)
     case.scaled(position)
     own = {"position": position is not None, "supply": supply is not None and thermal == "full"}
     own["mass-conserving cavitation"] = cavitation is not Cavitation.SWIFT_STIEBER
-    return film_with_heat(case, FilmHeat(thermal, bodies or (), bulk=bulk), supply, own)
+    film = film_with_heat(case, FilmHeat(thermal, bodies or (), bulk=bulk), supply, own)
+    return replace(film, notes=said + film.notes)
+
+
+def _notes_on_arguments(case: LineCase, bodies: Sequence[Body] | None, bulk: Sequence[float] | None) -> tuple[str, ...]:
+    """Notes on arguments of `solve_line_film` outside their usual ranges; InputError of those that are none."""
+    case.scaled()
+    arguments = {
+        "load": ("load per unit length", case.load),
+        "radius": ("radius", case.radius),
+        "speeds": ("speed", tuple(case.speeds)),
+        "bulk": ("temperature", None if bulk is None else tuple(bulk)),
+    }
+    return notes_on_arguments(arguments | lubricant_arguments(case.lubricant) | body_arguments(bodies))
 
 
 @one_blas_thread

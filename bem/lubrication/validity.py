@@ -14,7 +14,7 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.errors import UNRESOLVED_SPIKE, InputError
+from bem.errors import OUTSIDE, UNRESOLVED_SPIKE, InputError
 from bem.grid import FloatArray
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.shear import LimitedShear
@@ -43,6 +43,9 @@ LARGEST_MATERIAL = 200.0
 """Moes' L up to which a film is looked for: eight times that of the stiffest oils under hard bodies at speed."""
 GLASS = 1e12
 """[Pa s]: viscosity at which a liquid is said to be a glass (Angell, Science 267 (1995) 1924)."""
+LARGEST_FILM = 0.02
+"""Film over radius up to which the model holds: 15 films of gap, where the pressure begins, are reached at 0.77 of the
+radius there."""
 THINNEST_FILM = 2e-9
 """[m]: four or five molecules; oil is layered below about 5 nm, Chan and Horn, J. Chem. Phys. 83 (1985) 5311."""
 OIL_CONDUCTIVITY = 0.13
@@ -269,8 +272,19 @@ def molecular_film(case: Case) -> str | None:
     )
 
 
+def film_thick_for_radius(case: Case) -> str | None:
+    """The film is too thick for a parabola and for Reynolds' equation: slopes in the inlet are near one."""
+    if case.not_found is not None or not case.thickness.min() > LARGEST_FILM * case.radius:
+        return None
+    return (
+        f"{OUTSIDE}the film is thicker than {100 * LARGEST_FILM:g} % of the radius, and Reynolds' equation needs small "
+        "slopes; check viscosity, speed and load, and their units"
+    )
+
+
 CHECKS: list[Callable[[Case], str | None]] = [
     film_not_found,
+    film_thick_for_radius,
     shear_beyond_measurements,
     shear_at_the_limit,
     film_slips,

@@ -23,6 +23,7 @@ from bem.lubrication.rough_walls import WallFactors, notes_on_factors, plane_wal
 from bem.lubrication.supply import Starvation, Supply
 from bem.lubrication.validity import check_oil
 from bem.materials import Body
+from bem.plausibility import body_arguments, lubricant_arguments, notes_on_arguments
 from bem.threads import one_blas_thread
 
 MOES_LOADS = (1e-2, 1e5)
@@ -118,7 +119,13 @@ def solve_point_film(
         lacking = starvation(setting, reached, flooded)
     asked = Request(pair, lubricant, tolerance, contact_modulus, model, starvation=lacking)
     film = result_of(setting, reached, asked)
-    return replace(film, notes=film.notes + notes_on_factors(flow_factors, film.minimum_thickness))
+    arguments = {
+        "load": ("load", float(load)),
+        "radii": ("radius", tuple(float(one) for one in radii if math.isfinite(one))),
+        "speeds": ("speed", (*pair[0], *pair[1])),
+    }
+    said = notes_on_arguments(arguments | lubricant_arguments(lubricant) | body_arguments(both))
+    return replace(film, notes=said + film.notes + notes_on_factors(flow_factors, film.minimum_thickness))
 
 
 @dataclass(frozen=True)

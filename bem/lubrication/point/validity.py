@@ -124,6 +124,7 @@ def film_heating(case: PointCase) -> str | None:
 
 CHECKS: list[Callable[[PointCase], str | None]] = [
     validity.film_not_found,
+    validity.film_thick_for_radius,
     bodies_not_rigid,
     validity.shear_beyond_measurements,
     validity.shear_at_the_limit,
@@ -146,7 +147,7 @@ def notes_on_point(film: PointFilmSolution, setting: Setting, level: Level, cont
         thickness=film.thickness,
         speeds=((total + slide) / 2, (total - slide) / 2),
         lubricant=film.lubricant,
-        radius=scales.length,
+        radius=scales.length**2 / scales.film,
         contact_modulus=contact_modulus,
         cell=level.cell * scales.length**2,
         # of bodies as stiff as 1/2 in units of the pressure

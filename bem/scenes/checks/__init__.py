@@ -1,7 +1,8 @@
 """What an expert would warn of, before a scene is run and after: one list of small checks.
 
-To add one, write into the file of its subject (`materials.py`, `contact.py`, `mesh.py`, `surfaces.py`, `operation.py`
-before; `outcome.py`, `cycles.py` after; or a new file, named in `_ORDER`)
+To add one, write into the file of its subject (before a run: `plausible.py`, whose usual ranges of values are in
+`bem.plausibility`, `materials.py`, `contact.py`, `mesh.py`, `surfaces.py`, `operation.py`; after it: `outcome.py`,
+`cycles.py`; or a new file, named in `_ORDER`)
 
     @scene_check
     def friction_above_one(facts: Facts) -> Iterator[str]:
@@ -25,14 +26,14 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from bem.errors import InputError
-from bem.scenes.checks import contact, cycles, materials, mesh, operation, outcome, surfaces
+from bem.scenes.checks import contact, cycles, materials, mesh, operation, outcome, plausible, surfaces
 from bem.scenes.checks.facts import Case, Facts, examine
 from bem.scenes.checks.refusals import refusals
 from bem.scenes.checks.registry import OUTCOME_CHECKS, SCENE_CHECKS
 from bem.scenes.checks.units_of import suspected_units
 from bem.scenes.context import Outcome
 
-_ORDER = [module.__name__ for module in (materials, operation, surfaces, contact, mesh, outcome, cycles)]
+_ORDER = [module.__name__ for module in (plausible, materials, operation, surfaces, contact, mesh, outcome, cycles)]
 """Units first: the others follow from them."""
 
 
@@ -82,6 +83,7 @@ __all__ = [
     "operation",
     "outcome",
     "outcome_warnings",
+    "plausible",
     "scene_warnings",
     "surfaces",
     "suspected_units",

@@ -8,7 +8,6 @@ from collections.abc import Iterator
 from bem.scenes.checks.facts import Case, Facts, worst
 from bem.scenes.checks.hertz import LARGEST_SLOPE
 from bem.scenes.checks.registry import scene_check
-from bem.scenes.checks.units_of import suspected_units
 from bem.scenes.checks.words import percent, si
 
 _CAPPED_BY_ITS_FILM = "tribofilm"
@@ -30,12 +29,6 @@ def contact_large_for_its_radius(facts: Facts) -> Iterator[str]:
             f"strains are of order {percent(0.2 * ratio)}: expect errors of several per cent, or use finite elements "
             "with large deformations"
         )
-
-
-@scene_check
-def radius_of_no_body(facts: Facts) -> Iterator[str]:
-    """As where it refuses the scene; moduli are warned of in `materials.py`."""
-    yield from (text for text in suspected_units(facts.scene) if "youngs_modulus:" not in text)
 
 
 @scene_check

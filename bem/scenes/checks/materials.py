@@ -4,37 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from bem.plausibility import BY_NAME
 from bem.scenes.checks.facts import Case, Facts
 from bem.scenes.checks.registry import scene_check
 from bem.scenes.checks.words import si
 
-_MODULI = (1e5, 2e12)
+_SOFTEST = BY_NAME["Young's modulus"].low
 _POLYMER = 5e9
 _STEELS = (180e9, 230e9)
-
-
-@scene_check
-def implausible_modulus(facts: Facts) -> Iterator[str]:
-    """From soft gels (0.1 MPa) to beyond diamond (1.1 TPa); Ashby, Materials Selection in Mechanical Design, chart of
-    E.
-
-    A number without a unit is pascal: E = 115 was meant to be GPa. A stand-in for a rigid body that is called so is
-    meant.
-    """
-    for key, material in facts.materials.items():
-        value = material.youngs_modulus
-        if value < _MODULI[0]:
-            yield (
-                f"{key}: Young's modulus {si(value, 'Pa')} is softer than a gel; a number without a unit is in Pa: "
-                "write "
-                f'youngs_modulus = "{value:g} GPa" if that is meant'
-            )
-        elif value > _MODULI[1] and "rigid" not in material.name.lower():
-            rigid = "" if "layer" in key else ', or leave upper.material out (or name it "rigid") for a rigid body'
-            yield (
-                f"{key}: Young's modulus {si(value, 'Pa')} is above that of any solid (diamond 1.1 TPa); check its "
-                f"unit{rigid}"
-            )
 
 
 @scene_check
@@ -45,7 +22,7 @@ def viscoelastic_material(facts: Facts) -> Iterator[str]:
     Properties of Polymers (1980), chapter 2.
     """
     for key, material in facts.materials.items():
-        if _MODULI[0] <= material.youngs_modulus < _POLYMER:
+        if _SOFTEST <= material.youngs_modulus < _POLYMER:
             yield (
                 f"{key}: E = {si(material.youngs_modulus, 'Pa')} is that of a polymer or rubber, which creeps and "
                 "relaxes; the solids here have no time dependence: take the modulus at the rate and temperature of "

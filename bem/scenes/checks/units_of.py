@@ -1,7 +1,7 @@
 """Values of a scene whose unit is likely wrong: said in place of whatever else then refuses the scene.
 
 A modulus of 3 Pa or a radius of 6 km makes Hertz' contact larger than every grid, and the grid is refused where the
-unit is meant. What is refused for nothing is only warned of (`materials.py`). Knows keys and values of scenes, nothing
+unit is meant. Where nothing refuses it, it is only noted (`plausible.py`). Knows keys and values of scenes, nothing
 of contacts. Verified in tests/scenes/test_refusals.py.
 """
 
@@ -10,15 +10,11 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import Any
 
+from bem.plausibility import LARGEST_RADIUS, SMALLEST_RADIUS, SOFTEST, STIFFEST
 from bem.scenes.checks.words import si
 from bem.scenes.common import MaterialScene
 from bem.scenes.table import Table
 
-SOFTEST, STIFFEST = 1e3, 1.3e12
-"""Young's moduli [Pa] of gels and, some more than, of diamond; Ashby, Materials Selection in Mechanical Design, chart
-of E."""
-SMALLEST_RADIUS, LARGEST_RADIUS = 1e-10, 1e3
-"""Radii [m] of bodies and summits: of an atom, and of flats that are hardly crowned."""
 _RADII = ("radius", "radius_y", "ball", "radii")
 
 

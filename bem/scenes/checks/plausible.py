@@ -1,0 +1,82 @@
+"""Every value of a scene or machine element against its usual range (`bem.plausibility`).
+
+Walks the tables, so that a key of a new kind is checked as soon as its name or table has an entry in
+`bem.plausibility.RANGES`. Verified in tests/test_plausibility.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from functools import lru_cache
+from typing import Annotated, Any, get_args, get_origin
+
+from bem.plausibility import BY_NAME, UsualRange, notes_on, range_of_key
+from bem.scenes.checks.facts import Facts
+from bem.scenes.checks.registry import scene_check
+from bem.scenes.common import MaterialScene
+from bem.scenes.table import Table
+from bem.scenes.units import Dimension
+
+Values = Iterator[tuple[str, UsualRange, float]]
+
+
+@scene_check
+def outside_usual_range(facts: Facts) -> Iterator[str]:
+    """A value outside its usual range is most often one in another unit."""
+    values = [*values_of(facts.scene), *_derived(facts)]
+    seen: set[str] = set()
+    for note in notes_on(values):
+        if note not in seen:
+            seen.add(note)
+            yield note
+
+
+def notes_on_table(table: Table) -> list[str]:
+    """Notes on the values of any table, such as that of a machine element."""
+    return notes_on(values_of(table))
+
+
+def values_of(value: Any, key: str = "", unit: str | None = None) -> Values:
+    """Key, usual range and value of every number in a table that has a range."""
+    if isinstance(value, Table):
+        rigid = isinstance(value, MaterialScene) and "rigid" in value.name.lower()
+        units = _units(type(value))
+        for name in type(value).model_fields:
+            if rigid and name == "youngs_modulus":  # a stand-in for a rigid body
+                continue
+            yield from values_of(getattr(value, name), f"{key}.{name}" if key else name, units[name])
+    elif isinstance(value, (list, tuple)):
+        for place, inner in enumerate(value):
+            yield from values_of(inner, f"{key}[{place}]", unit)
+    elif isinstance(value, float) and (usual := range_of_key(key, unit)) is not None:
+        yield key, usual, value
+
+
+def _derived(facts: Facts) -> Values:
+    """What follows from several keys: cells of the grid, and friction by a law."""
+    given = getattr(getattr(facts.scene, "grid", None), "spacing", None) is not None  # as a key of its own
+    for case in facts.cases:
+        if case.grid is not None and not given:
+            for spacing in case.grid.spacing:
+                yield f"grid{case.at}: cells", BY_NAME["cell of the grid"], spacing
+        law = getattr(getattr(facts.scene, "contact", None), "boundary_friction", None)
+        if law is not None and not isinstance(law, float):
+            yield f"contact.boundary_friction{case.at}", BY_NAME["friction"], case.friction
+
+
+@lru_cache(maxsize=256)
+def _units(table: type[Table]) -> dict[str, str | None]:
+    """SI units of the keys of a table; None of keys without one dimension."""
+    units = {}
+    for name, field in table.model_fields.items():
+        dimensions = {one.unit for one in field.metadata if isinstance(one, Dimension)} | _dimensions(field.annotation)
+        units[name] = dimensions.pop() if len(dimensions) == 1 else None
+    return units
+
+
+def _dimensions(annotation: Any) -> set[str]:
+    """Units of the dimensions in a type annotation."""
+    if get_origin(annotation) is Annotated:
+        inner, *metadata = get_args(annotation)
+        return {one.unit for one in metadata if isinstance(one, Dimension)} | _dimensions(inner)
+    return {unit for one in get_args(annotation) for unit in _dimensions(one)}

@@ -1,0 +1,147 @@
+"""Usual ranges of what users give: each fires outside and not inside, in scenes, elements and from Python."""
+
+import math
+
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+from small_scenes import oiled_ball
+
+from bem import Body, Lubricant, Material, solve_line_film, solve_point_film
+from bem.elements.element import load_element
+from bem.errors import OUTSIDE, Status
+from bem.plausibility import ARGUMENT, BY_KEY, RANGES, notes_on, notes_on_arguments, range_of_key
+from bem.runs import plan_scene, run_scene
+from bem.scenes import library
+from bem.scenes.checks import SCENE_CHECKS, examine, scene_warnings
+from bem.scenes.checks.plausible import notes_on_table
+
+STEEL = "steel-52100"
+
+
+def fired(source, *settings):
+    return list(SCENE_CHECKS["outside_usual_range"](examine(plan_scene(source, settings)[0])))
+
+
+@pytest.mark.parametrize("usual", RANGES, ids=lambda usual: usual.quantity)
+@given(share=st.floats(0, 1), beyond=st.floats(1.001, 1e3))
+def test_each_range_fires_outside_and_not_inside(usual, share, beyond):
+    inside = math.exp((1 - share) * math.log(usual.low) + share * math.log(usual.high))
+    inside = min(max(inside, usual.low), usual.high)
+    assert usual.note("key", inside) is None
+    for value in (usual.low / beyond, usual.high * beyond):
+        note = usual.note("table.key", value)
+        assert note.startswith("table.key: ")
+        assert usual.quantity in note
+        assert "usual" in note
+
+
+def test_a_key_has_one_range_and_a_quantity_one_entry():
+    assert len({usual.quantity for usual in RANGES}) == len(RANGES)
+    assert sum(len(usual.keys) for usual in RANGES) == len(BY_KEY)
+
+
+def test_the_table_of_a_key_and_its_unit_decide_between_ranges():
+    assert range_of_key("oil.density").quantity == "density of a liquid"
+    assert range_of_key("lower.layers[1].material.density").quantity == "density"
+    assert range_of_key("speed", "rad/s").quantity == "speed of rotation"
+    assert range_of_key("motion.speed", "m/s").quantity == "speed"
+    assert range_of_key("contact.hardness", "m") is None
+    assert range_of_key("description") is None
+
+
+def test_of_a_list_the_farthest_value_at_either_end_is_told():
+    speed = BY_KEY["speed"]
+    values = [("speeds[0]", speed, 1e-15), ("speeds[1]", speed, 1e-12), ("speeds[2]", speed, 1.0)]
+    values += [("speeds[3]", speed, 300.0), ("speeds[4]", speed, -900.0)]
+    low, high = notes_on(values)
+    assert low.startswith("speeds[0]")
+    assert high.startswith("speeds[4]")
+
+
+CASES = [
+    (("traction-curve", "roller.hertz_pressure=1.2"), "roller.hertz_pressure", "1.2 GPa"),
+    (("traction-curve", 'rolling.mean_speed="200 m/s"'), "rolling.mean_speed", "200 m/s"),
+    (("stribeck-mineral-oil", "lower.material.poissons_ratio=0.03"), "lower.material.poissons_ratio", "metals 0.25"),
+    (("hertz-sphere", 'upper.material.hardness="200 Pa"'), "upper.material.hardness", "HV"),
+    (("hertz-sphere", "shape.radius=10", 'grid.lengths="2 mm"', 'contact.load="100 N"'), "shape.radius", "10 mm"),
+    (("hertz-sphere", "contact.friction=2"), "contact.friction", "rubber"),
+    (("stribeck-mineral-oil", 'speeds.last="400 m/s"'), "speeds.last", "400 m/s"),
+    (("film-start-stop", "oil.viscosity=80"), "oil.viscosity", "80 mPa*s"),
+    (("film-start-stop", 'oil.pressure_viscosity="200 1/GPa"'), "oil.pressure_viscosity", "1/GPa"),
+    (("tribofilm-macro", "rubbing.temperatures=[60]"), "rubbing.temperatures", "60 degC"),
+    (("tribofilm-macro", 'film.wear_coefficient="3e5 1/s"'), "film.wear_coefficient", "3e+05 1/s"),
+    (("tribofilm-macro", "film.activation_energy=0.8"), "film.activation_energy", "0.8 eV"),
+    (("coated-sphere", 'lower.layer.thickness="0.1 nm"'), "lower.layer.thickness", "1e-10 m"),
+    (("coated-sphere", "lower.layer.material.youngs_modulus=115.0"), "lower.layer.material.youngs", "115 GPa"),
+    (("flash-temperature", "lower.material.heat_capacity=4.0"), "lower.material.heat_capacity", "J/(kg*K)"),
+    (("hertz-sphere", 'shape.radius="20 nm"', 'contact.load="0.1 nN"', 'grid={shape=64, spacing="0.1 nm"}'),
+     "grid.spacing", "atoms"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("source", "key", "words"), CASES)
+def test_a_value_of_another_unit_is_told_with_its_key_and_what_may_be_meant(source, key, words):
+    found = [note for note in fired(*source) if note.startswith(key)]
+    assert len(found) == 1, fired(*source)
+    assert words in found[0]
+
+
+@pytest.mark.parametrize("name", [name for name in library() if "measured" not in name])
+def test_no_built_in_scene_is_told_of_an_unusual_value(name):
+    assert fired(name) == []
+
+
+def test_a_rigid_stand_in_has_no_modulus_to_be_told_of():
+    stiff = 'lower.material={name="rigid flat", youngs_modulus="3 TPa", poissons_ratio=0.3}'
+    assert fired("hertz-sphere", stiff) == []
+    assert fired("hertz-sphere", stiff.replace("rigid flat", "very stiff"))
+
+
+def test_an_element_is_told_of_its_own_keys():
+    bearing = {
+        "element": "rolling-bearing", "bore": "40 mm", "outside": "80 mm", "diameter": "11.9 mm", "count": 9,
+        "radial_load": "4 kN", "speed": "3000 rpm", "first": STEEL, "second": STEEL,
+    }  # fmt: skip
+    assert notes_on_table(load_element(bearing).model) == []
+    odd = bearing | {"speed": "1e6 rpm", "first": {"catalogue": STEEL, "poissons_ratio": 0.03}}
+    told = [note.partition(":")[0] for note in load_element(odd).notes()]
+    assert {"speed", "first.poissons_ratio"} <= set(told)
+
+
+ROLLER = {"load": 1e5, "radius": 0.01, "contact_modulus": 115e9, "speeds": (1.0, 1.0), "points": 200}
+OIL = Lubricant(0.08, pressure_viscosity=20e-9)
+
+
+def told(film):
+    return [note.removeprefix(ARGUMENT).partition(":")[0] for note in film.notes if note.startswith(ARGUMENT)]
+
+
+def test_a_film_of_centistokes_at_a_thousand_metres_a_second_is_told():
+    """It was a converged film of 2.27 mm without a word."""
+    assert told(solve_line_film(**ROLLER, lubricant=OIL)) == []
+    film = solve_line_film(**ROLLER | {"speeds": (1000.0, 1000.0)}, lubricant=Lubricant(80.0))
+    assert film.status is Status.CONVERGED
+    assert told(film) == ["speeds", "lubricant.viscosity"]
+    assert any(note.startswith(OUTSIDE) and "radius" in note for note in film.notes)
+
+
+def test_a_point_film_is_told_of_its_arguments():
+    case = {"load": 20.0, "radii": (0.01, 0.01), "contact_modulus": 115e9, "shape": (32, 32), "speeds": (1.0, 1.0)}
+    assert told(solve_point_film(**case, lubricant=OIL)) == []
+    odd = Body(Material("odd", youngs_modulus=210e9, poissons_ratio=0.03))
+    film = solve_point_film(**case | {"speeds": (200.0, 200.0), "bodies": (odd, odd)}, lubricant=OIL)
+    assert told(film)[0] == "speeds"
+    assert "bodies[0].material.poissons_ratio" in told(film)
+
+
+def test_arguments_left_out_and_zeros_are_usual():
+    assert notes_on_arguments({"bulk": ("temperature", None), "speeds": ("speed", (0.0, 1.0))}) == ()
+
+
+def test_a_run_says_it_once(tmp_path):
+    ball = oiled_ball("point-film", {"radius": "10 mm", "load": "20 N"}, {"viscosity": 80.0}, film={"cells": 32})
+    ball |= {"rolling": {"mean_speed": "1 mm/s"}}
+    assert any(note.startswith("oil.viscosity") for note in scene_warnings(examine(plan_scene(ball)[0])))
+    notes = run_scene(ball, tmp_path / "run", figures=False).summary["notes"]
+    assert sum("viscosity" in note and "usual" in note for note in notes) == 1
