@@ -5,14 +5,14 @@ cells, which leaves a third of the difference, times a safety factor; other figu
 the film changes by, since their differences may pass zero. The highest pressure has none: the spike before the outlet
 is narrower than the cells; nor has the central one where the spike lies there.
 
-The inlet is not in it: where the grid begins changes films by 0.1 to 0.35 %, and bars are
-widened by more; friction by the shear of oil as far again (`inlet_shear`), which counts where loads are light. Films
-that change by a fifth or more are not of second order yet, and more of the difference counts, up to 1.8 times.
+Where the grid begins changes films, too: bars are widened by `rectangle_error`, as the errors of the film itself are;
+friction by the shear of oil as far again (`inlet_shear`), which counts where loads are light. Films that change by a
+fifth or more are not of second order yet, and more of the difference counts, up to 1.8 times.
 """
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
@@ -23,16 +23,14 @@ from bem.arguments import named
 from bem.errors import Status
 from bem.grid import FloatArray
 from bem.lubrication import Lubricant, PointFilmSolution, solve_point_film
-from bem.lubrication.point.kept import narrow_error, order_missed
+from bem.lubrication.point.kept import narrow_error, order_missed, rectangle_error
 from bem.lubrication.point.validity import inlet_shear
 from bem.lubrication.supply import Supply
 from bem.materials import Body
+from bem.plausibility import without_argument_notes
 
 FEWEST = 32
 """Cells along an axis below which no film is solved."""
-BEGINS = 0.004
-"""Of a film, by where the grid begins: of a long ellipse across the flow 0.35 % (a line contact on a grid that begins
-half as far again is met within 0.1 %), of a ball at M 1000, L 10 0.1 %."""
 POINT_RULES = {
     "central_thickness": FilmRule(0.6, 0.05),
     "minimum_thickness": FilmRule(0.6, 0.3),
@@ -74,7 +72,8 @@ class PointCase:
     def on(self, cells: tuple[int, int]) -> PointFilmSolution:
         """The film on so many cells."""
         asked = named(self, "load radii contact_modulus speeds lubricant bodies supply")
-        return solve_point_film(**asked, shape=cells, cavitation="mass_conserving")
+        film = solve_point_film(**asked, shape=cells, cavitation="mass_conserving")
+        return replace(film, notes=without_argument_notes(film.notes))
 
 
 def point_figures(case: PointCase, film: PointFilmSolution) -> dict[str, float]:
@@ -120,7 +119,7 @@ def point_bars(case: PointCase, film: PointFilmSolution) -> ErrorBars:
     films = ("central_thickness", "minimum_thickness")
     changed = max(abs(there[name] / figures[name] - 1) for name in films)
     assert film.state is not None
-    shear = inlet_shear(film, film.state.setting)
+    shear, begins = inlet_shear(film, film.state.setting), rectangle_error(film.state.setting)
     slide = float(np.hypot(*np.subtract(*film.speeds)))
     beyond = {"traction_coefficient": shear / film.load, "friction_power": shear * slide}
     grid: dict[str, Any] = {}
@@ -133,7 +132,7 @@ def point_bars(case: PointCase, film: PointFilmSolution) -> ErrorBars:
         grid[name] = share * (factor * difference + rule.film * changed * abs(value))
         if name in _LEAST:
             grid[name] = max(grid[name], narrow_error(film.thickness) * value)
-        inlet[name] = BEGINS * abs(value) + beyond.get(name, 0.0)
+        inlet[name] = begins * abs(value) + beyond.get(name, 0.0)
         residual[name] = _ALGEBRAIC * film.residual * abs(value)
     bars = ErrorBars.together({GRID: grid, INLET: inlet, RESIDUAL: residual})
     spiked = spike_at_centre(film.x, film.y, film.pressure)

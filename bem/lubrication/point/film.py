@@ -31,9 +31,9 @@ class PointFilmSolution:
     central_thickness : at the origin [m].
     minimum_thickness : smallest anywhere [m], of a paraboloid through the logarithms of the lowest cell and its
         neighbours.
-    central_thickness_error, minimum_thickness_error : estimates of their discretisation errors [m], from a grid of
-        half as many cells, of the minimum also by how steep its constriction is on the cells; None where the coarser
-        grid is too coarse or has no film.
+    central_thickness_error, minimum_thickness_error : estimates of their errors [m] by the cells, from a grid of half
+        as many, of the minimum also by how steep its constriction is on them, and by where the rectangle of the grid
+        ends; None where the coarser grid is too coarse or has no film.
     load : what the pressure carries [N]: on the grid, and the far inlet around it (`inlet_load_fraction` of it).
     shear_force : (2, 2) [N], forces of the oil on surface 1, then on surface 2, along x and y: integrals of the shear
         stress on either in the full film of the grid. They add up to -integral h grad p: what is missing to equilibrium

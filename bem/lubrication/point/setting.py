@@ -82,12 +82,14 @@ class Frame:
 
 @dataclass(frozen=True)
 class Setting:
-    """A case: axes, units, the similarity problem, and Hertz' contact in its units (None of rigid bodies)."""
+    """A case: axes, units, the similarity problem, Hertz' contact in its units (None of rigid bodies), and how far the
+    rectangle reaches into the inlet and to its sides, over how far the default one does."""
 
     frame: Frame
     scales: PointScales
     problem: PointProblem
     hertz: PointContact | None
+    reach: float = 1.0
 
 
 def setting_of(
@@ -116,16 +118,20 @@ def setting_of(
     if not scales.rigid:
         # E* = 1/2 in units in which 2/pi is 1/(pi E*)
         hertz = ellipse_contact(radii=(1.0, 1 / scales.ratio), contact_modulus=0.5, load=scales.load)
+    reach = 1.0
     if extent is None:
         rectangle = default_rectangle(hertz, scales.ratio, film, drag)
     else:
         a0, a1, b0, b1 = frame.rectangle(*extent)
         unit = scales.length
         rectangle = (a0 / unit, a1 / unit, b0 / unit, b1 / unit)
+        if any(drag):
+            usual = default_rectangle(hertz, scales.ratio, film, drag)
+            reach = min(rectangle[i] / usual[i] for i in (0, 2, 3))
     oil = scaled_oil(lubricant, scales.pressure)
     operator = None if scales.rigid else Operators(scales, rectangle, contact_modulus, bodies)
     problem = PointProblem(scales.load, (1.0, scales.ratio), drag, oil, rectangle, operator, film, walls=walls)
-    return Setting(frame, scales, problem, hertz)
+    return Setting(frame, scales, problem, hertz, reach)
 
 
 def scaled_oil(lubricant: Lubricant, unit: float) -> Callable[[FloatArray], FloatArray]:
@@ -211,7 +217,11 @@ def default_rectangle(hertz: PointContact | None, ratio: float, film: float, dra
     flat = 0.0 if hertz is None else hertz.approach / (hertz.approach + film)
     inlet = INLET[0] + flat * (INLET[1] - INLET[0])
     further = 1.0 if hertz is None else min(max(hertz.semi_axes[1] / hertz.semi_axes[0] / LONG, 1.0), LONGEST_INLET)
-    # at an angle oil comes from below, too
-    below = SIDE + drag[1] ** 2 * (inlet - SIDE)
+    # at an angle oil comes from below, too: across a long contact along x most of it
+    across = drag[1] ** 2
+    if hertz is not None and drag[1] > 0:
+        along, beside = (half * way for half, way in zip(hertz.semi_axes, drag[::-1], strict=True))
+        across = max(across, along**2 / (along**2 + beside**2))
+    below = SIDE + across * (inlet - SIDE)
     end = OUTLET + drag[1] ** 2 * (SIDE - OUTLET)
     return -reach(False, further * inlet), reach(False, end), -reach(True, below), reach(True, SIDE)

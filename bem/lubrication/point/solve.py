@@ -158,7 +158,7 @@ def result_of(setting: Setting, reached: Reached, asked: Request) -> PointFilmSo
     if reached.coarse is not None and status is Status.CONVERGED:
         coarse = reached.coarse
         rough = central_film(coarse[0], coarse[1].film), least_film(coarse[1].film)
-        errors = film_errors((central, least), rough, film)
+        errors = film_errors((central, least), rough, film, setting)
     share = setting.problem.outside(state.datum)[0] / setting.problem.load
     full = None
     if asked.cavitation is Cavitation.MASS_CONSERVING:
