@@ -10,20 +10,28 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol
 
+import numpy as np
+
 from bem.errors import InputError, Status
 from bem.friction.smooth import LineContact, SmoothContact
 from bem.grid import FloatArray
 from bem.lubrication import FilmSolution, PointFilmSolution
-from bem.lubrication.line_case import LineCase, load_range
+from bem.lubrication.line_case import MOES_LOADS, LineCase, load_range
 from bem.lubrication.line_kept import without_equations
+from bem.lubrication.line_scales import line_scales
 from bem.lubrication.line_starts import on_mesh_of
 from bem.lubrication.steady import line_film
+from bem.lubrication.validity import THINNEST_FILM
 from bem.lubrication.with_heat import film_with_heat
 
 BALANCE_POINTS = 400
 """Film nodes while the balance is looked for; the last evaluations use the number asked for."""
 BALANCE_CELLS = 64
 """The same of a ball's film: cells along an axis."""
+MOLECULAR_LOAD = 1e4
+"""Moes' load M up to which line films are looked for, however thin."""
+LEAST_FILM = 0.5 * THINNEST_FILM
+"""Least film [m] beyond that load: half of the thickness below which a film counts as none."""
 HOT_SHARE = 0.9
 """Of the largest load that an oil carries, while heat in the inlet thins it by less than a fifth."""
 COARSE_FILM = 1e-3
@@ -216,11 +224,27 @@ def largest_film_load(contact: LineContact, speeds: Sequence[float]) -> float:
     """Load on the whole width [N] up to which a film is looked for.
 
     The end is one of Moes' parameter M, load over a root of the modulus: where that goes with the load, with its root.
+    Beyond `MOLECULAR_LOAD` it is where the film is thinner than `LEAST_FILM` by its asymptotes; such a film is none.
     """
     largest = contact.width * load_range(contact.radius, contact.contact_modulus, speeds, contact.lubricant)[1]
+    if math.isfinite(largest):
+        largest *= min(max(_load_of_least_film(contact, speeds), MOLECULAR_LOAD) / MOES_LOADS[1], 1.0)
     if contact.heat is not None:
         largest *= HOT_SHARE
     return largest if contact.deforming_load is None else largest**2 / contact.deforming_load * (1 - 1e-9)
+
+
+def _load_of_least_film(contact: LineContact, speeds: Sequence[float]) -> float:
+    """Moes' load M under which the film is `LEAST_FILM` thick.
+
+    Of the asymptotes of the least film, 1.98 M^(-1/5) of isoviscous oils (Herrebrugh 1968: 2.05) and
+    0.98 L^(3/4) M^(-1/8) of those that pressure thickens (Moes 2000, central 1.31), the thicker one.
+    """
+    oil = contact.lubricant
+    scales = line_scales(1.0, contact.radius, contact.contact_modulus, abs(sum(speeds)), oil.viscosity)
+    material = float(oil.log_viscosity_ratio(np.zeros(1))[1][0]) * scales.pressure
+    films = scales.film / LEAST_FILM
+    return max((1.98 * films) ** 5, (0.98 * material**0.75 * films) ** 8)
 
 
 def sampled(
