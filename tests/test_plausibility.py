@@ -7,9 +7,9 @@ from hypothesis import given
 from hypothesis import strategies as st
 from small_scenes import oiled_ball
 
-from bem import Body, Lubricant, Material, solve_line_film, solve_point_film
+from bem import Body, Grid, Lubricant, Material, generate_surface, solve_line_film, solve_mixed, solve_point_film
 from bem.elements.element import load_element
-from bem.errors import OUTSIDE, Status
+from bem.errors import OUTSIDE, Status, outside
 from bem.plausibility import ARGUMENT, BY_KEY, RANGES, notes_on, notes_on_arguments, range_of_key
 from bem.runs import plan_scene, run_scene
 from bem.scenes import library
@@ -145,3 +145,19 @@ def test_a_run_says_it_once(tmp_path):
     assert any(note.startswith("oil.viscosity") for note in scene_warnings(examine(plan_scene(ball)[0])))
     notes = run_scene(ball, tmp_path / "run", figures=False).summary["notes"]
     assert sum("viscosity" in note and "usual" in note for note in notes) == 1
+
+
+def test_a_friction_beyond_any_bound_is_outside_the_model():
+    """A friction of 8.9 was converged, a note in the middle of others."""
+    grid = Grid((48, 12), (0.8e-6, 0.8e-6), periodic=(False, True))
+    height = generate_surface(grid, rms_height=50e-9, correlation_length=3e-6, seed=1)
+    case = {"height": height, "grid": grid, "bodies": Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3))}
+    case |= {"radius": 2e-3, "width": 6e-3, "load": 5.5, "boundary_friction": 0.12, "film_points": 200}
+    thick = Lubricant(1.0, pressure_viscosity=20e-9)
+    found = solve_mixed(**case | {"load": 0.01}, speeds=(1.0, 0.0), lubricant=thick)
+    assert found.friction > 1
+    assert any("friction" in said for said in outside(found.notes))
+    usual = solve_mixed(**case, speeds=(0.2, 0.0), lubricant=Lubricant(0.08, pressure_viscosity=20e-9))
+    assert usual.friction < 1
+    assert not any("friction" in said and "bound" in said for said in outside(usual.notes))
+    assert not told(usual)
