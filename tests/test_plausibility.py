@@ -161,3 +161,11 @@ def test_a_friction_beyond_any_bound_is_outside_the_model():
     assert usual.friction < 1
     assert not any("friction" in said and "bound" in said for said in outside(usual.notes))
     assert not told(usual)
+
+
+def test_values_of_the_key_over_are_told(tmp_path):
+    over = {"shape.radius": ["10 mm", "20 m"]}
+    assert [note.partition(":")[0] for note in fired(library()["hertz-sphere"] | {"over": over})] == ["shape.radius"]
+    small = library()["hertz-sphere"] | {"grid": {"shape": 16, "lengths": "400 um"}, "over": over}
+    notes = run_scene(small, tmp_path / "run", figures=False).summary["notes"]
+    assert sum(note.startswith("shape.radius: ") and "usual" in note for note in notes) == 1

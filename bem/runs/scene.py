@@ -19,6 +19,7 @@ from bem.results.directory import RESULTS, RunDirectory, plain
 from bem.results.read import FinishedRun, open_run
 from bem.scenes.asked import Asked, with_accuracy
 from bem.scenes.checks import examine, outcome_warnings, scene_warnings, suspected_units
+from bem.scenes.checks.plausible import notes_over
 from bem.scenes.common import SceneModel
 from bem.scenes.kind import get_kind
 from bem.scenes.load import dump_scene, load_scene, scene_table
@@ -140,6 +141,7 @@ def run_planned(
     try:
         facts = examine(campaign.base)
         notes = scene_warnings(facts)
+        notes += [text for text in notes_over(scene) if text not in notes]
         for text in notes:
             watcher.note(text)
         computed = compute(

@@ -13,22 +13,36 @@ from typing import Annotated, Any, get_args, get_origin
 from bem.plausibility import BY_NAME, UsualRange, notes_on, range_of_key
 from bem.scenes.checks.facts import Facts
 from bem.scenes.checks.registry import scene_check
-from bem.scenes.common import MaterialScene
+from bem.scenes.common import MaterialScene, SceneModel
+from bem.scenes.load import scenes_over
 from bem.scenes.table import Table
 from bem.scenes.units import Dimension
 
+_MOST_SCENES = 256
+"""Scenes of a key `over` that are looked at."""
 Values = Iterator[tuple[str, UsualRange, float]]
 
 
 @scene_check
 def outside_usual_range(facts: Facts) -> Iterator[str]:
     """A value outside its usual range is most often one in another unit."""
-    values = [*values_of(facts.scene), *_derived(facts)]
+    values = [*values_over(facts.scene), *_derived(facts)]
     seen: set[str] = set()
     for note in notes_on(values):
         if note not in seen:
             seen.add(note)
             yield note
+
+
+def notes_over(scene: SceneModel) -> list[str]:
+    """Notes on the values of a scene, those of its key `over` included."""
+    return notes_on(values_over(scene))
+
+
+def values_over(scene: SceneModel) -> Values:
+    """As `values_of`, of the scenes at all combinations of the values of `over`."""
+    for own in scenes_over(scene)[:_MOST_SCENES]:
+        yield from values_of(own)
 
 
 def notes_on_table(table: Table) -> list[str]:
