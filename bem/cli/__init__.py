@@ -10,12 +10,12 @@ from __future__ import annotations
 
 import atexit
 import gc
-import io
 import os
 import signal
 import sys
 from typing import TYPE_CHECKING, Any
 
+from bem.cli._streams import code_at_end, protect_streams
 from bem.errors import BemError, interrupts_as_they_are
 
 if TYPE_CHECKING:
@@ -93,9 +93,7 @@ def main() -> None:
         atexit.register(_done)
         signal.signal(signal.SIGTERM, _interrupt)
         sys.unraisablehook = _unraisable
-        for stream in (sys.stdout, sys.stderr):  # a name or a unit that the terminal cannot spell is no reason to stop
-            if isinstance(stream, io.TextIOWrapper):
-                stream.reconfigure(errors="backslashreplace")
+        protect_streams()
         with interrupts_as_they_are():
             build()(standalone_mode=True)
     except BemError as error:
@@ -111,12 +109,11 @@ def main() -> None:
     except SystemExit as end:
         if end.code == _INTERRUPTED:
             _leave_interrupted()
-        raise
+        if not isinstance(end.code, int | None):
+            raise
+        sys.exit(code_at_end(end.code or 0))
     except MemoryError:
         print("bem: out of memory; `bem plan SCENE` shows what takes how much", file=sys.stderr)
-        sys.exit(1)
-    except BrokenPipeError:
-        sys.stderr.close()
         sys.exit(1)
 
 

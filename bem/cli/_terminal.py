@@ -13,6 +13,8 @@ from typing import Any
 
 import typer
 
+from bem.cli._streams import results_saved
+
 _FIRST_SHOWN_AFTER = 1.0  # seconds; shorter work needs no bar
 
 
@@ -304,8 +306,15 @@ def print_points(figures: Mapping[str, Any]) -> None:
         print_lists(figures, names)
 
 
+def print_written(path: Path) -> None:
+    """Print the name of a file that was written; the exit code then no longer depends on the terminal."""
+    results_saved()
+    print(f"written: {path}")
+
+
 def print_files(folder: Path) -> None:
-    """Where the files of a finished run are."""
+    """Print where the files of a finished run are."""
+    results_saved()
     print(f"results: {folder}")
     for name, what in (("figures", "figures"), ("report.html", "report ")):
         if (folder / name).exists():

@@ -34,5 +34,7 @@ def register(app: typer.Typer) -> None:
             raise InputError("bem app: needs NiceGUI, which `make setup` brings; allowed: pip install 'bem[app]'")
         with collecting():
             from bem.app.server import serve
+            from bem.cli._streams import results_saved
 
+            results_saved()
             serve(folder, port, show=browser, say=lambda text: print(text, flush=True))

@@ -183,7 +183,10 @@ def _say(words: str) -> None:
 def _keep(run: Run, history: Path | None, picture: Path | None, draw: Callable[[Path], None]) -> None:
     """Write what was asked for, name what failed, and end with the exit code of it."""
     from bem.benchmarks.history import INTERRUPTED, append_run
+    from bem.cli._streams import results_saved
 
+    if history is not None or picture is not None:
+        results_saved()
     if history is not None:
         append_run(history, run)
         print(f"history: {history}")

@@ -43,7 +43,7 @@ def calibrate(
       bem calibrate film.csv --fit activation_energy_eV --figure fit.png
     """
     from bem.cli._quantity import new_file
-    from bem.cli._terminal import table
+    from bem.cli._terminal import print_written, table
     from bem.tribofilm.calibrate import FITTED, read_measurements
     from bem.tribofilm.calibrate import calibrate as run_fit
 
@@ -65,12 +65,12 @@ def calibrate(
     print(f"lines of a scene (kind tribofilm):\n\n{result.scene_lines()}\n")
     if json_out is not None:
         _write(json_out, result)
-        print(f"written: {json_out}")
+        print_written(json_out)
     if figure_out is not None:
         from bem.plots.calibration import draw_calibration
 
         draw_calibration(result, figure_out)
-        print(f"written: {figure_out}")
+        print_written(figure_out)
 
 
 def _start(given: list[str], fit: list[str]) -> ReducedModel:

@@ -47,7 +47,7 @@ def element(
       bem element bearing.toml --cases loads.csv --table worst.csv
     """
     from bem.cli._quantity import new_file
-    from bem.cli._terminal import show_warnings
+    from bem.cli._terminal import print_written, show_warnings
     from bem.elements.element import load_element
     from bem.results.atomic import write_text
     from bem.scenes.load import scene_from_table, table_text
@@ -73,18 +73,19 @@ def element(
     more = _running(found) if running else {}
     if path is not None and rows is not None:
         write_text(path, rows)
-        print(f"written: {path}")
+        print_written(path)
     if table is not None:
         write_text(table, found.csv(more))
-        print(f"written: {table}")
+        print_written(table)
     if scene is not None and made is not None:
         write_text(scene, table_text(made))
-        print(f"written: {scene}\nnext:    bem plan {scene}; bem run {scene}")
+        print_written(scene)
+        print(f"next:    bem plan {scene}; bem run {scene}")
 
 
 def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...]) -> None:
     """A line for each case."""
-    from bem.cli._terminal import table
+    from bem.cli._terminal import print_written, table
     from bem.elements.cases import columns, load_cases
     from bem.elements.element import csv_text
     from bem.errors import InputError
@@ -101,7 +102,7 @@ def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...])
     table(head, lines, right=range(2, len(found)), leading=2)
     if out is not None:
         write_text(out, csv_text(found))
-        print(f"written: {out}")
+        print_written(out)
 
 
 def _spelled(name: str, value: float) -> str:

@@ -28,6 +28,7 @@ def register(app: typer.Typer) -> None:
           bem export runs/stribeck-over-temperature
           bem export runs/my-sweep --csv --out tables
         """
+        from bem.cli._streams import results_saved
         from bem.cli._terminal import table
         from bem.errors import InputError
         from bem.results.export import points_of
@@ -40,6 +41,7 @@ def register(app: typer.Typer) -> None:
                 path = folder / f"{points.title}-points.{ending}"
                 write(path)
                 typer.echo(path)
+        results_saved()
         if "lambda_ratio" not in points.columns:
             return
         try:

@@ -42,6 +42,7 @@ def register(app: typer.Typer) -> None:
           bem new stribeck
           bem new gear-pair gears.toml
         """
+        from bem.cli._terminal import print_written
         from bem.errors import ResultsError
         from bem.results.atomic import write_text
         from bem.scenes.template import scene_template
@@ -55,7 +56,8 @@ def register(app: typer.Typer) -> None:
             raise ResultsError(f"{path.parent}: no such folder")
         write_text(path, text)
         after = f"bem element {path}" if element else f"bem plan {path}; bem run {path}"
-        print(f"written: {path}\nnext:    {after}")
+        print_written(path)
+        print(f"next:    {after}")
 
 
 def element_text(name: str) -> str:

@@ -49,6 +49,7 @@ def particles(
       bem particles plate.npz --threshold "30 nm" --table particles.csv --figure particles.png
     """
     from bem.cli._quantity import length, new_file, pair_of_lengths
+    from bem.cli._terminal import print_written
     from bem.particles import particles_from_height_map
     from bem.surfaces import read_surface
 
@@ -87,10 +88,10 @@ def particles(
         print(f"{map_.name}: no particles above {threshold}")
     if table_out is not None:
         _write_table(table_out, found)
-        print(f"written: {table_out}")
+        print_written(table_out)
     if json_out is not None:
         _write_figures(json_out, found, {"map": str(map_), "threshold_nm": 1e9 * height})
-        print(f"written: {json_out}")
+        print_written(json_out)
     if figure_out is not None:
         from bem.particles import level_background
         from bem.plots.particles import draw_particles
@@ -99,7 +100,7 @@ def particles(
             surface.heights, surface.spacing, threshold=height, method=background, lines=level_lines
         )
         draw_particles(level, surface.spacing, found, figure_out)
-        print(f"written: {figure_out}")
+        print_written(figure_out)
 
 
 def _show(found: list[Particle], name: str) -> None:

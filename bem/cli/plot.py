@@ -47,6 +47,7 @@ def register(app: typer.Typer) -> None:
           bem plot runs/rough-contact-001
           bem plot runs/rough-contact-001 --figure pressure-map --size "85x70 mm" --format pdf
         """
+        from bem.cli._streams import results_saved
         from bem.cli._terminal import table
         from bem.errors import InputError, ResultsError
         from bem.plots.draw import FORMATS, draw, figure_kind
@@ -63,6 +64,7 @@ def register(app: typer.Typer) -> None:
         folder = out or Path()
         if not folder.is_dir():
             raise ResultsError(f"{folder}: no such folder")
+        results_saved()
         for path in draw(done, figure_kind(done, figure), folder, (format_,), inches).paths:
             typer.echo(path)
 

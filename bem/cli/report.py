@@ -14,6 +14,7 @@ def register(app: typer.Typer) -> None:
     @app.command(short_help="Draw a finished run's figures again, with its HTML report.")
     def report(run: Annotated[Path, typer.Argument(metavar="DIR", help="A finished run's folder.")]) -> None:
         """Draw a finished run's figures again and write its HTML report."""
+        from bem.cli._streams import results_saved
         from bem.errors import ResultsError
         from bem.plots.draw import draw_all
         from bem.plots.report import write_report
@@ -32,4 +33,5 @@ def register(app: typer.Typer) -> None:
             drawn = draw_all(done, kind.figures, directory.figures)
             path = write_report(done, drawn, kind.headline)
             directory.finish(done.summary)
+        results_saved()
         typer.echo(path)

@@ -60,6 +60,7 @@ def generate(
 ) -> None:
     """Generate a periodic random surface."""
     from bem.cli._quantity import length, new_file, pair_of_cells, pair_of_lengths
+    from bem.cli._terminal import print_written
     from bem.errors import InputError
     from bem.grid import Grid
     from bem.surfaces import Surface, write_surface
@@ -86,7 +87,7 @@ def generate(
         raise InputError([message.removeprefix("generate_surface: ") for message in error.messages]) from None
     path = write_surface(out, surface)
     _show(surface, path.name)
-    print(f"written: {path}")
+    print_written(path)
 
 
 def read(
@@ -101,13 +102,14 @@ def read(
 ) -> None:
     """Read a measured surface, level it, fill what is missing and write it as a plain map in metres."""
     from bem.cli._quantity import new_file
+    from bem.cli._terminal import print_written
     from bem.surfaces import write_surface
 
     new_file(out, "OUT", (".npz",))
     surface = _read(file, detrend, fill, channel, spacing, height_unit, despike)
     path = write_surface(out, surface)
     _show(surface, file.name)
-    print(f"written: {path}")
+    print_written(path)
 
 
 def describe(
@@ -149,13 +151,14 @@ def plot(
 ) -> None:
     """Draw a surface: heights, their distribution, autocorrelation and spectrum."""
     from bem.cli._quantity import new_file
+    from bem.cli._terminal import print_written
 
     new_file(out, "OUT", (".png", ".pdf", ".svg"))
     surface = _read(file, detrend, fill, channel, spacing, height_unit, despike)
     from bem.plots.surface import draw_surface
 
     draw_surface(surface, out, periodic=_periodic(surface))
-    print(f"written: {out}")
+    print_written(out)
 
 
 def _read(

@@ -54,6 +54,7 @@ def sweep(
       bem sweep rough-contact --over seed=1:4 --set outputs.von_mises=true --fields
       bem sweep rough-contact --over seed=1:9 --scheduler tcp://10.0.0.1:8786
     """
+    from bem.cli._streams import results_saved
     from bem.cli._terminal import print_points, resumable
     from bem.runs.sweep import DATASET, FIGURE, TABLE, run_sweep
 
@@ -72,6 +73,7 @@ def sweep(
             pdf=pdf,
             fields=fields,
         )
+    results_saved()
     print_points(done.figures)
     print(f"points computed: {done.computed}")
     for what, name in (("dataset", DATASET), ("table  ", TABLE), ("figure ", f"{FIGURE}.png")):

@@ -156,9 +156,11 @@ def _write(path: Path, rows: list[Row]) -> None:
     import json
     import math
 
+    from bem.cli._streams import results_saved
     from bem.results.atomic import write_text
 
     def plain(value: object) -> object:
         return None if isinstance(value, float) and not math.isfinite(value) else value
 
     write_text(path, json.dumps([{key: plain(getattr(row, key)) for key in KEYS} for row in rows], indent=1) + "\n")
+    results_saved()
