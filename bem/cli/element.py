@@ -22,7 +22,11 @@ def element(
     file: Annotated[Path, typer.Argument(help="An element's file; `bem new gear-pair` writes one to start from.")],
     scene: Annotated[Path | None, typer.Option(metavar="FILE", help="Write a scene of one contact.")] = None,
     kind: Annotated[
-        str, typer.Option(help="Kind of that scene: traction, point-film (of balls), contact (dry).")
+        str,
+        typer.Option(
+            help="Kind of that scene: traction, point-film (of balls), contact (dry), friction and running-in (mixed "
+            "lubrication), surface-temperature."
+        ),
     ] = "traction",
     at: Annotated[str, typer.Option(help="Which: worst, thinnest, a number of the table; path: all.")] = "worst",
     path: Annotated[
@@ -43,12 +47,14 @@ def element(
     Examples, of the file that `bem new gear-pair gears.toml` writes:
       bem element gears.toml --scene flank.toml --at path
       bem element gears.toml --scene worst.toml --at thinnest
+      bem element gears.toml --scene mixed.toml --kind friction --at 20
       bem element gears.toml --running --table gears.csv
       bem element bearing.toml --cases loads.csv --table worst.csv
     """
     from bem.cli._quantity import new_file
     from bem.cli._terminal import print_written, show_warnings
     from bem.elements.element import load_element
+    from bem.errors import InputError
     from bem.results.atomic import write_text
     from bem.scenes.load import scene_from_table, table_text
 
@@ -64,6 +70,8 @@ def element(
     found = load_element(file)
     whole = at == "path"
     chosen = found.worst() if whole else _chosen(found, at)
+    if scene is not None and whole and kind != "traction":
+        raise InputError(f"--at path: makes a scene of kind traction; allowed: no --kind, or one place, not {kind}")
     made = None if scene is None else found.path_scene() if whole else found.scene(chosen, kind)
     rows = None if path is None else found.path_csv()
     if made is not None:

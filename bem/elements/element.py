@@ -22,6 +22,7 @@ from bem.elements.gear_pair import GearModel
 from bem.elements.model import Contacts, ElementModel
 from bem.elements.piston_ring import PistonRingModel
 from bem.elements.rolling_bearing import BearingModel
+from bem.elements.rough_scenes import BOUNDARY_FRICTION, mixed_scene, rubbing_scene
 from bem.errors import InputError
 from bem.materials import Body, Material, contact_modulus
 from bem.scenes.checks.hertz import smooth_contact
@@ -49,8 +50,10 @@ _SHORT = {
     "cam": "cam-follower",
     "ring": "piston-ring",
 }
-KINDS = ("traction", "contact", "point-film")
+KINDS = ("traction", "contact", "point-film", "friction", "running-in", "surface-temperature")
 """Kinds of scene that are made of a contact."""
+MIXED = ("friction", "running-in")
+"""Those in which the oil film and the rough surfaces share the load."""
 
 
 @dataclass(frozen=True)
@@ -182,7 +185,8 @@ class Element:
         if touching:
             said.append(
                 f"at {touching} of {len(ratios)} places the film is thinner than the roughness is high (rms): surfaces "
-                "touch there, which films here and in kind traction leave out; kind friction shares the load"
+                "touch there, which films here and in kind traction leave out; --kind friction shares the load between "
+                "film and surfaces"
             )
         return tuple(said)
 
@@ -217,15 +221,25 @@ class Element:
         InputError : a kind that is none of `KINDS`, a film without oil or entrainment.
         """
         if kind not in KINDS:
-            raise InputError(f"kind {show(kind)}: not made of an element{nearest(kind, KINDS)}; allowed: {KINDS}")
+            raise InputError(
+                f"kind {show(kind)}: not made of an element{nearest(kind, KINDS)}; allowed: {', '.join(KINDS)}"
+            )
+        assumed = []
+        if kind in (*MIXED, "surface-temperature"):
+            assumed.append(f"boundary friction {BOUNDARY_FRICTION:g} is assumed")
+            if self.model.rms_roughness is not None:
+                assumed.append("surfaces are random ones of its rms_roughness")
         base = {
             "kind": kind,
             "name": self.model.name,
-            "description": f"{self.model.element}: {contact.name}",
+            "description": "; ".join([f"{self.model.element}: {contact.name}", *assumed]),
         }
         bodies = {"lower": {"material": self.table["first"]}, "upper": {"material": self.table["second"]}}
         if kind == "contact":
             return base | self._dry(contact, bodies)
+        if kind == "surface-temperature":
+            self._check_heat()
+            return base | rubbing_scene(self.model, contact, bodies, self.modulus)
         return base | self._film(contact, bodies, kind)
 
     def _film(self, contact: ElementContact, bodies: dict[str, Any], kind: str) -> dict[str, Any]:
@@ -235,9 +249,11 @@ class Element:
         if not abs(ratio) <= 2:
             raise InputError(
                 f"{contact.name}: the surfaces run against each other (speeds {contact.speeds[0]:.3g} and "
-                f"{contact.speeds[1]:.3g} m/s), where no steady film of kind traction is; allowed: kind contact, or "
+                f"{contact.speeds[1]:.3g} m/s), where no steady film of kind {kind} is; allowed: kind contact, or "
                 f"a place of the table where they do not: {self._with_film()}"
             )
+        if kind in MIXED:
+            return mixed_scene(self.model, contact, bodies, self.table["oil"], kind, self.modulus)
         shared = {
             **bodies,
             "oil": dict(self.table["oil"]),
@@ -257,6 +273,14 @@ class Element:
             **shared,
             "roller": {"radius": contact.radius, "width": width, "load": contact.load},
         }
+
+    def _check_heat(self) -> None:
+        cold = dict.fromkeys(one.name for one in self._bodies() if not one.thermal_diffusivity)
+        if cold:
+            raise InputError(
+                f"{self.model.name}: kind surface-temperature needs thermal_conductivity, heat_capacity and density of "
+                f"{' and '.join(cold)}"
+            )
 
     def _with_film(self) -> str:
         """Numbers of the places whose surfaces do not run against each other: "1 to 20, 54 to 73"."""
