@@ -6,6 +6,7 @@ from __future__ import annotations
 import math
 import os
 import stat
+from collections.abc import Iterable
 from numbers import Real
 from typing import Any
 
@@ -13,6 +14,11 @@ from bem.errors import InputError
 
 MOST_BYTES = 1_000_000
 """Of a file that somebody wrote by hand."""
+
+_SURELY_MEANT = 0.85
+"""Similarity of two spellings, 0 to 1, from which one is a slip of the other; "steel-disc" to "steel-disk" has 0.9."""
+_MOST_PROPOSED = 6
+"""Names of one message."""
 
 
 def is_finite(value: object) -> bool:
@@ -54,6 +60,26 @@ def check_not_negative(**values: float) -> None:
 def named(source: object, names: str) -> dict[str, Any]:
     """Attributes of an object, "load radius", by their names: what goes on as keyword arguments."""
     return {name: getattr(source, name) for name in names.split()}
+
+
+def did_you_mean(word: object, names: Iterable[str]) -> str:
+    """` - did you mean "..."?` for the names nearest to a word, or nothing.
+
+    A word that is a whole part of hyphenated names, such as "steel" of "steel-52100", proposes all of them, those that
+    begin with it first; else the proposal is the one name of the nearest spelling.
+    """
+    import difflib
+
+    given = str(word).lower().replace("-", "_").replace(" ", "_")
+    spelling = {name.lower().replace("-", "_"): name for name in names}
+    close = difflib.get_close_matches(given, spelling, n=1, cutoff=0.6)
+    near = bool(close) and difflib.SequenceMatcher(None, given, close[0]).ratio() >= _SURELY_MEANT
+    parts = [] if near else [name for name in spelling.values() if given in name.lower().split("-")]
+    if parts:
+        parts.sort(key=lambda name: not name.lower().startswith(given))
+        proposed = " or ".join(f'"{name}"' for name in parts[:_MOST_PROPOSED])
+        return f" - did you mean {proposed}?"
+    return f' - did you mean "{spelling[close[0]]}"?' if close else ""
 
 
 def read_small(path: str | os.PathLike[str]) -> bytes:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import bisect
-import difflib
 import itertools
 import tomllib
 from collections.abc import Sequence
@@ -11,7 +10,7 @@ from dataclasses import dataclass
 from importlib.resources import files
 from typing import Any
 
-from bem.arguments import is_finite, is_positive
+from bem.arguments import did_you_mean, is_finite, is_positive
 from bem.errors import InputError
 from bem.representation import tabled
 
@@ -305,8 +304,7 @@ class Catalogue(dict[str, CatalogueEntry]):
     """Materials by name."""
 
     def __missing__(self, name: object) -> CatalogueEntry:
-        close = difflib.get_close_matches(str(name).lower().replace("_", "-").replace(" ", "-"), self, n=1)
-        hint = f' - did you mean "{close[0]}"?' if close else ""
+        hint = did_you_mean(name, self)
         raise UnknownMaterialError(f"CATALOGUE[{name!r}]: no such material{hint}; allowed: {', '.join(sorted(self))}")
 
 

@@ -21,14 +21,15 @@ def register(app: typer.Typer) -> None:
     @app.command(short_help="Write a commented scene of a kind, to start from.")
     def new(
         kind: Annotated[
-            str,
+            str | None,
             typer.Argument(
-                metavar="KIND",
+                metavar="[KIND]",
                 help="Kind of scene, such as contact (or what it is called elsewhere, such as stribeck), a built-in "
-                "scene, or a machine element: rolling-bearing, gear-pair, cam-follower, piston-ring.",
+                "scene, or a machine element: rolling-bearing, gear-pair, cam-follower, piston-ring; without it all "
+                "are listed.",
                 autocompletion=complete_kind,
             ),
-        ],
+        ] = None,
         file: Annotated[
             Path | None, typer.Argument(metavar="[FILE]", help="File to write; without it KIND.toml.")
         ] = None,
@@ -37,6 +38,7 @@ def register(app: typer.Typer) -> None:
 
         \b
         Examples:
+          bem new
           bem new contact
           bem new wear my-wear.toml
           bem new stribeck
@@ -47,7 +49,12 @@ def register(app: typer.Typer) -> None:
         from bem.results.atomic import write_text
         from bem.scenes.template import scene_template
 
+        if kind is None:
+            _list_all()
+            return
         element = element_text(kind)
+        if not element:
+            _check_kind(kind)
         text = element or scene_template(kind)
         path = file or Path(f"{kind}.toml")
         if path.exists():
@@ -67,7 +74,7 @@ def element_text(name: str) -> str:
     ------
     InputError : an element that is not here, and why.
     """
-    word = name.lower().replace("_", "-")
+    word = name.strip().lower().replace("_", "-").replace(" ", "-")
     if word not in _ELEMENTS:
         return ""
     from bem.elements.element import element_template
@@ -88,6 +95,44 @@ _ELEMENTS = (
         "piston-ring",
         "ring",
     ),
-    *("journal-bearing", "plain-bearing"),
+    *("journal-bearing", "plain-bearing", "sleeve-bearing", "sliding-bearing"),
+    *("bush", "bushing", "bushes", "bushings", "grease"),
 )
-"""Known without loading them."""
+"""Words for elements, and for what is none of them with the reason; known without loading them."""
+
+
+def _list_all() -> None:
+    """Show the kinds of scene and the machine elements, a line each."""
+    from bem.cli._terminal import table
+    from bem.elements.element import TITLES
+    from bem.scenes.kind import get_kind, kind_names
+
+    table(("kind", "what it computes"), [(name, get_kind(name).title) for name in kind_names()], title="kinds of scene")
+    table(("element", "what it shows"), list(TITLES.items()), title="machine elements")
+    print("next: bem new KIND writes a commented file to start from; `bem scenes` lists finished scenes")
+
+
+def _check_kind(word: str) -> None:
+    """Refuse a word that is no kind, element or built-in scene, listing kinds and elements.
+
+    Raises
+    ------
+    InputError : with the nearest names.
+    """
+    from bem.arguments import did_you_mean
+    from bem.elements.element import TITLES
+    from bem.errors import InputError
+    from bem.scenes.kind import kind_names
+    from bem.scenes.load import library
+    from bem.scenes.template import ALSO, kind_meant
+
+    if kind_meant(word) in kind_names() or word in library():
+        return
+    kinds = kind_names()
+    if word.endswith(".toml"):
+        raise InputError(f"{word}: the kind is missing; allowed: bem new KIND {word}, such as bem new contact {word}")
+    raise InputError(
+        f'KIND "{word}": neither a kind of scene nor a machine element'
+        f"{did_you_mean(word, [*kinds, *TITLES, *ALSO, *library()])}; allowed: the kinds {', '.join(kinds)}, the "
+        f"elements {', '.join(TITLES)}, or a built-in scene (`bem new` explains them, `bem scenes` lists the scenes)"
+    )

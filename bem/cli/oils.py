@@ -53,17 +53,8 @@ def _row(name: str) -> tuple[str, ...]:
     from bem.lubrication.oils.catalogue import find_oil
     from bem.lubrication.oils.viscosity_index import viscosity_index
 
-    if name.startswith("water-glycol"):
-        return (
-            name,
-            "water-glycol",
-            name.split()[-1],
-            "",
-            "given",
-            "given",
-            "ISO 3448; index and alpha from its maker",
-        )
     oil = find_oil(name)
     at_40, at_100 = (1e6 * oil.viscosity.kinematic(t) for t in (313.15, 373.15))
-    index, alpha = viscosity_index(at_40, at_100), 1e9 * oil.pressure_coefficient(313.15)
-    return (name, oil.base, f"{at_40:.4g}", f"{at_100:.4g}", f"{index:.0f}", f"{alpha:.3g}", oil.viscosity_source)
+    index = viscosity_index(at_40, at_100)
+    alpha = "give it" if oil.pressure_viscosity is None else f"{1e9 * oil.pressure_coefficient(313.15):.3g}"
+    return (name, oil.base, f"{at_40:.4g}", f"{at_100:.4g}", f"{index:.0f}", alpha, oil.viscosity_source)

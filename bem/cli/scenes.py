@@ -39,9 +39,8 @@ def register(app: typer.Typer) -> None:
         known = library()
         if show is not None:
             if show not in known:
-                raise InputError(
-                    f'--show "{show}": no built-in scene{nearest(show, known)}; allowed: {", ".join(known)}'
-                )
+                close = nearest(show, known) or "."
+                raise InputError(f'--show "{show}": no built-in scene{close} `bem scenes` lists the built-in scenes.')
             typer.echo(library_text(show), nl=False)
             return
         rows = [

@@ -41,7 +41,24 @@ _CONFORM = (
     "carries there. A small flat patch of both under its mean pressure is a scene of kind contact, wear or running-in: "
     "what roughness does at start and stop; an edge that a tilted shaft presses into is none of them"
 )
-NOT_HERE = {"journal-bearing": _CONFORM, "plain-bearing": _CONFORM}
+_GREASE = (
+    "grease has no model of its own: its contacts are films of its base oil, starved of it. Take a scene of kind "
+    "traction, friction or point-film with the base oil's grade or viscosities as [oil], and a [supply]: layer, the "
+    "thickness of oil on the surfaces, or distance, where the gap begins to be full"
+)
+_CONFORMING_ELEMENTS = (
+    *("journal-bearing", "plain-bearing", "sleeve-bearing", "sliding-bearing"),
+    *("bush", "bushing", "bushes", "bushings"),
+)
+NOT_HERE = {**dict.fromkeys(_CONFORMING_ELEMENTS, _CONFORM), "grease": _GREASE}
+"""Words for what the program does not model, and what it can do instead."""
+TITLES = {
+    "rolling-bearing": "ball or roller bearing: load distribution, contacts and films of both rings",
+    "gear-pair": "spur or helical gears: load, speeds and film along the path of contact",
+    "cam-follower": "cam under a flat-faced follower: load, curvature and film over the cam's angle",
+    "piston-ring": "piston ring on its liner: load and film over the crank's angle",
+}
+"""A line about each element."""
 _SHORT = {
     "bearing": "rolling-bearing",
     "gear": "gear-pair",
@@ -331,6 +348,11 @@ def load_element(source: str | Path | Mapping[str, Any]) -> Element:
     """
     table = dict(source) if isinstance(source, Mapping) else read_element(source)
     kind = str(table.get("element"))
+    if table.get("element") is None and "kind" in table:
+        raise InputError(
+            f"{table.get('name')}: a scene of kind {show(table['kind'])}, not a machine element. Use `bem plan` and "
+            "`bem run`."
+        )
     if kind in NOT_HERE:
         raise InputError(f'element = "{kind}": not here: {NOT_HERE[kind]}')
     if kind not in MODELS:
@@ -352,6 +374,10 @@ def read_element(path: str | Path) -> dict[str, Any]:
     """
     try:
         table = tomllib.loads(read_small(path).decode("utf-8"))
+    except FileNotFoundError:
+        raise InputError(
+            f"File {path} not found. `bem new rolling-bearing {path}`, or another element, writes one to start from."
+        ) from None
     except (OSError, ValueError) as error:
         raise InputError(f"element {show(str(path))}: cannot be read ({error})") from None
     table.setdefault("name", Path(path).stem)
@@ -365,7 +391,7 @@ def element_template(name: str) -> str:
     ------
     InputError : none of that name, and why.
     """
-    word = name.lower().replace("_", "-")
+    word = name.strip().lower().replace("_", "-").replace(" ", "-")
     word = _SHORT.get(word, word)
     if word in NOT_HERE:
         raise InputError(f'"{word}": not here: {NOT_HERE[word]}')

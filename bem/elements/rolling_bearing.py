@@ -48,8 +48,10 @@ class BearingModel(ElementModel):
     def _fits(self) -> Self:
         if not self.outside > self.bore:
             raise problem("outside is not larger than bore", "outside > bore")
-        if (self.rolling == "roller") != (self.length is not None):
-            raise problem(f"a {self.rolling} with length {self.length}", "length for rollers, none for balls")
+        if self.rolling == "roller" and self.length is None:
+            raise problem('rolling = "roller" without length', 'the length of a roller, such as length = "11 mm"')
+        if self.rolling == "ball" and self.length is not None:
+            raise problem('rolling = "ball" with a length', 'no length, or rolling = "roller"')
         pitch = self.pitch
         if not (self.bore < pitch - self.diameter and pitch + self.diameter < self.outside):
             raise problem("the rolling elements do not fit between bore and outside", "a smaller diameter")
@@ -162,7 +164,7 @@ def _notes(model: BearingModel, shared: Sequence[float], pressed_out: float) -> 
     highest = max(shared)
     said = [
         f"{sum(q > 0 for q in shared)} of {model.count} elements carry; the most loaded one {highest:.4g} N, "
-        f"{highest * model.count / model.radial_load:.3g} times the mean"
+        f"{highest * model.count / model.radial_load:.3g} times radial load over number of elements"
     ]
     if pressed_out > 0.05 * highest:
         said.append(

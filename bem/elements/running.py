@@ -147,7 +147,12 @@ def summary(element: Element, solved: Sequence[Running]) -> tuple[tuple[str, str
         return tuple(missed[:1])
     found, places = element.found, len(element.found.contacts)
     power = sum(one.power for one in runs) / places * found.at_once
-    rows = [("friction power", f"{power:.4g} W, mean over the places{_of(runs, places)}, {found.at_once:.4g} at once")]
+    rows = [
+        (
+            "friction power",
+            f"{power:.4g} W: mean of one contact{_of(runs, places)} x {found.at_once:.4g} contacts at once",
+        )
+    ]
     hot = [one for one in runs if one.surface is not None]
     if hot:
         hottest = max(hot, key=lambda one: one.surface or 0.0)
@@ -182,12 +187,12 @@ def _micropitting(element: Element, thinnest: Running) -> str:
     if thinnest.film_ratio is None:
         return "not known: give rms_roughness, of both surfaces together"
     ratio, permitted = thinnest.film_ratio, element.model.permissible_film_ratio
-    said = f"smallest film over roughness {ratio:.3g}"
+    said = f"smallest lambda {ratio:.3g}"
     if permitted is None:
         return f"{said}; with permissible_film_ratio, of a test with this oil and finish, it becomes a safety"
     return (
-        f"{said} over {permitted:.3g} permitted: safety {ratio / permitted:.3g}. ISO/TS 6336-22's idea, not its "
-        "procedure: this film is solved with its heat and its roughness is rms, there both are fits and means Ra"
+        f"{said} over {permitted:.3g} permitted: safety {ratio / permitted:.3g}. Concept of ISO/TS 6336-22, not its "
+        "procedure: the film is solved with its heat instead of a film formula, and roughness is Sq instead of Ra"
     )
 
 

@@ -198,7 +198,11 @@ def check_surfaces(grid: Grid, **surfaces: AnySurface) -> None:
             try:
                 check_statistics(_drawn_on(surface, grid), **_statistics(surface))
             except InputError as error:
-                hint = f" (of process {surface.process}, beside which keys of your own win)" if surface.process else ""
+                hint = (
+                    f" (process {surface.process} sets what is not given: give that key, or a larger grid)"
+                    if surface.process
+                    else ""
+                )
                 messages += [f"{name}.surface: {m.removeprefix('generate_surface: ')}{hint}" for m in error.messages]
             try:
                 marks_of(surface, grid, 0)

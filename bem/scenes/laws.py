@@ -105,7 +105,11 @@ class LawKey:
             raise _errors(mistakes)
         missing = [key for key in law.required() if key not in own]
         if missing:
-            raise problem(f"the {law.name} law without {' and '.join(missing)}", f"{' and '.join(missing)} with it")
+            example = ", ".join([f'kind = "{law.name}"', *(f"{key} = ..." for key in missing)])
+            raise problem(
+                f"the {law.name} law without {' and '.join(missing)}",
+                f"{' and '.join(missing)} with it, as in {{ {example} }}",
+            )
         try:
             return law(**own)
         except InputError as error:

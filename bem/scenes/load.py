@@ -16,7 +16,7 @@ from typing import Any
 
 from pydantic import BaseModel
 
-from bem.arguments import read_small
+from bem.arguments import did_you_mean, read_small
 from bem.errors import InputError
 from bem.laws import Law
 from bem.scenes.common import SceneModel
@@ -24,7 +24,7 @@ from bem.scenes.kind import get_kind, kind_names
 from bem.scenes.laws import plain
 from bem.scenes.paths import MOST_PARTS, Key, absolute, drop, parse_key, put, values_in_file
 from bem.scenes.units import Dimension
-from bem.scenes.validate import capped, is_pair, nearest, show, validate
+from bem.scenes.validate import capped, is_pair, show, validate
 
 _DEEPEST = 20
 _LONG_KEY = re.compile(rf"(?<![\w\"'-])[\w\"'-]++(?:[ \t]*\.[ \t]*[\w\"'-]++){{{MOST_PARTS}}}", re.ASCII)
@@ -57,9 +57,11 @@ def scene_from_table(data: Any, folder: Path | None = None) -> SceneModel:
     kind = data.get("kind")
     listed = ", ".join(f'"{name}"' for name in names)
     if kind is None:
-        raise InputError(f"kind: missing; allowed: {listed}")
+        if "element" in data:
+            raise machine_element(data, "FILE")
+        raise InputError(f"kind: missing, so nothing says what to compute; allowed: {listed} (`bem new` explains them)")
     if kind not in names:
-        raise InputError(f"kind = {show(kind)}: not allowed{nearest(str(kind), names)}; allowed: {listed}")
+        raise InputError(f"kind = {show(kind)}: not allowed{did_you_mean(kind, names)}; allowed: {listed}")
     not_text = [
         f"{key} = {show(value)}: holds bytes that are no text; allowed: text in UTF-8" for key, value in _not_text(data)
     ]
@@ -230,7 +232,10 @@ def _read_named(source: str) -> tuple[dict[str, Any], Path]:
         if path.is_dir() and (path / "scene.toml").is_file():
             path = path / "scene.toml"
         if path.is_file():
-            return _read_file(path), path.parent
+            data = _read_file(path)
+            if "element" in data and "kind" not in data:
+                raise machine_element(data, source)
+            return data, path.parent
     except InputError:
         raise
     except (OSError, ValueError) as error:
@@ -239,9 +244,22 @@ def _read_named(source: str) -> tuple[dict[str, Any], Path]:
     if source in scenes:
         scenes[source].setdefault("name", source)
         return scenes[source], Path.cwd()
+    if source.endswith(".toml") or len(path.parts) > 1:
+        beside = [item.name for item in path.parent.glob("*.toml")] if path.parent.is_dir() else []
+        raise InputError(
+            f"File {source} not found{did_you_mean(path.name, beside) or '.'} `bem scenes` lists the built-in scenes."
+        )
     raise InputError(
-        f"scene {show(source)}: no such file and no built-in scene{nearest(source, scenes)}; "
-        f"allowed: a TOML file, a run directory, or one of {', '.join(scenes)}"
+        f"scene {show(source)}: no such file, run folder or built-in scene{did_you_mean(source, scenes) or '.'} "
+        "`bem scenes` lists the built-in scenes."
+    )
+
+
+def machine_element(data: Mapping[str, Any], file: str) -> InputError:
+    """Say that the table of a file is a machine element, not a scene, and which command reads it."""
+    return InputError(
+        f"{file} is a machine element ({show(data['element'])}), not a scene. `bem element {file}` shows its contacts, "
+        f"and with --scene SCENE.toml writes a scene of one of them."
     )
 
 

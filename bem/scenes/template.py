@@ -23,7 +23,7 @@ from bem.scenes.validate import fields_of_table, law_at, literals, member_of, ne
 _NOT_SHOWN = ("kind", "redoes", "name")
 
 
-_ALSO = {
+ALSO = {
     "stribeck": "friction",
     "stribeck-curve": "friction",
     "mixed": "friction",
@@ -78,7 +78,7 @@ _ALSO = {
 def kind_meant(word: str) -> str:
     """The kind that a word means: its name, one of the names people guess, or the word itself."""
     name = word.strip().lower().replace("_", "-").replace(" ", "-")
-    return name if name in kind_names() else _ALSO.get(name, word)
+    return name if name in kind_names() else ALSO.get(name, word)
 
 
 def scene_template(kind: str) -> str:
@@ -95,7 +95,7 @@ def scene_template(kind: str) -> str:
         return without_description(library_text(kind))
     if kind not in kind_names():
         listed = ", ".join(f'"{name}"' for name in kind_names())
-        close = nearest(kind, [*kind_names(), *_ALSO, *library()])
+        close = nearest(kind, [*kind_names(), *ALSO, *library()])
         raise InputError(
             f"KIND {show(kind)}: not a kind of scene{close}; allowed: {listed}, or a built-in scene of `bem scenes`"
         )

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import difflib
 import re
 import types
 import typing
@@ -11,6 +10,7 @@ from typing import Any, TypeVar
 
 from pydantic import BaseModel, ValidationError
 
+from bem.arguments import did_you_mean
 from bem.errors import InputError
 from bem.laws import Law, laws_of
 from bem.scenes.laws import LawOrNumber, LawTable, fields_of
@@ -46,10 +46,8 @@ def capped(messages: Sequence[str]) -> list[str]:
 
 
 def nearest(word: str, names: Iterable[str]) -> str:
-    """` - did you mean "..."?` for the nearest of `names`, or nothing."""
-    spelling = {name.lower().replace("-", "_"): name for name in names}
-    close = difflib.get_close_matches(str(word).lower().replace("-", "_"), spelling, n=1, cutoff=0.6)
-    return f' - did you mean "{spelling[close[0]]}"?' if close else ""
+    """` - did you mean "..."?` for the nearest of `names`, or nothing; see `bem.arguments.did_you_mean`."""
+    return did_you_mean(word, names)
 
 
 def show(value: Any) -> str:

@@ -131,7 +131,8 @@ def test_spellings_of_a_grade(spelling):
         ("PAO 5", "unknown"),
         ("SAE 35", 'did you mean "SAE 30"'),
         ("35W-30", "no such W grade"),
-        ("water-glycol 46", "viscosity_index is missing"),
+        ("water", "isoviscous"),
+        ("lithium grease", "base oil"),
         (68, "must be a name"),
     ],
 )

@@ -60,7 +60,7 @@ def test_other_ways_and_figures_of_ones_own():
         ({"viscosity": 0.1, "base": "pao"}, "base beside viscosity"),
         ({"grade": "VG 68", "temperature": "60 C", "temperature_law": "vogel"}, "temperature_law beside grade"),
         ({"viscosities": [["40 C", "46 cSt"], ["100 C", "50 cSt"]], "temperature": "60 C"}, "fall with temperature"),
-        ({"grade": "water-glycol 46", "temperature": "40 C"}, "viscosity_index is missing"),
+        ({"grade": "water-glycol 46", "temperature": "40 C"}, "pressure-viscosity coefficient"),
         ({"grad": "VG 68"}, 'unknown key - did you mean "grade"'),
         ({"viscosity": "-1 Pa*s"}, "an oil without viscosity makes no film"),
         ({"grade": "VG 68", "temperature": "60 N"}, "is not a temperature"),

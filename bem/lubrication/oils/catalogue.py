@@ -146,7 +146,19 @@ def _squeezed(name: str) -> str:
     return re.sub(r"[^a-z0-9]", "", name.lower())
 
 
+_NO_OIL = {
+    "grease": "grease has no entry: take its base oil, by grade or viscosities from the maker's sheet, and a table "
+    "[supply] where the contact starves",
+    "water": 'water has no entry: give viscosity = "0.65 mPa*s" (at 40 degC) and pressure_viscosity = "0 1/GPa" in '
+    "[oil]; its films are isoviscous",
+}
+"""Lubricants that are not in the catalogue, and what to give instead."""
+
+
 def _unknown(name: str) -> InputError:
+    for word, advice in _NO_OIL.items():
+        if word in re.findall("[a-z]+", name.lower()):
+            return InputError(f'oil "{name[:60]}": {advice}')
     known = {_squeezed(one): one for one in oil_names()}
     close = difflib.get_close_matches(_squeezed(name), known, n=1, cutoff=0.6)
     hint = f' - did you mean "{known[close[0]]}"?' if close else ""

@@ -100,8 +100,8 @@ _GIVEN = partial(Figure, unjudged=True)
 _of_supply = partial(Figure, optional=True)
 _of_rough = partial(Figure, optional=True)
 _ROUGH = (
-    "the film is thinner than the roughness (lambda below 1): the surfaces touch, of which this smooth contact knows "
-    "nothing"
+    "the film is thinner than the roughness (lambda below 1): asperities touch, which this smooth contact leaves out; "
+    "use kind friction (mixed lubrication)"
 )
 
 

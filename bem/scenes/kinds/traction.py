@@ -132,8 +132,8 @@ _HOTTEST = "in pure rolling it stands at the spike of pressure and follows the m
 _FORMULA = "it is a formula's"
 _ALGEBRA = "it closes by construction, to rounding"
 _ROUGH = (
-    "the film is thinner than the roughness (lambda below 1): the surfaces touch, of which this smooth contact knows "
-    "nothing; kind friction shares the load between film and rough surfaces"
+    "the film is thinner than the roughness (lambda below 1): asperities touch, which this smooth contact leaves out; "
+    "use kind friction (mixed lubrication)"
 )
 _of_supply, _hot = partial(Figure, optional=True), partial(Figure, "C", part_of=("film_rise",))
 

@@ -155,7 +155,10 @@ class RubbedScene(SceneModel):
     @model_validator(mode="after")
     def _film_is_the_layer(self) -> Self:
         if self.lower.stack or self.upper.stack:
-            raise problem("a body has a layer of its own", "bodies without a layer: the film is the layer")
+            raise problem(
+                "a tribofilm cannot grow on a coated body: the film is the only layer of its scene",
+                "bodies without layer and layers",
+            )
         bodies = build.bodies_of(self)
         for body in bodies if isinstance(bodies, tuple) else (bodies,):
             if self.rubbing.speeds is not None and body.material.thermal_diffusivity is None:

@@ -29,7 +29,10 @@ class GrossSliding(TractionLaw):
     def misfits(self, criterion: Detachment, stress_range: bool) -> tuple[str, ...]:
         """A local law needs its distance."""
         if isinstance(criterion, LocalWear) and criterion.distance == 0:
-            return (f"criterion {criterion.name}: distance 0 m wears nothing; allowed: above 0",)
+            return (
+                f"criterion {criterion.name}: distance 0 m wears nothing; allowed: criterion.distance, the sliding "
+                'distance that one cycle stands for, above 0, such as "1 mm"',
+            )
         return ()
 
     def rub(self, pressure: FloatArray, friction: float, setup: WearSetup) -> None:

@@ -1,0 +1,207 @@
+"""Scenes with rough surfaces of one contact of a machine element: mixed friction, running-in, surface temperature.
+
+The roughness of an element is one number, the rms height of both surfaces together. Its scenes need surfaces: both
+bodies get random ones of equal rms height, whose shortest waves the grid resolves. Measured surfaces may replace them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from bem.elements.contact import ElementContact
+from bem.errors import InputError
+from bem.materials import Body, softer_hardness
+
+if TYPE_CHECKING:
+    from bem.elements.model import ElementModel
+
+BOUNDARY_FRICTION = 0.12
+"""Assumed friction coefficient of asperity contacts; steel in mineral oil has about 0.10 to 0.15."""
+ROOM = 293.15
+"""Bulk temperature of both bodies without an oil [K]."""
+
+_LINE_HALF_WIDTHS = 4.0
+"""Length of the patch of a line contact along the motion, in half-widths of the Hertz contact."""
+_POINT_HALF_AXES = 3.0
+"""Sides of the patch of a point contact, in half-axes of the Hertz contact."""
+_LINE_CELLS = (192, 64)
+_POINT_CELLS, _MOST_ELONGATED = 96, 4.0
+"""Cells across a point contact along its shorter half-axis, and the largest ratio of cells along both axes."""
+_CELLS_PER_SHORTEST_WAVE = 6.0
+_HURST = 0.8
+"""Hurst exponent of machined surfaces; 0.7 to 0.9 are usual."""
+
+_CYCLES = {"count": 50, "averaged": 10, "settled": 20}
+_DEPTHS = 50
+_CELLS_PER_DEPTH = 5.0
+"""Steps between depths are so many times shorter than the cells, as in the built-in scenes of running-in."""
+
+
+@dataclass(frozen=True)
+class Patch:
+    """Grid over a Hertz contact.
+
+    Parameters
+    ----------
+    shape : cells along x and y. lengths : sides [m]. periodic : whether the patch repeats along x and y.
+    """
+
+    shape: tuple[int, int]
+    lengths: tuple[float, float]
+    periodic: tuple[bool, bool]
+
+    def table(self) -> dict[str, Any]:
+        """As the table [grid] of a scene."""
+        return {"shape": list(self.shape), "lengths": list(self.lengths), "periodic": list(self.periodic)}
+
+    @property
+    def coarser_spacing(self) -> float:
+        """Longer side of a cell [m]."""
+        return max(length / cells for length, cells in zip(self.lengths, self.shape, strict=True))
+
+    def surface(self, rms_height: float) -> dict[str, Any]:
+        """As the table [surface] of a body: self-affine roughness of an rms height [m] that the grid resolves."""
+        cutoff = _CELLS_PER_SHORTEST_WAVE * self.coarser_spacing
+        return {
+            "kind": "generated",
+            "rms_height": rms_height,
+            "hurst": _HURST,
+            "rolloff_wavelength": max(0.5 * min(self.lengths), cutoff),
+            "cutoff_wavelength": cutoff,
+        }
+
+
+def patch_over(contact: ElementContact, modulus: float) -> Patch:
+    """Patch that holds the Hertz contact: a slice of a line contact, the whole of a point contact.
+
+    modulus : contact modulus [Pa].
+    """
+    if contact.length is not None:
+        nx, ny = _LINE_CELLS
+        side = _LINE_HALF_WIDTHS * contact.half_width(modulus)
+        return Patch(_LINE_CELLS, (side, side * ny / nx), (False, True))
+    semi_axes = contact.hertz(modulus).semi_axes  # type: ignore[union-attr]
+    shortest = min(semi_axes)
+    cells = [16 * round(_POINT_CELLS / 16 * min(math.sqrt(a / shortest), _MOST_ELONGATED)) for a in semi_axes]
+    return Patch(
+        (cells[0], cells[1]), (_POINT_HALF_AXES * semi_axes[0], _POINT_HALF_AXES * semi_axes[1]), (False, False)
+    )
+
+
+def rough_bodies(
+    model: ElementModel, bodies: Mapping[str, Mapping[str, Any]], patch: Patch
+) -> dict[str, dict[str, Any]]:
+    """Both bodies' tables with random surfaces, whose rms heights together are the element's; smooth without one."""
+    if model.rms_roughness is None:
+        return {name: dict(body) for name, body in bodies.items()}
+    surface = patch.surface(model.rms_roughness / math.sqrt(2))
+    return {name: {**body, "surface": dict(surface)} for name, body in bodies.items()}
+
+
+def mixed_scene(
+    model: ElementModel,
+    contact: ElementContact,
+    bodies: Mapping[str, Mapping[str, Any]],
+    oil: Mapping[str, Any],
+    kind: str,
+    modulus: float,
+) -> dict[str, Any]:
+    """Keys of a scene of kind friction or running-in: load, speed and supply of one place of the element.
+
+    Parameters
+    ----------
+    bodies : tables of `lower` and `upper` with their materials. oil : the element's table of the oil.
+    modulus : contact modulus [Pa].
+
+    Raises
+    ------
+    InputError : an element without roughness.
+    """
+    if model.rms_roughness is None:
+        raise InputError(
+            f"{model.name}: kind {kind} needs the roughness of the surfaces; allowed: rms_roughness of both together, "
+            'such as "300 nm"'
+        )
+    patch, ratio = patch_over(contact, modulus), contact.slide_roll_ratio
+    shape: dict[str, Any] = {"radii": [contact.radius, contact.across]}
+    if contact.length is not None:
+        shape = {"radius": contact.radius, "width": contact.length}
+    flat_speed = abs(contact.mean_speed) * (1 + 0.5 * ratio)
+    made: dict[str, Any] = {
+        **({"thermal": "lumped"} if _conducts(model) else {}),
+        **rough_bodies(model, bodies, patch),
+        "contact": {**shape, "loads": [contact.load], "boundary_friction": BOUNDARY_FRICTION},
+        "oil": dict(oil),
+        "speeds": {"values": [flat_speed], "slide_roll_ratio": ratio},
+        **({"supply": {"distance": contact.inlet}} if math.isfinite(contact.inlet) else {}),
+        "grid": patch.table(),
+    }
+    sharing: dict[str, Any] = {"oil_volume": "loaded"}
+    if kind == "friction":
+        if hardness_of(model) is None:
+            sharing["models"] = ["elastic"]
+        return made | {"sharing": sharing}
+    return {
+        **made,
+        "sharing": sharing,
+        "depths": {"count": _DEPTHS, "spacing": patch.coarser_spacing / _CELLS_PER_DEPTH},
+        "cycles": dict(_CYCLES),
+    }
+
+
+def rubbing_scene(
+    model: ElementModel, contact: ElementContact, bodies: Mapping[str, Mapping[str, Any]], modulus: float
+) -> dict[str, Any]:
+    """Keys of a scene of kind surface-temperature; see `mixed_scene`.
+
+    A line contact is a slice that repeats along its length. Under a body at rest the heat of an endless line has no
+    steady temperature, so that there the patch stands alone, as long as it is wide.
+    """
+    patch = patch_over(contact, modulus)
+    load = contact.load
+    if contact.length is not None:
+        if 0 in contact.speeds:
+            side, cells = patch.lengths[0], 128
+            patch = Patch((cells, cells), (side, side), (False, False))
+        load *= patch.lengths[1] / contact.length
+    curved: dict[str, Any] = {"kind": "ellipsoid", "radius": contact.radius, "radius_y": contact.across}
+    if contact.length is not None:
+        curved = {"kind": "cylinder", "radius": contact.radius}
+    bulk = ROOM if model.oil is None or model.oil.temperature is None else model.oil.temperature
+    return {
+        "grid": patch.table(),
+        **rough_bodies(model, bodies, patch),
+        "shape": curved,
+        "contact": {
+            "load": load,
+            "behaviour": "elastic" if hardness_of(model) is None else "capped",
+            "friction": BOUNDARY_FRICTION,
+        },
+        "heat": {
+            "lower_speed": contact.speeds[0],
+            "upper_speed": contact.speeds[1],
+            "lower_bulk": bulk,
+            "upper_bulk": bulk,
+        },
+    }
+
+
+def hardness_of(model: ElementModel) -> float | None:
+    """Hardness of the softer material [Pa]; None where neither material has one."""
+    return softer_hardness(Body(model.first.build()), Body(model.second.build()))
+
+
+def _conducts(model: ElementModel) -> bool:
+    """True if the lumped heat of the film is defined: both materials have a thermal diffusivity, the oil its
+    constants."""
+    from bem.friction.setup import HEAT_NEEDS
+
+    assert model.oil is not None
+    lubricant = model.oil.build()
+    materials = (model.first.build(), model.second.build())
+    return all(one.thermal_diffusivity for one in materials) and all(
+        getattr(lubricant, key) is not None for key in HEAT_NEEDS
+    )

@@ -1,0 +1,151 @@
+"""Scenes of kind friction, running-in and surface-temperature of machine elements: all plan, and one of each runs."""
+
+import math
+import tomllib
+
+import pytest
+
+from bem import InputError, load_scene, plan_scene, run_scene
+from bem.elements.element import KINDS, MIXED, MODELS, element_template, load_element
+from bem.elements.rough_scenes import BOUNDARY_FRICTION, patch_over
+from bem.scenes import get_kind
+
+ROUGH = (*MIXED, "surface-temperature")
+CONDUCTS = {"thermal_conductivity": 48.0, "density": 7200.0, "heat_capacity": 460.0}
+ROLLERS = {"rolling": "roller", "length": "11 mm"}
+
+
+def element_of(name, **changes):
+    """The template's element; materials without thermal constants get some."""
+    table = tomllib.loads(element_template("rolling-bearing" if name == "roller" else name))
+    table |= {"name": name} | (ROLLERS if name == "roller" else {}) | changes
+    for body in ("first", "second"):
+        if "cast-iron" in table[body]:
+            table[body] = {"catalogue": table[body], **CONDUCTS}
+    return load_element(table)
+
+
+def with_film(element):
+    """The contact of highest pressure whose surfaces do not run against each other."""
+    steady = [one for one in element.found.contacts if abs(one.slide_roll_ratio) <= 2]
+    return max(steady, key=lambda one: one.hertz(element.modulus).maximum_pressure)
+
+
+@pytest.mark.parametrize("kind", KINDS)
+@pytest.mark.parametrize("name", [*MODELS, "roller"])
+def test_every_kind_of_scene_of_every_element_plans(name, kind):
+    element = element_of(name)
+    place = with_film(element)
+    if kind == "point-film" and place.length is not None:
+        with pytest.raises(InputError, match="line contact"):
+            element.scene(place, kind)
+        return
+    made = element.scene(place, kind)
+    scene, plan = plan_scene(made)
+    assert scene.kind == kind
+    assert plan.memory > 0
+    if kind in ROUGH:
+        heights = [getattr(scene, body).surface.rms_height for body in ("lower", "upper")]
+        assert math.hypot(*heights) == pytest.approx(element.model.rms_roughness)
+        assert scene.thermal == "lumped" if kind in MIXED else scene.heat.lower_bulk == element.model.oil.temperature
+        assert f"{BOUNDARY_FRICTION:g} is assumed" in scene.description
+
+
+@pytest.mark.parametrize("kind", MIXED)
+@pytest.mark.parametrize("name", [*MODELS, "roller"])
+def test_a_mixed_contact_has_the_load_and_speeds_of_its_place(name, kind):
+    element = element_of(name)
+    place = with_film(element)
+    scene = load_scene(element.scene(place, kind))
+    assert scene.load == pytest.approx(place.load)
+    ((flat, other),) = scene.speeds.build()
+    sign = math.copysign(1, place.mean_speed)
+    assert (flat, other) == pytest.approx(tuple(sign * speed for speed in place.speeds))
+    assert scene.sharing.oil_volume == "loaded"
+    half_axis = scene.contact.half_axes(scene.load, scene.modulus)[0]
+    assert half_axis == pytest.approx(place.half_width(element.modulus))
+    assert scene.contact.boundary_friction == BOUNDARY_FRICTION
+    assert (scene.supply is None) == math.isinf(place.inlet)
+
+
+@pytest.mark.parametrize("name", ["gear-pair", "rolling-bearing"])
+def test_the_patch_holds_the_contact_and_resolves_the_roughness(name):
+    element = element_of(name)
+    place = with_film(element)
+    patch, hertz = patch_over(place, element.modulus), place.hertz(element.modulus)
+    half = [hertz.half_width] if name == "gear-pair" else hertz.semi_axes
+    for length, axis in zip(patch.lengths, half, strict=False):
+        assert 0.5 * length >= 1.5 * axis
+    surface = patch.surface(1e-7)
+    assert surface["cutoff_wavelength"] >= 6 * patch.coarser_spacing * (1 - 1e-12)
+    assert surface["rolloff_wavelength"] >= surface["cutoff_wavelength"]
+
+
+def reduced(made, kind):
+    """A quarter of the cells, few points of the film, no heat of it."""
+    made["grid"]["shape"] = [cells // 2 for cells in made["grid"]["shape"]]
+    if kind in MIXED:
+        made["thermal"] = "off"
+    if kind == "friction":
+        made |= {"film": {"points": 200}, "outputs": {"errors": False}}
+    if kind == "running-in":
+        made["cycles"] = {"count": 2, "averaged": 1, "settled": 1}
+        made["depths"]["count"] = 6
+        made["sharing"]["film_points"] = 200
+    return made
+
+
+@pytest.mark.parametrize("kind", ROUGH)
+def test_a_rough_scene_of_a_gear_pair_runs(kind, tmp_path):
+    element = element_of("gear-pair")
+    place = element.worst()
+    done = run_scene(reduced(element.scene(place, kind), kind), tmp_path / "run", figures=False).summary
+    assert done["status"] == "converged"
+    if kind == "surface-temperature":
+        assert done["maximum_temperature_C"] > 90
+        length = patch_over(place, element.modulus).lengths[1]
+        assert done["load_N"] == pytest.approx(place.load / place.length * length)
+        return
+    # lambda 0.35: the surfaces carry much, friction lies below theirs
+    friction, contact = (
+        (done["friction"][0], done["contact_load_N"][0])
+        if kind == "friction"
+        else (done["friction_initial"][0], done["contact_load_N"][0])
+    )
+    assert 0.02 < friction < BOUNDARY_FRICTION
+    assert 0.2 * place.load < contact < place.load
+
+
+def test_what_a_kind_needs_is_named():
+    smooth = element_of("gear-pair", rms_roughness=None)
+    with pytest.raises(InputError, match="rms_roughness"):
+        smooth.scene(smooth.worst(), "friction")
+    assert load_scene(smooth.scene(smooth.worst(), "surface-temperature")).lower.surface.kind == "smooth"
+    table = tomllib.loads(element_template("piston-ring")) | {"name": "ring"}
+    cold = load_element(table)
+    with pytest.raises(InputError, match=r"thermal_conductivity.*grey-cast-iron"):
+        cold.scene(cold.worst(), "surface-temperature")
+    assert load_scene(cold.scene(cold.worst(), "friction")).thermal == "off"
+    assert set(KINDS) <= {get_kind(kind).name for kind in KINDS}
+
+
+def test_materials_without_hardness_share_the_load_elastically():
+    soft = element_of("gear-pair", first="grey-cast-iron", second="grey-cast-iron")
+    assert load_scene(soft.scene(soft.worst(), "friction")).sharing.models == ["elastic"]
+    with pytest.raises(InputError, match="hardness"):
+        plan_scene(soft.scene(soft.worst(), "running-in"))
+
+
+def test_a_whole_path_is_of_kind_traction_alone(tmp_path):
+    from typer.testing import CliRunner
+
+    from bem.cli import build
+
+    path = tmp_path / "gears.toml"
+    path.write_text(element_template("gear-pair"))
+    words = ["element", str(path), "--scene", str(tmp_path / "s.toml"), "--kind", "friction"]
+    done = CliRunner().invoke(build(), [*words, "--at", "path"])
+    assert isinstance(done.exception, InputError)
+    assert "traction" in str(done.exception)
+    assert CliRunner().invoke(build(), [*words, "--at", "20"]).exit_code == 0
+    assert load_scene(tmp_path / "s.toml").kind == "friction"
