@@ -79,7 +79,7 @@ class Workspace:
         found = {}
         for path in sorted(self.folder.glob("*.toml")):
             with suppress(OSError, ValueError, RecursionError):
-                kind = tomllib.loads(path.read_text("utf-8")).get("kind")
+                kind = tomllib.loads(path.read_text("utf-8-sig")).get("kind")
                 found[path.stem] = kind if isinstance(kind, str) else ""
         return found
 
@@ -94,7 +94,7 @@ class Workspace:
     def scene_text(self, name: str) -> str:
         """What the file of a scene says, "" where there is none."""
         try:
-            return self.scene_path(name).read_text("utf-8")
+            return self.scene_path(name).read_text("utf-8-sig")
         except FileNotFoundError:
             return ""
         except (OSError, ValueError) as error:

@@ -55,6 +55,13 @@ def pair_of_cells(text: str, option: str) -> tuple[int, int]:
     return parts[0], parts[-1]
 
 
+def named_folder(text: str) -> Path:
+    """A folder by its name; an empty one, which would be the current folder, is refused."""
+    if not text.strip():
+        raise InputError('--out "": an empty name; allowed: a folder, or "." for the current one')
+    return Path(text)
+
+
 def new_file(path: Path, option: str, endings: tuple[str, ...]) -> Path:
     """The path, if its ending is one of those allowed."""
     if path.suffix.lower() not in endings:

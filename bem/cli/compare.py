@@ -7,6 +7,8 @@ from typing import Annotated, Any
 
 import typer
 
+from bem.cli._quantity import named_folder
+
 
 def register(app: typer.Typer) -> None:
     """Add the command."""
@@ -16,7 +18,12 @@ def register(app: typer.Typer) -> None:
         first: Annotated[Path, typer.Argument(metavar="A", help="A finished run's folder.")],
         others: Annotated[list[Path], typer.Argument(metavar="B ...", help="Others; each is compared with A.")],
         out: Annotated[
-            Path, typer.Option(help="Overlaid figures: file without ending, .png and .pdf are made.")
+            Path,
+            typer.Option(
+                parser=named_folder,
+                metavar="PATH",
+                help="Overlaid figures: file without ending; .png and .pdf.",
+            ),
         ] = Path("comparison"),
         figures: Annotated[bool, typer.Option("--figures/--no-figures", help="Draw the overlaid figures.")] = True,
         all_: Annotated[bool, typer.Option("--all", help="Show every figure, and equal ones too.")] = False,

@@ -7,6 +7,8 @@ from typing import Annotated
 
 import typer
 
+from bem.cli._quantity import named_folder
+
 
 def register(app: typer.Typer) -> None:
     """Add the command."""
@@ -16,7 +18,9 @@ def register(app: typer.Typer) -> None:
         run: Annotated[Path, typer.Argument(metavar="DIR", help="A finished run's or sweep's folder.")],
         csv: Annotated[bool, typer.Option("--csv", help="The table only.")] = False,
         netcdf: Annotated[bool, typer.Option("--netcdf", help="The netCDF file only.")] = False,
-        out: Annotated[Path | None, typer.Option("--out", metavar="FOLDER", help="Where to; here by default.")] = None,
+        out: Annotated[
+            Path | None, typer.Option("--out", metavar="FOLDER", parser=named_folder, help="Where to; here by default.")
+        ] = None,
     ) -> None:
         """Write all figures of a run or a sweep, a row for each point: what was varied, loads, speeds, the oil's
         temperature and slide-roll ratio, then the figures, in SI units or those in their names.
@@ -34,6 +38,8 @@ def register(app: typer.Typer) -> None:
         from bem.results.export import points_of
 
         points = points_of(run)
+        for note in points.notes:
+            typer.echo(f"bem: {note}", err=True)
         folder = Path() if out is None else out
         folder.mkdir(parents=True, exist_ok=True)
         for wanted, ending, write in ((csv, "csv", points.write_csv), (netcdf, "nc", points.write_netcdf)):

@@ -8,6 +8,8 @@ from typing import Annotated
 
 import typer
 
+from bem.cli._quantity import named_folder
+
 
 def complete_figure(context: typer.Context, incomplete: str) -> list[str]:
     """Figures that the run has drawn, for tab completion; loads nothing."""
@@ -38,7 +40,12 @@ def register(app: typer.Typer) -> None:
         format_: Annotated[
             str, typer.Option("--format", help="png, pdf or svg.", autocompletion=complete_format)
         ] = "png",
-        out: Annotated[Path | None, typer.Option(help="Folder for the picture; without it the current one.")] = None,
+        out: Annotated[
+            Path | None,
+            typer.Option(
+                parser=named_folder, metavar="DIR", help="Folder for the picture; the current one by default."
+            ),
+        ] = None,
     ) -> None:
         """Draw a figure of a finished run in a given size and format.
 

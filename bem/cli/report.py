@@ -19,13 +19,13 @@ def register(app: typer.Typer) -> None:
         from bem.plots.draw import draw_all
         from bem.plots.report import write_report
         from bem.results import open_run
-        from bem.results.directory import FIGURES, REPORT, RunDirectory
-        from bem.results.read import damaged_files
+        from bem.results.directory import RunDirectory
+        from bem.results.read import damaged_data
         from bem.scenes import get_kind
 
         done = open_run(run)
         # what is drawn again may be damaged or gone; the rest would get new checksums, whatever is in it
-        damaged = [name for name in damaged_files(run) if name != REPORT and not name.startswith(f"{FIGURES}/")]
+        damaged = damaged_data(run)
         if damaged:
             raise ResultsError(f"{run}: damaged or changed: {', '.join(damaged)}; run the scene again")
         with RunDirectory(run) as directory:

@@ -7,6 +7,8 @@ from typing import Annotated
 
 import typer
 
+from bem.cli._quantity import named_folder
+
 
 def complete_scene(incomplete: str) -> list[str]:
     """Built-in scenes that begin like this, for tab completion; loads nothing."""
@@ -72,7 +74,12 @@ def register(app: typer.Typer) -> None:
 
 def run(
     scene: SceneArgument,
-    out: Annotated[Path | None, typer.Option(help="The run's folder; without it the next free runs/NAME-001.")] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(
+            parser=named_folder, metavar="DIR", help="The run's folder; by default the next free runs/NAME-001."
+        ),
+    ] = None,
     set_: SetOption = None,
     accuracy: AccuracyOption = None,
     resume: Annotated[bool, typer.Option("--resume", help="Go on from the checkpoint of an interrupted run.")] = False,

@@ -7,6 +7,7 @@ from typing import Annotated
 
 import typer
 
+from bem.cli._quantity import named_folder
 from bem.cli.run import AccuracyOption, SceneArgument, SchedulerOption, SetOption, WorkersOption, asked
 
 
@@ -27,7 +28,10 @@ def sweep(
             '(one value a line) "contact.load=@loads.txt". Repeated: all combinations.',
         ),
     ] = None,
-    out: Annotated[Path | None, typer.Option(help="The sweep's folder; without it sweeps/NAME.")] = None,
+    out: Annotated[
+        Path | None,
+        typer.Option(parser=named_folder, metavar="DIR", help="The sweep's folder; sweeps/NAME by default."),
+    ] = None,
     set_: SetOption = None,
     accuracy: AccuracyOption = None,
     resume: Annotated[

@@ -373,7 +373,7 @@ def read_element(path: str | Path) -> dict[str, Any]:
     InputError : a file that cannot be read.
     """
     try:
-        table = tomllib.loads(read_small(path).decode("utf-8"))
+        table = tomllib.loads(read_small(path).decode("utf-8-sig"))
     except FileNotFoundError:
         raise InputError(
             f"File {path} not found. `bem new rolling-bearing {path}`, or another element, writes one to start from."

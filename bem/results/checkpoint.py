@@ -82,6 +82,8 @@ def load_checkpoint(path: Path) -> dict[str, Any] | None:
             return _read(path, file)
     except FileNotFoundError:
         return None
+    except ResultsError:
+        raise
     except OSError as error:
         raise ResultsError(f"{path}: the checkpoint cannot be read ({reason(error)})") from error
 

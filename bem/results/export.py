@@ -8,7 +8,7 @@ from __future__ import annotations
 import csv
 import io
 from collections.abc import Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -17,7 +17,7 @@ import numpy as np
 from bem.errors import InputError, ResultsError
 from bem.results.atomic import replacing
 from bem.results.dataset import read_dataset, write_variables
-from bem.results.directory import SCENE
+from bem.results.directory import SUMMARY
 from bem.results.read import open_run
 from bem.scenes.context import Variable
 
@@ -37,13 +37,14 @@ class Points:
     """A table of points.
 
     columns : values by name, (n,) numbers or texts, what was varied first. units : by name, "" for none.
-    meanings : by name. title : of the run.
+    meanings : by name. title : of the run. notes : damaged points of a sweep, and what is taken instead.
     """
 
     columns: Mapping[str, np.ndarray[Any, Any]]
     units: Mapping[str, str]
     meanings: Mapping[str, str]
     title: str
+    notes: tuple[str, ...] = ()
 
     def csv(self) -> str:
         """Comma-separated, each column's unit in brackets behind its name."""
@@ -97,9 +98,10 @@ def points_of(folder: Path) -> Points:
     ------
     ResultsError : no run or sweep, or damaged files.
     """
+    notes: tuple[str, ...] = ()
     if (folder / SWEEP).is_file():
         data, title = read_dataset(folder / SWEEP), folder.name
-        names, scene = [str(name) for name in data.data_vars], _scene_below(folder)
+        names, (scene, notes) = [str(name) for name in data.data_vars], _scene_below(folder)
     else:
         run = open_run(folder)
         data, title, scene = run.dataset, run.summary["scene"], run.scene
@@ -107,7 +109,7 @@ def points_of(folder: Path) -> Points:
     dimensions = tuple(dict.fromkeys(str(dim) for name in names for dim in data[name].dims))
     if not names:
         raise ResultsError(f"{folder}: no figures are in it")
-    return _laid_out(data, names, dimensions, scene, title)
+    return replace(_laid_out(data, names, dimensions, scene, title), notes=notes)
 
 
 def _figures(kind: str, data: xarray.Dataset) -> list[str]:
@@ -119,13 +121,22 @@ def _figures(kind: str, data: xarray.Dataset) -> list[str]:
     return [str(name) for name in data.data_vars if str(name) in known]
 
 
-def _scene_below(folder: Path) -> dict[str, Any]:
-    """The scene of a point of a sweep; empty where none is left."""
-    import tomllib
-
-    for path in sorted(folder.glob(f"points/*/{SCENE}")):
-        return tomllib.loads(path.read_text("utf-8"))
-    return {}
+def _scene_below(folder: Path) -> tuple[dict[str, Any], tuple[str, ...]]:
+    """The scene of a sound point of a sweep, empty where none is left; and a sentence on damaged points before it."""
+    damaged: list[str] = []
+    found: dict[str, Any] = {}
+    for path in sorted(folder.glob(f"points/*/{SUMMARY}")):
+        try:
+            found = open_run(path.parent).scene
+            break
+        except ResultsError:
+            damaged.append(path.parent.name)
+    if not damaged:
+        return found, ()
+    return found, (
+        f"{folder}: damaged points: {', '.join(damaged)}; their rows are those of {SWEEP}. `bem sweep` with --resume "
+        "computes them again",
+    )
 
 
 def _laid_out(

@@ -14,7 +14,17 @@ from bem.errors import ResultsError
 from bem.results.arrays import Arrays, read_arrays
 from bem.results.atomic import reason
 from bem.results.dataset import read_dataset
-from bem.results.directory import CHECKSUMS, RESULTS, SCENE, SUMMARY, SWAPPING, checksum, names_of_files
+from bem.results.directory import (
+    CHECKSUMS,
+    FIGURES,
+    REPORT,
+    RESULTS,
+    SCENE,
+    SUMMARY,
+    SWAPPING,
+    checksum,
+    names_of_files,
+)
 
 if TYPE_CHECKING:
     import xarray
@@ -120,6 +130,29 @@ def damaged_files(folder: Path) -> list[str]:
     known = _known(folder)
     names = dict.fromkeys([*known, SCENE, SUMMARY, RESULTS, *names_of_files(folder)])
     return [name for name in names if not _sound(folder, name, known)]
+
+
+def damaged_data(folder: Path) -> list[str]:
+    """Files of a finished run without which its results are not whole, and that are damaged: all but its pictures and
+    report, which can be drawn again; ResultsError without checksums."""
+    return [name for name in damaged_files(folder) if name != REPORT and not name.startswith(f"{FIGURES}/")]
+
+
+def check_data(folder: Path) -> None:
+    """Refuse a finished run whose scene, summary, results or volumes are damaged.
+
+    Raises
+    ------
+    ResultsError : names the files, and says how the run is computed again.
+    """
+    damaged = damaged_data(folder)
+    if damaged:
+        moved = [name for name in damaged if (folder / name).is_dir()]
+        first = f"move the folder {' and '.join(moved)} away, then " if moved else ""
+        raise ResultsError(
+            f"{folder}: damaged or changed: {', '.join(damaged)}; {first}--overwrite in place of --resume computes the "
+            "run again"
+        )
 
 
 def _check(folder: Path, name: str) -> None:

@@ -15,6 +15,7 @@ from bem.results import open_run
 from bem.results.arrays import left_out
 from bem.results.atomic import force_names, write_bytes
 from bem.results.directory import RESULTS, SUMMARY, RunDirectory
+from bem.results.read import damaged_data
 from bem.runs.scene import run_planned
 from bem.scenes.common import SceneModel
 from bem.scenes.load import dump_scene
@@ -94,7 +95,7 @@ def finished_summary(folder: Path, fields: bool) -> dict[str, Any] | None:
         if not (folder / SUMMARY).is_file():
             return None
         lacking = left_out(folder / RESULTS)  # of a file that was cut off an error, too
-        return None if fields and lacking else open_run(folder).summary
+        return None if (fields and lacking) or damaged_data(folder) else open_run(folder).summary
     except ResultsError:
         return None
 

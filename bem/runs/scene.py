@@ -16,7 +16,7 @@ from bem.campaigns.jobs import Staff
 from bem.errors import OUTSIDE, ConvergenceError, InputError, Status, outside
 from bem.results.arrays import LEFT_OUT, stacks_of_maps, to_arrays
 from bem.results.directory import RESULTS, RunDirectory, plain
-from bem.results.read import FinishedRun, open_run
+from bem.results.read import FinishedRun, check_data, open_run
 from bem.scenes.asked import Asked, with_accuracy
 from bem.scenes.checks import examine, outcome_warnings, scene_warnings, suspected_units
 from bem.scenes.checks.plausible import notes_over
@@ -77,7 +77,8 @@ def run_scene(
     out : the run's folder; the next free `runs/NAME-001` where not given.
     settings : `key=value` changes to the scene.
     accuracy : asked for instead of a grid, as in a scene: "1 %", 0.01, or a table of figures.
-    resume : go on from the checkpoint of an interrupted run; a finished run is returned as it is.
+    resume : go on from the checkpoint of an interrupted run; a finished run is returned as it is, unless a file of it
+        is damaged (ResultsError).
     overwrite : replace an older run in the folder; it stays until this one is finished. With `resume`, replace
         it only if it is of another scene.
     figures : draw figures and write the report; `bem report` can do it later.
@@ -101,6 +102,7 @@ def run_scene(
     from bem.plots.pages import drawing_ahead
 
     check_workers(workers)
+    check_out(out)
     formats = ("vtu", *(("png", "pdf") if pdf else ("png",))) if figures else ("vtu",)
     with drawing_ahead(figures, workers) as ahead:
         scene, planned = plan_scene(source, settings, accuracy)
@@ -109,9 +111,17 @@ def run_scene(
             None if out is None else Path(out), scene.name, dump_scene(scene), resume=resume, overwrite=overwrite
         )
         with held as directory, closing(ahead):  # nobody draws into a folder that is given back
-            if not (directory.resumed and directory.finished):
+            if directory.resumed and directory.finished:
+                check_data(directory.path)
+            else:
                 run_planned(directory, scene, planned, Staff(workers, scheduler), formats, watcher or Silent(), ahead)
     return open_run(directory.path)
+
+
+def check_out(out: str | os.PathLike[str] | None) -> None:
+    """InputError if the name of a folder is empty: it would be the current folder."""
+    if isinstance(out, str) and not out.strip():
+        raise InputError('out = "": an empty name; allowed: a folder, "." for the current one, or none at all')
 
 
 def check_workers(workers: int | None) -> None:

@@ -26,7 +26,7 @@ from bem.results.dataset import read_dataset, write_variables
 from bem.results.differing import words_of_difference
 from bem.results.directory import SCENE
 from bem.runs.point import Point, finished_summary, store
-from bem.runs.scene import check_workers, plan_scene
+from bem.runs.scene import check_out, check_workers, plan_scene
 from bem.runs.table import dataset_variables, table_text
 from bem.scenes import get_kind
 from bem.scenes.asked import Asked, with_accuracy
@@ -133,6 +133,7 @@ def run_sweep(
     """
     swept, settings = parse_axes(over), with_accuracy(settings, accuracy)
     check_workers(workers)
+    check_out(out)
     base, planned = _plan_points(source, {axis.key: axis.values for axis in swept}, settings)
     scenes = [scene for scene, _ in planned]
     axes = axes_of_keys({axis.key: axis.values for axis in swept}, scenes)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import copy
 import json
 import os
@@ -266,7 +267,7 @@ def machine_element(data: Mapping[str, Any], file: str) -> InputError:
 def _read_file(path: Path) -> dict[str, Any]:
     raw = read_small(path)
     try:
-        data = _from_toml(raw.decode("utf-8"))
+        data = _from_toml(raw.decode(_encoding(raw)))
     except (ValueError, RecursionError) as error:  # both TOML and UTF-8 errors are ValueErrors
         reason = "nested too deeply" if isinstance(error, RecursionError) else str(error)
         raise InputError(f"scene {show(str(path))}: not valid TOML ({reason}); allowed: a TOML scene file") from None
@@ -274,6 +275,18 @@ def _read_file(path: Path) -> dict[str, Any]:
         "name", "".join(c if c.isalnum() or c in "_.-" else "-" for c in path.stem).lstrip("_.-")[:64] or "scene"
     )
     return data
+
+
+def _encoding(raw: bytes) -> str:
+    """Encoding of a scene file: UTF-8, with or without a byte-order mark.
+
+    Raises
+    ------
+    ValueError : a byte-order mark of another encoding.
+    """
+    if raw.startswith((codecs.BOM_UTF16_LE, codecs.BOM_UTF16_BE)):
+        raise ValueError("its text is in UTF-16; save it in UTF-8")
+    return "utf-8-sig"
 
 
 def _set(data: dict[str, Any], setting: str) -> None:

@@ -155,7 +155,7 @@ def values_in_file(name: str, option: str) -> tuple[str, ...]:
     InputError : the file cannot be read or holds no values.
     """
     try:
-        lines = [line.strip() for line in read_small(name).decode("utf-8").splitlines()]
+        lines = [line.strip() for line in read_small(name).decode("utf-8-sig").splitlines()]
     except (OSError, ValueError) as error:
         why = getattr(error, "strerror", None) or str(error)
         raise InputError(f"{option}: {name} cannot be read ({why}); allowed: a text file, one value a line") from None

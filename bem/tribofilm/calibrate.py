@@ -348,7 +348,7 @@ def read_measurements(path: str | Path) -> list[Measurement]:
     InputError : a file that cannot be read, unknown columns or units, cells that are not numbers; one message each.
     """
     try:
-        text = read_small(path).decode("utf-8")
+        text = read_small(path).decode("utf-8-sig")
     except (OSError, ValueError) as error:
         raise InputError(f"{path}: cannot be read ({error})") from None
     lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith("#")]
