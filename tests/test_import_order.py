@@ -9,7 +9,7 @@ ROOT = Path(__file__).resolve().parents[1] / "bem"
 
 ORDER = [
     {"errors", "startup", "representation", "compiled"},
-    {"extensions", "arguments"},
+    {"extensions", "arguments", "memory"},
     {"grid", "materials", "threads", "laws"},
     {"numerics", "kernels", "reference_solutions"},
     {"transforms"},

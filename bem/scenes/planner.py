@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import Literal
 
 from bem.errors import InputError
+from bem.memory import available_memory as available_memory
 
 _CALIBRATION_SIDE = 512
 _PROCESS = 1.3e8  # bytes of the interpreter and the libraries of a run, compiled loops included
@@ -139,27 +140,6 @@ def convolution_memory(shape: tuple[int, int], periodic: tuple[bool, bool]) -> f
     """Bytes of a contact solve: work arrays of both precisions, a quarter-array spectrum, a dozen fields."""
     cells, points = math.prod(shape), padded_points(shape, periodic)
     return 12 * 8.0 * cells + (16 + 8 + 4) * points
-
-
-def available_memory() -> float:
-    """Bytes this process may still take: the smaller of the machine's free memory and the control group's limit."""
-    found = [math.inf]
-    try:
-        with open("/proc/meminfo") as file:
-            for line in file:
-                if line.startswith("MemAvailable:"):
-                    found.append(float(line.split()[1]) * 1024)
-    except (OSError, ValueError):
-        pass
-    for limit, used in (
-        ("/sys/fs/cgroup/memory.max", "/sys/fs/cgroup/memory.current"),
-        ("/sys/fs/cgroup/memory/memory.limit_in_bytes", "/sys/fs/cgroup/memory/memory.usage_in_bytes"),
-    ):
-        try:
-            found.append(float(Path(limit).read_text()) - float(Path(used).read_text()))
-        except (OSError, ValueError):
-            continue
-    return max(min(found), 0.0)
 
 
 def check_memory(plan: Plan) -> None:

@@ -6,13 +6,16 @@ the filling of missing points.
 
 from __future__ import annotations
 
+import codecs
 import contextlib
 import io
 import json
 import math
 import os
+import re
 import warnings
 import zipfile
+from array import array
 from collections.abc import Iterator
 from dataclasses import dataclass
 from pathlib import Path
@@ -22,6 +25,7 @@ import numpy as np
 
 from bem.errors import InputError, ResultsError, SurfaceFileError
 from bem.grid import FloatArray
+from bem.memory import available_memory
 from bem.surfaces.examples import example_path
 from bem.surfaces.filter import DETRENDINGS, LEAST_SPIKE, despike, detrend, fill_missing
 from bem.surfaces.formats import SurfaceFormat, format_of
@@ -41,6 +45,23 @@ _SAME = 0.01
 """Of a spacing: as people round it."""
 
 _TEXT = (".txt", ".csv", ".dat")
+
+_HEAD = 1 << 16
+"""Bytes from which is judged what a file is."""
+
+_MEMORY_PER_BYTE = 12.0
+"""Memory over the size of a file: heights in double precision, and the copies that levelling and filling take."""
+_MEMORY_PER_BYTE_OF_TEXT = 200.0
+"""The same where an instrument's text is read by SurfaceTopography, which makes objects of all its numbers; 170 to 180
+were measured."""
+
+_NOT_SURFACES = (
+    (re.compile(rb"\s*<(!doctype html|html|head|body)\b", re.IGNORECASE), "a web page (HTML)"),
+    (re.compile(rb"%PDF-"), "a PDF document"),
+    (re.compile(rb"\x89PNG\r\n"), "a PNG picture"),
+    (re.compile(rb"\xff\xd8\xff"), "a JPEG picture"),
+)
+"""How files begin that are none, and what they are."""
 
 
 def read_surface(
@@ -98,18 +119,24 @@ def read_surface(
         raise InputError(messages)
     file = example_path(path) or Path(path)
     _check_file(file)
+    _check_size(file, _MEMORY_PER_BYTE)
     own = format_of(file)
+    if own is None:
+        _check_kind(file)
     if own is not None:
         heights, cell, notes = _read_registered(file, own, channel)
         _check_unit(file, "m", height_unit)
     elif file.suffix.lower() == ".npz":
         heights, cell, notes = _read_npz(file)
         _check_unit(file, "m", height_unit)
-    elif file.suffix.lower() == ".npy" and spacing is not None:
+    elif file.suffix.lower() == ".npy":
         heights, cell, notes = _read_npy(file), None, {"format": "npy"}
     elif file.suffix.lower() in _TEXT and spacing is not None:
         heights, cell, notes = _read_table(file), None, {"format": "table of numbers"}
     else:
+        if spacing is None and _is_plain_table(file):
+            raise _without_spacing(file)
+        _check_size(file, _MEMORY_PER_BYTE_OF_TEXT if _is_text(file) else _MEMORY_PER_BYTE)
         heights, cell, notes = _read_instrument(file, channel, spacing is not None, height_unit)
         height_unit = None
     if height_unit is not None:
@@ -120,9 +147,7 @@ def read_surface(
             notes = {**notes, "spacing_in_file": list(cell)}
         cell = given
     if cell is None:
-        raise SurfaceFileError(
-            f"{file}: the file does not say how far its points are apart; give spacing=(dx, dy) in metres"
-        )
+        raise _without_spacing(file)
     return _finish(file, heights, cell, notes, _Treatment(detrend, fill, despike))
 
 
@@ -185,6 +210,65 @@ def _check_file(file: Path) -> None:
         raise
     except (OSError, ValueError) as problem:  # ValueError: a null character in the name
         raise SurfaceFileError(f"{str(file)!r}: cannot be opened: {problem}") from problem
+
+
+def _check_kind(file: Path) -> None:
+    """Refuse a file that is of no format of surfaces, by how it begins."""
+    with file.open("rb") as stream:
+        head = stream.read(_HEAD)
+    for begins, what in _NOT_SURFACES:
+        if begins.match(head):
+            raise SurfaceFileError(f"{file}: unreadable: it is {what}, not a surface; export the heights as a file")
+    if not head.strip(b"\0"):
+        raise SurfaceFileError(f"{file}: unreadable: it begins with {len(head)} zero bytes, as no format of surfaces")
+
+
+def _check_size(file: Path, memory_per_byte: float) -> None:
+    """Refuse a file that needs more memory than is free."""
+    size, free = file.stat().st_size, available_memory()
+    if memory_per_byte * size > free:
+        raise SurfaceFileError(
+            f"{file}: has {size / 1e6:.4g} MB and would need about {memory_per_byte * size / 1e9:.3g} GB of memory, "
+            f"{free / 1e9:.3g} GB are free (at most {free / memory_per_byte / 1e6:.3g} MB of such a file); crop or "
+            "thin it with the instrument's software, or save its heights as .npy"
+        )
+
+
+def _is_plain_table(file: Path) -> bool:
+    """True if the file is text whose first line holds more than three numbers and nothing else: a table without a
+    header that could say lengths and units."""
+    with file.open("rb") as stream:
+        head = stream.read(_HEAD)
+    if b"\0" in head:
+        return False
+    first, ended, _ = head.removeprefix(codecs.BOM_UTF8).lstrip().partition(b"\n")
+    words = re.split(rb"[\s;,]+", first.strip())
+    if not ended:
+        words = words[:-1]  # may be cut
+    return len(words) > 3 and all(_is_number(word) for word in words)
+
+
+def _has_numbers(file: Path) -> bool:
+    """True if one of the first lines of a text holds nothing but numbers."""
+    with file.open("rb") as stream:
+        head = stream.read(_HEAD)
+    lines = (re.split(rb"[\s;,]+", line.strip()) for line in head.splitlines() if line.strip())
+    return b"\0" not in head and any(all(_is_number(word) for word in words if word) for words in lines)
+
+
+def _is_number(word: bytes) -> bool:
+    try:
+        float(word)
+    except ValueError:
+        return False
+    return True
+
+
+def _without_spacing(file: Path) -> SurfaceFileError:
+    return SurfaceFileError(
+        f"{file}: does not say how far its points are apart; give spacing=(dx, dy) in metres (`--spacing` of `bem "
+        "surface`, `spacing` of a scene's surface), and height_unit"
+    )
 
 
 def _finish(
@@ -271,22 +355,50 @@ def _check_header(file: Path, name: str, stream: IO[bytes], size: int | None = N
 
 
 def _read_table(file: Path) -> FloatArray:
+    """A table of numbers, a row a line; memory beyond the numbers is that of one block of a line."""
+    values, rows, width, separator = array("d"), 0, None, None
     try:
-        text = file.read_text(encoding="utf-8-sig")
-        lines = [line for line in text.splitlines() if line.strip() and not line.lstrip().startswith(("#", "%"))]
-        separator = next((s for s in (";", "\t", ",") if lines and s in lines[0]), None)
-        rows = [[float(word) if word.strip() else math.nan for word in line.split(separator)] for line in lines]
+        with file.open(encoding="utf-8-sig") as stream:
+            for line in stream:
+                if not line.strip() or line.lstrip().startswith(("#", "%")):
+                    continue
+                if width is None:
+                    separator = next((s for s in (";", "\t", ",") if s in line), None)
+                before = len(values)
+                for words in _blocks_of_words(line, separator):
+                    values.extend(float(word) if word.strip() else math.nan for word in words)
+                    if len(values) > MOST_POINTS:
+                        raise SurfaceFileError(f"{file}: holds more than {MOST_POINTS} points; crop or thin it")
+                rows, count = rows + 1, len(values) - before
+                if width is not None and count != width:
+                    raise SurfaceFileError(
+                        f"{file}: its lines do not all hold the same number of values; the file is damaged"
+                    )
+                width = count
+    except SurfaceFileError:
+        raise
     except (OSError, ValueError) as problem:
         raise _unreadable(file, problem) from problem
-    if len({len(row) for row in rows}) != 1:
-        raise SurfaceFileError(f"{file}: its lines do not all hold the same number of values; the file is damaged")
-    table = np.array(rows, dtype=np.float64)
+    if width is None:
+        raise SurfaceFileError(f"{file}: holds no numbers")
+    table = np.frombuffer(values, dtype=np.float64).reshape(rows, width)
     if _lists_points(table):
         raise SurfaceFileError(
             f"{file}: its three columns are x, y and z of points on a grid, not a map; write a table of the heights, "
             "one line for each x"
         )
     return table
+
+
+def _blocks_of_words(line: str, separator: str | None) -> Iterator[list[str]]:
+    """The words of a line, `_HEAD` characters of it at a time."""
+    start = 0
+    while True:
+        cut = line.find(separator or " ", start + _HEAD)
+        yield line[start : None if cut < 0 else cut].split(separator)
+        if cut < 0:
+            return
+        start = cut + 1
 
 
 def _lists_points(table: FloatArray) -> bool:
@@ -310,12 +422,18 @@ def _check_map(file: Path, kind: np.dtype[Any], shape: tuple[int, ...]) -> None:
 
 
 def _is_text(file: Path) -> bool:
+    """True if neither beginning, middle nor end of a file holds a zero byte."""
+    size = file.stat().st_size
     with file.open("rb") as stream:
-        return b"\0" not in stream.read(4096)
+        for start in (0, size // 2, max(0, size - _HEAD)):
+            stream.seek(start)
+            if b"\0" in stream.read(_HEAD):
+                return False
+    return True
 
 
 @contextlib.contextmanager
-def _reading(file: Path) -> Iterator[None]:
+def _reading(file: Path, *, spacing_given: bool = False) -> Iterator[None]:
     """Whatever goes wrong in the block, the file cannot be used: readers of damaged ones, zipfile, zlib and numpy's
     header parser raise anything at all (struct.error, KeyError, AssertionError, MemoryError, ...)."""
     try:
@@ -323,15 +441,14 @@ def _reading(file: Path) -> Iterator[None]:
     except SurfaceFileError:
         raise
     except Exception as problem:
-        raise _unreadable(file, problem) from problem
+        raise _unreadable(file, problem, spacing_given=spacing_given) from problem
 
 
-def _unreadable(file: Path, problem: BaseException) -> SurfaceFileError:
-    if "physical_sizes" in str(problem) and _is_text(file):
-        return SurfaceFileError(
-            f"{file}: does not say how far its points are apart; give spacing=(dx, dy) in metres, and height_unit"
-        )
-    if type(problem).__name__ == "CannotDetectFileFormat":
+def _unreadable(file: Path, problem: BaseException, *, spacing_given: bool = False) -> SurfaceFileError:
+    of_sizes = "physical_sizes" in str(problem)
+    if of_sizes and not spacing_given and _has_numbers(file):
+        return _without_spacing(file)
+    if of_sizes or type(problem).__name__ == "CannotDetectFileFormat":
         return SurfaceFileError(f"{file}: unreadable: truncated, damaged or of no format that is known")
     reason = str(problem).strip().splitlines()
     detail = f": {reason[0][:200]}" if reason and reason[0] else ""
@@ -347,7 +464,13 @@ def _read_instrument(
         from SurfaceTopography import open_topography
 
     # readers of damaged files warn about what they skip, or print what they found
-    with _reading(file), warnings.catch_warnings(), np.errstate(all="ignore"), _quiet(), file.open("rb") as stream:
+    with (
+        _reading(file, spacing_given=spacing_given),
+        warnings.catch_warnings(),
+        np.errstate(all="ignore"),
+        _quiet(),
+        file.open("rb") as stream,
+    ):
         warnings.simplefilter("ignore")
         with open_topography(stream) as reader:
             chosen = _choose(file, reader, channel)
