@@ -279,6 +279,12 @@ def wear_model(scene: Any, particles: ThirdBodies | None = None, defect: FilmDef
     return WearModel(**table, third_bodies=particles, film_defect=defect)
 
 
+def wears_on_a_track(scene: Any) -> bool:
+    """Return True if the first body that wears moves through the contact, so that its whole track wears alike."""
+    moving = 0 if scene.wear.frame == "cylinder" else 1
+    return wearing_bodies((scene.lower.build(), scene.upper.build()), scene.wear.wears)[0] == moving
+
+
 def stress_below_strength(scene: Any, result: RunningIn, grid: Grid, load: float) -> float | None:
     """Largest equivalent stress [Pa] of the last cycle in the body whose particles are reported; None of criteria that
     ask for more than a stress, in partial slip, and where nothing touches."""
@@ -385,15 +391,17 @@ class WornSurface:
     ) -> WornSurface:
         """That of a scene's loop, which started from `initial` heights of both bodies; `load` [N] on the grid.
 
-        strip : the fraction of each row (nx,) or cell (nx, ny) over which roughness and depth are averaged."""
-        from bem.wear.outcome import criterion_wear_rate, strip_wear
+        strip : the fraction of each row (nx,) or cell (nx, ny) over which roughness and depth are averaged; on a body
+        that moves through the contact, its whole track is."""
+        from bem.wear.outcome import criterion_wear_rate, strip_wear, track_of
 
         assert result.pressure is not None
         cycles, particles, last = result.cycles, scene.sizes.particles(result), scene.cycles.settled
         settled = cycles["cycle"][-last:]
         late = particles[particles["cycle"] >= settled[0]]
-        before, after = initial[result.wearing[0]], result.worn_heights()[: grid.shape[0]]
-        worn = strip_wear(before, after, strip)
+        before, after = initial[result.wearing[0]], result.worn_heights()
+        worn = strip_wear(before, after, track_of(strip) if result.wearing[0] == result.moving else strip)
+        before, after = before[: grid.shape[0]], after[: grid.shape[0]]
         figures = {
             "cycle": np.arange(1, len(cycles) + 1),
             "particles_per_cycle": float(late.size / len(settled)),

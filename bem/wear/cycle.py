@@ -45,7 +45,10 @@ class WearModel:
     connectivity : 6, 18 or 26 neighbours.
     removal : "cap" (a piece takes the material above it along) or "top_run", or a law of your own.
     wears : "softer" (lower yield stress; the lower body where equal), "lower", "upper" or "both".
-    shift : cells that the counterface slides along x per cycle, the way that friction says; negative is against it.
+    frame : which body stands still with the contact. "cylinder": the upper body and the contact are fixed in space and
+        the lower body moves through them, so that all places of its track wear alike; "disk": the lower body is fixed
+        and the roughness of the upper body moves, so that the contact wears a groove into the lower one.
+    shift : cells that the moving body slides along x per cycle in the direction of friction; negative is against it.
     within_layer : pieces of a coated body end at the interface at the latest; the film is taken as replenished.
     traction : the name of one of `bem.wear.traction` or of your own, a table with `kind` and parameters, or a
         `TractionLaw`. "gross_sliding" is the source's, friction x pressure everywhere; "oscillating_force" and
@@ -64,6 +67,7 @@ class WearModel:
     connectivity: int = 6
     removal: str | RemovalLaw = "cap"
     wears: str = "softer"
+    frame: str = "cylinder"
     shift: int = 3
     within_layer: bool = True
     traction: str | Mapping[str, Any] | TractionLaw = "gross_sliding"
@@ -76,6 +80,7 @@ class WearModel:
             ("refinement", [*REFINEMENTS, "exact"]),
             ("connectivity", list(CONNECTIVITIES)),
             ("wears", ["softer", "lower", "upper", "both"]),
+            ("frame", ["cylinder", "disk"]),
         ):
             if getattr(self, key) not in allowed:
                 messages.append(f"WearModel: {key} {getattr(self, key)!r} must be one of {allowed}")
@@ -105,6 +110,11 @@ class WearModel:
             misfits += boundary_film_misfits(self.law, self.tractions)
         if misfits:
             raise InputError([f"WearModel: {text}" for text in misfits])
+
+    @property
+    def moving(self) -> int:
+        """Index of the body that moves through the contact."""
+        return LOWER if self.frame == "cylinder" else UPPER
 
     @property
     def law(self) -> Detachment:
@@ -169,6 +179,7 @@ class WearSetup:
         bodies = wearing_bodies(self.bodies, model.wears)
         if model.law.needs_strength and any(not np.isfinite(self.yield_stress(body)) for body in bodies):
             raise InputError("the body that wears has no yield_stress and no hardness: give its material one of them")
+        model.law.check_depths(self.depths)
         return bodies
 
 

@@ -1,7 +1,7 @@
 """What the steps of wear by pressure leave open: the last one once more, in two halves at the same place.
 
 A step wears by one pressure, of its end (dry contacts) or its start, so that its error is of first order: two halves
-leave half of it, and the step's own error is twice what they change. The counterface does not move between the halves:
+leave half of it, and the step's own error is twice what they change. No body moves between the halves:
 what another place of it presses on is no error of a step. It is that of the last step. Wear corrects what earlier steps
 left: where too little came off there is more pressure. The largest error of whole loops, against an eighth of their
 steps, was 0.8 to 1 times it at rest and 0.9 to 2 times it where surfaces slid by 1 to 7 cells between steps; 4 times it

@@ -63,7 +63,7 @@ class BodyCycle:
 
     pressure : of the contact, (nx, ny) [Pa]. loads : whose stresses together are judged; the contact's own, or half the
     change since the last cycle. setup, model : of the run. body : LOWER or UPPER. slide : distance [m] that the
-    counterface slides from one cycle to the next. memory : what the criterion keeps of the body's material on the grid,
+    moving body slides from one cycle to the next. memory : what the criterion keeps of the body's material on the grid,
     (planes, nx, ny), as it was given back in the last cycle and moved with the material; None before the first.
     slid : (nx, ny) [m], what the surfaces slide at each place in the computed cycle; None where they do so everywhere
     as far as the bodies move. temperature : (nx, ny) [K] of the surfaces; None where it is not known place by place.

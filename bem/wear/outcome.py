@@ -38,6 +38,16 @@ def strip_wear(before: FloatArray, after: FloatArray, strip: NDArray[Any]) -> St
     return StripWear(rms(before), rms(after), float(np.average(before - after, weights=counts)))
 
 
+def track_of(strip: NDArray[Any]) -> FloatArray:
+    """Return the part of the cells (1, ny) or (1, 1) that lies on the track of a contact on a body that moves along x.
+
+    strip : (nx,) rows or (nx, ny) cells of the contact, or the parts of them within it. All places of a track wear
+    alike, so all rows of the body count as much.
+    """
+    parts = np.asarray(strip, dtype=np.float64)
+    return parts.max(axis=0, keepdims=True).reshape(1, -1)
+
+
 def contact_strip(pressure: FloatArray, rows: FloatArray | None = None) -> FloatArray:
     """The fraction of each row (nx,) within the strip in contact: `rows` as the contact gave them, or else whole rows
     of the pressure (nx, ny) that are in contact anywhere; all rows where none is.

@@ -62,8 +62,8 @@ class RunningIn:
     lower_heights, upper_heights : surfaces at the end [m]. pressure : of the last cycle [Pa].
     cycles : table of `CYCLE_FIELDS`; particles : table of `PARTICLE_FIELDS`; times : of `TIME_FIELDS` [s] per cycle.
     settled : whether the stop rule ended the run. state : to go on from.
-    wearing : the bodies that wear, LOWER or UPPER or both; the counterface is not in it. notes : sentences on what this
-    should not be believed in.
+    wearing : the bodies that wear, LOWER or UPPER or both. moving : the body that moves through the contact.
+    notes : sentences on where this result should not be believed.
     """
 
     lower_heights: FloatArray
@@ -78,6 +78,7 @@ class RunningIn:
     wearing: tuple[int, ...] = (LOWER,)
     notes: tuple[str, ...] = ()
     step_error: float | None = None
+    moving: int = LOWER
 
     def worn_heights(self) -> FloatArray:
         """Heights of the (first) wearing body at the end [m]."""
@@ -117,10 +118,9 @@ def run_in(
 
     Parameters
     ----------
-    lower_heights, upper_heights : (nx, ny) heights out of each body [m]. The body that does not wear (the upper one
-        where both do) is the counterface: it slides by `model.shift` cells per cycle, the upper body the way its
-        friction drags the lower one (`sliding_direction`), and may have more rows than the grid, which then pass
-        through the contact; it is taken as periodic along x.
+    lower_heights, upper_heights : (nx, ny) heights out of each body [m]. The moving body (`model.frame`) slides by
+        `model.shift` cells per cycle in the direction of friction (`sliding_direction`). It may have more rows than
+        the grid, which then pass through the contact, and is taken as periodic along x.
     grid : of the contact, usually free in x and periodic in y. bodies : (lower, upper).
     load : on the grid [N]. depths : (nz,) [m], increasing. gap : macroscopic, of the smooth bodies [m]; None is flat.
     friction : traction over pressure, along +x on the lower body where positive, along -x where negative.
@@ -150,16 +150,15 @@ def run_in(
         hardness=hardness,
     )
     wearing = setup.wearing(choices)
-    counterface = UPPER if LOWER in wearing else LOWER
     if state is None:
         state = initial_state(lower_heights, upper_heights)
-    _check_heights(state, grid, counterface)
+    _check_heights(state, grid, choices.moving)
     give = sum(choices.law.compliance(setup, body) for body in wearing)
     if choices.boundary_film is not None:
         give *= float(choices.boundary_film.share())
     step_after, settled = _contact_steps(setup, choices, contact_step, give), False
     while state.cycle < cycles and not settled:
-        state = advance(state, setup, choices, step_after(state), counterface)
+        state = advance(state, setup, choices, step_after(state))
         if callback is not None:
             callback(state)
         settled = stop is not None and stop(state)
@@ -175,7 +174,8 @@ def run_in(
         status=Status.CONVERGED,
         wearing=wearing,
         notes=(() if state.rubbing is None else state.rubbing.notes) + _crowded(choices.particles, state),
-        step_error=_step_error(state, setup, choices, contact_step, give, counterface),
+        step_error=_step_error(state, setup, choices, contact_step, give),
+        moving=choices.moving,
     )
 
 
@@ -185,14 +185,13 @@ def _step_error(
     model: WearModel,
     contact_step: ContactStep | None,
     give: float,
-    counterface: int,
 ) -> float | None:
     """As `wear.halved.step_error`; a contact that keeps a record of its calls is left as it was."""
     if not isinstance(model.law, LocalWear) or not state.cycle:
         return None
     half, rows = _contact_steps(setup, model, copy.copy(contact_step), 0.5 * give)(state), setup.grid.shape[0]
     return step_error(
-        state, setup, model, half, lambda heights, body: _window(heights, state.offset * (body == counterface), rows)
+        state, setup, model, half, lambda heights, body: _window(heights, state.offset * (body == model.moving), rows)
     )
 
 
@@ -232,19 +231,17 @@ def _crowded(particles: ThirdBodies | None, state: RunningInState) -> tuple[str,
     )
 
 
-def advance(
-    state: RunningInState, setup: WearSetup, model: WearModel, contact_step: ContactStep, counterface: int
-) -> RunningInState:
-    """One cycle: the counterface slides, bodies touch, pieces leave."""
-    cycle = state.cycle + 1
+def advance(state: RunningInState, setup: WearSetup, model: WearModel, contact_step: ContactStep) -> RunningInState:
+    """Advance by one cycle: one body moves through the contact, the bodies touch, yielded pieces leave."""
+    cycle, moving = state.cycle + 1, model.moving
     rows = setup.grid.shape[0]
-    offset = state.offset + (sliding_direction(state, setup, counterface) * model.shift if state.cycle else 0)
+    offset = state.offset + (sliding_direction(state, setup, moving) * model.shift if state.cycle else 0)
     facing = list(state.heights)
-    facing[counterface] = _window(state.heights[counterface], offset, rows)
+    facing[moving] = _window(state.heights[moving], offset, rows)
     start = None if state.pressure is None else _slide(state.pressure, offset - state.offset, setup.grid.periodic[0])
-    last = _last_loads(state, counterface, offset) if model.stress_range else (None, None)
+    last = _last_loads(state, moving, offset) if model.stress_range else (None, None)
     began = time.perf_counter()
-    kept = [_facing(state.memories[body], offset if body == counterface else 0, rows) for body in (LOWER, UPPER)]
+    kept = [_facing(state.memories[body], offset if body == moving else 0, rows) for body in (LOWER, UPPER)]
     memories = (kept[LOWER], kept[UPPER])
     contact, removals = wear_cycle((facing[LOWER], facing[UPPER]), setup, model, contact_step, start, last, memories)
     if contact.status != Status.CONVERGED:
@@ -262,7 +259,7 @@ def advance(
     table = []
     for removal in removals:
         body = removal.body
-        if body == counterface:
+        if body == moving:
             heights[body] = _remove_from_window(heights[body], removal.thickness, offset)
             remembered[body] = _put_back(state.memories[body], removal.memory, len(heights[body]), offset)
         else:
@@ -270,12 +267,12 @@ def advance(
             remembered[body] = removal.memory
         table.append(_particle_rows(removal, setup.grid, cycle))
     for body, cut in enumerate(() if contact.third_bodies is None else contact.third_bodies.cut):
-        heights[body] = _remove_from_window(heights[body], cut, offset if body == counterface else 0)
+        heights[body] = _remove_from_window(heights[body], cut, offset if body == moving else 0)
     elapsed = time.perf_counter() - began
     stress_time = sum(removal.stress_time for removal in removals)
     pieces_time = sum(removal.segmentation_time for removal in removals)
     particles = np.concatenate(table)
-    worn = _window(heights[removals[0].body], offset if removals[0].body == counterface else 0, rows)
+    worn = _window(heights[removals[0].body], offset if removals[0].body == moving else 0, rows)
     return RunningInState(
         cycle=cycle,
         heights=(heights[LOWER], heights[UPPER]),
@@ -294,24 +291,24 @@ def advance(
     )
 
 
-def sliding_direction(state: RunningInState, setup: WearSetup, counterface: int) -> int:
-    """1 where the counterface slides along +x over the other body, on which the grid lies, -1 where along -x.
+def sliding_direction(state: RunningInState, setup: WearSetup, moving: int) -> int:
+    """Return 1 if the moving body slides along +x over the other body, to which the contact is fixed, -1 if along -x.
 
     Friction drags the lower body the way in which the upper one slides over it, u2 - u1: that of the last cycle that
     had any, before the first one that of the setup; the upper body slides along +x where there is none.
     """
     acting = state.cycles["friction"][state.cycles["friction"] != 0]
     upper = -1 if (acting[-1] if acting.size else setup.friction) < 0 else 1
-    return upper if counterface == UPPER else -upper
+    return upper if moving == UPPER else -upper
 
 
-def _check_heights(state: RunningInState, grid: Grid, counterface: int) -> None:
+def _check_heights(state: RunningInState, grid: Grid, moving: int) -> None:
     messages = []
     for body, name in ((LOWER, "lower_heights"), (UPPER, "upper_heights")):
         shape = state.heights[body].shape
-        longer = body == counterface and len(shape) == 2 and shape[0] >= grid.shape[0] and shape[1] == grid.shape[1]
+        longer = body == moving and len(shape) == 2 and shape[0] >= grid.shape[0] and shape[1] == grid.shape[1]
         if shape != grid.shape and not longer:
-            more = " (the counterface may have more rows)" if body == counterface else ""
+            more = " (the moving body may have more rows)" if body == moving else ""
             messages.append(f"{name}: shape {shape} does not match the grid's {grid.shape}{more}")
         elif not np.isfinite(state.heights[body]).all():
             messages.append(f"{name}: some heights are not finite; fill or crop them first")
@@ -336,7 +333,7 @@ def _facing(memory: FloatArray | None, offset: int, rows: int) -> FloatArray | N
 
 
 def _put_back(whole: FloatArray | None, facing: FloatArray | None, rows: int, offset: int) -> FloatArray | None:
-    """What is remembered of all rows of the counterface, with what was found on the grid."""
+    """Return the memory of all rows of the moving body, updated by the rows on the grid."""
     if facing is None:
         return whole
     planes = max(len(facing), 0 if whole is None else len(whole))
@@ -349,24 +346,24 @@ def _put_back(whole: FloatArray | None, facing: FloatArray | None, rows: int, of
     return kept
 
 
-def _last_loads(state: RunningInState, counterface: int, offset: int) -> tuple[SurfaceLoad | None, SurfaceLoad | None]:
+def _last_loads(state: RunningInState, moving: int, offset: int) -> tuple[SurfaceLoad | None, SurfaceLoad | None]:
     """What acted in the last cycle on the material of each body that is on the grid now.
 
-    The body that stands still has it where it was; the counterface took its own along.
+    The fixed body has it where it was; the moving body takes its own along.
     """
     if state.pressure is None:
         return None, None
     friction = float(state.cycles["friction"][-1])
     rows = state.pressure.shape[0]
-    carried = np.zeros_like(state.heights[counterface])
+    carried = np.zeros_like(state.heights[moving])
     carried[(np.arange(rows) - state.offset) % carried.shape[0]] = state.pressure
     loads = [SurfaceLoad(state.pressure, friction)] * 2
-    loads[counterface] = SurfaceLoad(_window(carried, offset, rows), friction)
+    loads[moving] = SurfaceLoad(_window(carried, offset, rows), friction)
     return loads[LOWER], loads[UPPER]
 
 
 def _slide(pressure: FloatArray, cells: int, periodic: bool) -> FloatArray:
-    """Last pressure carried along with the counterface, on whose asperities it sits: the better start."""
+    """Return the last pressure carried along with the moving body; a warm start."""
     moved = np.roll(pressure, cells, axis=0)
     if not periodic and cells > 0:
         moved[:cells] = 0.0

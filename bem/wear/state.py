@@ -64,8 +64,8 @@ TIME_FIELDS = np.dtype([("contact", np.float64), ("stress", np.float64), ("parti
 class RunningInState:
     """All that the next cycle needs, and the record so far.
 
-    heights : of the lower and the upper body; the counterface may be longer along x than the grid, and passes through.
-    offset : cells that the counterface has slid. pressure : of the last cycle, None before the first.
+    heights : of the lower and the upper body; the moving one may be longer along x than the grid.
+    offset : cells that the moving body has slid. pressure : of the last cycle, None before the first.
     removed : what left from each column of the (first) wearing body in the last cycle [m], None before the first.
     memories : what the criterion keeps of the material of the lower and the upper body, (planes, rows, ny) on the
         heights' own rows; None for nothing. rubbing : of the last cycle; None in gross sliding. strip : the fraction of

@@ -85,16 +85,30 @@ def cannot_yield(
 
 
 def depths_for(setup: WearSetup, model: WearModel, body: int) -> FloatArray:
-    """Depths at which stress is computed: the setup's, cut at the outermost interface, refined where exact."""
-    depths = setup.depths
+    """Return the depths at which stress is computed (nz,) [m].
+
+    These are the setup's depths from the criterion's skin depth down to the outermost interface, refined where the
+    refinement is exact. Segmentation counts the stress above the first depth as that at the first depth. In a layer
+    that is thinner than two skins, the skin is half of the layer.
+    """
     interfaces = setup.bodies[body].interfaces
-    if interfaces and model.within_layer:
-        # a depth closer to the interface than a tenth of an interval gives way to it
-        sliver = 0.1 * float(np.diff(depths).min())
+    layered = bool(interfaces) and model.within_layer
+    skin = model.law.skin_depth if isinstance(model.law, WearCriterion) else 0.0
+    # a depth closer to the skin or to the interface than a tenth of an interval gives way to it
+    sliver = 0.1 * float(np.diff(setup.depths).min())
+    depths = _below_skin(setup.depths, min(skin, 0.5 * interfaces[0]) if layered else skin, sliver)
+    if layered:
         depths = np.append(depths[depths < interfaces[0] - sliver], interfaces[0])
     if model.refinement == "exact":
         depths = refine_depths(depths, model.refine)
     return depths
+
+
+def _below_skin(depths: FloatArray, skin: float, sliver: float) -> FloatArray:
+    """Return the depths from the skin downwards; the skin depth comes first unless the first depth lies below it."""
+    if depths[0] >= skin:
+        return depths
+    return np.append(skin, depths[depths > skin + sliver])
 
 
 @dataclass(frozen=True, eq=False)

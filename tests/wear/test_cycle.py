@@ -31,6 +31,7 @@ STIFF = Material("interlayer", youngs_modulus=300e9, poissons_ratio=0.2)
 GRID = Grid((48, 40), (100e-9, 100e-9), periodic=(False, True))
 DEPTHS = np.arange(24) * 95e-9
 LOAD = 2.2e-3  # about 7 % of the grid at the hardness
+NO_SKIN = {"kind": "von_mises", "skin_depth": 0.0}  # stress is judged from the surface down
 
 
 def surfaces(seed=3, rms=(150e-9, 30e-9)):
@@ -65,7 +66,7 @@ def test_stopping_at_a_quiet_depth_gives_the_pieces_of_the_whole_stack():
     fixed = setup()
     contact = dry_contact(fixed)(lower + upper, None)
     assert contact.status == Status.CONVERGED
-    found = yielded_pieces(contact.pressure, fixed, WearModel(), 0)
+    found = yielded_pieces(contact.pressure, fixed, WearModel(criterion=NO_SKIN), 0)
     stack = von_mises_field(contact.pressure, GRID, SOFT, DEPTHS, friction=0.16)
     whole = segment(stack, DEPTHS, yield_stress=0.64e9, periodic=GRID.periodic)
     assert whole.count > 3
@@ -92,7 +93,8 @@ def test_only_the_cubic_needs_the_depth_below_the_quiet_one():
     fixed = setup()
     pressure = dry_contact(fixed)(lower + upper, None).pressure
     cubic, linear = (
-        yielded_pieces(pressure, fixed, WearModel(refinement=name), 0) for name in ("monotone_cubic", "linear")
+        yielded_pieces(pressure, fixed, WearModel(refinement=name, criterion=NO_SKIN), 0)
+        for name in ("monotone_cubic", "linear")
     )
     assert linear.depths_computed == cubic.depths_computed - 1
     stack = von_mises_field(pressure, GRID, SOFT, DEPTHS, friction=0.16)
@@ -128,22 +130,75 @@ def test_interpolated_refinement_is_near_the_exact_one():
     assert volumes[1] == pytest.approx(volumes[2], rel=0.02)
 
 
-def test_the_counterface_slides_and_may_be_longer_than_the_grid():
-    lower, upper = surfaces()
+@pytest.mark.parametrize(("frame", "way"), [("disk", 1), ("cylinder", -1)])
+def test_the_moving_body_slides_and_may_be_longer_than_the_grid(frame, way):
+    """The upper body moves in the frame of the disk, the lower one in that of the cylinder, against each other."""
+    flat, upper = np.zeros(GRID.shape), surfaces()[1]
     longer = np.concatenate([upper, upper[::-1]])
+    pair = (flat, longer) if frame == "disk" else (longer, flat)
     seen = []
 
     def contact(heights, last):
         seen.append(heights.copy())
         return ContactOutcome(np.zeros(GRID.shape), 0.0, 0.0, LOAD, 0.16, 0.0, 0, Status.CONVERGED)
 
-    run_in(np.zeros_like(lower), longer, cycles=3, model=WearModel(shift=5), contact_step=contact, **ARGUMENTS)
+    run_in(*pair, cycles=3, model=WearModel(shift=5, frame=frame), contact_step=contact, **ARGUMENTS)
+    assert len(seen) == 3
     for step, heights in enumerate(seen):
-        assert np.array_equal(heights, longer[(np.arange(48) - 5 * step) % 96])
+        assert np.array_equal(heights, longer[(np.arange(48) - way * 5 * step) % 96])
+
+
+def test_a_track_wears_alike_where_the_disk_moves_and_has_a_groove_where_it_stands_still():
+    """Wear by pressure under a steady strip 12 of 48 cells wide: the same volume, along the whole track or in it."""
+    flat, strip = np.zeros(GRID.shape), np.zeros(GRID.shape)
+    strip[18:30] = 1.0
+
+    def contact(heights, last):
+        return ContactOutcome(1e8 * strip, 1e-12, 0.0, LOAD, 0.16, 0.0, 0, Status.CONVERGED)
+
+    law = {"kind": "archard", "specific_wear_rate": 1e-13, "distance": 1e-3}
+    worn = {}
+    for frame in ("cylinder", "disk"):
+        model = WearModel(frame=frame, shift=3, criterion=law, wears="lower")
+        worn[frame] = -run_in(flat, flat, cycles=32, model=model, contact_step=contact, **ARGUMENTS).lower_heights
+    assert worn["disk"].sum() == pytest.approx(worn["cylinder"].sum(), rel=1e-12)
+    # 32 cycles of 3 cells take every place of the 48 twice through the contact, four cycles long each time
+    np.testing.assert_allclose(worn["cylinder"], worn["cylinder"].mean(), rtol=1e-12)
+    np.testing.assert_allclose(worn["disk"], 4 * worn["cylinder"].mean() * strip, rtol=1e-12)
+
+
+def test_the_skin_leaves_with_what_yields_below_it():
+    """A single cell at the hardness: 0.2 H and friction at the surface are below yield, at 50 nm it yields."""
+    lone = np.zeros(GRID.shape)
+    lone[24, 20] = 1.8e9
+    surface = von_mises_field(lone, GRID, SOFT, [0.0, 50e-9], friction=0.16)
+    assert surface[0].max() < 0.64e9 < surface[1].max()
+    counts = {
+        skin: yielded_pieces(lone, setup(), WearModel(criterion={"kind": "von_mises", "skin_depth": skin}), 0).pieces
+        for skin in (0.0, 50e-9)
+    }
+    assert counts[0.0].count == 0
+    assert counts[50e-9].count == 1
+    assert counts[50e-9].thickness.max() > 50e-9
+
+
+def test_the_skin_depth_is_the_first_depth_of_stress_wherever_planes_lie():
+    """A plane at the surface changes nothing: the skin is a length of the criterion and not of the depths."""
+    lower, upper = surfaces()
+    model = WearModel(criterion={"kind": "von_mises", "skin_depth": DEPTHS[1]})
+    with_surface = run_in(lower, upper, cycles=3, model=model, **ARGUMENTS)
+    without = run_in(lower, upper, cycles=3, model=model, **(ARGUMENTS | {"depths": DEPTHS[1:]}))
+    assert with_surface.particles.size > 3
+    assert np.array_equal(with_surface.lower_heights, without.lower_heights)
+
+
+def test_depths_that_end_within_the_skin_are_refused():
+    with pytest.raises(InputError, match="skin_depth"):
+        run_in(*surfaces(), cycles=1, **(ARGUMENTS | {"depths": np.array([0.0, 50e-9])}))
 
 
 @pytest.mark.parametrize("turned", [False, True], ids=["mirrored", "upside down"])
-def test_which_way_the_counterface_slides_follows_from_friction(turned):
+def test_which_way_the_moving_body_slides_follows_from_friction(turned):
     """A contact in a mirror has friction along -x. Turned upside down (half a turn about y) bodies change places, x its
     sign, and friction on the lower one is along +x as before. Both are the same experiment."""
     lower, upper = surfaces()
@@ -151,6 +206,7 @@ def test_which_way_the_counterface_slides_follows_from_friction(turned):
     arguments, (low, high) = dict(ARGUMENTS), (lower[::-1], upper[::-1])
     if turned:
         arguments["bodies"], (low, high) = (HARD, SOFT), (high, low)
+        arguments["model"] = WearModel(frame="disk")  # the soft body moves, which is the upper one now
     else:
         arguments["friction"] = -ARGUMENTS["friction"]
     again = run_in(low, high, cycles=4, **arguments)
@@ -173,7 +229,14 @@ def test_without_friction_the_upper_body_slides_along_x():
         seen.append(heights - lower)
         return contact(heights, start)
 
-    run_in(lower, upper, cycles=2, contact_step=step, model=WearModel(shift=4), **(ARGUMENTS | {"friction": 0.0}))
+    run_in(
+        lower,
+        upper,
+        cycles=2,
+        contact_step=step,
+        model=WearModel(shift=4, frame="disk"),
+        **(ARGUMENTS | {"friction": 0.0}),
+    )
     worn = seen[1] - np.roll(upper, 4, axis=0)
     assert worn.max() < 1e-20  # nothing but what was lost
     assert worn.min() < 0
@@ -227,7 +290,7 @@ def test_stress_range_of_a_contact_that_does_not_move_is_zero():
 def test_stress_range_with_sliding_is_that_of_each_bodys_own_material(frictions, rows):
     """Against a plain recomputation: stresses of this cycle less those of the last, material point by material point.
 
-    The counterface took its last pressure along, the other body kept it; both wear. Slid by less than the grid, its
+    The moving body took its last pressure along, the other body kept it; both wear. Slid by less than the grid, its
     material that comes in had no pressure, unless it is as long as the grid and left at the other end.
     """
     lower, upper = surfaces()
@@ -238,7 +301,7 @@ def test_stress_range_with_sliding_is_that_of_each_bodys_own_material(frictions,
     fixed = setup(bodies=(body, body))
     dry = dry_contact(fixed)
     used = iter(frictions)
-    model = WearModel(stress_range=True, shift=5, wears="both")
+    model = WearModel(stress_range=True, shift=5, wears="both", frame="disk", criterion=NO_SKIN)
     states = []
 
     def contact(heights, start):

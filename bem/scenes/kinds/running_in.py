@@ -6,6 +6,7 @@ run-in friction the mean of the last ones.
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from functools import partial
@@ -210,7 +211,10 @@ def _of_heights(scene: RunningInScene, found: RunningInRecord) -> ErrorBars:
     from bem.wear.outcome import rms_error
 
     setup = scene.setup(**scene.sharing.model_dump(), heat_mesh=1.0)
-    error = rms_error(found.height_before, setup.grid, setup.smooth.half_axes(setup.load))
+    along, across = setup.smooth.half_axes(setup.load)
+    # on a body that moves through the contact, the whole length of the track counts
+    along = math.inf if wearing.wears_on_a_track(scene) else along
+    error = rms_error(found.height_before, setup.grid, (along, across))
     return ErrorBars.together({GRID: {"Sq_initial": error}})
 
 

@@ -26,6 +26,7 @@ class WearScenePart(Table):
     connectivity: Literal[6, 18, 26] = 6
     removal: Annotated[RemovalLaw, LawKey("removal")] = Cap()
     wears: Literal["softer", "lower", "upper", "both"] = "softer"
+    frame: Literal["cylinder", "disk"] = "cylinder"
     shift: Annotated[int, Field(strict=True, ge=-10_000, le=10_000)] = 3
     within_layer: bool = Field(default=True, strict=True)
     traction: Annotated[TractionLaw, LawKey("traction")] = GrossSliding()

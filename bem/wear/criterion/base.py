@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
-from bem.laws import Law
+from bem.laws import Law, parameter
 
 if TYPE_CHECKING:
     from bem.materials import Material
@@ -19,6 +19,10 @@ if TYPE_CHECKING:
 FEWEST_CELLS = 2.9
 """Cells to a length of the material from which sizes were found to converge (`reports/experiments/wear_lengths.py`:
 averaged over 1.5 cells, radii are a quarter too large; over 2.96, within five per cent)."""
+
+
+SKIN_DEPTH = 100e-9
+"""Default thickness of the skin that leaves with the material below it [m]."""
 
 
 @dataclass(frozen=True)
@@ -71,6 +75,9 @@ class Detachment(Law):
                 f"the grid's longer side; allowed: up to {most:g} m, or a larger grid"
             )
 
+    def check_depths(self, depths: FloatArray) -> None:
+        """Raise InputError where the depths (nz,) [m] cannot show what the law judges."""
+
     @abstractmethod
     def detach(self, cycle: BodyCycle) -> Removal:
         """The pieces that come off a body in a cycle, and what is to be remembered of its material."""
@@ -78,7 +85,23 @@ class Detachment(Law):
 
 @dataclass(frozen=True)
 class WearCriterion(Detachment):
-    """What exceeds the yield stress by an equivalent stress and reaches the surface comes off."""
+    """Material whose equivalent stress exceeds the yield stress comes off where it reaches the surface.
+
+    The skin, the material nearer to the surface than `skin_depth`, is judged by the stress at that depth: it leaves
+    with the material below it and does not hold it back. Without a skin, material under a single asperity can yield
+    while a layer of no thickness above it does not (von Mises stress under a uniform pressure p is 0.2 p at the surface
+    and up to 0.6 p below), so that what comes off depends on the cell. The skin is a stated length of the criterion
+    and stays the same on every mesh.
+    """
+
+    skin_depth: float = parameter(
+        "depth below the surface down to which stress counts as that at this depth, 0 for none",
+        "m",
+        default=SKIN_DEPTH,
+        at_least=0,
+        source="a choice: the depth spacing of the source's grids (90 and 95 nm), whose first plane of stress is not "
+        "stated; half of it gives the same friction and particle sizes",
+    )
 
     @property
     def is_von_mises(self) -> bool:
@@ -94,6 +117,14 @@ class WearCriterion(Detachment):
     @abstractmethod
     def equivalent_stress(self, stress: FloatArray) -> FloatArray:
         """Shape (...) of stresses (6, ...) in the order xx, yy, zz, yz, xz, xy, both [Pa]."""
+
+    def check_depths(self, depths: FloatArray) -> None:
+        """Raise InputError unless at least one depth [m] lies below the skin."""
+        if depths[-1] <= self.skin_depth * 1.001:
+            raise InputError(
+                f"criterion {self.name}: the deepest depth, {depths[-1]:g} m, lies within skin_depth "
+                f"{self.skin_depth:g} m; give deeper depths or a thinner skin"
+            )
 
     def detach(self, cycle: BodyCycle) -> Removal:
         """The yielded pieces."""
