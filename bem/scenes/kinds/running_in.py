@@ -81,14 +81,20 @@ def plan(scene: RunningInScene) -> Plan:
     grid = scene.check()
     # what these lack is said before any work
     wearing.between(scene, grid, scene.contact.on_patch(scene.load, grid.lengths))
-    cycles = {"convolutions": _CONVOLUTIONS, "solves": _SOLVES, "usual": _DEPTHS_NEEDED, "first": 4 * _DEPTHS_NEEDED}
     loops = 1 if wearing.film_is_halved(scene) else 2  # a film that cannot be halved takes a second one
     return Plan.of(
         plans.surfaces(grid, scene.lower.surface, scene.upper.surface),
         film_plans.tables(scene.sharing.film_points, "cycles and repetitions"),
         Step("a film for every balance", "films are interpolated in the tables", skipped=True),
         *wearing.cycle_steps(
-            scene, grid, contacts=_CONTACTS, friction=float(scene.contact.boundary_friction != 0), **cycles
+            scene,
+            grid,
+            convolutions=_CONVOLUTIONS,
+            solves=_SOLVES,
+            contacts=_CONTACTS,
+            usual=_DEPTHS_NEEDED,
+            first=4 * _DEPTHS_NEEDED,
+            friction=float(scene.contact.boundary_friction != 0),
         ),
         wearing.bars_step(scene, grid, _CONVOLUTIONS * loops, _SOLVES * loops),
         plans.figures(grid.cells),
