@@ -113,7 +113,10 @@ def mixed_scene(
 
     Parameters
     ----------
-    bodies : tables of `lower` and `upper` with their materials. oil : the element's table of the oil.
+    model : the element. contact : its place.
+    bodies : tables of `lower` and `upper` with their materials.
+    oil : the element's table of the oil.
+    kind : "friction" or "running-in".
     modulus : contact modulus [Pa].
 
     Raises
