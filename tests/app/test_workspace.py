@@ -2,6 +2,8 @@
 
 import json
 import os
+import subprocess
+import sys
 import time
 
 import pytest
@@ -104,6 +106,15 @@ def test_the_plan_is_that_of_the_command(workspace):
     wanted = ["bodies", "grid and smooth contact", "steps", "precision of fields and transforms"]
     assert [title for title, _ in plan.tables] == wanted
     assert "and" in plan.takes
+    workspace.save_scene("small", SMALL)
+    command = [sys.executable, "-m", "bem", "plan", str(workspace.scene_path("small"))]
+    printed = subprocess.run(command, capture_output=True, text=True, check=True).stdout
+    (total,) = (line for line in printed.splitlines() if line.startswith("peak, total"))
+    words = plan.takes.removeprefix("about ").split(" and ")
+    assert total.split(maxsplit=2)[2].split() == [*words[1].split(), *words[0].split()]
+    times = {name: shown for name, shown, _ in dict(plan.tables)["steps"]}
+    for name, shown in times.items():
+        assert any(line.startswith(name) and f" {shown} " in line for line in printed.splitlines()), name
 
 
 def test_states_are_read_from_files(workspace):
