@@ -1,5 +1,5 @@
 """A steel cylinder on steel under 5.5 N, and a ball, as the arguments of `solve_mixed`, `stribeck_curve` and
-`MixedSetup`."""
+`MixedSetup`. The cylinder is that of the thesis' paper A, with its area for the oil: the patch."""
 
 from bem import Body, Grid, Lubricant, Material, generate_surface
 
@@ -16,6 +16,7 @@ def steel_line(grid, **more):
         "load": 5.5,
         "hardness": 6e9,
         "film_points": 200,
+        "oil_volume": "patch",
     } | more
 
 

@@ -27,7 +27,6 @@ from enum import StrEnum
 from bem.errors import Status
 from bem.friction.falling_zero import falling_zero
 from bem.friction.film import Film, PatchFilm
-from bem.friction.oil_volume import mean_where_counted
 from bem.friction.rough_contact import Pressed, RoughContact
 from bem.grid import FloatArray
 from bem.lubrication.validity import THINNEST_FILM
@@ -229,7 +228,7 @@ class _Search:
         asked, film = self.rough.tolerance, self.effort.films_known[-1]
         if self.level == len(self.film.errors) - 1 or asked == 0:
             return asked
-        share = _oil(film, self.rough) / max(float(film.gap.std()), 1e-300)
+        share = self.rough.oil(film) / max(float(film.gap.std()), 1e-300)
         return max(asked, CONTACT_SHARE * self.goal * min(share, 1.0))
 
     def run(self, at: float, slope: float, *, known: bool = False) -> _Found:
@@ -350,22 +349,17 @@ class _Search:
         """ln(film thickness / opening of the surfaces). Thin films go like the inverse of their load: that much is
         about what ln(film load) lacks."""
         assert trial.contact is not None
-        return math.log(_oil(trial.film, self.rough) / max(trial.contact.opening, 1e-300))
+        return math.log(self.rough.oil(trial.film) / max(trial.contact.opening, 1e-300))
 
 
 def _excess(film: PatchFilm, contact: Pressed | None, load: float) -> float:
     return (film.load + (0.0 if contact is None else contact.load) - load) / load
 
 
-def _oil(film: PatchFilm, rough: RoughContact) -> float:
-    """Mean thickness of a film [m] where its oil is counted."""
-    return mean_where_counted(film.thickness, film, rough.counted)
-
-
 def _holds_oil(trial: _Trial, rough: RoughContact, goal: float) -> bool:
     """Whether the surfaces hold the film's oil, to a goal or to what is known of their opening."""
     assert trial.contact is not None
-    oil, opening = _oil(trial.film, rough), trial.contact.opening
+    oil, opening = rough.oil(trial.film), trial.contact.opening
     if abs(opening - oil) <= trial.contact.opening_error * (1 + 1e-9):
         return True
     return opening > 0 and abs(math.log(oil / opening)) <= goal
@@ -389,11 +383,11 @@ def _certified(
     notes = [*film.notes, *(() if contact is None else contact.notes)]
     oil_imbalance, held = 0.0, True
     if contact is not None and regime is Regime.MIXED:
-        oil_imbalance, held = contact.opening / _oil(film, rough) - 1, _holds_oil(trial, rough, tolerance)
+        oil_imbalance, held = contact.opening / rough.oil(film) - 1, _holds_oil(trial, rough, tolerance)
     if regime is Regime.BOUNDARY:
         notes.append(NO_FILM_NOTE if short else boundary_note(film.load / load))
         if contact is not None:
-            film = film.left_in(contact.opening, _oil(film, rough))
+            film = film.left_in(contact.opening, rough.oil(film))
     elif short:
         notes.append(_short_note(film.load))
     status = Status.CONVERGED

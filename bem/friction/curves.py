@@ -14,6 +14,7 @@ from numpy.typing import ArrayLike
 
 from bem.errors import Status
 from bem.friction.oil_beside import OilBeside
+from bem.friction.oil_volume import OilVolume
 
 if TYPE_CHECKING:
     from bem.friction.solution import MixedSolution
@@ -25,7 +26,8 @@ class CurvePoint:
     [m], ratios, counts; what was loaded is with the oil counted where the film carries (`OilBeside`). With a supply of
     oil: the film over the flooded one, and the meniscus [m], not-a-number where that is nowhere. With heat: of the oil,
     mean of the surfaces in contact and their highest [K], not-a-number where nothing is in contact or slides. What the
-    film's shear stress on cells in contact would add to friction. What is noted of this speed."""
+    film's shear stress on cells in contact would add to friction. The area over which oil was counted. What is noted of
+    this speed."""
 
     speed: float
     friction: float
@@ -49,13 +51,20 @@ class CurvePoint:
     contact_temperature: float = math.nan
     flash_temperature: float = math.nan
     oil_on_contact: float = 0.0
+    oil_volume: OilVolume = OilVolume.PATCH
     notes: tuple[str, ...] = ()
 
     @property
     def oil(self) -> OilBeside:
         """As of the solution."""
-        share, loaded = self.contact_load / self.load, self.loaded_contact_load / self.load
-        return OilBeside(self.oil_beside_contact, share, self.friction, loaded, self.loaded_friction)
+        return OilBeside(
+            share=self.oil_beside_contact,
+            contact_share=self.contact_load / self.load,
+            friction=self.friction,
+            loaded_contact_share=self.loaded_contact_load / self.load,
+            loaded_friction=self.loaded_friction,
+            counted=self.oil_volume,
+        )
 
     @classmethod
     def of(cls, solution: MixedSolution, notes: tuple[str, ...] = ()) -> CurvePoint:
@@ -83,6 +92,7 @@ class CurvePoint:
             contact_temperature=_or_nan(solution.contact_temperature),
             flash_temperature=_or_nan(solution.flash_temperature),
             oil_on_contact=solution.oil_on_contact,
+            oil_volume=solution.oil.counted,
             film_reduction=1.0 if starved is None else starved.reduction,
             meniscus_position=math.nan if starved is None or starved.flooded else starved.meniscus_position,
             notes=notes,

@@ -66,7 +66,7 @@ def solve_mixed(
     striated_exit: bool = False,
     initial: MixedSolution | None = None,
     flow_factors: WallFactors | str = "off",
-    oil_volume: OilVolume | str = OilVolume.PATCH,
+    oil_volume: OilVolume | str = OilVolume.LOADED,
     supply: Supply | float | None = None,
     thermal: str = "off",
 ) -> MixedSolution:
@@ -101,9 +101,11 @@ def solve_mixed(
     initial : solution of a similar case to start from.
     flow_factors : "off", or a table of `bem.flow_factors`: roughness then changes the film too, see `solve_line_film`;
         `lambda_ratio` is that of the film between rough walls.
-    oil_volume : where the rough surfaces hold as much oil as the smooth film: on the whole "patch", as the thesis has
-        it, or where the film is "loaded", weighted by its pressure (`bem.friction.oil_volume`). The first follows the
-        patch's length where nearly all oil lies beside Hertz' contact; `MixedSolution.oil` says how far.
+    oil_volume : area over which the mean opening of the rough surfaces equals the mean film thickness
+        (`bem.friction.oil_volume`). "loaded": where the film carries load, weighted by its pressure; it conserves the
+        flow through the loaded zone and converges with the patch's length. "patch": the whole patch, the thesis'
+        choice; it follows the patch's length where nearly all oil lies beside the Hertz contact. "hertz": the nominal
+        Hertz contact under the total load. `MixedSolution.oil` says how far the last two differ from "loaded".
     supply : oil that reaches the contact, as of `solve_line_film`; of a ball a layer of it, without flow factors.
         `MixedSolution.film.starvation` says what it does.
     thermal : "off", "lumped" or "full": the film with its heat, as of `solve_line_film`; the contact's surfaces as

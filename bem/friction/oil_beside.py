@@ -10,6 +10,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 
 from bem.errors import OUTSIDE
+from bem.friction.oil_volume import OilVolume
 
 LOAD_CHANGES = 0.1
 """Change of the surfaces' share of the load, relative to it, from which a note says so."""
@@ -39,7 +40,7 @@ class OilBeside:
     friction : surfaces' share of the load, and friction, as found. loaded_contact_share, loaded_friction : the same
     with the oil counted where the film carries; as found at either end of the balance and where it was counted so;
     not-a-number where that balance was not met. slope : of that balance, as of `Balance`, for the next one; None where
-    there was none.
+    there was none. counted : area over which oil was counted in the balance found.
     """
 
     share: float
@@ -48,6 +49,7 @@ class OilBeside:
     loaded_contact_share: float = math.nan
     loaded_friction: float = math.nan
     slope: float | None = None
+    counted: OilVolume = OilVolume.PATCH
 
     @property
     def known(self) -> bool:
@@ -80,6 +82,11 @@ def oil_notes(oils: Sequence[OilBeside]) -> tuple[str, ...]:
     if not following:
         return ()
     known = [oil for oil in following if oil.known]
+    if all(oil.counted is OilVolume.HERTZ for oil in following):
+        said = _hertz_note(known)
+        if len(known) < len(following):
+            said += "; how far is not known" + (f" of {len(following) - len(known)}" if known else "")
+        return (said,)
     most = f"{100 * max(oil.share for oil in following):.3g} %"
     if any(oil.decides for oil in known):
         oil, where = _worst(known)
@@ -104,6 +111,19 @@ def oil_notes(oils: Sequence[OilBeside]) -> tuple[str, ...]:
     if len(known) < len(following):
         said += "; how far is not known" + (f" of {len(following) - len(known)}" if known else "")
     return (said,)
+
+
+def _hertz_note(known: Sequence[OilBeside]) -> str:
+    """Return the note on results whose oil was counted over the nominal Hertz contact."""
+    said = "load share and friction depend on the area where oil is counted, here the nominal Hertz contact"
+    if not known:
+        return said
+    oil, where = _worst(known)
+    return (
+        f"{OUTSIDE if oil.decides else ''}{said}: the surfaces have {100 * oil.contact_share:.3g} % of the load at a "
+        f"friction of {oil.friction:.3g}; with oil_volume loaded they have {100 * oil.loaded_contact_share:.3g} % at "
+        f"{oil.loaded_friction:.3g}{where}"
+    )
 
 
 def _worst(known: Sequence[OilBeside]) -> tuple[OilBeside, str]:

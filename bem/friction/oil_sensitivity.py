@@ -1,8 +1,9 @@
 """What the oil beside the contact does to a load sharing that counts it: one more balance, without it.
 
 With one volume of oil on the patch (`OilVolume.PATCH`) the surfaces' share of the load follows the patch's length where
-most of that oil lies beside Hertz' contact. How far is told by the balance with the oil counted where the film carries
-(`OilVolume.LOADED`), looked for from the found one. Verified in tests/friction/test_oil_volume.py.
+most of that oil lies beside Hertz' contact; over the nominal Hertz contact (`OilVolume.HERTZ`) it follows the choice of
+that area. How far is measured by a second balance with the oil counted where the film carries (`OilVolume.LOADED`, the
+default, which needs none), started from the balance found. Verified in tests/friction/test_oil_volume.py.
 """
 
 from __future__ import annotations
@@ -39,12 +40,13 @@ def oil_beside(
 ) -> OilBeside:
     """Of a balance that was found for heights (nx, ny) [m] at a pair of speeds (u1, u2) [m/s].
 
-    One more balance where the oil was counted on the whole patch and film and surfaces both carry, with films on few
-    points; `whole` is the film under the whole load, which is the same for both. It starts from the found one, or as
-    far from that as at the speed `before`.
+    One more balance, with films on few points, unless the oil was counted where the film is loaded or one of film and
+    surfaces carries everything.
+    `whole` is the film under the whole load, which is the same for both. It starts from the found one, or as far from
+    that as at the speed `before`.
     """
     share = 0.0 if found.contact is None else found.contact.load / setup.load
-    own = OilBeside(share_beside(setup, found.film), share, friction := float(friction))
+    own = OilBeside(share_beside(setup, found.film), share, friction := float(friction), counted=setup.counted)
     if setup.counted is OilVolume.LOADED or found.regime is not Regime.MIXED or found.contact is None:
         return replace(own, loaded_contact_share=share, loaded_friction=friction)
     if found.status is not Status.CONVERGED:

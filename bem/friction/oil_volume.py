@@ -1,14 +1,24 @@
-"""Where the oil is counted that the rough surfaces are to hold as the smooth film does.
+"""The area over which the oil of the smooth film and the opening between the rough surfaces are averaged.
 
-- `PATCH`: over the whole rough patch, as the thesis has it. Where the film is far thinner than the roughness, nearly
-  all of that oil lies in the opening gap beside Hertz' contact, and the more of it the longer the patch is.
-- `LOADED`: where the load is carried, after Johnson, Greenwood and Poon (*Wear* 19, 1972, 91): film and surfaces share
-  the pressure alike everywhere, so that the bodies are deformed by all of it while the film has a part. That is the
-  film under its load F_H between bodies of the modulus E* F_H / F_T, as flat as Hertz' contact under F_T; means of
-  its thickness and of the opening are weighted by its pressure. Oil beside the contact has none, and no say.
+Load sharing presses the rough surfaces together until their mean opening equals the mean thickness of the smooth film.
+The answer depends on the area of the two means:
 
-Counting the thesis' own film, deformed by its own pressure alone, over Hertz' contact under the whole load would not
-do: it is flat on less than that, and what lies beside its own flat part decides again, at any speed however low.
+- `LOADED`, the default: the area where the film carries load, after Johnson, Greenwood and Poon (*Wear* 19, 1972, 91).
+  What is conserved is the flow through the loaded zone, so that there the mean gap equals the film thickness. Oil
+  beside the contact is at ambient pressure; it comes and leaves freely, and no volume of it is conserved. Film and
+  surfaces share the pressure in one proportion everywhere, so that the whole load deforms the bodies. The film is that
+  under its load F_H between bodies of the modulus E* F_H / F_T, as flat as the Hertz contact under F_T. Both means are
+  weighted by the film pressure. The answer converges with the length of the patch.
+- `PATCH`: the whole rough patch, the choice of the thesis (total area A of eq. 7 in its paper A). Where the film is far
+  thinner than the roughness, nearly all of that oil lies in the opening gap beside the Hertz contact. The load share
+  then follows the length of the patch.
+- `HERTZ`: the nominal Hertz contact area, which the nomenclature of the thesis' paper A names. It is the contact of the
+  smooth bodies under the total load F_T: the strip abs(x) <= a of a cylinder, the ellipse of a ball. Cells that its
+  boundary cuts count by the fraction inside. The film is deformed by its own pressure, as with `PATCH`. The answer does
+  not follow the length of the patch. The film is flat on less than this area, however, and its inlet and outlet gaps
+  within the area take part in the mean: at low speed a film then keeps load that it loses with `LOADED`.
+
+Verified in tests/friction/test_oil_volume.py.
 """
 
 from __future__ import annotations
@@ -25,16 +35,29 @@ if TYPE_CHECKING:
 
 
 class OilVolume(StrEnum):
-    """Where the oil is counted; with `LOADED` the film's bodies are those that all of the load deforms."""
+    """Area over which oil and opening are averaged; with `LOADED` the whole load deforms the film's bodies."""
 
     PATCH = "patch"
     LOADED = "loaded"
+    HERTZ = "hertz"
 
 
-def mean_where_counted(length: FloatArray, film: PatchFilm, counted: OilVolume) -> float:
-    """Mean of a thickness or opening (nx, 1) or (nx, ny) [m] over where a film's oil is counted [m]."""
+def mean_where_counted(
+    length: FloatArray, film: PatchFilm, counted: OilVolume, hertz_fraction: FloatArray | None = None
+) -> float:
+    """Return the mean of a thickness or opening over the area where oil is counted [m].
+
+    length : (nx, 1) or (nx, ny) [m].
+    film : the smooth film, whose pressure is the weight with `LOADED`.
+    counted : the area.
+    hertz_fraction : (nx, 1) or (nx, ny), fraction of each cell within the Hertz contact; needed with `HERTZ`.
+    """
     if counted is OilVolume.PATCH:
         return float(length.mean())
-    pressure, length = np.broadcast_arrays(np.maximum(film.pressure, 0.0), length)
-    total = pressure.sum()
-    return float((pressure * length).sum() / total) if total > 0 else float(length.mean())
+    if counted is OilVolume.HERTZ:
+        assert hertz_fraction is not None
+        weight, length = np.broadcast_arrays(hertz_fraction, length)
+    else:
+        weight, length = np.broadcast_arrays(np.maximum(film.pressure, 0.0), length)
+    total = weight.sum()
+    return float((weight * length).sum() / total) if total > 0 else float(length.mean())

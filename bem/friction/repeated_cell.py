@@ -24,7 +24,6 @@ from bem.convolution import DisplacementOperator, displacement_operator
 from bem.errors import Status
 from bem.friction.cell_law import CellLaw, SolvedCell
 from bem.friction.film import PatchFilm
-from bem.friction.oil_volume import mean_where_counted
 from bem.friction.rough_contact import OfPatch, Pressed
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray, Grid
@@ -120,7 +119,7 @@ class RepeatedCell(OfPatch):
         n = setup.slices
         return Pressed(
             load=spread.load,
-            opening=mean_where_counted(spread.separation + law.overlap(logarithm), film, self.counted),
+            opening=setup.mean_counted(spread.separation + law.overlap(logarithm), film),
             pressure=spread.pressure,
             approach=spread.approach,
             area=area,

@@ -32,7 +32,7 @@ from bem.friction.asperities import (
 )
 from bem.friction.boundary import filled_part, reference_pressure
 from bem.friction.film import PatchFilm, middle_line
-from bem.friction.oil_volume import OilVolume, mean_where_counted
+from bem.friction.oil_volume import OilVolume
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray, Grid
 
@@ -83,9 +83,8 @@ class RoughContact(Protocol):
     def largest_load(self) -> float:
         """Load [N] that the surfaces can carry at all; math.inf where nothing yields."""
 
-    @property
-    def counted(self) -> OilVolume:
-        """Where the oil is counted."""
+    def oil(self, film: PatchFilm) -> float:
+        """Return the mean thickness of a film over the area where oil is counted [m]."""
 
     def clears(self, film: PatchFilm) -> bool:
         """Whether undeformed surfaces that hold the film's oil do not touch."""
@@ -97,10 +96,10 @@ class RoughContact(Protocol):
         """The same, to an approach [m] as `Pressed` has it."""
 
 
-def shift_apart(film: PatchFilm, rough: FloatArray, counted: OilVolume) -> float:
-    """By how much the mean planes are closer than the film is thick [m] where surfaces (nx, ny) [m] that do not touch
-    hold its oil: nothing on the whole patch, else what they lie lower where the film carries."""
-    return 0.0 if counted is OilVolume.PATCH else -mean_where_counted(rough, film, counted)
+def shift_apart(film: PatchFilm, rough: FloatArray, setup: MixedSetup) -> float:
+    """Return the approach of the mean planes, from the film's thickness on, at which surfaces (nx, ny) [m] that do not
+    touch hold the film's oil [m]: zero on the whole patch, else minus the mean height where oil is counted."""
+    return 0.0 if setup.counted is OilVolume.PATCH else -setup.mean_counted(rough, film)
 
 
 def boundary_traction(speeds: Sequence[float], boundary_friction: float) -> float:
@@ -155,10 +154,9 @@ class CoupledContact:
         hardness = math.inf if self.setup.hardness is None else self.setup.hardness
         return hardness * self.setup.grid.area * self.setup.slices
 
-    @property
-    def counted(self) -> OilVolume:
+    def oil(self, film: PatchFilm) -> float:
         """As `RoughContact`."""
-        return self.setup.counted
+        return self.setup.mean_counted(film.thickness, film)
 
     @cached_property
     def operator(self) -> DisplacementOperator:
@@ -168,7 +166,7 @@ class CoupledContact:
 
     def clears(self, film: PatchFilm) -> bool:
         """As `RoughContact`."""
-        return bool((film.thickness - self.rough).min() >= shift_apart(film, self.rough, self.counted))
+        return bool((film.thickness - self.rough).min() >= shift_apart(film, self.rough, self.setup))
 
     def at_load(self, film: PatchFilm, load: float, tolerance: float, start: FloatArray | None) -> Pressed:
         """As `RoughContact`."""
@@ -200,7 +198,7 @@ class CoupledContact:
         slices = self.setup.slices
         return Pressed(
             load=solution.load * slices,
-            opening=mean_where_counted(np.maximum(solution.gap, 0.0), film, self.counted),
+            opening=self.setup.mean_counted(np.maximum(solution.gap, 0.0), film),
             pressure=solution.pressure,
             approach=solution.approach,
             area=solution.contact_area * slices,
@@ -230,10 +228,9 @@ class OfPatch:
         """As `RoughContact`."""
         return self.patch.tolerance
 
-    @property
-    def counted(self) -> OilVolume:
+    def oil(self, film: PatchFilm) -> float:
         """As `RoughContact`."""
-        return self.patch.counted
+        return self.patch.oil(film)
 
 
 @dataclass(frozen=True, eq=False)
@@ -246,10 +243,9 @@ class UncoupledAsperities:
     tolerance: float = 0.0
     largest_load: float = math.inf
 
-    @property
-    def counted(self) -> OilVolume:
+    def oil(self, film: PatchFilm) -> float:
         """As `RoughContact`."""
-        return self.setup.counted
+        return self.setup.mean_counted(film.thickness, film)
 
     @cached_property
     def _summits(self) -> Summits:
@@ -258,7 +254,7 @@ class UncoupledAsperities:
     def clears(self, film: PatchFilm) -> bool:
         """As `RoughContact`; the tops of summits, between cells, count as well."""
         of_planes = self.setup.asperity_separation == "film"
-        shift = 0.0 if of_planes else shift_apart(film, self.rough, self.counted)
+        shift = 0.0 if of_planes else shift_apart(film, self.rough, self.setup)
         if (film.thickness - self.rough).min() < shift:
             return False
         return bool((self._separation(film) - self._summits.height >= shift).all())
@@ -293,9 +289,9 @@ class UncoupledAsperities:
             hardness=self.setup.hardness,
         )
         if self.setup.asperity_separation == "film":
-            opening = mean_where_counted(film.thickness, film, self.counted) - shift
+            opening = self.oil(film) - shift
         else:
-            opening = mean_where_counted(np.maximum(film.thickness - self.rough - shift, 0.0), film, self.counted)
+            opening = self.setup.mean_counted(np.maximum(film.thickness - self.rough - shift, 0.0), film)
         return Pressed(
             load=solution.load * self.setup.slices,
             opening=opening,

@@ -5,13 +5,15 @@ from __future__ import annotations
 import math
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
+from functools import cached_property
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from bem.arguments import is_finite
 from bem.errors import InputError
 from bem.friction.boundary import BoundaryFriction, BoundaryFrictionGiven, boundary_law
-from bem.friction.oil_volume import OilVolume
+from bem.friction.oil_volume import OilVolume, mean_where_counted
 from bem.friction.smooth import LineContact, PointContact
 from bem.grid import FloatArray, Grid
 from bem.heat.bodies import conductors_of
@@ -21,6 +23,9 @@ from bem.lubrication.rough_walls import WallFactors
 from bem.lubrication.supply import InletDistance, Supply, checked_supply, inside_hertz
 from bem.lubrication.with_heat import HEAT, FilmHeat
 from bem.materials import Body, contact_modulus
+
+if TYPE_CHECKING:
+    from bem.friction.film import PatchFilm
 
 CONTACT_MODELS = ("coupled", "uncoupled")
 SEPARATIONS = ("volume", "film")
@@ -62,7 +67,7 @@ class MixedSetup:
     film_position: FloatArray | None = None
     striated_exit: bool = False
     flow_factors: WallFactors | str = "off"
-    oil_volume: OilVolume | str = OilVolume.PATCH
+    oil_volume: OilVolume | str = OilVolume.LOADED
     supply: Supply | float | None = None
     thermal: str = "off"
     heat_mesh: float = 1.0
@@ -267,8 +272,18 @@ class MixedSetup:
 
     @property
     def counted(self) -> OilVolume:
-        """Where the oil is counted."""
+        """Area over which oil and opening are averaged."""
         return OilVolume(self.oil_volume)
+
+    @cached_property
+    def hertz_fraction(self) -> FloatArray:
+        """Fraction of each cell of the film's grid within the Hertz contact under the total load."""
+        return self.smooth.hertz_fraction(self.film_grid, self.load)
+
+    def mean_counted(self, length: FloatArray, film: PatchFilm) -> float:
+        """Return the mean of a thickness or opening (nx, 1) or (nx, ny) [m] over the area where oil is counted [m]."""
+        fraction = self.hertz_fraction if self.counted is OilVolume.HERTZ else None
+        return mean_where_counted(length, film, self.counted, fraction)
 
     @property
     def boundary_law(self) -> BoundaryFriction:

@@ -59,6 +59,10 @@ class SmoothContact(Protocol):
     def beside(self, grid: Grid, load: float) -> NDArray[np.bool_]:
         """Cells of a patch beside Hertz' contact: (nx, ny), or (nx, 1) where it is the same along y."""
 
+    def hertz_fraction(self, grid: Grid, load: float) -> FloatArray:
+        """Return the fraction of each cell within the Hertz contact under a load [N]: (nx, ny), or (nx, 1) of a line
+        contact."""
+
 
 @dataclass(frozen=True)
 class LineContact:
@@ -102,6 +106,13 @@ class LineContact:
         """As `SmoothContact`."""
         return np.abs(grid.x[:, None]) > self.half_width(load)
 
+    def hertz_fraction(self, grid: Grid, load: float) -> FloatArray:
+        """As `SmoothContact`."""
+        half_width, half_cell = self.half_width(load), 0.5 * grid.spacing[0]
+        start = np.maximum(grid.x - half_cell, -half_width)
+        end = np.minimum(grid.x + half_cell, half_width)
+        return (np.maximum(end - start, 0.0) / grid.spacing[0])[:, None]
+
 
 @dataclass(frozen=True)
 class PointContact:
@@ -140,6 +151,29 @@ class PointContact:
         """As `SmoothContact`."""
         a, b = self.half_axes(load)
         return np.asarray((grid.x[:, None] / a) ** 2 + (grid.y[None, :] / b) ** 2 > 1)
+
+    def hertz_fraction(self, grid: Grid, load: float) -> FloatArray:
+        """As `SmoothContact`."""
+        a, b = self.half_axes(load)
+        corners = _quarter_disc(_edges(grid.x, grid.spacing[0])[:, None] / a, _edges(grid.y, grid.spacing[1]) / b)
+        inside = corners[1:, 1:] - corners[:-1, 1:] - corners[1:, :-1] + corners[:-1, :-1]
+        return np.asarray(np.clip(inside * (a * b / grid.cell_area), 0.0, 1.0))
+
+
+def _edges(centres: FloatArray, spacing: float) -> FloatArray:
+    """Return the edges (n + 1,) of equal cells with the given centres (n,) [m]."""
+    return np.append(centres - 0.5 * spacing, centres[-1] + 0.5 * spacing)
+
+
+def _quarter_disc(x: FloatArray, y: FloatArray) -> FloatArray:
+    """Return the area of the unit disc within the rectangle from the origin to (x, y), odd in x and in y."""
+    across, along = np.minimum(np.abs(x), 1.0), np.minimum(np.abs(y), 1.0)
+    leaves = np.minimum(across, np.sqrt(1 - along**2))  # from there on the circle bounds the rectangle
+
+    def below_circle(t: FloatArray) -> FloatArray:
+        return np.asarray(0.5 * (t * np.sqrt(1 - t**2) + np.arcsin(t)))
+
+    return np.asarray(np.sign(x) * np.sign(y) * (leaves * along + below_circle(across) - below_circle(leaves)))
 
 
 def _felt_modulus(contact: SmoothContact, load: float) -> float:

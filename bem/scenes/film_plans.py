@@ -46,7 +46,7 @@ def oil_beside(oil_volume: str, speeds: int) -> Step:
     """Of a curve: what the oil beside Hertz' contact decides."""
     loaded = oil_volume == "loaded"
     why = (
-        "it is left out anyway"
+        "oil is counted where the film is loaded"
         if loaded
         else "once more at each speed where film and contact share the load, to tell what that oil decides"
     )

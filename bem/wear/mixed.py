@@ -202,7 +202,7 @@ class MixedContact:
         notes += [*self.film_notes, *validity_notes(friction, last.forces, last.balance.film, self._whole, self.setup)]
         oil = self.oil()
         hanging = () if oil is None else tuple(f"last cycle: {note}" for note in oil_notes([oil]))
-        if last.borne > FEW and self.setup.counted is OilVolume.PATCH:
+        if last.borne > FEW and self.setup.counted is not OilVolume.LOADED:
             hanging = (_OIL_UNKNOWN,)
         covered = covered_notes([(float(self.rows["friction"][-1]), last.forces.covered / self.setup.load)])
         return (*notes, *last.coupling, *hanging, *(f"last cycle: {note}" for note in covered))

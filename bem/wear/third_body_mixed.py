@@ -43,7 +43,7 @@ class ContactWithBodies(OfPatch):
     def clears(self, film: PatchFilm) -> bool:
         """As `RoughContact`; neither do particles touch both surfaces."""
         rough = self.patch.rough
-        apart = film.thickness - rough - shift_apart(film, rough, self.counted)
+        apart = film.thickness - rough - shift_apart(film, rough, self.patch.setup)
         return self.patch.clears(film) and self.carried(apart) == 0
 
     def carried(self, gap: FloatArray) -> float:

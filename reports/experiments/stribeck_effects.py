@@ -108,6 +108,7 @@ def curves(contact: Compared) -> list[dict[str, Any]]:
     given: dict[str, Any] = {
         "height": height, "grid": contact.grid, "bodies": bodies, "radius": RADIUS, "width": WIDTH,
         "load": contact.load, "boundary_friction": 0.09, "hardness": contact.hardness, "film_points": 800,
+        "oil_volume": "patch",
     }  # fmt: skip
     found = []
     for name, changes in effects(contact, factors).items():

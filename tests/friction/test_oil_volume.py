@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mixed_case import BALL, rough_patch
 
 from bem import Body, Grid, InputError, Lubricant, Material, Status, generate_surface, solve_mixed, stribeck_curve
 from bem.benchmarks.lubricated_cases import mixed_case
@@ -19,6 +20,7 @@ from bem.friction.oil_beside import OilBeside, oil_notes
 from bem.friction.oil_volume import OilVolume, mean_where_counted
 from bem.friction.rough_contact import rough_contact
 from bem.friction.setup import MixedSetup
+from bem.friction.smooth import LineContact, PointContact
 from bem.wear.mixed import MixedContact, film_table
 
 STEEL = Body(Material("steel", youngs_modulus=207e9, poissons_ratio=0.3))
@@ -43,8 +45,13 @@ def bearing(cells, **changes):
         "boundary_friction": 0.12,
         "hardness": 7e9,
         "film_points": 400,
+        "oil_volume": "patch",
     }
     return case | changes
+
+
+RELATIVE, HERTZ = {False: 2e-4, True: 0.2}, list(OilVolume).index(OilVolume.HERTZ)
+"""Film loads of flat films with the oil over several areas: the opening over the Hertz contact is another mean."""
 
 
 def setup_of(case):
@@ -98,13 +105,14 @@ def test_slower_and_slower_is_boundary_lubrication():
 
 @pytest.mark.parametrize(("speed", "regime"), [(30.0, Regime.FULL_FILM), (1e-9, Regime.BOUNDARY)])
 def test_at_both_ends_it_does_not_matter(speed, regime):
-    patch, loaded = (solve_mixed(**bearing(64, oil_volume=counted), speeds=(speed, 0.0)) for counted in OilVolume)
-    assert patch.regime is loaded.regime is regime
-    assert patch.status is loaded.status is Status.CONVERGED
-    assert loaded.contact_load == pytest.approx(patch.contact_load, rel=1e-12)
-    assert loaded.friction == pytest.approx(patch.friction, rel=1e-4)  # a contact from another start
-    assert not patch.oil.matters
-    assert patch.oil_imbalance == loaded.oil_imbalance == 0
+    points = [solve_mixed(**bearing(64, oil_volume=counted), speeds=(speed, 0.0)) for counted in OilVolume]
+    for point in points:
+        assert point.regime is regime
+        assert point.status is Status.CONVERGED
+        assert point.contact_load == pytest.approx(points[0].contact_load, rel=1e-12)
+        assert point.friction == pytest.approx(points[0].friction, rel=1e-4)  # a contact from another start
+        assert not point.oil.matters
+        assert point.oil_imbalance == 0
 
 
 def test_surfaces_that_touch_by_the_oil_beside_alone_are_compared_with_a_full_film():
@@ -112,7 +120,8 @@ def test_surfaces_that_touch_by_the_oil_beside_alone_are_compared_with_a_full_fi
     grid = bearing(112)["grid"]
     height = np.broadcast_to(0.5e-6 * np.exp(-((grid.x / 3e-4) ** 8))[:, None], grid.shape)
     patch, loaded = (
-        solve_mixed(**bearing(112, oil_volume=counted, height=height), speeds=(0.3, 0.0)) for counted in OilVolume
+        solve_mixed(**bearing(112, oil_volume=counted, height=height), speeds=(0.3, 0.0))
+        for counted in (OilVolume.PATCH, OilVolume.LOADED)
     )
     assert (patch.regime, loaded.regime) == (Regime.MIXED, Regime.FULL_FILM)
     assert patch.status is loaded.status is Status.CONVERGED
@@ -192,11 +201,12 @@ def test_flat_films_hold_the_same_oil_wherever_it_is_counted():
     for counted in OilVolume:
         rough = rough_contact(setup_of(case | {"oil_volume": counted}), case["height"], (0.1, 0.0))
         found.append(share_load(film, rough, load, 1e-5, film.under(load, 0, None), BalanceStart(0.5 * load)))
-    patch, loaded = found
-    assert patch.status is loaded.status is Status.CONVERGED
-    assert 0.05 < patch.film.load / load < 0.95
-    assert loaded.film.load == pytest.approx(patch.film.load, rel=2e-4)  # to the tolerance over the slopes
-    assert loaded.contacts <= 10
+    assert 0.05 < found[0].film.load / load < 0.95
+    for one in found:
+        assert one.status is Status.CONVERGED
+        # the openings are means over other areas of one rough gap: to the tolerance over the slopes
+        assert one.film.load == pytest.approx(found[0].film.load, rel=RELATIVE[one is found[HERTZ]])
+        assert one.contacts <= 10
 
 
 @pytest.mark.parametrize("counted", OilVolume)
@@ -313,6 +323,8 @@ def test_means_where_the_oil_is_counted():
     lengths = np.arange(8.0).reshape(4, 2)
     assert mean_where_counted(lengths, film, OilVolume.PATCH) == lengths.mean()
     assert mean_where_counted(lengths, film, OilVolume.LOADED) == pytest.approx((2.5 + 3 * 4.5) / 4, rel=1e-15)
+    fraction = np.array([[0.0], [1.0], [0.5], [0.0]])
+    assert mean_where_counted(lengths, film, OilVolume.HERTZ, fraction) == pytest.approx((2.5 + 0.5 * 4.5) / 1.5)
     nothing = dataclasses.replace(film, pressure=0 * pressure)
     assert mean_where_counted(lengths, nothing, OilVolume.LOADED) == lengths.mean()
 
@@ -354,7 +366,7 @@ def test_the_balance_compared_with_begins_with_the_slope_found(monkeypatch):
     inner = oil_sensitivity.share_load
     monkeypatch.setattr(oil_sensitivity, "share_load", lambda *given: tried.append(inner(*given)) or tried[-1])
     for speed in (0.01, 0.03, 0.05, 0.1):
-        point = solve_mixed(**mixed_case(60, 400, 1e-4), speeds=(speed, 0.0))
+        point = solve_mixed(**mixed_case(60, 400, 1e-4), speeds=(speed, 0.0), oil_volume="patch")
         own = solve_mixed(**mixed_case(60, 400, 1e-4), speeds=(speed, 0.0), oil_volume="loaded")
         assert abs(point.oil.loaded_contact_share - own.contact_load / own.load) < 1e-3
         assert point.oil.loaded_friction == pytest.approx(own.friction, rel=1e-3)
@@ -398,5 +410,88 @@ def test_what_is_said_of_one_result_and_of_a_curve():
 
 
 def test_refuses_other_volumes():
-    with pytest.raises(InputError, match="oil_volume: 'hertz' is unknown; choose from patch, loaded"):
-        solve_mixed(**bearing(64, oil_volume="hertz"), speeds=(0.1, 0.0))
+    with pytest.raises(InputError, match="oil_volume: 'strip' is unknown; choose from patch, loaded, hertz"):
+        solve_mixed(**bearing(64, oil_volume="strip"), speeds=(0.1, 0.0))
+
+
+def test_the_default_counts_oil_where_the_film_is_loaded_and_pays_no_second_balance(monkeypatch):
+    monkeypatch.setattr(oil_sensitivity, "share_load", lambda *given: pytest.fail("a second balance was solved"))
+    case = {name: value for name, value in bearing(64).items() if name != "oil_volume"}
+    point = solve_mixed(**case, speeds=(0.01, 0.0))
+    assert setup_of(case).counted is OilVolume.LOADED
+    assert point.regime is Regime.MIXED
+    assert point.oil.loaded_friction == point.friction
+    assert not point.oil.matters
+
+
+@pytest.mark.parametrize("cells", [7, 20, 33])
+def test_cells_that_the_hertz_boundary_cuts_count_by_their_fraction(cells):
+    """The fractions sum to the Hertz area on every grid, and their mean of x^2 is that of the area itself."""
+    oil, modulus = Lubricant(0.02), MODULUS
+    line, ball = LineContact(RADIUS, WIDTH, modulus, oil), PointContact((6e-3, 9e-3), modulus, oil)
+    for contact, load in ((line, 5e3), (ball, 40.0)):
+        a, b = contact.half_axes(load)
+        grid = Grid((cells, cells + 2), (2.4 * a / cells, 2.4 * min(b, 3 * a) / (cells + 2)))
+        fraction = contact.hertz_fraction(grid, load)
+        assert fraction.min() >= 0
+        assert fraction.max() <= 1
+        inside = np.abs(grid.x) + grid.spacing[0] / 2 < a
+        if math.isinf(b):
+            assert fraction.shape == (cells, 1)
+            assert fraction.sum() * grid.spacing[0] == pytest.approx(2 * a, rel=1e-12)
+            np.testing.assert_allclose(fraction[inside], 1, rtol=1e-12)
+        else:
+            assert fraction.sum() * grid.cell_area == pytest.approx(math.pi * a * b, rel=1e-12)
+            whole = ~contact.beside(grid, load) & (fraction < 1)
+            assert (fraction[whole] > 0.1).all()
+
+
+@pytest.mark.parametrize("speed", [1e-4, 1e-2, 0.1])
+def test_oil_counted_over_the_hertz_contact_does_not_know_the_patch(speed):
+    points = [solve_mixed(**bearing(cells, oil_volume="hertz"), speeds=(speed, 0.0)) for cells in LENGTHS]
+    assert all(point.status is Status.CONVERGED for point in points)
+    frictions = np.array([point.friction for point in points])
+    assert np.ptp(frictions[1:]) < 1e-4 * frictions.mean()
+    # the shortest patch, 1.03 Hertz contacts, lacks what touches beyond the Hertz contact
+    assert np.ptp(frictions) < 0.015 * frictions.mean()
+    patch = [solve_mixed(**bearing(cells), speeds=(speed, 0.0)).friction for cells in LENGTHS]
+    assert np.ptp(patch) > 4 * np.ptp(frictions)
+
+
+def test_the_oil_over_the_hertz_contact_recomputed_from_what_is_returned():
+    case = bearing(80, oil_volume="hertz")
+    point = solve_mixed(**case, speeds=(0.03, 0.0))
+    half_width, spacing = 2 * PRESSURE * RADIUS / MODULUS, case["grid"].spacing[0]
+    inside = np.clip((half_width - np.abs(case["grid"].x)) / spacing + 0.5, 0.0, 1.0)
+    opening = np.maximum(point.contact.gap, 0).mean(axis=1)
+    mean = (inside * opening).sum() / (inside * point.film.at(case["grid"].x)[1]).sum() - 1
+    assert mean == pytest.approx(point.oil_imbalance, abs=1e-9)
+    assert abs(mean) < 2e-4
+    loaded = solve_mixed(**bearing(80, oil_volume="loaded"), speeds=(0.03, 0.0))
+    assert point.oil.loaded_contact_share == pytest.approx(loaded.contact_load / loaded.load, abs=0.01)
+
+
+def test_a_ball_counts_the_oil_over_its_hertz_circle():
+    height = rough_patch(50e-9)
+    shorter = Grid((52, 52), BALL["grid"].spacing)
+    cases = (BALL["grid"], height), (shorter, height[6:-6, 6:-6])
+    points = [
+        solve_mixed(**BALL | {"grid": grid, "oil_volume": "hertz"}, height=rough, speeds=(0.1, 0.1))
+        for grid, rough in cases
+    ]
+    assert all(point.status is Status.CONVERGED and point.regime is Regime.MIXED for point in points)
+    assert points[1].friction == pytest.approx(points[0].friction, rel=5e-3)
+    assert points[1].contact_load == pytest.approx(points[0].contact_load, rel=5e-3)
+
+
+def test_the_note_on_the_hertz_area_names_it_and_compares_with_loaded():
+    follows = OilBeside(0.7, 0.5, 0.1, 0.5, 0.102, counted=OilVolume.HERTZ)
+    (note,) = oil_notes([follows])
+    assert "Hertz" in note
+    assert "length of the patch" not in note
+    assert "0.102" in note
+    assert outside([note]) == ()
+    decided = dataclasses.replace(follows, loaded_contact_share=0.99)
+    assert outside(oil_notes([decided, follows]))
+    unknown = OilBeside(0.7, 0.5, 0.1, counted=OilVolume.HERTZ)
+    assert oil_notes([unknown])[0].endswith("how far is not known")

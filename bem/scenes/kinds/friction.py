@@ -240,7 +240,8 @@ def _record(
     shown = curve.shown
     assert shown is not None
     resists = sliding_sign(shown.speeds)
-    names = [item.name for item in fields(curve.points[0]) if item.name not in (*left_out, "oil_on_contact", "notes")]
+    not_columns = (*left_out, "oil_on_contact", "oil_volume", "notes")
+    names = [item.name for item in fields(curve.points[0]) if item.name not in not_columns]
     bad = [one for one in curve.points if one.status is not Status.CONVERGED]
     return filled(
         CurveRecord,

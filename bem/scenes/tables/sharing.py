@@ -33,7 +33,8 @@ class SharingScene(Table):
     take every summit as a Hertz sphere of its own, the usual baseline. `asperity_separation`: mean planes of the
     uncoupled summits as far apart as keeps the oil's "volume", or as the "film" is thick. `flow_factors`: whether the
     film flows between smooth walls ("off"), or between the "surfaces" as `bem.flow_factors` has them. `oil_volume`:
-    where the surfaces hold as much oil as the smooth film, on the whole "patch" or where the film is "loaded".
+    area over which the mean opening of the surfaces equals the mean film thickness, where the film is "loaded", the
+    whole "patch" (the thesis), or the nominal "hertz" contact.
     """
 
     models: Annotated[list[Model], Field(min_length=1, max_length=4)] = ["capped"]  # noqa: RUF012
@@ -42,7 +43,7 @@ class SharingScene(Table):
     asperity_separation: Literal["volume", "film"] = "volume"
     striated_exit: bool = Field(default=False, strict=True)
     flow_factors: Literal["off", "surfaces"] = "off"
-    oil_volume: Literal["patch", "loaded"] = "patch"
+    oil_volume: Literal["loaded", "patch", "hertz"] = "loaded"
 
     @model_validator(mode="after")
     def _each_once(self) -> SharingScene:
@@ -139,7 +140,8 @@ class CurveScene(HotMixedScene):
             return self
         if self.sharing.oil_volume != "loaded":
             raise problem(
-                'a ball on a cell that repeats (grid.periodic = true) with sharing.oil_volume = "patch"',
+                "a ball on a cell that repeats (grid.periodic = true) with "
+                f'sharing.oil_volume = "{self.sharing.oil_volume}"',
                 'oil_volume = "loaded", or a patch that holds the contact',
             )
         if not {"elastic", "capped"} >= set(self.sharing.models):
@@ -198,15 +200,14 @@ class RunningInSharing(Table):
 
     `film_points`: nodes of the film's mesh, `film_cells` those of a ball's film along an axis; films are tabulated over
     the load they carry, once per speed.
-    `oil_volume`: where the surfaces hold as much oil as the smooth film, on the whole "patch" or where the film is
-    "loaded".
+    `oil_volume`: as of kind friction, "loaded", "patch" or "hertz".
     """
 
     tolerance: Annotated[Ratio, Field(ge=1e-8, le=0.01)] = 5e-4
     contact_tolerance: Annotated[Ratio, Field(gt=0, le=1e-2)] = 1e-4
     film_points: Annotated[int, Field(strict=True, ge=100, le=5000)] = 400
     film_cells: FilmCells = 64
-    oil_volume: Literal["patch", "loaded"] = "patch"
+    oil_volume: Literal["loaded", "patch", "hertz"] = "loaded"
 
 
 class RunningInCycles(LastCycles):
