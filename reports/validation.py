@@ -11,7 +11,7 @@ import math
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
-from reports import independent, neglects
+from reports import independent, neglects, patch_length
 from reports.builder import COLOURS, Page, Section, figure, table, text
 from reports.experiments import kept
 from reports.validation_lines import CHECKS, CHOICES
@@ -117,6 +117,7 @@ def build() -> Page:
     for title, lines in tables.items():
         sections.append(Section(title, table(headers, lines) + figures_for(title)))
     sections.append(Section("Independent figures", independent.body()))
+    sections.append(Section("The area over which oil is counted", patch_length.body()))
     sections.append(Section("What the Stribeck curves leave out", neglects.body()))
     sections.append(Section("What was chosen, and why", table(("what", "choice", "reason"), CHOICES)))
     sections.append(Section("Stored results", results_table()))
@@ -306,9 +307,14 @@ FIGURES: dict[str, list[tuple[str, Callable[[Summary], Any], str]]] = {
         ("stribeck-mineral-oil", stribeck, "Paper A's Stribeck curve with its parts, mean over repetitions."),
         ("uniform-asperities", array_loads, "Spheres in a square array: what depth is measured from decides the sign."),
         (
+            "asperities-given-film",
+            wavelength_difference,
+            "Largest difference of friction with uncoupled asperities, with its sign; both at the film's thickness.",
+        ),
+        (
             "roughness-wavelength",
             wavelength_difference,
-            "Largest difference of friction with uncoupled asperities, with its sign; both keep the volume of oil.",
+            "The same where both keep the volume of oil.",
         ),
     ],
     "Running-in in mixed lubrication (paper D)": [

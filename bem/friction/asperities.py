@@ -7,7 +7,8 @@ Which carries more at a given film depends on what the separation is measured fr
 depths in the half-space are measured from its *deformed* mean plane, which the neighbours of a summit have pushed down:
 the coupled contact carries more. If both are given the same separation of the *undeformed* planes, as in the thesis'
 paper A, the half-space sinks in as a whole by the mean pressure - by an amount that grows with the size of the patch -
-and carries less. The first is what load sharing does everywhere else, so it is the default here.
+and carries less (`bem.friction.given_separation`). The first is what load sharing does everywhere else, so it is the
+default here.
 """
 
 from __future__ import annotations

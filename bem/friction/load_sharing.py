@@ -61,6 +61,7 @@ def solve_mixed(
     film_cells: int = FILM_CELLS,
     contact_model: str = "coupled",
     asperity_separation: str = "volume",
+    separation: str = "volume",
     contact_tolerance: float = 1e-6,
     film_position: FloatArray | None = None,
     striated_exit: bool = False,
@@ -94,6 +95,10 @@ def solve_mixed(
     contact_model : "coupled" (the half-space), or "uncoupled" (every summit a Hertz sphere), the usual baseline.
     asperity_separation : distance of the mean planes for uncoupled asperities: "volume" keeps the volume of oil between
         the surfaces, cut where they overlap; "film" is the film thickness itself.
+    separation : "volume" keeps the volume of oil between the surfaces (`oil_volume`). "film": the undeformed mean
+        planes are as far apart as the film is thick at its centre, for coupled and uncoupled asperities alike, as in
+        figures 5 and 6 of the thesis' paper A (`bem.friction.given_separation`). It needs a cylinder and a grid that is
+        periodic along x and y.
     contact_tolerance : of the rough contact.
     film_position : ascending abscissae [m] on which `film` is returned; the film's own mesh by default.
     striated_exit : whether the oil behind the exit adds to the friction (`FilmSolution.striated_shear_force`); not with
@@ -148,6 +153,7 @@ def solve_mixed(
         film_cells=film_cells,
         contact_model=contact_model,
         asperity_separation=asperity_separation,
+        separation=separation,
         contact_tolerance=contact_tolerance,
         film_position=film_position,
         striated_exit=striated_exit,

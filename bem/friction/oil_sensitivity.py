@@ -47,7 +47,8 @@ def oil_beside(
     """
     share = 0.0 if found.contact is None else found.contact.load / setup.load
     own = OilBeside(share_beside(setup, found.film), share, friction := float(friction), counted=setup.counted)
-    if setup.counted is OilVolume.LOADED or found.regime is not Regime.MIXED or found.contact is None:
+    unaffected = setup.counted is OilVolume.LOADED or setup.at_film_separation
+    if unaffected or found.regime is not Regime.MIXED or found.contact is None:
         return replace(own, loaded_contact_share=share, loaded_friction=friction)
     if found.status is not Status.CONVERGED:
         return own

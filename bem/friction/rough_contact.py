@@ -110,6 +110,10 @@ def boundary_traction(speeds: Sequence[float], boundary_friction: float) -> floa
 def rough_contact(setup: MixedSetup, height: FloatArray, speeds: Sequence[float]) -> RoughContact:
     """The contact of a set-up; `height` (nx, ny) [m] out of the flat, of both surfaces together."""
     rough = height - height.mean()
+    if setup.at_film_separation:
+        from bem.friction.given_separation import contact_at_film_separation  # of few scenes
+
+        return contact_at_film_separation(setup, rough, speeds)
     if setup.contact_model == "uncoupled":
         return UncoupledAsperities(setup, rough)
     patch = CoupledContact(setup, rough, boundary_traction(speeds, reference_friction(setup, rough, speeds)))
@@ -253,7 +257,7 @@ class UncoupledAsperities:
 
     def clears(self, film: PatchFilm) -> bool:
         """As `RoughContact`; the tops of summits, between cells, count as well."""
-        of_planes = self.setup.asperity_separation == "film"
+        of_planes = self._at_film
         shift = 0.0 if of_planes else shift_apart(film, self.rough, self.setup)
         if (film.thickness - self.rough).min() < shift:
             return False
@@ -276,6 +280,10 @@ class UncoupledAsperities:
         """As `RoughContact`."""
         return self._shifted(film, approach)
 
+    @property
+    def _at_film(self) -> bool:
+        return self.setup.asperity_separation == "film" or self.setup.at_film_separation
+
     def _separation(self, film: PatchFilm) -> FloatArray:
         return np.broadcast_to(film.thickness, self.rough.shape)[self._summits.index]
 
@@ -288,7 +296,7 @@ class UncoupledAsperities:
             contact_modulus=self.setup.smooth.contact_modulus,
             hardness=self.setup.hardness,
         )
-        if self.setup.asperity_separation == "film":
+        if self._at_film:
             opening = self.oil(film) - shift
         else:
             opening = self.setup.mean_counted(np.maximum(film.thickness - self.rough - shift, 0.0), film)

@@ -63,6 +63,7 @@ class MixedSetup:
     film_cells: int = FILM_CELLS
     contact_model: str = "coupled"
     asperity_separation: str = "volume"
+    separation: str = "volume"
     contact_tolerance: float = 1e-6
     film_position: FloatArray | None = None
     striated_exit: bool = False
@@ -204,11 +205,21 @@ class MixedSetup:
         messages = []
         if not isinstance(self.lubricant, Lubricant):
             messages.append(f"lubricant: {type(self.lubricant).__name__} is not a Lubricant")
-        choices = {"contact_model": CONTACT_MODELS, "asperity_separation": SEPARATIONS, "oil_volume": tuple(OilVolume)}
+        choices: dict[str, tuple[str, ...]] = {
+            "contact_model": CONTACT_MODELS,
+            "asperity_separation": SEPARATIONS,
+            "separation": SEPARATIONS,
+            "oil_volume": tuple(OilVolume),
+        }
         for name, allowed in choices.items():
             value = getattr(self, name)
             if value not in allowed:
                 messages.append(f"{name}: {value!r} is unknown; choose from {', '.join(allowed)}")
+        if self.at_film_separation and isinstance(self.grid, Grid):
+            if self.radii is not None:
+                messages.append('separation: "film" needs a cylinder; take "volume" for a ball or ellipsoid')
+            elif not all(self.grid.periodic):
+                messages.append('separation: "film" needs a grid that is periodic along x and y; make it so')
         factors = self.flow_factors
         if not (isinstance(factors, WallFactors) or (isinstance(factors, str) and factors == "off")):
             messages.append(f'flow_factors: {factors!r} must be "off" or a table of bem.flow_factors')
@@ -272,8 +283,14 @@ class MixedSetup:
 
     @property
     def counted(self) -> OilVolume:
-        """Area over which oil and opening are averaged."""
-        return OilVolume(self.oil_volume)
+        """Area over which oil and opening are averaged; at a given separation no volume is kept, and the film is that
+        of bodies that its own pressure deforms."""
+        return OilVolume.PATCH if self.at_film_separation else OilVolume(self.oil_volume)
+
+    @property
+    def at_film_separation(self) -> bool:
+        """Whether the undeformed mean planes are as far apart as the film is thick, in place of a volume of oil."""
+        return self.separation == "film"
 
     @cached_property
     def hertz_fraction(self) -> FloatArray:

@@ -42,11 +42,13 @@ def heat(thermal: str, speeds: int, cells: int) -> Step:
     return Step("heat", what, skipped=thermal == "off", seconds=cost, memory=2e7 + 300.0 * cells)
 
 
-def oil_beside(oil_volume: str, speeds: int) -> Step:
+def oil_beside(oil_volume: str, speeds: int, *, at_film_separation: bool = False) -> Step:
     """Of a curve: what the oil beside Hertz' contact decides."""
-    loaded = oil_volume == "loaded"
+    loaded = oil_volume == "loaded" or at_film_separation
     why = (
-        "oil is counted where the film is loaded"
+        "no volume of oil is kept"
+        if at_film_separation
+        else "oil is counted where the film is loaded"
         if loaded
         else "once more at each speed where film and contact share the load, to tell what that oil decides"
     )

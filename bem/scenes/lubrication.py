@@ -228,6 +228,11 @@ class MixedScene(SceneModel):
         return self.contact.point_radii is not None and all(self.grid.periodic) and self.cell_may_repeat
 
     @property
+    def at_film_separation(self) -> bool:
+        """Whether the undeformed mean planes are as far apart as the film is thick."""
+        return False
+
+    @property
     def bodies(self) -> tuple[Body, Body]:
         """As `bem.Body`."""
         return self.lower.build(), self.upper.build()
@@ -294,7 +299,9 @@ class MixedScene(SceneModel):
         """
         grid, load, hardness = build.grid_of(self.grid), self.load, self.contact.hardness
         half_axes = self.contact.half_axes(load, self.modulus)
-        _check_patch(grid, film or FilmMeshScene(), half_axes, repeats=self.cell_repeats)
+        _check_patch(
+            grid, film or FilmMeshScene(), half_axes, repeats=self.cell_repeats, endless=self.at_film_separation
+        )
         supply = build_supply(self.supply)
         if isinstance(supply, InletDistance) and supply.distance <= half_axes[0]:
             raise InputError(inside_hertz(supply, half_axes[0]))
@@ -322,7 +329,9 @@ class MixedScene(SceneModel):
         )
 
 
-def _check_patch(grid: Grid, film: FilmMeshScene, half_axes: tuple[float, float], *, repeats: bool) -> None:
+def _check_patch(
+    grid: Grid, film: FilmMeshScene, half_axes: tuple[float, float], *, repeats: bool, endless: bool
+) -> None:
     """Whether the rough patch, or a cell that repeats, fits the contact and the film's grid; InputError if not."""
     messages = []
     point = math.isfinite(half_axes[1])
@@ -337,8 +346,11 @@ def _check_patch(grid: Grid, film: FilmMeshScene, half_axes: tuple[float, float]
             "grid.periodic: the patch holds the contact of a ball; allowed: [false, false], or in kind friction "
             "[true, true], a cell of the roughness that repeats all over the contact"
         )
-    elif grid.periodic[0]:
-        messages.append("grid.periodic: the patch lies under a cylinder; allowed: [false, true] or [false, false]")
+    elif grid.periodic[0] and not endless:
+        messages.append(
+            "grid.periodic: the patch lies under a cylinder; allowed: [false, true] or [false, false], or in "
+            'kind friction with sharing.separation = "film" [true, true]'
+        )
     for axis, length, half in zip("xy", grid.lengths, half_axes, strict=True):
         if math.isfinite(half) and 0.5 * length < half and not repeats:
             name, there = (f"half-axis along {axis}", f" along {axis}") if point else ("half-width", "")

@@ -14,7 +14,14 @@ from reports.builder import text
 from reports.validation_origin import bare_digest, commit, modules
 
 RESULTS = Path(__file__).resolve().parents[1] / "results"
-SCRIPTS = ("independent_figures", "film_regimes", "load_share_curves", "separation_datum", "stribeck_effects")
+SCRIPTS = (
+    "independent_figures",
+    "film_regimes",
+    "load_share_curves",
+    "patch_length",
+    "separation_datum",
+    "stribeck_effects",
+)
 """Experiments whose results the validation page reads; of each, module and result have that name."""
 
 

@@ -5,7 +5,7 @@
 Two contacts, each on patches cut from one surface:
 
 - a roller at 1.5 GPa, at 0.1 and 10 mm/s, on 1.0 to 2.3 Hertz contacts;
-- the cylinder of the thesis' paper A under 5.5 N (0.13 GPa) with the surfaces of its paper D together, at 1 and
+- the cylinder of the thesis' paper A under 5.5 N (0.13 GPa) with the surface of scene `stribeck-mineral-oil`, at 1 and
   50 mm/s, on 27 to 180 um: 3 to 20 Hertz contacts.
 
 With the oil counted on the whole patch (`oil_volume` "patch") the rough surfaces hold as much as the smooth film does
@@ -21,8 +21,6 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-
 from bem import Body, Grid, Lubricant, Material, generate_surface, solve_mixed
 from bem.friction.oil_volume import OilVolume
 from bem.grid import FloatArray
@@ -35,8 +33,8 @@ ROLLER, CYLINDER = "roller, 1.5 GPa", "cylinder, 5.5 N (0.13 GPa)"
 @dataclass(frozen=True)
 class Case:
     """A contact and its patches: body, radius and width [m], largest Hertz pressure [Pa], oil, boundary friction,
-    hardness [Pa], cell [m], cells along of each patch, cells across, speeds of the flat [m/s], and waves of the
-    surface (keywords of `generate_surface`, their heights added)."""
+    hardness [Pa], cell [m], cells along of each patch, cells across, speeds of the flat [m/s], and the surface
+    (keywords of `generate_surface`)."""
 
     steel: Material
     radius: float
@@ -49,7 +47,7 @@ class Case:
     cells: tuple[int, ...]
     across: int
     speeds: tuple[float, ...]
-    surfaces: tuple[dict[str, Any], ...]
+    surface: dict[str, Any]
 
     @property
     def modulus(self) -> float:
@@ -64,24 +62,20 @@ class Case:
     def height(self) -> FloatArray:
         """Return the heights (nx, ny) of the longest patch [m]."""
         around = Grid((max(self.cells), self.across), (self.spacing, self.spacing), periodic=(True, True))
-        heights = [generate_surface(around, **waves) for waves in self.surfaces]
-        return np.sum(heights, axis=0)
+        return generate_surface(around, **self.surface)
 
 
 CASES = {
     ROLLER: Case(
         Material("steel", youngs_modulus=207e9, poissons_ratio=0.3, hardness=7e9), 6e-3, 10e-3, 1.5e9,
         Lubricant(0.02, pressure_viscosity=21e-9), 0.12, 7e9, 3.2e-6, (102, 128, 160, 224), 128, (1e-4, 1e-2),
-        ({"rms_height": 100e-9, "seed": 4, "correlation_length": 15e-6},),
+        {"rms_height": 100e-9, "seed": 4, "correlation_length": 15e-6},
     ),
     CYLINDER: Case(
         Material("steel", youngs_modulus=210e9, poissons_ratio=0.3), 2e-3, 6e-3,
-        math.sqrt(5.5 / 6e-3 * 115.385e9 / (math.pi * 2e-3)), Lubricant(0.36, pressure_viscosity=25e-9), 0.15, 1.08e9,
-        0.45e-6, (60, 100, 200, 400), 100, (1e-3, 5e-2),
-        (
-            {"rms_height": 120e-9, "seed": 1, "correlation_length": 1e-6},
-            {"rms_height": 55e-9, "seed": 2, "hurst": 0.8, "rolloff_wavelength": 20e-6, "cutoff_wavelength": 0.9e-6},
-        ),
+        math.sqrt(5.5 / 6e-3 * 115.385e9 / (math.pi * 2e-3)), Lubricant(0.36, pressure_viscosity=25e-9), 0.09, 6e9,
+        0.45e-6, (60, 100, 200, 400), 200, (1e-3, 5e-2),
+        {"rms_height": 100e-9, "seed": 1, "hurst": 0.8, "rolloff_wavelength": 20e-6, "cutoff_wavelength": 1.8e-6},
     ),
 }  # fmt: skip
 

@@ -129,8 +129,7 @@ RULES: dict[str, Rule] = {
     ),
     "uncoupled_less_coupled_friction_d_with_its": Rule(
         lambda s: ", ".join(f"{d:+.1f}" for d in differences(s, "34 um")),
-        lambda s: min(differences(s, "34 um")) > 0 and 31.5 <= max(differences(s, "34 um")) < 32.5,
-        lambda s: f"{quoted(_d_there, FILM_AS_SEPARATION)(s)} (one surface); {_by_datum(34)}",
+        lambda s: min(differences(s, "34 um")) > 0,
     ),
     "the_same_for_l_57_um": Rule(
         lambda s: ", ".join(f"{d:+.1f}" for d in differences(s, "57 um")),
@@ -141,6 +140,11 @@ RULES: dict[str, Rule] = {
         lambda s: ", ".join(f"{abs(d):.1f}" for d in differences(s, "34 um")) + " %",
         lambda s: all(abs(a) < abs(b) for a, b in itertools.pairwise(differences(s, "34 um"))),
         lambda s: _by_datum(34),
+    ),
+    "d_with_the_volume_of_oil_kept_in_both": Rule(
+        _d_there,
+        lambda s: None,
+        lambda s: f"{quoted(_d_there, FILM_AS_SEPARATION)(s)} (one surface)",
     ),
     "two_measured_surfaces_friction_at_0_001_m_s": Rule(
         lambda s: (

@@ -86,7 +86,7 @@ def plan(scene: FrictionScene) -> Plan:
             name="rough contacts",
             skipped=not coupled,
         ),
-        film_plans.oil_beside(scene.sharing.oil_volume, speeds),
+        film_plans.oil_beside(scene.sharing.oil_volume, speeds, at_film_separation=scene.at_film_separation),
         plans.error_bars(
             scene.outputs.errors,
             "each balance on the grid of twice the cell, and there with half the film's points",

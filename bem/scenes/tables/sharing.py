@@ -31,7 +31,9 @@ class SharingScene(Table):
 
     `models`: "elastic" and "capped" (at the hardness) are the rough half-space; "uncoupled" and "uncoupled_elastic"
     take every summit as a Hertz sphere of its own, the usual baseline. `asperity_separation`: mean planes of the
-    uncoupled summits as far apart as keeps the oil's "volume", or as the "film" is thick. `flow_factors`: whether the
+    uncoupled summits as far apart as keeps the oil's "volume", or as the "film" is thick. `separation`: mean planes of
+    all models as far apart as keeps the oil's "volume", or as the "film" is thick (a cylinder, and a patch that is
+    periodic along x and y). `flow_factors`: whether the
     film flows between smooth walls ("off"), or between the "surfaces" as `bem.flow_factors` has them. `oil_volume`:
     area over which the mean opening of the surfaces equals the mean film thickness, where the film is "loaded", the
     whole "patch" (the thesis), or the nominal "hertz" contact.
@@ -41,6 +43,7 @@ class SharingScene(Table):
     tolerance: Annotated[Ratio, Field(ge=1e-9, le=0.1)] = 1e-4
     contact_tolerance: Annotated[Ratio, Field(gt=0, le=1e-2)] = 1e-6
     asperity_separation: Literal["volume", "film"] = "volume"
+    separation: Literal["volume", "film"] = "volume"
     striated_exit: bool = Field(default=False, strict=True)
     flow_factors: Literal["off", "surfaces"] = "off"
     oil_volume: Literal["loaded", "patch", "hertz"] = "loaded"
@@ -133,6 +136,24 @@ class CurveScene(HotMixedScene):
                 'flow_factors = "off" with it, or no supply',
             )
         return self
+
+    @model_validator(mode="after")
+    def _given_separation(self) -> Self:
+        if not self.at_film_separation:
+            return self
+        if self.contact.point_radii is not None:
+            raise problem('sharing.separation = "film" under a ball', 'separation = "volume", or a cylinder')
+        if not all(self.grid.periodic):
+            raise problem(
+                f'sharing.separation = "film" with grid.periodic = {list(self.grid.periodic)}'.lower(),
+                "grid.periodic = [true, true]",
+            )
+        return self
+
+    @property
+    def at_film_separation(self) -> bool:
+        """As `MixedScene`."""
+        return self.sharing.separation == "film"
 
     @model_validator(mode="after")
     def _cell(self) -> Self:
