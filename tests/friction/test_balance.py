@@ -132,7 +132,7 @@ def test_where_the_films_end_first_the_slope_is_not_one_between_two_places_that_
         grid, radius=15e-3, load=6e3, film_points=150, lubricant=Lubricant(0.5), boundary_friction=0.1, hardness=6e9
     )
     speeds = (1e-7, 3e-7, 6e-7)
-    curve = stribeck_curve(speeds, height=height, oil_volume="loaded", **case)
+    curve = stribeck_curve(speeds, height=height, **case | {"oil_volume": "loaded"})
     assert [point.regime for point in curve] == [Regime.BOUNDARY] * 3
     assert all(point.status is Status.CONVERGED for point in curve)
     # the whole load's film, those at either end, and to the upper one by the longest steps

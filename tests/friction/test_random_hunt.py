@@ -50,6 +50,7 @@ def random_case(seed):
         hardness=caps[draw.integers(len(caps))],
         film_points=150,
         contact_model=str(draw.choice(["coupled", "coupled", "uncoupled"])),
+        oil_volume="patch",  # where the film is loaded the film's model may end before the balance, and says so
     )
     return setup, height, speeds
 

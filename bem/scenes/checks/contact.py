@@ -149,7 +149,7 @@ def curved_body_repeats(facts: Facts) -> Iterator[str]:
     of it from L = 40 a on is far too strict for pressures, which see its variation over the contact: (a/L)^3, 1 % at L
     = 5 a.
     """
-    if facts.of_kind("asperities"):
+    if facts.of_kind("asperities") or getattr(facts.scene, "at_film_separation", False):
         return
     for case in facts.cases:
         if case.grid is None or case.smooth is None:
@@ -162,6 +162,25 @@ def curved_body_repeats(facts: Facts) -> Iterator[str]:
                     f"grid: periodic along {name}, so the {case.shape} repeats every {si(length, 'm')}{near}{case.at}; "
                     "for one body make that axis free"
                 )
+
+
+@scene_check
+def patch_sinks_at_given_separation(facts: Facts) -> Iterator[str]:
+    """At a given separation of the undeformed planes the half-space sinks in by an amount that follows the patch."""
+    if not getattr(facts.scene, "at_film_separation", False):
+        return
+    from bem.friction.given_separation import sinking_compliance
+
+    scene = facts.scene
+    for case in facts.cases:
+        if case.grid is not None and case.load is not None:
+            sunk = sinking_compliance(case.grid) * case.load / (case.grid.area * scene.modulus)
+            yield (
+                f"sharing.separation: the half-space sinks in by up to {si(sunk, 'm')} under the mean pressure of the "
+                f"patch{case.at}; loads at a given separation depend on the patch's length, "
+                f"{si(case.grid.lengths[0], 'm')}"
+            )
+            return
 
 
 @scene_check
