@@ -6,6 +6,8 @@ import dataclasses
 from html import escape
 from typing import Any, TypeVar
 
+from bem.errors import OUTSIDE, outside
+
 _Class = TypeVar("_Class", bound=type)
 
 
@@ -22,18 +24,25 @@ def tabled(cls: _Class) -> _Class:
 
 
 def _text(self: Any) -> str:
-    rows = [f"{name}={_short(value)}" for name, value in _shown(self)]
+    rows = [f"{name}={value}" for name, value in _in_short(self)]
     line = f"{type(self).__name__}({', '.join(rows)})"
     return line if len(line) <= 110 else "\n  ".join([f"{type(self).__name__}(", *(f"{row}," for row in rows)]) + "\n)"
 
 
 def _table(self: Any) -> str:
-    rows = "".join(f"<tr><td>{escape(name)}</td><td>{escape(_short(value))}</td></tr>" for name, value in _shown(self))
+    rows = "".join(f"<tr><td>{escape(name)}</td><td>{escape(value)}</td></tr>" for name, value in _in_short(self))
     return f"<p><b>{type(self).__name__}</b></p><table>{rows}</table>"
 
 
 def _shown(value: Any) -> list[tuple[str, Any]]:
     return [(item.name, getattr(value, item.name)) for item in dataclasses.fields(value) if item.repr]
+
+
+def _in_short(value: Any) -> list[tuple[str, str]]:
+    """Names and values in a line each; a status says beside itself where notes put the result outside the model."""
+    beyond = outside(note for note in getattr(value, "notes", ()) if isinstance(note, str))
+    said = f" ({OUTSIDE}{'; '.join(beyond)})" if beyond else ""
+    return [(name, _short(item) + (said if name == "status" else "")) for name, item in _shown(value)]
 
 
 def _short(value: Any) -> str:

@@ -8,8 +8,9 @@ import pytest
 ROOT = Path(__file__).resolve().parents[1] / "bem"
 
 ORDER = [
-    {"errors", "startup", "representation", "compiled"},
-    {"extensions", "arguments", "memory"},
+    {"errors", "startup"},
+    {"representation", "compiled"},
+    {"extensions", "arguments", "memory", "plausibility"},
     {"grid", "materials", "threads", "laws"},
     {"numerics", "kernels", "reference_solutions"},
     {"transforms"},
