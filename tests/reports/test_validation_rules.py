@@ -78,7 +78,8 @@ def test_a_line_that_agrees_differs_when_one_stored_number_is_another(check):
 
 def test_only_lines_without_counterpart_or_stored_cycles_are_not_judged():
     open_lines = [check.item for check in COUNTED if check.rule.agrees(stored(check.scene)) is None]
-    assert [item for item in open_lines if not item.startswith(("two measured", "plateau of"))] == []
+    without = ("two measured", "plateau of", "uncoupled less coupled friction, d, with the volume of oil kept")
+    assert [item for item in open_lines if not item.startswith(without)] == []
 
 
 def test_our_own_spread_widens_no_window():
