@@ -1,10 +1,15 @@
 """Shared by all tests."""
 
 import os
+import signal
 from pathlib import Path
 
 # many small factorisations: more than one BLAS thread only spins, and the bits would depend on their number
 os.environ.setdefault("OPENBLAS_NUM_THREADS", "1")
+
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    # a shell ignores it in commands in the background, and the runs that tests start would ignore it, too
+    signal.signal(signal.SIGINT, signal.default_int_handler)
 
 import pytest
 from hypothesis import settings
