@@ -81,7 +81,14 @@ def _moduli(operator: TangentialOperator) -> tuple[float, float]:
 def _as_across(sticks: NDArray[np.bool_], slip: FloatArray, ratio: float, periodic: tuple[bool, bool]) -> FloatArray:
     """Slip distance [m] that the same missing traction would make across the edge; `ratio` of both moduli."""
     modes = ["wrap" if wraps else "nearest" for wraps in periodic]
-    normal = np.stack(np.gradient(gaussian_filter(sticks.astype(np.float64), _SMOOTH, mode=modes)))
+    smooth = gaussian_filter(sticks.astype(np.float64), _SMOOTH, mode=modes)
+    # across a single row of cells nothing changes
+    normal = np.stack(
+        [
+            np.gradient(smooth, axis=axis) if cells > 1 else np.zeros_like(smooth)
+            for axis, cells in enumerate(smooth.shape)
+        ]
+    )
     size = np.hypot(*normal)
     distance = np.hypot(*slip)
     product = size * distance
