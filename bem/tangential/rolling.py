@@ -7,17 +7,18 @@ rolling the first surface slides over the second by
 
 u = A q + what the pressure moves. Coulomb's law holds for s: none where |q| < g, s = -lambda q where |q| = g. That is
 Kalker's steady state (CONTACT; *Three-Dimensional Elastic Bodies in Rolling Contact*, 1990) with the derivative along x
-taken over one cell, of first order. It has no energy; Newton on q = nearest(q - t s) with GMRES for the
-linear systems. Their matrix is of order zero in the wavenumber but small for waves across the rolling, so that
-convolutions grow with the cells along it: 2 to 3 for each were counted from 32 to 256. Where a step does not help
-it is halved; where that does not help either, the status says "stalled".
+taken over one cell, of first order. It has no energy, but is monotone: Newton on q = P(q - t s), where P projects onto
+the friction discs and, where a force is given, onto the tractions in them that have it (the creepage is the multiplier,
+finite at every step), with GMRES for the linear systems. Their matrix is of order zero in the wavenumber but small for
+waves across the rolling, so that convolutions grow with the cells along it: 2 to 3 for each were counted from 32 to
+256. Where a step does not help it is halved; where that does not help either, the status says "stalled".
 """
 
 from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
@@ -27,9 +28,9 @@ from bem.contact import ContactSolution
 from bem.errors import InputError, Status
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
-from bem.tangential.discs import nearest
+from bem.tangential.discs import nearest, nearest_with_force
 from bem.tangential.operator import TangentialOperator
-from bem.tangential.rounds import reach
+from bem.tangential.rounds import least_scale, reach
 from bem.tangential.solution import TangentialSolution
 from bem.tangential.solve import check_force, check_numbers, checked_bound, tangential_operator
 from bem.threads import one_blas_thread
@@ -40,6 +41,9 @@ _REDUCTION = 0.03
 
 _HALVINGS = 8
 _KRYLOV = 60
+
+_FLAT = 1e-12
+"""Share of the largest, below which the force's response to an offset of all tractions counts as none."""
 
 
 @one_blas_thread
@@ -78,6 +82,13 @@ def solve_rolling(
     check_numbers(0.0, tolerance, max_iterations)
     pressure, bound = checked_bound(contact, grid, friction)
     creep, total = _checked(grid, bound, creepage, spin, force)
+    if not grid.periodic[0] and (bound[0].any() or bound[-1].any()):  # so that u(x + dx) exists ahead of every cell
+        inside = slice(1, -1)
+        grid = Grid((grid.shape[0] + 2, grid.shape[1]), grid.spacing, periodic=grid.periodic)
+        operator = tangential_operator(grid, bodies)
+        pressure, bound = (np.pad(field, ((1, 1), (0, 0))) for field in (pressure, bound))
+    else:
+        inside = slice(None)
     pushed = operator.under_pressure(pressure) if operator.coupled else np.zeros((2, *grid.shape))
     side = grid.spacing[0]
     x, y = grid.x - grid.x.mean(), grid.y - grid.y.mean()
@@ -87,7 +98,9 @@ def solve_rolling(
     rolling = Rolling(operator, bound, rigid + passing(grid, pushed), total)
     found = roll(rolling, _TIGHTER * tolerance, max_iterations)
     failed = Status.MAX_ITERATIONS if found.iterations >= max_iterations else Status.STALLED
-    return _certified(rolling, found, pushed, creep * side, tolerance, failed)
+    solution = _certified(rolling, found, pushed, creep * side, tolerance, failed)
+    fields = {name: getattr(solution, name)[:, inside] for name in ("traction", "displacement", "slip")}
+    return replace(solution, **fields)
 
 
 def _checked(
@@ -114,11 +127,24 @@ def _checked(
 
 
 def passing(grid: Grid, displacement: FloatArray) -> FloatArray:
-    """u(x) - u(x + dx) on the grid (2, nx, ny); beyond a free end nothing comes in strained."""
+    """u(x) - u(x + dx) on the grid (2, nx, ny); 0 at a free end, which no contact reaches."""
     ahead = np.roll(displacement, -1, axis=1)
     if not grid.periodic[0]:
         ahead[:, -1] = displacement[:, -1]
     return displacement - ahead
+
+
+def _mean_along(grid: Grid, traction: FloatArray) -> FloatArray:
+    """Mean traction (2, nx, ny) [Pa] on a particle between x + dx and x.
+
+    Its product with u(x) - u(x + dx), u = A q, sums to zero for every q, as A is symmetric and the same everywhere:
+    what tractions store they give back. The sum of its products with the slip therefore is the work of creepage, spin
+    and pressure. Tractions at x alone, after the step, miss it by the first order of the cell.
+    """
+    ahead = np.roll(traction, -1, axis=1)
+    if not grid.periodic[0]:
+        ahead[:, -1] = 0.0
+    return 0.5 * (traction + ahead)
 
 
 @dataclass(frozen=True)
@@ -144,108 +170,128 @@ class Rolled:
 
 @dataclass(frozen=True)
 class _Cells:
-    """The problem on the cells in contact; unknowns are (2 n + 2,): tractions, and t x creep over a cell."""
+    """The problem on the n cells in contact; unknown are the tractions (2, n) [Pa].
+
+    bound : (n,) [Pa]. rigid : (2, n) [m]. stiffness : t [Pa/m], of one cell alone.
+    """
 
     problem: Rolling
     cells: NDArray[np.bool_]
     bound: FloatArray
     rigid: FloatArray
     stiffness: float
-    weight: float
 
-    def slid(self, traction: FloatArray) -> FloatArray:
-        """What tractions add to the slip, (2, n)."""
+    def elastic_slip(self, traction: FloatArray) -> FloatArray:
+        """Slip over a cell that tractions cause, (2, n) [m]."""
         grid = self.problem.operator.grid
         full = np.zeros((2, *grid.shape))
         full[:, self.cells] = traction
         return passing(grid, self.problem.operator.apply(full))[:, self.cells]
 
-    def parts(self, unknown: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Tractions (2, n) and the offset (2,)."""
-        return unknown[:-2].reshape(2, -1), unknown[-2:]
-
-    def wanted(self, unknown: FloatArray, slip: FloatArray) -> FloatArray:
-        """q - t s, (2, n), where the slip leaves the offset out."""
-        traction, offset = self.parts(unknown)
-        return traction - self.stiffness * slip - offset[:, None]
-
-    def miss(self, unknown: FloatArray, wanted: FloatArray) -> FloatArray:
-        """q - nearest(wanted), and what is missed of the force."""
-        traction, offset = self.parts(unknown)
+    def state(self, traction: FloatArray, slip: FloatArray) -> _State:
+        """Project q - t s onto the friction discs; with a force, onto the tractions in them whose sum is the force."""
+        wanted = traction - self.stiffness * slip
         allowed = np.empty_like(wanted)
-        nearest(wanted, self.bound, allowed)
-        force = self.problem.force
-        balance = offset if force is None else (traction.sum(1) - force) * self.weight
-        return np.concatenate([(traction - allowed).ravel(), balance])
+        offset = np.zeros(2)
+        if self.problem.force is None:
+            nearest(wanted, self.bound, allowed)
+        else:
+            offset = nearest_with_force(wanted, self.bound, self.problem.force, allowed)
+        return _State(traction, slip, wanted + offset[:, None], offset, traction - allowed)
 
-    def derivative(self, wanted: FloatArray) -> Callable[[FloatArray], FloatArray]:
-        """The Jacobian of `miss` applied to a change of the unknowns."""
-        length = np.hypot(wanted[0], wanted[1])
+    def derivative(self, state: _State) -> Callable[[FloatArray], FloatArray]:
+        """Return the Jacobian of the miss as a function of a change of the tractions (2 n,)."""
+        length = np.hypot(state.wanted[0], state.wanted[1])
         slips = length > self.bound
-        normal = np.where(slips, wanted / np.where(slips, length, 1.0), 0.0)
+        normal = np.where(slips, state.wanted / np.where(slips, length, 1.0), 0.0)
         share = np.where(slips, self.bound / np.where(slips, length, 1.0), 1.0)
-        free = self.problem.force is not None
+        inverse: FloatArray | None = None
+        if self.problem.force is not None:  # of how the force answers to a uniform offset of all wanted tractions
+            mixed = -float((share * normal[0] * normal[1]).sum())
+            own = [float((share * (1 - part**2)).sum()) for part in normal]
+            inverse = np.asarray(np.linalg.pinv([[own[0], mixed], [mixed, own[1]]], rcond=_FLAT, hermitian=True))
+
+        def projected(values: FloatArray) -> FloatArray:
+            return share * (values - normal * (normal * values).sum(0))
 
         def apply(change: FloatArray) -> FloatArray:
-            traction, offset = self.parts(np.asarray(change).ravel())
-            moved = traction - self.stiffness * self.slid(traction) - offset[:, None]
-            moved = share * (moved - normal * (normal * moved).sum(0))
-            balance = traction.sum(1) * self.weight if free else offset
-            return np.concatenate([(traction - moved).ravel(), balance])
+            traction = np.asarray(change).reshape(2, -1)
+            moved = projected(traction - self.stiffness * self.elastic_slip(traction))
+            if inverse is not None:
+                offset = inverse @ moved.sum(1)
+                moved -= projected(np.broadcast_to(offset[:, None], moved.shape))
+            return (traction - moved).ravel()
 
         return apply
 
 
+@dataclass(frozen=True)
+class _State:
+    """Tractions q (2, n) [Pa] and their slip s (2, n) [m] without the creepage that is to be found.
+
+    wanted : (2, n) [Pa], q - t s plus the offset. offset : (2,) [Pa], minus t x the creepage to be found, over a cell.
+    miss : (2, n) [Pa], q less the projection of `wanted`.
+    """
+
+    traction: FloatArray
+    slip: FloatArray
+    wanted: FloatArray
+    offset: FloatArray
+    miss: FloatArray
+
+
 def roll(problem: Rolling, tolerance: float, limit: int) -> Rolled:
-    """Newton from tractions of zero until the miss is at most tolerance x the largest slip."""
+    """Newton until the miss is at most tolerance x the largest slip; from tractions of zero, or from those nearest to
+    full sliding that have the force.
+    """
     cells = problem.bound > 0
     if not cells.any():
         return Rolled(np.zeros((2, 0)), np.zeros(2), 0)
-    bound = problem.bound[cells]
     stiffness = 2 / sum(problem.operator.compliance)
-    on = _Cells(problem, cells, bound, problem.rigid[:, cells], stiffness, 1 / math.sqrt(bound.size))
-    unknown = np.zeros(2 * bound.size + 2)
-    slip = on.rigid
-    wanted = on.wanted(unknown, slip)
-    miss = on.miss(unknown, wanted)
+    on = _Cells(problem, cells, problem.bound[cells], problem.rigid[:, cells], stiffness)
+    state = on.state(np.zeros_like(on.rigid), on.rigid)
+    if problem.force is not None and on.rigid.any():
+        traction = -state.miss
+        state = on.state(traction, on.rigid + on.elastic_slip(traction))
     iterations = 0
-    while iterations < limit:
-        size = float(np.abs(miss).max())
-        if size <= tolerance * stiffness * _scale(on, slip, unknown):
-            break
+    while iterations < limit and not _enough(on, state, tolerance):
         iterations += 1
-        step = _newton_step(on, wanted, miss)
-        moved = _shortened(on, unknown, slip, step, float(np.linalg.norm(miss)))
+        moved = _shortened(on, state, _newton_step(on, state))
         if moved is None:
             break
-        unknown, slip, wanted, miss = moved
-    traction, offset = on.parts(unknown)
-    return Rolled(traction, offset / stiffness, iterations)
+        state = moved
+    return Rolled(state.traction, 0.0 - state.offset / stiffness, iterations)
 
 
-def _scale(on: _Cells, slip: FloatArray, unknown: FloatArray) -> float:
-    return max(reach(slip, on.rigid), float(np.abs(unknown[-2:]).max()) / on.stiffness)
+def _enough(on: _Cells, state: _State, tolerance: float) -> bool:
+    """Return True if the miss, and the force that tractions inside their discs miss, are within the tolerance."""
+    least = least_scale(on.problem.rigid, state.traction / on.stiffness)
+    scale = max(reach(state.slip, on.rigid, least), float(np.abs(state.offset).max()) / on.stiffness)
+    if float(np.abs(state.miss).max()) > tolerance * on.stiffness * scale:
+        return False
+    if on.problem.force is None:
+        return True
+    inside = np.empty_like(state.traction)
+    nearest(state.traction, on.bound, inside)
+    return float(np.abs(inside.sum(1) - on.problem.force).max()) <= tolerance * float(on.bound.sum())
 
 
-def _newton_step(on: _Cells, wanted: FloatArray, miss: FloatArray) -> FloatArray:
-    matrix = LinearOperator((miss.size, miss.size), matvec=on.derivative(wanted), dtype=np.float64)
-    step, _ = gmres(matrix, -miss, rtol=_REDUCTION, restart=_KRYLOV, maxiter=4)
-    return np.asarray(step, dtype=np.float64)
+def _newton_step(on: _Cells, state: _State) -> FloatArray:
+    size = state.miss.size
+    matrix = LinearOperator((size, size), matvec=on.derivative(state), dtype=np.float64)
+    step, _ = gmres(matrix, -state.miss.ravel(), rtol=_REDUCTION, restart=_KRYLOV, maxiter=4)
+    return np.asarray(step, dtype=np.float64).reshape(2, -1)
 
 
-def _shortened(
-    on: _Cells, unknown: FloatArray, slip: FloatArray, step: FloatArray, size: float
-) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray] | None:
+def _shortened(on: _Cells, state: _State, step: FloatArray) -> _State | None:
     """The step, halved until the miss falls; None where it does not."""
-    along = on.slid(on.parts(step)[0])
+    along = on.elastic_slip(step)
+    size = float(np.linalg.norm(state.miss))
     share = 1.0
     for _ in range(_HALVINGS):
-        moved = unknown + share * step
-        there = slip + share * along
-        wanted = on.wanted(moved, there)
-        miss = on.miss(moved, wanted)
-        if float(np.linalg.norm(miss)) <= (1 - 0.1 * share) * size:
-            return moved, there, wanted, miss
+        moved = on.state(state.traction + share * step, state.slip + share * along)
+        if float(np.linalg.norm(moved.miss)) <= (1 - 0.1 * share) * size:
+            return moved
         share *= 0.5
     return None
 
@@ -272,7 +318,8 @@ def _certified(
     nearest(wanted, bound[cells], allowed)
     slips = np.hypot(wanted[0], wanted[1]) > bound[cells]
     violation = float(np.abs(allowed - traction[:, cells]).max(initial=0.0)) / stiffness
-    scale = max(reach(slip[:, cells], problem.rigid[:, cells]), float(np.abs(creep).max()))
+    least = least_scale(problem.rigid, traction / stiffness)
+    scale = max(reach(slip[:, cells], problem.rigid[:, cells], least), float(np.abs(creep).max()))
     residual = violation / scale if scale > 0 else 0.0
     if problem.force is not None and cells.any():
         residual = max(residual, float(np.abs(traction.sum((1, 2)) - problem.force).max() / bound.sum()))
@@ -289,8 +336,8 @@ def _certified(
         stick_area=float(np.count_nonzero(~slips)) * grid.cell_area,
         slip_area=float(np.count_nonzero(slips)) * grid.cell_area,
         counted_stick_area=float(np.count_nonzero(~slips)) * grid.cell_area,
-        # what tractions store they give back, so that passing(elastic) takes nothing but where it is cut into cells
-        dissipated_energy=-float((traction * rigid).sum()) * grid.cell_area,
+        dissipated_energy=max(-float((_mean_along(grid, traction) * slip).sum()) * grid.cell_area, 0.0),
+        cell_energy=-float((traction * slid).sum()) * grid.cell_area,
         residual=residual,
         convolutions=operator.count.weighted,
         iterations=found.iterations,

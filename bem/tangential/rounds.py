@@ -49,6 +49,13 @@ _ON_DISC = 1e-9
 _INNER = 200
 _HALVINGS = 10
 
+_FLAT = 1e-13
+"""Stiffness of a direction over that of one cell, below which no displacement answers to it."""
+
+_LEAST_SCALE = 1e-6
+"""Share of the largest movement imposed on the grid, below which displacements are rounding: one cell alone that
+carries pressure but no force does not move, while the surfaces around it do."""
+
 
 @dataclass(frozen=True)
 class Slipping:
@@ -67,6 +74,11 @@ class Slipping:
     def stiffness(self) -> float:
         """t [Pa/m]: of one cell alone."""
         return 2 / sum(self.operator.compliance)
+
+    @property
+    def least_scale(self) -> float:
+        """Displacement [m] that violations are relative to at least; the others are rounding."""
+        return least_scale(self.imposed)
 
 
 @dataclass
@@ -189,15 +201,17 @@ def slip_on_grid(problem: Slipping, start: FloatArray, tolerance: float, effort:
     traction, _ = on.inside(start[:, on.cells])
     field = on.field(traction)
     bold = True
+    least = problem.least_scale
     while True:
         displacement = on.here(field)
         judged = _judged(on, traction, displacement)
-        converged = judged.violation <= tolerance * reach(displacement, on.imposed)
+        scale = reach(displacement, on.imposed, least)
+        converged = judged.violation <= tolerance * scale
         if converged or effort.left <= 0:
             break
         effort.left -= 1
         effort.rounds += 1
-        goal = _ENOUGH * tolerance * reach(displacement, on.imposed)
+        goal = _ENOUGH * tolerance * scale
         stepped = _bold_round(on, traction, displacement, judged, goal) if bold else None
         if stepped is None:  # slip turns: so it will in the rounds to come
             bold = False
@@ -208,9 +222,16 @@ def slip_on_grid(problem: Slipping, start: FloatArray, tolerance: float, effort:
     return Slipped(on.cells, traction, field, judged.shift, judged.unmet, judged.slips, judged.violation, converged)
 
 
-def reach(displacement: FloatArray, imposed: FloatArray) -> float:
-    """What violations are measured by [m]: the largest displacement, or the movement asked for; both (2, n)."""
-    return max(float(np.abs(displacement).max(initial=0.0)), float(np.abs(imposed).max(initial=0.0)))
+def reach(displacement: FloatArray, imposed: FloatArray, least: float) -> float:
+    """Length [m] that violations are relative to: the largest displacement or movement imposed, both (2, n), and no
+    less than `least`.
+    """
+    return max(float(np.abs(displacement).max(initial=0.0)), float(np.abs(imposed).max(initial=0.0)), least)
+
+
+def least_scale(*movements: FloatArray) -> float:
+    """Length [m] below which displacements are rounding, where the bodies' movements anywhere are these [m]."""
+    return _LEAST_SCALE * max(float(np.abs(values).max(initial=0.0)) for values in movements)
 
 
 def _cells(problem: Slipping) -> _Cells:
@@ -351,8 +372,9 @@ def _newton_step(on: _Cells, face: _Face, traction: FloatArray, unmet: FloatArra
         moved = on.displaced(direction)
         stiff = moved + face.curvature * direction
         along = float((direction * stiff).sum())
-        if not along > 0:
-            break
+        if not along > _FLAT * float((direction * direction).sum()) / on.stiffness:
+            # a mean traction on a doubly periodic grid moves nothing: only the discs end it
+            return step + direction * (2 * float(on.bound.max()) / float(np.abs(direction).max()))
         share = product / along
         step += share * direction
         raw -= share * moved

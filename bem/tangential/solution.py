@@ -31,9 +31,11 @@ class TangentialSolution:
     stick_area, slip_area : [m^2], with edges inside cells (`bem.tangential.edge`); of a pressure that is given without
         its gap the contact ends half-way between cells. Of `solve_rolling`: of cells.
     counted_stick_area : [m^2], of the cells that stick: of first order.
-    dissipated_energy : [J], by friction in this step. Of `solve_rolling` over a cell's length of rolling, by the
-        balance: force x creepage and moment x spin. The sum of traction x slip is less where the zone that slips, or
-        the singularity behind a contact that sticks, is narrower than a cell.
+    dissipated_energy : [J], by friction in this step. Of `solve_rolling` over a cell's length of rolling, from the mean
+        of the tractions before and after the slip: equal to the work of creepage, spin and pressure.
+    cell_energy : [J], sum of traction x slip over the cells that slip. Of `solve_rolling` with the traction after the
+        slip, of first order: less where the zone that slips, or the singularity behind a contact that sticks, is
+        narrower than a cell. Its difference to `dissipated_energy` shows what the cells do not resolve.
     residual : largest violation of Coulomb's conditions, recomputed from `traction` alone: of the displacement's error
         where the surfaces stick, and of the slip against the traction, over the largest displacement (or imposed
         movement); what is missed of a given force relative to friction x load, where that is more.
@@ -58,5 +60,6 @@ class TangentialSolution:
     iterations: int
     status: Status
     counted_stick_area: float = 0.0
+    cell_energy: float = 0.0
     creepage: FloatArray = field(default_factory=lambda: np.zeros(2))
     notes: tuple[str, ...] = ()

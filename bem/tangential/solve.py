@@ -17,7 +17,7 @@ from bem.tangential.cascade import slip
 from bem.tangential.discs import nearest
 from bem.tangential.edge import stuck_area
 from bem.tangential.operator import TangentialOperator
-from bem.tangential.rounds import Effort, Slipped, Slipping, reach, slip_on_grid
+from bem.tangential.rounds import Effort, Slipped, Slipping, least_scale, reach, slip_on_grid
 from bem.tangential.solution import TangentialSolution
 from bem.tangential.straight import pushed_straight
 from bem.threads import one_blas_thread
@@ -192,6 +192,8 @@ def tangential_operator(grid: Grid, bodies: Body | tuple[Body, Body]) -> Tangent
         messages.append(f"grid: {grid!r} must be a Grid")
     if not isinstance(pair, tuple | list) or len(pair) not in (1, 2) or not all(isinstance(b, Body) for b in pair):
         messages.append(f"bodies: {bodies!r} must be one Body or a pair of them")
+    if not messages and grid.cells == 1 and all(grid.periodic):
+        messages.append("grid: one cell that is periodic along both axes has no displacement; give at least two cells")
     if messages:
         raise InputError(messages)
     return TangentialOperator(grid, tuple(pair))
@@ -262,7 +264,7 @@ def _certified(
         unmet = unmet + shift[:, None, None]
     cells = bound > 0
     violation, slips = _violation(operator, bound[cells], traction[:, cells], unmet[:, cells])
-    scale = reach(elastic[:, cells], imposed[:, cells])
+    scale = reach(elastic[:, cells], imposed[:, cells], least_scale(imposed))
     residual = violation / scale if scale > 0 else 0.0
     force = traction.sum((1, 2)) * area
     if request.force is not None:
@@ -289,6 +291,7 @@ def _certified(
         slip_area=rubs - stuck,
         counted_stick_area=float(np.count_nonzero(sticks)) * area,
         dissipated_energy=-float((traction * slid).sum()) * area,
+        cell_energy=-float((traction * slid).sum()) * area,
         residual=residual,
         convolutions=operator.count.weighted,
         iterations=effort.rounds,

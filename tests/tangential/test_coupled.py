@@ -172,3 +172,21 @@ def test_what_does_not_close_in_says_so_and_messages():
         solve_coupled_slip(gap, grid, SOFT, **given, max_rounds=0)
     with pytest.raises(InputError, match="load"):
         solve_coupled_slip(gap, grid, SOFT, friction=0.3, force=(0.01, 0.0))
+
+
+@pytest.mark.parametrize("share", [0.0, 1e-6, 0.5, 0.99])
+def test_one_cell_in_contact_of_unlike_bodies(share):
+    """The first step of a load that grows: 38 to 78 s into the limit of rounds; one cell without a force lies still."""
+    grid = Grid((16, 16), (1e-6, 1e-6))
+    gap = (grid.x[:, None] ** 2 + grid.y[None, :] ** 2) / (2 * 1e-5)
+    gap[8, 8] -= 1e-9
+    friction, load = 0.1, 1e-7
+    force = (share * friction * load, 0.0)
+    found = solve_coupled_slip(gap, grid, (SOFT, HARD), friction=friction, load=load, force=force)
+    assert np.count_nonzero(found.contact.pressure) == 1
+    assert found.status == "converged"
+    assert found.tangential.iterations < 30
+    assert np.abs(found.tangential.force - force).max() <= 1e-6 * friction * load
+    more = solve_coupled_slip(gap, grid, (SOFT, HARD), friction=friction, load=3000 * load, force=force, previous=found)
+    assert more.status == "converged"
+    assert np.count_nonzero(more.contact.pressure) > 1

@@ -1,5 +1,7 @@
 """Partial slip against Cattaneo and Mindlin, their loops, superposition for lines, and by its own certificate."""
 
+import itertools
+
 import numpy as np
 import pytest
 from hypothesis import given, settings
@@ -20,6 +22,7 @@ from bem import (
 from bem.convolution import COUNT
 from bem.reference_solutions.partial_slip import PushedBall, spence_stick_share
 from bem.tangential import tangential_operator
+from bem.tangential.discs import nearest, nearest_with_force
 
 # CONTACT's example of Cattaneo's shift (Kalker, Vollebregt): R 50 mm, G 200 MPa, nu 0.42, 9.1954 N, friction 0.4
 MODULUS, NU, RADIUS, LOAD, FRICTION = 200e6, 0.42, 50e-3, 9.1954, 0.4
@@ -334,3 +337,100 @@ def test_messages(pressed):
     other = solve_partial_slip(np.zeros((4, 4)), Grid((4, 4), (1.0, 1.0)), BODIES, friction=0.1, shift=(0.0, 0.0))
     with pytest.raises(InputError, match="previous"):
         solve_partial_slip(contact, grid, BODIES, friction=0.1, shift=(0.0, 0.0), previous=other)
+
+
+TOUCHING = {
+    "one cell": [(3, 3)],
+    "a pair": [(3, 3), (4, 3)],
+    "a corner": [(0, 0)],
+    "opposite corners": [(0, 0), (7, 7)],
+    "a row": [(i, 4) for i in range(8)],
+}
+
+
+@pytest.mark.parametrize("periodic", [(False, False), (False, True), (True, True)])
+@pytest.mark.parametrize("touching", list(TOUCHING))
+def test_few_cells_in_contact_converge(touching, periodic):
+    """The first step of every growing load: one cell without a force moves by rounding alone, and took 1000 rounds."""
+    grid = Grid((8, 8), (1e-6, 1.2e-6), periodic=periodic)
+    pressure = np.zeros(grid.shape)
+    for k, cell in enumerate(TOUCHING[touching]):
+        pressure[cell] = 1e8 / (1 + 0.3 * k)
+    pairs = [BODIES, (Body(SOFT), Body(SOLID)), Body(SOFT)]
+    for bodies, friction, share in itertools.product(pairs, (1e-4, 0.03, 1.0), (0.0, 1e-9, 0.3, 1 - 1e-6)):
+        limit = friction * float(pressure.sum()) * grid.cell_area
+        force = share * limit * np.array([0.6, 0.8])
+        solution = solve_partial_slip(pressure, grid, bodies, friction=friction, force=force)
+        assert solution.status == "converged", (friction, share)
+        assert solution.iterations < 60
+        assert np.abs(solution.force - force).max() <= 1e-8 * limit
+        assert (np.hypot(*solution.traction) <= friction * pressure * (1 + 1e-12)).all()
+        again = solve_partial_slip(pressure, grid, bodies, friction=friction, shift=solution.shift)
+        assert again.status == "converged", (friction, share)
+
+
+def test_one_cell_sticks_without_moving():
+    """Unlike bodies, no force: pressure moves the surfaces around a cell, and not the cell."""
+    grid = Grid((9, 9), (1e-6, 1e-6))
+    pressure = np.zeros(grid.shape)
+    pressure[4, 4] = 1e8
+    solution = solve_partial_slip(pressure, grid, (Body(SOFT), Body(SOLID)), friction=0.2, force=(0.0, 0.0))
+    moved = np.abs(solution.displacement).max()
+    assert solution.status == "converged"
+    assert moved > 0
+    assert np.abs(solution.displacement[:, 4, 4]).max() < 1e-12 * moved
+    assert np.abs(solution.traction).max() < 1e-9 * 0.2 * 1e8
+    assert solution.slip_area == 0
+
+
+def test_a_shift_of_planes_that_nothing_holds_slides_them():
+    """A mean traction moves nothing on a doubly periodic grid: even pressure slips by all of a shift."""
+    grid = Grid((24, 1), (1e-6, 1e-6), periodic=(True, True))
+    solution = solve_partial_slip(np.full(grid.shape, 1e9), grid, BODIES, friction=0.05, shift=(1e-6, 0.0))
+    assert solution.status == "converged"
+    np.testing.assert_allclose(solution.traction[0], 0.05e9, rtol=1e-9)
+    np.testing.assert_allclose(solution.slip[0], -1e-6, rtol=1e-9)
+
+
+@pytest.mark.parametrize("periodic", [(False, False), (False, True), (True, False), (True, True)])
+@pytest.mark.parametrize("turned", [False, True])
+def test_edge_of_stick_on_one_row_of_cells(periodic, turned):
+    """The edge's direction came of differences between neighbours along both axes, of which a row has one."""
+    shape = (1, 48) if turned else (48, 1)
+    grid = Grid(shape, (1e-6, 1e-6), periodic=periodic)
+    x = np.linspace(-1, 1, 48)
+    pressure = 1e7 * np.sqrt(np.maximum(1 - (1.3 * x) ** 2, 0)).reshape(shape)
+    limit = 0.3 * float(pressure.sum()) * grid.cell_area
+    force = (0.0, 0.5 * limit) if turned else (0.5 * limit, 0.0)
+    for bodies in (BODIES, (Body(SOFT), Body(SOLID))):
+        solution = solve_partial_slip(pressure, grid, bodies, friction=0.3, force=force)
+        assert solution.status == "converged"
+        assert 0 < solution.stick_area < float((pressure > 0).sum()) * grid.cell_area
+        assert abs(solution.stick_area - solution.counted_stick_area) <= 2.1 * grid.cell_area
+
+
+def test_one_cell_that_is_periodic_both_ways_is_refused():
+    grid = Grid((1, 1), (1e-6, 1e-6), periodic=(True, True))
+    with pytest.raises(InputError, match="grid"):
+        solve_partial_slip(np.full((1, 1), 1e6), grid, BODIES, friction=0.1, force=(0.0, 0.0))
+
+
+def test_nearest_tractions_have_their_force_however_far_the_slip():
+    """Wanted tractions of 1e-6 to 1e7 bounds, forces from none to sliding: steps of the offset were too short."""
+    rng = np.random.default_rng(5)
+    for _ in range(400):
+        n = int(rng.choice([1, 2, 3, 10, 200]))
+        bound = rng.uniform(0.1, 1, n) if rng.random() < 0.5 else np.ones(n)
+        size = 10 ** rng.uniform(-6, 7)
+        wanted = rng.normal(size=(2, n)) * size
+        wanted[1] *= rng.choice([0.0, 1.0])
+        share = rng.choice([0.0, 10 ** rng.uniform(-9, 0), rng.uniform(0, 1), 1 - 10 ** rng.uniform(-8, -1)])
+        angle = rng.choice([0.0, rng.uniform(0, 7)])
+        force = share * bound.sum() * np.array([np.cos(angle), np.sin(angle)])
+        out, inside = np.empty_like(wanted), np.empty_like(wanted)
+        offset = nearest_with_force(wanted, bound, force, out)
+        # the rounding of wanted + offset
+        allowed = 1e-12 + 1e-14 * max(size, float(np.abs(offset).max()))
+        assert np.abs(out.sum(1) - force).max() <= allowed * bound.sum()
+        nearest(wanted + offset[:, None], bound, inside)
+        np.testing.assert_array_equal(out, inside)
