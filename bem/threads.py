@@ -39,6 +39,14 @@ class ForkSafeLock:
         self._lock, self._whole, self._held = threading.RLock(), whole, False
         _LOCKS.add(self)
 
+    def acquire(self, *, blocking: bool = True) -> bool:
+        """Take the lock; return whether this thread has it now."""
+        return self._lock.acquire(blocking=blocking)
+
+    def release(self) -> None:
+        """Give the lock back."""
+        self._lock.release()
+
     def __enter__(self) -> None:
         self._lock.acquire()
 

@@ -191,7 +191,7 @@ def test_the_thread_that_forks_keeps_the_locks_that_it_holds():
         threads._before_fork()
         threads._in_child()
         taken = []
-        other = threading.Thread(target=lambda: taken.append(lock._lock.acquire(blocking=False)))
+        other = threading.Thread(target=lambda: taken.append(lock.acquire(blocking=False)))
         other.start()
         other.join()
         assert taken == [False]
