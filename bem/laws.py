@@ -102,6 +102,7 @@ def parameter(
     at_most: float | None = None,
     several: bool = False,
     source: str = "",
+    keyword_only: bool = False,
 ) -> Any:
     """A field of a law: a number, or several.
 
@@ -113,9 +114,12 @@ def parameter(
     above, at_least, below, at_most : bounds.
     several : a tuple of numbers instead of one.
     source : where default or bounds come from.
+    keyword_only : True for a parameter with a default in a family's class, whose laws have required ones of their own.
     """
     about = Parameter(meaning, unit, above, at_least, below, at_most, several, source)
-    return dataclasses.field(default=default, metadata={"parameter": about})
+    return dataclasses.field(
+        default=default, metadata={"parameter": about}, kw_only=keyword_only or dataclasses.MISSING
+    )
 
 
 @dataclass(frozen=True)

@@ -111,7 +111,7 @@ class LineContact:
         half_width, half_cell = self.half_width(load), 0.5 * grid.spacing[0]
         start = np.maximum(grid.x - half_cell, -half_width)
         end = np.minimum(grid.x + half_cell, half_width)
-        return (np.maximum(end - start, 0.0) / grid.spacing[0])[:, None]
+        return np.clip((end - start) / grid.spacing[0], 0.0, 1.0)[:, None]
 
 
 @dataclass(frozen=True)

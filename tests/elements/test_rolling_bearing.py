@@ -116,7 +116,7 @@ def test_rollers_touch_in_lines():
         ({"outside": "30 mm"}, "outside is not larger than bore"),
         ({"count": 30}, "do not fit on the pitch circle"),
         ({"diameter": "25 mm"}, "do not fit between"),
-        ({"rolling": "roller"}, "length for rollers"),
+        ({"rolling": "roller"}, "length of a roller"),
         ({"spead": "3 rpm"}, 'did you mean "speed"'),
         ({"first": "stel-52100"}, 'did you mean "steel-52100"'),
         ({"element": "journal-bearing"}, "conform"),

@@ -101,6 +101,7 @@ class WearCriterion(Detachment):
         at_least=0,
         source="a choice: the depth spacing of the source's grids (90 and 95 nm), whose first plane of stress is not "
         "stated; half of it gives the same friction and particle sizes",
+        keyword_only=True,
     )
 
     @property
