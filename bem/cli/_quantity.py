@@ -55,9 +55,12 @@ def pair_of_cells(text: str, option: str) -> tuple[int, int]:
     return parts[0], parts[-1]
 
 
-def named_folder(text: str) -> Path:
-    """A folder by its name; an empty one, which would be the current folder, is refused."""
-    if not text.strip():
+def named_folder(text: str | Path) -> Path:
+    """Return a folder by its name, or a default that is a path already; refuse an empty name.
+
+    An empty name would be the current folder.
+    """
+    if isinstance(text, str) and not text.strip():
         raise InputError('--out "": an empty name; allowed: a folder, or "." for the current one')
     return Path(text)
 

@@ -79,7 +79,7 @@ def certify(
         approach=approach,
         load=load,
         contact_area=contact.area,
-        plastic_area=plastic.area,
+        plastic_area=min(plastic.area, contact.area),  # both are sums of all cells where all are at the cap
         counted_area=contact.counted_area,
         counted_plastic_area=plastic.counted_area,
         contact_perimeter=contact.perimeter,

@@ -88,6 +88,8 @@ def test_workers_execute_no_python_file_of_the_folder_that_they_are_started_in(a
     for name in ("numba", "numpy", "bem"):
         (tmp_path / f"{name}.py").write_text("open('executed', 'w').close()\n")
     monkeypatch.chdir(tmp_path)
+    # this process may have the current folder on its path, as one that runs `python -c` has; workers share the path
+    monkeypatch.setattr(sys, "path", [path for path in sys.path if path])
     both = run_scene(SCENE, tmp_path / "run", figures=False, workers=2)
     assert not (tmp_path / "executed").exists()
     assert content(both) == content(alone)

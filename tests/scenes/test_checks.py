@@ -97,6 +97,10 @@ def coated(depths):
 
 
 CASES = {
+    "patch_sinks_at_given_separation": (
+        (library()["asperities-given-film"], "sharing.separation"),
+        with_(library()["asperities-given-film"], sharing__separation="volume", sharing__oil_volume="loaded"),
+    ),
     "outside_usual_range": (  # every quantity: tests/test_plausibility.py
         (with_(BALL, lower__material=material(115.0)), '"115 GPa"'),
         with_(BALL, lower__material=material("115 GPa")),
@@ -734,6 +738,7 @@ def test_a_map_smaller_than_the_grid_is_refused_by_the_plan(maps):
 
 
 GOOD_REASONS = {
+    "asperities-given-film": {"patch_sinks_at_given_separation"},  # the source's square and its given separation
     "micropitting-rig": {"patch_of_few_correlation_lengths"},  # ridges of longitudinal lay are as long as the contact
     "uniform-asperities": {"yield_below_the_surface"},  # elastic as in the paper, pressed in by up to 4.2 GPa
     "hardness-optimum": {"few_cells_per_wave"},  # the thesis' cell, two to the shortest wave

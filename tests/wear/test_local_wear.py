@@ -74,7 +74,7 @@ def test_the_error_of_a_step_is_that_of_its_length_and_not_of_the_next_place(shi
             state = state and replace(state, offset=state.offset + shift)
             result = run_in(
                 lower, upper, grid=grid, bodies=(HARDENED, HARDENED), load=0.2, depths=np.array([0.0, 1e-7]),
-                cycles=(place + 1) * steps, model=WearModel(wears="lower", shift=0), state=state,
+                cycles=(place + 1) * steps, model=WearModel(wears="lower", frame="disk", shift=0), state=state,
                 criterion=Archard(specific_wear_rate=rate, distance=1.0 / steps),
             )  # fmt: skip
             state = result.state
@@ -86,7 +86,7 @@ def test_the_error_of_a_step_is_that_of_its_length_and_not_of_the_next_place(shi
     # by the loop's own shift the same surface, and the same error
     slid = run_in(
         lower, upper, grid=grid, bodies=(HARDENED, HARDENED), load=0.2, depths=np.array([0.0, 1e-7]), cycles=cycles,
-        model=WearModel(wears="lower", shift=shift),
+        model=WearModel(wears="lower", frame="disk", shift=shift),
         criterion=Archard(specific_wear_rate=1e-7 / cycles * grid.area / 0.2, distance=1.0),
     )  # fmt: skip
     assert slid.lower_heights == pytest.approx(whole.lower_heights, abs=1e-12)
@@ -101,14 +101,14 @@ def test_the_error_of_a_step_is_told_of_both_bodies_a_long_counterface_and_a_loo
     law = Archard(specific_wear_rate=1e-14, distance=0.1)
     arguments = {
         "grid": grid, "bodies": (HARDENED, HARDENED), "load": 0.02, "depths": np.array([0.0, 1e-7]),
-        "model": WearModel(wears="both", shift=5), "criterion": law,
+        "model": WearModel(wears="both", frame="disk", shift=5), "criterion": law,
     }  # fmt: skip
     whole = run_in(lower, upper, cycles=8, **arguments)
     rest = run_in(lower, upper, cycles=8, state=whole.state, **arguments)
     assert 0 < whole.step_error == rest.step_error
     # the last cycle by the loop itself in two halves, both where the counterface is in it
     before = run_in(lower, upper, cycles=7, **arguments).state
-    halves = {"criterion": replace(law, distance=0.05), "model": WearModel(wears="both", shift=0)}
+    halves = {"criterion": replace(law, distance=0.05), "model": WearModel(wears="both", frame="disk", shift=0)}
     there = run_in(lower, upper, cycles=9, state=replace(before, offset=before.offset + 5), **(arguments | halves))
     apart = float(np.abs(there.lower_heights - whole.lower_heights).max())
     assert whole.step_error == pytest.approx(2 * apart, rel=0.02)
@@ -122,11 +122,11 @@ def test_a_flat_punch_wears_until_its_pressure_is_uniform():
     flat = np.zeros(grid.shape)
     result = run_in(
         np.where(punch, 0.0, -1e-3), flat, grid=grid, bodies=(STEEL, STEEL), load=5.0, depths=np.array([0.0, 1e-6]),
-        cycles=150, model=WearModel(wears="lower", shift=0), criterion=law,
+        cycles=150, model=WearModel(wears="lower", frame="disk", shift=0), criterion=law,
     )  # fmt: skip
     first = run_in(
         np.where(punch, 0.0, -1e-3), flat, grid=grid, bodies=(STEEL, STEEL), load=5.0, depths=np.array([0.0, 1e-6]),
-        cycles=1, model=WearModel(wears="lower", shift=0), criterion=new,
+        cycles=1, model=WearModel(wears="lower", frame="disk", shift=0), criterion=new,
     )  # fmt: skip
     uniform = 5.0 / (punch.sum() * grid.cell_area)
     # half of the mean in the middle at first (Boussinesq), then the mean everywhere, but for what is left to even out
@@ -140,7 +140,7 @@ def test_both_bodies_wear_by_their_rates_and_a_stopped_run_goes_on_to_the_same_b
     law = Archard(specific_wear_rate=2e-16, distance=0.1, upper_over_lower=0.25)
     arguments = {
         "grid": grid, "bodies": (HARDENED, HARDENED), "load": 0.2, "depths": np.array([0.0, 1e-7]),
-        "model": WearModel(wears="both", shift=2), "criterion": law,
+        "model": WearModel(wears="both", frame="disk", shift=2), "criterion": law,
     }  # fmt: skip
     whole = run_in(lower, upper, cycles=8, **arguments)
     lost = [(before - after).sum() * grid.cell_area for before, after in

@@ -8,7 +8,7 @@ from typing import ClassVar
 import numpy as np
 
 from bem.grid import FloatArray
-from bem.laws import register
+from bem.laws import parameter, register
 from bem.wear.criterion.base import WearCriterion
 
 
@@ -76,9 +76,20 @@ class Tresca(WearCriterion):
 @register
 @dataclass(frozen=True)
 class MaximumTension(WearCriterion):
-    """Largest principal stress, zero where all are compressive: brittle detachment."""
+    """Largest principal stress, zero where all are compressive: brittle detachment.
+
+    Tension is largest at the surface, so by default there is no skin.
+    """
 
     name: ClassVar[str] = "maximum_tension"
+    skin_depth: float = parameter(
+        "depth below the surface down to which stress counts as that at this depth, 0 for none",
+        "m",
+        default=0.0,
+        at_least=0,
+        source="a choice: tension is largest at the surface",
+        keyword_only=True,
+    )
 
     def equivalent_stress(self, stress: FloatArray) -> FloatArray:
         """The largest."""
