@@ -174,12 +174,34 @@ def _same_text(folder: Path, text: str) -> bool:
 
 
 def _history(run: FinishedRun) -> dict[str, Any]:
-    """Volume-mean radius [nm] cycle by cycle, mean over repetitions, for each load or variant of a wear scene."""
-    if run.summary["kind"] != "wear":
+    """Figures cycle by cycle, mean over repetitions, in a row for each load and variant, or speed.
+
+    wear : `cycle_radius_nm` (mean by volume), `cycle_volume_um3` (worn) and `cycle_pressure_Pa` (mean over the contact).
+    running-in : `cycle_radius_nm`, that of the mean volume of a cycle's pieces, and `cycle_contact_share`.
+    """
+    data = run.dataset
+    if run.summary["kind"] == "wear":
+        pressure = data["contact_load"] / data["contact_area"] if "contact_area" in data else None
+        history = {
+            "cycle_radius_nm": 1e9 * data["radius"],
+            "cycle_volume_um3": 1e18 * data["volume"] if "volume" in data else None,
+            "cycle_pressure_Pa": pressure,
+        }
+    elif run.summary["kind"] == "running-in":
+        pieces = data["volume_over_cycles"] / data["particles_over_cycles"].where(data["particles_over_cycles"] > 0)
+        history = {
+            "cycle_radius_nm": 1e9 * np.cbrt(3 / (4 * np.pi) * pieces),
+            "cycle_contact_share": data["contact_share"],
+        }
+    else:
         return {}
-    radius = run.dataset["radius"]
-    if "repetition" in radius.dims:
-        radius = radius.mean("repetition")  # cycles without particles are left out
-    values = 1e9 * radius.transpose(..., "cycle").to_numpy()
-    values = values.reshape(-1, values.shape[-1])  # cases in a row, one where the scene has no axis
-    return {"cycle_radius_nm": [[None if np.isnan(v) else round(float(v), 1) for v in row] for row in values]}
+    return {name: _rows(values) for name, values in history.items() if values is not None}
+
+
+def _rows(values: Any) -> list[list[float | None]]:
+    """Values over cycles to four digits, a row for each case; cycles without a value are left out of means."""
+    if "repetition" in values.dims:
+        values = values.mean("repetition")
+    table = values.transpose(..., "cycle").to_numpy()
+    table = table.reshape(-1, table.shape[-1])  # cases in a row, one where the scene has no axis
+    return [[None if np.isnan(v) else float(f"{v:.4g}") for v in row] for row in table]

@@ -1,4 +1,4 @@
-"""Means and distributions of particle sizes, weighted by number, area or volume.
+"""Means and distributions of particle sizes, weighted by number, area, volume or light scattering.
 
 Knows particles, simulated or seen in a microscope, by their sizes alone. Verified in
 tests/particles/test_particle_statistics_and_wear.py: closed forms of log-normal sizes, equal particles.
@@ -17,15 +17,21 @@ from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.particles.particle import Particle
 
-WEIGHTS = {"number": 0, "area": 2, "volume": 3}
-"""Power of the equivalent radius that a particle counts with: 1, its sphere's area, its volume."""
+WEIGHTS = {"number": 0, "area": 2, "volume": 3, "scattering": 5}
+"""Power of the equivalent radius R that a particle counts with.
+
+number : 1. area, volume : those of the equivalent sphere. scattering : the mean radius is then sum R^6 / sum R^5, the
+z-average of dynamic light scattering (ISO 22412). The instrument measures diffusion coefficients, which go as 1/R, each
+weighted with the scattered intensity, which goes as R^6 (Rayleigh); the radius of the mean coefficient is that ratio.
+Particles larger than about a tenth of the wavelength scatter less than R^6: for them this mean is an upper bound.
+"""
 
 
 @dataclass(frozen=True, eq=False)
 class ParticleStatistics:
     """Sizes of a set of particles; lengths [m]; nan where there is no particle.
 
-    weight : "number", "area" or "volume": what every mean, standard deviation and count is weighted with.
+    weight : "number", "area", "volume" or "scattering": what every mean, standard deviation and count is weighted with.
     count : how many particles went in; excluded : how many were left out for their size.
     mean_*, std_* : weighted mean and standard deviation (of the set itself, not an estimate of a population).
     smallest_equivalent_radius, largest_equivalent_radius : of those that went in.
@@ -75,7 +81,8 @@ def particle_statistics(
     ----------
     particles : Particle objects, or a structured array with fields volume, length, width, thickness.
     weight : "number"; "area": surface of the equivalent sphere, R^2 (the mean radius is then Sauter's);
-        "volume": R^3 (the mean radius is then De Brouckere's).
+        "volume": R^3 (the mean radius is then De Brouckere's); "scattering": R^5 (the mean radius is then the z-average
+        that dynamic light scattering reports, sum R^6 / sum R^5).
     smallest_radius : particles of a smaller equivalent radius are left out [m]: what the mesh, the separation or the
         microscope cannot hold must not decide a mean.
     edges : of the bins of the distribution over equivalent radius [m], or their number (equal bins from 0).
@@ -145,13 +152,16 @@ def _checked(weight: str, smallest_radius: float, edges: ArrayLike | int) -> Flo
 
 
 def size_summary(particles: Sequence[Particle] | NDArray[np.void], *, smallest_radius: float = 0.0) -> dict[str, float]:
-    """The figures of a particle scene: count, number-, area- and volume-weighted mean radius, mean sizes [nm]."""
-    number, area, volume = (particle_statistics(particles, weight=w, smallest_radius=smallest_radius) for w in WEIGHTS)
+    """The figures of a particle scene: count, mean radius by number, area, volume and scattering, mean sizes [nm]."""
+    number, area, volume, scattering = (
+        particle_statistics(particles, weight=weight, smallest_radius=smallest_radius) for weight in WEIGHTS
+    )
     return {
         "count": number.count,
         "number_mean_radius_nm": 1e9 * number.mean_equivalent_radius,
         "area_mean_radius_nm": 1e9 * area.mean_equivalent_radius,
         "volume_mean_radius_nm": 1e9 * volume.mean_equivalent_radius,
+        "scattering_mean_radius_nm": 1e9 * scattering.mean_equivalent_radius,
         "length_nm": 1e9 * number.mean_length,
         "width_nm": 1e9 * number.mean_width,
         "thickness_nm": 1e9 * number.mean_thickness,

@@ -110,6 +110,10 @@ FOLLOWS_CELL = (
 """Why a mean by number, and a count, has no error bar."""
 
 
+FEW_LARGEST = "the few largest pieces decide it: light scattering weights a radius R with its sixth power"
+"""Why a mean by light scattering has no error bar."""
+
+
 def _by(weight: str, quantity: str) -> Figure:
     follows = "number" in weight
     return Figure(
@@ -122,7 +126,8 @@ def _by(weight: str, quantity: str) -> Figure:
 
 @dataclass(frozen=True, eq=False)
 class MeanSizes(Record):
-    """Mean sizes of the settled particles: the reported one, and by number, area, volume, and number above a size."""
+    """Mean sizes of the settled particles: the reported one, by number, area, volume, and number above a size; and the
+    radius that dynamic light scattering would report."""
 
     scatters: ClassVar[tuple[str, ...]] = (
         *(f"{weight}_{quantity}" for weight in ("reported", "area_mean", "volume_mean") for quantity in QUANTITIES),
@@ -143,6 +148,14 @@ class MeanSizes(Record):
     volume_mean_length: Annotated[float, _by("by volume", "length")]
     volume_mean_width: Annotated[float, _by("by volume", "width")]
     volume_mean_thickness: Annotated[float, _by("by volume", "thickness")]
+    scattering_mean_equivalent_radius: Annotated[
+        float,
+        Figure(
+            "nm",
+            "equivalent radius of the particles, z-average of light scattering (sum R^6 / sum R^5)",
+            no_bar=FEW_LARGEST,
+        ),
+    ]
     number_above_mean_equivalent_radius: Annotated[float, _by("by number above the smallest", "equivalent radius")]
     number_above_mean_length: Annotated[float, _by("by number above the smallest", "length")]
     number_above_mean_width: Annotated[float, _by("by number above the smallest", "width")]
@@ -153,6 +166,7 @@ def mean_sizes(particles: NDArray[np.void], sizes: SizesScene) -> dict[str, Any]
     """The fields of `MeanSizes` [m] of a table of particles."""
     statistics = size_statistics(particles, sizes.smallest)
     reported = {f"reported_{quantity}": statistics[sizes.report][quantity] for quantity in QUANTITIES}
+    reported["scattering_mean_equivalent_radius"] = statistics.pop("scattering")["equivalent_radius"]
     return reported | {
         f"{weight}_mean_{quantity}": value
         for weight, values in statistics.items()
@@ -179,19 +193,20 @@ def scattering(record: type[Record], scene: Any, grid: Grid) -> tuple[str, ...]:
 
 
 def mean_radii(particles: NDArray[np.void], sizes: SizesScene, *names: str) -> dict[str, float]:
-    """Mean equivalent radii [m] under three names: the reported one, by number and by volume; 0 of no particles."""
+    """Mean equivalent radii [m] under four names: the reported one, by number, volume and scattering; 0 of none."""
     if not particles.size:
         return dict.fromkeys(names, 0.0)
     statistics = size_statistics(particles, sizes.smallest)
-    weights = (sizes.report, "number", "volume")
+    weights = (sizes.report, "number", "volume", "scattering")
     return {name: statistics[weight]["equivalent_radius"] for name, weight in zip(names, weights, strict=True)}
 
 
 def size_statistics(particles: NDArray[np.void], smallest: float) -> dict[str, dict[str, float]]:
-    """Means of radius, length, width and thickness [m] by number, area and volume, and by number above a size."""
+    """Means of radius, length, width and thickness [m] by every weight, and by number above a size."""
     from bem.particles import particle_statistics
+    from bem.particles.statistics import WEIGHTS
 
-    statistics = {weight: particle_statistics(particles, weight=weight) for weight in ("number", "area", "volume")}
+    statistics = {weight: particle_statistics(particles, weight=weight) for weight in WEIGHTS}
     statistics["number_above"] = particle_statistics(particles, smallest_radius=smallest)
     return {
         name: {quantity: getattr(each, f"mean_{quantity}") for quantity in QUANTITIES}

@@ -43,7 +43,8 @@ class WearModel:
     refine, refinement : fine voxels per depth interval and how stress is interpolated between depths; "exact" computes
         the stress at every fine depth and is the check of the others.
     connectivity : 6, 18 or 26 neighbours.
-    removal : "cap" (a piece takes the material above it along) or "top_run", or a law of your own.
+    removal : "cap" (a piece takes the material above it along: an addition to the source), "top_run" (only material
+        that yields leaves, as in the source), or a law of your own.
     wears : "softer" (lower yield stress; the lower body where equal), "lower", "upper" or "both".
     frame : which body stands still with the contact. "cylinder": the upper body and the contact are fixed in space and
         the lower body moves through them, so that all places of its track wear alike; "disk": the lower body is fixed

@@ -58,7 +58,11 @@ class _ByColumns(RemovalLaw):
 @register
 @dataclass(frozen=True)
 class Cap(_ByColumns):
-    """A piece takes all that lies above its yielded part in a column along; two that meet in a column leave as one."""
+    """A piece takes all material above its yielded part in a column along; two that meet in a column leave as one.
+
+    The cap is an addition to the source, where a particle is the volume in which stress exceeds the yield stress
+    everywhere. Material above yielded material has nothing left to hold it.
+    """
 
     name: ClassVar[str] = "cap"
     takes_along: ClassVar[bool] = True
@@ -67,7 +71,7 @@ class Cap(_ByColumns):
 @register
 @dataclass(frozen=True)
 class TopRun(_ByColumns):
-    """Only what yields without a break from the surface down leaves."""
+    """Only material that yields without a break from the surface down leaves, as the source's words have it."""
 
     name: ClassVar[str] = "top_run"
     takes_along: ClassVar[bool] = False

@@ -82,6 +82,10 @@ class ParticlesRecord(ParticleTable):
     area_std_radius: Annotated[float, Figure("nm", "its standard deviation by area", no_bar=_FEW_DECIDE)]
     volume_mean_radius: Annotated[float, Figure("nm", "equivalent radius, mean by volume", headline=True)]
     volume_std_radius: Annotated[float, Figure("nm", "its standard deviation by volume", no_bar=_FEW_DECIDE)]
+    scattering_mean_radius: Annotated[
+        float,
+        Figure("nm", "equivalent radius, z-average of light scattering (sum R^6 / sum R^5)", no_bar=_FEW_DECIDE),
+    ]
     length: Annotated[float, Figure("nm", "mean length by number", headline=True)]
     width: Annotated[float, Figure("nm", "mean width by number", headline=True)]
     thickness: Annotated[float, Figure("nm", "mean thickness by number", headline=True)]

@@ -156,6 +156,9 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
     evaluations_per_cycle: Annotated[float, Figure("", "films per cycle", unjudged=True)]
     number_mean_radius: Annotated[float, Figure("nm", "the same, mean by number", no_bar=pieces.FOLLOWS_CELL)]
     volume_mean_radius: Annotated[float, Figure("nm", "the same, mean by volume", no_bar=_FOLLOWS_CELL)]
+    scattering_mean_radius: Annotated[
+        float, Figure("nm", "the same, z-average of light scattering (sum R^6 / sum R^5)", no_bar=pieces.FEW_LARGEST)
+    ]
     friction_over_cycles: Annotated[FloatArray, _over("1", "coefficient of friction")]
     film_load_over_cycles: Annotated[FloatArray, _over("N", "load carried by the film")]
     minimum_film_over_cycles: Annotated[FloatArray, _over("m", "minimum film thickness")]
@@ -311,7 +314,7 @@ def _record(
     )
 
 
-_RADII = ("particle_equivalent_radius", "number_mean_radius", "volume_mean_radius")
+_RADII = ("particle_equivalent_radius", "number_mean_radius", "volume_mean_radius", "scattering_mean_radius")
 
 
 def summarise(scene: RunningInScene, axes: Sequence[Axis], records: Sequence[RunningInRecord | None]) -> dict[str, Any]:
