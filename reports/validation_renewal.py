@@ -176,7 +176,7 @@ def _same_text(folder: Path, text: str) -> bool:
 def _history(run: FinishedRun) -> dict[str, Any]:
     """Figures cycle by cycle, mean over repetitions, in a row for each load and variant, or speed.
 
-    wear : `cycle_radius_nm` (mean by volume), `cycle_volume_um3` (worn) and `cycle_pressure_Pa` (mean over the contact).
+    wear : `cycle_radius_nm` (mean by volume), `cycle_volume_um3` (worn), `cycle_pressure_Pa` (mean over the contact).
     running-in : `cycle_radius_nm`, that of the mean volume of a cycle's pieces, and `cycle_contact_share`.
     """
     data = run.dataset

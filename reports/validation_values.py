@@ -10,10 +10,10 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any, cast
 
-from bem import Grid, Material, contact_modulus
+from bem import Material, contact_modulus
 from bem.particles import particle_coefficient
 from bem.scenes import PlainContext
-from bem.scenes.build import heights_of
+from bem.scenes.build import heights_of, modulus_of
 from bem.scenes.load import load_scene
 from bem.surfaces import SurfaceDescription, describe_surface
 from reports.builder import HERE
@@ -183,6 +183,33 @@ def radii(summary: Summary) -> list[Value]:
     return [at(summary, "particle_equivalent_radius_nm", i) for i in range(count)]
 
 
+WEIGHTS = {"number": "by number", "area": "by area", "volume": "by volume", "scattering": "by light scattering"}
+"""Means of a radius and their words: by light scattering it is the z-average, sum R^6 / sum R^5 (ISO 22412)."""
+
+
+def radii_by(summary: Summary, weight: str) -> list[Value]:
+    """Mean radius of one weight of every run of a wear scene."""
+    count = len(summary["load_N"]) if isinstance(summary["load_N"], list) else 1
+    return [at(summary, f"{weight}_mean_equivalent_radius_nm", i) for i in range(count)]
+
+
+def four_radii(summary: Summary) -> str:
+    """Mean radii of every run of a wear scene, by each weight."""
+    return "; ".join(f"{listed(radii_by(summary, weight))} {words}" for weight, words in WEIGHTS.items())
+
+
+def mean_of(values: Sequence[float | None]) -> float:
+    """Mean of the values that are there."""
+    found = [value for value in values if value is not None]
+    return sum(found) / len(found) if found else math.nan
+
+
+def cycles_of(summary: Summary, key: str, index: int = 0) -> list[float | None] | None:
+    """A figure over the cycles of one run; None where the result was kept without its cycles."""
+    rows = summary.get(key)
+    return None if rows is None else rows[index]
+
+
 def listed(values: Sequence[Value]) -> str:
     """Values side by side."""
     return ", ".join(str(v) for v in values)
@@ -280,10 +307,11 @@ def hertz_pressure(newtons: float) -> float:
     return 1e-9 * math.sqrt(newtons / 6e-3 * steel_modulus() / (math.pi * 2e-3))
 
 
-def surface_statistics(scene: str, body: str, cell: float = 101e-9) -> SurfaceDescription:
-    """What the first generated surface of a body of a built-in scene is like, on 240 cells."""
+def surface_statistics(scene: str, body: str) -> SurfaceDescription:
+    """Statistics of the first generated surface of a body of a built-in wear scene, on its grid at its largest load."""
     model = cast("WearScene", load_scene(scene))
-    grid = Grid((240, 240), (cell, cell), periodic=(False, True))
+    cylinder = model.cylinder.model_copy(update={"loads": [max(model.cylinder.loads)]})
+    grid, _ = model.domain.at(cylinder, modulus_of(model))
     surface = (model.lower if body == "lower" else model.upper).surface
     heights = heights_of(surface, grid, PlainContext(scene_seed=model.seed).seed(body, 0))
     return describe_surface(heights, grid.spacing, periodic=grid.periodic)

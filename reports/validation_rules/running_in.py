@@ -3,14 +3,17 @@
 from __future__ import annotations
 
 from reports.validation_values import (
+    READING,
     Rule,
     Summary,
     at,
     at_speed,
     clear_minimum,
+    cycles_of,
     drop,
     falling,
     largest_drop,
+    mean_of,
     quoted,
     speed,
     within,
@@ -49,6 +52,29 @@ def _over_hardness(summary: Summary) -> str:
     return f"{friction} at {', '.join(f'{1e-9 * value:g}' for value in summary['hardness_Pa'])} GPa"
 
 
+def _contact_load_falls(summary: Summary) -> bool:
+    """Whether the contact load at 0.01 m/s falls by more than its repetitions scatter."""
+    before, after = (at(summary, key, speed(0.01)(summary)) for key in ("contact_load_initial_N", "contact_load_N"))
+    return before.mean - after.mean > (after.spread or 0.0)
+
+
+def _early_and_late(summary: Summary) -> tuple[float, float] | None:
+    """Radius [nm] of a cycle's mean piece volume at 0.01 m/s: mean of the first five and of the last 50 cycles."""
+    row = cycles_of(summary, "cycle_radius_nm", speed(0.01)(summary))
+    return None if row is None else (mean_of(row[:5]), mean_of(row[-50:]))
+
+
+def _cycles_line(summary: Summary) -> str:
+    found = _early_and_late(summary)
+    return "cycles not stored" if found is None else f"{found[0]:.0f} to {found[1]:.0f} nm"
+
+
+def _radius_grows(summary: Summary) -> bool | None:
+    found = _early_and_late(summary)
+    return None if found is None else found[1] > found[0]
+
+
+CYCLES = {"running-in-cells-of-450-nm": "in the first five and the last 50 cycles"}
 CELLS = {f"running-in-cells-of-{cell}-nm": f"with cells of {cell} nm" for cell in (450, 225, 113)}
 DROPS = {
     "drop-as-it-is": "as it is",
@@ -68,9 +94,30 @@ RULES: dict[str, Rule] = {
         _drops_as_in_the_source,
         quoted(_drops_there, DROPS),
     ),
-    "contact_load_falls_with_running_in_at_0_05_m": Rule(
-        lambda s: f"{at(s, 'contact_load_initial_N', speed(0.05)(s))} to {at(s, 'contact_load_N', speed(0.05)(s))}",
-        lambda s: at(s, "contact_load_N", speed(0.05)(s)).mean < at(s, "contact_load_initial_N", speed(0.05)(s)).mean,
+    "contact_load_falls_with_running_in_at_0_01_m": Rule(
+        lambda s: (
+            f"{at(s, 'contact_load_initial_N', speed(0.01)(s)).mean:.3f} to "
+            f"{at(s, 'contact_load_N', speed(0.01)(s)).mean:.3f} ± {at(s, 'contact_load_N', speed(0.01)(s)).spread:.3f}"
+        ),
+        _contact_load_falls,
+        lambda s: f"{at(s, 'contact_load_initial_N', speed(0.05)(s))} to {at(s, 'contact_load_N', speed(0.05)(s))} N",
+    ),
+    "radius_over_cycles_at_0_01_m_s": Rule(
+        _cycles_line,
+        _radius_grows,
+        quoted(_cycles_line, CYCLES),
+    ),
+    "radius_by_light_scattering_at_0_01_m_s": Rule(
+        lambda s: f"{at(s, 'scattering_mean_radius_nm', speed(0.01)(s))}".replace("none", "not stored"),
+        lambda s: (
+            within(at(s, "scattering_mean_radius_nm", speed(0.01)(s)), 223 - 13, 223 + 13)
+            if "scattering_mean_radius_nm" in s
+            else None
+        ),
+    ),
+    "no_running_in_where_the_disk_is_hard": Rule(
+        lambda s: f"{s['friction_initial'][-1]:.4f} to {s['friction_run_in'][-1]:.4f}",
+        lambda s: abs(s["friction_run_in"][-1] / s["friction_initial"][-1] - 1) < READING,
     ),
     "sq_of_the_disk_at_0_01_m_s_nm": Rule(
         lambda s: f"{at(s, 'Sq_initial_nm', speed(0.01)(s))} to {at(s, 'Sq_final_nm', speed(0.01)(s))}",
