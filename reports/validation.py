@@ -14,10 +14,21 @@ from typing import Any
 from reports import independent, neglects, patch_length
 from reports.builder import COLOURS, Page, Section, figure, table, text
 from reports.experiments import kept
-from reports.validation_lines import CHECKS, CHOICES
+from reports.validation_lines import CHECKS, CHOICES, WITHOUT_LINE
 from reports.validation_origin import rooms, stale
 from reports.validation_renewal import is_kept, jobs, scripts
-from reports.validation_values import Check, Rule, Summary, at, curve, differences, radii, steel_modulus, stored
+from reports.validation_values import (
+    Check,
+    Rule,
+    Summary,
+    at,
+    curve,
+    differences,
+    radii,
+    radii_by,
+    steel_modulus,
+    stored,
+)
 
 VERDICTS = {True: "agrees", False: "differs", None: "–"}
 
@@ -99,8 +110,10 @@ def build() -> Page:
             )
             + text(
                 "What is accepted is fixed by the source alone: its own scatter, its digits, its model; our spread "
-                "widens nothing. Sizes are by volume throughout. Lines that repeat what was put in are marked as input "
-                "and not counted. "
+                "widens nothing. Sizes are means by volume; where the source measured by light scattering, ours is the "
+                "mean that such an instrument reports (z-average, sum R^6 / sum R^5, ISO 22412). Lines on these "
+                "radii show the means by number, area, volume and light scattering beside each other. Lines that "
+                "repeat what was put in are marked as input and not counted. "
                 f"{total['agrees'] + total['agrees, stale']} lines agree, {total['differs'] + total['differs, stale']} "
                 f"differ, {total['input']} are inputs, {total['–']} have no counterpart or no stored figure; "
                 f"{total['agrees, stale'] + total['differs, stale']} verdicts are of stale results (last section)."
@@ -119,6 +132,7 @@ def build() -> Page:
     sections.append(Section("Independent figures", independent.body()))
     sections.append(Section("The area over which oil is counted", patch_length.body()))
     sections.append(Section("What the Stribeck curves leave out", neglects.body()))
+    sections.append(Section("Statements without a line", table(("paper", "statement", "why"), WITHOUT_LINE)))
     sections.append(Section("What was chosen, and why", table(("what", "choice", "reason"), CHOICES)))
     sections.append(Section("Stored results", results_table()))
     return Page(
@@ -165,7 +179,7 @@ def _from_zero(drawing: Any, axes: Any) -> Any:
 
 
 def radius_over_load(summary: Summary) -> Any:
-    """Radius over load with the ranges of DLS."""
+    """Mean radius by volume and by light scattering over load, with the range that light scattering measured."""
     drawing, axes = _axes()
     axes.axhspan(110, 175, color=COLOURS[5], alpha=0.3, linewidth=0, label="light scattering")
     for name, colour in (("wear-steel-steel", 0), ("wear-brass-transfer-film", 1), ("wear-steel-brass", 4)):
@@ -183,7 +197,9 @@ def radius_over_load(summary: Summary) -> Any:
             colour,
             name.removeprefix("wear-").replace("-", " "),
         )
-    axes.set(xlabel="load (N)", ylabel="equivalent radius by volume (nm)", xlim=(0, 11))
+        scattered = [v.mean for v in radii_by(data, "scattering")]
+        axes.plot(data["load_N"], scattered, "s:", color=COLOURS[colour], label="the same by light scattering")
+    axes.set(xlabel="load (N)", ylabel="equivalent radius (nm)", xlim=(0, 11))
     return _from_zero(drawing, axes)
 
 
@@ -295,7 +311,7 @@ FIGURES: dict[str, list[tuple[str, Callable[[Summary], Any], str]]] = {
         (
             "wear-steel-steel",
             radius_over_load,
-            "Settled radius by volume over load, mean and deviation over repetitions.",
+            "Settled radius over load by volume with deviation over repetitions, and by light scattering (dotted).",
         ),
         (
             "wear-mesh-convergence",

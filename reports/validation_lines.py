@@ -34,3 +34,8 @@ CHOICES: tuple[tuple[str, str, str], ...] = tuple(
     (entry["what"], entry["choice"], entry["reason"]) for entry in _WORDS["choices"]
 )
 """What was chosen where the thesis does not say, and why."""
+
+WITHOUT_LINE: tuple[tuple[str, str, str], ...] = tuple(
+    (entry["paper"], entry["statement"], entry["reason"]) for entry in _WORDS["without_line"]
+)
+"""Statements of papers A to D that no line of a table can be held against, and why."""

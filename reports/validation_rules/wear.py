@@ -65,17 +65,17 @@ def _plateau_line(summary: Summary) -> str:
     return "no plateau" if found is None else f"from cycle {found}"
 
 
-def _early_and_late(key: str) -> Callable[[Summary], tuple[float, float] | None]:
-    """Mean over the first ten cycles and over the last fifty at 10 N; None where the cycles were not kept."""
+def _early_and_late(key: str, first: int) -> Callable[[Summary], tuple[float, float] | None]:
+    """Mean over the first cycles and over the last fifty at 10 N; None where the cycles were not kept."""
 
     def find(summary: Summary) -> tuple[float, float] | None:
         row = cycles_of(summary, key, load(10)(summary))
-        return None if row is None else (mean_of(row[:10]), mean_of(row[-50:]))
+        return None if row is None else (mean_of(row[:first]), mean_of(row[-50:]))
 
     return find
 
 
-_pressure, _volume = _early_and_late("cycle_pressure_Pa"), _early_and_late("cycle_volume_um3")
+_pressure, _volume = _early_and_late("cycle_pressure_Pa", 10), _early_and_late("cycle_volume_um3", 1)
 
 
 def _volume_early(summary: Summary) -> float | None:

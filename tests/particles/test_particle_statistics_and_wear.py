@@ -1,5 +1,6 @@
 """Particle statistics, Archard's wear, lambda ratio, sedimentation: hand calculations and the thesis' numbers."""
 
+import itertools
 import math
 
 import numpy as np
@@ -63,6 +64,24 @@ def test_weighted_means_by_hand():
     np.testing.assert_allclose(binned.density, [2 / 3, 1 / 3])
 
 
+def test_mean_by_light_scattering_of_two_sizes_and_of_log_normal_sizes():
+    """By hand: sum R^6 / sum R^5. Closed form: of log-normal radii, exp(m + 11/2 s^2)."""
+    scattered = particle_statistics([particle(1.0), particle(1.0), particle(2.0)], weight="scattering")
+    assert scattered.mean_equivalent_radius == pytest.approx((1 + 1 + 64) / (1 + 1 + 32))
+    m, s, edges = math.log(100e-9), 0.3, np.linspace(-9, 9, 4001)
+    z = (edges[1:] + edges[:-1]) / 2
+    count = np.round(1e9 * np.exp(-(z**2) / 2)).astype(int)  # a quadrature: so many particles of each size
+    radii = np.exp(m + s * z)
+    means = {power: (count * radii ** (power + 1)).sum() / (count * radii**power).sum() for power in (0, 3, 5)}
+    assert means[5] == pytest.approx(math.exp(m + 5.5 * s**2), rel=1e-6)
+    drawn = np.exp(m + s * np.random.default_rng(7).standard_normal(400_000))
+    table = np.zeros(drawn.size, dtype=[("volume", float), ("length", float), ("width", float), ("thickness", float)])
+    table["volume"] = 4 / 3 * np.pi * drawn**3
+    got = particle_statistics(table, weight="scattering").mean_equivalent_radius
+    assert got == pytest.approx(math.exp(m + 5.5 * s**2), rel=0.01)  # chance leaves 0.3 %
+    assert got > particle_statistics(table, weight="volume").mean_equivalent_radius
+
+
 def test_no_particles():
     empty = particle_statistics([])
     assert empty.count == 0
@@ -90,9 +109,9 @@ def test_structured_array_gives_the_same():
 @given(st.lists(st.floats(1e-9, 1e-5), min_size=1, max_size=30), st.floats(0, 1e-5))
 def test_order_of_means_and_shares(radii, smallest):
     particles = [particle(r) for r in radii]
-    means = [particle_statistics(particles, weight=w).mean_equivalent_radius for w in ("number", "area", "volume")]
-    assert means[0] <= means[1] * (1 + 1e-12)
-    assert means[1] <= means[2] * (1 + 1e-12)
+    weights = ("number", "area", "volume", "scattering")
+    means = [particle_statistics(particles, weight=weight).mean_equivalent_radius for weight in weights]
+    assert all(a <= b * (1 + 1e-12) for a, b in itertools.pairwise(means))
     got = particle_statistics(particles, weight="volume", smallest_radius=smallest)
     assert got.count + got.excluded == len(radii)
     if got.count:

@@ -146,6 +146,29 @@ def test_cycles_of_a_wear_run_are_kept_case_by_case_mean_over_repetitions():
     assert validation_renewal._history(run) == {"cycle_radius_nm": [[2.0, 2.0, None], [None, None, None]]}
 
 
+def test_pressures_and_volumes_of_wear_and_radii_of_running_in_are_kept_cycle_by_cycle():
+    def over_cycles(*values):
+        return xarray.DataArray([values], dims=("load", "cycle"))
+
+    data = {
+        "radius": over_cycles(1e-9, 2e-9),
+        "volume": over_cycles(3e-18, 0.0),
+        "contact_load": over_cycles(2.0, 2.0),
+        "contact_area": over_cycles(1e-9, 2e-9),
+    }
+    kept = validation_renewal._history(SimpleNamespace(summary={"kind": "wear"}, dataset=data))
+    assert kept["cycle_volume_um3"] == [[3.0, 0.0]]
+    assert kept["cycle_pressure_Pa"] == [[2e9, 1e9]]
+    sphere = 4 / 3 * np.pi * 100e-9**3
+    data = {
+        "volume_over_cycles": over_cycles(5 * sphere, 0.0),
+        "particles_over_cycles": over_cycles(5.0, 0.0),
+        "contact_share": over_cycles(0.9, 0.8),
+    }
+    kept = validation_renewal._history(SimpleNamespace(summary={"kind": "running-in"}, dataset=data))
+    assert kept == {"cycle_radius_nm": [[100.0, None]], "cycle_contact_share": [[0.9, 0.8]]}
+
+
 def test_whatever_goes_wrong_with_one_leaves_the_others(small, tmp_path, monkeypatch):
     keep = validation_renewal.keep
 
