@@ -61,7 +61,8 @@ class Cap(_ByColumns):
     """A piece takes all material above its yielded part in a column along; two that meet in a column leave as one.
 
     The cap is an addition to the source, where a particle is the volume in which stress exceeds the yield stress
-    everywhere. Material above yielded material has nothing left to hold it.
+    everywhere. Material above yielded material has nothing left to hold it. The cap raises the volume of the first
+    cycles (steel on steel: 105 instead of 73 um^3) and leaves the settled sizes as they are.
     """
 
     name: ClassVar[str] = "cap"
