@@ -41,7 +41,7 @@ SCENES: tuple[tuple[str, tuple[str, ...]], ...] = (
     # what a voxel bears is used up at once, so that damage moves with what leaves
     ("wear-criteria", (*_FEW, "domain.cells=96", "variants[4].criterion.passes=100000")),
     ("tribofilm-afm-tip", ('rubbing.loads=["600 nN"]', "grid.shape=48")),
-    ("tribofilm-macro", ('rubbing.temperatures=["80 degC"]', "grid.shape=128", "grid.lengths=200 um")),
+    ("tribofilm-macro", ('rubbing.temperatures=["80 degC"]', "grid.shape=256", "grid.lengths=200 um")),
     ("uniform-asperities", ('array.spacings=["20 um"]', 'array.interferences=["50 nm"]', "array.cell=1 um")),
     ("flow-factors", ("grid.shape=64", "flow.ratios=[1.0]")),
     ("particles-afm-map", ("synthetic.shape=[256, 256]",)),

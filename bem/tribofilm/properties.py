@@ -65,15 +65,20 @@ class Constant(PropertyLaw):
 @register
 @dataclass(frozen=True)
 class FadingSubstrate(PropertyLaw):
-    """From the substrate's value at zero thickness to the film's own, `film + (substrate - film) exp(-h / length)`,
-    times a factor that falls linearly with temperature above the reference, and never below `lowest_factor`.
+    """Curve from the substrate's value at zero thickness to the film's own, with a temperature factor on each.
+
+    Value = `substrate f_s exp(-h / length) + film f_f (1 - exp(-h / length))` at the film thickness h. Each factor falls
+    linearly with temperature above the reference, `f = 1 - slope (T - reference)`, and never below `lowest_factor`.
+
+    The source (paper E, figures 1 and 2) multiplies the whole curve by one factor: give both slopes the same value, as
+    the scenes that redo it do. The default of `substrate_temperature_slope` is 0, so that the factor acts on the film's
+    part only: without a film the value is that of the substrate, and steel keeps its hardness below 200 degrees Celsius.
 
     Parameters
     ----------
     substrate, film : [Pa] at the reference temperature. length : decay length [m].
-    temperature_slope : fall of the factor per kelvin [1/K]; the factor acts on the film's own value only, because the
-        substrate (steel) does not soften below 200 degrees Celsius.
-    reference_temperature : [K]. lowest_factor : what is left of the film's own value at any temperature.
+    temperature_slope, substrate_temperature_slope : fall of the film's and of the substrate's factor per kelvin [1/K].
+    reference_temperature : temperature at which both factors are 1 [K]. lowest_factor : lower bound of both factors.
     """
 
     name: ClassVar[str] = "fading_substrate"
@@ -81,17 +86,25 @@ class FadingSubstrate(PropertyLaw):
     film: float = parameter("of a thick film at the reference temperature", "Pa", above=0)
     length: float = parameter("thickness over which the substrate fades by 1/e", "m", above=0)
     temperature_slope: float = parameter("fall of the film's own factor per kelvin", "1/K", default=0.0)
-    reference_temperature: float = parameter("where that factor is one", "K", default=298.15, above=0)
-    lowest_factor: float = parameter("what is left of it at any temperature", default=0.1, above=0)
+    reference_temperature: float = parameter("where both factors are one", "K", default=298.15, above=0)
+    lowest_factor: float = parameter("lower bound of both factors", default=0.1, above=0)
+    substrate_temperature_slope: float = parameter(
+        "fall of the substrate's factor per kelvin; as temperature_slope: one factor on the whole curve",
+        "1/K",
+        default=0.0,
+        source="0: steel keeps its hardness below 200 degrees Celsius",
+    )
 
     def __call__(self, thickness: float, temperature: float) -> float:
         """Value [Pa]."""
-        factor = max(
-            1 - self.temperature_slope * (temperature - self.reference_temperature),
-            self.lowest_factor,
-        )
         fraction = math.exp(-max(thickness, 0.0) / self.length)
-        return self.substrate * fraction + self.film * factor * (1 - fraction)
+        substrate = self.substrate * self._factor(self.substrate_temperature_slope, temperature)
+        film = self.film * self._factor(self.temperature_slope, temperature)
+        return substrate * fraction + film * (1 - fraction)
+
+    def _factor(self, slope: float, temperature: float) -> float:
+        """Temperature factor of one part of the curve."""
+        return max(1 - slope * (temperature - self.reference_temperature), self.lowest_factor)
 
     def lowest(self, thickness: float, temperature: float) -> float:
         """Lowest value from no film to this thickness [Pa]: it rises or falls all the way."""

@@ -746,7 +746,6 @@ GOOD_REASONS = {
     "running-in-ball": {"few_cells_per_wave", "few_cells_per_correlation_length"},  # likewise, the same surfaces
     "wear-criteria": {"few_cells_per_length_of_the_criterion"},  # a sphere of two cells: its sizes never settle
     "multilayer-coating": {"few_depths_in_a_layer"},  # the depths that `deepest` gives: two in layers far down
-    "tribofilm-macro": {"few_cells_per_wave"},  # 430 um on 256 cells hold waves of 4 um with 2.4 cells
     "wear-hard-roughness": {"steep_roughness"},  # Sq 1500 nm is the variant's point; its slope is 5
     "wear-soft-roughness": {"steep_roughness"},  # likewise, slope 1
     "wear-mesh-convergence": {"few_cells_per_wave", "depths_coarser_than_cells"},  # coarse meshes are its point

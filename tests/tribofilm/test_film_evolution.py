@@ -111,6 +111,15 @@ def test_properties_end_where_they_should():
     assert curve(0.0, 373.15) == 6e9
     assert curve(1e-6, 298.15) == pytest.approx(2e9)
     assert curve(1e-6, 373.15) == pytest.approx(2e9 * (1 - 0.15))
+    # one factor on the whole curve, as the source: 1 - 2e-3 * 75 K = 0.85 of what it is at the reference temperature
+    whole = FadingSubstrate(6e9, 2e9, 30e-9, temperature_slope=2e-3, substrate_temperature_slope=2e-3)
+    for thickness in (0.0, 10e-9, 1e-6):
+        assert whole(thickness, 373.15) == pytest.approx(0.85 * whole(thickness, 298.15), rel=1e-12)
+        assert whole(thickness, 298.15) == curve(thickness, 298.15)
+    assert curve(10e-9, 373.15) > 1.02 * whole(10e-9, 373.15)  # the default leaves the substrate's part as hard as it is
+    assert whole(0.0, 2000.0) == pytest.approx(0.1 * 6e9)
+    assert whole.highest(373.15) == pytest.approx(0.85 * 6e9)
+    assert whole.lowest(10e-9, 373.15) == whole(10e-9, 373.15)
     assert Constant(3.0)(1.0, 1.0) == 3.0
     table = Table.from_lists([0, 1e-7], [6e9, 3e9], [300, 400], [1.0, 0.5])
     assert table(5e-8, 350) == pytest.approx(4.5e9 * 0.75)
