@@ -64,8 +64,8 @@ class ReducedModel:
     """The constants of the film, in the units of the literature, and what is known of the contact.
 
     Those in `FITTED` can be fitted; `lag` [s], `friction`, `prefactor` [m/s], `substrate_hardness_GPa`,
-    `pressure_share`, `temperature_slope` and `substrate_temperature_slope` [1/K] are given. Equal slopes multiply the whole
-    hardness curve by one factor of temperature, as the source does; the default acts on the film's part only.
+    `pressure_share`, `temperature_slope` and `substrate_temperature_slope` [1/K] are given. Equal slopes multiply the
+    whole hardness curve by one factor of temperature, as the source does; by default the substrate keeps its hardness.
 
     Wear depths alone leave two films: the steady wear rate `alpha h exp(-C1 h)` of the substrate has its maximum at
     h = 1/C1 (81 nm in paper E), so that each lower rate belongs to a thin film and to a thick one. The 86.3 nm of the

@@ -67,12 +67,12 @@ class Constant(PropertyLaw):
 class FadingSubstrate(PropertyLaw):
     """Curve from the substrate's value at zero thickness to the film's own, with a temperature factor on each.
 
-    Value = `substrate f_s exp(-h / length) + film f_f (1 - exp(-h / length))` at the film thickness h. Each factor falls
-    linearly with temperature above the reference, `f = 1 - slope (T - reference)`, and never below `lowest_factor`.
+    Value = `substrate f_s exp(-h / length) + film f_f (1 - exp(-h / length))` at the film thickness h. Each factor
+    falls linearly with temperature above the reference, `f = 1 - slope (T - reference)`, down to `lowest_factor`.
 
     The source (paper E, figures 1 and 2) multiplies the whole curve by one factor: give both slopes the same value, as
     the scenes that redo it do. The default of `substrate_temperature_slope` is 0, so that the factor acts on the film's
-    part only: without a film the value is that of the substrate, and steel keeps its hardness below 200 degrees Celsius.
+    part only: without a film the value is the substrate's, and steel keeps its hardness below 200 degrees Celsius.
 
     Parameters
     ----------

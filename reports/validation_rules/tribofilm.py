@@ -96,6 +96,10 @@ RULES: dict[str, Rule] = {
     "rubbing_heats_by_less_than_1_c": Rule(
         lambda s: f"{_heat(s):.2f}",
         lambda s: 0 < _heat(s) < 1,
+        quoted(
+            lambda s: f"{at(s, 'flash_temperature_C', 0).mean:.2f} C at the hottest spot",
+            {HEATED: "at 0.1025 and 0.0975 m/s, on cells of 0.88 um"},
+        ),
     ),
     "afm_tip_plateau_with_and_without_delay_is_the": Rule(
         lambda s: (

@@ -6,6 +6,7 @@ import math
 import pytest
 
 from reports.validation import CHECKS
+from reports.validation_rules import tribofilm
 from reports.validation_values import (
     SCATTER,
     Value,
@@ -185,3 +186,39 @@ def test_trends():
     assert unchanged([Value(100), Value(116)])
     assert not unchanged([Value(100), Value(118)])
     assert math.isclose(SCATTER, 1.2613, rel_tol=1e-4)  # by hand
+
+
+def test_substrate_wear_that_is_highest_at_80_degrees_is_not_the_source_s():
+    order = RULES["substrate wear between 45 and 120 min falls from 60 to 80 to 100 C (nm)"]
+    both = RULES["wear depth 45 to 120 min at 60 and 100 C, fitted (nm)"]
+    thinner_root = {"wear_depth_nm": [86.5, 87.3, 45.8]}  # a film of 55 nm at 60 degrees: both ends are met
+    assert both.agrees(thinner_root) is True
+    assert order.agrees(thinner_root) is False
+    assert order.agrees({"wear_depth_nm": [90.0, 73.0, 45.0]}) is True
+    for depths, agrees in (([86.3 * 1.14, 0, 45.8], True), ([86.3 * 1.16, 0, 45.8], False), ([86.3, 0, 38.0], False)):
+        assert both.agrees({"wear_depth_nm": depths}) is agrees
+
+
+def test_a_film_that_follows_arrhenius_alone_does_not_saturate():
+    rule = RULES["growth saturates at higher temperatures, 60 to 100 C"]
+    # by hand: barrier / (k 333.15 K) = ln(1e-2 / (6.9e-4 * 100e-9)) = 18.792, and exp(18.792 * 40 / 373.15) = 7.496
+    assert tribofilm.arrhenius_rise(100.0, 60.0, 100.0) == pytest.approx(7.496, rel=1e-3)
+    for hottest, agrees in ((90.0, False), (200.0, True), (374.0, True), (376.0, False), (749.5, False)):
+        summary = {"temperature_C": [60.0, 80.0, 100.0], "film_thickness_nm": [100.0, 150.0, hottest]}
+        assert rule.agrees(summary) is agrees
+
+
+def test_a_modulus_that_changes_the_film_as_hardness_does_is_not_negligible(monkeypatch):
+    (rule,) = [rule for item, rule in RULES.items() if item.startswith("film's modulus")]
+    own = {"film_thickness_nm": [100.0, 150.0, 220.0]}
+    for stiff, agrees in (([101.0, 152.0, 222.0], True), ([116.0, 152.0, 222.0], True), ([118.0, 152.0, 222.0], False)):
+        films = {tribofilm.STIFF: stiff, tribofilm.HARD: [150.0, 225.0, 330.0]}
+        monkeypatch.setattr(tribofilm, "experiment", lambda name, films=films: {"film_thickness_nm": films[name]})
+        assert rule.agrees(own) is agrees
+
+
+def test_rubbing_heats_by_less_than_a_degree(monkeypatch):
+    rule = RULES["rubbing heats the contact by (C)"]
+    for hottest, agrees in ((60.5, True), (61.1, False), (60.0, False)):
+        monkeypatch.setattr(tribofilm, "experiment", lambda name, hottest=hottest: {"flash_temperature_C": hottest})
+        assert rule.agrees({"temperature_C": [60.0]}) is agrees

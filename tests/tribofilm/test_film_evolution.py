@@ -116,7 +116,9 @@ def test_properties_end_where_they_should():
     for thickness in (0.0, 10e-9, 1e-6):
         assert whole(thickness, 373.15) == pytest.approx(0.85 * whole(thickness, 298.15), rel=1e-12)
         assert whole(thickness, 298.15) == curve(thickness, 298.15)
-    assert curve(10e-9, 373.15) > 1.02 * whole(10e-9, 373.15)  # the default leaves the substrate's part as hard as it is
+    assert curve(10e-9, 373.15) > 1.02 * whole(
+        10e-9, 373.15
+    )  # the default leaves the substrate's part as hard as it is
     assert whole(0.0, 2000.0) == pytest.approx(0.1 * 6e9)
     assert whole.highest(373.15) == pytest.approx(0.85 * 6e9)
     assert whole.lowest(10e-9, 373.15) == whole(10e-9, 373.15)
