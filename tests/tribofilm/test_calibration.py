@@ -152,3 +152,18 @@ def test_the_lines_of_a_scene_are_the_fit():
     assert film.activation_energy == pytest.approx(fit.model.activation_energy_eV * 1.602176634e-19, rel=1e-5)
     assert film.hardness.film == pytest.approx(1e9 * fit.model.film_hardness_GPa, rel=1e-5)
     assert film.hardness.length == pytest.approx(1e-9 * fit.model.hardness_length_nm, rel=1e-5)
+
+
+def test_a_factor_on_the_whole_curve_reaches_growth_and_the_scene():
+    import math
+    import tomllib
+
+    model = replace(TRUTH, temperature_slope=2e-3, substrate_temperature_slope=1e-3)
+    # bare substrate at 100 degrees: 6 GPa times 1 - 1e-3 * 75, a share of 0.8 of it, friction 0.1
+    stress = 0.1 * 0.8 * 6e9 * (1 - 1e-3 * 75)
+    barrier = (0.665 * 1.602176634e-19 - stress * 53e-30) / (1.380649e-23 * 373.15)
+    assert model.growth_rate(373.15)(0.0) == pytest.approx(1e-2 * math.exp(-barrier), rel=1e-9)
+    assert TRUTH.growth_rate(373.15)(0.0) > 1.3 * model.growth_rate(373.15)(0.0)
+    fit = calibrate(exact(15, 45, 120), model, ("film_hardness_GPa",))
+    hardness = tomllib.loads(fit.scene_lines())["film"]["hardness"]
+    assert (hardness["temperature_slope"], hardness["substrate_temperature_slope"]) == (2e-3, 1e-3)

@@ -33,7 +33,9 @@ if TYPE_CHECKING:
     from bem.tribofilm.local import LocalState
 
 _CONVOLUTIONS = 14  # of one warm-started contact, coarse levels included
-_CONTACTS = 50  # solved per film: the table is refined only as far as the film gets
+_CONTACTS = 50  # solved per film at `_REFERENCE_TOLERANCE`: the table is refined only as far as the film gets
+_REFERENCE_TOLERANCE = 2e-3  # of growth, by linear interpolation: contacts go with the root of its inverse
+_FEWEST_CONTACTS = 10
 _CHECKPOINT_EVERY = 5  # contacts
 
 
@@ -62,6 +64,13 @@ def axes(scene: TribofilmScene) -> tuple[Axis, ...]:
     )
 
 
+def _planned_contacts(scene: TribofilmScene) -> int:
+    """Contacts that one film is expected to solve."""
+    if scene.film.feedback == "local" or scene.reuse_tolerance <= _REFERENCE_TOLERANCE:
+        return _CONTACTS
+    return max(round(_CONTACTS * (_REFERENCE_TOLERANCE / scene.reuse_tolerance) ** 0.5), _FEWEST_CONTACTS)
+
+
 def plan(scene: TribofilmScene) -> Plan:
     """What will be computed for one film.
 
@@ -70,6 +79,7 @@ def plan(scene: TribofilmScene) -> Plan:
     InfeasibleError : a load that the film cannot carry on the grid where it is softest.
     """
     grid, film = build.grid_of(scene.grid), scene.film
+    contacts = _planned_contacts(scene)
     surfaces = plans.surfaces(grid, scene.lower.surface, scene.upper.surface)
     scene.check_load(grid)
     lags = scene.rubbing.duration / film.lag if film.lag > 0 else 0.0  # integrated one by one
@@ -80,11 +90,11 @@ def plan(scene: TribofilmScene) -> Plan:
             "layered kernels",
             "one thickness per contact that is solved" if not same else "the film is as stiff as what it grows on",
             # closed forms where the grid is doubly periodic; elsewhere a quarter of the first one, as measured
-            seconds=0.0 if all(grid.periodic) else 0.25 * layered_kernel_seconds(grid.cells) * _CONTACTS,
-            memory=8.0 * padded_points(grid.shape, grid.periodic) / 4 + 16.0 * grid.cells * _CONTACTS,
+            seconds=0.0 if all(grid.periodic) else 0.25 * layered_kernel_seconds(grid.cells) * contacts,
+            memory=8.0 * padded_points(grid.shape, grid.periodic) / 4 + 16.0 * grid.cells * contacts,
         ),
         film_plans.of_ball(scene.oil_cells, wanted=scene.oil is not None),
-        plans.contacts(grid, _CONVOLUTIONS * _CONTACTS, f"about {_CONTACTS} for each film, from the last pressure"),
+        plans.contacts(grid, _CONVOLUTIONS * contacts, f"about {contacts} for each film, from the last pressure"),
         Step(
             "contacts at other times",
             f"growth follows thickness alone: it is interpolated to {scene.reuse_tolerance:g}",
@@ -94,9 +104,9 @@ def plan(scene: TribofilmScene) -> Plan:
             "surface temperature",
             "rubbing.speeds are not given"
             if scene.rubbing.speeds is None
-            else f"of each of about {_CONTACTS} contacts, by which each spot grows",
+            else f"of each of about {contacts} contacts, by which each spot grows",
             skipped=scene.rubbing.speeds is None,
-            transforms=60.0 * _CONTACTS,
+            transforms=60.0 * contacts,
             points=padded_points(grid.shape, grid.periodic),
         ),
         Step("tangential kernels", "shear stress is friction times pressure", skipped=True),
@@ -108,7 +118,7 @@ def plan(scene: TribofilmScene) -> Plan:
         plans.error_bars(
             scene.outputs.errors,
             "the film again under the contact on the grid of twice the cell",
-            **plans.coarser_contacts(grid, _CONVOLUTIONS * _CONTACTS, 2.0),
+            **plans.coarser_contacts(grid, _CONVOLUTIONS * contacts, 2.0),
         ),
         plans.figures(grid.cells),
     )
@@ -230,7 +240,7 @@ def _mean_film(scene: TribofilmScene, contact: FilmContact, times: FloatArray, c
         solved.append(sample)
         if len(solved) % _CHECKPOINT_EVERY == 0:
             keep(context, solved)
-        part = min(len(solved) / _CONTACTS, 0.95)
+        part = min(len(solved) / _planned_contacts(scene), 0.95)
         context.progress(round(1000 * part), 1000, "films", thickness_nm=1e9 * sample.thickness)
 
     tolerance, balance = scene.reuse_tolerance, asdict(scene.film.balance())
