@@ -189,7 +189,7 @@ def test_transforms_of_a_run_are_as_many_as_planned_within_a_factor_of_two(name)
     [
         ("rough-contact", ["lower.surface.skewness=2", "lower.surface.kurtosis=4.5"], "no distribution has"),
         ("rough-contact", ["lower.surface.cutoff_wavelength=1 nm"], "below two cells"),
-        ("wear-steel-steel", ["lower.surface.correlation_length=1 mm"], "half the grid"),
+        ("running-in-stribeck", ["lower.surface.correlation_length=1 mm"], "half the grid"),
         ("wear-steel-steel", ["upper.surface.cutoff_wavelength=60 nm"], "below two cells"),
         ("stribeck-mineral-oil", ["lower.surface.cutoff_wavelength=0.5 um"], "below two cells"),
         ("running-in-stribeck", ["lower.surface.cutoff_wavelength=1 nm"], "below two cells"),
