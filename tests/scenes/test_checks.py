@@ -99,7 +99,7 @@ def coated(depths):
 CASES = {
     "patch_sinks_at_given_separation": (
         (library()["asperities-given-film"], "sharing.separation"),
-        with_(library()["asperities-given-film"], sharing__separation="volume", sharing__oil_volume="loaded"),
+        with_(library()["asperities-given-film"], sharing__separation="volume", grid__periodic=[False, True]),
     ),
     "outside_usual_range": (  # every quantity: tests/test_plausibility.py
         (with_(BALL, lower__material=material(115.0)), '"115 GPa"'),

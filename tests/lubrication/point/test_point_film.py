@@ -207,12 +207,13 @@ def test_films_converge_with_second_order_and_their_errors_cover_them():
     # a quarter is what second order leaves
     assert abs(b - c) < 0.3 * abs(a - b)
     best = c + (c - b) / 3
-    assert abs(b - best) < films[1].central_thickness_error < 5e-3 * best
+    # half a per cent for the cells, and 0.4 % for the end of the grid, which the error counts besides
+    assert abs(b - best) < films[1].central_thickness_error < 9e-3 * best
     # the minimum's errors go up and down by where cells lie: 1.2901 are those of 384 and 512 a side
     least = RADIUS * (6 / (ALPHA * 2 * MODULUS)) ** 2 * 1.2901
     for film in films:
         assert film.minimum_thickness == pytest.approx(least, rel=2e-3)
-    assert abs(films[1].minimum_thickness - least) < films[1].minimum_thickness_error < 1e-2 * least
+    assert abs(films[1].minimum_thickness - least) < films[1].minimum_thickness_error < 1.4e-2 * least
 
 
 @pytest.mark.parametrize(
