@@ -169,7 +169,7 @@ def curve_names(arrays: Arrays) -> list[str]:
 
 
 def _says_something(values: Any) -> bool:
-    """Whether there is a number other than zero to draw."""
+    """Return True if any value to draw is a number other than zero."""
     numbers_of = np.asarray([np.nan if value is None else value for value in np.ravel(values)], dtype=np.float64)
     return bool(np.any(np.isfinite(numbers_of) & (numbers_of != 0)))
 

@@ -66,7 +66,7 @@ class OutputStream(io.RawIOBase):
 
 
 class _State:
-    """What this process knows of its standard output."""
+    """State of the standard output of this process: the stream, and whether the results lie in files."""
 
     output: OutputStream | None = None
     saved: bool = False
