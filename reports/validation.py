@@ -11,7 +11,7 @@ import math
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
-from reports import independent, neglects, patch_length
+from reports import independent, neglects, open_choices, patch_length
 from reports.builder import COLOURS, Page, Section, figure, table, text
 from reports.experiments import kept
 from reports.validation_lines import CHECKS, CHOICES, WITHOUT_LINE
@@ -130,6 +130,7 @@ def build() -> Page:
     for title, lines in tables.items():
         sections.append(Section(title, table(headers, lines) + figures_for(title)))
     sections.append(Section("Independent figures", independent.body()))
+    sections.append(Section("What the source leaves open in its wear loops", open_choices.body()))
     sections.append(Section("The area over which oil is counted", patch_length.body()))
     sections.append(Section("What the Stribeck curves leave out", neglects.body()))
     sections.append(Section("Statements without a line", table(("paper", "statement", "why"), WITHOUT_LINE)))

@@ -156,6 +156,10 @@ RULES: dict[str, Rule] = {
         lambda s: ", ".join(f"{d:+.1f}" for d in differences(s, "34 um")),
         lambda s: min(differences(s, "34 um")) > 0,
     ),
+    "largest_difference_near_1_gpa": Rule(
+        lambda s: f"{max(differences(s, '34 um')):.1f}",
+        lambda s: 31.5 <= max(differences(s, "34 um")) < 32.5,
+    ),
     "speed_of_the_largest_difference": Rule(
         lambda s: ", ".join(f"{v:.2g}" for v in _largest_difference_speeds(s).values()),
         lambda s: math.isclose(_largest_difference_speeds(s)[0.8], min(s["speed_m_s"], key=lambda v: abs(v - 0.1))),
