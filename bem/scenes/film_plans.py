@@ -19,14 +19,25 @@ _HELD = 1e4
 """Bytes a node of a line film's weights and of its equations taken apart, 500 to 8000 nodes."""
 
 
-def of_curve(speeds: int, points: int, cells: int | None) -> Step:
-    """Films of a curve of so many speeds, of a cylinder on so many points or of a ball on so many cells along an axis:
-    a ball's films take longer, and have no start."""
+_LIGHT_PRESSURE = 0.15e9
+"""Hertz pressure [Pa] beyond which the cost of a line film grows in proportion to the pressure."""
+
+
+def of_curve(speeds: int, points: int, cells: int | None, hertz_pressure: float) -> Step:
+    """Return the step of the films of a curve.
+
+    Parameters
+    ----------
+    speeds : number of speeds.
+    points : nodes of a cylinder's film.
+    cells : cells along an axis of a ball's film; None for a cylinder.
+    hertz_pressure : highest pressure of the smooth contact [Pa].
+    """
     what = f"for each of {speeds} speeds of a curve, most of them on "
     if cells is None:
-        seconds = speeds * (0.02 + 1.7e-5 * points)
+        seconds = speeds * (0.02 + 1.7e-5 * points) * max(1.0, hertz_pressure / _LIGHT_PRESSURE)
         return Step("films", f"about 5 {what}a coarser mesh", seconds=seconds, memory=_HELD * points)
-    seconds = speeds * (0.05 + 4.5e-5 * cells**2)  # measured: 8 speeds on 80 and on 128 cells
+    seconds = speeds * (0.05 + 6e-5 * cells**2)  # measured: 8 speeds on 80 and on 128 cells
     return Step(
         "films",
         f"about 5 for each of {speeds} speeds of a curve, some of them on fewer cells",

@@ -54,7 +54,7 @@ def surfaces(grid: Grid, lower: build.AnySurface, upper: build.AnySurface, *, as
         # measured at 2048 cells: 7.6 fields of a Gaussian surface, 8.6 of another, beside the other body's heights
         memory=8.0 * grid.cells * (7.0 + len(rough) + (iterated > 0)),
         kept=8.0 * grid.cells * (1 + (0 if on_disk else len(rough))),
-        seconds=0.3,
+        seconds=0.05,
     )
 
 
@@ -139,7 +139,7 @@ def contact(grid: Grid, why: str, *, capped: bool = False, stiffness: float = 1.
         memory=_LIBRARIES + 8.0 * grid.cells * 6.0 + 12.0 * points,
         # pressure, displacement and gap, the overlap at the hardness; what stores of transforms and spectra may hold
         kept=_LIBRARIES + 8.0 * grid.cells * (3.2 + capped) + min(8.0 * points, 2 * DEFAULT_LIMIT),
-        seconds=0.2,
+        seconds=0.05,
         precision=SEARCHED_IN_SINGLE,
     )
 
@@ -189,7 +189,7 @@ def stresses(grid: Grid, body: Body | None, name: str, depths: int, *, fields: i
         points=points,
         memory=held + spectra + 8 * 8.0 * points,
         kept=held + spectra,
-        seconds=0.5,
+        seconds=0.1,
         precision="" if periodic else PACKED_SPECTRA,
     )
 
@@ -223,14 +223,14 @@ def coarser_contacts(grid: Grid, convolutions: float, each: float) -> dict[str, 
 
 
 def flow_factors(grid: Grid, separations: int, *, wanted: bool) -> Step:
-    """A table of flow factors: some 30 iterations of three problems a separation, 1.5e-7 s a cell each: measured."""
+    """A table of flow factors: some 30 iterations of three problems a separation, 8e-8 s a cell each: measured."""
     return Step(
         "flow factors",
         f"of the surfaces at {separations} separations, once for all speeds"
         if wanted
         else "walls are smooth to the film",
         skipped=not wanted,
-        seconds=separations * (0.3 + 1.5e-5 * grid.cells),
+        seconds=separations * (0.15 + 8e-6 * grid.cells),
         memory=600.0 * grid.cells,
     )
 
@@ -238,11 +238,11 @@ def flow_factors(grid: Grid, separations: int, *, wanted: bool) -> Step:
 def vtk(wanted: bool) -> Step:
     """The file for ParaView."""
     why = "stress field for ParaView" if wanted else "no stress field to write"
-    return Step("VTK", why, skipped=not wanted, seconds=1.0, memory=1e8, kept=0.0)
+    return Step("VTK", why, skipped=not wanted, seconds=0.2, memory=1e8, kept=0.0)
 
 
 def figures(cells: int = 0, fields: float = 6.0) -> Step:
     """Pictures and the report, with maps of so many cells, for which they hold so many fields; processor time measured
     on scenes of 100 to 1500 cells a side, with and without stresses."""
     why = "pictures of the results, and the libraries for them"
-    return Step("figures and report", why, per="run", seconds=1.6 + 2e-6 * cells, memory=2.2e8 + 8.0 * cells * fields)
+    return Step("figures and report", why, per="run", seconds=1.0 + 2e-6 * cells, memory=2.2e8 + 8.0 * cells * fields)

@@ -19,6 +19,8 @@ if TYPE_CHECKING:
 
 _TRANSFORMS = 3 * 6.0 * 22
 """Of a cycle: three steps as those of kind partial-slip."""
+_RUBBING_CYCLE = 0.015
+"""Processor time of the slip solver besides its transforms in one cycle [s]."""
 FRICTION_SLIDES = (
     "the bodies slide at the speeds given, and friction and film are those of gross sliding; partial slip is in the "
     "stresses below the surface and in what wears"
@@ -64,6 +66,7 @@ def rubbing_step(law: TractionLaw, grid: Grid, cycles: int) -> Step:
         else f"{law.name}: a push, back and forth again in each of {cycles} cycles",
         skipped=law.slides,
         transforms=_TRANSFORMS * cycles,
+        seconds=_RUBBING_CYCLE * cycles,
         points=padded_points(grid.shape, grid.periodic),
         memory=8.0 * grid.cells * 60,
     )

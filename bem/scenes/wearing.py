@@ -117,7 +117,7 @@ def cycle_steps(
             memory=8.0 * (points / 4 * 12 * deepest + grid.cells * (deepest + 8)),
             precision="" if all(grid.periodic) else PACKED_SPECTRA,
         ),
-        Step("pieces", "runs of yielded voxels along depth", seconds=0.004 * cycles, memory=8.0 * grid.cells * 8)
+        Step("pieces", "runs of yielded voxels along depth", seconds=0.006 * cycles, memory=8.0 * grid.cells * 8)
         if scene.wear.criterion.needs_strength
         else Step("pieces", "the criterion wears by pressure and distance, without any", skipped=True),
     )

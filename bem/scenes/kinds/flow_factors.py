@@ -66,11 +66,11 @@ def plan(scene: FlowFactorsScene) -> Plan:
             name="contacts",
             skipped=not pressed,
         ),
-        # measured: some 30 iterations of each problem, 1.5e-7 s a cell and iteration
+        # measured: some 30 iterations of each problem, 7e-8 s a cell and iteration
         Step(
             "flow",
             f"three cell problems at each of {count} separations",
-            seconds=(1.25 if flow.errors else 1.0) * count * 1.5e-5 * grid.cells,
+            seconds=(1.25 if flow.errors else 1.0) * count * 7e-6 * grid.cells,
             memory=600.0 * grid.cells,
         ),
         plans.figures(),

@@ -73,7 +73,13 @@ def plan(scene: FrictionScene) -> Plan:
     """
     grid, speeds, coupled = scene.check(scene.film), len(scene.speeds.build()), scene.coupled
     heat, cells = film_plans.heat(scene.thermal, speeds, grid.cells), scene.film.cells
-    films = film_plans.of_curve(speeds, scene.film.points, None if scene.contact.point_radii is None else cells)
+    smooth = scene.smooth_contact()
+    films = film_plans.of_curve(
+        speeds,
+        scene.film.points,
+        None if scene.contact.point_radii is None else cells,
+        smooth.maximum_pressure if smooth is not None else 0.0,
+    )
     again = _FILMS_AGAIN if scene.contact.point_radii is None else _BALL_FILMS_AGAIN
     return Plan.of(
         plans.surfaces(grid, scene.lower.surface, scene.upper.surface),

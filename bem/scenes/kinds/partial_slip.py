@@ -65,7 +65,7 @@ def plan(scene: PartialSlipScene) -> Plan:
                 points=points,
                 memory=8.0 * points * 6 + 8.0 * grid.cells * 40,
                 kept=8.0 * grid.cells * 10,
-                seconds=0.2,
+                seconds=0.05 + 0.04 * count,
                 precision=SEARCHED_IN_SINGLE if answers(scene) else "",
             ),
             Step(

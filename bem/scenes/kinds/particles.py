@@ -44,11 +44,16 @@ def plan(scene: ParticlesScene) -> Plan:
     number = "wear volume by Archard over the mean particle volume" if scene.archard else "no wear rate is given"
     spun = "Stokes in the centrifuge" if scene.sedimentation else "no centrifuge is given"
     return Plan.of(
-        Step("map", "read from its file" if scene.synthetic is None else "made up", seconds=2.0, memory=24 * cells),
-        Step("particles", "level the plate, threshold, label", seconds=3.0, memory=40 * cells),
+        Step(
+            "map",
+            "read from its file" if scene.synthetic is None else "made up",
+            seconds=2e-7 * cells,
+            memory=24 * cells,
+        ),
+        Step("particles", "level the plate, threshold, label", seconds=4e-7 * cells, memory=40 * cells),
         Step("number of particles", number, skipped=scene.archard is None),
         Step("sedimentation", spun, skipped=scene.sedimentation is None),
-        plans.error_bars(scene.outputs.errors, "the map at every second pixel", seconds=3.0),
+        plans.error_bars(scene.outputs.errors, "the map at every second pixel", seconds=1.5e-7 * cells),
         Step("contact and stresses", "the particles are measured, not computed", skipped=True),
         plans.figures(int(cells)),
     )

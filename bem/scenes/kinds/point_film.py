@@ -71,7 +71,7 @@ def plan(scene: PointFilmScene) -> Plan:
     """What will be computed."""
     (nx, ny), errors = scene.film.cells, scene.outputs.errors
     # counted: 60 to 300 cycles and as many convolutions, weighed by cells
-    seconds = 4e-5 * nx * ny * (1.0 if scene.supply is None else 2.0)
+    seconds = 2.5e-5 * nx * ny * (1.0 if scene.supply is None else 2.0)
     supplied = "" if scene.supply is None else ", flooded and then with its supply"
     rough = scene.patch is not None
     touching = "" if not rough else ", its surfaces touching where it is the least"

@@ -83,12 +83,12 @@ def plan(scene: PointFilmTimeScene) -> Plan:
     """What will be computed."""
     (nx, ny), steps, errors = scene.film.cells, scene.march.steps, scene.outputs.errors
     # counted: 3 to 5 Newton steps of 4 to 8 cycles each
-    seconds = steps * (0.05 + 2e-5 * nx * ny)
+    seconds = steps * (0.02 + 9e-6 * nx * ny)
     return Plan.of(
         Step("rough contact", "the film carries all of the load", skipped=True),
         Step("film in time", f"{steps} steps on {nx} x {ny} cells, each by Newton's method with multigrid",
              seconds=seconds, memory=(1200.0 + 40 * steps) * nx * ny),
-        plans.error_bars(errors, "marches on half the cells, and of steps twice as long", seconds=0.4 * seconds),
+        plans.error_bars(errors, "marches on half the cells, and of steps twice as long", seconds=1.2 * seconds),
         plans.figures(nx * ny),
     )  # fmt: skip
 

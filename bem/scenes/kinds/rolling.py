@@ -47,7 +47,7 @@ def plan(scene: RollingContactScene) -> Plan:
                 # directions that GMRES keeps, on the cells in contact
                 memory=8.0 * points * 6 + 8.0 * grid.cells * 2 * 62,
                 kept=8.0 * grid.cells * 10,
-                seconds=0.2,
+                seconds=0.05,
             ),
         )
 

@@ -98,6 +98,8 @@ def plan(scene: RunningInLifeScene) -> Plan:
         scene.particles.build(grid, scene.bodies, scene.contact.hardness, lives.on_grid(scene))
     decades = max(np.log2(max(life.count / life.first_step, 2.0)) / 20, 0.1)
     passes = 3 * scene.wear.positions * _JUMPS * decades * max(0.05 / life.tolerance, 0.5)
+    # stresses and damage of both bodies at each depth, by cells
+    fatigue = 0.0 if scene.fatigue is None else 1.2e-6 * grid.cells * scene.fatigue.depths.count * passes
     return Plan.of(
         plans.surfaces(grid, scene.lower.surface, scene.upper.surface),
         film_plans.tables(scene.sharing.film_points, "passes"),
@@ -115,7 +117,7 @@ def plan(scene: RunningInLifeScene) -> Plan:
             "fatigue",
             "stresses of every position after each jump",
             skipped=scene.fatigue is None,
-            seconds=0.02 * passes,
+            seconds=fatigue,
         ),
         Step(
             "pieces",
@@ -129,7 +131,7 @@ def plan(scene: RunningInLifeScene) -> Plan:
             skipped=not life.coarser_lives,
             kept=0.0,
             transforms=3.0 * _CONVOLUTIONS * passes,
-            seconds=1.5 * _SECONDS * passes,
+            seconds=1.5 * _SECONDS * passes + 0.6 * fatigue,
             points=padded_points(grid.shape, grid.periodic) // 4,
         ),
         plans.figures(grid.cells),

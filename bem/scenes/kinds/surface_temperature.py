@@ -50,7 +50,7 @@ def plan(scene: SurfaceTemperatureScene) -> Plan:
             points=points,
             memory=8.0 * points * 8 + 8.0 * grid.cells * 30,
             kept=8.0 * grid.cells * 8,
-            seconds=0.5,
+            seconds=0.1,
         ),
         plans.figures(grid.cells),
     )

@@ -93,8 +93,8 @@ def plan(scene: TractionScene) -> Plan:
     """What will be computed."""
     points, hot, errors = scene.film.points, scene.thermal != "off", scene.outputs.errors
     starved = scene.supply is not None
-    heat = {"off": 0.0, "lumped": 0.3, "full": 0.8 + 1e-3 * points}[scene.thermal]
-    seconds = 0.15 + 1e-4 * points + (0.3 if starved else 0.0)
+    heat = {"off": 0.0, "lumped": 0.05, "full": 0.4 + 5e-4 * points}[scene.thermal]
+    seconds = 0.04 + 4e-5 * points + (0.15 if starved else 0.0)
     return Plan(
         (
             Step("rough contact", "the surfaces are smooth, the film carries all of the load", skipped=True),
