@@ -57,7 +57,7 @@ def body() -> str:
         + table(
             ("item", "scene", "source", "as built in", "moving disk", "skin 0"),
             lines(),
-            caption="Lines of the tables above under other choices; a dash where the choice was not run.",
+            caption="Lines of the tables above under other choices, two repetitions; a dash: not run.",
         )
     )
 
