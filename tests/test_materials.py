@@ -1,8 +1,22 @@
 """Materials, layers and bodies refuse what they cannot be made of."""
 
+import math
+
+import numpy as np
 import pytest
 
-from bem import CATALOGUE, Body, Grid, InputError, Layer, Material, contact_modulus, dundurs_beta
+from bem import (
+    CATALOGUE,
+    Body,
+    Grid,
+    InputError,
+    Layer,
+    Material,
+    contact_modulus,
+    dundurs_beta,
+    plan_scene,
+    surface_temperature,
+)
 from bem.materials import softer_hardness
 
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
@@ -78,6 +92,30 @@ def test_thermal_constants_of_the_catalogue_are_those_of_solids(name):
     assert "heat: " in entry.source
     assert 1e6 < solid.density * solid.heat_capacity < 4e6
     assert 0.1 < solid.thermal_conductivity < 500
+
+
+NO_METAL = {
+    *("tribofilm", "dlc", "glass", "ptfe", "pom", "pa66", "peek"),
+    *("silicon-nitride", "alumina", "tungsten-carbide", "zirconia", "silicon-carbide"),
+}
+
+
+@pytest.mark.parametrize("name", sorted(set(CATALOGUE) - NO_METAL))
+def test_every_metal_of_the_catalogue_can_be_heated(name):
+    """At high speed heat goes straight in, and a metal and steel share it as their effusivities (Carslaw and Jaeger)."""
+    scene = {
+        "kind": "surface-temperature", "lower": {"material": name}, "upper": {"material": "steel-52100"},
+        "grid": {"shape": 16, "lengths": "400 um"}, "shape": {"kind": "sphere", "radius": "10 mm"},
+        "contact": {"load": "5 N", "friction": 0.1}, "heat": {"lower_speed": "2 m/s", "upper_speed": "1 m/s"},
+    }  # fmt: skip
+    plan_scene(scene)
+    pair = (CATALOGUE[name].material, CATALOGUE["steel-52100"].material)
+    grid = Grid((32, 32), (10e-6, 10e-6))
+    heat = np.zeros(grid.shape)
+    heat[8:24, 8:24] = 1e8
+    found = surface_temperature(heat, grid, [Body(one) for one in pair], speeds=(1e3, 1e3))
+    metal, steel = (math.sqrt(one.thermal_conductivity * one.density * one.heat_capacity) for one in pair)
+    assert found.partition[8:24, 8:24].mean() == pytest.approx(metal / (metal + steel), rel=0.01)
 
 
 def test_what_touches_carries_its_hardness_or_that_of_its_yield_stress():
