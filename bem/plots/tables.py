@@ -63,8 +63,11 @@ _LABELS = {
     "upper_Sq_final": "Sq of the upper surface, final",
     "upper_worn_depth": "worn depth of the upper surface",
     "combined_Sq": "Sq of both surfaces",
+    "lambda_ratio": "lambda ratio (film under the whole load)",
+    "lambda_ratio_initial": "lambda ratio (film under the whole load), initial",
+    "lambda_ratio_mixed": "lambda ratio (film beside contact)",
 }
-"""Labels that say the region of a figure, by its name without the unit."""
+"""Labels that say the region or the definition of a figure, by its name without the unit."""
 
 
 def is_second_name(name: str, among: Mapping[str, Any]) -> bool:

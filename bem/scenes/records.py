@@ -135,6 +135,11 @@ class Series:
     rows: bool = False
 
 
+LAMBDA_WHOLE = "lambda ratio: minimum film under the whole load, over Sq of both surfaces"
+LAMBDA_MIXED = "lambda ratio: minimum film under its part of the load, beside contact, over Sq of both surfaces"
+"""The two lambda ratios. Where film and contact share the load, the film that carries its part alone is thicker than
+that of a smooth contact under the whole load; where the film carries all of it, the two are one."""
+
 grid_map = partial(Series, ("x", "y"))
 """A map over the cells of a grid: `grid_map("Pa", "contact pressure", of="last")`."""
 

@@ -141,6 +141,11 @@ class MixedContact:
         """The film under the whole load."""
         return self.table.under(self.table.largest_load)
 
+    @property
+    def roughness_over_cycles(self) -> FloatArray:
+        """Rms height (cycles,) of the surfaces in each cycle [m]: what the lambda ratio divides by."""
+        return np.asarray(self._whole.minimum_thickness / self.rows["lambda_ratio"])
+
     def bearing(self, particles: ThirdBodies, slide: float) -> BearingContact:
         """This contact with particles between its surfaces, while the bodies slide so far in a cycle [m]; the contact
         itself stays without.

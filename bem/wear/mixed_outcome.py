@@ -5,6 +5,7 @@ Knows the load sharing of its cycles (`wear.mixed`); no scene. Verified in tests
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
@@ -20,6 +21,7 @@ from bem.wear.mixed import MixedContact
 class RunIn:
     """Initial: of the first cycle; the others are means of the last cycles. Forces on the whole width [N].
 
+    lambda_ratio of the film under the whole load, lambda_ratio_mixed of that under its part, both over Sq;
     friction and its boundary and film parts; temperatures of the surfaces in contact [K], 0 without heat;
     contact_share (cycles,) of the load; over the patch (nx,) in the last cycle: film thickness [m], film pressure [Pa],
     separation of the mean planes [m].
@@ -34,6 +36,7 @@ class RunIn:
     film_load: float
     minimum_film: float
     lambda_ratio: float
+    lambda_ratio_mixed: float
     contact_area_fraction: float
     contact_temperature: float
     flash_temperature: float
@@ -56,6 +59,7 @@ def run_in(step: MixedContact, cycles: NDArray[np.void], averaged: int) -> RunIn
         contact_load_initial=float(rows["contact_load"][0]),
         boundary_friction_part=mean.pop("boundary_force") / setup.load,
         film_friction_part=mean.pop("film_force") / setup.load,
+        lambda_ratio_mixed=_beside_contact(step, averaged),
         contact_area_fraction=float(cycles["contact_area"][-averaged:].mean() / setup.grid.area),
         evaluations_per_cycle=float(rows["evaluations"].mean()),
         contact_share=rows["contact_load"] / setup.load,
@@ -64,6 +68,12 @@ def run_in(step: MixedContact, cycles: NDArray[np.void], averaged: int) -> RunIn
         separation=separation,
         **mean,
     )
+
+
+def _beside_contact(step: MixedContact, averaged: int) -> float:
+    """Mean lambda ratio of the film that carries its part of the load, over the last cycles."""
+    film, rms = step.rows["minimum_film"][-averaged:], step.roughness_over_cycles[-averaged:]
+    return float(np.mean(film / rms)) if (rms > 0).all() else math.inf
 
 
 _MEANS = (

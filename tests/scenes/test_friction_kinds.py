@@ -21,6 +21,7 @@ from bem.friction.smooth import LineContact
 from bem.grid import Grid
 from bem.lubrication import Lubricant
 from bem.materials import CATALOGUE, Body
+from bem.plots.tables import figure_tables
 from bem.runs import plan_scene
 from bem.scenes.context import notes_over
 from bem.surfaces import generate_surface
@@ -73,6 +74,22 @@ def test_friction_keys_and_limits(friction):
     assert 0.1 < summary["friction"][0] < 0.15  # near, and below, the boundary friction
     # forces balance to the tolerance of the sharing, 1e-4
     np.testing.assert_allclose(np.add(summary["contact_load_N"], summary["film_load_N"]), 5.5, rtol=1e-4)
+
+
+def test_both_lambda_ratios_stand_under_their_own_keys(friction):
+    """That of the film under the whole load, and that of the film beside contact, which is its minimum over Sq."""
+    summary = friction.summary
+    mixed, whole = summary["lambda_ratio_mixed"], summary["lambda_ratio"]
+    np.testing.assert_allclose(np.multiply(mixed, summary["Sq_nm"]), summary["minimum_film_nm"], rtol=1e-12)
+    assert mixed[0] > 1.5 * whole[0]  # a film that carries a part of the load is thicker
+    assert mixed[1] == pytest.approx(whole[1], rel=1e-9)  # in full film it carries all
+    assert "whole load" in friction.variables["lambda_ratio"].description
+    assert "part of the load" in friction.variables["lambda_ratio_mixed"].description
+    heads = [head for table in figure_tables(summary, ["lambda_ratio", "lambda_ratio_mixed"]) for head in table.head]
+    assert [head for head in heads if "lambda" in head] == [
+        "lambda ratio (film under the whole load)",
+        "lambda ratio (film beside contact)",
+    ]
 
 
 def test_friction_parts_add_up(friction):
@@ -463,3 +480,6 @@ def test_boundary_lubrication_is_said_and_lambda_ratio_is_one_in_both_kinds():
         assert any("boundary lubrication" in note for note in context.notes)
     # the first cycle's surfaces are unworn; both films are solved on 200 nodes
     assert cycles.summary["lambda_ratio"][0] == pytest.approx(sharing.summary["lambda_ratio"][0], rel=1e-6)
+    for summary in (sharing.summary, cycles.summary):
+        film = summary["lambda_ratio_mixed"][0] * sharing.summary["Sq_nm"]
+        assert film == pytest.approx(summary["minimum_film_nm"][0], rel=1e-6)

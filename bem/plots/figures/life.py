@@ -63,7 +63,7 @@ def _film(run: Any, figure: Figure) -> None:
     axes.set_ylim(0)
     other = axes.twinx()
     other.plot(cycle, data["lambda_over_cycles"].values, "--", color=VERMILION)
-    other.set_ylabel("film over roughness, Λ", color=VERMILION)
+    other.set_ylabel("lambda ratio, of the film\nunder the whole load", color=VERMILION)
     other.set_ylim(0)
     axes.legend(loc="center left")
 

@@ -5,6 +5,7 @@ A case is one curve: one load, one surface, one contact model; each speed starts
 
 from __future__ import annotations
 
+import math
 from collections.abc import Collection, Mapping, Sequence
 from dataclasses import asdict, dataclass, fields
 from functools import partial
@@ -23,7 +24,7 @@ from bem.scenes.kind import Kind
 from bem.scenes.lubrication import in_words_of_the_scene, notes_of_balance
 from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step
-from bem.scenes.records import Figure, Record, Series, columns, filled, mean, spread
+from bem.scenes.records import LAMBDA_MIXED, LAMBDA_WHOLE, Figure, Record, Series, columns, filled, mean, spread
 from bem.scenes.resolutions import CELLS, counted, of_either
 from bem.scenes.tables.sharing import BAR_OF_HEAT, BASELINE, CurveScene, SurfaceVariant
 
@@ -127,7 +128,8 @@ class CurveRecord(Record):
     contact_load: Annotated[FloatArray, _curve("N", "load carried by contact", headline=True, part_of=_LOADS)]
     film_load: Annotated[FloatArray, _curve("N", "load carried by the film", headline=True, part_of=_LOADS)]
     minimum_film: Annotated[FloatArray, _curve("nm", "minimum film thickness", headline=True)]
-    lambda_ratio: Annotated[FloatArray, _curve("", "film under the whole load over roughness", headline=True)]
+    lambda_ratio: Annotated[FloatArray, _curve("", LAMBDA_WHOLE, headline=True)]
+    lambda_ratio_mixed: Annotated[FloatArray, _curve("", LAMBDA_MIXED)]
     contact_area_fraction: Annotated[FloatArray, _curve("", "real contact area over patch")]
     film_solves: Annotated[FloatArray, _curve("", "films solved", unjudged=True)]
     contact_solves: Annotated[FloatArray, _curve("", "rough contacts solved", unjudged=True)]
@@ -249,11 +251,17 @@ def _record(
     not_columns = (*left_out, "oil_on_contact", "oil_volume", "notes")
     names = [item.name for item in fields(curve.points[0]) if item.name not in not_columns]
     bad = [one for one in curve.points if one.status is not Status.CONVERGED]
+    rows, rms = columns(curve.points, names), float(height.std())
+    to_ratio = 1 / rms if rms > 0 else math.inf
+    for each in (bars, *parts.values()):
+        if "minimum_film" in each:
+            each["lambda_ratio_mixed"] = to_ratio * each["minimum_film"]
     return filled(
         CurveRecord,
-        columns(curve.points, names),
+        rows,
         grid,
-        rms_height=float(height.std()),
+        lambda_ratio_mixed=to_ratio * rows["minimum_film"],
+        rms_height=rms,
         shown_speed=np.array(shown.speeds[0]),
         height=height,
         displacement=getattr(shown.contact, "displacement", np.zeros(grid.shape)),

@@ -21,7 +21,7 @@ from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.kind import Kind
 from bem.scenes.oil import OilScene
 from bem.scenes.planner import Plan, Step
-from bem.scenes.records import Figure, Record, Series, filled
+from bem.scenes.records import LAMBDA_WHOLE, Figure, Record, Series, filled
 from bem.scenes.resolutions import Resolution
 from bem.scenes.tables.ball import BallRollingScene, BallScene, FilmCellsScene
 from bem.scenes.tables.passing import PatchScene
@@ -115,9 +115,7 @@ class PointFilmRecord(Record):
     maximum_pressure: Annotated[float, Figure("Pa", "highest pressure", headline=True, no_bar=_SPIKE)]
     traction_coefficient: Annotated[float, Figure("", "friction force of sliding over load", headline=True)]
     friction_power: Annotated[float, Figure("W", "power of sliding")]
-    lambda_ratio: Annotated[float | None, Figure("", "minimum film over roughness", optional=True, headline=True)] = (
-        None
-    )
+    lambda_ratio: Annotated[float | None, Figure("", LAMBDA_WHOLE, optional=True, headline=True)] = None
     film_reduction: Annotated[float | None, _of_supply("", "central film over that of a flooded inlet")] = None
     oil_layer: Annotated[float | None, _of_supply("nm", "oil that goes through the middle, as a layer")] = None
     flooded_layer: Annotated[float | None, _of_supply("nm", "the same of a flooded contact")] = None

@@ -23,7 +23,7 @@ from bem.scenes.kind import Kind
 from bem.scenes.lubrication import notes_of_balance
 from bem.scenes.packing import packed, unpacked
 from bem.scenes.planner import Plan, Step
-from bem.scenes.records import Figure, GridRecord, Series, filled, without_bars
+from bem.scenes.records import LAMBDA_MIXED, LAMBDA_WHOLE, Figure, GridRecord, Series, filled, without_bars
 from bem.scenes.resolutions import CELLS, of_loop
 from bem.scenes.rubbing import FRICTION_SLIDES
 from bem.scenes.tables.sharing import TEMPERATURES, OneLoadScene, RunningInCycles, RunningInSharing
@@ -114,7 +114,8 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
 
     scatters: ClassVar[tuple[str, ...]] = (
         *("friction_initial", "friction_run_in", "friction", "boundary_friction_part", "film_friction_part"),
-        *("Sq_initial", "Sq_final", "worn_depth", "contact_load_initial", "contact_load", "film_load", "lambda_ratio"),
+        *("Sq_initial", "Sq_final", "worn_depth", "contact_load_initial", "contact_load", "film_load"),
+        *("lambda_ratio", "lambda_ratio_mixed"),
         *("minimum_film", "contact_area_fraction", "criterion_wear_rate", *TEMPERATURES),
     )
     friction_initial: Annotated[float, Figure("", "friction in the first cycle", headline=True)]
@@ -126,7 +127,8 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
     Sq_final: Annotated[float, Figure("nm", "Sq in the contact region (Hertz' contact), run in", headline=True)]
     contact_load: Annotated[float, Figure("N", "load carried by contact, run in", headline=True)]
     film_load: Annotated[float, Figure("N", "load carried by the film, run in", headline=True)]
-    lambda_ratio: Annotated[float, Figure("", "film under the whole load over roughness, run in", headline=True)]
+    lambda_ratio: Annotated[float, Figure("", f"{LAMBDA_WHOLE}, run in", headline=True)]
+    lambda_ratio_mixed: Annotated[float, Figure("", f"{LAMBDA_MIXED}, run in")]
     friction: Annotated[float, Figure("", "friction, mean of the last cycles")]
     boundary_friction_part: Annotated[float, Figure("", "boundary part of the run-in friction")]
     film_friction_part: Annotated[float, Figure("", "film part of the run-in friction")]
@@ -211,6 +213,9 @@ def bars(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], found: R
     coarse, finer_points = (None if one is None else figures(one) for one in (there, finer_film))
     bars = running_in_bars(figures(found), coarse, finer_points, full_heat=scene.thermal == "full")
     bars = wearing.with_least_area(bars, found, scene.contact.hardness)
+    if found.minimum_film > 0:
+        to_ratio = found.lambda_ratio_mixed / found.minimum_film
+        bars |= bars.renamed({"minimum_film": "lambda_ratio_mixed"}, lambda error: to_ratio * error)
     return bars if there is None else bars | _of_heights(scene, found)
 
 

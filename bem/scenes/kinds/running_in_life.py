@@ -22,7 +22,7 @@ from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.kind import Kind
 from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step, padded_points
-from bem.scenes.records import Figure, GridRecord, Series, filled, grid_map
+from bem.scenes.records import LAMBDA_WHOLE, Figure, GridRecord, Series, filled, grid_map
 from bem.scenes.tables.film_defect import film_defect
 from bem.scenes.tables.life import LifeCycles, LifeFatigue, LifeFilm, LifeParticles, LifeWear
 from bem.scenes.tables.sharing import TEMPERATURES, OneLoadScene, RunningInSharing, heated
@@ -162,8 +162,8 @@ class RunningInLifeRecord(GridRecord):
     upper_Sq_initial: Annotated[float, Figure("nm", "Sq of the whole upper surface, unworn")]
     upper_Sq_final: Annotated[float, Figure("nm", "Sq of the whole upper surface at the end")]
     upper_worn_depth: Annotated[float, Figure("nm", "mean depth worn of the whole upper surface")]
-    lambda_ratio_initial: Annotated[float, Figure("", "film over roughness, unworn")]
-    lambda_ratio: Annotated[float, Figure("", "film under the whole load over roughness, at the end", headline=True)]
+    lambda_ratio_initial: Annotated[float, Figure("", f"{LAMBDA_WHOLE}, unworn")]
+    lambda_ratio: Annotated[float, Figure("", f"{LAMBDA_WHOLE}, at the end", headline=True)]
     contact_share_initial: Annotated[float, Figure("", "share of the load on contact, unworn")]
     contact_share_final: Annotated[float, Figure("", "share of the load on contact, at the end")]
     contact_area_fraction: Annotated[float, Figure("", "real contact area over the patch, at the end")]
@@ -200,7 +200,7 @@ class RunningInLifeRecord(GridRecord):
     boundary_friction_over_cycles: Annotated[FloatArray, _over("1", "boundary part of the friction")]
     contact_share: Annotated[FloatArray, _over("1", "share of the load carried by contact")]
     minimum_film_over_cycles: Annotated[FloatArray, _over("m", "minimum film thickness")]
-    lambda_over_cycles: Annotated[FloatArray, _over("1", "film over roughness")]
+    lambda_over_cycles: Annotated[FloatArray, _over("1", LAMBDA_WHOLE)]
     lower_rms_over_cycles: Annotated[FloatArray, _over("m", "Sq of the lower surface, its film on it")]
     upper_rms_over_cycles: Annotated[FloatArray, _over("m", "Sq of the upper surface")]
     lower_depth_over_cycles: Annotated[FloatArray, _over("m", "mean depth worn of the lower surface")]

@@ -21,7 +21,7 @@ from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.kind import Kind
 from bem.scenes.oil import OilScene
 from bem.scenes.planner import Plan, Step
-from bem.scenes.records import Figure, Record, Series, filled
+from bem.scenes.records import LAMBDA_WHOLE, Figure, Record, Series, filled
 from bem.scenes.resolutions import counted
 from bem.scenes.tables.along import AlongScene, with_first_row
 from bem.scenes.tables.heat import check_film_heat, check_supply_of_heat
@@ -159,9 +159,7 @@ class TractionRecord(Record):
     hottest_oil: Annotated[float | None, Figure("C", "oil at its hottest", no_bar=_HOTTEST, optional=True)] = None
     friction_power: Annotated[float, Figure("W", "power of friction", headline=True)]
     hertz_pressure: Annotated[float, Figure("Pa", "highest pressure of the dry contact", unjudged=True)]
-    lambda_ratio: Annotated[float | None, Figure("", "minimum film over roughness", optional=True, headline=True)] = (
-        None
-    )
+    lambda_ratio: Annotated[float | None, Figure("", LAMBDA_WHOLE, optional=True, headline=True)] = None
     share_of_lower: Annotated[float | None, Figure("", "share of it that enters the lower body")] = None
     share_of_upper: Annotated[float | None, Figure("", "share that enters the upper body")] = None
     share_of_oil: Annotated[float | None, Figure("", "share that the oil carries on")] = None

@@ -5,6 +5,7 @@ A case is one film: one load, one temperature, one variant, one pair of surfaces
 
 from __future__ import annotations
 
+import math
 from dataclasses import asdict, dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any, Literal
@@ -22,7 +23,7 @@ from bem.scenes.kind import Kind
 from bem.scenes.lubrication import notes_of_balance
 from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step, layered_kernel_seconds, padded_points
-from bem.scenes.records import Figure, GridRecord, Series, columns, filled, grid_map
+from bem.scenes.records import LAMBDA_MIXED, LAMBDA_WHOLE, Figure, GridRecord, Series, columns, filled, grid_map
 from bem.scenes.resolutions import CELLS, tolerance_at
 from bem.scenes.tables.tribofilm import RubbedScene, VariantScene
 from bem.scenes.units import Ratio
@@ -155,7 +156,8 @@ class FilmRecord(GridRecord):
     contact_load: Annotated[float | None, _of_oil("N", "load carried by the surfaces", headline=True)]
     oil_film_load: Annotated[float | None, _of_oil("N", "load carried by the oil film", headline=True)]
     minimum_oil_film: Annotated[float | None, _of_oil("nm", "minimum oil film thickness")]
-    lambda_ratio: Annotated[float | None, _of_oil("", "oil film under the whole load over roughness")]
+    lambda_ratio: Annotated[float | None, _of_oil("", LAMBDA_WHOLE)]
+    lambda_ratio_mixed: Annotated[float | None, _of_oil("", LAMBDA_MIXED)]
     contacts_solved: Annotated[int, Figure("", "contacts that were solved", headline=True, unjudged=True)]
     time: Annotated[FloatArray, _over_time("s", "time of rubbing")]
     thickness: Annotated[FloatArray, _over_time("m", "mean film thickness")]
@@ -221,11 +223,13 @@ def _contact(
     with context.timer("oil film"):
         contact, shared = under_oil(contact, lower + upper, scene.shape.radii, scene.oil.build(), scene.oil_cells)
     tell(context, notes_of_balance((*shared.notes, NOTE), shared.film.notes))
-    values = (shared.contact_load, shared.film_load, shared.minimum_film, shared.lambda_ratio)
+    rms = float((lower + upper).std())
+    mixed = shared.minimum_film / rms if rms > 0 else math.inf
+    values = (shared.contact_load, shared.film_load, shared.minimum_film, shared.lambda_ratio, mixed)
     return contact, dict(zip(_SHARED, values, strict=True))
 
 
-_SHARED = ("contact_load", "oil_film_load", "minimum_oil_film", "lambda_ratio")
+_SHARED = ("contact_load", "oil_film_load", "minimum_oil_film", "lambda_ratio", "lambda_ratio_mixed")
 _SAMPLED = ("thickness", "mean_pressure", "hardness", "growth", "contact_area")
 
 
