@@ -6,7 +6,8 @@ from small_scenes import PATCH
 
 from bem import InputError
 from bem.friction.load_sharing import solve_setup
-from bem.scenes import PlainContext, build, get_kind, load_scene
+from bem.scenes import PlainContext, build, get_kind, lives, load_scene
+from bem.wear import WearModel
 
 LIFE = PATCH | {
     "kind": "running-in-life",
@@ -181,3 +182,17 @@ def test_a_distance_that_the_speeds_do_not_make_is_said():
 def test_messages(change, message):
     with pytest.raises(InputError, match=message):
         load_scene(LIFE | change)
+
+
+@pytest.mark.parametrize("frame", ["cylinder", "disk"])
+def test_a_life_says_its_frame_and_moves_the_body_that_kind_running_in_moves(frame):
+    moving = WearModel(frame=frame).moving
+    scene = LIFE | {"wear": LIFE["wear"] | {"passes": ("lower", "upper")[moving]}, "life": SHORT}
+    _, context = run(scene)
+    (said,) = [note for note in context.notes if "wear.passes" in note]
+    assert f"frame {frame} of kind running-in" in said
+    resolved = get_kind("running-in-life").resolve(load_scene(scene))
+    case, _ = lives.case_of(resolved, resolved.setup(**resolved.sharing.model_dump()))
+    moved = np.array(case.passing.offsets((64, 64)))
+    assert moved[:, moving].max() > 0
+    assert not moved[:, 1 - moving].any()

@@ -261,9 +261,18 @@ def _with_body(figures: Mapping[str, Any]) -> dict[str, Any]:
     return {**figures, **{f"lower_{name}": figures[name] for name in names if name in figures}}
 
 
+_FRAMES = {
+    "lower": "the contact is fixed in space with the upper body (frame cylinder of kind running-in)",
+    "upper": "the contact is fixed to the lower body (frame disk of kind running-in)",
+    "both": "the contact is fixed in space and both bodies pass through it, neither frame of kind running-in",
+}
+"""Which body stands still with the contact, by the bodies that pass through it."""
+
+
 def _tell(scene: RunningInLifeScene, context: Context, setup: MixedSetup, contact: MixedPasses) -> None:
     """What the reader must know."""
     wear, (speeds,) = scene.wear, scene.speeds.build()
+    context.note(f'wear.passes = "{wear.passes}": {_FRAMES[wear.passes]}')
     context.note(
         f"figures over a life are means over {wear.positions} positions that pair each other's roughness; error bars "
         + ("hold cycle jumps, positions, cells and points of the films" if scene.life.coarser_lives else _JUMPS_ALONE)

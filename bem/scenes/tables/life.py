@@ -51,7 +51,9 @@ class LifeWear(Table):
     """What wears, by pressure and distance: a law whose `distance` is what a place slides in a cycle under the patch.
 
     A body that passes has all its rows go under the patch in a cycle, evenly in `positions`; one that does not lies
-    under it and wears a scar. A place that passes slides by slide-to-roll ratio x length of its body's map.
+    under it and wears a scar: `passes` "lower" is the frame "cylinder" of the wear table of other kinds, the upper body
+    fixed with the contact, "upper" is the frame "disk"; with "both" neither body stands still. A place that passes
+    slides by slide-to-roll ratio x length of its body's map.
     """
 
     law: Annotated[Detachment, LawKey("criterion")]
