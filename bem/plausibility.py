@@ -9,8 +9,8 @@ tests/test_plausibility.py.
 from __future__ import annotations
 
 import math
-from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from collections.abc import Iterable, Mapping, Sequence
+from dataclasses import dataclass, replace
 from typing import Any
 
 ATOM = 2e-10
@@ -299,18 +299,28 @@ def body_arguments(bodies: Any) -> dict[str, tuple[str, Any]]:
             parts.append((f"{key}.material", layer.material))
             found[f"{key}.thickness"] = ("thickness of a layer", layer.thickness)
         for key, material in parts:
-            if "rigid" in material.name.lower():
-                continue
-            found |= {
-                f"{key}.youngs_modulus": ("Young's modulus", material.youngs_modulus),
-                f"{key}.poissons_ratio": ("Poisson's ratio", material.poissons_ratio),
-                f"{key}.hardness": ("hardness", material.hardness),
-                f"{key}.yield_stress": ("yield stress", material.yield_stress),
-                f"{key}.thermal_conductivity": ("thermal conductivity", material.thermal_conductivity),
-                f"{key}.density": ("density", material.density),
-                f"{key}.heat_capacity": ("heat capacity", material.heat_capacity),
-            }
+            found |= material_arguments(key, material)
     return found
+
+
+def material_arguments(key: str, material: Any) -> dict[str, tuple[str, Any]]:
+    """What a `bem.Material` gives to `notes_on_arguments`; None and a stiff stand-in called rigid give nothing."""
+    if material is None or "rigid" in material.name.lower():
+        return {}
+    return {
+        f"{key}.youngs_modulus": ("Young's modulus", material.youngs_modulus),
+        f"{key}.poissons_ratio": ("Poisson's ratio", material.poissons_ratio),
+        f"{key}.hardness": ("hardness", material.hardness),
+        f"{key}.yield_stress": ("yield stress", material.yield_stress),
+        f"{key}.thermal_conductivity": ("thermal conductivity", material.thermal_conductivity),
+        f"{key}.density": ("density", material.density),
+        f"{key}.heat_capacity": ("heat capacity", material.heat_capacity),
+    }
+
+
+def with_argument_notes(results: Sequence[Any], said: tuple[str, ...]) -> list[Any]:
+    """Results over time, frozen dataclasses, each with the notes on its entry point's arguments before its own."""
+    return [replace(one, notes=said + one.notes) for one in results] if said else list(results)
 
 
 def without_argument_notes(notes: Iterable[str]) -> tuple[str, ...]:

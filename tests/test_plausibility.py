@@ -2,19 +2,37 @@
 
 import math
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 from small_scenes import oiled_ball
 
-from bem import Body, Grid, Lubricant, Material, generate_surface, solve_line_film, solve_mixed, solve_point_film
+from bem import (
+    Body,
+    Grid,
+    Lubricant,
+    Material,
+    displacement_operator,
+    generate_surface,
+    grow_tribofilm,
+    march_line_film,
+    march_point_film,
+    run_in,
+    solve_contact,
+    solve_line_film,
+    solve_mixed,
+    solve_point_film,
+)
 from bem.elements.element import load_element
 from bem.errors import OUTSIDE, Status, outside
-from bem.plausibility import ARGUMENT, BY_KEY, RANGES, notes_on, notes_on_arguments, range_of_key
+from bem.plausibility import ARGUMENT, BY_KEY, ELECTRON_VOLT, RANGES, notes_on, notes_on_arguments, range_of_key
 from bem.runs import plan_scene, run_scene
 from bem.scenes import library
 from bem.scenes.checks import SCENE_CHECKS, examine, scene_warnings
 from bem.scenes.checks.plausible import notes_on_table
+from bem.tribofilm import FilmContact, grow_local_film
+from bem.tribofilm.growth import StressActivatedGrowth
 
 STEEL = "steel-52100"
 
@@ -133,6 +151,72 @@ def test_a_point_film_is_told_of_its_arguments():
     film = solve_point_film(**case | {"speeds": (200.0, 200.0), "bodies": (odd, odd)}, lubricant=OIL)
     assert told(film)[0] == "speeds"
     assert "bodies[0].material.poissons_ratio" in told(film)
+
+
+STEADY = {"load": lambda t: 1e5, "speeds": lambda t: (1.0, 1.0)}
+
+
+def test_a_march_of_a_line_film_is_told_of_centistokes_given_as_pascal_seconds():
+    case = {"times": np.array([0.0, 1e-3]), **STEADY, "radius": 0.01, "contact_modulus": 115e9, "points": 151}
+    assert [told(film) for film in march_line_film(**case, lubricant=OIL)] == [[], []]
+    films = march_line_film(**case, lubricant=Lubricant(80.0))
+    assert [told(film) for film in films] == [["lubricant.viscosity"]] * 2
+    assert all("mPa*s" in film.notes[0] for film in films)
+
+
+def test_a_march_of_a_point_film_is_told_of_millimetres_given_as_metres():
+    def found(load, radius):
+        case = {"times": np.array([0.0, 1e-3]), **STEADY, "load": lambda t: load, "contact_modulus": 115e9}
+        return [told(film) for film in march_point_film(**case, radii=(radius,) * 2, shape=(32, 32), lubricant=OIL)]
+
+    assert found(20.0, 0.01) == [[], []]
+    assert found(2e4, 10.0) == [["radii"]] * 2
+
+
+def steel(**changes):
+    return Body(Material("steel", **{"youngs_modulus": 210e9, "poissons_ratio": 0.3, "hardness": 2e9} | changes))
+
+
+def test_a_contact_is_told_of_gigapascals_given_as_pascals_and_of_micrometres_given_as_metres():
+    def found(grid, body, load):
+        gap = (grid.x[:, None] ** 2 + grid.y[None, :] ** 2) / 0.02
+        return told(solve_contact(gap, displacement_operator(grid, body), load=load))
+
+    small = Grid((16, 16), (5e-6, 5e-6))
+    assert found(small, steel(), 1e-2) == []
+    assert found(small, steel(youngs_modulus=210.0), 1e-8) == ["bodies[0].material.youngs_modulus"]
+    assert found(Grid((16, 16), (5.0, 5.0)), steel(), 1e-2) == ["grid.spacing"]
+
+
+def test_a_wear_loop_is_told_of_gigapascals_given_as_pascals():
+    grid = Grid((16, 16), (0.2e-6, 0.2e-6), periodic=(True, True))
+    rough = generate_surface(grid, rms_height=20e-9, correlation_length=0.6e-6, seed=1)
+    depths = np.linspace(0.0, 1e-6, 6)
+    case = {"grid": grid, "load": 80e6 * grid.area, "friction": 0.1, "depths": depths, "cycles": 1}
+
+    def found(lower, upper):
+        return told(run_in(rough, np.zeros(grid.shape), bodies=(lower, upper), **case))
+
+    assert found(steel(), steel(hardness=6e9)) == []
+    stiff = steel(hardness=6e9, youngs_modulus=210e18)  # gigapascals written behind gigapascals
+    assert found(steel(), stiff) == ["bodies[1].material.youngs_modulus"]
+
+
+@pytest.mark.parametrize("grow", [grow_tribofilm, grow_local_film])
+def test_a_tribofilm_is_told_of_electron_volts_given_as_joules(grow):
+    grid = Grid((8, 8), (1e-6, 1e-6), periodic=(True, True))
+    gap = 1e-8 * np.cos(2 * math.pi * grid.x / 8e-6)[:, None] * np.ones(8)
+
+    def found(energy, volume):
+        contact = FilmContact(
+            gap, grid, steel().material, None, 1e8 * grid.area, StressActivatedGrowth(1e-2, energy, volume),
+            hardness=lambda thickness, temperature: 2e9, modulus=lambda thickness, temperature: 200e9,
+            temperature=373.15,
+        )  # fmt: skip
+        return told(grow(np.array([0.0, 1.0, 2.0]), contact, wear_coefficient=1e-3))
+
+    assert found(0.8 * ELECTRON_VOLT, 1e-29) == []
+    assert found(0.8, 1e-29) == ["contact.growth.activation_energy"]
 
 
 def test_arguments_left_out_and_zeros_are_usual():

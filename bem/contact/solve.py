@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable
 from dataclasses import replace
+from functools import lru_cache
 
 import numpy as np
 from numpy.typing import NDArray
@@ -30,6 +31,8 @@ from bem.contact.several_answers import note_on_several_answers
 from bem.contact.solution import ContactSolution
 from bem.convolution import DisplacementOperator
 from bem.errors import Status
+from bem.materials import Body
+from bem.plausibility import body_arguments, notes_on_arguments
 from bem.threads import one_blas_thread
 
 FloatArray = NDArray[np.float64]
@@ -119,10 +122,23 @@ def solve_contact(
         iterations=shared.effort.iterations,
         convolutions_before=before,
     )
-    if mean_gap is None or solution.status is not Status.CONVERGED:
-        return solution
-    several = note_on_several_answers(request.gap, operator, solution, mean_gap, hardness)
-    return replace(solution, notes=solution.notes + several) if several else solution
+    said = _notes_on_arguments(operator, load, hardness)
+    if mean_gap is not None and solution.status is Status.CONVERGED:
+        several = note_on_several_answers(request.gap, operator, solution, mean_gap, hardness)
+        return replace(solution, notes=said + solution.notes + several) if said + several else solution
+    return replace(solution, notes=said + solution.notes) if said else solution
+
+
+def _notes_on_arguments(operator: DisplacementOperator, load: float | None, hardness: float | None) -> tuple[str, ...]:
+    """Notes on arguments of `solve_contact` outside their usual ranges."""
+    own = notes_on_arguments({"load": ("load", load), "hardness": ("hardness", hardness)})
+    return own + _notes_on_operator(operator.bodies, operator.grid.spacing)
+
+
+@lru_cache(maxsize=64)
+def _notes_on_operator(bodies: tuple[Body, ...], spacing: tuple[float, float]) -> tuple[str, ...]:
+    """Notes on bodies and cells [m] of an operator; contacts of a loop share them."""
+    return notes_on_arguments({"grid.spacing": ("cell of the grid", spacing)} | body_arguments(bodies))
 
 
 def _scaled(gap: FloatArray, units: Units) -> FloatArray:

@@ -35,6 +35,7 @@ from bem.friction.film import PatchFilm, middle_line
 from bem.friction.oil_volume import OilVolume
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray, Grid
+from bem.plausibility import without_argument_notes
 
 if TYPE_CHECKING:
     from bem.friction.cell_law import CellLaw
@@ -211,7 +212,7 @@ class CoupledContact:
             solution=solution,
             separation=middle_line(film.gap) - solution.approach,
             covered=_covered(solution, self.setup.grid),
-            notes=solution.notes,
+            notes=without_argument_notes(solution.notes),
             opening_error=tolerance * float(gap.std()),
         )
 

@@ -34,6 +34,7 @@ from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.steady import solve_line_film
 from bem.lubrication.supply import OilLayer, checked_supply
 from bem.lubrication.time_steps import MarchState, Schedule, first_of, load_messages, schedule_of, start_messages
+from bem.plausibility import lubricant_arguments, notes_on_arguments, with_argument_notes
 from bem.threads import one_blas_thread
 
 FAR = 50.0
@@ -130,7 +131,13 @@ def march_line_film(
             reached, opening = (steady_start if steady else given_start)(march, film, at)
         state = MarchState(initial if steady else None, reached, (opening,))
         tell(state)
-    return time_steps.march(schedule.times, state, partial(advance, march), tell)
+    films = time_steps.march(schedule.times, state, partial(advance, march), tell)
+    arguments = {
+        "load": ("load per unit length", tuple(schedule.loads)),
+        "radius": ("radius", radius),
+        "speeds": ("speed", tuple(speed for pair in schedule.speeds for speed in pair)),
+    }
+    return with_argument_notes(films, notes_on_arguments(arguments | lubricant_arguments(lubricant)))
 
 
 def _messages(schedule: Schedule, contact: Contact, points: int) -> list[str]:

@@ -15,6 +15,7 @@ from numpy.typing import NDArray
 
 from bem.errors import Status
 from bem.numerics.blocks import row_blocks
+from bem.plausibility import without_argument_notes
 
 LARGE = 1 << 30
 """From this size on [bytes] an array of `Context.scratch` is on disk."""
@@ -116,8 +117,8 @@ class Outcome:
 
 
 def tell(context: Context, notes: Iterable[str], about: str = "") -> None:
-    """Note every one of them, with what it is about before it."""
-    for note in notes:
+    """Note each with what it is about before it, but for notes on arguments, of which scenes say it by their keys."""
+    for note in without_argument_notes(notes):
         context.note(f"{about}{note}")
 
 

@@ -11,6 +11,7 @@ import math
 from bisect import bisect_right
 from collections.abc import Callable
 from dataclasses import dataclass, field, replace
+from typing import Any
 
 import numpy as np
 
@@ -20,6 +21,7 @@ from bem.errors import ConvergenceError, InputError, Status
 from bem.grid import FloatArray, Grid
 from bem.heat.steady import flash_temperature
 from bem.materials import Body, Layer, Material
+from bem.plausibility import material_arguments, notes_on_arguments
 from bem.tribofilm.growth import GrowthLaw
 from bem.tribofilm.properties import FilmProperty
 
@@ -94,6 +96,24 @@ class ContactSample:
     def without_maps(self) -> ContactSample:
         """Its numbers alone."""
         return replace(self, growth_map=np.zeros((0, 0)), pressure=np.zeros((0, 0)))
+
+
+def notes_on_growth(contact: FilmContact, wear_coefficient: float, initial_thickness: float) -> tuple[str, ...]:
+    """Notes on arguments of `grow_tribofilm` and `grow_local_film` outside their usual ranges."""
+    arguments: dict[str, tuple[str, Any]] = {
+        "wear_coefficient": ("wear coefficient of a tribofilm", wear_coefficient),
+        "initial_thickness": ("thickness of a layer", initial_thickness),
+        "contact.load": ("load", contact.load),
+        "contact.temperature": ("temperature", contact.temperature),
+        "contact.friction": ("friction", contact.friction),
+        "contact.speeds": ("speed", contact.speeds),
+        "contact.grid.spacing": ("cell of the grid", contact.grid.spacing),
+        "contact.growth.activation_energy": ("barrier of growth", getattr(contact.growth, "activation_energy", None)),
+        "contact.growth.activation_volume": ("activation volume", getattr(contact.growth, "activation_volume", None)),
+    }
+    for name in ("substrate", "counterface"):
+        arguments |= material_arguments(f"contact.{name}", getattr(contact, name))
+    return notes_on_arguments(arguments)
 
 
 def solve_film_contact(

@@ -12,7 +12,13 @@ from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.representation import tabled
 from bem.tribofilm.balance import FilmBalance
-from bem.tribofilm.contact_growth import ContactSample, FilmContact, GrowthTable, solve_film_contact
+from bem.tribofilm.contact_growth import (
+    ContactSample,
+    FilmContact,
+    GrowthTable,
+    notes_on_growth,
+    solve_film_contact,
+)
 from bem.tribofilm.evolution import FilmHistory, evolve_film, steady_thickness
 from bem.tribofilm.growth import GrowthLaw
 from bem.tribofilm.properties import PropertyLaw
@@ -27,12 +33,14 @@ class TribofilmGrowth:
     contacts : the contacts that were solved, by increasing thickness.
     film_map : local thickness at the end (nx, ny) [m].
     steady : thickness at which growth and wear balance [m]; infinite where they do not (no self-limitation).
+    notes : on arguments outside their usual ranges.
     """
 
     history: FilmHistory
     contacts: tuple[ContactSample, ...]
     film_map: FloatArray
     steady: float
+    notes: tuple[str, ...] = ()
 
     @property
     def contacts_solved(self) -> int:
@@ -127,6 +135,7 @@ def grow_tribofilm(
         contacts=tuple(table.samples),
         film_map=film_map(history, table, wear_coefficient, lag, initial_thickness),
         steady=steady_thickness(growth, wear_coefficient, longest=_reach(history)),
+        notes=notes_on_growth(contact, wear_coefficient, initial_thickness),
     )
 
 

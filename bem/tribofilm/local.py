@@ -21,7 +21,7 @@ from numpy.typing import NDArray
 from bem.errors import ConvergenceError
 from bem.grid import FloatArray
 from bem.tribofilm.balance import FilmBalance, checked_times
-from bem.tribofilm.contact_growth import ContactSample, FilmContact, solve_film_contact
+from bem.tribofilm.contact_growth import ContactSample, FilmContact, notes_on_growth, solve_film_contact
 from bem.tribofilm.evolution import FilmHistory
 
 _SAFETY, _SHRINK, _STRETCH = 0.9, 0.2, 3.0
@@ -36,7 +36,7 @@ class LocalFilm:
     time (nt,) [s]; thickness, grown, worn, substrate_wear (nt,): means over the nominal area [m];
     film_map (nx, ny): local thickness at the end [m]; film_pressure (nx, ny): of the last contact [Pa];
     samples: the contacts that were solved, in that order, without their maps; rejected: how many steps were repeated
-    with a shorter one; balance: of the film.
+    with a shorter one; balance: of the film; notes: on arguments outside their usual ranges.
     """
 
     time: FloatArray
@@ -49,6 +49,7 @@ class LocalFilm:
     samples: tuple[ContactSample, ...]
     rejected: int
     balance: FilmBalance
+    notes: tuple[str, ...] = ()
     steady_thickness: None = None
 
     @property
@@ -159,6 +160,7 @@ def grow_local_film(
         samples=state.samples,
         rejected=state.rejected,
         balance=balance,
+        notes=notes_on_growth(contact, wear_coefficient, initial_thickness),
     )
 
 

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 from bem.errors import ConvergenceError, InputError, Status
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
+from bem.plausibility import body_arguments, notes_on_arguments
 from bem.representation import tabled
 from bem.wear.criterion import Detachment, LocalWear
 from bem.wear.cycle import ContactOutcome, ContactStep, WearModel, WearSetup, dry_contact, wear_cycle
@@ -173,10 +174,23 @@ def run_in(
         state=state,
         status=Status.CONVERGED,
         wearing=wearing,
-        notes=(() if state.rubbing is None else state.rubbing.notes) + _crowded(choices.particles, state),
+        notes=_notes_on_arguments(setup)
+        + (() if state.rubbing is None else state.rubbing.notes)
+        + _crowded(choices.particles, state),
         step_error=_step_error(state, setup, choices, contact_step, give),
         moving=choices.moving,
     )
+
+
+def _notes_on_arguments(setup: WearSetup) -> tuple[str, ...]:
+    """Notes on arguments of `run_in` outside their usual ranges."""
+    arguments: dict[str, tuple[str, Any]] = {
+        "load": ("load", setup.load),
+        "friction": ("friction", setup.friction),
+        "hardness": ("hardness", setup.hardness),
+        "grid.spacing": ("cell of the grid", setup.grid.spacing),
+    }
+    return notes_on_arguments(arguments | body_arguments(setup.bodies))
 
 
 def _step_error(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 from functools import partial
@@ -28,6 +29,7 @@ from bem.lubrication.time_steps import (
     start_messages,
 )
 from bem.materials import Body
+from bem.plausibility import body_arguments, lubricant_arguments, notes_on_arguments, with_argument_notes
 from bem.threads import one_blas_thread
 
 SHAPE = (128, 128)
@@ -136,7 +138,21 @@ def march_point_film(
             )
         state = MarchState(None, Reached(at, moment), (opening,))
         tell(state)
-    return time_steps.march(schedule.times, state, partial(advance, march), tell)
+    films = time_steps.march(schedule.times, state, partial(advance, march), tell)
+    return with_argument_notes(films, _notes_on_arguments(case))
+
+
+def _notes_on_arguments(case: MarchCase) -> tuple[str, ...]:
+    """Notes on arguments of `march_point_film` outside their usual ranges at any of its times."""
+    schedule = case.schedule
+    pairs = [vectors(pair) for pair in schedule.speeds]
+    radii = [float(one) for time in schedule.times for one in case.radii(float(time))]
+    arguments = {
+        "load": ("load", tuple(schedule.loads)),
+        "radii": ("radius", tuple(one for one in radii if math.isfinite(one))),
+        "speeds": ("speed", tuple(speed for pair in pairs if pair is not None for both in pair for speed in both)),
+    }
+    return notes_on_arguments(arguments | lubricant_arguments(case.lubricant) | body_arguments(case.bodies))
 
 
 def _constant(value: Any, time: float) -> Any:
