@@ -102,7 +102,7 @@ NO_METAL = {
 
 @pytest.mark.parametrize("name", sorted(set(CATALOGUE) - NO_METAL))
 def test_every_metal_of_the_catalogue_can_be_heated(name):
-    """At high speed heat goes straight in, and a metal and steel share it as their effusivities (Carslaw and Jaeger)."""
+    """At high speed heat goes straight in: a metal and steel share it as their effusivities (Carslaw and Jaeger)."""
     scene = {
         "kind": "surface-temperature", "lower": {"material": name}, "upper": {"material": "steel-52100"},
         "grid": {"shape": 16, "lengths": "400 um"}, "shape": {"kind": "sphere", "radius": "10 mm"},

@@ -168,7 +168,7 @@ def _show(found: Element, chosen: ElementContact) -> None:
 
     columns = found.columns()
     shown = (("load", "load [N]", "N"), ("radius", "radius [m]", "m"), ("Hertz pressure", "hertz_pressure [Pa]", "Pa"))
-    rows = []
+    rows, letters = [], _letters(found)
     for i, one in enumerate(found.found.contacts):
         cells = [spelled(f"x_{unit}", columns[key][i])[1] for _, key, unit in shown]
         ratio = one.slide_roll_ratio
@@ -179,11 +179,20 @@ def _show(found: Element, chosen: ElementContact) -> None:
             cells.append(f"{columns['film_over_roughness'][i]:.3g}")
         number = f"{i + 1} <" if one is chosen else str(i + 1)
         where = one.name if found.found.along_unit == "rad" else degrees(one, found.found.along_unit)
-        rows.append((number, where, *cells))
+        rows.append((number, f"{where}  {letters[i]}".rstrip(), *cells))
     head = ["", "where", *(name for name, _, _ in shown), "mean speed", "slide-roll"]
     head += [_BY_FORMULA[name] for name in _BY_FORMULA if name in columns]
     title = f"{found.model.name}: {found.model.element}"
     table(head, rows, title=title, right=range(2, len(head)), leading=2)
+
+
+def _letters(found: Element) -> list[str]:
+    """Letters of the marked places of a path at the rows nearest to them, empty elsewhere."""
+    letters = [""] * len(found.found.contacts)
+    for name, place in found.found.marks.items():
+        nearest = min(range(len(letters)), key=lambda i: abs(found.found.contacts[i].place - place))
+        letters[nearest] = f"{letters[nearest]} {name}".strip()
+    return letters
 
 
 _BY_FORMULA = {

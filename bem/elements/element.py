@@ -177,7 +177,8 @@ class Element:
         width = {"width": self.found.contacts[0].length}
         rest = {key: value for key, value in whole.items() if key not in ("rolling", "roller", "description")}
         about = {"description": f"{self.model.element}: {self.model.description or 'along its path'}"}
-        return rest | about | {"roller": width, "along": columns}
+        marks = {"marks": dict(self.found.marks)} if self.found.marks else {}
+        return rest | about | {"roller": width, "along": columns | marks}
 
     def notes(self) -> tuple[str, ...]:
         """What the reader must know: of the element, and where half-space and line film do not carry."""

@@ -90,7 +90,8 @@ class GearModel(ElementModel):
                     (omega[0] * distances[0], omega[1] * distances[1]), length=self.face_width / inclined,
                 )
             )  # fmt: skip
-        return Contacts(tuple(found), "position", "m", _notes(self, path), path.contact_ratio, _turns(omega))
+        told = _notes(self, path)
+        return Contacts(tuple(found), "position", "m", told, path.contact_ratio, _turns(omega), path.marks)
 
 
 @dataclass(frozen=True)
@@ -122,6 +123,20 @@ class Path:
     def overlap(self) -> float:
         """How far lines of contact lean along the path while they cross the face [m]."""
         return self.face_width * math.tan(self.base_helix)
+
+    @property
+    def marks(self) -> dict[str, float]:
+        """Places on the path by their letters in ISO 21771, as distances [m] from the pitch point C, in order.
+
+        A is the start of contact and E its end. B and D are the inner and outer points of single contact, one base
+        pitch from E and from A. Helical teeth have no single contact: B and D are left out. So is C where it lies
+        outside the path, as with large profile shifts.
+        """
+        places = {"A": self.start, "C": self.pitch, "E": self.end}
+        if not self.base_helix and self.contact_ratio < 2:
+            places |= {"B": self.single[0], "D": self.single[1]}
+        inside = {name: s - self.pitch for name, s in places.items() if self.start <= s <= self.end}
+        return dict(sorted(inside.items(), key=lambda item: (item[1], item[0])))
 
     def share(self, s: float) -> float:
         """Of the normal force, on a line of contact as long as the face is wide; of helical teeth the mean over it."""
@@ -192,7 +207,10 @@ def _turns(omega: tuple[float, float]) -> tuple[float, float]:
 
 
 def _notes(model: GearModel, path: Path) -> tuple[str, ...]:
+    marks = path.marks
     said = [
+        f"on the path {', '.join(f'{name} {1e3 * place:.4g} mm' for name, place in marks.items())} from C"
+        + ("" if "B" in marks else "; helical teeth have no points B and D of single contact"),
         f"contact ratio {path.contact_ratio:.4g}, working pressure angle {math.degrees(path.working_angle):.4g} deg, "
         f"centre distance {1e3 * path.centre_distance:.6g} mm",
         "at A and E a tip's edge touches: its pressure is higher than that of the flanks' curvature, which a "
@@ -202,7 +220,7 @@ def _notes(model: GearModel, path: Path) -> tuple[str, ...]:
     ]
     if path.base_helix:
         lengths = path.lines(path.base_pitch * np.arange(_ACROSS) / _ACROSS)
-        said[1:1] = [
+        said[2:2] = [
             f"helix {math.degrees(path.base_helix):.4g} deg on the base circles, overlap ratio "
             f"{path.overlap / path.base_pitch:.4g}: the load lies evenly on lines of contact {lengths.min():.4g} to "
             f"{lengths.max():.4g} faces long together, a place's is the mean over the face, and where they are "

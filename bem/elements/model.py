@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from abc import abstractmethod
-from dataclasses import dataclass
+from collections.abc import Mapping
+from dataclasses import dataclass, field
 from typing import Annotated
 
 from pydantic import Field
@@ -21,6 +22,7 @@ class Contacts:
     at_once : how many there are at a time, where the contacts are one that wanders.
     passes : how often a place of either body comes through the contact [1/s]; None of one where that is no single
         number.
+    marks : places of the path that have a name, in its order: "A" to "E" of a gear pair.
     """
 
     contacts: tuple[ElementContact, ...]
@@ -29,6 +31,7 @@ class Contacts:
     notes: tuple[str, ...] = ()
     at_once: float = 1.0
     passes: tuple[float | None, float | None] = (None, None)
+    marks: Mapping[str, float] = field(default_factory=dict)
 
 
 class ElementModel(Table):

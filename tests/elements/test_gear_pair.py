@@ -1,11 +1,12 @@
 """The path of contact against published gears, and against flanks made point by point and turned as bodies."""
 
 import math
+import tomllib
 
 import numpy as np
 import pytest
 
-from bem import InputError
+from bem import InputError, load_scene
 from bem.elements.element import element_template, load_element
 from bem.elements.gear_pair import GearModel, path_of_contact
 
@@ -37,6 +38,60 @@ def test_the_fzg_gears(tmp_path):
     assert found.centre_distance == pytest.approx(91.5e-3, abs=5e-6)
     assert math.degrees(found.working_angle) == pytest.approx(22.44, abs=0.01)
     assert found.contact_ratio == pytest.approx(1.44, abs=0.005)
+
+
+def test_the_marks_of_the_fzg_gears_by_closed_forms():
+    """From the centre distance alone: cos(alpha_w) = a0 cos(alpha) / a, tips over base circles, one base pitch between
+    E and B, A and D; one pair carries just inside of B and D, two just outside."""
+    element = load_element(tomllib.loads(element_template("gear")) | {"name": "fzg"})
+    z1, z2, module, a, alpha = 16, 24, 4.5e-3, 91.5e-3, math.radians(20)
+    working = math.acos(0.5 * module * (z1 + z2) * math.cos(alpha) / a)
+    base = [0.5 * module * z * math.cos(alpha) for z in (z1, z2)]
+    pitch_radii = [a * z / (z1 + z2) for z in (z1, z2)]
+    ways = [
+        math.sqrt((tip / 2) ** 2 - rb**2) - rw * math.sin(working)
+        for tip, rb, rw in zip((82.46e-3, 118.36e-3), base, pitch_radii, strict=True)
+    ]
+    pitch = math.pi * module * math.cos(alpha)
+    marks = {"A": -ways[1], "B": ways[0] - pitch, "C": 0.0, "D": pitch - ways[1], "E": ways[0]}
+    assert list(element.found.marks) == ["A", "B", "C", "D", "E"]
+    for name, place in marks.items():  # the centre distance is that of the shifts to 0.1 um
+        assert element.found.marks[name] == pytest.approx(place, abs=2e-6)
+    path = path_of_contact(element.model)
+    for name, side in (("B", 1), ("D", -1)):
+        s = path.pitch + element.found.marks[name]
+        assert path.share(s + 1e-6 * side) == 1.0
+        assert path.share(s - 1e-6 * side) == pytest.approx(2 / 3, abs=1e-3)
+    scene = load_scene(element.path_scene())
+    assert scene.along.marks.places() == pytest.approx(dict(element.found.marks))
+    assert "B -3.685 mm" in element.notes()[0]
+
+
+def test_contact_ratios_without_single_contact_have_no_marks_of_it():
+    """Of 2 and more three pairs would carry at once, which is refused of spur gears; below 1 the teeth lose each other.
+    Helical teeth of either ratio have lines of contact that lean: their marks are A, C and E, and a note says so."""
+    high = {"teeth": [60, 80], "pressure_angle": "14.5 deg"}
+    with pytest.raises(InputError, match=r"contact ratio 2\.\d+: three pairs"):
+        made(**high)
+    for more in (high, {"face_width": "9 mm", "tip_diameters": ["48.34 mm", "94.55 mm"]}):
+        element = made(helix_angle="30 deg", points=9, **more)
+        assert list(element.found.marks) == ["A", "C", "E"]
+        assert "no points B and D" in element.notes()[0]
+    assert path_of_contact(made(helix_angle="30 deg", **high).model).contact_ratio > 1.3
+
+
+def test_the_table_marks_the_rows_nearest_to_the_letters():
+    from bem.cli.element import _letters
+
+    element = made(points=5)
+    letters = _letters(element)
+    assert letters[0] == "A"
+    assert letters[-1] == "E"
+    assert sorted(" ".join(letters).split()) == ["A", "B", "C", "D", "E"]
+    places = [one.place for one in element.found.contacts]
+    for name, place in element.found.marks.items():
+        (row,) = (i for i, text in enumerate(letters) if name in text.split())
+        assert abs(places[row] - place) <= 0.5 * (places[1] - places[0]) + 1e-12
 
 
 def flank(base, start, angles):
@@ -147,8 +202,6 @@ def test_it_is_the_built_in_scene_of_such_gears(tmp_path):
 
 
 def test_a_path_is_read_as_the_scene_reads_it(tmp_path):
-    from bem import load_scene
-
     element = made(oil={"grade": "ISO VG 100", "temperature": "90 degC"}, rms_roughness="0.3 um", points=9)
     scene = load_scene(element.path_scene())
     assert scene.along.load == pytest.approx(element.path()["load"])

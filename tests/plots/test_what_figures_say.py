@@ -1,5 +1,6 @@
 """Figures name their case, mark what is not resolved, and draw nothing where there is nothing."""
 
+from itertools import pairwise
 from types import SimpleNamespace
 
 import numpy as np
@@ -295,6 +296,29 @@ def test_the_way_of_a_gear_has_its_loads_pressures_and_sliding_speed():
     assert by_name["Hertz pressure (GPa)"].lines[0].get_ydata()[0] == pytest.approx(1.0)
     marks = [line.get_xdata()[0] for line in by_name["film (nm)"].lines if line.get_linestyle() == ":"]
     assert marks == pytest.approx([0.0])  # pure rolling
+
+
+@pytest.mark.parametrize(
+    ("places", "letters"),
+    [
+        ((-4.0, -1.5, 0.0, 2.5, 6.0), ["A", "B", "C", "D", "E"]),
+        ((-4.0, 0.8, 0.0, 1.1, 6.0), ["A", "C", "B D", "E"]),  # near a contact ratio of 2
+    ],
+)
+def test_the_way_of_a_gear_has_its_letters_and_none_lies_on_another(places, letters):
+    figure, run = Figure(figsize=(5.5, 10.5)), way_run()
+    marks = {name: 1e-3 * place for name, place in zip("ABCDE", places, strict=True)}
+    run.scene["along"]["marks"] = marks
+    all_figures()["along-the-way"].draw(run, figure)
+    figure.draw_without_rendering()
+    top = figure.axes[0]
+    texts = sorted((text for text in top.texts if text.get_text()), key=lambda text: text.xy[0])
+    assert [text.get_text() for text in texts] == letters
+    boxes = [text.get_window_extent() for text in texts]
+    assert not any(a.overlaps(b) for a, b in pairwise(boxes))
+    for axes in figure.axes[:3]:
+        lines = {line.get_xdata()[0] for line in axes.lines if line.get_linestyle() == ":"}
+        assert sorted(lines) == pytest.approx(sorted({*places, 0.0}))
 
 
 def test_no_text_of_a_figure_is_smaller_than_eight_points(tmp_path, monkeypatch):

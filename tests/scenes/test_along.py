@@ -103,6 +103,9 @@ def test_a_file_is_the_same_table_and_a_run_keeps_it(tmp_path):
     (tmp_path / "gear.csv").write_text(FILE)
     scene = load_scene(GEAR | {"along": {"path": str(tmp_path / "gear.csv")}})
     assert scene.along == load_scene(GEAR).along
+    marked = load_scene(GEAR | {"along": {"path": str(tmp_path / "gear.csv"), "marks": {"C": "0 mm"}}})
+    assert marked.along.marks.places() == {"C": 0.0}
+    assert marked.along.load == scene.along.load
     (tmp_path / "gear.csv").unlink()
     (tmp_path / "scene.toml").write_text(dump_scene(scene))
     assert load_scene(tmp_path / "scene.toml").along == scene.along
@@ -117,6 +120,8 @@ def test_a_file_is_the_same_table_and_a_run_keeps_it(tmp_path):
         ({"load": ["1 N", "-1 N", "2 N"]}, r"along\.load\[1\]"),
         ({"load": ["1 N", "1 mm", "2 N"]}, r"along\.load\[1\].*a force"),
         ({"path": "gear.csv"}, "path and columns are given"),
+        ({"marks": {"A": "-6 mm"}}, "marks A outside of the positions"),
+        ({"marks": {"F": "0 mm"}}, r"along\.marks\.F"),
     ],
 )
 def test_mistakes_in_columns_are_said(changes, words):

@@ -2,9 +2,11 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
 from bem.errors import UNRESOLVED_SPIKE
@@ -181,6 +183,7 @@ def _along(run: Any, figure: Figure) -> None:
             for axes in (film, friction, power, *others):
                 axes.axvline(zero, color="0.6", linestyle=":", linewidth=0.8)
             sliding.annotate("pure rolling", (zero, 0), (6, -12), textcoords="offset points", fontsize=8, color="0.35")
+    _mark_places(run, film, (friction, power, *others))
     if "lambda_ratio" in data.variables:
         _lambda_beside(film, _row(data, "lambda_ratio") / _row(data, "minimum_thickness"))
     if hot:
@@ -191,6 +194,33 @@ def _along(run: Any, figure: Figure) -> None:
     pressed.set_xlabel("place along the way (mm)")
     others_of = (_first_of(data, axis) for axis in axes_of(data) if axis != "position")
     name_case(figure, ", ".join(filter(None, others_of)))
+
+
+_CLOSE = 0.035
+"""Of the way, below which letters of two places would overlap: they share one label."""
+
+
+def _mark_places(run: Any, top: Axes, below: Sequence[Axes]) -> None:
+    """Draw a line through all panels at each marked place of the way, and its letter above the top panel."""
+    marks = (run.scene.get("along") or {}).get("marks") or {}
+    places = sorted((1e3 * float(place), name) for name, place in marks.items() if place is not None)
+    if not places:
+        return
+    extent = float(np.ptp(run.dataset["position"].values)) * 1e3
+    groups: list[list[tuple[float, str]]] = []
+    for one in places:
+        if groups and one[0] - groups[-1][-1][0] < _CLOSE * extent:
+            groups[-1].append(one)
+        else:
+            groups.append([one])
+    for place, _ in places:
+        for axes in (top, *below):
+            axes.axvline(place, color="0.6", linestyle=":", linewidth=0.8)
+    for group in groups:
+        middle = 0.5 * (group[0][0] + group[-1][0])
+        letters = " ".join(name for _, name in group)
+        at = {"xy": (middle, 1), "xycoords": ("data", "axes fraction"), "textcoords": "offset points"}
+        top.annotate(letters, xytext=(0, 3), ha="center", va="bottom", fontsize=8.5, **at)
 
 
 def _first_of(data: Any, axis: str) -> str:
@@ -292,7 +322,8 @@ FIGURES = (
     FigureKind(
         "along-the-way",
         "Film, friction, its power, temperatures, sliding speed (lower less upper surface), Hertz pressure "
-        "and load (dashed, right) over the rows of a way, such as a line of action.",
+        "and load (dashed, right) over the rows of a way, such as a line of action. Of a gear pair A is the start of "
+        "contact, C the pitch point, E the end; between B and D one pair of teeth carries the load.",
         ("traction_coefficient", "friction_power"),
         _along,
         size=(5.5, 10.5),

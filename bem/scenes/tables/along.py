@@ -27,24 +27,46 @@ _NAMED = re.compile(r"\s*([A-Za-z_.]+)\s*(?:[\[(]\s*(.*?)\s*[\])])?\s*")
 _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?")
 _Positive = Annotated[Length, Field(gt=0)]
 _Rows = Field(min_length=2, max_length=_MOST_ROWS)
+_ROUNDED = 1e-3
+"""Of the way, by which a mark may lie beyond its ends: positions of tables are rounded."""
 _ANY = (1e-2, 1.0, 1.0, 0.0)
 COLUMNS = ("position", "radius", "load", "lower_speed", "upper_speed")
 
 
+class MarksScene(Table):
+    """Places on a line of action by their letters, marked in figures: start of contact A, inner point of single contact
+    B, pitch point C, outer point of single contact D, end of contact E. Those that are left out have no mark."""
+
+    A: Length | None = None
+    B: Length | None = None
+    C: Length | None = None
+    D: Length | None = None
+    E: Length | None = None
+
+    def places(self) -> dict[str, float]:
+        """Those that are given [m], in alphabetical order."""
+        found = {name: getattr(self, name) for name in "ABCDE"}
+        return {name: place for name, place in found.items() if place is not None}
+
+
 class AlongScene(Table):
     """Rows: where, and there the radius of the roller, the load on its width, and the speeds of both surfaces over the
-    contact. `path` names a file with these columns."""
+    contact. `path` names a file with these columns. `marks` : letters of places on a gear's line of action."""
 
     position: Annotated[list[Length], _Rows]
     radius: Annotated[list[_Positive], _Rows]
     load: Annotated[list[Annotated[Force, Field(gt=0)]], _Rows]
     lower_speed: Annotated[list[Annotated[Speed, Field(ge=0)]], _Rows]
     upper_speed: Annotated[list[Annotated[Speed, Field(ge=0)]], _Rows]
+    marks: MarksScene | None = None
 
     @model_validator(mode="before")
     @classmethod
     def _from_file(cls, data: Any) -> Any:
-        return columns_or_file(data, COLUMNS)
+        if not isinstance(data, Mapping) or "marks" not in data:
+            return columns_or_file(data, COLUMNS)
+        found = columns_or_file({name: value for name, value in data.items() if name != "marks"}, COLUMNS)
+        return {**found, "marks": data["marks"]}
 
     @model_validator(mode="after")
     def _rows(self) -> AlongScene:
@@ -54,6 +76,12 @@ class AlongScene(Table):
         check_rising(self.position, "positions")
         if any(a + b == 0 for a, b in zip(self.lower_speed, self.upper_speed, strict=True)):
             raise problem("both surfaces stand still in a row", "speeds of which one is positive")
+        places = {} if self.marks is None else self.marks.places()
+        first, last = self.position[0], self.position[-1]
+        slack = _ROUNDED * (last - first)
+        outside = [name for name, place in places.items() if not first - slack <= place <= last + slack]
+        if outside:
+            raise problem(f"marks {', '.join(outside)} outside of the positions", f"{first:.6g} to {last:.6g} m")
         return self
 
     def row(self, index: int) -> tuple[float, float, float, float]:
