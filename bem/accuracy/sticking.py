@@ -32,10 +32,12 @@ PUSH_RULES = dict.fromkeys(("force", "shift", "first_stiffness", "moment"), _MOV
 }
 _CARRIED = Rule(1.3, 1.3, edge=0.01, rough_edge=0.03)
 _CREPT = Rule(1.5, 1.5, edge=0.05, rough_edge=0.08)
+_WORKED = Rule(1.2, 1.2, edge=0.04, rough_edge=0.064)
+"""Of the work of friction in rolling: bars cover 51 of 53 contacts drawn at random, and 21 of 21 others."""
 ROLL_RULES = dict.fromkeys(("force", "force_across", "traction_coefficient"), _CARRIED) | {
     "creepage": _CREPT,
     "creepage_across": _CREPT,
-    "friction_work": _CREPT,
+    "friction_work": _WORKED,
     "stick_fraction": Rule(1.5, 1.2, edge=0.12, rough_edge=0.12),
 }
 _SPENT_IN_RING = ("dissipated", "dissipated_in_cycle")
