@@ -4,7 +4,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 STAMP := .venv/.installed
 
-.PHONY: setup setup-fem setup-browser run test test-fast lint bench report docs validation gallery wheel clean
+.PHONY: setup setup-fem setup-browser run test test-fast lint bench report docs notebooks validation gallery wheel clean
 
 setup: $(STAMP)
 
@@ -43,6 +43,11 @@ report: setup
 # The guide as a site, a page for each kind of scene with pictures of small runs: reports/site/index.html.
 docs: setup
 	$(BIN)/python -m reports.site
+
+# Run the notebooks in place and store what their cells show.
+notebooks: setup
+	VIRTUAL_ENV=.venv $(BIN)/uv run --no-project --active --with nbconvert --with ipykernel jupyter nbconvert \
+		--to notebook --execute --inplace --ExecutePreprocessor.record_timing=False reports/notebooks/*.ipynb
 
 # Runs every scene behind the validation report whose stored result is stale: hours; goes on where it was interrupted.
 validation: setup
