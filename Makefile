@@ -33,6 +33,7 @@ lint: setup
 	$(BIN)/ruff check .
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
+	$(BIN)/lint-imports
 
 bench: setup
 	$(BIN)/bem bench
@@ -60,4 +61,4 @@ wheel: setup
 	$(BIN)/python -m build --installer uv --outdir dist .
 
 clean:
-	rm -rf .venv .venv-fem build dist .pytest_cache .mypy_cache .ruff_cache
+	rm -rf .venv .venv-fem build dist .pytest_cache .mypy_cache .ruff_cache .import_linter_cache
