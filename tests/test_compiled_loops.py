@@ -35,18 +35,6 @@ def functions():
                 yield path, node
 
 
-def test_loops_are_compiled_by_the_decorators_alone():
-    assert sum(is_loop(function) for _, function in functions()) > 250
-    elsewhere = [
-        path
-        for path, tree in TREES.items()
-        for node in ast.walk(tree)
-        if isinstance(node, ast.Attribute | ast.Name | ast.alias)
-        and ast.unparse(node).split(".")[-1] in ("njit", "jit", "vectorize", "guvectorize", "cfunc")
-    ]
-    assert set(elsewhere) == {"compiled.py"}
-
-
 @pytest.mark.parametrize("decorator", sorted(DECORATORS))
 def test_a_decorator_says_all_that_a_caller_would_hand_on(decorator, tmp_path, monkeypatch):
     monkeypatch.setattr("numba.config.CACHE_DIR", str(tmp_path))

@@ -1,12 +1,11 @@
 """Problems solved afresh in the finite-element interpreter."""
 
-import ast
 import json
 from functools import cache
 from pathlib import Path
 
 import pytest
-from interpreter import ROOT, STORED, fem
+from interpreter import STORED, fem
 
 
 @cache
@@ -18,21 +17,6 @@ def computed(case, *options):
         path = Path(folder) / f"{case}.json"
         fem("-m", "fem_reference", case, *options, "--out", str(path))
         return json.loads(path.read_text())
-
-
-@pytest.mark.parametrize("package", ["fem_reference", "meshes"])
-def test_the_reference_imports_nothing_of_bem(package):
-    """By its sources; the same holds of what is loaded, below."""
-    for path in sorted((ROOT / package).rglob("*.py")):
-        for node in ast.walk(ast.parse(path.read_text())):
-            names = []
-            if isinstance(node, ast.Import):
-                names = [alias.name for alias in node.names]
-            elif isinstance(node, ast.ImportFrom):
-                assert node.level == 0, f"{path}: relative import"
-                names = [node.module or ""]
-            tops = {name.split(".")[0] for name in names}
-            assert not tops & {"bem", "reports", "tests"}, f"{path} imports {tops}"
 
 
 @pytest.mark.fem

@@ -40,11 +40,6 @@ def test_what_cannot_be_run_is_said_and_the_rest_is(monkeypatch):
     assert [words.split(":")[0] for words in failed] == ["sinusoid"]
 
 
-def test_set_up_warms_up():
-    assert "bem warm-up" in (ROOT / ".ci" / "setup").read_text()
-    assert "--compile-bytecode" in (ROOT / ".ci" / "setup").read_text()
-
-
 COMPILED = """
 import sys
 from numba.core import event
