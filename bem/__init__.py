@@ -83,7 +83,7 @@ def __getattr__(name: str) -> Any:
     from importlib.metadata import PackageNotFoundError, version
 
     try:
-        return version("bem")
+        return version("bem-tribology")
     except PackageNotFoundError:  # run from a source tree that was never installed
         return "0.0.0"
 

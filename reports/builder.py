@@ -23,6 +23,8 @@ from typing import TYPE_CHECKING, Any
 
 from jinja2 import Environment, FileSystemLoader, StrictUndefined
 
+import bem
+
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
@@ -110,12 +112,12 @@ def _cell(value: Any) -> str:
 
 def machine_facts() -> dict[str, str]:
     """What a figure may depend on: processor count, system, versions."""
-    packages = ("bem", "numpy", "scipy", "pyfftw", "numba")
+    packages = ("numpy", "scipy", "pyfftw", "numba")
     return {
         "date": date.today().isoformat(),
         "system": f"{platform.system()} {platform.machine()}, {os.cpu_count()} cores",
         "python": platform.python_version(),
-        "versions": ", ".join(f"{p} {version(p)}" for p in packages),
+        "versions": ", ".join((f"bem {bem.__version__}", *(f"{p} {version(p)}" for p in packages))),
     }
 
 

@@ -13,6 +13,7 @@ from importlib.metadata import PackageNotFoundError, version
 from pathlib import Path
 from typing import Any
 
+import bem
 from bem.arguments import named
 from bem.benchmarks.beside import CurveBeside, StressBeside, beside_of
 from bem.benchmarks.floor import Floor
@@ -61,6 +62,8 @@ def present_commit() -> str:
 
 
 def _version(package: str) -> str:
+    if package == "bem":  # the distribution has another name
+        return str(bem.__version__)
     try:
         return version(package)
     except PackageNotFoundError:

@@ -1,4 +1,4 @@
-"""Jobs on a Dask cluster; needs the extra `bem[dask]`."""
+"""Jobs on a Dask cluster; needs the extra `bem-tribology[dask]`."""
 
 from __future__ import annotations
 
@@ -27,7 +27,7 @@ def compute_on_cluster(jobs: Iterable[Sent], scheduler: str) -> Iterator[tuple[i
     try:
         import distributed
     except ImportError:
-        raise InputError("--scheduler: dask is not installed; allowed: with `pip install bem[dask]`") from None
+        raise InputError("--scheduler: dask is not installed; allowed: pip install 'bem-tribology[dask]'") from None
     try:
         client = distributed.Client(scheduler, timeout="10s", set_as_default=False)
     except (OSError, ValueError, TypeError) as error:

@@ -31,7 +31,9 @@ def register(app: typer.Typer) -> None:
         from bem.startup.lazy import collecting
 
         if find_spec("nicegui") is None:
-            raise InputError("bem app: needs NiceGUI, which `make setup` brings; allowed: pip install 'bem[app]'")
+            raise InputError(
+                "bem app: needs NiceGUI, which `make setup` brings; allowed: pip install 'bem-tribology[app]'"
+            )
         with collecting():
             from bem.app.server import serve
             from bem.cli._streams import results_saved

@@ -33,7 +33,10 @@ def built(tmp_path_factory):
 
 @pytest.mark.slow
 def test_version_comes_from_the_tag(built):
-    assert sorted(item.name for item in built.iterdir()) == ["bem-7.8.9-py3-none-any.whl", "bem-7.8.9.tar.gz"]
+    assert sorted(item.name for item in built.iterdir()) == [
+        "bem_tribology-7.8.9-py3-none-any.whl",
+        "bem_tribology-7.8.9.tar.gz",
+    ]
 
 
 @pytest.mark.slow
@@ -41,7 +44,7 @@ def test_the_wheel_holds_bem_whole_and_nothing_else(built):
     with zipfile.ZipFile(next(built.glob("*.whl"))) as archive:
         names = archive.namelist()
     tops = {name.split("/")[0] for name in names}
-    assert tops == {"bem", "bem-7.8.9.dist-info"}
+    assert tops == {"bem", "bem_tribology-7.8.9.dist-info"}
     for path in (ROOT / "bem").rglob("*"):
         tracked = subprocess.run(
             ["git", "ls-files", "--error-unmatch", str(path)], cwd=ROOT, capture_output=True, check=False
@@ -57,7 +60,7 @@ def test_the_sdist_holds_what_tests_and_reports_need(built):
     with tarfile.open(next(built.glob("*.tar.gz"))) as archive:
         names = archive.getnames()
     for path in ("LICENSE", "README.md", "CHANGELOG.md", "Makefile", "tests/conftest.py", "reports/builder.py"):
-        assert f"bem-7.8.9/{path}" in names, path
+        assert f"bem_tribology-7.8.9/{path}" in names, path
 
 
 def test_metadata():
