@@ -45,7 +45,7 @@ def random_problem(seed):
 
 
 # plateaus and spikes under heavy approach, soft caps (fully plastic), mean gaps near full contact
-@pytest.mark.parametrize("seed", [362, 419, 424, 471, 1177, 1248, *range(40)])
+@pytest.mark.parametrize("seed", [362, 419, 424, 471, 1177, 1248, *range(6)])
 def test_problems_found_by_chance(seed):
     gap, op, cap, control = random_problem(seed)
     solution = solve_contact(gap, op, hardness=cap, **control)
@@ -56,8 +56,7 @@ def test_problems_found_by_chance(seed):
     assert violation(op, gap, solution, np.inf if cap is None else cap) <= allowed
 
 
-@pytest.mark.parametrize("cells", [(19, 2), (1, 31), (29, 28)])
-@pytest.mark.parametrize("share", [None, 0.3, 1.0])
+@pytest.mark.parametrize(("cells", "share"), [((19, 2), None), ((1, 31), 0.3), ((29, 28), 1.0)])
 def test_flat_gap_pressed_together_periodically(cells, share):
     # displacements would be rounding only: nothing to iterate on, nothing to measure a residual by
     op = operator(cells, (1.0, 1.0), PERIODIC, modulus=1e9)
@@ -81,8 +80,7 @@ def test_flat_gap_held_apart_by_the_lubricant(periodic):
         assert solution.approach == pytest.approx(0.7e-9, rel=1e-12)
 
 
-@pytest.mark.parametrize("shape", [(1, 1), (1, 5), (4, 4)])
-@pytest.mark.parametrize("approach", [-1e-9, 0.3e-9])
+@pytest.mark.parametrize(("shape", "approach"), [((1, 1), 0.3e-9), ((1, 5), -1e-9), ((4, 4), 0.3e-9)])
 def test_flat_bodies_apart_at_an_approach_that_units_round(shape, approach):
     """These stalled on the last digit of their approach, the only length there is."""
     op = operator(shape, (1e-6, 1.3e-6), FREE, modulus=1e11)
@@ -94,8 +92,7 @@ def test_flat_bodies_apart_at_an_approach_that_units_round(shape, approach):
 
 
 # all of these stalled by way of the approach: next to full contact the mean gap hangs on the last few cells
-@pytest.mark.parametrize("share", [0.017, 0.002])
-@pytest.mark.parametrize("seed", [0, 2, 4, 5])
+@pytest.mark.parametrize(("share", "seed"), [(0.017, 0), (0.002, 2), (0.017, 4), (0.002, 5)])
 def test_mean_gap_near_full_contact_below_a_high_cap(seed, share):
     op = operator((11, 78), (1.0, 3.2), PERIODIC)
     gap = rough(11, 78, seed=seed, hurst=0.3)
@@ -123,8 +120,10 @@ def test_mean_gap_of_zero_with_friction_beside_a_rigid_body(shape):
     assert solution.pressure.min() == 0.0
 
 
-@pytest.mark.parametrize("rounding", [0.0, 1e-15, 1e-13])
-@pytest.mark.parametrize(("shape", "low"), [((13, 61), 1), ((13, 61), 6), ((13, 61), 12), ((7, 31), 1)])
+@pytest.mark.parametrize(
+    ("shape", "low", "rounding"),
+    [((13, 61), 1, 0.0), ((13, 61), 1, 1e-13), ((13, 61), 6, 1e-15), ((13, 61), 12, 0.0), ((7, 31), 1, 1e-15)],
+)
 def test_approach_of_a_step_near_full_contact(shape, low, rounding):
     """On the coarse grids the mean gap of the step is another: the approach was beyond it, where there is no answer. A
     cell taken in without pressure made contact full: the pressure was to fall until a cell has none, and one had none,
@@ -169,8 +168,7 @@ def test_mean_gap_below_a_film_on_a_soft_base(seed):
     assert solution.iterations < 600  # 330 by way of the load, 1300 to 1400 on the guard of the energy
 
 
-@pytest.mark.parametrize("amplitude", [1e-22, 1e-19, 1e-16])
-@pytest.mark.parametrize("hardness", [None, 2e9])
+@pytest.mark.parametrize(("amplitude", "hardness"), [(1e-22, None), (1e-19, 2e9), (1e-16, None)])
 def test_a_plate_flat_to_round_off_is_in_full_contact(amplitude, hardness):
     # a load pressed it to 700 iterations and stalled: displacements are rounded by more than the roughness
     n, spacing, load = 32, 1e-6, 1.0
@@ -211,9 +209,9 @@ def test_a_gap_flat_beside_its_displacement_is_closed_in_a_few_rounds(periodic):
     assert np.abs(solution.pressure.ravel() - exact).max() <= 1e-11 * exact.max()
 
 
-@pytest.mark.parametrize("ratio", [1e6, 1e8])
-@pytest.mark.parametrize("periodic", [FREE, HALF_X])
-@pytest.mark.parametrize("cells", [80, 256])
+@pytest.mark.parametrize(
+    ("cells", "periodic", "ratio"), [(80, HALF_X, 1e8), (256, FREE, 1e8), (256, HALF_X, 1e6), (80, FREE, 1e6)]
+)
 def test_larger_flat_gaps_are_closed_in_as_few_rounds(cells, periodic, ratio):
     """What transforms of many cells resolve is more than 1e-13 of the displacement: where rounds went after that, they
     took 408 to 504 convolutions at 256 cells."""

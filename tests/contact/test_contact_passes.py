@@ -80,8 +80,7 @@ def test_what_is_held_of_a_field(cap, fields):
     assert np.array_equal(out, -(0.7 * (gap + displacement - 0.3)))
 
 
-@pytest.mark.parametrize("cap", [0.3, 1e3])
-@pytest.mark.parametrize("share", [1e-9, 0.1, 0.9])
+@pytest.mark.parametrize(("cap", "share"), [(0.3, 1e-9), (1e3, 0.1), (0.3, 0.9)])
 def test_shifting_to_a_sum(cap, share, fields):
     raw, _, _, _ = fields
     wanted = share * (cap * raw.size if cap < 1 else 50.0)
@@ -153,8 +152,7 @@ def test_stride_and_positive(fields):
     assert total == pytest.approx(raw.sum(), rel=1e-13)
 
 
-@pytest.mark.parametrize("cap", [np.inf, 1.4])
-@pytest.mark.parametrize("wrong", [None, -1e-3, 2.0, np.nan])
+@pytest.mark.parametrize(("cap", "wrong"), [(np.inf, None), (1.4, None), (np.inf, -1e-3), (1.4, 2.0), (np.inf, np.nan)])
 def test_what_is_returned_is_judged_cell_by_cell(fields, cap, wrong):
     displacement, gap, cells, values = fields
     scaled = np.zeros(SIZE)
@@ -278,9 +276,13 @@ def test_no_cells_take_no_iteration(n):
     assert found.size == effort.iterations == level.operator.count.applications == 0
 
 
-@pytest.mark.parametrize("n", [24, 96])  # the smaller has no long waves
-@pytest.mark.parametrize("control", [LoadControl(30.0), ApproachControl(0.1)])
-@pytest.mark.parametrize("alone", [True, False])
+@pytest.mark.parametrize(  # 24 cells have no long waves
+    ("n", "control", "alone"),
+    [
+        *((24, LoadControl(30.0), True), (96, ApproachControl(0.1), True)),
+        *((24, ApproachControl(0.1), False), (96, LoadControl(30.0), False)),
+    ],
+)
 def test_conjugate_gradients_in_one_call_are_those_pass_by_pass(n, control, alone, monkeypatch):
     op = operator((n, n), (1 / n, 1 / n), PERIODIC)
     level = Level(op, np.zeros(n * n), np.inf, Tuning())
@@ -309,9 +311,13 @@ def test_conjugate_gradients_in_one_call_are_those_pass_by_pass(n, control, alon
         np.testing.assert_allclose(one, plain, rtol=0, atol=1e-6 * np.abs(plain).max())
 
 
-@pytest.mark.parametrize("n", [24, 96])
-@pytest.mark.parametrize("control", [LoadControl(30.0), ApproachControl(0.1)])
-@pytest.mark.parametrize("cap", [np.inf, 8.0])
+@pytest.mark.parametrize(
+    ("n", "control", "cap"),
+    [
+        *((24, LoadControl(30.0), 8.0), (96, ApproachControl(0.1), 8.0)),
+        *((24, ApproachControl(0.1), np.inf), (96, LoadControl(30.0), np.inf)),
+    ],
+)
 def test_two_calls_close_the_gap_as_the_passes_one_by_one_do(n, control, cap):
     op = operator((n, n), (1 / n, 1 / n), PERIODIC)
     height, rng = notes_surface(n, rolloff=4).ravel(), np.random.default_rng(7)
