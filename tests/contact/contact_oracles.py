@@ -8,6 +8,7 @@ from random_surfaces import self_affine
 from bem.convolution import displacement_operator
 from bem.grid import Grid
 from bem.kernels.coefficients import SURFACE_PARITY, Load, surface_coefficients
+from bem.kernels.layered import surface_response
 from bem.materials import Body, Material
 
 FREE, PERIODIC, HALF_X, HALF_Y = (False, False), (True, True), (True, False), (False, True)
@@ -42,18 +43,51 @@ def notes_surface(cells, seed=0, rolloff=8, cutoff=8, slope=0.1):
 
 
 def displacement(op, pressure):
-    """The operator's product by other means: numpy's transforms, or a direct sum over the coefficients."""
+    """The operator's product by other means: numpy's transforms, or a direct sum over the coefficients.
+
+    Friction adds what the traction `op.friction` times the pressure displaces: of the lower body minus the upper one.
+    """
     grid = op.grid
     if all(grid.periodic):
         kx, ky = grid.wavevectors()
-        q = np.hypot(kx, ky)
-        kernel = np.divide(2 / op.contact_modulus, q, out=np.zeros_like(q), where=q > 0)
+        kernel = sum(_periodic_response(kx, ky, body, Load.NORMAL) for body in op.bodies).astype(complex)
+        for sign, body in zip((op.friction, -op.friction), op.bodies, strict=False):
+            kernel += 1j * sign * _periodic_response(kx, ky, body, Load.TANGENTIAL)
         return np.fft.irfft2(kernel * np.fft.rfft2(pressure), s=grid.shape)
-    quarter = sum(surface_coefficients(grid, b, Load.NORMAL) for b in op.bodies)
+    product = _direct_sum(
+        grid, sum(surface_coefficients(grid, b, Load.NORMAL) for b in op.bodies), Load.NORMAL, pressure
+    )
+    if op.friction:
+        signs = zip((op.friction, -op.friction), op.bodies, strict=False)
+        coupling = sum(sign * surface_coefficients(grid, b, Load.TANGENTIAL) for sign, b in signs)
+        product += _direct_sum(grid, coupling, Load.TANGENTIAL, pressure)
+    return product
+
+
+def _periodic_response(kx, ky, body, load):
+    """Normal displacement of a wave of traction; for a traction along x, i times the result.
+
+    Homogeneous: Johnson (1985), (3.74) and (3.75), transformed. An odd function has no part at the highest wavenumber.
+    """
+    q = np.hypot(kx, ky)
+    inverse = np.divide(1.0, q, out=np.zeros_like(q), where=q > 0)
+    if not body.homogeneous:
+        found = np.where(q > 0, surface_response(kx, ky, body, tangential=load is Load.TANGENTIAL), 0.0)
+    elif load is Load.NORMAL:
+        found = 2 / body.material.plane_strain_modulus * inverse
+    else:
+        found = -(1 - 2 * body.material.poissons_ratio) / (2 * body.material.shear_modulus) * kx * inverse**2
+    if load is Load.TANGENTIAL and q.shape[0] % 2 == 0:
+        found[q.shape[0] // 2] = 0.0
+    return found
+
+
+def _direct_sum(grid, quarter, load, pressure):
+    """Convolution with the coefficients of the quarter plane, mirrored by their parity."""
     full = quarter
     for axis in (0, 1):
         n = grid.shape[axis]
-        parity = SURFACE_PARITY[Load.NORMAL][axis]
+        parity = SURFACE_PARITY[load][axis]
         mirrored = parity * np.flip(np.take(full, range(1, n), axis), axis)
         full = np.concatenate([mirrored, full], axis)
     tiled = pressure
