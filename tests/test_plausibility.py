@@ -105,11 +105,6 @@ def test_a_value_of_another_unit_is_told_with_its_key_and_what_may_be_meant(sour
     assert words in found[0]
 
 
-@pytest.mark.parametrize("name", [name for name in library() if "measured" not in name])
-def test_no_built_in_scene_is_told_of_an_unusual_value(name):
-    assert fired(name) == []
-
-
 def test_a_rigid_stand_in_has_no_modulus_to_be_told_of():
     stiff = 'lower.material={name="rigid flat", youngs_modulus="3 TPa", poissons_ratio=0.3}'
     assert fired("hertz-sphere", stiff) == []

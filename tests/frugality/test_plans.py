@@ -25,20 +25,6 @@ SCENES = sorted(name for name, tables in library().items() if '"kind": "measured
 """Those that need no file of the user's."""
 
 
-@pytest.mark.parametrize("name", SCENES)
-def test_every_built_in_scene_has_a_whole_plan(name):
-    _, plan = plan_scene(name)
-    assert len({step.name for step in plan.steps}) == len(plan.steps)
-    working = [step for step in plan.steps if not step.skipped]
-    assert working
-    for step in plan.steps:
-        assert step.why.strip(), step.name
-        assert 0 <= step.memory < math.inf
-    assert plan.memory > 0
-    assert 0 < plan.seconds(2e9) < math.inf
-    assert plan.seconds(4e9) <= plan.seconds(2e9)
-
-
 def test_every_kind_has_a_built_in_scene_and_something_to_skip():
     kinds = {}
     for name in SCENES:
@@ -47,18 +33,6 @@ def test_every_kind_has_a_built_in_scene_and_something_to_skip():
     for kind in kind_names():
         if kind in kinds:
             assert any(kinds[kind]), f"no scene of kind {kind} skips anything"
-
-
-@pytest.mark.parametrize("name", SCENES)
-def test_a_plan_says_what_is_not_held_in_double(name):
-    """Contacts and stresses of free grids, wherever they are computed; films and surfaces are held in double."""
-    _, plan = plan_scene(name)
-    for step in plan.steps:
-        if not step.skipped and step.name != "partial slip":  # whose pressure may follow the tractions, or not
-            searches = "contact" in step.name or step.name == "pressing in steps"
-            assert (step.precision == SEARCHED_IN_SINGLE) == searches, step.name
-        assert step.precision in ("", SEARCHED_IN_SINGLE, PACKED_SPECTRA)
-        assert (step.name in plan.precisions) == (bool(step.precision) and not step.skipped)
 
 
 def test_the_plan_names_precision_where_the_scene_asks_for_it():

@@ -735,29 +735,6 @@ def test_a_map_smaller_than_the_grid_is_refused_by_the_plan(maps):
         scene_warnings(facts_of(on_map(maps / "whole.npz", "1 mm")))
 
 
-GOOD_REASONS = {
-    "asperities-given-film": {"patch_sinks_at_given_separation"},  # the source's square and its given separation
-    "micropitting-rig": {"patch_of_few_correlation_lengths"},  # ridges of longitudinal lay are as long as the contact
-    "uniform-asperities": {"yield_below_the_surface"},  # elastic as in the paper, pressed in by up to 4.2 GPa
-    "hardness-optimum": {"few_cells_per_wave"},  # the thesis' cell, two to the shortest wave
-    "running-in-stribeck": {"few_cells_per_wave", "few_cells_per_correlation_length"},  # likewise
-    "running-in-ball": {"few_cells_per_wave", "few_cells_per_correlation_length"},  # likewise, the same surfaces
-    "wear-criteria": {"few_cells_per_length_of_the_criterion"},  # a sphere of two cells: its sizes never settle
-    "multilayer-coating": {"few_depths_in_a_layer"},  # the depths that `deepest` gives: two in layers far down
-    "wear-hard-roughness": {"steep_roughness"},  # Sq 1500 nm is the variant's point; its slope is 5
-    "wear-soft-roughness": {"steep_roughness"},  # likewise, slope 1
-    "wear-mesh-convergence": {"few_cells_per_wave", "depths_coarser_than_cells"},  # coarse meshes are its point
-    "wear-mesh-rigid-flat": {"depths_coarser_than_cells"},  # likewise
-}
-
-
-@pytest.mark.parametrize("name", [name for name in library() if "measured" not in name])
-def test_built_in_scenes_warn_for_good_reasons_alone(name):
-    facts = facts_of(name)
-    warned = {check for check in SCENE_CHECKS if list(SCENE_CHECKS[check](facts))}
-    assert warned == GOOD_REASONS.get(name, set())
-
-
 def test_one_warning_is_said_once_and_a_check_that_fails_says_so(monkeypatch):
     def broken(facts):
         raise ZeroDivisionError("nothing to divide by")

@@ -3,10 +3,9 @@
 import pytest
 
 from bem import InputError, load_scene
-from bem.scenes import kind_names, library
-from bem.scenes.form import form_of, library_scene, mistakes_of, start_of, text_of, with_kind, with_value
+from bem.scenes import kind_names
+from bem.scenes.form import form_of, mistakes_of, start_of, text_of, with_kind, with_value
 from bem.scenes.kind import get_kind
-from bem.scenes.load import read_table, table_text
 
 
 def entries(table):
@@ -92,12 +91,3 @@ def test_text_is_what_would_be_typed():
     assert text_of(None) == ""
     assert text_of([1, 2.5]) == "[1, 2.5]"
     assert text_of(True) == "true"
-
-
-@pytest.mark.parametrize("name", [name for name in library() if "measured" not in name])
-def test_a_table_written_is_the_table_read(name, tmp_path):
-    """Of the whole library: tables, lists of tables, dotted keys, texts with quotes."""
-    table = library_scene(name)
-    path = tmp_path / "scene.toml"
-    path.write_text(table_text(table))
-    assert read_table(path) == table

@@ -1,7 +1,6 @@
 """Scenes: every mistake is one message that names key, value, what is allowed and the nearest right spelling."""
 
 import copy
-import json
 import os
 import tomllib
 
@@ -11,7 +10,7 @@ from hypothesis import strategies as st
 
 from bem.errors import InputError
 from bem.runs import plan_scene
-from bem.scenes import dump_scene, get_kind, kind_names, library, load_scene
+from bem.scenes import dump_scene, get_kind, kind_names, load_scene
 from bem.scenes.planner import available_memory
 
 SCENE = {
@@ -214,24 +213,6 @@ def test_unreadable_scene_files(tmp_path, text):
     file.write_bytes(text)
     with pytest.raises(InputError):
         load_scene(file)
-
-
-@pytest.mark.parametrize("name", sorted(library()))
-def test_library(name):
-    table = library()[name]
-    assert table["kind"] in kind_names()
-    assert table["description"]
-    assert "\n" not in table["description"]
-    if '"path"' in json.dumps(table):  # the files are the user's to give
-        assert all(".path = " in message and "no such file" in message for message in messages(table | {"name": name}))
-        return
-    scene, plan = plan_scene(name)
-    assert scene.name == name
-    assert plan.memory > 0
-    assert all(step.why for step in plan.steps)
-    again = load_scene(tomllib.loads(dump_scene(scene)))
-    assert again == scene, "the resolved scene must load as the same scene"
-    assert dump_scene(again) == dump_scene(scene)
 
 
 def test_resolved_scene_says_units():

@@ -7,8 +7,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from pydantic import BaseModel, ValidationError
 
-from bem.errors import InputError
-from bem.scenes import library, units
+from bem.scenes import units
 
 
 class Everything(BaseModel):
@@ -148,20 +147,3 @@ def test_other_units_are_left_to_the_registry(text):
     from bem.scenes.usual_units import usual_unit
 
     assert usual_unit(text) is None
-
-
-@pytest.mark.parametrize("name", sorted(library()))
-def test_built_in_scenes_need_no_registry(name, monkeypatch):
-    from bem.scenes import units
-    from bem.scenes.load import load_scene
-
-    def refuse():
-        raise AssertionError("pint was asked for")
-
-    units._unit.cache_clear()
-    monkeypatch.setattr(units, "_registry", refuse)
-    if "measured" in name:  # its files are looked for, and not there
-        with pytest.raises(InputError, match="no such file"):
-            load_scene(name)
-    else:
-        load_scene(name)
