@@ -1,6 +1,7 @@
 """Error bars of loads per asperity."""
 
 import numpy as np
+import pytest
 
 from reports.experiments.asperity_error_bars import draw, rows_of
 from reports.experiments.judging import judged
@@ -16,6 +17,7 @@ def test_bars_cover_errors_of_random_arrays():
         assert verdict["median_ratio"] <= 6, name
 
 
+@pytest.mark.slow
 def test_bars_fall_with_the_cell():
     """Half the cell leaves a third of the bar or less on the mean: order two, and scatter."""
     rng = np.random.default_rng(5)

@@ -10,6 +10,7 @@ from bem.particles import particles_from_height_map
 from reports.experiments import flow_error_bars, particle_error_bars, rubbing_error_bars, tribofilm_error_bars
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("experiment", "cases", "origins"),
     [

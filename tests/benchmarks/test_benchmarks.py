@@ -71,6 +71,7 @@ def test_loads_of_a_curve_begin_with_those_before():
     assert curve.counts["convolutions_a_load"] < 10
 
 
+@pytest.mark.slow
 def test_errors_of_closed_forms_fall_with_the_mesh():
     for name in ("hertz-sphere", "hertz-cylinder", "sinusoid"):
         coarse, fine = (measure(name, n, 1, CASES[name].prepare, 1).error for n in (32, 128))

@@ -20,6 +20,7 @@ def shared(layer, speeds=(1.0, 0.5), **changes):
     return solve_mixed(**BALL | changes, height=ROUGH, speeds=speeds, supply=layer)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("counted", ["loaded", "patch"])
 def test_plenty_of_oil_is_a_flooded_ball_and_less_has_more_contact(counted):
     flooded, plenty, some, little = (shared(layer, oil_volume=counted) for layer in (None, 1e-4, 5e-8, 2e-8))

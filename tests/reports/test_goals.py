@@ -112,6 +112,7 @@ def test_only_what_a_run_computes_counts_as_its_solvers(tmp_path):
     assert (tmp_path / "run" / "report.html").is_file()
 
 
+@pytest.mark.slow
 def test_what_is_not_compared_says_why(run):
     body = "".join(section.body for section in performance.build().sections)
     for code, _, why in shared.MISSING:

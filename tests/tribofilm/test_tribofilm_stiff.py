@@ -31,6 +31,7 @@ def test_fast_wear_takes_few_steps_and_no_warnings(growth, wear):
     assert abs(film.worn[-1] - growth * (TIMES[-1] - 1 / wear)) <= allowed
 
 
+@pytest.mark.slow
 def test_a_film_that_comes_and_goes_without_end_is_given_up_in_words():
     with pytest.raises(ConvergenceError, match=r"evaluations|broke off"):  # and warnings are errors in all tests
         evolve_film(TIMES, lambda h: 0.01, wear_coefficient=3.0, lag=10.0)

@@ -500,6 +500,7 @@ def test_an_ellipse_not_found_on_long_cells_is_found_on_those_that_are_named(rat
     assert solve_point_film(**barrel, shape=(int(named[1]), int(named[2]))).status is Status.CONVERGED
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("changes", "words"),
     [

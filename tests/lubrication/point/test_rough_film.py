@@ -202,6 +202,7 @@ def test_starts_that_were_not_tried_lead_to_films_that_no_other_way_does():
     assert 0.2 < film.contact_share < 0.4
 
 
+@pytest.mark.slow
 def test_of_a_film_that_is_not_found_the_least_wrong_is_shown():
     """High bumps at a crawl on few cells: the last iterate of the last start is 45 times as wrong as it can be."""
     given = BALL | {"speeds": (0.0, 1e-5), "heights": random_bumps(2, 160e-9, 0.38), "shape": (48, 48)}

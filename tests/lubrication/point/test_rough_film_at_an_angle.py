@@ -94,6 +94,7 @@ def test_what_is_said_of_an_oblique_film_holds_in_si_units_alone(oblique):
     assert np.abs(balances(oblique)[whole]).max() < 1e-7
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize(
     ("radii", "load", "modulus", "rms", "viscosity", "speed", "share"),
     [
