@@ -7,7 +7,7 @@ from reports.experiments import wear_lengths as experiment
 
 
 @pytest.mark.slow
-@pytest.mark.xfail(strict=True, reason="rows older than the code: python -m reports.experiments.wear_lengths renews them")
+@pytest.mark.xfail(strict=True, reason="rows older than the code: run python -m reports.experiments.wear_lengths")
 @pytest.mark.parametrize("criterion", ["averaged_von_mises", "junction"])
 def test_stored_rows_are_what_is_computed(criterion):
     case = next(experiment.cases())
