@@ -1,4 +1,9 @@
-"""Shared by all tests."""
+"""Shared by all tests.
+
+A test is marked `internal` if it, or a helper of its file, uses a name that is neither in `bem.__all__`, nor in the
+`__init__` of a package of bem, nor behind the command line, nor part of the closed forms that serve as references: such
+a test belongs to its code and may go with it. Tests through public doors stay unmarked.
+"""
 
 import os
 import signal

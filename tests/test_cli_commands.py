@@ -234,6 +234,7 @@ def test_tab_completion_knows_the_built_in_scenes():
     assert complete_scene("hertz") == ["hertz-cylinder", "hertz-sphere"]
 
 
+@pytest.mark.internal
 def test_completion_of_figures_and_formats(tmp_path):
     from types import SimpleNamespace
 
@@ -270,6 +271,7 @@ def test_every_example_in_a_help_text_is_of_that_command():
     assert found >= 15
 
 
+@pytest.mark.internal
 def test_progress_is_shown_on_a_terminal_only_and_not_for_short_work(monkeypatch, capsys):
     from bem.cli import _terminal
 

@@ -8,6 +8,8 @@ from numba import njit
 from bem.transforms import loops
 from bem.transforms.padded import COMPLEX
 
+pytestmark = pytest.mark.internal
+
 
 @pytest.mark.parametrize("dtype", [np.float64, np.float32])
 @pytest.mark.parametrize("parities", [(1, -1), (-1, 1), (1, 0), (-1, 0), (0, 1), (0, -1), (0, 0), (loops.ONE, 0)])

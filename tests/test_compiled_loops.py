@@ -35,6 +35,7 @@ def functions():
                 yield path, node
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("decorator", sorted(DECORATORS))
 def test_a_decorator_says_all_that_a_caller_would_hand_on(decorator, tmp_path, monkeypatch):
     monkeypatch.setattr("numba.config.CACHE_DIR", str(tmp_path))
@@ -56,6 +57,7 @@ LOOPS = {  # what follows start, stop and the results
 }
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("loop", LOOPS, ids=lambda loop: loop.__name__)
 def test_arithmetic_is_that_of_the_text(loop):
     """Bit for bit what the interpreter makes of it: no sum in another order, no product rounded with the sum it goes

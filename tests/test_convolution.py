@@ -49,6 +49,7 @@ def direct(grid, bodies, friction, pressure):
     return (matrix @ pressure.ravel()).reshape(grid.shape)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("periodic", PERIODICITY)
 @pytest.mark.parametrize("bodies", [(Body(STEEL),), (Body(STEEL), Body(BRASS)), (Body(BRASS), Body(STEEL))])
 @pytest.mark.parametrize("friction", [0.0, 0.3])
@@ -60,6 +61,7 @@ def test_direct_sums(periodic, bodies, friction):
     assert np.abs(found - expected).max() <= 1e-13 * np.abs(expected).max()  # round-off of a sum over 126 cells
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("shape", [(8, 10), (9, 7), (1, 12), (12, 1)])
 @pytest.mark.parametrize("friction", [0.0, 0.3])
 def test_doubly_periodic_waves_come_out_as_waves(shape, friction):
@@ -77,6 +79,7 @@ def test_doubly_periodic_waves_come_out_as_waves(shape, friction):
     assert abs(op(np.ones(shape))).max() <= 1e-15 * np.abs(normal).max()  # a mean pressure moves the datum only
 
 
+@pytest.mark.internal
 def test_steel_on_steel_never_builds_a_coupling_kernel():
     grid = Grid((8, 8), (1e-6, 1e-6))
     op = displacement_operator(grid, (Body(STEEL), Body(STEEL)), friction=0.4)
@@ -89,16 +92,19 @@ def test_steel_on_steel_never_builds_a_coupling_kernel():
     assert convolution.COUNT.tangential == 1
 
 
+@pytest.mark.internal
 def test_no_friction_builds_no_coupling_kernel():
     displacement_operator(Grid((8, 8), (1e-6, 1e-6)), (Body(STEEL), Body(BRASS)))(np.ones((8, 8)))
     assert convolution.COUNT.tangential == 0
 
 
+@pytest.mark.internal
 def test_two_homogeneous_bodies_cost_one_kernel():
     displacement_operator(Grid((8, 8), (1e-6, 1e-6)), (Body(STEEL), Body(BRASS)))(np.ones((8, 8)))
     assert convolution.COUNT.normal == 1
 
 
+@pytest.mark.internal
 def test_equal_layered_bodies_do_not_couple_and_different_ones_do():
     coated = Body(STEEL, layer=Layer(BRASS, 1e-6))
     assert not convolution.couples((coated, Body(STEEL, layer=Layer(BRASS, 1e-6))))
@@ -106,6 +112,7 @@ def test_equal_layered_bodies_do_not_couple_and_different_ones_do():
     assert convolution.couples((coated,))
 
 
+@pytest.mark.internal
 def test_operators_share_spectra_and_forget_within_bounds():
     grid = Grid((32, 32), (1e-6, 1e-6))
     first = displacement_operator(grid, Body(STEEL))
@@ -121,6 +128,7 @@ def test_operators_share_spectra_and_forget_within_bounds():
         assert convolution.spectra_memory() <= 3 * size
 
 
+@pytest.mark.internal
 def test_one_transform_each_way_with_and_without_friction():
     grid = Grid((20, 12), (1e-6, 1e-6))
     for friction in (0.0, 0.3):
@@ -133,6 +141,7 @@ def test_one_transform_each_way_with_and_without_friction():
         assert op.count.applications == 2
 
 
+@pytest.mark.internal
 def test_near_field_is_the_kernel():
     grid = Grid((16, 16), (1e-6, 2e-6))
     op = displacement_operator(grid, Body(STEEL), friction=0.2)

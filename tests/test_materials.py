@@ -118,6 +118,7 @@ def test_every_metal_of_the_catalogue_can_be_heated(name):
     assert found.partition[8:24, 8:24].mean() == pytest.approx(metal / (metal + steel), rel=0.01)
 
 
+@pytest.mark.internal
 def test_what_touches_carries_its_hardness_or_that_of_its_yield_stress():
     """Tabor's 2.8, in which a yield stress alone says what a contact carries; without either a solid is elastic."""
     constants = {"youngs_modulus": 4e9, "poissons_ratio": 0.4}

@@ -34,6 +34,8 @@ from bem.scenes.checks.plausible import notes_on_table
 from bem.tribofilm import FilmContact, grow_local_film
 from bem.tribofilm.growth import StressActivatedGrowth
 
+pytestmark = pytest.mark.internal
+
 STEEL = "steel-52100"
 
 

@@ -60,6 +60,7 @@ def test_every_public_result_is_short():
         assert not arrays or "_repr_html_" in vars(found), name
 
 
+@pytest.mark.internal
 def test_odd_values():
     @readable
     @dataclasses.dataclass

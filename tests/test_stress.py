@@ -52,6 +52,7 @@ def direct(pressure, grid, depth, friction):
     return stress
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("periodic", ALL_PERIODIC)
 @pytest.mark.parametrize("shape", [(7, 6), (8, 5), (1, 4), (5, 1), (2, 2), (1, 1)])
 def test_transforms_do_what_direct_summation_does(shape, periodic):
@@ -125,6 +126,7 @@ def test_uniform_pressure_on_a_doubly_periodic_grid():
         np.testing.assert_allclose(stress[component], value, atol=1e-14)
 
 
+@pytest.mark.internal
 def test_counts_of_transforms_and_spectra():
     room.set_stress_memory(1 << 28)
     grid = Grid((12, 9), (1.1e-6, 1e-6))
@@ -149,6 +151,7 @@ def test_counts_of_transforms_and_spectra():
     assert room.COUNT.spectra == 5  # a plane is computed when it is asked for
 
 
+@pytest.mark.internal
 def test_memory_of_spectra_is_bounded_and_a_long_sweep_keeps_what_fits():
     grid = Grid((12, 9), (1.2e-6, 1e-6))
     pressure = np.random.default_rng(3).random(grid.shape)
@@ -179,6 +182,7 @@ def test_memory_of_spectra_is_bounded_and_a_long_sweep_keeps_what_fits():
         room.set_stress_memory(1 << 29)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("periodic", ALL_PERIODIC[:3])
 def test_zz_under_traction_is_xz_under_pressure(periodic):
     grid = Grid((14, 9), (1.2, 1.0), periodic=periodic)
@@ -188,6 +192,7 @@ def test_zz_under_traction_is_xz_under_pressure(periodic):
         np.testing.assert_allclose(drawn[2], pressed[4], rtol=0, atol=1e-15)
 
 
+@pytest.mark.internal
 def test_packed_numbers_are_as_near_as_they_say_and_stay():
     rng = np.random.default_rng(17)
     values = rng.standard_normal((9, 31)) * 10.0 ** rng.integers(-200, 200, (9, 1))
@@ -205,6 +210,7 @@ def test_packed_numbers_are_as_near_as_they_say_and_stay():
     assert not pack(np.full((1, 3), 5e-324)).unpack(np.ones((1, 3))).any()
 
 
+@pytest.mark.internal
 def test_bits_do_not_depend_on_threads_cache_or_output_array():
     grid = Grid((150, 40), (1e-6, 1e-6), periodic=(False, True))
     pressure = np.random.default_rng(4).random(grid.shape)
@@ -248,6 +254,7 @@ def test_the_limit_is_never_exceeded(periodic, friction):
             assert (field.max(axis=(1, 2)) <= limit + 1e-14 * np.abs(pressure).max()).all()
 
 
+@pytest.mark.internal
 def test_the_limit_is_near_for_one_loaded_cell_and_costs_one_pass_a_depth():
     grid = Grid((40, 36), (1.0, 1.0), periodic=(False, True))
     one, many = np.zeros((2, *grid.shape))
@@ -326,6 +333,7 @@ def test_linearity_mirror_and_scale(nx, ny, periodic, friction, seed):
     np.testing.assert_allclose(stress(1e9 * p, g=small, z=(0.0, 0.8e-9)), 1e9 * stress(p), rtol=0, atol=1e-3)
 
 
+@pytest.mark.internal
 def test_bad_input_is_refused_with_every_mistake_named():
     grid = Grid((4, 4), (1, 1))
     pressure = np.ones((4, 4))
@@ -349,6 +357,7 @@ def test_bad_input_is_refused_with_every_mistake_named():
     assert subsurface_stress(pressure, grid, BODY, []).shape == (6, 0, 4, 4)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("friction", [0.0, 0.3])
 def test_packed_spectra_give_the_stresses_of_whole_ones(monkeypatch, friction):
     layered = Body(BODY.material, layer=Layer(Material("skin", youngs_modulus=70e9, poissons_ratio=0.2), 1.0))
@@ -374,6 +383,7 @@ def test_packed_spectra_give_the_stresses_of_whole_ones(monkeypatch, friction):
     room.set_stress_memory(1 << 29)
 
 
+@pytest.mark.internal
 def test_names_of_bodies_are_few_and_never_given_twice():
     """They were kept for every material of a session."""
     cache = SweepCache(1 << 20)

@@ -24,6 +24,7 @@ def three_threads(monkeypatch):
     threads.set_threads(before)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("count", [1, 2, 3, 9])
 def test_every_block_is_done_once_and_no_worker_number_is_too_large(count):
     threads.set_threads(count)
@@ -34,6 +35,7 @@ def test_every_block_is_done_once_and_no_worker_number_is_too_large(count):
         assert all(0 <= worker < max(1, min(count, 4, blocks)) for worker, _ in done)
 
 
+@pytest.mark.internal
 def test_two_threads_are_inside_at_once():
     """Each waits for the other: alone neither would go on."""
     meeting = threading.Barrier(2, timeout=60)
@@ -42,6 +44,7 @@ def test_two_threads_are_inside_at_once():
     assert seen == {0, 1}
 
 
+@pytest.mark.internal
 def test_threads_are_kept_and_no_more_are_used_than_there_are_cores():
     threads.share(lambda worker, block: None, 8, 100)
     before = threading.active_count()
@@ -52,6 +55,7 @@ def test_threads_are_kept_and_no_more_are_used_than_there_are_cores():
     assert threads.threads_for(100) == 4
 
 
+@pytest.mark.internal
 def test_who_comes_late_or_was_called_for_another_task_does_nothing():
     done = []
     task = threads._Task(lambda worker, block: done.append(worker), 4, 2)
@@ -64,6 +68,7 @@ def test_who_comes_late_or_was_called_for_another_task_does_nothing():
     assert task.inside == 0
 
 
+@pytest.mark.internal
 def test_a_failure_is_raised_and_the_next_call_works():
     def work(worker, block):
         if block in (1, 2):
@@ -78,6 +83,7 @@ def test_a_failure_is_raised_and_the_next_call_works():
     assert sorted(done) == list(range(6))
 
 
+@pytest.mark.internal
 @pytest.mark.skipif(not hasattr(os, "fork"), reason="no fork here")
 @pytest.mark.filterwarnings("ignore:This process")
 def test_a_forked_process_has_threads_of_its_own():
@@ -90,6 +96,7 @@ def test_a_forked_process_has_threads_of_its_own():
     assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 0
 
 
+@pytest.mark.internal
 def test_a_convolution_is_three_tasks_of_two_pieces_a_thread(monkeypatch):
     found, plain = [], threads._Pool.share
     monkeypatch.setattr(threads._Pool, "share", lambda pool, task: (found.append(task.blocks), plain(pool, task))[1])
@@ -153,6 +160,7 @@ def test_children_forked_while_a_thread_solves_solve_the_same():
     assert done.stdout.split("\n")[0] == f"0 {[0] * 8}"
 
 
+@pytest.mark.internal
 def test_a_lock_of_another_thread_is_free_in_the_child_and_one_that_guards_a_whole_is_waited_for():
     torn, whole = threads.ForkSafeLock(), threads.ForkSafeLock(whole=True)
     entered, state = threading.Event(), []
@@ -183,6 +191,7 @@ def test_a_lock_of_another_thread_is_free_in_the_child_and_one_that_guards_a_who
     assert code == 0
 
 
+@pytest.mark.internal
 def test_the_thread_that_forks_keeps_the_locks_that_it_holds():
     lock = threads.ForkSafeLock(whole=True)
     with lock:

@@ -57,6 +57,7 @@ def wrapped(coefficients, padded, parity):
     return full
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("dtype", [np.float64, np.float32])
 @pytest.mark.parametrize(("shape", "padded"), SHAPES)
 def test_forward_and_inverse_match_numpy(shape, padded, dtype):
@@ -68,6 +69,7 @@ def test_forward_and_inverse_match_numpy(shape, padded, dtype):
     assert np.abs(transform.inverse(spectrum) - field).max() <= ROUND_OFF[dtype] * np.abs(field).max()
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(("shape", "padded"), [case for case in SHAPES if case[1][0] * case[1][1] < 500])
 def test_convolution_with_even_and_odd_kernels(shape, padded):
     for parity in PARITIES:
@@ -87,6 +89,7 @@ def check_convolution(shape, padded, parity):
     assert np.abs(transform.inverse(transform.forward(field), factor) - expected).max() <= 1e-14 * scale
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(("shape", "padded"), [*SHAPES, ((700, 64), (1400, 64)), ((300, 250), (300, 500))])
 @pytest.mark.parametrize("dtype", [np.float64, np.float32])
 def test_a_convolution_of_cells_is_that_of_their_field(shape, padded, dtype, one_thread):
@@ -116,6 +119,7 @@ def check_convolution_of_cells(shape, padded, dtype, share):
         np.testing.assert_array_equal(transform.convolve(field, kernel), plain)  # scratch is as it was
 
 
+@pytest.mark.internal
 def test_even_and_odd_parts_add_to_one_multiplier():
     rng = np.random.default_rng(3)
     shape, padded = (6, 5), (12, 10)
@@ -128,12 +132,14 @@ def test_even_and_odd_parts_add_to_one_multiplier():
     assert np.abs(both - apart).max() <= 1e-13 * np.abs(both).max()
 
 
+@pytest.mark.internal
 def test_parts_of_different_parity_are_refused():
     quarter = np.ones((3, 3))
     with pytest.raises(InputError, match="parity"):
         transforms.multiplier([(quarter, (-1, 1), 1.0), (quarter, (1, -1), 1.0)])
 
 
+@pytest.mark.internal
 def test_only_the_rows_that_matter_are_transformed():
     transform = transforms.PaddedTransform((30, 20), (60, 40))
     field = np.ones((30, 20))
@@ -144,6 +150,7 @@ def test_only_the_rows_that_matter_are_transformed():
     assert (transforms.COUNT.inverse, transforms.COUNT.rows, transforms.COUNT.columns) == (1, 60, 42)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(("shape", "padded"), [*SHAPES, ((6, 4), (6, 4)), ((64, 96), (64, 96)), ((9, 5), (17, 12))])
 def test_columns_in_pairs_are_those_of_real_rows(shape, padded):
     """Of even multipliers and even lengths along y, where rows are taken as complex ones half as long."""
@@ -174,6 +181,7 @@ def check_columns_in_pairs(shape, padded, dtype):
     assert transform.room_for(odd.factor(transform.dtype)) is transform.room
 
 
+@pytest.mark.internal
 def test_plans_are_destroyed_while_no_other_thread_can_make_one(monkeypatch):
     fftw, found = plans.library(np.dtype(np.float64)), []
 
@@ -194,6 +202,7 @@ def test_plans_are_destroyed_while_no_other_thread_can_make_one(monkeypatch):
     assert not any(found)
 
 
+@pytest.mark.internal
 @pytest.mark.usefixtures("one_thread")
 @pytest.mark.parametrize("dtype", [np.float64, np.float32])
 def test_threads_leave_a_convolution_alone(dtype):
@@ -213,6 +222,7 @@ def _digest():
     return hashlib.sha256(transform.forward(field).tobytes()).hexdigest()
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("columns", [None, 20])
 @pytest.mark.parametrize(("shape", "padded"), [((240, 90), (480, 90)), ((300, 64), (600, 128)), ((64, 48), (64, 48))])
 def test_squares_are_those_of_the_fields(shape, padded, columns, one_thread):
@@ -234,6 +244,7 @@ def test_squares_are_those_of_the_fields(shape, padded, columns, one_thread):
         assert np.abs(sums - wanted).max() <= ROUND_OFF[np.float64] * wanted.max()
 
 
+@pytest.mark.internal
 def test_another_process_gives_the_same_bits():
     here = str(Path(__file__).parent)
     code = f"import sys; sys.path.insert(0, {here!r}); import test_transforms as t; print(t._digest())"
@@ -241,6 +252,7 @@ def test_another_process_gives_the_same_bits():
     assert other == _digest()
 
 
+@pytest.mark.internal
 def test_cached_transforms_are_bounded():
     transforms.set_transform_memory(1 << 20)
     try:
@@ -253,6 +265,7 @@ def test_cached_transforms_are_bounded():
     assert transforms.transform_of((16, 16), (16, 16)) is transforms.transform_of((16, 16), (16, 16))
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(
     "arguments", [((4, 4), (3, 4)), ((0, 4), (4, 4)), ((4, 4), (4, 4), np.int32)], ids=["short", "empty", "integers"]
 )
@@ -261,12 +274,14 @@ def test_what_cannot_be_transformed_is_refused(arguments):
         transforms.transform_of(*arguments)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("count", [0, -1, 1.5, True, "2"])
 def test_thread_counts_are_positive_integers(count):
     with pytest.raises(InputError, match="set_threads"):
         threads.set_threads(count)
 
 
+@pytest.mark.internal
 @settings(deadline=None, max_examples=30)
 @given(nx=st.integers(1, 40), ny=st.integers(1, 40), px=st.integers(0, 40), py=st.integers(0, 40))
 def test_any_shape_and_padding_round_trips(nx, ny, px, py):
@@ -275,6 +290,7 @@ def test_any_shape_and_padding_round_trips(nx, ny, px, py):
     assert np.abs(transform.inverse(transform.forward(field)) - field).max() <= 1e-13
 
 
+@pytest.mark.internal
 def test_errors_in_threads_are_raised():
     before = threads.get_threads()
     threads.set_threads(2)
@@ -290,6 +306,7 @@ def test_errors_in_threads_are_raised():
         threads.set_threads(before)
 
 
+@pytest.mark.internal
 def test_what_is_small_or_shared_already_is_not_shared(monkeypatch, one_thread):
     monkeypatch.setattr(threads, "SHARED_FROM", 1000)
     monkeypatch.setattr(threads, "cores", lambda: 2)
@@ -312,6 +329,7 @@ def test_what_is_small_or_shared_already_is_not_shared(monkeypatch, one_thread):
     assert threads.threads_for(1000) == 2
 
 
+@pytest.mark.internal
 @pytest.mark.usefixtures("one_thread", "shared_as_it_is")
 def test_threads_share_nothing_that_takes_less_than_handing_it_over(monkeypatch):
     """Contacts of 256 and 512 cells lost a fifth to two threads, as did stresses at 32 depths: 2 to 16 hand-overs a
@@ -334,6 +352,7 @@ def test_threads_share_nothing_that_takes_less_than_handing_it_over(monkeypatch)
     assert handed == [1]  # all depths at once
 
 
+@pytest.mark.internal
 def test_padded_lengths_hold_every_offset_and_prefer_powers_of_two_that_are_little_longer():
     for cells in range(2, 1100):
         length = transforms.padded_length(cells, False)
@@ -346,6 +365,7 @@ def test_padded_lengths_hold_every_offset_and_prefer_powers_of_two_that_are_litt
     assert chosen == {120: 240, 240: 512, 480: 960, 500: 1024, 1000: 2048}
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("compiled", [True, False])
 def test_scipys_transforms_without_scipy_fft_have_its_bits(monkeypatch, compiled):
     if not compiled:
@@ -365,6 +385,7 @@ def test_scipys_transforms_without_scipy_fft_have_its_bits(monkeypatch, compiled
         assert pocketfft.fast_length(length) == scipy.fft.next_fast_len(length, real=True)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(
     "change",
     [
@@ -417,6 +438,7 @@ def falling(nx, decay, parity):
     return along_x @ (np.sin(along_y) if parity[1] == -1 else np.cos(along_y))
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("parity", PARITIES)
 @pytest.mark.parametrize("decay", [0.03, 0.15, 2.0])
 def test_short_waves_are_padded_by_their_reach_alone_and_lose_nothing(decay, parity):
@@ -445,12 +467,14 @@ def test_short_waves_are_padded_by_their_reach_alone_and_lose_nothing(decay, par
     assert numbers[1] <= {0.03: 1.0, 0.15: 0.85, 2.0: 0.7}[decay] * numbers[0]
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("decay", [1e-2, 1e-6, 1e-300])
 def test_waves_that_hardly_fall_are_padded_as_ever(decay):
     """Cells far shorter along x than along y: the reach is beyond any length on the list."""
     assert transforms.narrowed_lengths(61, (128, WAVES), decay) == (128,) * (WAVES // 2 + 1)
 
 
+@pytest.mark.internal
 def test_lengths_that_hold_no_field_are_refused():
     with pytest.raises(InputError, match="must be 5, from 6 to 12"):
         transforms.transform_of((6, 8), (12, 8), lengths=(12, 12, 8, 5, 6))
@@ -458,6 +482,7 @@ def test_lengths_that_hold_no_field_are_refused():
         transforms.transform_of((6, 8), (12, 8), lengths=(12, 12, 8))
 
 
+@pytest.mark.internal
 def test_both_precisions_take_turns_in_one_buffer():
     shape, padded = (48, 131), (96, 270)
     double, single = transforms.transform_of(shape, padded), transforms.transform_of(shape, padded, np.float32)

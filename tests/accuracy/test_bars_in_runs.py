@@ -37,6 +37,7 @@ def outcome(**changes):
     return outcome_of(scene, kind.run(scene, context)), context
 
 
+@pytest.mark.internal
 def test_every_headline_figure_has_its_error():
     found, _ = outcome(outputs={"von_mises": True})
     summary = found.summary
@@ -56,6 +57,7 @@ def test_every_headline_figure_has_its_error():
     assert float(found.variables["approach_error_grid"].values) == summary["approach_m_error_grid"]
 
 
+@pytest.mark.internal
 def test_the_error_of_a_mean_over_repetitions_has_its_standard_error():
     told = {"load": Figure("N", "load"), "friction": Figure("", "friction", ("speed",)), "area": Figure("m2", "area")}
 
@@ -79,12 +81,14 @@ def test_the_error_of_a_mean_over_repetitions_has_its_standard_error():
     assert "area_m2_error" not in found
 
 
+@pytest.mark.internal
 def test_errors_can_be_left_out():
     found, context = outcome(outputs={"errors": False})
     assert not [key for key in found.summary if key.endswith("_error")]
     assert "error bars" not in context.seconds
 
 
+@pytest.mark.internal
 def test_figures_are_spelt_with_their_errors():
     summary = {"max_pressure_Pa": 1.2346e9, "max_pressure_Pa_error": 2.34e7, "load_N": 1.0, "approach_m": 3e-9}
     assert with_error("max_pressure_Pa", summary) == ("max pressure", "1.235 ± 0.023 GPa")
@@ -116,6 +120,7 @@ def test_the_report_shows_errors_beside_figures(tmp_path):
     assert run.summary["approach_m_error"] > 0
 
 
+@pytest.mark.internal
 def test_errors_by_origin_in_a_table():
     summary = {"load_N": 2000.0, "load_N_error": 30.0, "load_N_error_grid": 20.0, "load_N_error_residual": 10.0}
     friction = {"friction": [0.1, 0.2], "friction_error": [0.01, 0.03], "friction_error_grid": [0.01, 0.03]}
@@ -162,6 +167,7 @@ def wear_record(radius):
     return WearRecord(**{**values, "volume_mean_equivalent_radius": radius})
 
 
+@pytest.mark.internal
 def test_what_follows_the_mesh_has_null_and_says_why():
     found = _figures(figures_of(WearRecord), [wear_record(1e-7)], MESHS, SCATTERS)
     assert found["number_mean_equivalent_radius_nm_error"] is None
@@ -170,6 +176,7 @@ def test_what_follows_the_mesh_has_null_and_says_why():
     assert with_error("particles_per_cycle", found)[1] == "1 (no error bar)"
 
 
+@pytest.mark.internal
 def test_scatter_over_repetitions_is_the_only_bar_of_a_wear_loop():
     records = [wear_record(radius) for radius in (1e-7, 3e-7)]
     found = _figures(figures_of(WearRecord), records, MESHS, SCATTERS)
@@ -183,6 +190,7 @@ def test_scatter_over_repetitions_is_the_only_bar_of_a_wear_loop():
     )
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("record", [WearRecord, RunningInRecord])
 def test_scattering_figures_are_figures_that_have_none_of_the_meshs(record):
     assert set(record.scatters) <= set(figures_of(record)) - set(without_bars(record))

@@ -34,6 +34,7 @@ def case_of(speed, cells=(48, 24), rms=100e-9, **changes):
     return MixedCase(setup, height, solve_setup(setup, height, (speed, 0.0)))
 
 
+@pytest.mark.internal
 def test_a_bar_is_the_sum_of_its_parts():
     case = case_of(0.5)
     assert case.solution.regime is Regime.MIXED
@@ -44,6 +45,7 @@ def test_a_bar_is_the_sum_of_its_parts():
         assert 0 < bars.values[name] < 2 * abs(value), name
 
 
+@pytest.mark.internal
 def test_in_full_film_only_the_film_is_wrong():
     case = case_of(20.0, rms=20e-9)
     assert case.solution.full_film
@@ -53,6 +55,7 @@ def test_in_full_film_only_the_film_is_wrong():
     assert 0 < bars.values["friction"] < 0.02 * case.solution.friction
 
 
+@pytest.mark.internal
 def test_in_boundary_lubrication_the_film_has_no_bar():
     case = case_of(1e-6)
     assert case.solution.regime is Regime.BOUNDARY
@@ -64,6 +67,7 @@ def test_in_boundary_lubrication_the_film_has_no_bar():
     assert bars.values["film_load"] >= case.solution.film_load
 
 
+@pytest.mark.internal
 def test_what_has_no_coarser_balance_has_no_bars():
     few = case_of(0.5, cells=(14, 7))
     bars = mixed_bars(few, solve_coarser_mixed(few))
@@ -74,6 +78,7 @@ def test_what_has_no_coarser_balance_has_no_bars():
     assert coarser.contact.status is Status.CONVERGED
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("cells", [(48, 24), (49, 25)])
 def test_the_coarser_grid_is_as_large(cells):
     grid = Grid(cells, (2.0, 3.0), periodic=(False, True))
@@ -94,6 +99,7 @@ def test_bars_cover_nine_errors_in_ten_and_are_not_far_too_large():
     assert np.median(ratios) <= 7
 
 
+@pytest.mark.internal
 def test_bars_of_a_ball_hold_how_far_its_film_goes_on():
     """A film at six times the load that it is solved under, against the film solved under all of it: the film's part of
     friction's bar fell short, and the minimum, of half the thickness, had a bar of a tenth. Since thin cells hold the

@@ -6,6 +6,8 @@ import pytest
 from bem import Lubricant
 from bem.accuracy.point import SPIKE, PointCase, point_bars, spike_at_centre
 
+pytestmark = pytest.mark.internal
+
 
 @pytest.mark.parametrize(("width", "flat", "spiked"), [(0.08, 0.3, True), (0.08, 3.0, False), (0.6, 0.3, False)])
 def test_a_spike_is_steep_and_the_highest(width, flat, spiked):

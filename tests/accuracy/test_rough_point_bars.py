@@ -20,6 +20,8 @@ from bem.accuracy.rough_point import (
 from bem.errors import Status
 from bem.reference_solutions.hertz import ellipse_contact
 
+pytestmark = pytest.mark.internal
+
 RADIUS, LOAD, MODULUS = 0.01, 20.0, 115e9
 AREA = np.pi * np.prod(ellipse_contact(radii=(RADIUS, RADIUS), contact_modulus=MODULUS, load=LOAD).semi_axes)
 HALF = np.sqrt(AREA / np.pi)

@@ -56,6 +56,7 @@ def test_figures_have_bars_in_boundary_lubrication_and_in_full_film_and_stay_wha
     assert "friction_run_in_error" not in plain
 
 
+@pytest.mark.internal
 def test_the_coarser_loop_has_half_of_all_and_slides_as_far():
     kind = get_kind("running-in")
     scene = kind.resolved(scene_from_table(copy.deepcopy(SCENE)))
@@ -83,6 +84,7 @@ def test_a_film_that_cannot_be_halved_is_doubled(tmp_path):
             assert found[f"{key}_error"][0] < 4 * missed, key
 
 
+@pytest.mark.internal
 def test_where_nothing_wears_only_what_was_before_any_wear_has_a_bar():
     worn = dict.fromkeys(MIXED_RULES, 1.0)
     for found, coarser in ((worn, worn | {"worn_depth": 0.0}), (worn | {"worn_depth": 0.0},) * 2):
@@ -94,6 +96,7 @@ def test_where_nothing_wears_only_what_was_before_any_wear_has_a_bar():
     assert None not in running_in_bars(worn, worn | {"friction": 2.0}).values.values()
 
 
+@pytest.mark.internal
 def test_where_one_of_film_and_contact_has_all_of_the_load_wear_passes_little():
     """A tenth of what wears differently stood in the bars of friction whatever passes: forty times the error."""
     contact = dict.fromkeys(MIXED_RULES, 1.0) | {"film_load": 0.01}
@@ -123,6 +126,7 @@ def test_the_stored_judgement_covers():
     assert covered / bars > 0.85
 
 
+@pytest.mark.internal
 def test_a_coarser_loop_that_does_not_converge_leaves_the_case_as_it_is():
     grid = Grid((32, 24), (1e-6, 1e-6), periodic=(False, True))
     flat = np.zeros(grid.shape)

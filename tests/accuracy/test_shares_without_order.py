@@ -30,6 +30,7 @@ def bars_of_equal_grids(case, stick):
     return sticking_bars(PUSH_RULES, case, figures, figures, residual=0.0).values
 
 
+@pytest.mark.internal
 def test_energy_of_a_ring_of_less_than_a_cell_is_known_to_a_fifth_at_best(ball):
     edge = share_at_edge(ball)
     assert cells_across_ring(0.25, 0.1) == pytest.approx(10)  # 20 cells to the radius, half of which sticks
@@ -52,6 +53,7 @@ def lattice_misses(centred):
     return float(np.sqrt(np.mean(np.square(missed))))
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("beside", [0.0, 0.31])
 def test_stiffness_is_known_as_well_as_whole_cells_fill_a_circle(beside):
     """One and a half times the root mean square of what lattice points in circles miss, for the root of their area: of
@@ -67,6 +69,7 @@ def test_stiffness_is_known_as_well_as_whole_cells_fill_a_circle(beside):
     assert bar == pytest.approx(1.5 * 0.5 * missed, rel=0.1)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("cells", [33, 34])
 def test_stiffness_of_balls_in_the_middle_of_the_grid_is_covered(cells):
     """Mindlin's 8 a / sum (2 - nu)/G of 30 balls 8 to 25 cells wide: the differences of a share of 0.076 of the edge's
@@ -93,6 +96,7 @@ def test_stiffness_of_balls_in_the_middle_of_the_grid_is_covered(cells):
     assert np.median(within) < 5
 
 
+@pytest.mark.internal
 def test_a_part_of_the_creepage_errs_as_a_share_of_the_whole(ball):
     """Spin turns the vector: the small part of a ball at 15 % of its grip was off by 2.6 % of itself, 0.4 % of the
     whole, under a bar of 0.8 %. What is zero by symmetry has none to speak of."""
@@ -107,6 +111,7 @@ def test_a_part_of_the_creepage_errs_as_a_share_of_the_whole(ball):
     assert bars(1e-3, 1e-19)["creepage_across"] < 1e-18
 
 
+@pytest.mark.internal
 def test_the_work_of_rolling_is_known_better_than_its_creepage(ball):
     """Of the same difference between grids; work had the bars of the creepage, three times its errors in the median."""
     names = ("creepage", "friction_work")
@@ -115,6 +120,7 @@ def test_the_work_of_rolling_is_known_better_than_its_creepage(ball):
     assert 1e-4 < bars["friction_work"] < 0.85 * bars["creepage"]
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("sticks", [0.1, 0.3, 0.6])
 def test_rolling_forces_are_known_no_better_than_what_sticks(ball, sticks):
     """Carter's strip: F = friction x load x (1 - s^2) where s of it sticks, so that grids on which s differs by ds have
@@ -131,6 +137,7 @@ def test_rolling_forces_are_known_no_better_than_what_sticks(ball, sticks):
     assert fixed == 0.0
 
 
+@pytest.mark.internal
 def test_what_sticks_is_known_as_well_as_whole_cells_fill_its_circle(ball):
     """Twice the root mean square of what lattice points in circles of any place miss of the area that sticks."""
     wide, narrow = (bars_of_equal_grids(ball, stick)["stick_fraction"] / stick for stick in (0.81, 0.2025))
@@ -140,6 +147,7 @@ def test_what_sticks_is_known_as_well_as_whole_cells_fill_its_circle(ball):
     assert narrow / wide == pytest.approx(2**1.5)
 
 
+@pytest.mark.internal
 def test_depth_below_a_ball_is_known_to_a_percent(ball):
     """Looked for between points and depths it is off by less than its bar, and that is small."""
     depths = 5e-6 * np.linspace(0, 1.6, 13) ** 2
@@ -155,6 +163,7 @@ def test_depth_below_a_ball_is_known_to_a_percent(ball):
     assert abs(below.max_von_mises_depth - true) <= bar < 0.02 * true
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("place", [0.1, 0.3, 0.45])
 def test_the_top_of_a_spike_between_nodes_is_within_half_its_fall(place):
     x = np.arange(9.0)

@@ -56,6 +56,7 @@ def test_a_sharp_contact_has_no_bar_of_its_highest_pressure_and_says_why(shape):
     assert bars.values["contact_area"] > 0
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("cells", [12, 16, 20, 24])
 def test_a_cone_is_sharp_on_few_cells_wherever_its_tip_lies(cells):
     """Its curvature, the inverse distance, is nowhere small there; of a ball, and of rough surfaces, it is even."""
@@ -76,6 +77,7 @@ def test_a_smooth_contact_keeps_the_bar(shape):
     assert contact_bars(case, solve_coarser(case)).values["max_pressure"] > 0
 
 
+@pytest.mark.internal
 def test_a_ridge_far_below_the_highest_pressure_does_not_count():
     """Its own rises on finer cells, from 0.7 of the highest, which stays."""
 
@@ -91,6 +93,7 @@ def test_a_ridge_far_below_the_highest_pressure_does_not_count():
     assert error <= bar < 0.05 * case.solution.maximum_pressure
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("cutoff", [2.0, 4.0, 8.0])
 def test_rough_surfaces_are_not_sharp_by_chance(cutoff):
     """Of forty surfaces of 64 x 64 cells with waves down to so many cells, one at most (of two hundred each 1, 2

@@ -44,6 +44,7 @@ def test_the_figures_are_those_without_it(found, tmp_path):
     assert "Sq_final_nm_error" not in alone
 
 
+@pytest.mark.internal
 def test_the_coarser_loop_has_half_of_all_and_slides_as_far():
     scene = load_scene(SCENE)
     half = at_resolution(scene, 0.5)
@@ -54,6 +55,7 @@ def test_the_coarser_loop_has_half_of_all_and_slides_as_far():
     assert at_resolution(half, 2).domain == scene.domain
 
 
+@pytest.mark.internal
 def test_odd_grids_and_loops_that_wear_nothing_have_none_and_say_so(tmp_path):
     done = run_scene(SCENE, tmp_path / "run", settings=[*ASKED, "domain.cells=[40, 39]"], figures=False).summary
     assert done["Sq_final_nm_error"] is None
@@ -62,6 +64,7 @@ def test_odd_grids_and_loops_that_wear_nothing_have_none_and_say_so(tmp_path):
     assert set(wear_bars(nothing, nothing).values.values()) == {None}
 
 
+@pytest.mark.internal
 def test_a_thin_strip_of_surfaces_that_do_not_change_along_it_is_coarsened_along_x_alone(tmp_path):
     """Two cells along y were too few for any bar, so that an accuracy ended as inaccurate at once."""
     asked = (
@@ -88,6 +91,7 @@ def test_a_thin_strip_of_surfaces_that_do_not_change_along_it_is_coarsened_along
     assert on_every_second_cell((even, rough), grid, lambda heights, across: 1.0) is None
 
 
+@pytest.mark.internal
 def test_bars_of_what_converges_shrink_with_the_differences_and_those_of_sizes_do_not():
     """Shares of the figures (15 % of the volume) stood in all bars: no accuracy below was to be had on any grid."""
     figures = dict.fromkeys(RULES, 1.0)
@@ -120,6 +124,7 @@ def test_random_loops_are_covered():
     assert sum(row["error"] <= row["bar"] for row in rows) >= 2 / 3 * len(rows)
 
 
+@pytest.mark.internal
 def test_the_stored_experiment_meets_nine_in_ten():
     figures = json.loads(RESULT.read_text())["figures"]
     assert set(figures) <= set(RULES)
@@ -127,6 +132,7 @@ def test_the_stored_experiment_meets_nine_in_ten():
     assert sum(row["bars"] * row["covered"] for row in figures.values()) >= 0.9 * bars
 
 
+@pytest.mark.internal
 def test_an_area_that_is_the_least_under_a_cap_may_be_as_large_as_its_cells():
     """Two loops at the same bound differ by nothing, and tell nothing of the area."""
     pressure = np.zeros((4, 4))

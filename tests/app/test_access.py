@@ -6,6 +6,8 @@ import pytest
 
 from bem.app.access import Guard
 
+pytestmark = pytest.mark.internal
+
 TOKEN, PORT = "secret", 8420
 HERE = f"127.0.0.1:{PORT}"
 

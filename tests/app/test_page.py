@@ -88,6 +88,7 @@ def chrome():
         yield found
 
 
+@pytest.mark.internal
 def test_from_a_file_to_results_and_back(serve, chrome, tmp_path):
     """Drop a surface, treat it, press it, see it, take it away; in another tab the same; two runs overlaid."""
     server, own = serve(), tmp_path / "mine.al3d"

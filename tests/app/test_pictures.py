@@ -21,6 +21,8 @@ from bem.app.solids import MOST_PARTICLES, PARTICLES, cases_of, field_picture, s
 from bem.results.arrays import to_arrays
 from bem.scenes.context import Variable
 
+pytestmark = pytest.mark.internal
+
 X, Y = np.linspace(-5e-6, 5e-6, 40), np.linspace(-4e-6, 4e-6, 30)
 HEIGHTS = 1e-7 * np.sin(2e6 * X)[:, None] * np.cos(1e6 * Y)[None, :]
 

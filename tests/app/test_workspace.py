@@ -15,6 +15,8 @@ from bem.app.planning import shown_plan
 from bem.app.workspace import OWN, PID, Workspace
 from bem.results.directory import LOCK
 
+pytestmark = pytest.mark.internal
+
 SMALL = {key: CONTACT[key] for key in ("kind", "grid", "lower", "contact")} | {"outputs": {"errors": False}}
 
 

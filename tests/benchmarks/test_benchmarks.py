@@ -21,6 +21,8 @@ from bem.grid import Grid
 from bem.transforms import PaddedTransform
 from bem.transforms.fftw import pyfftw
 
+pytestmark = pytest.mark.internal
+
 
 def point(**change):
     settings = {

@@ -41,6 +41,8 @@ from bem.reference_solutions.hertz import sphere_contact
 from bem.stress import subsurface_stress, von_mises
 from reports import beside as page
 
+pytestmark = pytest.mark.internal
+
 HERE = Path(sys.executable)
 
 

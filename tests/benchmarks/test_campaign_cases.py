@@ -5,6 +5,8 @@ import pytest
 from bem.benchmarks.cases import CASES
 from bem.benchmarks.measure import Timed
 
+pytestmark = pytest.mark.internal
+
 
 def judged(case, size) -> object:
     timed = case.prepare(size)

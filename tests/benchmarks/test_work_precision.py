@@ -24,6 +24,8 @@ from bem.benchmarks.work_precision import (
     time_to_reach,
 )
 
+pytestmark = pytest.mark.internal
+
 
 @pytest.mark.parametrize("kind", PHYSICAL)
 def test_a_kind_at_its_smallest_gives_figures(kind):

@@ -101,6 +101,7 @@ def test_a_rough_patch_is_as_exact_as_was_asked_against_a_reference_four_times_f
         assert patch.summary[key] == pytest.approx(found.summary[key], rel=0.02)
 
 
+@pytest.mark.internal
 def test_whatever_can_be_asked_has_a_bar(patch):
     assert not askable_without_bar(patch)
 
@@ -122,6 +123,7 @@ def test_killed_while_refining_it_goes_on_to_the_same_bits(patch, tmp_path, stop
     assert not [what for what, *_ in telling.seen if what.startswith("level 1: contact")]
 
 
+@pytest.mark.internal
 def test_a_level_before_serves_as_start_and_as_the_coarser_contact(tmp_path, monkeypatch):
     again, starts = [], []
 
@@ -183,6 +185,7 @@ def test_a_figure_without_a_bar_is_said_and_the_others_can_be_asked_for(tmp_path
     assert len(levels(done)) == 2
 
 
+@pytest.mark.internal
 def test_memory_that_is_not_there_ends_it(tmp_path, monkeypatch):
     monkeypatch.setattr(refine, "available_memory", lambda: 0.0)
     done = run(PATCH, tmp_path / "run")
@@ -249,6 +252,7 @@ def planned_grid(scene):
     return grid_of(plan_scene(scene)[0].grid)
 
 
+@pytest.mark.internal
 def test_the_patch_under_oil_holds_the_contact_and_the_longest_waves():
     """Of a cylinder a slice, that the heaviest load's Hertz width and closed roughness fit in (here within a quarter),
     and four longest waves along it; of a ball all of its contact."""
@@ -287,6 +291,7 @@ del LOOP["domain"]["cells"]
 ROUGHER = {"depths": {"count": 10, "spacing": "120 nm"}, "cycles": {"count": 6, "settled": 3}}
 
 
+@pytest.mark.internal
 def test_loops_of_wear_are_refined_as_a_whole_but_for_what_is_chance(tmp_path):
     done = run({**LOOP, **ROUGHER, "accuracy": "40 %"}, tmp_path / "run")
     assert (done.summary["status"], done.summary["accuracy"]["met"]) == ("converged", True)
@@ -372,6 +377,7 @@ WALLS = {
 }
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(
     ("scene", "asked", "least"),
     [
@@ -429,6 +435,7 @@ def coils(order, floor=0.0):
     return Kind(name="coil", title="", model=CoilScene, plan=plan_it, run=run_it, record=Coil, resolutions=two)
 
 
+@pytest.mark.internal
 def test_what_has_no_part_in_the_error_is_not_refined():
     context = PlainContext()
     found = refine.solve_case(coils(order=2), CoilScene(accuracy=0.01), context)
@@ -439,6 +446,7 @@ def test_what_has_no_part_in_the_error_is_not_refined():
     assert context.notes == ["16 cells"]  # those of coarser levels are nobody's business
 
 
+@pytest.mark.internal
 def test_what_cannot_be_refined_and_leaves_too_much_ends_it_at_once():
     kind = coils(order=1)
     grid, steps = kind.resolutions
@@ -449,6 +457,7 @@ def test_what_cannot_be_refined_and_leaves_too_much_ends_it_at_once():
     assert found.where.endswith("the data end")
 
 
+@pytest.mark.internal
 def test_a_figure_that_the_kind_makes_no_bar_of_ends_it_at_once():
     kind = coils(order=2)
     bare = dataclasses.replace(kind, run=lambda scene, context: Coil(turns=1.0))
@@ -457,6 +466,7 @@ def test_a_figure_that_the_kind_makes_no_bar_of_ends_it_at_once():
     assert found.where == "accuracy not met: turns has no error bar: the kind makes none of it"
 
 
+@pytest.mark.internal
 def test_an_error_that_does_not_fall_ends_it():
     found = refine.solve_case(coils(order=0), CoilScene(accuracy=0.01), PlainContext())
     assert found.status == "inaccurate"
@@ -464,6 +474,7 @@ def test_an_error_that_does_not_fall_ends_it():
     assert len(found.refinement["levels"]) == 3
 
 
+@pytest.mark.internal
 def test_a_part_of_a_whole_counts_against_the_whole_and_any_is_not_looked_at():
     kind = get_kind("contact")
     figures = {name: 1.0 for name, item in described(kind.record).items() if isinstance(item, Figure)}
@@ -483,6 +494,7 @@ class Warm(Record):
     rise: Annotated[float, Figure("K", "rise")]
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(("rise", "against"), [(60.0, 60.0), (1.0, 30.0)])
 def test_errors_of_temperatures_count_against_a_rise_that_matters(rise, against):
     record = Warm(hot=373.15, rise=rise, errors={"hot": 0.3, "rise": 0.3})

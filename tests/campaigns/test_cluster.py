@@ -91,6 +91,7 @@ def other_disk(folder):
     yield "a secret that nobody finds"
 
 
+@pytest.mark.internal
 @pytest.mark.slow
 @pytest.mark.parametrize("seen", [True, False], ids=["disk", "no-disk"])
 def test_cases_of_one_scene_on_a_cluster(tmp_path, cluster, seen, monkeypatch):

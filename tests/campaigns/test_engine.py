@@ -67,6 +67,7 @@ def alone(tmp_path_factory):
     return run_scene(SCENE, tmp_path_factory.mktemp("alone") / "run", figures=False, workers=1)
 
 
+@pytest.mark.internal
 def test_two_workers_each_get_cases_and_the_bits_are_the_same(alone, tmp_path, monkeypatch):
     by_worker = {}
     given = []
@@ -95,6 +96,7 @@ def test_workers_execute_no_python_file_of_the_folder_that_they_are_started_in(a
     assert content(both) == content(alone)
 
 
+@pytest.mark.internal
 def test_the_last_of_three_has_both_cores_and_the_same_bits(tmp_path, monkeypatch):
     threads = []
     outright = jobs.compute_locally
@@ -138,6 +140,7 @@ def test_a_single_case_starts_no_process(tmp_path, monkeypatch):
     assert run.summary["status"] == "converged"
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("stop", [("cycles", 2), ("cycles", 7), ("cases", 2)])
 def test_stopped_between_and_inside_cases_it_ends_in_the_same_bits(alone, tmp_path, stop, monkeypatch):
     monkeypatch.setattr(wearing, "_CHECKPOINT_EVERY", 1)
@@ -157,6 +160,7 @@ def test_stopped_between_and_inside_cases_it_ends_in_the_same_bits(alone, tmp_pa
     assert len(steps) <= 16 - (stop[1] if stop[0] == "cycles" else 4 * stop[1]) + 1 + 4  # what was done is not redone
 
 
+@pytest.mark.internal
 def test_a_case_that_fails_is_named_and_the_others_are_kept(tmp_path, monkeypatch):
     run = wear.run
 
@@ -182,6 +186,7 @@ def test_a_case_that_fails_is_named_and_the_others_are_kept(tmp_path, monkeypatc
         run_scene(SCENE, tmp_path / "all", settings=['cylinder.loads=["5 N"]'], figures=False, workers=1)
 
 
+@pytest.mark.internal
 def test_an_interrupt_that_falls_into_a_compiled_call_pauses_the_run(tmp_path, monkeypatch):
     """numba rebuilds what a loop returns by Python; what is raised there Python tells as a SystemError. A paused run
     was called failed."""
@@ -200,11 +205,13 @@ def test_an_interrupt_that_falls_into_a_compiled_call_pauses_the_run(tmp_path, m
         raise SystemError("of its own")
 
 
+@pytest.mark.internal
 def test_notes_say_which_cases_they_are_of():
     by_case = [("load 1 N", ["a", "b"]), ("load 2 N", ["a"]), ("load 3 N", ["a", "c"]), ("load 4 N", ["a", "c"])]
     assert notes_of(by_case) == ["a", "load 1 N: b", "load 3 N; load 4 N: c"]
 
 
+@pytest.mark.internal
 def test_progress_is_of_all_cases_together():
     campaign = campaign_of(plan_scene(SCENE)[0])
     telling = Telling()
@@ -229,6 +236,7 @@ def test_work_adds_up_in_the_plan_and_memory_does_not():
     assert (one.cases, four.cases) == (1, 4)
 
 
+@pytest.mark.internal
 def test_every_mistake_of_the_cases_is_said_once():
     scene = load_scene(SCENE, ['cylinder.loads=["1 MN", "2 MN"]', "repetitions=3"])
     with pytest.raises(InputError) as caught:
@@ -245,6 +253,7 @@ class Exploding:
         raise ZeroDivisionError("a bug")
 
 
+@pytest.mark.internal
 def test_a_bug_in_a_worker_is_raised_with_its_traceback():
     telling = Telling()
     sys.modules["exploding_for_tests"] = sys.modules[__name__]

@@ -11,6 +11,8 @@ from test_inside_a_case import ARRAY, FILM, GROWTH, TRIBOFILM
 from bem.results import checkpoint
 from bem.runs import run_scene
 
+pytestmark = pytest.mark.internal
+
 ONE_LOAD = {"cylinder": WEAR["cylinder"] | {"loads": ["2.5 N"]}, "repetitions": 1}
 PRESSED = small_scenes.pressed_ball("partial-slip", 24)
 STICKING = {"wear": {"traction": {"kind": "oscillating_force", "share": 0.5}}}

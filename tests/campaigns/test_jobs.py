@@ -48,10 +48,12 @@ def handed_out(monkeypatch):
     return call
 
 
+@pytest.mark.internal
 def test_the_longest_go_first_and_equal_ones_in_their_order(handed_out):
     assert handed_out([1.0, 9.0, 5.0, 9.0], 2)[0] == [1, 3, 2, 0]
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(
     ("seconds", "workers", "threads"),
     [
@@ -66,6 +68,7 @@ def test_a_last_round_that_is_not_full_shares_the_idle_cores(handed_out, seconds
     assert handed_out(seconds, workers)[1] == threads
 
 
+@pytest.mark.internal
 def test_what_no_process_is_worth_is_done_here_in_order_with_the_threads_asked_for(handed_out):
     before = get_threads()
     try:

@@ -62,6 +62,7 @@ class Telling:
         self.notes.append(text)
 
 
+@pytest.mark.internal
 def test_dataset_table_and_figure(tmp_path, here):
     done = run_sweep(SCENE, OVER, tmp_path / "s", pdf=True)  # nobody looks at a PDF that was not asked for
     assert done.computed == 6
@@ -88,6 +89,7 @@ def test_dataset_table_and_figure(tmp_path, here):
     assert not (tmp_path / "s" / ".campaign-token").exists()
 
 
+@pytest.mark.internal
 def test_points_leave_out_stacks_of_maps_unless_they_are_asked_for(tmp_path, here):
     """Neither table nor figure of a sweep uses them; asked for later, what lacks them is computed again, no more."""
     scene = SCENE | {"outputs": {"von_mises": True, "stresses": True, "depths": {"deepest": "4 um", "count": 6}}}
@@ -125,6 +127,7 @@ def test_points_leave_out_stacks_of_maps_unless_they_are_asked_for(tmp_path, her
         assert open_run(points[0]).arrays["pressure"].shape == (16, 16)
 
 
+@pytest.mark.internal
 def test_what_a_point_costs_besides_its_physics(tmp_path, here, monkeypatch):
     """Validated and planned once, five files, nothing read back; resumed, each is read once."""
     counted = Counter()
@@ -156,6 +159,7 @@ def test_what_a_point_costs_besides_its_physics(tmp_path, here, monkeypatch):
     assert counted == {"scenes": 4 + 1, "plans": 4, "files": 4, "reads": 4}
 
 
+@pytest.mark.internal
 def test_keys_reach_into_lists(tmp_path, here):
     scene = SCENE | {"outputs": {"von_mises": True, "depths": {"values": ["0.1 um", "0.3 um"]}, "vtk": False}}
     done = run_sweep(scene, ["outputs.depths.values.1=0.4 um:0.6 um:2", "grid.shape[1]=16,32"], tmp_path / "s")
@@ -172,6 +176,7 @@ def test_keys_reach_into_lists(tmp_path, here):
     assert not (tmp_path / "t").exists()
 
 
+@pytest.mark.internal
 def test_a_finished_point_is_never_computed_again(tmp_path, here):
     run_sweep(SCENE, OVER, tmp_path / "s")
     stamps = {path: path.stat().st_mtime_ns for path in (tmp_path / "s").rglob("summary.json")}
@@ -190,6 +195,7 @@ def files_of(folder):
     return {path: (path.stat().st_mtime_ns, path.read_bytes()) for path in folder.rglob("*") if path.is_file()}
 
 
+@pytest.mark.internal
 def test_a_resumed_sweep_refuses_another_scene_and_says_where_it_differs(tmp_path, here):
     """Points of two scenes stood in one table; what is swept now may differ, and nothing is touched."""
     folder, over = tmp_path / "s", ["seed=1:2"]
@@ -216,6 +222,7 @@ def test_a_resumed_sweep_refuses_another_scene_and_says_where_it_differs(tmp_pat
         run_sweep(SCENE, ["seed=1", "grid.shape[1]=16"], tmp_path / "t", settings=["grid.shape[0]=32"], resume=True)
 
 
+@pytest.mark.internal
 def test_a_folder_that_does_not_say_of_which_scene_it_is_takes_no_more_points(tmp_path, here):
     run_sweep(SCENE, ["seed=1"], tmp_path / "s")
     definition = tmp_path / "s" / "sweep.json"
@@ -228,6 +235,7 @@ def test_a_folder_that_does_not_say_of_which_scene_it_is_takes_no_more_points(tm
         assert definition.read_text() == text
 
 
+@pytest.mark.internal
 def test_a_damaged_point_is_computed_again(tmp_path, here):
     run_sweep(SCENE, ["seed=1:2"], tmp_path / "s")
     victim = tmp_path / "s" / here[0] / "summary.json"
@@ -236,12 +244,14 @@ def test_a_damaged_point_is_computed_again(tmp_path, here):
     assert open_run(victim.parent).summary["status"] == "converged"
 
 
+@pytest.mark.internal
 def test_equal_points_are_computed_once(tmp_path, here):
     done = run_sweep(SCENE, ["contact.mean_pressure=80 MPa,80000 kPa"], tmp_path / "s")
     assert done.computed == 1
     assert done.dataset["load_N"].shape == (2,)
 
 
+@pytest.mark.internal
 def test_values_that_are_no_numbers(tmp_path, here):
     done = run_sweep(
         SCENE, ["contact.behaviour=elastic,capped", "lower.material=steel-disk,brass-disk"], tmp_path / "s"
@@ -250,6 +260,7 @@ def test_values_that_are_no_numbers(tmp_path, here):
     assert list(done.dataset["lower.material"].values) == ["steel-disk", "brass-disk"]
 
 
+@pytest.mark.internal
 def test_bad_points_are_found_before_any_work(tmp_path, here):
     with pytest.raises(InputError) as caught:
         run_sweep(SCENE, ["contact.behaviour=elastic,capd", "seed=1:2"], tmp_path / "s")
@@ -262,6 +273,7 @@ def test_bad_points_are_found_before_any_work(tmp_path, here):
     assert os.listdir(tmp_path) == []
 
 
+@pytest.mark.internal
 def test_a_mistake_of_many_points_is_one_message(tmp_path, here):
     """One for each point, to twenty of them."""
     for over, words in (
@@ -285,6 +297,7 @@ def test_a_mistake_of_many_points_is_one_message(tmp_path, here):
     assert os.listdir(tmp_path) == []
 
 
+@pytest.mark.internal
 def test_a_point_that_fails_does_not_end_the_sweep(tmp_path, here, monkeypatch):
     def some(directory, scene, *more, **named):
         if scene.seed == 2:
@@ -308,6 +321,7 @@ def test_a_point_that_fails_does_not_end_the_sweep(tmp_path, here, monkeypatch):
     assert run_sweep(SCENE, ["seed=1:3"], tmp_path / "s", resume=True).computed == 1
 
 
+@pytest.mark.internal
 def test_two_sweeps_in_one_folder_refuse_each_other(tmp_path, here):
     with RunDirectory(tmp_path / "s"), pytest.raises(ResultsError, match="another run is using this folder"):
         run_sweep(SCENE, ["seed=1:2"], tmp_path / "s")
@@ -316,6 +330,7 @@ def test_two_sweeps_in_one_folder_refuse_each_other(tmp_path, here):
         run_sweep(SCENE, ["seed=1:2"], tmp_path / "s")
 
 
+@pytest.mark.internal
 def test_a_worker_that_does_not_see_the_folder_sends_its_files(tmp_path, monkeypatch):
     compute, sent = Point.compute, []
 
@@ -331,6 +346,7 @@ def test_a_worker_that_does_not_see_the_folder_sends_its_files(tmp_path, monkeyp
     assert [open_run(tmp_path / "s" / one.name).summary for one in sent] == [one.summary for one in sent]
 
 
+@pytest.mark.internal
 def test_a_worker_cannot_write_outside_its_folder(tmp_path):
     with pytest.raises(ResultsError, match="outside"):
         store(Done("", files={"../../escaped": b"x"}), tmp_path / "a" / "b")
@@ -358,6 +374,7 @@ def test_killed_workers_are_replaced(tmp_path):
     assert workers_of(os.getpid()) == []
 
 
+@pytest.mark.internal
 @pytest.mark.slow
 def test_interrupted_command_resumes(tmp_path):
     (tmp_path / "small.json").write_text(json.dumps(SCENE))
@@ -388,6 +405,7 @@ def test_interrupted_command_resumes(tmp_path):
     assert read_dataset(tmp_path / "s" / "sweep.nc").sizes["seed"] == 12
 
 
+@pytest.mark.internal
 def test_fewer_processes_where_memory_is_short(monkeypatch):
     monkeypatch.setattr("bem.campaigns.jobs.available_memory", lambda: 10.0)
     monkeypatch.setattr(os, "sched_getaffinity", lambda _: range(8), raising=False)
@@ -414,6 +432,7 @@ STRIBECK = {
 }
 
 
+@pytest.mark.internal
 def test_curves_have_the_speed_as_a_dimension_and_overlay_by_the_swept_value(tmp_path, here, monkeypatch):
     drawn = []
     monkeypatch.setattr(
@@ -442,6 +461,7 @@ def test_curves_have_the_speed_as_a_dimension_and_overlay_by_the_swept_value(tmp
         )
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(
     ("values", "scale"),
     [((0.003, 0.01, 0.03, 0.3), "log"), ((1.0, 4.0, 8.0, 20.0), "linear"), ((0.0, 1.0, 90.0), "linear")],
@@ -459,6 +479,7 @@ def test_values_that_crowd_at_the_low_end_lie_on_a_logarithmic_axis(values, scal
     assert figure.axes[0].get_xscale() == scale
 
 
+@pytest.mark.internal
 def test_points_outside_their_model_say_so_in_table_dataset_and_figure():
     from matplotlib.figure import Figure as Picture
 
@@ -494,6 +515,7 @@ def test_notes_of_points_are_told_once_with_how_many_have_them(tmp_path):
     assert edge[0].startswith("1 of 2 points: ")
 
 
+@pytest.mark.internal
 def test_what_is_outside_the_model_is_among_the_notes_of_a_sweep_that_are_told():
     """With more than twenty notes it was cut off where it was of one point."""
     words = [f"note {letter}" for letter in "abcdefghijklmnopqrstuvwxyzABCD"]
@@ -503,6 +525,7 @@ def test_what_is_outside_the_model_is_among_the_notes_of_a_sweep_that_are_told()
     assert told.notes[-1] == "and 11 more, in the summary.json of points"
 
 
+@pytest.mark.internal
 def test_notes_that_differ_in_figures_alone_are_told_once_with_those_of_the_first_point():
     """A sweep of 27 points told twenty times that its particles were as large as the grid, and cut off the rest."""
     points = [
@@ -520,6 +543,7 @@ def test_notes_that_differ_in_figures_alone_are_told_once_with_those_of_the_firs
     ]
 
 
+@pytest.mark.internal
 def test_names_with_digits_and_units_that_differ_keep_notes_apart():
     assert without_numbers("S235 at 3 GPa") != without_numbers("S355 at 3 GPa")
     assert without_numbers("12 m of it") != without_numbers("12 s of it")

@@ -52,6 +52,7 @@ def plain(fields, cap, shape, periodic):
     return np.where(near & (phi > 0), np.minimum(np.sqrt(np.maximum(phi, 0.0)), cap), 0.0)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("threads", [1, 2])
 @pytest.mark.parametrize(
     ("shape", "finer", "periodic"),
@@ -82,6 +83,7 @@ def test_pressures_on_the_finer_grid_are_those_of_whole_fields(shape, finer, per
     set_threads(1)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("shape", [(64, 64), (64, 90), (40, 32)])
 def test_a_region_has_the_same_load_on_the_finer_grid(shape):
     """But for what its neighbours' factors do to the line of cells that they share; half of it was lost here and there
@@ -98,6 +100,7 @@ def test_a_region_has_the_same_load_on_the_finer_grid(shape):
     assert np.abs(got - wanted).max() < 0.05 * wanted.mean()
 
 
+@pytest.mark.internal
 def test_regions_with_cells_at_the_cap_are_left_alone():
     pressure = np.zeros((32, 32))
     pressure[2:6, 2:6] = 1.0

@@ -83,6 +83,7 @@ def check(problem, solution):
         assert volume / pressure.size == pytest.approx(value, abs=allowed, rel=0)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("block", range(6))
 def test_converged_is_confirmed_by_the_returned_pressure(block):
     """240 problems, all that were run of this generator; of a sibling generator 1,200 distinct ones were."""
@@ -99,6 +100,7 @@ def test_converged_is_confirmed_by_the_returned_pressure(block):
         check(problem, solution)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("periodic", [FREE, PERIODIC, HALF_X, HALF_Y])
 @pytest.mark.parametrize("share", [1e-6, 1e-10, 1e-12, 1e-14, 1e-16, 1e-20])
 def test_capped_contact_carries_a_tiny_load(share, periodic):
@@ -134,6 +136,7 @@ def judged(pressure, *, displacement=0.0, at=-1.0, cap=math.inf, fresh=True, **a
     )
 
 
+@pytest.mark.internal
 def test_the_certificate_counts_what_was_asked_for_and_not_met():
     rms = math.sqrt(23) / 24
     mean = 1 + 1 / 24
@@ -146,6 +149,7 @@ def test_the_certificate_counts_what_was_asked_for_and_not_met():
     assert judged(0.0, mean_gap=mean + 0.1).residual == pytest.approx(0.1 / rms)
 
 
+@pytest.mark.internal
 def test_the_certificate_counts_bounds_numbers_that_are_none_and_displacements_of_other_pressures():
     assert judged(-1e-3, load=0.0).residual == math.inf
     assert judged(2.0, at=1.0, cap=1.0, approach=1.0).residual == math.inf

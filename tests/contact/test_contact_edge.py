@@ -99,6 +99,7 @@ def test_straight_edges_in_any_direction_on_a_periodic_grid(direction):
     assert np.abs(perimeters).max() < (1e-9 if m * n in (0, 1) else 2e-3)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("share", [0.5, 0.75, 0.85])
 def test_narrow_contact_and_narrow_gaps(share):
     """A wave of 16 cells: gaps down to two cells across, which draw an edge out by a tenth of a cell."""
@@ -212,6 +213,7 @@ def test_the_plastic_area_carries_no_more_than_the_load():
         assert 0 < solution.plastic_area * hardness <= load * (1 + 1e-12)
 
 
+@pytest.mark.internal
 def test_jagged_edges_make_no_area():
     """Single cells with wide gaps around them, as heavy wear leaves: crossings lie within them, chords run either way,
     and what is left of their length once made areas of twenty times the cells'."""
@@ -226,6 +228,7 @@ def test_jagged_edges_make_no_area():
         assert region.perimeter > np.sqrt(4 * np.pi * region.area)
 
 
+@pytest.mark.internal
 def test_cells_at_the_hardness_have_edges():
     """Heights that nothing joins, as of worn surfaces: single cells carry the hardness, the load says their area."""
     grid = Grid((48, 48), (1.0, 1.0), periodic=(True, True))
@@ -274,6 +277,7 @@ def test_spots_too_small_for_the_cells_are_told():
 ENDS = [(False, False), (True, True), (True, False), (False, True)]
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("wraps", ENDS)
 @pytest.mark.parametrize("shape", [(24, 17), (1, 40), (40, 1), (2, 3), (16, 48)])
 @pytest.mark.parametrize("hardness", [0.0, 0.7])
@@ -320,6 +324,7 @@ def shoelace(polygon):
     return 0.5 * (x @ np.roll(y, -1) - y @ np.roll(x, -1))
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("code", range(1, 15))
 def test_a_square_has_what_its_polygon_bounds(code):
     centres = tuple(code >> k & 1 for k in range(4))
@@ -341,6 +346,7 @@ def test_a_square_has_what_its_polygon_bounds(code):
         assert turn == {1: 1, 2: 0, 3: -1}[number]
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("turned", [0.0, 0.4, 1.0, 1.4, 2.0, 3.1])
 def test_a_chord_counts_by_what_it_runs_along_the_edge(turned):
     """The normal points into the region, on the left of the way: (0, 1) where the edge runs along x."""
@@ -350,6 +356,7 @@ def test_a_chord_counts_by_what_it_runs_along_the_edge(turned):
     assert crossings._chord(u, v, 0.0, 0.0) == pytest.approx(0.6)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("wraps", ENDS)
 def test_like_cells_are_counted_from_link_to_link(wraps):
     inside = (np.random.default_rng(7).random((25, 19)) < 0.6).astype(np.uint8)

@@ -138,6 +138,7 @@ def test_approach_of_a_step_near_full_contact(shape, low, rounding):
     assert solution.convolutions < 30
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("shift", [-0.1, 0.1])
 def test_full_contact_is_moved_to_a_bound_once(shift):
     """Uniformly, which no displacement answers; there the cells that are at a bound are the ones out of contact."""

@@ -8,6 +8,8 @@ from bem.contact import at_once, face, feasible, gradients, inner, judging, long
 from bem.contact.controls import ApproachControl, LoadControl
 from bem.contact.level import Effort, Iterate, Level, Stride, Tuning
 
+pytestmark = pytest.mark.internal
+
 SIZE = 500
 # sums of a few hundred numbers of order one in another order
 ROUND_OFF = 1e-12

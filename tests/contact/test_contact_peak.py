@@ -61,6 +61,7 @@ def test_where_cells_do_not_resolve_the_surface_a_cell_is_as_good():
     assert np.abs(found).mean() <= np.abs(raw).mean()
 
 
+@pytest.mark.internal
 def test_not_at_the_hardness_nor_in_a_cell_of_its_own_nor_at_the_end_of_a_punch():
     grid = Grid((16, 16), (1.0, 1.0))
     operator = displacement_operator(grid, Body(UNIT))

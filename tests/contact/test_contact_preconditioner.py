@@ -7,6 +7,8 @@ from contact_oracles import FREE, HALF_Y, PERIODIC, displacement, notes_surface,
 from bem.contact import passes
 from bem.contact.level import Level, Tuning
 
+pytestmark = pytest.mark.internal
+
 N = 96
 
 

@@ -8,6 +8,8 @@ import pytest
 from bem import Grid, generate_surface
 from bem.contact.spots import count_spots, label_spots
 
+pytestmark = pytest.mark.internal
+
 
 def walked(inside, periodic):
     """Numbers of spots in the order of their first cells, by walking to every neighbour."""

@@ -9,6 +9,8 @@ from bem.contact.imposing import _ITERATIONS, impose
 from bem.contact.level import Level, Tuning
 from bem.contact.preconditioner import sparse_inverse
 
+pytestmark = pytest.mark.internal
+
 N = 32
 
 

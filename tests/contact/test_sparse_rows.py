@@ -10,6 +10,8 @@ from bem.contact.patterns import ENTRIES, Patterns, stencil
 from bem.contact.preconditioner import neighbours, sparse_inverse
 from bem.threads import get_threads, set_threads
 
+pytestmark = pytest.mark.internal
+
 FREE, HALF_X, HALF_Y, PERIODIC = (False, False), (True, False), (False, True), (True, True)
 
 

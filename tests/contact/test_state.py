@@ -1,8 +1,11 @@
 """States of cells follow from their pressures."""
 
 import numpy as np
+import pytest
 
 from bem.contact.state import contact_state
+
+pytestmark = pytest.mark.internal
 
 
 def test_cells_are_open_elastic_or_capped():

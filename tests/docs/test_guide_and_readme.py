@@ -110,6 +110,7 @@ def test_commands_of_the_readme_table_and_targets_of_make_exist():
         assert path.startswith("http") or (ROOT / path).exists(), path
 
 
+@pytest.mark.internal
 def test_first_steps_lead_somewhere(tmp_path, monkeypatch, surface):
     """What the guide says to type, planned and not run: names, settings and ranges fit the scenes."""
     from bem.scenes.template import scene_template
@@ -131,6 +132,7 @@ def test_first_steps_lead_somewhere(tmp_path, monkeypatch, surface):
     assert seen >= 5
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("name", sorted(guide.SNIPPETS))
 def test_python_examples_run(tmp_path, monkeypatch, name):
     monkeypatch.chdir(tmp_path)
@@ -154,6 +156,7 @@ def own_laws():
                 laws.unregister(law)
 
 
+@pytest.mark.internal
 def test_slope_of_the_example_law_is_its_derivative():
     scope = {"__name__": "example"}
     with own_laws():
@@ -166,6 +169,7 @@ def test_slope_of_the_example_law_is_its_derivative():
     np.testing.assert_allclose((high - low) / (2 * step), law.log_viscosity_ratio(pressure, 0.1, 2e-8)[1], rtol=1e-5)
 
 
+@pytest.mark.internal
 def test_the_example_of_a_law_in_a_scene_is_one():
     scene = {key: value for key, value in library()["film-start-stop"].items() if key != "oil"}
     with own_laws():

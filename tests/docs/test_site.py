@@ -32,6 +32,7 @@ def test_every_limit_and_formula_is_on_the_page_of_a_kind():
         assert named == {item[0] for item in known}
 
 
+@pytest.mark.internal
 @pytest.mark.slow
 def test_every_kind_has_a_page_with_errors_and_limits_and_nothing_is_from_a_network(pages, tmp_path):
     assert set(site.WORDS["kinds"]) == set(_of_the_package())

@@ -27,6 +27,7 @@ def profile(model, count=200001):
     return (height * n + slope * t).T, angle
 
 
+@pytest.mark.internal
 def test_lift_has_its_second_derivative():
     model = load_element(CAM).model
     assert isinstance(model, CamModel)
@@ -39,6 +40,7 @@ def test_lift_has_its_second_derivative():
     assert model.lift_at(0.0)[0] == model.lift
 
 
+@pytest.mark.internal
 def test_the_envelope_touches_where_and_as_the_model_says():
     element = load_element(CAM | {"points": 13})
     model = element.model

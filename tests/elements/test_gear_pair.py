@@ -20,6 +20,7 @@ def made(**changes):
     return load_element(PAIR | changes)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(("teeth", "ratio"), [([20, 20], 1.557), ([20, 40], 1.635), ([30, 30], 1.654)])
 def test_contact_ratios_of_full_depth_gears(teeth, ratio):
     """20 degrees, addendum of a module: the textbooks' values, to the digits given there."""
@@ -28,6 +29,7 @@ def test_contact_ratios_of_full_depth_gears(teeth, ratio):
     assert path_of_contact(model).contact_ratio == pytest.approx(ratio, abs=1.5e-3)
 
 
+@pytest.mark.internal
 def test_the_fzg_gears(tmp_path):
     """Type C of ISO 14635-1: centre distance 91.5 mm, working pressure angle 22.44 degrees, contact ratio 1.44."""
     path = tmp_path / "fzg.toml"
@@ -107,6 +109,7 @@ def turned(points, angle):
     return points @ np.array([[c, s], [-s, c]])
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("shifts", [(0.0, 0.0), (0.3, -0.1)])
 def test_flanks_made_point_by_point(shifts):
     """Both flanks as unwound strings, turned by their ratio: they touch where the path says, curved as it says (second
@@ -142,6 +145,7 @@ def test_flanks_made_point_by_point(shifts):
         assert abs(v1 @ tangent - v2 @ tangent) == pytest.approx(abs(contact.speeds[0] - contact.speeds[1]), abs=1e-12)
 
 
+@pytest.mark.internal
 def test_the_path_ends_at_the_tips_and_the_pitch_point_rolls():
     model = made().model
     assert isinstance(model, GearModel)
@@ -152,6 +156,7 @@ def test_the_path_ends_at_the_tips_and_the_pitch_point_rolls():
     assert omega * path.pitch == pytest.approx(omega * 20 / 40 * (path.line - path.pitch))
 
 
+@pytest.mark.internal
 def test_load_along_the_path():
     element = made(points=2001)
     contacts, force = element.found.contacts, 50 / (20e-3 * math.cos(math.radians(20)))
@@ -211,6 +216,7 @@ def test_a_path_is_read_as_the_scene_reads_it(tmp_path):
     assert scene.roughness == pytest.approx(3e-7)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("helix", [8.0, 30.0])
 def test_helical_flanks_are_curved_as_their_surfaces(helix):
     """The flank of a helical gear is an involute screwed along the axis: its principal curvatures from differences of
@@ -249,6 +255,7 @@ def test_helical_flanks_are_curved_as_their_surfaces(helix):
         assert abs(velocity @ across) / np.linalg.norm(across) == pytest.approx(contact.speeds[0], rel=1e-4)
 
 
+@pytest.mark.internal
 def test_load_of_helical_gears():
     """On lines clipped one by one from the plane of action, each carrying by its length; all of it is the force, and
     the normal force is the torque over the reference radius and the angles of the normal section."""
@@ -274,6 +281,7 @@ def test_load_of_helical_gears():
     assert "helix 11.2" in " ".join(element.notes())
 
 
+@pytest.mark.internal
 def test_helical_teeth_whose_transverse_sections_alone_lose_each_other_mesh():
     """Short teeth, contact ratio 0.77: one line comes as another goes, which carry all; their length by hand."""
     element = made(helix_angle="30 deg", face_width="9 mm", tip_diameters=["48.34 mm", "94.55 mm"], points=9)

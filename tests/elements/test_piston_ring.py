@@ -88,6 +88,7 @@ def test_a_long_inlet_is_martins_and_a_short_one_less():
     assert films[-1] < martin.minimum_thickness
 
 
+@pytest.mark.internal
 def test_the_film_of_a_place_is_the_scenes(tmp_path):
     """Where hardly anything bends, the rigid film is the solver's on the same inlet; both strokes differ."""
     element = ring(crown=0.4, first=COLD)
@@ -106,6 +107,7 @@ def test_the_film_of_a_place_is_the_scenes(tmp_path):
     assert 1e-9 * done["minimum_thickness_nm"] == pytest.approx(run_contact(element, down).minimum_film, rel=1e-6)
 
 
+@pytest.mark.internal
 def test_over_the_cycle():
     element = ring(specific_wear_rate="1e-9 mm^3/(N*m)", mean_particle_volume="0.1 um^3")
     assert element.model.cycle == pytest.approx(4 * math.pi)

@@ -19,12 +19,14 @@ BALLS = {
 ROLLERS = BALLS | {"rolling": "roller", "length": "12 mm", "diameter": "10 mm", "count": 14}
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(("power", "factor", "tabulated"), [(1.5, 0.5, 0.2288), (1.1, 0.5, 0.2453)])
 def test_load_integrals_are_those_of_the_tables(power, factor, tabulated):
     """Harris, Rolling Bearing Analysis, table of J_r at half a load zone (its lines have n = 1.1): four digits."""
     assert load_integral(factor, power, quad) == pytest.approx(tabulated, abs=2e-4)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("power", [1.5, 10 / 9])
 @pytest.mark.parametrize("clearance", [0.0, 5e-6, 50e-6])
 def test_many_elements_share_as_the_integral_says(power, clearance):
@@ -39,6 +41,7 @@ def test_many_elements_share_as_the_integral_says(power, clearance):
     assert load / (count * loads[0]) == pytest.approx(load_integral(factor, power, quad), rel=2e-4)
 
 
+@pytest.mark.internal
 def test_stribecks_numbers():
     """Q_max = 4.37 F_r / Z for balls, 4.08 F_r / Z for rollers without clearance."""
     for power, number in ((1.5, 4.37), (10 / 9, 4.08)):
@@ -46,6 +49,7 @@ def test_stribecks_numbers():
         assert loads[0] * 400 == pytest.approx(number, abs=0.005)
 
 
+@pytest.mark.internal
 def test_a_ball_is_as_stiff_as_both_its_hertz_contacts():
     element = load_element(BALLS)
     inner, outer = element.found.contacts[:2]
@@ -59,6 +63,7 @@ def test_a_ball_is_as_stiff_as_both_its_hertz_contacts():
     assert loads[0] == pytest.approx(inner.load, rel=1e-9)
 
 
+@pytest.mark.internal
 def test_surfaces_roll_as_the_parts_turn():
     """Turning speeds of cage and ball from no slip at both rings, as two equations; then both surfaces' speeds less
     that of the contact."""

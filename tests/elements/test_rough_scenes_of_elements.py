@@ -31,6 +31,7 @@ def with_film(element):
     return max(steady, key=lambda one: one.hertz(element.modulus).maximum_pressure)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("kind", KINDS)
 @pytest.mark.parametrize("name", [*MODELS, "roller"])
 def test_every_kind_of_scene_of_every_element_plans(name, kind):
@@ -51,6 +52,7 @@ def test_every_kind_of_scene_of_every_element_plans(name, kind):
         assert f"{BOUNDARY_FRICTION:g} is assumed" in scene.description
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("kind", MIXED)
 @pytest.mark.parametrize("name", [*MODELS, "roller"])
 def test_a_mixed_contact_has_the_load_and_speeds_of_its_place(name, kind):
@@ -68,6 +70,7 @@ def test_a_mixed_contact_has_the_load_and_speeds_of_its_place(name, kind):
     assert (scene.supply is None) == math.isinf(place.inlet)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("name", ["gear-pair", "rolling-bearing"])
 def test_the_patch_holds_the_contact_and_resolves_the_roughness(name):
     element = element_of(name)
@@ -95,6 +98,7 @@ def reduced(made, kind):
     return made
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("kind", ROUGH)
 def test_a_rough_scene_of_a_gear_pair_runs(kind, tmp_path):
     element = element_of("gear-pair")

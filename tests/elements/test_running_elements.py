@@ -34,6 +34,7 @@ def gears():
     return element, run_all(element)
 
 
+@pytest.mark.internal
 def test_a_place_is_what_its_scene_gives(gears, tmp_path):
     element, runs = gears
     scene = element.scene(runs[3].contact, "traction") | {"film": {"points": 500}, "outputs": {"errors": False}}
@@ -44,6 +45,7 @@ def test_a_place_is_what_its_scene_gives(gears, tmp_path):
     assert hottest + 273.15 == pytest.approx(runs[3].surface, rel=1e-9)
 
 
+@pytest.mark.internal
 def test_wear_is_local_archard_over_one_pass(gears):
     """Against the law stepped through Hertz' pressure: k p times the distance slid in each step of the crossing."""
     element, runs = gears
@@ -59,6 +61,7 @@ def test_wear_is_local_archard_over_one_pass(gears):
     assert (found["wear_per_pass_1 [m]"][1], found["wear_per_pass_2 [m]"][1]) == wear_per_pass(element, contact)
 
 
+@pytest.mark.internal
 def test_the_whole_gear_pair(gears):
     element, runs = gears
     said = dict(summary(element, runs))
@@ -74,6 +77,7 @@ def test_the_whole_gear_pair(gears):
     assert len(columns(element, runs)["friction_power [W]"]) == 5
 
 
+@pytest.mark.internal
 def test_worn_volume_is_that_of_the_depths_over_both_flanks():
     """Depth of a pass over the flank's length (s ds / r_b of an involute) and width, for each tooth that passes."""
     element = element_of("gear-pair", points=401, specific_wear_rate=WEAR_RATE, mean_particle_volume="0.02 um^3")
@@ -92,6 +96,7 @@ def test_worn_volume_is_that_of_the_depths_over_both_flanks():
     assert f"{3600 * rate / 0.02e-18:.3g} of 0.02 um^3" in said
 
 
+@pytest.mark.internal
 def test_the_films_limits_are_said(tmp_path):
     """A creeping bearing at 1.6 GPa: 0.6 nm of oil are no film of Reynolds' equation, as that place's scene says."""
     bearing = element_of("rolling-bearing", speed="0.5 rpm", radial_load="1 kN")
@@ -105,6 +110,7 @@ def test_the_films_limits_are_said(tmp_path):
     assert notes([one, replace(one, notes=())])[0] == f"at 1 of 2 places: {one.notes[0]}"
 
 
+@pytest.mark.internal
 def test_what_did_not_converge_is_no_figure(gears):
     """Its film had been the thinnest, its power in the mean."""
     element, runs = gears
@@ -120,6 +126,7 @@ def test_what_did_not_converge_is_no_figure(gears):
     assert dict(summary(element, (lost,))) == {"not converged": f"1 of 1 films, the first at {lost.contact.name}"}
 
 
+@pytest.mark.internal
 def test_what_is_not_known_is_said():
     iron = {"name": "bare iron", "youngs_modulus": "170 GPa", "poissons_ratio": 0.26}
     cam = element_of("cam-follower", points=9, first=iron)
@@ -147,6 +154,7 @@ def test_what_is_not_known_is_said():
     assert "both surfaces roll at one speed" in dict(summary(bearing, [one]))["wear by hour"]
 
 
+@pytest.mark.internal
 def test_a_ball_has_a_point_film(tmp_path):
     bearing = element_of("rolling-bearing")
     scene = bearing.scene(bearing.worst(), "point-film")
@@ -167,6 +175,7 @@ CASES = (
 )
 
 
+@pytest.mark.internal
 def test_cases_are_rows_of_a_table(tmp_path):
     file, rows = tmp_path / "b.toml", tmp_path / "c.csv"
     file.write_text(element_template("rolling-bearing"))
@@ -180,6 +189,7 @@ def test_cases_are_rows_of_a_table(tmp_path):
     assert found["minimum_film [m]"][0] == min(cases[0].columns()["minimum_film [m]"])
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(
     ("text", "message"),
     [

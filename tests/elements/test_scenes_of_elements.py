@@ -85,6 +85,7 @@ def test_columns_have_units_and_a_line_for_each_contact(element):
     assert 1 / first["radius [m]"] == pytest.approx(1 / first["radius_1 [m]"] + 1 / first["radius_2 [m]"])
 
 
+@pytest.mark.internal
 def test_what_conforms_is_said_to():
     table = {
         "element": "rolling-bearing", "bore": "40 mm", "outside": "80 mm", "diameter": "11.9 mm", "count": 9,

@@ -182,6 +182,7 @@ def test_effective_medium():
     assert found == pytest.approx(effective_medium(gap), rel=0.12)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("separation", [4.0, 1.0, 0.5, 0.3, 0.1, 0.02])
 def test_few_iterations_whatever_the_contact(separation):
     """Cubes of gaps over twelve orders and more, half of the patch in contact: counts, on two grids."""

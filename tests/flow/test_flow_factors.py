@@ -178,6 +178,7 @@ def test_bad_input_one_message_each():
         flow_factors(z, grid, STEEL, separations=[])
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("zeros", [0, 2])
 def test_curve(zeros):
     """Through its points, monotone between them, its slope that of differences, limits beyond."""
@@ -198,6 +199,7 @@ def test_curve(zeros):
     assert curve(np.array([1e-3]))[0][0] == pytest.approx(0, abs=0.1)
 
 
+@pytest.mark.internal
 def test_curve_of_grooves_along_does_not_run_off():
     """phi_x > 1 rises as surfaces near; below the table it stays."""
     curve = Curve(np.array([1.0, 2.0, 4.0]), np.array([2.0, 1.5, 1.1]), 1.0, 2.0)

@@ -22,6 +22,7 @@ def counted(gap, least):
     return float((1 / gap[gap >= least]).sum()) / gap.size
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("cells", [64, 128])
 def test_a_smooth_gap_is_met_to_all_orders(cells):
     """<1/(1 + a cos)> = 1/sqrt(1 - a^2): centres of cells meet it to rounding, and cells count with theirs where the
@@ -31,6 +32,7 @@ def test_a_smooth_gap_is_met_to_all_orders(cells):
         assert mean == pytest.approx(1 / 0.6, rel=1e-12)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("axis", [0, 1])
 @pytest.mark.parametrize("shift", [0.0, 0.13, 0.31, 0.49])
 def test_a_wedge_is_exact_wherever_its_edge_lies(shift, axis):
@@ -54,6 +56,7 @@ def ring(cells, shift, least):
     return out**1.5, near + (1 - np.pi * 0.45**2) / last**1.5
 
 
+@pytest.mark.internal
 def test_a_round_contact_is_met_where_centres_scatter():
     """Over where the contact lies between centres; observed rms 2.6, 0.95, 0.15 and 0.04 % at 16 to 128 cells, where
     centres alone scatter by 13.5, 6.9, 3.7 and 1.1 %."""
@@ -95,6 +98,7 @@ def test_a_wave_in_contact_is_westergaards(share, largest):
     assert (np.abs(errors) < largest).all()
 
 
+@pytest.mark.internal
 def test_no_gap_has_no_inverse():
     assert inverse_gap(np.zeros((8, 8)), 1e-3).means.mean() == 0.0
     assert inverse_opening(np.full((8, 8), -1.0), 1e-3).means.mean() == 0.0
@@ -123,6 +127,7 @@ def oval(cells, shift):
     return cell_flow(gap, spacing, inverse=inverse_gap(gap, 1e-3, spacing)).sliding_shear
 
 
+@pytest.mark.internal
 def test_what_is_held_round_a_spot_is_met_where_centres_are_not():
     """Against 768 cells (7.446), where the least gap that counts is seven of them off the edge. At 24, 48 and 128 cells
     9.9, 10.7 and 7.0 % are left, whatever the place of the edge; by centres 39, 27 and 8 % with a scatter of 12, 4 and

@@ -7,6 +7,8 @@ from hypothesis import strategies as st
 
 from bem.flow.percolation import open_pieces
 
+pytestmark = pytest.mark.internal
+
 
 def drawn(*rows):
     """Rows run along y; # is closed."""

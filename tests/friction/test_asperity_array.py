@@ -9,6 +9,8 @@ from bem import Body, Grid, InputError, Material, Status, contact_modulus
 from bem.convolution import displacement_operator
 from bem.friction.asperity_array import SQUARE_LATTICE, press_array
 
+pytestmark = pytest.mark.internal
+
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
 RADIUS, HEIGHT, DEPTHS = 20e-6, 0.5e-6, np.array([10e-9, 20e-9])
 MODULUS = contact_modulus(STEEL)

@@ -53,6 +53,7 @@ def both(height, speeds, **changes):
     return step, outcome, solve_mixed(height=height, speeds=speeds, **case)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(
     ("speed", "rms_height", "oil"),
     [(1e-4, 400e-9, THIN_OIL), (1e-7, 120e-9, CASE["lubricant"]), (1e-9, 120e-9, CASE["lubricant"])],
@@ -83,6 +84,7 @@ def test_boundary_lubrication_is_an_answer(speed, rms_height, oil):
     assert point.contact_solves <= 3
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(("speed", "rms_height", "by_rule"), [(1e-4, 400e-9, False), (1e-9, 1e-9, True)])
 def test_cycles_whose_film_is_taken_for_none_say_so_as_one_speed_does(speed, rms_height, by_rule):
     """They said that the film is left with less than a share of the load, which no balance had found."""
@@ -99,6 +101,7 @@ def test_cycles_whose_film_is_taken_for_none_say_so_as_one_speed_does(speed, rms
         assert ("is left with less than" in told[0]) != by_rule
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(("speed", "rms_height"), [(1e-4, 400e-9), (1e-9, 1e-9)])
 def test_the_regime_of_a_cycle_does_not_hang_on_the_words_of_notes(speed, rms_height, monkeypatch):
     height = rms_height / HEIGHT.std() * HEIGHT
@@ -113,6 +116,7 @@ def test_the_regime_of_a_cycle_does_not_hang_on_the_words_of_notes(speed, rms_he
     assert regime() == found
 
 
+@pytest.mark.internal
 def test_a_cycle_at_the_boundary_end_starts_there():
     step = MixedContact(MixedSetup(**CASE), (1e-7, 0.0))
     first = step(HEIGHT, None)
@@ -121,6 +125,7 @@ def test_a_cycle_at_the_boundary_end_starts_there():
     assert step.rows["evaluations"][1] == 1
 
 
+@pytest.mark.internal
 def test_where_the_films_end_first_the_slope_is_not_one_between_two_places_that_are_one():
     """Heavy and creeping, 3 GPa: the slope from a step of a millionth at that end, of contacts known to a millionth,
     was 540 and more, and the next speeds crept up to their end in 80 films."""
@@ -140,6 +145,7 @@ def test_where_the_films_end_first_the_slope_is_not_one_between_two_places_that_
     assert max(point.evaluations for point in curve) <= 8
 
 
+@pytest.mark.internal
 def test_boundary_answer_joins_the_balance():
     """Speeds across the edge: contact load and friction pass from one rule to the other within the tolerance."""
     speeds = np.geomspace(1e-7, 1e-5, 5)
@@ -154,6 +160,7 @@ def test_boundary_answer_joins_the_balance():
     assert np.ptp([point.friction for point in curve]) < 2e-4 * 0.15
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("speeds", [(0.002, 0.0), (0.0, 0.002), (0.0012, 0.0008), (0.001, 0.001)])
 def test_friction_couples_into_the_gap_by_one_rule(speeds):
     """Polymer on steel: pressures of the two load sharings were 8.8 % apart."""
@@ -180,6 +187,7 @@ def test_friction_couples_into_the_gap_by_one_rule(speeds):
     assert np.abs(displacement - point.contact.displacement).max() < 1e-9 * np.abs(displacement).max()
 
 
+@pytest.mark.internal
 def test_the_mirrored_contact_is_the_mirrored_answer():
     """Everything turned round along x, sliding included: the sign of the coupling follows it."""
     changes = CASE | {"bodies": (POLYMER, Body(STEEL)), "load": 0.2, "boundary_friction": 0.3, "hardness": 150e6}
@@ -192,6 +200,7 @@ def test_the_mirrored_contact_is_the_mirrored_answer():
     assert boundary_traction((0.002, 0.0), 0.3) == -0.3  # the flat is held back
 
 
+@pytest.mark.internal
 def test_lambda_ratio_means_one_thing():
     for speed in (1e-4, 0.01, 0.5):
         step, _, point = both(HEIGHT, (speed, 0.0))
@@ -221,6 +230,7 @@ class FlatFilm:
         return PatchFilm(load, thickness, zero, zero, 0.01 * load, float(thickness.min()))
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("model", ["coupled", "uncoupled"])
 @pytest.mark.parametrize("constant", [1e-13, 1e-9, 4e-8, 1e-6, 1e-5])
 def test_the_balance_takes_another_film_model(constant, model):
@@ -234,6 +244,7 @@ def test_the_balance_takes_another_film_model(constant, model):
     assert balance.contacts <= 14
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("constant", [1e-9, 1e-3])
 def test_beyond_film_and_yielded_surfaces_together_is_infeasible(constant):
     """It raised, of a load on a slice, and a whole Stribeck curve with it."""
@@ -246,6 +257,7 @@ def test_beyond_film_and_yielded_surfaces_together_is_infeasible(constant):
     assert any("film's model ends at a load of 20 N" in note for note in balance.notes)
 
 
+@pytest.mark.internal
 def test_boundary_where_the_films_model_ends_in_a_film_thinner_than_molecules():
     """A creeping roller of 1.3 kN in thin oil: no film is known under more than 0.5 kN, and that one is no film."""
     grid = Grid((64, 16), (9e-6, 9e-6), periodic=(False, True))
@@ -261,6 +273,7 @@ def test_boundary_where_the_films_model_ends_in_a_film_thinner_than_molecules():
     assert any("outside its model" in note for note in step.notes)
 
 
+@pytest.mark.internal
 def test_uncoupled_summits_carry_nothing_where_their_film_begins():
     """Tops between the cells count where the film clears the roughness, or the load would jump from nothing."""
     rough = rough_contact(MixedSetup(**CASE, contact_model="uncoupled"), HEIGHT, (0.1, 0.0))
@@ -273,6 +286,7 @@ def test_uncoupled_summits_carry_nothing_where_their_film_begins():
         assert rough._shifted(film, shift).load < (0 if clear else 1e-6) + 1e-300
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("share", [0.9, 0.93, 0.96, 0.98, 0.99])
 def test_openings_that_jump_with_the_load(share):
     """Next to full film a few cells carry the rest, at the hardness: they sink under one load until others touch. No
@@ -287,6 +301,7 @@ def test_openings_that_jump_with_the_load(share):
     assert balance.contacts <= 25
 
 
+@pytest.mark.internal
 def test_steep_balances_take_few_evaluations():
     """Rough surfaces under a small load: contact loads change a thousand times faster than the film's. It took 78."""
     for load, speed in ((1e-3, 1e-5), (1e-2, 1e-4)):
@@ -298,6 +313,7 @@ def test_steep_balances_take_few_evaluations():
         assert np.maximum(point.contact.gap, 0).mean() == pytest.approx(thickness, rel=5e-4)
 
 
+@pytest.mark.internal
 def test_what_lies_on_the_way_is_solved_no_better_than_the_balance_needs(monkeypatch):
     """Coarse films and contacts under them: fewer Newton steps and convolutions, and the same point."""
     spent = {"steps": 0.0, "convolutions": 0.0}

@@ -147,6 +147,7 @@ def test_long_ellipse_is_the_cylinder(factors, rough_walls):
     assert found.lambda_ratio == pytest.approx(same.lambda_ratio, rel=0.02)
 
 
+@pytest.mark.internal
 def test_film_on_its_own_cells_is_itself_and_goes_on_outside():
     contact = PointContact((0.01, 0.02), MODULUS, OIL)
     film = SolvedPointFilm(contact, (0.2, 0.2), GRID.x, GRID.y, 48).solve(20.0)
@@ -164,6 +165,7 @@ def test_film_on_its_own_cells_is_itself_and_goes_on_outside():
     assert np.ptp(moved[outside]) < 0.03 * dry.approach
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("counted", ["loaded", "patch"])
 def test_table_is_the_film(counted):
     setup = MixedSetup(**BALL | {"oil_volume": counted})
@@ -176,6 +178,7 @@ def test_table_is_the_film(counted):
     assert len(table.entries) < 14  # those that were asked for, not all above
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(
     ("wrong", "said"),
     [
@@ -194,6 +197,7 @@ def test_bad_input_is_said(wrong, said):
         MixedSetup(**BALL | wrong)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("counted", [None, 20.0])
 def test_thin_film_goes_on_from_a_solved_one(counted):
     """A film made from that of 0.4 of the load, against the film solved under all of it."""

@@ -25,6 +25,8 @@ from bem.lubrication.shear import Newtonian
 from bem.scenes import load_scene
 from bem.wear.mixed import MixedContact
 
+pytestmark = pytest.mark.internal
+
 POLYMER = Material("polymer", youngs_modulus=3e9, poissons_ratio=0.4)
 OIL = Lubricant(0.01, pressure_viscosity=20e-9, shear_law=Newtonian())
 CASE = mixed_case(64, 1.5e-6, 6e-6, lubricant=OIL, speeds=(0.003, 0.0))

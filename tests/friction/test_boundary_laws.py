@@ -24,6 +24,7 @@ OIL = Lubricant(0.01, pressure_viscosity=20e-9, shear_law=Newtonian(), temperatu
 P = np.array([1e6, 3e8, 5e9])
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(
     ("law", "expected"),
     [
@@ -66,6 +67,7 @@ def test_closed_forms_at_one_centimetre_per_second_and_60_degrees(law, expected)
     np.testing.assert_allclose(stress, expected, rtol=1e-14)
 
 
+@pytest.mark.internal
 def test_activated_shear_rises_with_pressure_and_log_speed_and_falls_with_temperature():
     # a barrier of 0.6 eV and volumes of molecules; Briscoe and Evans found tau linear in p, T and ln u
     law = ActivatedShear(
@@ -80,6 +82,7 @@ def test_activated_shear_rises_with_pressure_and_log_speed_and_falls_with_temper
     assert law.at_temperature(3000.0).shear_stress(np.array([1e5]), 1e-9)[0] == 0.0
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("model", ["coupled", "uncoupled"])
 def test_the_law_is_taken_at_every_cells_own_pressure(model):
     law = {
@@ -101,6 +104,7 @@ def test_the_law_is_taken_at_every_cells_own_pressure(model):
     assert solve_mixed(**CASE, lubricant=OIL, boundary_friction=uncut, contact_model=model).friction > point.friction
 
 
+@pytest.mark.internal
 def test_a_table_of_a_constant_is_the_coefficient_and_temperature_reaches_the_contact():
     table = FrictionOverPressure(pressures=(0.0, 1e10), coefficients=(0.1, 0.1))
     one, other = (solve_mixed(**CASE, lubricant=OIL, boundary_friction=law) for law in (table, 0.1))
@@ -115,6 +119,7 @@ def test_a_table_of_a_constant_is_the_coefficient_and_temperature_reaches_the_co
     assert len(caught.value.messages) == 1
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(
     ("law", "words"),
     [

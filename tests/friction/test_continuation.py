@@ -30,6 +30,7 @@ def curve():
     return stribeck_curve(SPEEDS, **CASE)
 
 
+@pytest.mark.internal
 def test_a_curve_is_that_of_its_speeds_alone(curve):
     cold = [solve_mixed(**CASE, speeds=(speed, 0.0)) for speed in SPEEDS]
     assert {point.regime for point in curve} == {Regime.MIXED, Regime.FULL_FILM}
@@ -72,12 +73,14 @@ def test_next_to_full_film_no_film_of_next_to_no_load_is_tried():
     assert max(point.evaluations for point in curve[1:]) <= 6
 
 
+@pytest.mark.internal
 def test_a_slope_is_moved_with_the_odds():
     start = BalanceStart.after(0.8, 2.0, 10.0, 9.0, None)
     assert start.slope * (1 - 0.9) == pytest.approx(2.0 * (1 - 0.8), rel=1e-12)
     assert start.known
 
 
+@pytest.mark.internal
 def test_a_curve_in_full_film_makes_weights_twice(monkeypatch):
     """Of the coarse mesh and of the fine one; at every speed before."""
     made = []
@@ -94,6 +97,7 @@ def test_a_curve_in_full_film_makes_weights_twice(monkeypatch):
     assert curve[0].friction == first[0].friction
 
 
+@pytest.mark.internal
 def test_a_film_next_to_one_is_found_without_taking_equations_apart(monkeypatch):
     near = line_film(LineCase(**FILM, speeds=(0.05, 0.0)))
     taken = []
@@ -117,6 +121,7 @@ def test_equations_are_not_kept_with_a_curve(curve):
         assert point.continuation.whole.solution.state.state.linear is None
 
 
+@pytest.mark.internal
 def test_a_film_on_the_mesh_of_another_is_itself():
     coarse = solve_line_film(**FILM, speeds=(0.05, 0.0), points=400)
     other = solve_line_film(**FILM, speeds=(0.08, 0.0), points=1500)
@@ -133,6 +138,7 @@ def test_a_film_on_the_mesh_of_another_is_itself():
     assert on_mesh_of(coarse, dataclasses.replace(other, state=None)) is coarse
 
 
+@pytest.mark.internal
 def test_a_ball_under_more_than_films_are_solved_for_solves_one(monkeypatch):
     """All trials of its balance go on from one film: five were solved for two."""
     point_film.KEPT.clear()
@@ -154,6 +160,7 @@ def test_a_ball_under_more_than_films_are_solved_for_solves_one(monkeypatch):
     assert again.friction == point.friction
 
 
+@pytest.mark.internal
 def test_a_film_that_is_kept_is_not_changed_by_who_got_it():
     """In micrometres for a picture, in place: the next balance was that of a film a million times as thick."""
     point_film.KEPT.clear()
@@ -166,6 +173,7 @@ def test_a_film_that_is_kept_is_not_changed_by_who_got_it():
     assert again.film.thickness.min() < 1e-6
 
 
+@pytest.mark.internal
 def test_equations_are_not_kept_in_a_table():
     """Megabytes each; its films lie too far apart to start by them."""
     given = {name: value for name, value in CASE.items() if name != "height"}

@@ -45,6 +45,7 @@ def central_film(point):
     return float(np.interp(0.0, point.grid.x, point.film_along_x[1]))
 
 
+@pytest.mark.internal
 def test_the_patch_sinks_as_the_middle_of_a_rectangle_under_uniform_pressure():
     for shape in ((41, 41), (61, 21)):
         free = Grid(shape, (2e-6, 2e-6))
@@ -53,6 +54,7 @@ def test_the_patch_sinks_as_the_middle_of_a_rectangle_under_uniform_pressure():
         assert sinking_compliance(free) * 1e8 / MODULUS == pytest.approx(middle, rel=1e-10)
 
 
+@pytest.mark.internal
 def test_the_undeformed_planes_are_as_far_apart_as_the_film_is_thick():
     given = case()
     point = solve_mixed(**given, speeds=(0.03, 0.0))
@@ -71,6 +73,7 @@ def test_the_undeformed_planes_are_as_far_apart_as_the_film_is_thick():
     assert not point.oil.matters
 
 
+@pytest.mark.internal
 def test_uncoupled_summits_are_pressed_in_by_what_stands_above_the_film():
     given = case(model="uncoupled")
     point = solve_mixed(**given, speeds=(0.03, 0.0))
@@ -101,6 +104,7 @@ def test_uncoupled_asperities_overestimate_friction_more_under_load_and_less_for
     assert 0.2 < short[1] < 0.45  # 32 % near 1 GPa in the source, of one surface
 
 
+@pytest.mark.internal
 def test_planes_too_far_apart_to_touch_are_full_film():
     point = solve_mixed(**case(), speeds=(10.0, 0.0))
     assert point.regime is Regime.FULL_FILM

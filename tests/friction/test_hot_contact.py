@@ -37,6 +37,7 @@ def conducted(found, coefficient):
     return field, float((field * pressure).sum() / pressure.sum())
 
 
+@pytest.mark.internal
 def test_temperatures_are_those_of_what_rubs():
     found = hot()
     assert found.status is Status.CONVERGED
@@ -64,6 +65,7 @@ def test_a_law_over_temperature_is_told_that_of_the_contact():
     assert solve_mixed(**CASE | {"boundary_friction": FALLING}, speeds=ROLLING).boundary_force > found.boundary_force
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(("model", "left"), [("lumped", 0.9), ("full", 0.96)])  # full heat takes 4.7 %
 def test_the_film_is_the_one_with_heat(model, left):
     found = hot(speeds=(12.0, 6.0), thermal=model)
@@ -108,6 +110,7 @@ def test_a_curve_with_heat_costs_little_more():
     assert temperatures == sorted(temperatures)
 
 
+@pytest.mark.internal
 def test_full_heat_in_mixed_lubrication():
     """Mild heat is that of the lumped model; the film that is returned is the full one under its own load, whose energy
     closes, and film and contact carry the load together."""
@@ -181,6 +184,7 @@ def test_a_scene_with_heat_reports_its_temperatures(tmp_path):
         load_scene(scene | {"oil": PATCH["oil"]})
 
 
+@pytest.mark.internal
 def test_bars_of_full_heat_hold_its_columns_and_layers():
     """Half the points alone gave a film at 20 m/s a bar of 1e-5, where half the columns and layers move it by 1.3 %."""
     asked = CASE | {"bodies": (STEEL, STEEL), "thermal": "full"}

@@ -53,6 +53,7 @@ def test_points_out_of_range_do_not_count_and_too_few_are_refused():
         fit_load_share(RATIO, share[:3])
 
 
+@pytest.mark.internal
 def test_a_stribeck_curves_fit_is_in_the_summary_for_each_model():
     from types import SimpleNamespace
 
@@ -83,6 +84,7 @@ class SimpleAxis:
         return len(self.values)
 
 
+@pytest.mark.internal
 def test_curves_are_fitted_together_and_too_few_points_give_no_fit():
     share = np.exp(-0.6 * RATIO**1.4)
     parts = [

@@ -54,6 +54,7 @@ def test_measured_case_of_the_thesis_is_met(curve):
     assert curve[-1].friction == pytest.approx(0.038, abs=0.001)
 
 
+@pytest.mark.internal
 def test_full_film_solves_no_rough_contact(monkeypatch):
     def forbidden(*arguments, **keywords):
         raise AssertionError("a rough contact was solved in full film")
@@ -127,6 +128,7 @@ def test_balance_along_a_curve_takes_few_evaluations():
     assert np.mean([point.contact_solves for point in curve[1:]]) <= 5.5
 
 
+@pytest.mark.internal
 def test_the_last_coarse_trial_is_made_with_the_finer_film(monkeypatch):
     """Once a secant will do, its place is tried on the mesh asked for: fewer films and contacts, the same balances."""
     case, speeds = {**CASE, "film_points": 800, "tolerance": 1e-4}, (0.001, 0.03, 0.05)
@@ -194,6 +196,7 @@ def test_striated_exit_adds_a_little():
     assert 1.02 < striated.friction / plain.friction < 1.2
 
 
+@pytest.mark.internal
 def test_the_point_shown_shares_most_evenly(curve):
     found = Curve()
     for point in curve:
@@ -205,6 +208,7 @@ def test_the_point_shown_shares_most_evenly(curve):
     assert Curve().then(curve[-1]).shown.full_film
 
 
+@pytest.mark.internal
 def test_uncoupled_baseline(curve):
     for separation in ("volume", "film"):
         baseline = stribeck_curve(SPEEDS, **CASE, contact_model="uncoupled", asperity_separation=separation)
@@ -219,6 +223,7 @@ def test_uncoupled_baseline(curve):
         largest_difference(curve, curve[:2])
 
 
+@pytest.mark.internal
 def test_options_of_point_and_setup_are_the_same():
     """A curve's set-up and that of a point have the same fields with the same defaults, but for what error bars ask."""
     own = ("height", "speeds", "initial")

@@ -15,6 +15,7 @@ def said(point):
     return [note for note in point.notes if SAID in note]
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("speeds", [(0.03, 0.0), (0.0, 0.03)])
 def test_what_is_left_out_is_the_films_stress_on_cells_in_contact(speeds):
     point = solve_mixed(**CASE, speeds=speeds)
@@ -35,6 +36,7 @@ def test_nothing_is_left_out_of_a_full_film():
     assert not said(point)
 
 
+@pytest.mark.internal
 def test_the_note_names_the_worst_of_many_speeds_and_is_silent_where_little_changes():
     assert covered_notes([(0.1, 0.004), (0.05, -0.002), (0.0, 0.0)]) == ()
     (one,) = covered_notes([(0.1, 0.01), (0.1, 0.004)])

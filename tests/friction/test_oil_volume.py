@@ -61,6 +61,7 @@ def setup_of(case):
 LENGTHS = (51, 64, 80, 112)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("speed", [1e-4, 1e-2, 0.1])
 def test_oil_counted_where_the_film_carries_does_not_know_the_patch(speed):
     loaded = [solve_mixed(**bearing(cells, oil_volume="loaded"), speeds=(speed, 0.0)) for cells in LENGTHS]
@@ -73,6 +74,7 @@ def test_oil_counted_where_the_film_carries_does_not_know_the_patch(speed):
     assert not any(point.oil.matters or oil_notes([point.oil]) for point in loaded)
 
 
+@pytest.mark.internal
 def test_one_volume_of_oil_follows_the_patch_and_says_so():
     """At 0.1 mm/s the film is thinner than a molecule and carries nine tenths of the load: what is beside fills it."""
     points = [solve_mixed(**bearing(cells), speeds=(1e-4, 0.0)) for cells in (51, 112)]
@@ -103,6 +105,7 @@ def test_slower_and_slower_is_boundary_lubrication():
     assert curve[-1].friction == pytest.approx(0.12, rel=0.02)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(("speed", "regime"), [(30.0, Regime.FULL_FILM), (1e-9, Regime.BOUNDARY)])
 def test_at_both_ends_it_does_not_matter(speed, regime):
     points = [solve_mixed(**bearing(64, oil_volume=counted), speeds=(speed, 0.0)) for counted in OilVolume]
@@ -115,6 +118,7 @@ def test_at_both_ends_it_does_not_matter(speed, regime):
         assert point.oil_imbalance == 0
 
 
+@pytest.mark.internal
 def test_surfaces_that_touch_by_the_oil_beside_alone_are_compared_with_a_full_film():
     """A plateau as wide as the contact: it stands out of the patch's mean plane, but not out of what carries."""
     grid = bearing(112)["grid"]
@@ -147,6 +151,7 @@ def test_the_oil_is_there_recomputed_from_what_is_returned(model):
     assert abs(point.imbalance) < 1e-12
 
 
+@pytest.mark.internal
 def test_wear_cycles_take_it_too():
     case = bearing(64, oil_volume="loaded", tolerance=5e-4)
     step = MixedContact(setup_of(case), (0.01, 0.0))
@@ -162,6 +167,7 @@ def test_wear_cycles_take_it_too():
     assert note.startswith("last cycle: ")
 
 
+@pytest.mark.internal
 def test_a_table_of_films_between_bodies_that_all_of_the_load_deforms():
     case = bearing(64, oil_volume="loaded", film_points=300)
     table = film_table(setup_of(case), (0.01, 0.0))
@@ -193,6 +199,7 @@ class FlatFilm:
         return PatchFilm(load, thickness, zero + load, zero, 0.0, float(thickness.min()))
 
 
+@pytest.mark.internal
 def test_flat_films_hold_the_same_oil_wherever_it_is_counted():
     case = bearing(64)
     film, load = FlatFilm(3e-6, (64, 32)), case["load"]
@@ -209,6 +216,7 @@ def test_flat_films_hold_the_same_oil_wherever_it_is_counted():
         assert one.contacts <= 10
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("counted", OilVolume)
 def test_where_the_films_model_ends_before_the_oil_fits_it_is_infeasible(counted):
     case = bearing(64, oil_volume=counted)
@@ -222,6 +230,7 @@ def test_where_the_films_model_ends_before_the_oil_fits_it_is_infeasible(counted
     assert "thicker there than the surfaces leave open" in said
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(("thickness", "rms_height", "by_rule"), [(1e-9, 1e-10, True), (1e-14, 1e-7, False)])
 def test_a_film_taken_for_none_is_told_apart_from_one_that_is_left_with_none(thickness, rms_height, by_rule):
     case = bearing(64, oil_volume="loaded")
@@ -235,6 +244,7 @@ def test_a_film_taken_for_none_is_told_apart_from_one_that_is_left_with_none(thi
     assert any("the film is left with less than" in note for note in balance.notes) != by_rule
 
 
+@pytest.mark.internal
 def test_the_film_at_the_end_of_its_model_is_as_good_as_was_asked_for():
     """Those on the way to a balance are solved no better than that needs."""
     case, asked = bearing(64), []
@@ -252,6 +262,7 @@ def test_the_film_at_the_end_of_its_model_is_as_good_as_was_asked_for():
     assert asked[-1] == 1
 
 
+@pytest.mark.internal
 def test_a_contact_that_does_not_hold_the_oil_is_not_converged():
     """Loads alone do not say it."""
     case = bearing(64, oil_volume="loaded")
@@ -270,6 +281,7 @@ def test_a_contact_that_does_not_hold_the_oil_is_not_converged():
     assert balance.status is not Status.CONVERGED or abs(balance.oil_imbalance) <= 1e-4
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("model", ["coupled", "uncoupled"])
 @pytest.mark.parametrize("higher", [60e-9, -60e-9])
 def test_full_film_begins_where_surfaces_that_hold_the_oil_come_apart(model, higher):
@@ -294,6 +306,7 @@ def test_full_film_begins_where_surfaces_that_hold_the_oil_come_apart(model, hig
     assert shares == sorted(shares, reverse=True)
 
 
+@pytest.mark.internal
 def test_what_that_oil_decides_costs_about_as_much_as_a_curve_without_telling(monkeypatch):
     """The second balance starts from the first, as far from it as at the speed before: about as many convolutions."""
     spent = {}
@@ -317,6 +330,7 @@ def test_what_that_oil_decides_costs_about_as_much_as_a_curve_without_telling(mo
     assert spent["other"] < 185
 
 
+@pytest.mark.internal
 def test_means_where_the_oil_is_counted():
     pressure = np.array([[0.0], [1.0], [3.0], [0.0]])
     film = PatchFilm(1.0, np.ones((4, 1)), pressure, 0 * pressure, 0.0, 1.0)
@@ -329,6 +343,7 @@ def test_means_where_the_oil_is_counted():
     assert mean_where_counted(lengths, nothing, OilVolume.LOADED) == lengths.mean()
 
 
+@pytest.mark.internal
 @settings(max_examples=80, deadline=None)
 @given(st.floats(-9, 9), st.floats(-9, 9), st.floats(0.1, 4.0), st.floats(0.2, 3.0))
 def test_zero_of_a_falling_function(zero, start, steepness, slope):
@@ -347,6 +362,7 @@ def test_zero_of_a_falling_function(zero, start, steepness, slope):
     assert len(tried) < 30
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("place", [-1.0, 0.4, 2.0])
 def test_a_parabola_of_the_value_is_met_at_once_and_a_jump_between_two_places_as_before(place):
     def root(value):
@@ -360,6 +376,7 @@ def test_a_parabola_of_the_value_is_met_at_once_and_a_jump_between_two_places_as
     assert _parabola(points[:2], points[0][0]) is None
 
 
+@pytest.mark.internal
 def test_the_balance_compared_with_begins_with_the_slope_found(monkeypatch):
     """Two films and contacts, where a balance to a thousandth takes three: the rest is by its slope, as near."""
     tried = []
@@ -374,6 +391,7 @@ def test_the_balance_compared_with_begins_with_the_slope_found(monkeypatch):
     assert max(balance.contacts for balance in tried) <= 2
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(("zero", "end"), [(-20, -10.0), (20, 10.0)])
 def test_a_zero_beyond_the_ends_gives_the_end(zero, end):
     tried = []
@@ -384,6 +402,7 @@ def test_a_zero_beyond_the_ends_gives_the_end(zero, end):
     assert found.ahead == end
 
 
+@pytest.mark.internal
 def test_what_is_said_of_one_result_and_of_a_curve():
     alike = OilBeside(0.9, 0.5, 0.1, 0.52, 0.1005)
     load, friction = OilBeside(0.8, 0.5, 0.1, 0.56, 0.1), OilBeside(0.7, 0.5, 0.1, 0.5, 0.102)
@@ -414,6 +433,7 @@ def test_refuses_other_volumes():
         solve_mixed(**bearing(64, oil_volume="strip"), speeds=(0.1, 0.0))
 
 
+@pytest.mark.internal
 def test_the_default_counts_oil_where_the_film_is_loaded_and_pays_no_second_balance(monkeypatch):
     monkeypatch.setattr(oil_sensitivity, "share_load", lambda *given: pytest.fail("a second balance was solved"))
     case = {name: value for name, value in bearing(64).items() if name != "oil_volume"}
@@ -424,6 +444,7 @@ def test_the_default_counts_oil_where_the_film_is_loaded_and_pays_no_second_bala
     assert not point.oil.matters
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("cells", [7, 20, 33])
 def test_cells_that_the_hertz_boundary_cuts_count_by_their_fraction(cells):
     """The fractions sum to the Hertz area on every grid, and their mean of x^2 is that of the area itself."""
@@ -471,6 +492,7 @@ def test_the_oil_over_the_hertz_contact_recomputed_from_what_is_returned():
     assert point.oil.loaded_contact_share == pytest.approx(loaded.contact_load / loaded.load, abs=0.01)
 
 
+@pytest.mark.internal
 def test_a_ball_counts_the_oil_over_its_hertz_circle():
     height = rough_patch(50e-9)
     shorter = Grid((52, 52), BALL["grid"].spacing)
@@ -484,6 +506,7 @@ def test_a_ball_counts_the_oil_over_its_hertz_circle():
     assert points[1].contact_load == pytest.approx(points[0].contact_load, rel=5e-3)
 
 
+@pytest.mark.internal
 def test_the_note_on_the_hertz_area_names_it_and_compares_with_loaded():
     follows = OilBeside(0.7, 0.5, 0.1, 0.5, 0.102, counted=OilVolume.HERTZ)
     (note,) = oil_notes([follows])

@@ -11,6 +11,8 @@ from bem import Body, Grid, Layer, Lubricant, Material, Status, contact_modulus,
 from bem.friction.setup import MixedSetup
 from bem.wear.mixed import MixedContact
 
+pytestmark = pytest.mark.internal
+
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
 FLATS = {
     "bearing": (Body(STEEL), 5e-3, 10e-3, (None, 6e9, 2e9)),

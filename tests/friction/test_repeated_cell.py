@@ -43,6 +43,7 @@ def both():
     return found
 
 
+@pytest.mark.internal
 def test_cells_are_pressed_as_a_patch_that_holds_the_contact(both):
     """The same load, film and waves, five and a half of which go into the contact's half-axis. What is left is that of
     sixteen cells a wave (0.5 % of the opening with eight, 0.15 % with sixteen) and of the contact's edge."""
@@ -62,6 +63,7 @@ def test_cells_are_pressed_as_a_patch_that_holds_the_contact(both):
     np.testing.assert_allclose(np.interp(centres, grid.y, middle)[inside], means[inside], rtol=0.02)
 
 
+@pytest.mark.internal
 def test_cells_at_the_approach_of_a_load_carry_it(both):
     (_, cells, film), _ = both
     by_load = cells.at_load(film, 2.0, 1e-9, None)
@@ -75,6 +77,7 @@ def test_cells_at_the_approach_of_a_load_carry_it(both):
     assert closer.opening < by_load.opening
 
 
+@pytest.mark.internal
 def test_friction_is_that_of_the_load_shared(both):
     (setup, cells, film), _ = both
     pressed = cells.at_load(film, 2.0, 1e-6, None)
@@ -89,6 +92,7 @@ def test_friction_is_that_of_the_load_shared(both):
     assert forces.film == pytest.approx(left, rel=1e-12)
 
 
+@pytest.mark.internal
 def test_a_law_of_friction_sees_the_pressures_of_the_cells(both):
     """A law in proportion to the pressure is a coefficient; one with a shear strength besides has it on the real area,
     f = a + s A / F, whichever cell it is in."""
@@ -109,6 +113,7 @@ def test_a_law_of_friction_sees_the_pressures_of_the_cells(both):
     assert found == pytest.approx(0.1 + 1e6 * pressed.area / 2.0, rel=1e-3)  # cubics against lines between cells
 
 
+@pytest.mark.internal
 @pytest.mark.slow
 def test_load_sharing_is_that_of_the_patch():
     """Measured: shares 0.0628 and 0.0629, friction 0.0680 and 0.0669 (a patch counts whole cells in contact, which
@@ -122,6 +127,7 @@ def test_load_sharing_is_that_of_the_patch():
     assert one.separation.shape == one.film_along_x[0].shape == (A_WAVE,)
 
 
+@pytest.mark.internal
 def test_soft_cells_are_a_foundation_beside_hertz():
     """A cell that hardly gives way leaves Hertz' pressure; one on whose logarithm the load rests, Greenwood and
     Tripp's: lower and wider, with the same load."""
@@ -138,6 +144,7 @@ def test_soft_cells_are_a_foundation_beside_hertz():
     assert highest[1] < 0.95
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("pressure", [1e7, 1e8, 3e8])
 def test_cells_that_sink_under_one_pressure_are_spread(pressure):
     """As with few summits at the hardness: Newton's steps took turns between the flat and the steep part of their law,
@@ -177,6 +184,7 @@ def test_smooth_enough_or_fast_enough_is_a_full_film():
     assert found.oil.share == 0
 
 
+@pytest.mark.internal
 def test_what_a_cell_has_not_is_said():
     long = Grid((16, 16), (10e-6, 10e-6), periodic=(True, True))
     for wrong, said in (

@@ -89,6 +89,7 @@ def test_a_long_ellipse_shares_its_load_as_a_cylinder_of_its_mean_pressure():
     assert 0.95 < barrel.friction / roller.friction < 1
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(
     ("wrong", "said"),
     [

@@ -18,6 +18,7 @@ def bumps(grid, radius, centres):
     return np.max([h - ((x - cx) ** 2 + (y - cy) ** 2) / (2 * radius) for cx, cy, h in centres], axis=0)
 
 
+@pytest.mark.internal
 def test_summits_have_their_heights_and_radii():
     grid = Grid((60, 60), (0.1e-6, 0.1e-6))
     # off the cells' centres, so that tops are interpolated
@@ -29,6 +30,7 @@ def test_summits_have_their_heights_and_radii():
     np.testing.assert_allclose(summits.radius, 10e-6, rtol=1e-6)
 
 
+@pytest.mark.internal
 def test_borders_are_summits_only_where_periodic():
     height = np.zeros((8, 8))
     height[0, 4] = height[4, 0] = 1e-9
@@ -41,6 +43,7 @@ def test_borders_are_summits_only_where_periodic():
     assert np.sum(both.height > 0.5e-9) == 2
 
 
+@pytest.mark.internal
 def test_elastic_asperity_is_hertz():
     radius, modulus, depth = 30e-6, 115e9, 20e-9
     load, area, plastic = asperity_loads(np.array([depth]), np.array([radius]), modulus, None)
@@ -50,6 +53,7 @@ def test_elastic_asperity_is_hertz():
     assert not plastic[0]
 
 
+@pytest.mark.internal
 @given(depth=st.floats(-1e-7, 1e-5))
 @settings(max_examples=50, deadline=None, derandomize=True)
 def test_plastic_asperities_grow_and_keep_below_the_hardness(depth):
@@ -59,6 +63,7 @@ def test_plastic_asperities_grow_and_keep_below_the_hardness(depth):
     assert (load <= 1e9 * area * (1 + 1e-12)).all()
 
 
+@pytest.mark.internal
 def test_load_is_continuous_where_yield_begins():
     critical = 30e-6 * (3 * math.pi * 1e9 / (4 * 115e9)) ** 2
     load, area, plastic = asperity_loads(critical * np.array([1 - 1e-9, 1 + 1e-9]), np.full(2, 30e-6), 115e9, 1e9)
@@ -75,6 +80,7 @@ def test_volume_shift_keeps_the_volume(seed, share):
     assert np.maximum(gap - shift, 0).mean() == pytest.approx(share, rel=1e-12)
 
 
+@pytest.mark.internal
 def test_pressure_map_carries_the_load():
     grid = Grid((40, 40), (0.2e-6, 0.2e-6), periodic=(False, True))
     height = bumps(grid, 30e-6, [(0.0, 0.0, 100e-9), (1.2e-6, -3.9e-6, 90e-9)])

@@ -132,6 +132,7 @@ def test_a_contact_takes_less_than_52_bytes_a_cell_besides_its_gap(periodic):
     assert peak_of(lambda: solve_contact(gap, operator, load=500.0, tolerance=1e-6)) < 52 * grid.cells
 
 
+@pytest.mark.internal
 def test_error_bars_of_a_contact_hold_no_field_of_its_grid(monkeypatch):
     """A quarter of the cells are solved again; where the surface is sharp is told by rows: of 204 bytes a cell of a run
     of 3000 x 3000 cells half were second differences and their shifts. Beyond the coarser contact two bytes a cell."""

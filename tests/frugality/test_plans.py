@@ -35,6 +35,7 @@ def test_every_kind_has_a_built_in_scene_and_something_to_skip():
             assert any(kinds[kind]), f"no scene of kind {kind} skips anything"
 
 
+@pytest.mark.internal
 def test_the_plan_names_precision_where_the_scene_asks_for_it():
     _, free = plan_scene("hertz-sphere")
     assert free.precisions == {"contact": SEARCHED_IN_SINGLE, "stresses below": PACKED_SPECTRA}
@@ -44,6 +45,7 @@ def test_the_plan_names_precision_where_the_scene_asks_for_it():
     assert film.precision_rows == [("all", "double")]
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("tolerance", [1e-6, 1e-10])
 def test_a_search_in_single_precision_costs_a_contact_no_accuracy(tolerance, monkeypatch):
     grid = Grid((64, 64), (1e-7, 1e-7))
@@ -93,6 +95,7 @@ def test_time_and_memory_of_a_plan_grow_with_the_grid():
     assert large.seconds(2e9) > small.seconds(2e9)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("name", ["rough-contact", "hertz-sphere", "sinusoid", "coated-sphere"])
 def test_convolutions_of_a_contact_are_as_many_as_planned_within_a_factor_of_two(name):
     scene, _ = plan_scene(name, ["grid.shape=128", "outputs.von_mises=false", "outputs.stresses=false"])
@@ -101,6 +104,7 @@ def test_convolutions_of_a_contact_are_as_many_as_planned_within_a_factor_of_two
     assert planned / 2 <= outcome.summary["convolutions"] <= 2 * planned
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("pressure", ["20 MPa", "100 MPa", "1 GPa"])
 def test_a_layer_stiffer_than_its_base_takes_what_is_planned_within_a_factor_of_two(pressure):
     """The plan knew of no layer: 15 convolutions where up to 44 were counted under one ten times as stiff."""
@@ -118,6 +122,7 @@ def test_a_layer_stiffer_than_its_base_takes_what_is_planned_within_a_factor_of_
     assert planned / 2 <= found <= 2 * planned
 
 
+@pytest.mark.internal
 def test_a_capped_contact_of_many_cells_takes_what_is_planned_within_a_factor_of_two():
     """The plan had no more convolutions for it than for an elastic one, and 36 where 179 were counted at 8192 cells."""
     settings = ["grid.shape=1024", "outputs.von_mises=false", "outputs.errors=false"]
@@ -158,6 +163,7 @@ def test_transforms_of_a_run_are_as_many_as_planned_within_a_factor_of_two(name)
     assert planned / 2 <= COUNT.forward + COUNT.inverse <= 2 * planned
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(
     ("name", "settings", "words"),
     [
@@ -206,6 +212,7 @@ def test_kernels_of_a_wear_scene_are_planned_once_for_a_grid_not_for_a_cycle():
     assert many["pieces"] == pytest.approx(4 * few["pieces"])
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(
     "choice",
     [
@@ -247,6 +254,7 @@ def test_depths_of_a_wear_scene_are_planned_within_a_factor_of_two_and_of_both_b
     assert [s.transforms for s in both.steps if s.name == "stresses"] == [2 * step.transforms]
 
 
+@pytest.mark.internal
 def test_depths_of_the_first_cycle_are_within_what_memory_is_planned_for():
     """The memory of a plan holds spectra of so many depths; the first cycle, of the sharpest asperities, needs most."""
     from bem.scenes.kinds.wear import _DEPTHS_AT_FIRST
@@ -258,6 +266,7 @@ def test_depths_of_the_first_cycle_are_within_what_memory_is_planned_for():
     assert _DEPTHS_AT_FIRST / 2 <= computed <= 1.25 * _DEPTHS_AT_FIRST
 
 
+@pytest.mark.internal
 def test_very_large_transforms_are_slower_than_the_rate_of_smaller_ones():
     from bem.scenes.planner import Step, step_seconds
 

@@ -55,6 +55,7 @@ def solved(bodies, friction=0.0, **change) -> ContactSolution:
     return solve_contact(GAP, displacement_operator(GRID, bodies, friction=friction), **arguments)
 
 
+@pytest.mark.internal
 def test_no_friction_no_tangential_kernel_and_friction_of_unlike_bodies_needs_one():
     pair = (Body(STEEL), Body(DLC))
     without = solved(pair)
@@ -65,6 +66,7 @@ def test_no_friction_no_tangential_kernel_and_friction_of_unlike_bodies_needs_on
     assert np.abs(with_friction.pressure - without.pressure).max() > 1e-3 * without.pressure.max()
 
 
+@pytest.mark.internal
 def test_steel_on_steel_builds_no_coupling_kernel_and_gives_the_bits_of_no_friction():
     without = solved((Body(STEEL), Body(STEEL)))
     set_spectra_memory(0)  # nothing may come from a cache
@@ -74,6 +76,7 @@ def test_steel_on_steel_builds_no_coupling_kernel_and_gives_the_bits_of_no_frict
     assert np.array_equal(with_friction.pressure, without.pressure)
 
 
+@pytest.mark.internal
 def test_two_homogeneous_bodies_need_one_kernel():
     operator = displacement_operator(GRID, (Body(STEEL), Body(DLC)))
     found = operator(np.full(GRID.shape, 1e8))
@@ -82,6 +85,7 @@ def test_two_homogeneous_bodies_need_one_kernel():
     assert np.abs(found - apart).max() <= 1e-13 * np.abs(apart).max()  # round-off of a sum of two
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("periodic", [(False, False), (False, True), (True, True)])
 def test_without_a_coating_no_layered_kernel_is_computed(monkeypatch, periodic):
     def forbidden(*arguments, **keywords):
@@ -110,6 +114,7 @@ def test_a_layer_of_the_base_material_is_computed_as_layered_and_agrees_with_the
 CASE = mixed_case(60, 1.5e-6, 6e-6, lubricant=Lubricant(0.36, pressure_viscosity=25e-9), boundary_friction=0.15)
 
 
+@pytest.mark.internal
 def test_friction_alone_computes_no_stress_and_no_coupling():
     point = solve_mixed(**CASE, speeds=(0.03, 0.0))
     assert 0 < point.contact_load < 5.5  # mixed: contact and film both matter
@@ -124,6 +129,7 @@ def test_friction_alone_does_not_load_the_room_of_stresses():
     assert done.stdout.split() == ["False", "False"]
 
 
+@pytest.mark.internal
 def test_full_film_needs_no_transform_at_all():
     point = solve_mixed(**CASE, speeds=(0.6, 0.0))
     assert point.full_film
@@ -155,6 +161,7 @@ def setup(**change):
     return WearSetup(**(arguments | change))
 
 
+@pytest.mark.internal
 def test_wear_transforms_only_depths_that_can_still_yield_and_loses_no_piece():
     fixed = setup()
     pressure = dry_contact(fixed)(-GAP, None).pressure
@@ -172,6 +179,7 @@ def test_wear_transforms_only_depths_that_can_still_yield_and_loses_no_piece():
     assert found.pieces.count > 0
 
 
+@pytest.mark.internal
 def test_von_mises_alone_takes_five_transforms_a_depth_and_six_components_six():
     pressure = np.zeros(GRID.shape)
     pressure[10:20, 12:22] = 1e9
@@ -184,6 +192,7 @@ def test_von_mises_alone_takes_five_transforms_a_depth_and_six_components_six():
     assert np.abs(alone - von_mises(six)).max() <= 1e-12 * alone.max()  # the same sums in another order
 
 
+@pytest.mark.internal
 def test_without_traction_no_tangential_stress_coefficient_is_evaluated(monkeypatch):
     asked = []
     inner = coefficients.stress_coefficients
@@ -201,6 +210,7 @@ def test_without_traction_no_tangential_stress_coefficient_is_evaluated(monkeypa
     assert np.array_equal(still, vanishing)
 
 
+@pytest.mark.internal
 def test_a_sweep_shares_spectra_and_plans():
     for load in (LOAD, 2 * LOAD, 3 * LOAD):
         solved((Body(STEEL), Body(STEEL)), load=load)
@@ -213,6 +223,7 @@ def test_a_sweep_shares_spectra_and_plans():
     assert transforms.transform_of(GRID.shape, (72, 40)) is plans
 
 
+@pytest.mark.internal
 def test_a_shared_spectrum_gives_the_bits_of_a_fresh_one():
     first = solved((Body(STEEL), Body(STEEL)))
     cached = solved((Body(STEEL), Body(STEEL)))
@@ -258,6 +269,7 @@ def test_a_wear_loop_hands_each_cycle_the_pressure_of_the_last():
     assert np.array_equal(starts[2], pressures[1])
 
 
+@pytest.mark.internal
 def test_running_in_makes_kernels_once_for_all_cycles():
     lower, upper = -GAP, np.zeros(GRID.shape)
     made = []
@@ -285,6 +297,7 @@ def test_a_load_of_zero_and_a_gap_that_stays_open_need_no_convolution():
     assert (nothing.pressure == 0).all()
 
 
+@pytest.mark.internal
 def test_waves_that_do_not_reach_a_depth_are_not_transformed(monkeypatch):
     """On a periodic axis a wave falls like exp(-q z): at 30 cells down only a third of the wavenumbers are left."""
     grid = Grid((240, 240), (100e-9, 100e-9), periodic=(False, True))
@@ -313,6 +326,7 @@ def test_waves_that_do_not_reach_a_depth_are_not_transformed(monkeypatch):
         np.testing.assert_allclose(found[k], expected[k], rtol=0, atol=1e-14 * np.abs(expected[k]).max())
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("stretch", [0.3, 1.0])
 def test_waves_along_a_periodic_axis_are_padded_by_their_reach_alone(monkeypatch, stretch):
     """A wave falls like exp(-q x) along a free axis, too: fewer numbers are transformed, for the same bits but the
@@ -342,6 +356,7 @@ def test_waves_along_a_periodic_axis_are_padded_by_their_reach_alone(monkeypatch
     assert under_layers > numbers
 
 
+@pytest.mark.internal
 def test_tractions_at_many_depths_take_one_field_each_to_be_added_from(monkeypatch):
     made = []
     real = transforms.PaddedTransform.empty_field

@@ -14,6 +14,8 @@ from bem.heat import surface_temperature
 from bem.heat.bodies import Conductor
 from bem.heat.line import band_temperatures
 
+pytestmark = pytest.mark.internal
+
 
 @pytest.mark.parametrize("speed", [0.3, 4.0, -4.0, 60.0])
 def test_bands_are_quadrature_of_the_line_source(speed):

@@ -29,6 +29,7 @@ def disc(cells, peclet, profile):
     return surface_temperature(heat, where.grid, UNIT, speeds=2 * peclet)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("wavenumber", [0.0, 1e-13, 1e-3, 0.3, 4.0, 60.0, 1000.0])
 def test_a_cell_is_the_integral_of_moving_point_sources(wavenumber):
     """Another integral than the production's: over the cell, of exp(-w (r - x)) / (2 pi r)."""
@@ -48,6 +49,7 @@ def test_a_cell_is_the_integral_of_moving_point_sources(wavenumber):
         assert abs(table[cells - 1 + i, j] - exact) < 1e-11 * table.max()
 
 
+@pytest.mark.internal
 def test_a_cell_at_rest_is_the_potential_of_a_rectangle():
     table = temperature_table(7, 2.0, Rows(5, 0.3, False), 0.0, 0.0, math.inf)
     x, y = 2.0 * np.arange(-6, 7)[:, None], 0.3 * np.arange(5)

@@ -9,6 +9,8 @@ from bem.kernels.half_space import rectangle_displacement
 from bem.kernels.loads import STRESS_PARITY, SURFACE_PARITY, Load
 from bem.kernels.subsurface import rectangle_stress
 
+pytestmark = pytest.mark.internal
+
 SOLID = Material("solid", youngs_modulus=210e9, poissons_ratio=0.3)
 BODY = Body(SOLID)
 

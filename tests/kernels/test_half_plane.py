@@ -12,6 +12,8 @@ from bem.kernels.half_space import rectangle_displacement
 from bem.kernels.loads import Load
 from bem.kernels.subsurface import rectangle_stress
 
+pytestmark = pytest.mark.internal
+
 NU = 0.3
 SOLID = Material("solid", youngs_modulus=2 * (1 + NU), poissons_ratio=NU)
 

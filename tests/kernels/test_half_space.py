@@ -10,6 +10,8 @@ from bem import InputError, Material
 from bem.kernels.half_space import rectangle_displacement, surface_table
 from bem.kernels.loads import Load
 
+pytestmark = pytest.mark.internal
+
 NU = 0.3
 SOLID = Material("solid", youngs_modulus=2 * (1 + NU), poissons_ratio=NU)  # G = 1
 

@@ -15,6 +15,8 @@ from bem.kernels.coefficients import IN_PLANE_PARITY, in_plane_coefficients
 from bem.kernels.layered_cells import in_plane_remainder
 from bem.kernels.loads import Load
 
+pytestmark = pytest.mark.internal
+
 NU = 0.3
 SOLID = Material("solid", youngs_modulus=2 * (1 + NU), poissons_ratio=NU)
 SOFT = Material("soft", youngs_modulus=0.7, poissons_ratio=0.45)

@@ -62,6 +62,7 @@ def closed_form(q, body):
         return float((1 - nu1) / (mu1 * mp.mpf(q)) * ratio)
 
 
+@pytest.mark.internal
 @settings(deadline=None, max_examples=30, derandomize=True)
 @given(
     ratio=st.floats(-6, 6).map(lambda e: 10.0**e),
@@ -92,6 +93,7 @@ def test_finite_everywhere_and_forces_balance(ratio, qh, nu1, nu2, depth):
     assert_finite_and_balanced(q, body, depth, jump=1e-10)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("nu", [-0.5, 0.0, 0.3, 0.4999])
 def test_identical_materials_are_a_half_space(nu):
     body = coated(1.0, nu, nu, 0.3, 70e9)
@@ -117,6 +119,7 @@ def test_identical_materials_are_a_half_space(nu):
     assert w == pytest.approx((1 - nu) / (g * q), rel=1e-14)
 
 
+@pytest.mark.internal
 def test_thin_and_thick_layers_tend_to_their_half_spaces():
     one, two = material(40.0, 0.2), material(3.0, 0.4)
     for thickness, solid in ((1e-9, two), (1e6, one)):
@@ -126,6 +129,7 @@ def test_thin_and_thick_layers_tend_to_their_half_spaces():
         assert value == pytest.approx(expected, rel=1e-7)  # thin: first order in q h m = 4e-8
 
 
+@pytest.mark.internal
 def test_incompressible_thin_layer_on_a_rigid_base():
     """nu = 1/2, q h << 1 << G2/G1: the squeezed film q^2 h^3 / 3 G1; a compressible one (1-2nu) h / 2(1-nu) G1."""
     q, h = 1e-2, 1.0
@@ -135,6 +139,7 @@ def test_incompressible_thin_layer_on_a_rigid_base():
     assert layered.surface_response(q, 0.0, loose, tangential=False) == pytest.approx(0.4 / 1.4 * h, rel=1e-3)
 
 
+@pytest.mark.internal
 def test_stiff_layer_on_a_soft_base_is_a_plate():
     """1/m << (q h)^3: normal displacement tends to p / (bending stiffness q^4 + 2 G2 (2-2nu2)/(3-4nu2) q ...)."""
     nu1, q, h, m = 0.3, 1e-2, 1.0, 1e10
@@ -152,6 +157,7 @@ def test_complex_wavenumbers_continue_the_real_ones():
             assert off_the_mean_of_a_circle(body, depth, centre, 0.3) <= 1e-13
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("load", list(Load))
 def test_doubly_periodic_grids(load):
     """Identical materials give the homogeneous responses; a layered one has the same symmetries and mean mode."""
@@ -178,6 +184,7 @@ def test_doubly_periodic_grids(load):
         spectral.stress_response(grid, other, -0.1, load)
 
 
+@pytest.mark.internal
 def test_bad_input_is_named():
     for body, depth in ((Body(material(1.0, 0.3)), 0.0), (coated(2.0, 0.3, 0.3, 1.0), 1.1)):
         with pytest.raises(InputError, match="outermost layer only"):

@@ -19,6 +19,8 @@ from bem.kernels.coefficients import STRESS_PARITY, stress_coefficients, surface
 from bem.kernels.half_space import Load
 from bem.kernels.layered_cells import stress_remainder, surface_remainder
 
+pytestmark = pytest.mark.internal
+
 
 def slow(*values):
     return pytest.param(*values, marks=pytest.mark.slow)

@@ -11,6 +11,8 @@ from bem.kernels.half_space import Load
 from bem.kernels.layered_cells import stress_remainder as free_stress
 from bem.kernels.layered_semi import stress_remainder, surface_remainder
 
+pytestmark = pytest.mark.internal
+
 AXES = [(False, True), (True, False)]
 
 

@@ -30,6 +30,7 @@ def quadrature(decay):
     return layered_hankel.gauss_rule(np.union1d(graded, np.linspace(0, 40 / decay, 40 + int(20 / decay))))
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(
     ("coating", "thickness"),
     [(SOFT, 0.7), (HARD, 0.1), *(pytest.param(*v, marks=pytest.mark.slow) for v in ((SOFT, 0.1), (HARD, 0.7)))],

@@ -16,6 +16,8 @@ from bem.kernels.half_space import rectangle_displacement
 from bem.kernels.loads import Load
 from bem.kernels.subsurface import rectangle_stress
 
+pytestmark = pytest.mark.internal
+
 NU = 0.3
 # x, y, depth, half sides; distances in units of about a half side
 POINTS = {

@@ -9,6 +9,8 @@ from bem.kernels.coefficients import stress_coefficients, surface_coefficients
 from bem.kernels.half_plane import strip_displacement, strip_stress
 from bem.kernels.loads import STRESS_PARITY, SURFACE_PARITY, Load
 
+pytestmark = pytest.mark.internal
+
 NU = 0.3
 SOLID = Material("solid", youngs_modulus=2 * (1 + NU), poissons_ratio=NU)
 BODY = Body(SOLID)

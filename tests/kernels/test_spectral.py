@@ -7,6 +7,8 @@ from bem import Body, Grid, InputError, Material
 from bem.kernels.loads import STRESS_PARITY, Load
 from bem.kernels.spectral import stress_response, surface_response
 
+pytestmark = pytest.mark.internal
+
 NU = 0.3
 SOLID = Material("solid", youngs_modulus=2 * (1 + NU), poissons_ratio=NU)
 BODY = Body(SOLID)

@@ -74,6 +74,7 @@ def test_finite_everywhere_and_tractions_pass(layers, qh, depth):
     assert_finite_and_balanced(q, body, depth, jump=1e-9)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("layers", [STIFF_SOFT, MIXED])
 def test_a_layer_cut_in_two_is_the_same(layers):
     """At every depth, thin and thick, for real wavenumbers and complex ones."""
@@ -91,6 +92,7 @@ def test_a_layer_cut_in_two_is_the_same(layers):
                     assert (np.abs(a - b) <= 1e-12 * scale + 1e-300).all()
 
 
+@pytest.mark.internal
 def test_stack_of_the_substrate_is_the_half_space():
     body = stack([(1.0, 0.3, h) for h in (0.25, 1.0, 0.5)])
     bare = Body(SUBSTRATE)
@@ -114,6 +116,7 @@ def test_complex_wavenumbers_continue_the_real_ones():
             assert off_the_mean_of_a_circle(body, depth, centre, 0.2) <= 1e-12
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("layers", [STIFF_SOFT, pytest.param(MIXED, marks=pytest.mark.slow)])
 @pytest.mark.parametrize("load", list(Load))
 def test_tables_against_the_real_axis(layers, load):
@@ -126,6 +129,7 @@ def test_tables_against_the_real_axis(layers, load):
     assert max(error_of_table(kernels, radii, 1e3, panels=0.5) for kernels in cases) < 1e-12
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("periodic", [(False, False), (False, True), (True, False)])
 @pytest.mark.parametrize("load", list(Load))
 def test_coefficients_of_a_layer_cut_in_two(periodic, load):
@@ -141,6 +145,7 @@ def test_coefficients_of_a_layer_cut_in_two(periodic, load):
         assert stress_coefficients(grid, cut, depth, load) == pytest.approx(stress, abs=1e-12 * np.abs(stress).max())
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("load", [pytest.param(Load.NORMAL, marks=pytest.mark.slow), Load.TANGENTIAL])
 def test_coefficients_against_the_double_fourier_integral(load):
     """By polars, without Bessel functions, tables or cell integration; in every medium."""
@@ -239,6 +244,7 @@ def graded(count):
     return Body(Material("base", youngs_modulus=1.0, poissons_ratio=0.3), layers=layers)
 
 
+@pytest.mark.internal
 def test_a_graded_coating_is_met_with_order_two():
     """At a depth of its own stiffness a cell sees the layers' mean: away from it, and for waves longer than a layer."""
     grid = Grid((24, 1), (0.5, 0.5))
@@ -251,6 +257,7 @@ def test_a_graded_coating_is_met_with_order_two():
     assert errors[2] < 1e-3
 
 
+@pytest.mark.internal
 def test_fifty_layers_ask_for_few_wavenumbers(monkeypatch):
     """What a contact of many layers costs: one table for all of its grids, its wavenumbers shared by all distances."""
     asked = []

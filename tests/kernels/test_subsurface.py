@@ -14,6 +14,8 @@ from bem.kernels.half_space import rectangle_displacement
 from bem.kernels.loads import STRESS_PARITY, Load, clear_odd
 from bem.kernels.subsurface import add_rectangle, rectangle_stress, stress_table
 
+pytestmark = pytest.mark.internal
+
 NU = 0.3
 
 

@@ -8,6 +8,8 @@ from bem import InputError
 from bem.life.criteria import FatigueLimit
 from bem.reference_solutions.mcewen import cylinder_stress
 
+pytestmark = pytest.mark.internal
+
 PHASES = np.linspace(0, 2 * np.pi, 25)
 DANG_VAN, CROSSLAND = FatigueLimit(), FatigueLimit("crossland", hydrostatic=0.2)
 

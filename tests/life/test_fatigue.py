@@ -13,6 +13,8 @@ from bem.life.passes import DryPasses, Passing
 from bem.life.surfaces import LifeCase
 from bem.reference_solutions.mcewen import cylinder_stress
 
+pytestmark = pytest.mark.internal
+
 STEEL = Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3))
 RADIUS, PEAK = 5e-3, 2e9
 MODULUS = 210e9 / (2 * (1 - 0.3**2))

@@ -15,6 +15,8 @@ from bem.scenes.packing import packed, unpacked
 from bem.tribofilm import StressActivatedGrowth
 from bem.tribofilm.balance import FilmBalance
 
+pytestmark = pytest.mark.internal
+
 STEEL = Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3))
 DISTANCE, PRESSURE = 1e-2, 1e8
 GRID = Grid((32, 16), (1e-6, 1e-6), periodic=(True, True))

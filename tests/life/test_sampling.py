@@ -11,6 +11,8 @@ from bem.life.passes import Pass, Passing, PassStart
 from bem.life.sampling import missed_ratio, missed_roughness
 from bem.life.surfaces import Surfaces
 
+pytestmark = pytest.mark.internal
+
 GRID = Grid((48, 16), (1e-6, 1e-6), periodic=(True, True))
 RNG = np.random.default_rng(5)
 NONE = np.zeros((48, 1))

@@ -54,6 +54,7 @@ def unit_oil(lubricant):
     return replace(hot, expansion=0.0), lubricant.log_viscosity_ratio
 
 
+@pytest.mark.internal
 def test_of_one_temperature_nothing_changes():
     """At the oil's own temperature, to rounding, whatever the layers; warmer, as a thinner oil."""
     hot, cold = unit_oil(oil())
@@ -67,6 +68,7 @@ def test_of_one_temperature_nothing_changes():
         np.testing.assert_allclose(warm.log_viscosity(pressure)[0], expected, rtol=1e-12)
 
 
+@pytest.mark.internal
 def test_layers_are_dowsons_integrals():
     """Flow driven and dragged through an uneven film against quadrature of du/dz, of second order in the layers."""
     hot, cold = unit_oil(oil())
@@ -92,6 +94,7 @@ def test_layers_are_dowsons_integrals():
     np.testing.assert_allclose(np.array(missed[0]) / missed[1], 4.0, rtol=0.1)
 
 
+@pytest.mark.internal
 def test_slopes_of_layers_are_differences():
     """With pressure, at temperatures that stay: of the drag it is that of the densities, too, which had been those of
     the round before. In any unit of pressure."""
@@ -134,6 +137,7 @@ def constant(columns, layers, made=0.0, flux=0.0):
     )
 
 
+@pytest.mark.internal
 def test_even_heat_makes_a_parabola():
     """q h/(8 k) in the middle between cold walls, exactly: both differences and wall flux are exact for parabolas."""
     place, heat = duct(8, 11), 1e8
@@ -144,6 +148,7 @@ def test_even_heat_makes_a_parabola():
     np.testing.assert_allclose(place.into_walls(found.temperature), heat * place.width[0] / 2, rtol=1e-9)
 
 
+@pytest.mark.internal
 def test_entry_of_hot_oil_between_cold_walls():
     """Graetz' problem of a plug of oil: the heat that the walls take of it."""
     speed, capacity, length = 3.0, 2e6, 6e-6
@@ -179,6 +184,7 @@ def flat(lubricant, sliding, columns, layers, nodes=61):
     return Made.of(Oil.of(lubricant), strip, Given(none, none))
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("nahme", [0.5, 20.0, 400.0])
 def test_couette_flow_of_an_oil_that_its_own_heat_thins(nahme):
     """Viscosity mu0 exp(-beta (T - T0)) between walls at T0: Nahme (1940); Gruntfest, Trans. Soc. Rheol. 7 (1963) 195.
@@ -206,6 +212,7 @@ def test_couette_flow_of_an_oil_that_its_own_heat_thins(nahme):
     assert (np.abs(missed[0]) > 6 * np.abs(missed[1])).all()
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(
     ("slide", "hertz", "laws"),
     [(0.4, 0.8e9, {"film_rheology": "shear_law"}), (0.03, 0.5e9, {"shear_law": "newtonian"})],
@@ -325,6 +332,7 @@ def test_what_compression_heats_is_the_integral_over_the_pressure():
         assert hot.expanded(np.array([pressure]))[0] == pytest.approx(integral, rel=1e-9)
 
 
+@pytest.mark.internal
 def test_oil_colder_than_its_supply_behind_the_spike_is_cooled_by_its_expansion(monkeypatch):
     """In pure rolling: less than the adiabatic drop, expansion T dp/(rho c), and not at all without expansion."""
     expanding = film(2.0, 0.0, hertz=1.1e9)
@@ -356,6 +364,7 @@ def test_heat_of_slow_motion_is_not_lost_in_rounding():
     assert found.energy_imbalance < 1e-6
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("rheology", ["newtonian", "shear_law"])
 def test_the_same_oil_flows_through_every_section(rheology):
     """Mass flow by plain quadrature of the speeds across the film, over that at the exit. A law had thinned
@@ -408,6 +417,7 @@ def test_an_oil_that_heat_does_not_thin_has_the_isothermal_film():
     assert any("expansion" in note for note in found.notes)
 
 
+@pytest.mark.internal
 @pytest.mark.slow
 def test_second_order_in_columns_and_layers(monkeypatch):
     """Film, heat carried and mean temperature between bodies that stay cool, on one film mesh: what a halving
@@ -461,6 +471,7 @@ def test_heat_costs_some_isothermal_films():
         assert found.rounds <= 30
 
 
+@pytest.mark.internal
 def test_what_is_not_met_is_not_converged(monkeypatch):
     """One round leaves the film without what its heat makes of it; the words say so."""
     monkeypatch.setattr(coupled, "MOST_ROUNDS", 1)
@@ -477,6 +488,7 @@ def test_what_is_not_met_is_not_converged(monkeypatch):
     assert math.isnan(found.as_film().mean_temperature)
 
 
+@pytest.mark.internal
 def test_a_spike_without_limit_does_not_keep_heat_from_its_film(monkeypatch):
     """What is tried first: rolling at 1 GPa with the law of density that oils have where none is asked for. The heat of
     its flank was more than there is, and no field was found; where one is still not, the note says what helps."""
@@ -502,6 +514,7 @@ class Compressed(DowsonHigginson):
         return 1 + self.share * (ratio - 1), self.share * slope
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(("mean", "slide", "hertz"), [(3.0, 0.1, 1e9), (15.0, 2.0, 1.5e9)])
 def test_the_spike_without_limit_does_not_jump(mean, slide, hertz):
     """Sliding of the default oil: the film was solved with the densities that its last pressure made, which a spike
@@ -544,6 +557,7 @@ def test_a_film_that_runs_backwards_is_the_mirror_image():
     np.testing.assert_allclose(other.temperature, one.temperature[::-1], rtol=1e-9)
 
 
+@pytest.mark.internal
 def test_fine_meshes_begin_where_coarse_ones_ended(monkeypatch):
     """On 2000 cells few Newton steps are left to do, and the film is that of rounds on these alone."""
     fine, newton = [], coupled.newton

@@ -16,6 +16,8 @@ from bem.lubrication.thermal.field import temperature_field
 from bem.lubrication.thermal.layers import middles, sums_of
 from bem.lubrication.thermal.section import Section
 
+pytestmark = pytest.mark.internal
+
 LAWS = {
     "eyring": Eyring(shear_stress_limit=5e6),
     "carreau": Carreau(shear_stress_limit=3e6, carreau_exponent=0.5),

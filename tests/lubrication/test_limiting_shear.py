@@ -54,6 +54,7 @@ def test_a_spike_alone_is_not_the_middle_of_the_contact():
     assert about(solve_line_film(**above, speeds=(3.0, 3.0), lubricant=oil), "up to which viscosity_law")
 
 
+@pytest.mark.internal
 def test_a_spike_beyond_the_law_does_not_hide_a_glass():
     """Nine tenths of the law's range under almost all of the load, and one node far beyond it."""
     pressure = np.full(100, 0.45e9)

@@ -55,6 +55,7 @@ def exact_two_waves():
     return rupture, reformation, second, q, flow
 
 
+@pytest.mark.internal
 def test_pocketed_slider_ruptures_and_forms_again_in_closed_form():
     rupture, reformation, second, q, flow = exact_two_waves()
     assert rupture < reformation < second
@@ -82,6 +83,7 @@ def test_pocketed_slider_ruptures_and_forms_again_in_closed_form():
     assert errors[2] < 5e-3, errors
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("entrainment", [1.0, -1.0])
 def test_flow_is_the_same_through_every_face(entrainment):
     film = two_waves(np.linspace(0, 1, 301))
@@ -98,6 +100,7 @@ def test_flow_is_the_same_through_every_face(entrainment):
     np.testing.assert_allclose(flow, flow[0], rtol=1e-9)  # the solve's tolerance is 1e-11 a node
 
 
+@pytest.mark.internal
 def test_reversed_slider_is_the_mirror_image():
     film = two_waves(np.linspace(0, 1, 301)) + 0.1 * np.linspace(0, 1, 301)
     one = slider(film, 300, Cavitation.MASS_CONSERVING, 1.0)[1].film
@@ -106,6 +109,7 @@ def test_reversed_slider_is_the_mirror_image():
     np.testing.assert_allclose(other.fraction[::-1], one.fraction, atol=1e-9)
 
 
+@pytest.mark.internal
 def test_swift_stieber_makes_oil_where_the_film_forms_again():
     """What the option is for: the second pocket is fed with more than comes out of the first."""
     film = two_waves(np.linspace(0, 1, 401))

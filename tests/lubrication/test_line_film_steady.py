@@ -240,6 +240,7 @@ def test_shear_force_near_rolling_has_the_sign_of_the_entrainment():
     assert by_parts == pytest.approx(rolling.shear_force, rel=0.04)
 
 
+@pytest.mark.internal
 def test_martins_exit_is_the_root_it_is_said_to_be():
     """Pressure and its slope both vanish there."""
     assert brentq(lambda angle: float(line_film._primitive(angle, angle)), 0.2, 0.8, xtol=1e-15) == pytest.approx(
@@ -324,6 +325,7 @@ def test_warm_start_gives_the_same_film_in_fewer_steps():
     assert far.status is Status.CONVERGED
 
 
+@pytest.mark.internal
 def test_results_carry_no_equations_and_who_goes_on_at_once_keeps_them():
     """Megabytes that only a start next to a film needs; the film is the same to the last bit."""
     case = THESIS | {"speeds": (0.003, 0.0), "points": 1000}
@@ -350,6 +352,7 @@ def test_film_behind_the_exit_does_not_remember_the_start(factor):
     assert warm.striated_shear_force == pytest.approx(cold.striated_shear_force, rel=1e-3)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(("load", "piezo"), [(0.1, 5), (10, 2), (100, 5), (100, 15), (1000, 10)])
 def test_steps_on_the_fine_mesh_are_few(monkeypatch, load, piezo):
     """Counts, not times: what a solve at 2000 points costs, cold and from a neighbour in load or speed."""
@@ -383,6 +386,7 @@ def test_steps_on_the_fine_mesh_are_few(monkeypatch, load, piezo):
     assert coarse == 0
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(("load", "piezo"), [(30, 10), (100, 10), (100, 15)])
 def test_a_sharp_spike_that_moves_costs_few_steps(monkeypatch, load, piezo):
     """Counts: flow around the spike put right by itself saves steps of all nodes, and is the same film."""
@@ -412,6 +416,7 @@ def test_a_sharp_spike_that_moves_costs_few_steps(monkeypatch, load, piezo):
         np.testing.assert_allclose(film.thickness, plain.thickness, rtol=1e-6)
 
 
+@pytest.mark.internal
 def test_no_minimum_film_is_below_zero():
     x = np.array([0.0, 1.0, 2.0])
     assert lowest_film(x, (x - 1.2) ** 2 + 0.1) == pytest.approx(0.1, rel=1e-12)  # a parabola; rounding
@@ -546,6 +551,7 @@ def test_what_did_not_converge_is_no_start(spoilt):
     assert np.array_equal(again.pressure, good.pressure)
 
 
+@pytest.mark.internal
 def test_pressure_upstream_of_a_mesh_alone_makes_none():
     """A film without pressure where the next mesh would be: a Stribeck curve with lumped heat at 0.9 GPa ended in an
     error of arithmetic on its way to a hundredth of the load."""

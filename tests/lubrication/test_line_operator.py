@@ -20,6 +20,7 @@ def graded(cells):
     return np.concatenate([-np.geomspace(2500, 10, cells // 5), np.linspace(-10, 0, cells - cells // 5 + 1)[1:]])
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(("target", "node"), [(5, 300), (399, 3), (200, 201), (200, 213), (0, 399), (20, 0), (7, 7)])
 def test_weights_are_integrals_of_hats(target, node):
     """Two primitives of ln|t| in 40 digits; distances up to 1e5 cells, where second differences cancel in doubles."""
@@ -46,6 +47,7 @@ def test_weights_are_integrals_of_hats(target, node):
     assert weight == pytest.approx(float(exact), rel=1e-13)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("cells", [1, 64, 65, 1999])
 def test_groups_of_cells_are_seen_as_all_their_hats(cells):
     nodes = graded(2000)[-cells - 1 :]
@@ -59,6 +61,7 @@ def test_groups_of_cells_are_seen_as_all_their_hats(cells):
     )
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("cells", [301, 777, 2000, 2059])
 def test_hierarchical_product_is_the_dense_one(cells):
     operator = LineOperator.of(graded(cells))
@@ -71,6 +74,7 @@ def test_hierarchical_product_is_the_dense_one(cells):
     np.testing.assert_allclose(operator.stretched(3.7) @ pressure, stretched @ pressure, rtol=1e-9)
 
 
+@pytest.mark.internal
 def test_no_leaf_is_empty():
     """Equal leaves: of 2058 nodes, 64 leaves of 33 would leave nothing to the last one."""
     for interior in [*range(299, 2100), *range(2100, 20000, 97), 19998]:
@@ -89,6 +93,7 @@ def test_any_allowed_number_of_points_gives_the_film():
         assert film.minimum_thickness == pytest.approx(films[0].minimum_thickness, rel=1e-5)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(("rough", "allowed"), [(1e-11, 1e-7), (1e-6, 1e-3)])
 @pytest.mark.parametrize(
     ("load", "piezo", "density"),
@@ -123,6 +128,7 @@ def test_hierarchical_newton_steps_are_the_dense_ones(monkeypatch, load, piezo, 
     assert max(compared) < allowed
 
 
+@pytest.mark.internal
 def test_dense_equations_stand_in_where_the_hierarchical_ones_fail(monkeypatch):
     case, _ = similarity_case(3, 2)
     monkeypatch.setattr(line_newton, "CHORDS", -1)  # of hierarchical equations alone
@@ -133,6 +139,7 @@ def test_dense_equations_stand_in_where_the_hierarchical_ones_fail(monkeypatch):
     assert film.minimum_thickness == pytest.approx(right.minimum_thickness, rel=1e-9)  # rounding, conditioned
 
 
+@pytest.mark.internal
 def test_last_steps_take_the_equations_of_the_one_before(monkeypatch):
     """The same film, the last steps to it without taking the equations apart."""
     case, _ = similarity_case(10, 5)

@@ -16,6 +16,7 @@ from bem.lubrication.oils.viscosity_index import reference_oils, viscosity_at_40
 T40, T60, T100 = 313.15, 333.15, 373.15
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(
     ("at_40", "at_100", "index"),
     [
@@ -34,6 +35,7 @@ def test_index_of_published_oils(at_40, at_100, index):
     assert abs(viscosity_index(at_40, at_100) - index) <= 1
 
 
+@pytest.mark.internal
 def test_rows_of_the_standards_table_and_its_equations_beyond():
     # rows as a second public copy of the table has them
     for at_100, low, high in ((2, 7.994, 6.394), (16.9, 365.6, 178.6), (19.7, 479.7, 224.5), (67, 4517, 1454)):
@@ -42,6 +44,7 @@ def test_rows_of_the_standards_table_and_its_equations_beyond():
     assert above == pytest.approx(below, rel=5e-4)  # the table ends where the equations begin, to its four digits
 
 
+@pytest.mark.internal
 @settings(max_examples=200, deadline=None)
 @given(st.floats(2.2, 200.0), st.floats(0.0, 300.0))
 def test_index_round_trip(at_100, index):
@@ -53,6 +56,7 @@ def test_index_round_trip(at_100, index):
     assert viscosity_at_100(at_40, index) == pytest.approx(at_100, rel=3e-4 if near else 1e-9)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(
     ("at_40", "at_100", "at_60"),
     # the same table of libvisc
@@ -72,6 +76,7 @@ LAWS = {
 }
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("law", LAWS)
 def test_laws_pass_through_their_points_with_the_slope_of_a_difference(law):
     made = law.through(LAWS[law])
@@ -86,6 +91,7 @@ def test_laws_pass_through_their_points_with_the_slope_of_a_difference(law):
     assert made.walther_slope(340.0) == pytest.approx(touching.slope, rel=1e-4)
 
 
+@pytest.mark.internal
 @settings(max_examples=60, deadline=None)
 @given(st.sampled_from([n for n in oil_names() if "water" not in n]), st.floats(250.0, 560.0), st.floats(0.1, 10.0))
 def test_viscosity_density_and_alpha_fall_with_temperature(name, temperature, step):
@@ -97,6 +103,7 @@ def test_viscosity_density_and_alpha_fall_with_temperature(name, temperature, st
     assert cold.temperature_viscosity > 0
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("name", [n for n in oil_names() if n.startswith("ISO")])
 def test_a_grade_is_its_viscosity_at_40_degrees_with_index_95(name):
     oil = find_oil(name)
@@ -217,6 +224,7 @@ TABLE_2_3 = {  # mPa s at 30, 60, 100 degC; alpha [1/GPa] there: Stachowiak and 
 }
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("name", TABLE_2_3)
 def test_pressure_viscosity_of_mineral_oils_against_measurements(name):
     viscosities, measured = TABLE_2_3[name]
@@ -234,6 +242,7 @@ def test_pressure_viscosity_of_mineral_oils_against_measurements(name):
     assert oil.viscosity.kinematic(333.15) == pytest.approx(points[333.15], rel=1e-12)
 
 
+@pytest.mark.internal
 def test_own_viscosities_and_bad_ones():
     oil = oil_from_viscosities({T40: 46e-6, T100: 6.8e-6}, base="ester")
     assert isinstance(oil.viscosity, Walther)
@@ -251,6 +260,7 @@ def test_own_viscosities_and_bad_ones():
         Vogel.through([(300.0, 100e-6), (320.0, 99e-6), (340.0, 1e-6)])
 
 
+@pytest.mark.internal
 def test_every_entry_has_a_source():
     for name in oil_names():
         oil = find_oil(name, viscosity_index=200) if "water" in name else find_oil(name)

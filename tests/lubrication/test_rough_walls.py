@@ -61,6 +61,7 @@ def test_shear_flow_in_proportion_to_the_film_is_entrainment(speeds, share):
     assert (rough.minimum_thickness > film(speeds=speeds).minimum_thickness) == (share > 0)
 
 
+@pytest.mark.internal
 def test_derivatives(table):
     """phi h^3 and h + k s phi_s against differences, between and beyond the table's separations."""
     walls = RoughWalls.of(table, 1e-8, (1.0, 0.2))

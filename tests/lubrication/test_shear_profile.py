@@ -35,6 +35,7 @@ def film(speeds, rheology, **law):
     return solve_line_film(**ROLLER, speeds=speeds, lubricant=oil)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("law", LAWS)
 @given(newtonian=STRESSES, half=STRESSES)
 @settings(max_examples=15, deadline=None)
@@ -55,6 +56,7 @@ def test_profile_is_that_of_quadrature_across_the_film(law, newtonian, half):
     assert found.moment[0] == pytest.approx(moment, rel=1e-3)
 
 
+@pytest.mark.internal
 @given(stress=st.floats(-8.0, 8.0))
 def test_laws_without_a_formula_of_the_inverse_have_one(stress):
     law, tau = LAWS[1], np.array([math.copysign(10 ** abs(stress), stress)])
@@ -62,6 +64,7 @@ def test_laws_without_a_formula_of_the_inverse_have_one(stress):
         assert a[0] == pytest.approx(b[0], rel=1e-9)
 
 
+@pytest.mark.internal
 @given(newtonian=STRESSES, half=STRESSES)
 def test_eyring_flow_is_conrys(newtonian, half):
     """Conry, Wang and Cusano (1987), as printed."""
@@ -74,6 +77,7 @@ def test_eyring_flow_is_conrys(newtonian, half):
         assert found.moment[0] / half == pytest.approx(factor, rel=1e-9)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("exponent", [0.4, 0.7])
 def test_power_law_between_walls_at_rest(exponent):
     """Far beyond the critical stress G the rate goes like tau^(1/n): S = 3 (h/2 p'/G)^(1/n - 1)/(2 + 1/n)."""
@@ -84,6 +88,7 @@ def test_power_law_between_walls_at_rest(exponent):
     assert found.moment[0] == pytest.approx(expected, rel=1e-3)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("law", [Newtonian(), LimitedShear(), *LAWS])
 @pytest.mark.parametrize("limited", [False, True])
 def test_derivatives_are_those_of_differences(law, limited):
@@ -118,6 +123,7 @@ def test_derivatives_are_those_of_differences(law, limited):
         )
 
 
+@pytest.mark.internal
 def test_a_film_that_slips_goes_with_one_wall():
     """With all sliding at one wall and the stresses at both far apart the flow is that of the other wall: a half of the
     sliding more or less than the mean, q = h (u1 - u2)/2, which is a moment of 3 mu (u1 - u2)/h."""
@@ -236,6 +242,7 @@ def test_in_time_the_film_tends_to_the_steady_one():
     assert abs(moving[-1].volume_imbalance) < 1e-9
 
 
+@pytest.mark.internal
 def test_scenes_say_it_of_the_oil():
     scene = OilScene(viscosity="50 mPa s", film_rheology="shear_law", shear_law="eyring", shear_stress_limit="5 MPa")
     assert scene.build().film_rheology == "shear_law"

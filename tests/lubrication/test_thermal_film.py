@@ -100,6 +100,7 @@ def test_a_film_with_heat_refuses_what_one_without_does(mistake, words):
         solve_thermal_line_film(**(ROLLER | case | mistake))
 
 
+@pytest.mark.internal
 def test_an_oil_too_thin_after_its_inlet_is_refused_for_that(monkeypatch):
     """A polymer at M 9000 with the oil as it is, and 2.3 times the largest M with that which the inlet leaves, were
     that 1e4."""
@@ -110,6 +111,7 @@ def test_an_oil_too_thin_after_its_inlet_is_refused_for_that(monkeypatch):
         film(speed, 2.0, lubricant=thin, contact_modulus=modulus, load=heavy)
 
 
+@pytest.mark.internal
 def test_a_film_that_misses_what_the_inlet_leaves_is_not_converged(monkeypatch):
     """Of one thinner oil alone; where a search ended had been taken for where it was to end."""
     whole = film(30.0, 0.5)
@@ -133,6 +135,7 @@ def nothing_is_known_of_heat(found):
     assert HEAT_NOT_FOUND in found.notes
 
 
+@pytest.mark.internal
 def test_temperatures_that_are_not_found_are_not_shown():
     """Of an oil without a limiting shear stress the oil was at -3865 K beside 5099 K, both figures. Which of these are
     found may hang on rounding; what is not, shows nothing."""
@@ -166,6 +169,7 @@ def test_surfaces_are_as_warm_as_the_solver_on_a_grid_says(solve, tolerance):
     np.testing.assert_allclose(found.surface_temperatures[0][inside], own[inside], atol=tolerance * rise)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(
     ("mean", "slide", "words"),
     [(1.9, 0.5, ()), (1.9, 2.0, (SLOW_SURFACE,)), (6.0, 0.5, (FAST_INLET,)),
@@ -177,6 +181,7 @@ def test_lumped_heat_says_where_it_was_found_wrong(mean, slide, words):
     assert {note for note in notes if note in (FAST_INLET, SLOW_SURFACE)} == set(words)
 
 
+@pytest.mark.internal
 def test_heat_across_a_film_between_good_conductors_is_crooks():
     """Mean of the parabola between walls as cool as the bulk: made h/(12 k)."""
     edges = np.linspace(-1e-4, 1e-4, 21)
@@ -187,6 +192,7 @@ def test_heat_across_a_film_between_good_conductors_is_crooks():
     np.testing.assert_allclose(found.into, 0.5e8, rtol=1e-6)
 
 
+@pytest.mark.internal
 def test_heat_that_goes_nowhere_else_is_carried_by_the_oil():
     """Walls that take none: C dT = made dx."""
     edges = np.linspace(-1e-4, 1e-4, 21)
@@ -236,6 +242,7 @@ def test_the_faster_surface_takes_more_heat():
     assert found.surface_temperatures[0].max() < found.surface_temperatures[1].max()
 
 
+@pytest.mark.internal
 def test_inlet_heating_is_guptas_and_the_film_follows_it():
     heating = inlet_heating_factor(0.05, 0.04, 0.13, (12.0, 8.0), 0.005)
     loading = 0.05 * 0.04 * 100 / 0.13
@@ -250,6 +257,7 @@ def test_inlet_heating_is_guptas_and_the_film_follows_it():
     assert any("extrapolated" in note for note in film(100.0, 0.5, 2.5e9).notes)
 
 
+@pytest.mark.internal
 def test_viscosity_is_the_oils_over_temperature_and_the_laws_over_pressure():
     lubricant = oil()
     hot = HotViscosity.of(lubricant)
@@ -270,6 +278,7 @@ def test_viscosity_is_the_oils_over_temperature_and_the_laws_over_pressure():
     assert steep[0] > steep[1] > steep[2] > 0
 
 
+@pytest.mark.internal
 def test_an_oil_known_at_one_temperature_will_do():
     constants = {"density": 870.0, "heat_capacity": 2000.0, "thermal_conductivity": 0.13}
     known = Lubricant(

@@ -42,6 +42,7 @@ def long():
     return point_film(LONG, (1.2, 0.8), 40.0, 64)
 
 
+@pytest.mark.internal
 def test_long_ellipse_is_the_line_contact(long):
     """Half-axes 1 : 12, on the line through the middle: film to 0.5 %, rise of the oil 6.8 and 6.9 K."""
     peak = ellipse_contact(radii=LONG.radii, contact_modulus=MODULUS, load=40.0).maximum_pressure
@@ -57,6 +58,7 @@ def test_long_ellipse_is_the_line_contact(long):
     assert (rise * pressure).sum() / pressure.sum() == pytest.approx(line.mean_temperature - 333.15, rel=0.05)
 
 
+@pytest.mark.internal
 def test_energy_closes(long):
     """What friction makes on the lines goes into the bodies or on with the oil; it is that of both forces."""
     across = ellipse_contact(radii=LONG.radii, contact_modulus=MODULUS, load=40.0).semi_axes[1]
@@ -69,6 +71,7 @@ def test_energy_closes(long):
     assert (heat.surfaces <= heat.temperature.max()).all()
 
 
+@pytest.mark.internal
 def test_the_film_is_as_thin_as_inlet_heating_says_and_friction_falls():
     ball, speeds = PointContact((0.01, 0.01), MODULUS, OIL, heat=HEAT), (3.0, 2.6)
     cold = cold_film(replace(ball, heat=None), speeds, 20.0, 48)
@@ -81,6 +84,7 @@ def test_the_film_is_as_thin_as_inlet_heating_says_and_friction_falls():
     assert back.shear_force[0, 0] == pytest.approx(-hot.shear_force[0, 0], rel=1e-6)
 
 
+@pytest.mark.internal
 def test_strong_heat_is_found():
     """A ball that slides at 5 m/s over a disc at rest: the oil warms by 140 K, at which the stress depends on it."""
     hot = point_film(PointContact((5e-3, 5e-3), MODULUS, OIL, heat=HEAT), (5.0, 0.0), 20.0, 32)
@@ -88,6 +92,7 @@ def test_strong_heat_is_found():
     assert hot.mean_temperature > 333.15 + 100
 
 
+@pytest.mark.internal
 def test_heat_that_is_not_found_is_not_shown(monkeypatch):
     monkeypatch.setattr(lumped_point, "RESIDUAL", -1.0)
     found = point_film(PointContact((5e-3, 5e-3), MODULUS, OIL, heat=HEAT), (5.0, 0.0), 20.0, 32)
@@ -98,6 +103,7 @@ def test_heat_that_is_not_found_is_not_shown(monkeypatch):
     assert HEAT_NOT_FOUND in found.notes
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(
     ("radii", "speeds", "most", "told"),
     [((5e-3, 5e-3), (3.0, 2.6), 0.08, False), ((5e-2, 5e-3), (3.0, 1.0), 0.7, True)],
@@ -116,6 +122,7 @@ def test_surfaces_beside_heat_that_spreads_across(radii, speeds, most, told):
     assert (SPREADS in film.notes) is told
 
 
+@pytest.mark.internal
 def test_slow_films_have_no_heat():
     ball, speeds = PointContact((0.01, 0.01), MODULUS, OIL, heat=HEAT), (0.02, 0.019)
     cold, hot = cold_film(replace(ball, heat=None), speeds, 20.0, 48), point_film(ball, speeds, 20.0, 48)
@@ -124,6 +131,7 @@ def test_slow_films_have_no_heat():
     assert hot.friction == pytest.approx(cold.friction, rel=5e-3)
 
 
+@pytest.mark.internal
 def test_thinned_oil_by_a_power_law():
     """Of films that go with the power 0.6 of the viscosity; where there is none, it is said."""
     inlet = InletHeating(0.7, 0.1, False)
@@ -169,6 +177,7 @@ def test_a_ball_at_rest_has_its_own_heat():
     assert not any("cylinder" in note for note in still.notes)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(
     ("wrong", "said"),
     [

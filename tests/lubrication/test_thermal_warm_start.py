@@ -97,6 +97,7 @@ def test_motion_the_other_way_starts_from_this_one():
     assert back.shear_force == pytest.approx(-there.shear_force, rel=1e-7)
 
 
+@pytest.mark.internal
 def test_a_film_that_was_not_met_is_no_start(monkeypatch):
     """Its temperatures are not those of its film: none are kept."""
     monkeypatch.setattr(coupled, "MOST_ROUNDS", 1)
@@ -112,6 +113,7 @@ def test_heat_that_does_not_serve_leaves_the_film_from_nothing():
     assert_same(found, cold, 1e-3)
 
 
+@pytest.mark.internal
 def test_a_checkpoint_goes_on_from_the_heat():
     """A curve that is taken up again starts as it would have."""
     first = film(4.0, 0.5)
@@ -133,6 +135,7 @@ def test_lumped_ratios_in_turn_take_half_the_steps():
     assert steps["warm"] <= 0.6 * steps["cold"]
 
 
+@pytest.mark.internal
 def test_a_lumped_film_starts_from_itself():
     """On its own points: a step for each sketch, and some for the film; 9 steps for 43."""
     first = film(3.0, 0.4, thermal="lumped")

@@ -9,6 +9,8 @@ import pytest
 
 from bem.numerics import blocks
 
+pytestmark = pytest.mark.internal
+
 
 @pytest.mark.parametrize("shape", [(1,), (7,), (64, 64), (1024, 1024), (997, 1201), (3, 400_001), (2050, 769)])
 def test_sums_have_the_bits_of_the_whole_field(shape):

@@ -8,6 +8,8 @@ from scipy.interpolate import PchipInterpolator
 
 from bem.numerics.monotone import MonotoneCubic
 
+pytestmark = pytest.mark.internal
+
 
 @pytest.mark.parametrize("points", [2, 3, 4, 50, 2000])
 @pytest.mark.parametrize("columns", [(), (5,), (2, 3)])

@@ -6,6 +6,8 @@ import pytest
 from bem.grid import Grid
 from bem.numerics.subcell import area_above, around, highest_along, top
 
+pytestmark = pytest.mark.internal
+
 
 def field_at(shape, centre, function, angle=0.0):
     x = np.arange(shape[0])[:, None] - shape[0] / 2 - centre[0]

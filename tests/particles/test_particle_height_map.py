@@ -105,6 +105,7 @@ def bumps(distance):
     )
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("distance", [6, 10, 14, 18])
 def test_separation_of_touching_particles(distance):
     """They part when the pass is lower than the asked share of the lower summit."""
@@ -115,6 +116,7 @@ def test_separation_of_touching_particles(distance):
     assert label_particles(level, 0.05, separate=depth - 0.01).max() == 2
 
 
+@pytest.mark.internal
 def test_separation_keeps_every_column_and_divides_at_the_pass():
     level = bumps(16)
     labels = label_particles(level, 0.05, separate=0.2)
@@ -124,6 +126,7 @@ def test_separation_keeps_every_column_and_divides_at_the_pass():
     assert (labels[41:] != 1).all()
 
 
+@pytest.mark.internal
 @settings(max_examples=60, deadline=None)
 @given(st.integers(0, 2**31), st.integers(1, 15), st.integers(1, 15), st.floats(0, 1), st.booleans())
 def test_labels_without_separation_are_connected_components(seed, nx, ny, threshold, corners):
@@ -136,6 +139,7 @@ def test_labels_without_separation_are_connected_components(seed, nx, ny, thresh
     )
 
 
+@pytest.mark.internal
 @settings(max_examples=30, deadline=None)
 @given(st.integers(0, 2**31), st.floats(0.05, 0.95))
 def test_separation_divides_components_and_no_more_than_summits(seed, share):
@@ -151,6 +155,7 @@ def test_separation_divides_components_and_no_more_than_summits(seed, share):
     assert label_particles(level, 0.3, min(share + 0.04, 0.99)).max() <= parts.max()
 
 
+@pytest.mark.internal
 def test_minimum_area_rectangle():
     heights = np.zeros((80, 80))
     x, y = np.arange(80)[:, None] - 40, np.arange(80)[None, :] - 40

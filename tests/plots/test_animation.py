@@ -1,6 +1,7 @@
 """What does not move is drawn once, and nobody sees it."""
 
 import numpy as np
+import pytest
 from matplotlib.axes import Axes
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
@@ -8,6 +9,8 @@ from PIL import Image, ImageSequence
 
 from bem.plots.animation import write_animation
 from bem.plots.style import style
+
+pytestmark = pytest.mark.internal
 
 
 def moving_figure(values):

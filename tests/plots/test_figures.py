@@ -19,6 +19,8 @@ from bem.results.arrays import to_arrays
 from bem.results.directory import RunDirectory
 from bem.scenes.context import Variable
 
+pytestmark = pytest.mark.internal
+
 
 def contact_run(path, nx=40, ny=30, depths=6, roughness=True):
     """A run with an invented pressure: nothing of it was solved."""

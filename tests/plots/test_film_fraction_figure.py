@@ -10,6 +10,8 @@ from bem.plots.figures import all_figures
 from bem.results.arrays import to_arrays
 from bem.scenes.context import Variable
 
+pytestmark = pytest.mark.internal
+
 
 def film_run(*, fraction):
     """A run with an invented film: full but for a band behind the contact."""

@@ -33,6 +33,7 @@ def test_the_map_holds_the_friction(run):
     assert not ((boundary > 0) & (oil != 0)).any()
 
 
+@pytest.mark.internal
 def test_the_picture_says_shares_and_shows_what_carries(run):
     (kind,) = FIGURES
     assert kind.fits(run)

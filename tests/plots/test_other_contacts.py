@@ -5,6 +5,7 @@ import warnings
 from types import SimpleNamespace
 
 import numpy as np
+import pytest
 import xarray as xr
 from matplotlib.figure import Figure
 from matplotlib.image import imread
@@ -16,6 +17,8 @@ from bem.plots.report import with_error
 from bem.plots.sweep import fill
 from bem.plots.tables import figure_tables
 from bem.scenes.context import Variable
+
+pytestmark = pytest.mark.internal
 
 CURVES = ("stribeck-curve", "load-sharing", "contact-temperatures", "running-in-stribeck", "particle-radius-over-speed")
 CYCLES = {"cycles": {"settled": 2}}

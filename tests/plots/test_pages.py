@@ -168,6 +168,7 @@ def test_an_interrupt_ends_the_copy_and_leaves_no_half_file(tmp_path, where, sen
         assert (tmp_path / "run" / "summary.json").is_file()
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(
     ("value", "text"), [(1e-3, "10⁻³"), (1.0, "10⁰"), (1e12, "10¹²"), (0.002, "2×10⁻³"), (-1e-3, "−10⁻³")]
 )

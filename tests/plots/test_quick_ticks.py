@@ -11,6 +11,8 @@ from bem.plots import pictures, quick_ticks
 from bem.plots.quick_ticks import ticks_found_once
 from bem.plots.style import map_of, style
 
+pytestmark = pytest.mark.internal
+
 
 def panels(figure):
     """Shared axes, a second scale, a logarithmic one, a map with its bar, and one in space."""

@@ -8,6 +8,8 @@ from bem.plots.figures.subsurface import _drawn_over_depth
 from bem.plots.style import along_x, field_axes, height_limit, map_of_heights, named_axes
 from bem.results.arrays import Array
 
+pytestmark = pytest.mark.internal
+
 
 def test_a_spike_does_not_take_the_colours_of_a_surface():
     from matplotlib.figure import Figure

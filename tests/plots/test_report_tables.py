@@ -10,6 +10,8 @@ from bem.plots.tables import figure_tables, name_and_unit, summary_of_points
 from bem.scenes import get_kind
 from bem.scenes.records import UNITS, figures
 
+pytestmark = pytest.mark.internal
+
 SUMMARY = {
     "speed_m_s": [0.01, 0.1, 1.0],
     "friction": [0.1, 0.05, 0.02],

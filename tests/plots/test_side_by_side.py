@@ -32,6 +32,7 @@ def copies(monkeypatch):
     return started
 
 
+@pytest.mark.internal
 @ALONE
 def test_every_number_is_done_once_and_no_process_is_left(copies):
     found = side_by_side(lambda i: (i, os.getpid()), 40, 3)
@@ -43,6 +44,7 @@ def test_every_number_is_done_once_and_no_process_is_left(copies):
             os.waitpid(process, 0)
 
 
+@pytest.mark.internal
 @ALONE
 def test_what_fails_or_dies_is_left_to_the_caller(copies):
     here = os.getpid()
@@ -60,6 +62,7 @@ def test_what_fails_or_dies_is_left_to_the_caller(copies):
     assert len(copies) == 1
 
 
+@pytest.mark.internal
 @ALONE
 def test_where_no_process_can_be_had_the_caller_does_it_all(monkeypatch):
     def refused():
@@ -72,6 +75,7 @@ def test_where_no_process_can_be_had_the_caller_does_it_all(monkeypatch):
     assert os.listdir("/proc/self/fd") == before
 
 
+@pytest.mark.internal
 @ALONE
 def test_an_interrupt_leaves_no_copy_and_one_right_after_a_start_waits(copies, monkeypatch):
     """The copy sleeps for longer than the test may take."""
@@ -95,6 +99,7 @@ def test_an_interrupt_leaves_no_copy_and_one_right_after_a_start_waits(copies, m
     assert not signal.pthread_sigmask(signal.SIG_BLOCK, ()) & {signal.SIGINT, signal.SIGTERM}
 
 
+@pytest.mark.internal
 @ALONE
 def test_a_copy_that_hangs_is_not_waited_for(copies, monkeypatch):
     monkeypatch.setattr(module, "PATIENCE", 0.5)
@@ -128,6 +133,7 @@ assert signal.SIGPIPE not in signal.pthread_sigmask(signal.SIG_BLOCK, ())
     subprocess.run([sys.executable, "-c", code], check=True, timeout=60)
 
 
+@pytest.mark.internal
 @pytest.mark.skipif(sys.platform != "linux", reason="copies are made on Linux alone")
 def test_an_order_is_taken_where_somebody_reads_it(monkeypatch):
     monkeypatch.setattr(module, "PATIENCE", 0.2)
@@ -164,6 +170,7 @@ assert not _alone()
     subprocess.run([sys.executable, "-c", code], timeout=60, check=True, env=environment)
 
 
+@pytest.mark.internal
 def test_a_process_of_several_threads_is_not_copied(monkeypatch):
     monkeypatch.setattr(module, "_alone", lambda: False)
     assert side_by_side(lambda i: i, 5, 4) == {}

@@ -18,6 +18,8 @@ from bem.plots.sweep import fill
 from bem.results.arrays import to_arrays
 from bem.scenes.context import Variable
 
+pytestmark = pytest.mark.internal
+
 X = np.linspace(-1e-5, 1e-5, 40)
 RATIO = "rolling.slide_roll_ratio"
 

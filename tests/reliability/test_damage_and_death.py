@@ -45,6 +45,7 @@ while True:
 """
 
 
+@pytest.mark.internal
 @pytest.mark.slow
 @pytest.mark.parametrize("delay", [0.0, 0.003, 0.01])
 def test_a_killed_writer_leaves_whole_files(tmp_path, delay):
@@ -73,6 +74,7 @@ def files(folder):
     return sorted(str(item.relative_to(folder)) for item in folder.rglob("*") if item.is_file())
 
 
+@pytest.mark.internal
 @pytest.mark.slow
 def test_a_flipped_bit_in_any_file_is_found(finished):
     names = [name for name in files(finished) if name != "checksums.json"]
@@ -130,6 +132,7 @@ def test_a_run_without_its_checksums_is_damaged(plain, content):
         open_run(plain)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("name", ["summary.json", "scene.toml", "results.nc"])
 def test_a_file_without_a_checksum_is_damaged(plain, name):
     known = json.loads((plain / "checksums.json").read_text())
@@ -140,6 +143,7 @@ def test_a_file_without_a_checksum_is_damaged(plain, name):
         open_run(plain).dataset  # noqa: B018
 
 
+@pytest.mark.internal
 def test_a_file_that_was_put_there_is_named(plain):
     (plain / "report.html").write_text("not ours")
     assert damaged_files(plain) == ["report.html"]
@@ -167,6 +171,7 @@ def test_a_summary_of_another_form_is_refused(plain, change, words):
         open_run(plain)
 
 
+@pytest.mark.internal
 def test_a_report_does_not_pass_damage_off_as_whole(plain):
     from typer.testing import CliRunner
 
@@ -180,6 +185,7 @@ def test_a_report_does_not_pass_damage_off_as_whole(plain):
     assert damaged_files(plain) == ["volume.vtu"]
 
 
+@pytest.mark.internal
 @given(st.binary(max_size=200), st.integers(0, 400), st.integers(0, 400))
 @settings(deadline=None, max_examples=80, suppress_health_check=[HealthCheck.function_scoped_fixture])
 def test_any_checkpoint_file_is_read_or_refused(tmp_path, noise, start, end):
@@ -193,6 +199,7 @@ def test_any_checkpoint_file_is_read_or_refused(tmp_path, noise, start, end):
         load_checkpoint(path)
 
 
+@pytest.mark.internal
 @pytest.mark.slow
 def test_two_processes_in_one_folder(tmp_path):
     """The second is refused while the first runs, and the first is not disturbed."""

@@ -60,6 +60,7 @@ def make_folder(path):
     path.mkdir()
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("damage", [empty, garble, flip, remove, make_folder])
 def test_a_finished_run_with_damaged_results_is_not_resumed_as_whole(finished, damage):
     whole = run_scene(SCENE, finished, resume=True, figures=False)
@@ -85,6 +86,7 @@ def test_pictures_that_are_gone_do_not_make_a_run_damaged(tmp_path):
     assert run_scene(SCENE, path, resume=True).summary["status"] == "converged"
 
 
+@pytest.mark.internal
 def test_a_sweep_computes_a_damaged_point_again(tmp_path):
     done = run_sweep(SCENE, ["seed=1,2"], tmp_path / "all", workers=1)
     assert done.computed == 2
@@ -95,6 +97,7 @@ def test_a_sweep_computes_a_damaged_point_again(tmp_path):
     assert damaged_files(point) == []
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("content", [b"", b'kind = "contact', b"\xff\xfe\x00", None])
 def test_a_sweep_with_a_damaged_point_is_exported_with_a_message(tmp_path, content):
     folder = run_sweep(SCENE, ["seed=1,2"], tmp_path / "all", workers=1).path
@@ -127,6 +130,7 @@ def test_an_empty_name_of_a_folder_is_refused(tmp_path, monkeypatch, command):
     assert os.listdir(tmp_path) == []
 
 
+@pytest.mark.internal
 def test_files_in_utf8_may_begin_with_a_byte_order_mark(tmp_path):
     text = 'kind = "contact"\ngrid = {shape = 16, spacing = "0.5 um"}\nlower = {material = "steel-disk"}\n'
     text += 'contact = {load = "1 mN"}\nshape = {kind = "sphere", radius = "1 mm"}\ndescription = "\u00b5"\n'
@@ -143,6 +147,7 @@ def test_files_in_utf8_may_begin_with_a_byte_order_mark(tmp_path):
     assert list(values_in_file(str(path), "--over")) == ["1 N", "2 N"]
 
 
+@pytest.mark.internal
 def test_a_damaged_checkpoint_is_said_once(tmp_path):
     path = tmp_path / "checkpoint.bin"
     save_checkpoint(path, {"a": 1})

@@ -40,6 +40,7 @@ def test_what_is_no_text_is_refused_by_its_key(text):
     assert "scene" in refused(SCENE | {text: 1})[0]
 
 
+@pytest.mark.internal
 def test_a_key_of_half_a_million_parts_is_refused_unread(tmp_path):
     file = tmp_path / "long.toml"
     file.write_text("a." * 490_000 + "a = 1\n")
@@ -52,6 +53,7 @@ def test_a_key_of_half_a_million_parts_is_refused_unread(tmp_path):
     assert "kind = 1" in refused(str(file))[0], "dots in numbers and sentences are no key"
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("make", [os.mkfifo, os.mkdir])
 def test_only_regular_files_are_waited_for(tmp_path, make):
     path = tmp_path / "values"
@@ -67,6 +69,7 @@ def test_only_regular_files_are_waited_for(tmp_path, make):
         read_measurements(path)
 
 
+@pytest.mark.internal
 def test_many_mistakes_are_counted_not_listed():
     messages = refused(SCENE | {f"key{i}": i for i in range(80_000)})
     assert len(messages) == MOST_MESSAGES + 1

@@ -46,6 +46,7 @@ def shell(line, folder):
     )
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("streams", [*OUTPUT_LOST, *ERRORS_LOST])
 def test_a_run_is_finished_whatever_happens_to_its_terminal(folder, streams):
     done = shell(f"run small.toml --out one --no-figures {streams}", folder)
@@ -55,6 +56,7 @@ def test_a_run_is_finished_whatever_happens_to_its_terminal(folder, streams):
     assert damaged_files(folder / "one") == []
 
 
+@pytest.mark.internal
 def test_the_exit_code_of_a_run_is_that_of_its_results(folder):
     """Not converged (3) and a bad scene (2), with all streams closed."""
     done = shell("run small.toml --out one --no-figures --set contact.max_iterations=1 >&- 2>&-", folder)

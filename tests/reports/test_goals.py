@@ -49,6 +49,7 @@ def test_a_run_without_points_measures_nothing(run):
     assert {goal.what for goal in goals.goals(empty) if goal.met is not None} < told
 
 
+@pytest.mark.internal
 def test_blocks_that_one_thread_does_are_counted_as_threads_would_share_them():
     """Half of the work in six blocks: two threads do three in a row, four two, eight one; the rest is serial."""
 

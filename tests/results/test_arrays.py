@@ -8,6 +8,8 @@ from bem.results.arrays import read_arrays, to_arrays
 from bem.results.dataset import read_dataset, write_variables
 from bem.scenes.context import Variable
 
+pytestmark = pytest.mark.internal
+
 VARIABLES = {
     "x": Variable(("x",), np.arange(4.0), "m", "along sliding"),
     "name": Variable(("name",), np.array(["a", "µ"]), "1", "variant"),

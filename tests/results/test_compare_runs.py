@@ -29,6 +29,7 @@ def pair(tmp_path_factory):
     return first, second
 
 
+@pytest.mark.internal
 def test_what_differs(pair):
     (only,) = scene_differences(*pair)
     assert (only.key, only.values) == ("contact.mean_pressure", (80e6, 160e6))
@@ -41,6 +42,7 @@ def test_what_differs(pair):
     assert all(d.equal for d in figure_differences(pair[0], pair[0]))
 
 
+@pytest.mark.internal
 def test_a_list_of_numbers_is_one_figure():
     change = Difference("friction", ([0.1, 0.2, 0.0], [0.11, 0.1, 0.3])).relative(1)
     assert change == pytest.approx((-0.5, 0.1))  # nothing is said of a change from zero
@@ -50,11 +52,13 @@ def test_a_list_of_numbers_is_one_figure():
     assert leaves({"a": {"b": [1, {"c": 2}]}, "d": [3, 4]}) == {"a.b[0]": 1, "a.b[1].c": 2, "d": [3, 4]}
 
 
+@pytest.mark.internal
 def test_runs_are_labelled_by_what_differs_with_its_unit(pair):
     assert run_labels(pair, ["a", "b"]) == ["a: mean pressure = 8e+07 Pa", "b: mean pressure = 1.6e+08 Pa"]
     assert run_labels([pair[0], pair[0]], ["a", "b"]) == ["a", "b"]
 
 
+@pytest.mark.internal
 def test_a_run_outside_its_model_says_so_where_it_is_compared(pair, monkeypatch):
     beyond = {**pair[1].summary, "outside_model": ["half of it is beside"]}
     runs = [pair[0], dataclasses.replace(pair[1], summary=beyond)]
@@ -113,6 +117,7 @@ def compared(*more):
     return done.output
 
 
+@pytest.mark.internal
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)
 def test_two_runs_of_a_kind_side_by_side(kind, tmp_path, monkeypatch):
@@ -134,6 +139,7 @@ def test_two_runs_of_a_kind_side_by_side(kind, tmp_path, monkeypatch):
     assert len(compared("--all", "--no-figures").splitlines()) > len(text.splitlines())
 
 
+@pytest.mark.internal
 def test_errors_of_figures_take_no_panels():
     """Four of six showed errors of friction, none the film."""
     xarray = pytest.importorskip("xarray")
@@ -148,6 +154,7 @@ def test_errors_of_figures_take_no_panels():
     assert not [title for title in titles if "_error" in title]
 
 
+@pytest.mark.internal
 def test_curves_over_speed_are_averaged_over_repetitions_and_told_apart():
     xarray = pytest.importorskip("xarray")
     values = np.array([[1.0, 2.0], [3.0, 4.0], [10.0, 20.0], [30.0, 40.0]])

@@ -15,6 +15,8 @@ from bem.results.export import _laid_out, points_of
 from bem.results.read import open_run
 from bem.runs import run_scene, run_sweep
 
+pytestmark = pytest.mark.internal
+
 PRESSURES = ["40 MPa", "80 MPa"]
 
 

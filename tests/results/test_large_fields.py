@@ -17,6 +17,8 @@ from bem.results.scratch import scratch_array
 from bem.runs import run_scene
 from bem.scenes.context import Variable, release
 
+pytestmark = pytest.mark.internal
+
 SCENE = {
     "kind": "contact",
     "grid": {"shape": [32, 16], "spacing": "0.5 um", "periodic": True},

@@ -8,6 +8,8 @@ import pytest
 from bem.results.dataset import read_dataset, write_variables
 from bem.scenes.context import Variable
 
+pytestmark = pytest.mark.internal
+
 
 @pytest.fixture
 def variables():

@@ -60,6 +60,7 @@ def fields(n=24, depths=5):
 # --- datasets
 
 
+@pytest.mark.internal
 def test_dataset_comes_back_with_units_and_coordinates(tmp_path):
     import h5py
 
@@ -76,12 +77,14 @@ def test_dataset_comes_back_with_units_and_coordinates(tmp_path):
         np.testing.assert_array_equal(file["pressure"][:], variables["pressure"].values)
 
 
+@pytest.mark.internal
 def test_same_values_same_bytes(tmp_path):
     for name in ("a.nc", "b.nc"):
         write_variables(tmp_path / name, fields(), {"title": "x"})
     assert (tmp_path / "a.nc").read_bytes() == (tmp_path / "b.nc").read_bytes()
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("size", [0, 1_000, 10_000, 60_000])
 def test_full_disk_leaves_the_old_dataset(tmp_path, size):
     path = tmp_path / "results.nc"
@@ -92,6 +95,7 @@ def test_full_disk_leaves_the_old_dataset(tmp_path, size):
     assert os.listdir(tmp_path) == ["results.nc"]
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("keep", [0, 10, 3000])
 def test_truncated_dataset_is_a_results_error(tmp_path, keep):
     path = tmp_path / "results.nc"
@@ -104,6 +108,7 @@ def test_truncated_dataset_is_a_results_error(tmp_path, keep):
 # --- volumes for ParaView
 
 
+@pytest.mark.internal
 def test_volume_holds_every_value_where_it_belongs(tmp_path):
     import meshio
 
@@ -119,6 +124,7 @@ def test_volume_holds_every_value_where_it_belongs(tmp_path):
         assert mesh.point_data["stress_yy"][i] == variables["stress"].values[1, iz, ix, iy]
 
 
+@pytest.mark.internal
 def test_volume_cells_have_positive_volume(tmp_path):
     """VTK's order of corners: bottom face counter-clockwise seen from above, then the top face."""
     import meshio
@@ -132,11 +138,13 @@ def test_volume_cells_have_positive_volume(tmp_path):
     np.testing.assert_allclose(volumes, 1e-6 * 1e-6 * 0.5e-6, rtol=1e-9)
 
 
+@pytest.mark.internal
 def test_large_volumes_are_thinned(tmp_path):
     (path,) = write_volumes(tmp_path, fields(256, 5), ("von_mises",))
     assert path.name == "volume-every-2.vtu"
 
 
+@pytest.mark.internal
 def test_full_disk_leaves_no_half_volume(tmp_path):
     with files_no_larger_than(2000), pytest.raises(ResultsError, match=r"volume\.vtu"):
         write_volumes(tmp_path, fields(), ("von_mises",))
@@ -166,6 +174,7 @@ def same(a, b):
     return a == b and type(a) is type(b)
 
 
+@pytest.mark.internal
 @given(st.dictionaries(st.text(max_size=5), plain | arrays, max_size=5))
 @settings(deadline=None, max_examples=60)
 def test_checkpoint_gives_back_the_same_bits(tmp_path_factory, state):
@@ -174,6 +183,7 @@ def test_checkpoint_gives_back_the_same_bits(tmp_path_factory, state):
     assert same(state, load_checkpoint(path))
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("place", [0, 20, 30, 200, -1, -40])
 def test_a_flipped_bit_is_found(tmp_path, place):
     path = tmp_path / "checkpoint.bin"
@@ -185,6 +195,7 @@ def test_a_flipped_bit_is_found(tmp_path, place):
         load_checkpoint(path)
 
 
+@pytest.mark.internal
 def test_a_truncated_checkpoint_is_found(tmp_path):
     path = tmp_path / "checkpoint.bin"
     save_checkpoint(path, {"a": np.arange(50.0)})
@@ -195,6 +206,7 @@ def test_a_truncated_checkpoint_is_found(tmp_path):
             load_checkpoint(path)
 
 
+@pytest.mark.internal
 def test_full_disk_leaves_the_old_checkpoint(tmp_path):
     path = tmp_path / "checkpoint.bin"
     save_checkpoint(path, {"cycle": 10})
@@ -203,6 +215,7 @@ def test_full_disk_leaves_the_old_checkpoint(tmp_path):
     assert load_checkpoint(path) == {"cycle": 10}
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("state", [{"a": object()}, {"a": np.array(["text"])}, {"a": np.array([None])}, {"a": {1: 2}}])
 def test_checkpoints_hold_plain_values_only(tmp_path, state):
     with pytest.raises(TypeError):
@@ -244,6 +257,7 @@ def finished_run(path, scene, figure, **start):
         run.finish(summary_of(scene))
 
 
+@pytest.mark.internal
 def test_overwriting_removes_the_old_run_and_nothing_else(tmp_path):
     finished_run(tmp_path, "a = 1\n", "old.png")
     write_text(tmp_path / "mine.txt", "mine")
@@ -256,6 +270,7 @@ def test_overwriting_removes_the_old_run_and_nothing_else(tmp_path):
     assert damaged_files(tmp_path) == []
 
 
+@pytest.mark.internal
 def test_an_older_run_stays_until_the_new_one_is_finished(tmp_path):
     finished_run(tmp_path, "a = 1\n", "old.png")
     before = {path: path.read_bytes() for path in tmp_path.rglob("*") if path.is_file()}
@@ -274,6 +289,7 @@ def test_an_older_run_stays_until_the_new_one_is_finished(tmp_path):
     assert sorted(os.listdir(tmp_path)) == ["checksums.json", "figures", "scene.toml", "summary.json"]
 
 
+@pytest.mark.internal
 def test_a_run_that_may_not_start_leaves_the_old_one(tmp_path):
     finished_run(tmp_path, "a = 1\n", "old.png")
     before = sorted(os.listdir(tmp_path))
@@ -282,6 +298,7 @@ def test_a_run_that_may_not_start_leaves_the_old_one(tmp_path):
     assert open_run(tmp_path).scene == {"a": 1}
 
 
+@pytest.mark.internal
 def test_overwriting_again_starts_anew(tmp_path):
     finished_run(tmp_path, "a = 1\n", "old.png")
     with RunDirectory.start(tmp_path, "a", "a = 2\n", overwrite=True) as run:
@@ -291,6 +308,7 @@ def test_overwriting_again_starts_anew(tmp_path):
         assert run.load_checkpoint() is None
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("steps", range(12))
 def test_a_swap_that_is_cut_short_is_ended_by_the_next(tmp_path, monkeypatch, steps):
     """Killed after any number of its moves and removals."""
@@ -358,6 +376,7 @@ def test_numbered_folders(tmp_path, monkeypatch):
         assert not run.resumed
 
 
+@pytest.mark.internal
 def test_discarding_removes_what_was_made(tmp_path):
     run = RunDirectory.start(tmp_path / "a" / "b", "x", "a = 1\n")
     run.save_checkpoint({"a": 1})
@@ -391,6 +410,7 @@ def test_leftovers_of_a_killed_process_go(tmp_path):
     assert os.listdir(tmp_path) == ["scene.toml"]
 
 
+@pytest.mark.internal
 def test_damage_to_a_finished_run_is_found(tmp_path):
     with RunDirectory.start(tmp_path, "a", 'kind = "contact"\n') as run:
         write_variables(tmp_path / "results.nc", fields(4, 2), {})
@@ -421,11 +441,13 @@ def test_what_is_not_a_finished_run(tmp_path):
         open_run(tmp_path)
 
 
+@pytest.mark.internal
 def test_summary_is_json_whatever_is_in_it():
     text = summary_text({"a": np.float64(1.5), "b": np.arange(3), "c": float("nan"), "d": {"e": np.int64(2)}, "f": "µ"})
     assert json.loads(text) == {"a": 1.5, "b": [0, 1, 2], "c": None, "d": {"e": 2}, "f": "µ"}
 
 
+@pytest.mark.internal
 def test_a_checkpoint_of_other_code_is_not_gone_on_with(tmp_path, monkeypatch):
     path = tmp_path / "checkpoint.bin"
     with monkeypatch.context() as patch:

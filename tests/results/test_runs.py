@@ -81,6 +81,7 @@ def everything(folder):
     return {name: item.values.tobytes() for name, item in run.dataset.variables.items()}, summary
 
 
+@pytest.mark.internal
 def test_a_run_folder_holds_what_it_promises(tmp_path):
     run = run_scene(SCENE, tmp_path / "run")
     names = sorted(os.listdir(tmp_path / "run"))
@@ -119,6 +120,7 @@ def test_a_run_folder_holds_what_it_promises(tmp_path):
     assert (run.path / "results.nc").read_bytes() == (again.path / "results.nc").read_bytes()
 
 
+@pytest.mark.internal
 def test_every_figure_of_the_kind_exists():
     from bem.plots.figures import all_figures
 
@@ -129,6 +131,7 @@ def test_every_figure_of_the_kind_exists():
         assert set(get_kind(name).figures) <= known.keys(), name
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("stop", [0, 1, 3, 5])
 def test_interrupted_and_resumed_ends_in_the_same_bits(tmp_path, counting, stop):
     run_scene({"kind": "contact"}, tmp_path / "whole")
@@ -149,6 +152,7 @@ def test_interrupted_and_resumed_ends_in_the_same_bits(tmp_path, counting, stop)
     assert not (tmp_path / "cut" / "checkpoint.bin").exists()
 
 
+@pytest.mark.internal
 def test_a_finished_run_is_not_run_again(tmp_path, counting):
     first = run_scene({"kind": "contact"}, tmp_path)
     again = run_scene({"kind": "contact"}, tmp_path, resume=True)
@@ -156,6 +160,7 @@ def test_a_finished_run_is_not_run_again(tmp_path, counting):
     assert again.summary == first.summary
 
 
+@pytest.mark.internal
 def test_a_damaged_checkpoint_is_refused_not_used(tmp_path, counting):
     def interrupt(cycle):
         if cycle == 3:
@@ -171,6 +176,7 @@ def test_a_damaged_checkpoint_is_refused_not_used(tmp_path, counting):
         run_scene({"kind": "contact"}, tmp_path, resume=True)
 
 
+@pytest.mark.internal
 def test_bad_input_found_before_anything_is_computed_leaves_nothing(tmp_path, counting):
     def refuse(cycle):
         raise InputError("lower.surface: no good")
@@ -181,6 +187,7 @@ def test_bad_input_found_before_anything_is_computed_leaves_nothing(tmp_path, co
     assert os.listdir(tmp_path) == []
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("older", [False, True])
 def test_bad_input_found_while_running_loses_nothing(tmp_path, counting, older):
     def refuse(cycle):
@@ -202,6 +209,7 @@ def test_bad_input_found_while_running_loses_nothing(tmp_path, counting, older):
     assert damaged_files(folder) == []
 
 
+@pytest.mark.internal
 def test_time_after_a_resume_is_the_sum(tmp_path, counting, monkeypatch):
     clock = set_clock(monkeypatch, 100.0)
 
@@ -226,6 +234,7 @@ def test_time_after_a_resume_is_the_sum(tmp_path, counting, monkeypatch):
     assert run.summary["wall_time_s"] == 6 * 7.0
 
 
+@pytest.mark.internal
 def test_a_checkpoint_inside_a_stage_counts_its_time(tmp_path, monkeypatch):
     clock = set_clock(monkeypatch, 0.0)
     file = tmp_path / "checkpoint.bin"
@@ -238,6 +247,7 @@ def test_a_checkpoint_inside_a_stage_counts_its_time(tmp_path, monkeypatch):
     assert load_checkpoint(file)["_seconds"] == {"films": 2.0}
 
 
+@pytest.mark.internal
 def test_a_figure_that_refuses_costs_no_results(tmp_path, monkeypatch):
     """An InputError of a figure is the figure's own."""
     from bem.plots.figures import all_figures
@@ -252,6 +262,7 @@ def test_a_figure_that_refuses_costs_no_results(tmp_path, monkeypatch):
     assert damaged_files(run.path) == []
 
 
+@pytest.mark.internal
 def test_a_run_that_cannot_go_on_keeps_its_checkpoint(tmp_path, counting):
     def give_up(cycle):
         if cycle == 2:
@@ -263,6 +274,7 @@ def test_a_run_that_cannot_go_on_keeps_its_checkpoint(tmp_path, counting):
     assert (tmp_path / "checkpoint.bin").exists()
 
 
+@pytest.mark.internal
 def test_a_run_that_did_not_converge_is_kept_and_says_where(tmp_path, counting):
     counting.status = Status.STALLED
     run = run_scene({"kind": "contact"}, tmp_path)
@@ -271,6 +283,7 @@ def test_a_run_that_did_not_converge_is_kept_and_says_where(tmp_path, counting):
     assert "cycle 3" in (tmp_path / "report.html").read_text()
 
 
+@pytest.mark.internal
 def test_seeds_are_their_own_for_every_purpose():
     from bem.scenes.context import derive_seed
 
@@ -281,6 +294,7 @@ def test_seeds_are_their_own_for_every_purpose():
     assert derive_seed(1, "lower") == 8713349300685171801
 
 
+@pytest.mark.internal
 def test_watcher_is_told(tmp_path, counting):
     told = []
     watcher = SimpleNamespace(
@@ -291,6 +305,7 @@ def test_watcher_is_told(tmp_path, counting):
     assert "cycle one is over" in told
 
 
+@pytest.mark.internal
 def test_numbers_are_told_before_pictures_are_drawn(tmp_path, monkeypatch):
     told = []
     monkeypatch.setattr("bem.plots.pages.draw_all", lambda *_, **__: told.append("pictures") or [])
@@ -328,6 +343,7 @@ def test_files_are_forced_to_disk_once_and_their_names_folder_by_folder(tmp_path
     assert forced[-1] == "."
 
 
+@pytest.mark.internal
 def test_every_file_is_summed_once_and_large_ones_before_pictures_are_waited_for(tmp_path, monkeypatch):
     import bem.plots.pages as pages
     import bem.results.directory as directory

@@ -61,6 +61,7 @@ def test_each_row_is_its_contact(gear):
     assert (gear.path / "figures" / "along-the-way.png").exists()
 
 
+@pytest.mark.internal
 def test_lambda_is_read_beside_the_minimum_film(gear):
     """A dotted curve on a scale of its own lay upon the central film's."""
     figure = Figure()

@@ -26,6 +26,7 @@ def _one_model():
     return SharingScene(oil_volume="loaded")
 
 
+@pytest.mark.internal
 def test_a_ball_is_an_ellipsoid_of_equal_radii():
     ball, radii = (setup_of(scene_with(**shape)) for shape in ({"ball": "10 mm"}, {"radii": ["10 mm", "10 mm"]}))
     assert ball.radii == radii.radii == (0.01, 0.01)
@@ -86,6 +87,7 @@ def test_the_patch_of_a_ball_goes_on_nowhere():
 CELL = {"shape": 32, "lengths": "40 um", "periodic": True}
 
 
+@pytest.mark.internal
 def test_a_cell_of_the_roughness_may_repeat_under_a_ball():
     scene, _ = plan_scene(scene_with(ball="10 mm") | {"grid": CELL}, [])
     assert scene.cell_repeats

@@ -234,6 +234,7 @@ def fired(name, source):
     return list(SCENE_CHECKS[name](facts_of(source[0] if isinstance(source, tuple) else source, *settings)))
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("name", CASES)
 def test_a_check_of_scenes_fires_where_it_should_and_not_next_to_it(name):
     (bad, words), good = CASES[name]
@@ -243,6 +244,7 @@ def test_a_check_of_scenes_fires_where_it_should_and_not_next_to_it(name):
     assert fired(name, good) == []
 
 
+@pytest.mark.internal
 def test_interfaces_that_no_depths_bracket_are_named():
     """Three depths in every layer and none near the interface at 2 um; a depth at it lies in the layer above."""
     depths = ["0.5 um", "1 um", "1.5 um", "2.2 um", "2.3 um", "2.4 um", "2.55 um"]
@@ -253,6 +255,7 @@ def test_interfaces_that_no_depths_bracket_are_named():
     assert fired("few_depths_in_a_layer", coated(at_interfaces)) == []
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("kind", ["point-film", "point-film-time"])
 def test_a_ball_in_oil_that_yields_is_told_as_a_dry_one(kind):
     """Under 20 kN it was solved at 8 GPa, and all that was said was about the oil."""
@@ -271,6 +274,7 @@ def test_a_ball_in_oil_that_yields_is_told_as_a_dry_one(kind):
     assert "begins to yield" in " ".join(fired("yield_below_the_surface", softer))
 
 
+@pytest.mark.internal
 def test_a_roller_in_oil_that_yields_or_is_no_half_space_is_told_as_a_dry_one():
     """A polymer roller was pressed to 3 times its hardness over 0.38 of its radius, converged and without a word; on a
     path the worst row is said, once."""
@@ -294,6 +298,7 @@ def test_a_roller_in_oil_that_yields_or_is_no_half_space_is_told_as_a_dry_one():
     assert "(1 mm)" in told
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("kind", ["rolling", "partial-slip", "surface-temperature"])
 def test_every_dry_elastic_kind_is_told_of_yield(kind):
     heavy = {"kind": kind, **{key: value for key, value in BALL.items() if key != "kind"}}
@@ -309,6 +314,7 @@ def test_every_dry_elastic_kind_is_told_of_yield(kind):
     assert "times the softer hardness" in told
 
 
+@pytest.mark.internal
 def test_a_friction_curve_is_told_of_yield_as_a_dry_contact_where_no_cap_is():
     """By model: of a capped and an elastic one the elastic one is. The disk of 110 HV yields below its surface at
     0.7 GPa and is indented at 1.1; 200 N make 0.8 GPa, 600 N 1.35."""
@@ -325,6 +331,7 @@ def test_a_friction_curve_is_told_of_yield_as_a_dry_contact_where_no_cap_is():
     assert fired("yield_below_the_surface", with_(heavy, contact__loads=["100 N"])) == []
 
 
+@pytest.mark.internal
 def test_cells_unlike_along_x_and_y_are_told_the_spacing_that_the_contact_asks_for():
     cylinder = with_(BALL, shape__kind="cylinder", grid={"shape": [8, 400], "spacing": ["100 um", "1 um"]})
     (told,) = [words for words in scene_warnings(facts_of(cylinder)) if "across the Hertz contact" in words]
@@ -334,6 +341,7 @@ def test_cells_unlike_along_x_and_y_are_told_the_spacing_that_the_contact_asks_f
     assert "spacing 7.29 um gives 20" in told
 
 
+@pytest.mark.internal
 def test_cells_of_an_elongated_surface_are_looked_at_along_each_axis():
     """Ridges along y, 36 um by 4 um, on cells of 2 um: of their geometric mean there had been six, and nothing was
     said; on long cells along them all is well."""
@@ -377,6 +385,7 @@ MAPS = {
 }
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("name", MAPS)
 def test_a_check_of_measured_surfaces_fires_where_it_should_and_not_next_to_it(name, maps):
     (bad, keys, words), (good, good_keys) = MAPS[name]
@@ -386,6 +395,7 @@ def test_a_check_of_measured_surfaces_fires_where_it_should_and_not_next_to_it(n
     assert list(SCENE_CHECKS[name](facts_of(on_map(maps / good, lengths, **good_keys)))) == []
 
 
+@pytest.mark.internal
 def test_a_grid_between_two_measured_points_is_not_said_to_lie_on_none(maps):
     scene = on_map(maps / "few.npz", "5 um", mirror="none")
     (said,) = SCENE_CHECKS["surface_interpolated_from_few_points"](facts_of(scene))
@@ -581,6 +591,7 @@ OUTCOMES = {
 }
 
 
+@pytest.mark.internal
 def test_a_contact_most_of_whose_load_its_bodies_could_not_bear_is_outside_the_model():
     """It was called converged, with 98 % of the load above the hardness and pressures as high as the modulus."""
     facts = facts_of(BALL)
@@ -597,6 +608,7 @@ def test_a_contact_most_of_whose_load_its_bodies_could_not_bear_is_outside_the_m
     assert told.endswith("take a smaller load")
 
 
+@pytest.mark.internal
 def test_particles_of_running_in_that_the_depths_cut_are_told():
     facts = facts_of("running-in-stribeck")
     cut = Outcome({"truncated_particles": [0, 40], "particles_per_cycle": [1.0, 10.0]}, {})
@@ -605,6 +617,7 @@ def test_particles_of_running_in_that_the_depths_cut_are_told():
     assert words.startswith(f"{100 * share:.2g} % of the settled particles")
 
 
+@pytest.mark.internal
 def test_particles_that_end_at_an_interface_need_no_deeper_depths():
     """All pieces of a layer of 1 um reached its interface, and 10 um of depths were told to be too few."""
     cut = Outcome({"truncated_particles": [40], "particles_per_cycle": [2.0]}, {})
@@ -613,6 +626,7 @@ def test_particles_that_end_at_an_interface_need_no_deeper_depths():
         assert ("wear.within_layer" in words) is coated
 
 
+@pytest.mark.internal
 def test_roughness_does_not_drift_where_nothing_came_off():
     """The strip in contact moves, and its roughness with it."""
     worn = loop_outcome(100.0)
@@ -627,6 +641,7 @@ def test_roughness_does_not_drift_where_nothing_came_off():
         ] * told
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("name", OUTCOMES)
 def test_a_check_of_results_fires_where_it_should_and_not_next_to_it(name):
     scene, (bad, words), good = OUTCOMES[name]
@@ -635,6 +650,7 @@ def test_a_check_of_results_fires_where_it_should_and_not_next_to_it(name):
     assert list(OUTCOME_CHECKS[name](facts, good)) == []
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(("length", "told"), [(8e-6, 0), (15e-6, 1)])
 def test_a_particle_is_held_against_the_grid_of_its_own_load(length, told):
     """A piece of the largest load was held against the grid of the smallest: 119 um long on one of 23.9 um."""
@@ -648,6 +664,7 @@ def test_a_particle_is_held_against_the_grid_of_its_own_load(length, told):
     assert all(f"15 um long on a grid of {si(sides[-1], 'm')}" in text for text in found)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(("length", "width", "told"), [(4, 1, 1), (4, 2, 0), (8, 1, 0)])
 def test_particles_of_one_cell_are_known_where_cells_are_longer_than_wide(length, width, told):
     """Cells of 4 x 1 were held against 1.5 times the root of their area: 56 % of particles were one, none was told."""
@@ -660,6 +677,7 @@ def test_particles_of_one_cell_are_known_where_cells_are_longer_than_wide(length
     assert all("one cell wide (200 nm x 50 nm)" in text for text in found)
 
 
+@pytest.mark.internal
 def test_running_in_tells_of_particles_of_one_cell_by_their_mean():
     facts, check = facts_of("running-in-stribeck"), OUTCOME_CHECKS["particles_of_one_cell"]
     found = list(check(facts, Outcome({"number_mean_radius_nm": [300.0, 500.0, 0.0]}, {})))
@@ -667,6 +685,7 @@ def test_running_in_tells_of_particles_of_one_cell_by_their_mean():
     assert list(check(facts, Outcome({"number_mean_radius_nm": [400.0]}, {}))) == []
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(("criterion", "words"), [("junction", "must be 426 nm wide"), ("low_cycle_fatigue", "passes")])
 def test_nothing_comes_off_and_why(criterion, words):
     facts = facts_of("wear-steel-steel", f"wear.criterion={criterion}")
@@ -674,17 +693,20 @@ def test_nothing_comes_off_and_why(criterion, words):
     assert words in " ".join(OUTCOME_CHECKS["nothing_comes_off"](facts, none))
 
 
+@pytest.mark.internal
 def test_the_variant_of_which_nothing_comes_off_is_named():
     facts, check = facts_of("wear-criteria"), OUTCOME_CHECKS["nothing_comes_off"]
     (told,) = check(facts, wear_outcome([CELL], particles_per_cycle=[3.0, 2.0, 1.0, 0.0, 1.0, 1.0]))
     assert "criterion junction (junctions); a junction must be 426 nm wide" in told
 
 
+@pytest.mark.internal
 def test_running_in_tells_too_where_nothing_comes_off():
     facts, check = facts_of("running-in-stribeck"), OUTCOME_CHECKS["nothing_comes_off"]
     assert "nothing came off" in " ".join(check(facts, Outcome({"particles_per_cycle": [0.0] * len(facts.cases)}, {})))
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(
     ("criterion", "stress", "words"),
     [
@@ -701,6 +723,7 @@ def test_nothing_comes_off_and_how_far_from_it_the_stress_is(criterion, stress, 
     assert all(words in text for text in told)
 
 
+@pytest.mark.internal
 def test_smooth_bodies_far_below_the_hardness_have_no_valleys_that_resist():
     """62 % of a slice touched at a sixth of the hardness, and was told of its cap."""
     facts, check = facts_of("wear-steel-steel"), OUTCOME_CHECKS["capped_contact_nearly_full"]
@@ -709,6 +732,7 @@ def test_smooth_bodies_far_below_the_hardness_have_no_valleys_that_resist():
         assert len(list(check(facts, Outcome({"contact_area_fraction": 0.7}, {"plastic_area": plastic})))) == told
 
 
+@pytest.mark.internal
 def test_a_surface_full_of_holes_is_one_story_that_goes_first():
     """Five notes were said of it one by one: it still drifts, and is at its hardness, because it is full of holes."""
     facts = facts_of("running-in-stribeck")
@@ -725,16 +749,19 @@ def test_a_surface_full_of_holes_is_one_story_that_goes_first():
     assert outside(["10 N; 20 N: " + OUTSIDE + "too thin; details"]) == ("10 N; 20 N: too thin",)
 
 
+@pytest.mark.internal
 def test_every_check_has_its_two_tests():
     assert set(SCENE_CHECKS) == set(CASES) | set(MAPS)
     assert set(OUTCOME_CHECKS) == set(OUTCOMES)
 
 
+@pytest.mark.internal
 def test_a_map_smaller_than_the_grid_is_refused_by_the_plan(maps):
     with pytest.raises(InputError, match="the map only"):
         scene_warnings(facts_of(on_map(maps / "whole.npz", "1 mm")))
 
 
+@pytest.mark.internal
 def test_one_warning_is_said_once_and_a_check_that_fails_says_so(monkeypatch):
     def broken(facts):
         raise ZeroDivisionError("nothing to divide by")
@@ -766,6 +793,7 @@ def test_a_run_notes_what_was_warned_of_before_and_after(tmp_path):
     assert "reaches the edge of the grid along x and y" in (tmp_path / "out" / "report.html").read_text()
 
 
+@pytest.mark.internal
 def test_the_overview_shows_what_is_pressed_together():
     facts = facts_of(with_(BALL, lower__layer={"material": "dlc", "thickness": "20 um"}))
     shown = dict(common(facts))
@@ -780,6 +808,7 @@ def test_the_overview_shows_what_is_pressed_together():
     assert [row[0] for row in rows] == ["2.5 N", "5 N", "10 N"]
 
 
+@pytest.mark.internal
 def test_numbers_in_words():
     assert si(45e-9, "m") == "45 nm"
     assert si(0.9996e-6, "m") == "1 um"
@@ -792,6 +821,7 @@ def test_numbers_in_words():
     assert percent(0.9999) == "100 %"
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("kind", ["wear-steel-steel", "running-in-stribeck"])
 def test_both_kinds_of_wear_loops_tell_of_a_surface_of_twice_its_roughness(kind):
     """Sq of a strip grew from 36 to 74 nm on a counterface of 50 nm; it was compared with all of both surfaces."""
@@ -802,6 +832,7 @@ def test_both_kinds_of_wear_loops_tell_of_a_surface_of_twice_its_roughness(kind)
         assert len(notes) == told == len(outside(notes))
 
 
+@pytest.mark.internal
 def test_a_scar_worn_by_pressure_is_meant_to_grow():
     facts = facts_of("wear-cylinder-scar")
     grown = Outcome(
@@ -812,6 +843,7 @@ def test_a_scar_worn_by_pressure_is_meant_to_grow():
         assert list(OUTCOME_CHECKS[name](facts, grown)) == []
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(
     "waves",
     [
@@ -835,6 +867,7 @@ def test_what_a_plan_says_of_a_self_affine_surface_is_that_of_all_of_it(monkeypa
     assert surfaces_of.rough_surface("lower", table, vast, 1).rms_slope == pytest.approx(said.rms_slope, rel=1e-9)
 
 
+@pytest.mark.internal
 def test_a_scar_as_wide_as_its_body_is_outside_the_model():
     """Deeper than the radius it said `converged`, with a note on the grid's edge; the width counts where depths do not
     say it."""
@@ -865,6 +898,7 @@ def test_a_cylinder_worn_through_says_so_in_its_run(tmp_path):
     assert "slope of 2.6," in text
 
 
+@pytest.mark.internal
 def test_steps_of_wear_in_oil_may_take_off_twice_what_bodies_give_way_by():
     check, worn = OUTCOME_CHECKS["steps_of_wear_in_oil_that_overshoot"], oil_outcome(1e-18)
     for distance, told in ((0.0385, 0), (0.0475, 1)):  # 1.7 and 2.1 times 2.26e-18 m/Pa

@@ -52,6 +52,7 @@ def steel():
     return contact_modulus(material, material)
 
 
+@pytest.mark.internal
 def test_hertz_sphere():
     scene, outcome, _ = run("hertz-sphere", ["grid.shape=96", "outputs.stresses=false"])
     hertz = sphere_contact(radius=scene.shape.radius, contact_modulus=steel(), load=scene.contact.load)
@@ -64,6 +65,7 @@ def test_hertz_sphere():
     assert "von_mises" not in outcome.variables
 
 
+@pytest.mark.internal
 def test_hertz_cylinder():
     scene, outcome, _ = run("hertz-cylinder", ["outputs.von_mises=false", "grid.shape=[512,4]"])
     length = scene.grid.spacing[1] * 4
@@ -75,6 +77,7 @@ def test_hertz_cylinder():
     assert outcome.summary["max_pressure_Pa"] == pytest.approx(hertz.maximum_pressure, rel=2e-3)
 
 
+@pytest.mark.internal
 def test_sinusoid_is_at_the_tenth_of_full_contact_it_says():
     scene, _ = plan_scene("sinusoid")
     full = crossed_full_contact_pressure(scene.shape.amplitude, (scene.shape.wavelength, np.inf), steel())
@@ -84,6 +87,7 @@ def test_sinusoid_is_at_the_tenth_of_full_contact_it_says():
     assert outcome.summary["contact_area_fraction"] == pytest.approx(2 / np.pi * np.arcsin(np.sqrt(0.1)), abs=2 / 512)
 
 
+@pytest.mark.internal
 def test_rough_capped_contact():
     scene, outcome, _ = run(ROUGH)
     pressure = outcome.variables["pressure"].values
@@ -112,6 +116,7 @@ def test_rough_capped_contact():
     assert outcome.summary["yielded_volume_m3"] > 0
 
 
+@pytest.mark.internal
 def test_a_key_of_the_api_for_every_scene():
     _, outcome, _ = run(ROUGH)
     for key in (
@@ -121,6 +126,7 @@ def test_a_key_of_the_api_for_every_scene():
         assert isinstance(outcome.summary[key], float), key
 
 
+@pytest.mark.internal
 def test_approach_and_mean_gap_reach_the_same_contact_as_the_load():
     _, by_load, _ = run(rough(outputs={"von_mises": False}))
     approach, gap = by_load.summary["approach_m"], by_load.summary["mean_gap_m"]
@@ -132,6 +138,7 @@ def test_approach_and_mean_gap_reach_the_same_contact_as_the_load():
         assert difference < 1e-4 * 1.8e9
 
 
+@pytest.mark.internal
 def test_von_mises_alone_is_the_same_as_from_all_stresses():
     _, alone, _ = run(ROUGH)
     _, everything, _ = run(rough(outputs={"stresses": True}))
@@ -142,6 +149,7 @@ def test_von_mises_alone_is_the_same_as_from_all_stresses():
     assert everything.variables["stress"].values.shape == (6, 3, 64, 64)
 
 
+@pytest.mark.internal
 def test_no_stress_is_computed_when_none_is_wanted():
     run(rough(outputs={"von_mises": False}))  # plans and spectra are made once
     COUNT.reset()
@@ -153,6 +161,7 @@ def test_no_stress_is_computed_when_none_is_wanted():
     np.testing.assert_array_equal(without.variables["pressure"].values, with_stress.variables["pressure"].values)
 
 
+@pytest.mark.internal
 def test_friction_between_equal_bodies_changes_no_pressure_and_builds_no_kernel():
     _, without, _ = run(rough(outputs={"von_mises": False}))
     COUNT.reset()
@@ -167,6 +176,7 @@ def body(name="a", modulus=210e9, hardness=2e9, film=100e-9):
     return Body(base, layer=Layer(soft, film) if film else None)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(
     ("lower", "upper", "couples"),
     [
@@ -188,6 +198,7 @@ def test_the_plan_takes_bodies_as_coupled_where_the_operator_does(lower, upper, 
     assert not traction_couples(lower, upper, 0.0)
 
 
+@pytest.mark.internal
 def test_friction_raises_the_stress_at_the_surface_of_either_body():
     values = {}
     for body in ("lower", "upper"):
@@ -199,6 +210,7 @@ def test_friction_raises_the_stress_at_the_surface_of_either_body():
     assert values["upper", 0.0] == pytest.approx(values["lower", 0.0], rel=1e-12)
 
 
+@pytest.mark.internal
 def test_same_seed_same_bits_other_seed_other_surface():
     _, first, _ = run(ROUGH)
     _, again, _ = run(ROUGH)
@@ -209,6 +221,7 @@ def test_same_seed_same_bits_other_seed_other_surface():
     assert not np.array_equal(other.variables["lower_height"].values, first.variables["lower_height"].values)
 
 
+@pytest.mark.internal
 def test_resumed_after_the_contact_solve_the_bits_are_the_same():
     _, whole, context = run(ROUGH)
     resumed = PlainContext(1, resumed=True, state=context.state)
@@ -220,6 +233,7 @@ def test_resumed_after_the_contact_solve_the_bits_are_the_same():
     assert whole.summary == rest.summary
 
 
+@pytest.mark.internal
 def test_iteration_limit_is_said_and_the_result_kept():
     _, outcome, _ = run(rough(contact={"max_iterations": 2}, outputs={"von_mises": False}))
     assert outcome.status == Status.MAX_ITERATIONS
@@ -240,6 +254,7 @@ def test_plan_says_what_is_skipped_and_why():
     assert "traction kernels" not in {step.name for step in plan.steps if step.skipped}
 
 
+@pytest.mark.internal
 def test_same_bits_on_two_threads():
     from bem.threads import get_threads, set_threads
 
@@ -255,6 +270,7 @@ def test_same_bits_on_two_threads():
         assert item.values.tobytes() == two.variables[name].values.tobytes(), name
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("asked", [{"mean_gap": "5 um"}, {"approach": "-1 um"}])
 def test_bodies_that_do_not_touch_say_so(asked):
     _, outcome, context = run(rough() | {"contact": asked})

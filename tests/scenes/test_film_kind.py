@@ -9,6 +9,8 @@ from bem.campaigns.collect import outcome_of
 from bem.scenes import PlainContext
 from bem.scenes.kinds.film import KIND, FilmScene
 
+pytestmark = pytest.mark.internal
+
 SCENE = FILM | {
     "motion": {"kind": "table", "times": ["0 s", "5 ms", "10 ms"], "speeds": ["0.05 m/s", "0 m/s", "0.05 m/s"]},
     "march": {"duration": "12 ms", "steps": 40, "points": 201},

@@ -29,6 +29,7 @@ def scene(**changes):
     return {**table, **changes}
 
 
+@pytest.mark.internal
 def test_record_is_what_the_solver_gives(tmp_path):
     """Both surfaces' heights together, separations in rising order, errors beside the figures, files on disk."""
     run = run_scene(scene(), tmp_path / "run")
@@ -49,6 +50,7 @@ def test_record_is_what_the_solver_gives(tmp_path):
     assert (run.path / "figures" / "flow-factors.png").exists()
 
 
+@pytest.mark.internal
 def test_a_stribeck_curve_with_the_flow_factors_of_its_surfaces(tmp_path):
     """Off by default; on, the film between rough walls is another one, and the plan says what it costs."""
     from bem.flow.factors import TABLE_RATIOS
@@ -97,6 +99,7 @@ def test_mistakes(changes, words):
         load_scene(scene(**changes))
 
 
+@pytest.mark.internal
 def test_a_record_has_the_status_of_what_it_was_filled_from():
     """Factors that did not converge were said to be: the kind gave where, but no status."""
     solved = SimpleNamespace(status=Status.STALLED)

@@ -7,6 +7,8 @@ from bem.scenes import kind_names
 from bem.scenes.form import form_of, mistakes_of, start_of, text_of, with_kind, with_value
 from bem.scenes.kind import get_kind
 
+pytestmark = pytest.mark.internal
+
 
 def entries(table):
     for entry in table.entries:

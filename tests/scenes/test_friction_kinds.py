@@ -120,6 +120,7 @@ def test_pressures_give_the_load():
     assert high == pytest.approx(math.pi * 2e-3 * 1e18 / modulus * 6e-3, rel=1e-12)
 
 
+@pytest.mark.internal
 def test_film_table_is_the_film():
     position = (np.arange(64) - 31.5) * 0.8e-6
     table = FilmTable(SolvedFilm(LineContact(2e-3, 1.0, 115e9, OIL), (0.02, 0.0), position, 300), load=900.0)
@@ -133,6 +134,7 @@ def test_film_table_is_the_film():
         table.under(901.0)
 
 
+@pytest.mark.internal
 def test_film_table_does_not_depend_on_what_was_asked_first():
     position = (np.arange(16) - 7.5) * 2e-6
     values = []
@@ -160,6 +162,7 @@ def patch_case(**more):
     return generate_surface(grid, rms_height=120e-9, correlation_length=2e-6, seed=4), case | more
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("speed", [0.003, 0.05, 0.5])
 def test_cycle_contact_is_load_sharing(speed):
     """The contact of a wear cycle, from tabulated films, is `solve_mixed`."""
@@ -178,6 +181,7 @@ def test_cycle_contact_is_load_sharing(speed):
         assert step.contact_solves == 0
 
 
+@pytest.mark.internal
 def test_a_contact_solved_too_coarsely_is_solved_better(monkeypatch):
     """Loads that jump with the contact's own tolerance must not keep film and contact from their balance."""
     height, case = patch_case(film_points=200, tolerance=5e-4)
@@ -247,6 +251,7 @@ def test_where_the_oil_is_counted_is_a_key_and_said_once_for_all_speeds(counted)
         assert changed[-1] == 0  # full film
 
 
+@pytest.mark.internal
 def test_notes_of_several_speeds_are_told_once_with_the_speeds_that_have_them():
     """The film's named none, those of error bars were told again for each speed and repetition."""
     notes = [["a", "b"], ["a", "c", "c"], ["b", "a", "c"], ["a", "b"]]
@@ -265,6 +270,7 @@ def test_notes_of_several_speeds_are_told_once_with_the_speeds_that_have_them():
 LAW = {"kind": "pressure_dependent", "shear_strength": 1e6, "pressure_coefficient": 0.1}
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("friction", [0.15, LAW], ids=["coefficient", "law"])
 @pytest.mark.parametrize("model", ["capped", "uncoupled"])
 def test_a_curve_killed_between_speeds_goes_on_to_the_same_bits(tmp_path, model, friction, monkeypatch):
@@ -286,6 +292,7 @@ def test_a_curve_killed_between_speeds_goes_on_to_the_same_bits(tmp_path, model,
         np.testing.assert_array_equal(variable.values, resumed.outcome.variables[name].values, err_msg=name)
 
 
+@pytest.mark.internal
 def test_running_in_resumes_to_the_same_bits(tmp_path):
     scene, outcome, _ = run(RUNNING_IN)
     summary = outcome.summary
@@ -357,6 +364,7 @@ def test_running_in_with_heat_wears_where_a_boundary_film_is_hot():
         run(scene | {"wear": {"film_defect": {"adsorption_energy": "0.6 eV"}}})
 
 
+@pytest.mark.internal
 def test_particles_that_stay_in_oil_bear_load_roll_and_are_fed(tmp_path):
     stay = {"diameter": "400 nm", "number_per_area": 1e9, "friction": 0.02, "shed": 1e-3, "leaving": 0.2}
     scene = scene_with(RUNNING_IN, speeds=["0.003 m/s"], cycles={"count": 11, "averaged": 3, "settled": 4})
@@ -435,6 +443,7 @@ ARRAY = {
 }
 
 
+@pytest.mark.internal
 def test_asperities_feel_the_lattice():
     """To first order an asperity rises by 3.9003 P / (pi E* spacing) over the mean plane; Hertz as they part."""
     _, outcome, _ = run(ARRAY)

@@ -51,6 +51,7 @@ def test_there_are_scenes_with_and_without_files():
     assert EXPECTED_WARNINGS.keys() <= set(NAMES) - NEEDS_FILES
 
 
+@pytest.mark.internal
 @pytest.mark.usefixtures("no_registry")
 @pytest.mark.parametrize("name", NAMES)
 def test_a_built_in_scene(name, tmp_path):

@@ -228,6 +228,7 @@ def test_every_kind_is_registered_under_its_file():
         assert kind.model.model_fields["kind"].default == name
 
 
+@pytest.mark.internal
 def test_a_scene_too_large_for_the_memory_is_refused_before_any_work():
     from bem.runs import run_scene
 

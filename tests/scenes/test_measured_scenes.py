@@ -32,6 +32,7 @@ def run(data, settings=()):
     return resolved, outcome_of(resolved, KIND.run(resolved, context)), context
 
 
+@pytest.mark.internal
 @pytest.mark.slow
 def test_hard_pin_on_soft_disk_elastic_and_capped(measured):
     """`di-3` on `al3d-1`, resampled to the cells of `di-3`."""
@@ -56,6 +57,7 @@ def test_hard_pin_on_soft_disk_elastic_and_capped(measured):
     assert "the step where its ends meet is spread out" in text
 
 
+@pytest.mark.internal
 @pytest.mark.slow
 def test_unequal_spacings(measured):
     resolved, outcome, _ = run(scene(measured / "x3p-2.x3p"), ["grid.shape=[128, 96]", "lower.surface.mirror=both"])
@@ -67,6 +69,7 @@ def test_unequal_spacings(measured):
     np.testing.assert_array_equal(heights, heights[:, ::-1])
 
 
+@pytest.mark.internal
 @pytest.mark.slow
 def test_missing_points_are_filled_and_noted_or_refused(measured):
     _, outcome, context = run(scene(measured / "opd-1.opd"), ["grid.shape=128"])
@@ -110,6 +113,7 @@ def plain_map(tmp_path):
     return path
 
 
+@pytest.mark.internal
 def test_grid_from_the_measured_map(plain_map):
     resolved, outcome, context = run(scene(plain_map))
     assert resolved.grid.shape == (40, 30)
@@ -121,6 +125,7 @@ def test_grid_from_the_measured_map(plain_map):
     assert not any("taken as" in note for note in context.notes)
 
 
+@pytest.mark.internal
 def test_grid_from_two_maps_is_the_finer_spacing_and_the_common_area(plain_map, tmp_path):
     from bem.surfaces import Surface, write_surface
 
@@ -134,6 +139,7 @@ def test_grid_from_two_maps_is_the_finer_spacing_and_the_common_area(plain_map, 
     )
 
 
+@pytest.mark.internal
 def test_mirrored_grid_is_twice_the_map_and_has_no_seam(plain_map):
     resolved, _, context = run(scene(plain_map), ["lower.surface.mirror=x"])
     assert resolved.grid.shape == (80, 30)
@@ -144,11 +150,13 @@ def test_mirrored_grid_is_twice_the_map_and_has_no_seam(plain_map):
         run(scene(plain_map), ["lower.surface.mirror=x", "grid.shape=[41, 30]", "grid.spacing=[1e-6, 2e-6]"])
 
 
+@pytest.mark.internal
 def test_a_grid_larger_than_the_map_is_refused(plain_map):
     with pytest.raises(InputError, match="the map"):
         run(scene(plain_map), ["grid.shape=64", "grid.spacing=1 um"])
 
 
+@pytest.mark.internal
 def test_scaled_cropped_and_filtered(plain_map):
     _, outcome, _ = run(scene(plain_map), ["lower.surface.rms_height=50 nm", "lower.surface.crop=20 um"])
     heights = outcome.variables["lower_height"].values
@@ -159,6 +167,7 @@ def test_scaled_cropped_and_filtered(plain_map):
     assert smooth.variables["lower_height"].values.std() < 0.5 * full.variables["lower_height"].values.std()
 
 
+@pytest.mark.internal
 def test_not_a_number_heights_are_filled_or_refused(tmp_path):
     heights = np.zeros((20, 20))
     heights[3, 4] = np.nan

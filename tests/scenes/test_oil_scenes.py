@@ -82,6 +82,7 @@ def test_a_table_over_temperature_is_as_many_single_runs(tmp_path):
     assert alone.dataset["minimum_film"].values[-1] == films[1]
 
 
+@pytest.mark.internal
 def test_the_plan_shows_every_figure_with_its_source():
     rows = described(load_scene(FILM).oil.build())
     names = [row[0] for row in rows]

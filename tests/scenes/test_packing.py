@@ -12,6 +12,8 @@ from bem.lubrication.line_kernel import LineOperator
 from bem.results.checkpoint import load_checkpoint, save_checkpoint
 from bem.scenes.packing import packed, unpacked
 
+pytestmark = pytest.mark.internal
+
 
 @dataclass(frozen=True)
 class Stranger:

@@ -108,12 +108,14 @@ def test_mistakes_are_named(change, words):
         load_scene(scene(**change))
 
 
+@pytest.mark.internal
 def test_colours_are_dark_without_a_film_and_bright_where_beams_agree():
     assert colours_of(np.zeros((2, 2))).max() == 0
     # half a wavelength of green in oil there and back
     assert colours_of(np.array([532e-9 / 6]))[0, 1] > 0.95
 
 
+@pytest.mark.internal
 def test_colours_of_a_table_are_those_of_the_film_to_one_of_255():
     thickness = np.random.default_rng(1).random((40, 30)) * np.geomspace(1e-9, 1e-4, 30)
     found = finely_coloured(thickness, dots=10)  # more cells than dots: nothing in between

@@ -1,6 +1,7 @@
 """Random scenes of the kind `contact`, run to the end: an answer within its bounds, or one clear refusal."""
 
 import numpy as np
+import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
@@ -8,6 +9,8 @@ from bem.campaigns.collect import outcome_of
 from bem.errors import InputError, Status
 from bem.runs import plan_scene
 from bem.scenes import PlainContext, get_kind
+
+pytestmark = pytest.mark.internal
 
 KIND = get_kind("contact")
 

@@ -7,6 +7,8 @@ from hypothesis import strategies as st
 from bem.errors import InputError
 from bem.scenes.ranges import parse_axes, parse_axis
 
+pytestmark = pytest.mark.internal
+
 
 @pytest.mark.parametrize(
     ("text", "key", "values"),

@@ -24,6 +24,7 @@ def rubber(mean_pressure, *, periodic):
     }
 
 
+@pytest.mark.internal
 def test_a_ball_under_a_hundred_tons_is_refused_and_nothing_written(tmp_path):
     """It was `converged` at 84 TPa, with seven notes: 1 MN on (480 um)^2 are 4.34 TPa, E* of steel on steel 113.8 GPa
     at nu = 0.3."""
@@ -39,6 +40,7 @@ def test_a_ball_under_a_hundred_tons_is_refused_and_nothing_written(tmp_path):
         scene_warnings(examine(plan_scene("hertz-sphere", settings)[0]))
 
 
+@pytest.mark.internal
 def test_a_contact_larger_than_its_body_is_refused():
     """a = (3 P R / 4 E*)^(1/3) is the radius itself at P = 4 E* R^2 / 3, on any grid that holds it."""
     large = ('grid.lengths="60 mm"',)
@@ -47,6 +49,7 @@ def test_a_contact_larger_than_its_body_is_refused():
     assert refused("hertz-sphere", *large, 'contact.load="1e7 N"') == []
 
 
+@pytest.mark.internal
 def test_rubber_that_cannot_give_way_bears_more_than_its_contact_modulus():
     """E = 1 MPa, nu = 0.49: E* = 1.32 MPa, but what repeats has the uniaxial modulus of 17.1 MPa."""
     assert refused(rubber("5 MPa", periodic=True)) == []
@@ -77,6 +80,7 @@ def test_a_unit_is_suspected_before_the_grid(source, setting, words, tmp_path):
     assert not (tmp_path / "r").exists()
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("modulus", ["1 kPa", "1.2 TPa", "210 GPa"])
 def test_what_solids_have_is_not_suspected(modulus):
     """A gel under 10 N is refused for what it is, diamond not at all."""
@@ -85,6 +89,7 @@ def test_what_solids_have_is_not_suspected(modulus):
     assert all("check its unit:" not in told for told in refused("hertz-sphere", setting))
 
 
+@pytest.mark.internal
 def test_a_ball_of_three_pascal_is_refused_for_its_unit_and_a_rigid_one_is_meant():
     (told,) = refused("hertz-sphere", 'lower.material={youngs_modulus="3 Pa",poissons_ratio=0.3}')
     assert told.startswith("lower.material.youngs_modulus: was read as 3 Pa")

@@ -63,6 +63,7 @@ def test_figures_have_error_bars_of_first_order():
     assert record.errors["creepage"] < 1e-5 * record.creepage  # given
 
 
+@pytest.mark.internal
 def test_an_accuracy_can_be_asked_for():
     """Of the force alone: cells are chosen and refined until its bar is within it."""
     asked = scene({"creepage": 5e-4}, grid={"lengths": "300 um"}, accuracy={"force": "1.5 %"})

@@ -85,6 +85,7 @@ def test_the_lower_body_may_be_the_rough_one(tmp_path):
     assert shares[0] == pytest.approx(shares[1], rel=1e-6)
 
 
+@pytest.mark.internal
 def test_what_bounds_the_figures_is_said(tmp_path):
     thin = scene(contact={"boundary_friction": 0.1, "least_film": "50 nm"})
     notes = run_scene(thin, tmp_path / "thin", figures=False).summary["notes"]
@@ -100,6 +101,7 @@ def test_what_bounds_the_figures_is_said(tmp_path):
     assert any("bound from above" in note for note in notes)
 
 
+@pytest.mark.internal
 def test_a_film_that_is_not_found_is_not_converged_and_says_what_to_do(tmp_path, monkeypatch):
     from bem.lubrication.point import newton, touching_start
 
@@ -155,5 +157,6 @@ def test_a_patch_without_a_size_is_refused_before_any_work():
         plan_scene(scene(patch={"shape": 64}))
 
 
+@pytest.mark.internal
 def test_the_least_film_is_the_solvers():
     assert TouchingScene(boundary_friction=0.1).least_film == LEAST_FILM

@@ -95,6 +95,7 @@ HOT = LIFE | {
 }
 
 
+@pytest.mark.internal
 def test_a_life_with_heat_begins_as_load_sharing_with_heat_and_goes_on_to_the_same_bits():
     scene = HOT | {"thermal": "lumped"}
     record, context = run(scene)

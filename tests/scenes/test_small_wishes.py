@@ -39,6 +39,7 @@ def test_what_is_not_there_cannot_be_taken_out(setting, words):
         load_scene("hertz-sphere", (setting,))
 
 
+@pytest.mark.internal
 def test_entries_of_lists_are_taken_out_and_the_source_stays():
     table = {"kind": "film", "name": "x", "list": [1, 2, 3]}
     from bem.scenes.load import read_table
@@ -87,6 +88,7 @@ def test_a_changed_scene_says_what_it_is_based_on(tmp_path):
     assert again == changed.description.replace("=300", "=400")
 
 
+@pytest.mark.internal
 def test_an_own_description_is_kept_with_the_changes_behind_it():
     table = {key: item for key, item in library()["hertz-sphere"].items() if key != "description"}
     assert load_scene(table, ("contact.load=7 N",)).description == ""
@@ -95,12 +97,14 @@ def test_an_own_description_is_kept_with_the_changes_behind_it():
     assert changed_description(own, ["contact.load=8 N"]) == "my ball (changed: contact.load=8 N)"
 
 
+@pytest.mark.internal
 def test_the_form_of_the_page_marks_a_changed_built_in_scene():
     table = with_value(library_scene("traction-curve"), "oil.grade", "ISO VG 220")
     assert "VG 68" not in table["description"]
     assert "traction-curve" in table["description"]
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(("name", "told"), [("wear-steel-steel", True), ("rough-contact", False)])
 def test_a_plan_says_of_which_region_its_roughness_is(name, told):
     """A plan said Sq 226 nm of a surface whose results began with Sq 154.7 nm, that of the contact region."""
@@ -122,6 +126,7 @@ def test_the_catalogue_knows_near_spellings_and_is_a_body():
     assert all(isinstance(entry.material, Material) for entry in CATALOGUE.values())
 
 
+@pytest.mark.internal
 def test_a_run_keeps_the_checksum_and_a_changed_file_is_refused(tmp_path):
     own = tmp_path / "disk.al3d"
     shutil.copy(FOLDER / "ground-disk.al3d", own)
@@ -136,6 +141,7 @@ def test_a_run_keeps_the_checksum_and_a_changed_file_is_refused(tmp_path):
     assert load_scene(again, ("lower.surface.sha256=",)).lower.surface.sha256 is None
 
 
+@pytest.mark.internal
 def test_periodic_measured_maps_have_no_step():
     scene, _ = plan_scene("measured-surfaces", (*PAIR, "lower.surface.despike=6"))
     notes = []

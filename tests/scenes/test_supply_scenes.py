@@ -83,6 +83,7 @@ def test_a_distance_is_the_meniscus(tmp_path):
     assert 0 < done["film_reduction"] < 1
 
 
+@pytest.mark.internal
 def test_friction_of_a_starved_contact(tmp_path):
     """Half the oil that a flooded film takes: more contact, more friction, and what `solve_mixed` says of it."""
     flooded = run_scene(FRICTION, tmp_path / "flooded", figures=False).summary
@@ -134,6 +135,7 @@ def run_grid(loaded):
     return build.grid_of(loaded.grid)
 
 
+@pytest.mark.internal
 def test_a_film_in_time_has_less_oil_after_it_turned():
     def outcome(**changes):
         scene = load_scene(IN_TIME | changes)

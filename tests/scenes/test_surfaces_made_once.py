@@ -16,6 +16,8 @@ from bem.scenes.checks import surfaces_of
 from bem.scenes.common import GeneratedSurface, GridScene, MeasuredSurface
 from bem.surfaces import Surface, write_surface
 
+pytestmark = pytest.mark.internal
+
 GRID = Grid((24, 16), (1e-6, 1e-6), periodic=(True, True))
 PLAIN = {"rms_height": 1e-7, "correlation_length": 3e-6}
 OTHERS = {

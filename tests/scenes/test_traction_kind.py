@@ -114,6 +114,7 @@ def test_full_heat_has_its_field(tmp_path):
     assert (run.path / "figures" / "temperature-field.png").exists()
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(
     ("solver", "tolerance", "ratios"),
     [

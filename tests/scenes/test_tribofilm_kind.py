@@ -82,6 +82,7 @@ def test_loads_and_variants_come_in_the_order_of_the_scene(tmp_path):
     assert thickness[0] > thickness[2]
 
 
+@pytest.mark.internal
 def test_a_finished_film_is_not_grown_again(tmp_path, monkeypatch):
     campaign = prepared(tmp_path, SMALL)
     whole = compute(campaign, tmp_path)

@@ -9,6 +9,8 @@ from pydantic import BaseModel, ValidationError
 
 from bem.scenes import units
 
+pytestmark = pytest.mark.internal
+
 
 class Everything(BaseModel):
     length: units.Length = 0.0

@@ -69,6 +69,7 @@ def test_partial_slip_without_friction_is_refused_by_the_plan():
         plan_scene("fretting-wear", ["cylinder.friction=0"])
 
 
+@pytest.mark.internal
 def test_running_in_takes_its_stresses_from_partial_slip_and_goes_on_to_the_same_bits(tmp_path):
     data = copy.deepcopy(RUNNING_IN) | {"speeds": ["0.003 m/s"], "wear": {"traction": FORCE}}
     scene, outcome, whole = run(data)

@@ -18,6 +18,7 @@ def body(nu=0.3, modulus=1.0, layer=None):
     return Body(Material("body", youngs_modulus=modulus, poissons_ratio=nu), layer=layer)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("distance", [10, 100, 1000, 8000])
 @pytest.mark.parametrize("nu", [0.0, 0.3, 0.4999, 0.5 - 1e-15])
 def test_far_cells_are_point_forces(distance, nu):
@@ -28,6 +29,7 @@ def test_far_cells_are_point_forces(distance, nu):
     assert normal * math.pi * distance / (1 - nu**2) == pytest.approx(1, rel=allowed)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("aspect", [1e-6, 1e-3, 1e3, 1e6])
 @pytest.mark.parametrize("load", list(Load))
 def test_thin_cells_are_finite_and_turn_with_the_axes(aspect, load):
@@ -39,6 +41,7 @@ def test_thin_cells_are_finite_and_turn_with_the_axes(aspect, load):
         assert (here > 0).all()
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("depth", [0.0, 1e-300, 1e-12, 1e-6, 1e-3, 1.0, 1e3, 1e6])
 @pytest.mark.parametrize("nu", [0.0, 0.3, 0.5 - 1e-15])
 def test_stress_at_any_depth_balances_and_stays_below_the_load(depth, nu):
@@ -52,6 +55,7 @@ def test_stress_at_any_depth_balances_and_stays_below_the_load(depth, nu):
         assert normal[2, 0, 0] * 2 * math.pi * depth**2 / 3 == pytest.approx(-1, rel=1e-5)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("nu", [0.5 - 1e-3, 0.5 - 1e-9, 0.5 - 1e-15])
 def test_incompressible_limit_is_smooth_and_uncoupled(nu):
     grid = Grid((16, 16), (1.0, 1.0))
@@ -62,6 +66,7 @@ def test_incompressible_limit_is_smooth_and_uncoupled(nu):
     assert np.abs(tangential).max() <= 2 * (0.5 - nu) * limit.max() + 1e-16
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("ratio", [1e-6, 1e-4, 1e-2, 1e2, 1e4, 1e6])
 @pytest.mark.parametrize("thickness", [1e-6, 1e-3, 1.0, 1e3, 1e6])
 def test_layers_of_any_stiffness_and_thickness_lie_between_base_and_layer(ratio, thickness):
@@ -78,6 +83,7 @@ def test_layers_of_any_stiffness_and_thickness_lie_between_base_and_layer(ratio,
         assert np.isfinite(stress_response(kx, ky, body(layer=film), 0.5 * thickness, tangential=tangential)).all()
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("periodic", [FREE, SEMI])
 @pytest.mark.parametrize("ratio", [1e-6, 1e-2, 1e2, 1e6])
 @pytest.mark.parametrize("thickness", [1e-6, 1.0, 1e4])

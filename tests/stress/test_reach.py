@@ -62,6 +62,7 @@ def test_rows_that_are_computed_are_those_of_whole_planes_and_what_exceeds_the_l
                 assert found.computed[other, beside % shape[0]]
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("seed", range(6))
 @pytest.mark.parametrize("choice", [{}, {"refinement": "linear"}, {"connectivity": 26, "removal": "top_run"}])
 def test_pieces_are_those_of_whole_planes(seed, choice):
@@ -95,6 +96,7 @@ def test_what_lies_deeper_and_wider_than_the_surface_shows_is_found_by_a_second_
     assert connected.sum() == rows.sum()  # one region, all of it joined to the surface
 
 
+@pytest.mark.internal
 def test_half_of_the_rows_are_left_out_and_each_depth_takes_five_transforms_along_x():
     fixed = setup((96, 48), (False, True))
     pressure = np.zeros(fixed.grid.shape)
@@ -110,6 +112,7 @@ def test_half_of_the_rows_are_left_out_and_each_depth_takes_five_transforms_alon
     assert np.count_nonzero(first[1].any(axis=1)) <= 32  # eight rows loaded, groups of eight on either side
 
 
+@pytest.mark.internal
 def test_a_pressure_that_is_no_number_is_refused_as_whole_planes_of_it_are():
     """What is noted to yield is not searched again: it must have what compares with nothing among it."""
     fixed = setup((96, 48), (False, True))
@@ -126,6 +129,7 @@ def test_a_pressure_that_is_no_number_is_refused_as_whole_planes_of_it_are():
         pieces_above(stack, np.arange(3) * 1e-7, strength, fixed, WearModel(), columns)
 
 
+@pytest.mark.internal
 def test_packed_spectra_and_several_threads_give_the_same():
     grid = Grid((256, 256), (CELL, CELL))
     pressure = np.zeros(grid.shape)
@@ -144,6 +148,7 @@ def test_packed_spectra_and_several_threads_give_the_same():
     assert np.abs(zeroed(one) - whole[: len(one.planes)])[one.computed].max() <= 1e-13 * whole.max()
 
 
+@pytest.mark.internal
 def test_a_law_that_looks_at_all_runs_gets_all_of_them():
     class Everything(Cap):  # does not say that it follows pieces, though Cap does
         def remove(self, *given):
@@ -157,6 +162,7 @@ def test_a_law_that_looks_at_all_runs_gets_all_of_them():
     assert np.array_equal(whole.stress, asked.stress)
 
 
+@pytest.mark.internal
 def test_a_criterion_derived_from_von_mises_with_a_stress_of_its_own_is_asked_for_it():
     class Twice(VonMises):
         def equivalent_stress(self, stress):
@@ -170,6 +176,7 @@ def test_a_criterion_derived_from_von_mises_with_a_stress_of_its_own_is_asked_fo
     assert twice[: len(once)] == pytest.approx(2 * once, rel=1e-10, abs=1e-10 * once.max())
 
 
+@pytest.mark.internal
 def test_rows_that_were_left_out_are_never_looked_at():
     """They are not even written: pieces are found from the others."""
     fixed, model = setup((96, 48), (False, True)), WearModel()

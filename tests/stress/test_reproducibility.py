@@ -51,6 +51,7 @@ def test_the_same_bits_in_every_process_and_for_every_number_of_threads():
     assert bits(3) == first
 
 
+@pytest.mark.internal
 def test_the_same_bits_within_a_process_over_threads_and_repeats():
     body = Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3))
     grid = Grid((160, 150), (1e-7, 1e-7), periodic=(False, True))
@@ -93,6 +94,7 @@ def test_bits_do_not_depend_on_the_threads_of_linear_algebra():
     assert len(found) == 1
 
 
+@pytest.mark.internal
 def test_linear_algebra_has_its_threads_back_afterwards():
     from threadpoolctl import threadpool_info, threadpool_limits
 

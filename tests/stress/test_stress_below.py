@@ -49,6 +49,7 @@ def test_figures_are_those_of_the_fields(components):
         assert found.stress is None
 
 
+@pytest.mark.internal
 def test_each_depth_yields_as_the_material_there():
     body = Body(STEEL, layers=[Layer(FILM, 1e-6)])
     assert yield_stresses(body, np.array([0.5e-6, 2e-6])).tolist() == [np.inf, 1e9]

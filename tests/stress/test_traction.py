@@ -39,6 +39,7 @@ def test_along_x_it_is_friction_and_along_y_the_same_with_axes_exchanged(periodi
     close(von_mises_field(pressure, grid, body, DEPTHS, traction=[0.3 * other, -0.2 * pressure]), von_mises(both))
 
 
+@pytest.mark.internal
 def test_large_grids_whose_spectra_are_packed():
     grid = Grid((300, 260), (1e-6, 1e-6))
     assert packs(grid)

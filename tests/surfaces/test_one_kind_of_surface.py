@@ -80,6 +80,7 @@ def test_a_threshold_that_takes_the_surface_is_refused(threshold):
         read_surface("example/ground-disk.al3d", despike=threshold)
 
 
+@pytest.mark.internal
 def test_examples_are_what_their_script_makes(tmp_path):
     """And say themselves that nothing was measured."""
     sys.path.insert(0, str(Path(__file__).parent))
@@ -104,6 +105,7 @@ def test_examples_have_what_instruments_leave():
     assert describe_surface(raw).Sku > 10 > 4 > describe_surface(clean).Sku
 
 
+@pytest.mark.internal
 def test_a_file_of_ones_own_comes_first(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     assert example_path("example/ground-disk.al3d") == FOLDER / "ground-disk.al3d"

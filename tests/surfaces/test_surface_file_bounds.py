@@ -43,6 +43,7 @@ def test_a_text_of_one_line_takes_memory_of_its_numbers(one_line, suffix):
     assert peak < 15 * 4e6, "8 bytes a number of 2 characters, the line, and room to grow"
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("separator", [" ", ";", "\t", ",", "   "])
 def test_lines_longer_than_a_block_are_read_right(tmp_path, separator):
     heights = np.random.default_rng(5).normal(size=(3, 12_000))
@@ -53,6 +54,7 @@ def test_lines_longer_than_a_block_are_read_right(tmp_path, separator):
     np.testing.assert_array_equal(got.heights, 1e-6 * heights)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("end", ["", "\n", "\r\n"])
 def test_empty_fields_are_missing_points(tmp_path, end):
     path = tmp_path / "holes.csv"
@@ -61,6 +63,7 @@ def test_empty_fields_are_missing_points(tmp_path, end):
     np.testing.assert_array_equal(table, [[1, np.nan, 3, 4], [5, 6, 7, np.nan]])
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("cell", ["1;", ";", "12345;"])
 def test_a_block_that_ends_at_a_separator_loses_no_field(tmp_path, cell):
     count = 3 * read._HEAD // len(cell)
@@ -114,6 +117,7 @@ def test_a_sparse_file_is_refused_by_its_beginning(tmp_path):
         assert peak < 2e6
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("name", ["map.txt", "map.npy", "map.asc"])
 def test_a_file_larger_than_the_memory_says_how_much_and_what_to_do(tmp_path, name, monkeypatch):
     heights = np.random.default_rng(0).normal(size=(60, 60))
@@ -125,6 +129,7 @@ def test_a_file_larger_than_the_memory_says_how_much_and_what_to_do(tmp_path, na
         read_surface(path, **GIVEN)
 
 
+@pytest.mark.internal
 def test_an_instruments_text_is_bounded_by_what_its_reader_takes(tmp_path, monkeypatch):
     path = tmp_path / "map.asc"
     np.savetxt(path, np.eye(60))

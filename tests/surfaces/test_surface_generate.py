@@ -29,6 +29,7 @@ def describe(heights, grid):
     return describe_surface(heights, grid.spacing, periodic=PERIODIC)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("model", ["gaussian", "exponential"])
 @pytest.mark.parametrize(
     ("skewness", "kurtosis"),
@@ -64,6 +65,7 @@ def test_unequal_correlation_lengths_on_unequal_cells():
     assert got.autocorrelation_length_y == pytest.approx(4e-6, rel=0.05)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(("skewness", "kurtosis"), [(-0.84, 4.46), (-1.0, 4.94)])
 def test_few_waves_still_have_the_thesis_statistics(skewness, kurtosis):
     """Paper C's patch at 2.5 N is four correlation lengths of its disk wide."""
@@ -143,6 +145,7 @@ def test_seeds_differ_and_are_uncorrelated():
             assert abs(np.mean(surfaces[i] * surfaces[j])) < 0.15
 
 
+@pytest.mark.internal
 def test_phases_are_uniform():
     from bem.surfaces.spectrum import phases
 
@@ -271,6 +274,7 @@ def test_grid_is_checked():
         generate_surface(Grid((1, 3), (CELL, CELL)), **GOOD)
 
 
+@pytest.mark.internal
 @settings(max_examples=25, deadline=None)
 @given(
     st.floats(-2.5, 2.5),
@@ -287,6 +291,7 @@ def test_distribution_has_the_moments(skewness, excess_over_bound):
     assert np.mean(values**4) == pytest.approx(kurtosis, rel=0.1)
 
 
+@pytest.mark.internal
 @settings(max_examples=30, deadline=None)
 @given(
     st.integers(4, 40),
@@ -309,6 +314,7 @@ def test_any_request_is_met_or_refused(nx, ny, rms, seed, hurst, skewness, kurto
     assert np.mean(z**4) == pytest.approx(kurtosis, abs=2 * STATISTICS_TOLERANCE)
 
 
+@pytest.mark.internal
 @settings(max_examples=40, deadline=None)
 @given(
     st.integers(1, 40),
@@ -347,6 +353,7 @@ def test_any_correlation_is_met_or_refused(nx, ny, length_x, length_y, model, cu
                 assert given_ == pytest.approx(wanted, rel=SAMPLE_LENGTH_TOLERANCE + 1e-9)
 
 
+@pytest.mark.internal
 @given(arrays(np.float64, st.tuples(st.integers(1, 9), st.integers(1, 300)), elements=st.floats(-2, 2, width=16)))
 def test_values_are_put_in_the_order_of_a_stable_sort(heights):
     """Few different heights, so that many are equal; zeros of both signs are one height."""

@@ -160,6 +160,7 @@ def scene_of(**surface):
     return load_scene({**SCENE, "lower": {"material": "steel-52100", "surface": surface}})
 
 
+@pytest.mark.internal
 def test_a_turned_surface_is_its_cusps_and_what_lies_between():
     turned = PROCESSES["turned"]
     surface = scene_of(process="turned", feed_marks={}).lower.surface
@@ -175,6 +176,7 @@ def test_a_turned_surface_is_its_cusps_and_what_lies_between():
     assert found.Sq == pytest.approx(turned.rms_height, rel=0.06)  # that of the cusps themselves
 
 
+@pytest.mark.internal
 def test_a_honed_surface_is_near_its_catalogue():
     surface = scene_of(process="honed", cross_hatch={"angle": "90 deg"}).lower.surface
     grid = Grid((512, 512), (2e-6, 2e-6), periodic=PERIODIC)
@@ -185,6 +187,7 @@ def test_a_honed_surface_is_near_its_catalogue():
     assert "changed in the scene: cross_hatch.angle" in surface.source
 
 
+@pytest.mark.internal
 def test_a_resolved_scene_says_its_marks():
     surface = scene_of(process="turned", feed_marks={"feed": "125 um"}, lay="x").lower.surface
     assert (surface.feed_marks.feed, surface.feed_marks.nose_radius) == (125e-6, 8e-4)
@@ -222,6 +225,7 @@ def test_both_marks_are_one_too_many():
         scene_of(kind="generated", rms_height="9 nm", correlation_length="9 um", **marks)
 
 
+@pytest.mark.internal
 def test_a_large_grid_is_described_by_a_part_of_it_that_holds_no_whole_feeds():
     """Twenty-five feeds on the grid, twelve and a half on the quarter that a plan looks at."""
     surface = {"kind": "generated", "rms_height": "100 nm", "hurst": 0.8, "rolloff_wavelength": "20 um"}

@@ -61,6 +61,7 @@ def test_the_figures_of_ideal_cusps():
     assert PROCESSES["turned"].across == pytest.approx(lag, rel=0.01)  # given to three digits
 
 
+@pytest.mark.internal
 def test_names_and_places():
     assert set(typing.get_args(ProcessName)) == set(PROCESSES)
     with pytest.raises(InputError, match="lay 'z'"):
@@ -79,6 +80,7 @@ def scene_of(**surface):
     return load_scene({**SCENE, "lower": {"material": "steel-52100", "surface": surface}})
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("lay", ["x", "y"])
 def test_a_scene_of_a_process_is_that_surface(lay):
     ground = PROCESSES["ground"]
@@ -122,6 +124,7 @@ def test_mistakes_are_said(surface, message):
         scene_of(**surface)
 
 
+@pytest.mark.internal
 def test_a_grid_too_small_for_a_process_is_said_before_any_work():
     surface = scene_of(process="ground").lower.surface
     with pytest.raises(InputError, match=r"correlation_length .*\(process ground sets"):

@@ -9,6 +9,8 @@ from bem.scenes.common import GeneratedSurface
 from bem.surfaces import generate_surface
 from bem.surfaces.waves import on_cells
 
+pytestmark = pytest.mark.internal
+
 
 def height(x, y):
     return np.cos(2 * np.pi * (3 * x + y) + 0.3) + 0.4 * np.sin(2 * np.pi * (2 * y - x)) + 0.1 * np.cos(8 * np.pi * y)

@@ -281,6 +281,7 @@ def test_a_history_keeps_what_sticks(pressed):
     assert back.shift[0] > fresh.shift[0]
 
 
+@pytest.mark.internal
 def test_kernels_are_evaluated_once_for_a_history():
     """Every call makes an operator of its own; the spectra are shared, on the grid and on the coarser ones."""
     grid = Grid((40, 40), (1e-5, 1e-5))
@@ -415,6 +416,7 @@ def test_one_cell_that_is_periodic_both_ways_is_refused():
         solve_partial_slip(np.full((1, 1), 1e6), grid, BODIES, friction=0.1, force=(0.0, 0.0))
 
 
+@pytest.mark.internal
 def test_nearest_tractions_have_their_force_however_far_the_slip():
     """Wanted tractions of 1e-6 to 1e7 bounds, forces from none to sliding: steps of the offset were too short."""
     rng = np.random.default_rng(5)

@@ -8,6 +8,8 @@ import pytest
 from bem import InputError
 from bem.tribofilm.calibrate import FITTED, Measurement, ReducedModel, calibrate, read_measurements
 
+pytestmark = pytest.mark.internal
+
 TRUTH = ReducedModel()
 
 

@@ -36,6 +36,7 @@ def rubbed(speeds):
     )
 
 
+@pytest.mark.internal
 def test_surfaces_carry_what_load_sharing_leaves_them():
     speeds, oil = (0.2, 0.1), Lubricant(0.03, pressure_viscosity=18e-9)
     given = rubbed(speeds)
@@ -52,6 +53,7 @@ def test_surfaces_carry_what_load_sharing_leaves_them():
     assert np.abs(found.pressure - same.contact_pressure).max() < 1e-3 * same.contact_pressure.max()
 
 
+@pytest.mark.internal
 def test_an_oil_next_to_none_leaves_the_dry_contact():
     given = rubbed((1e-5, 0.0))
     contact, _ = under_oil(given, HEIGHT, RADII, Lubricant(1e-3, pressure_viscosity=18e-9), 48)
@@ -61,6 +63,7 @@ def test_an_oil_next_to_none_leaves_the_dry_contact():
     assert one.growth == pytest.approx(dry.growth, rel=2e-3)
 
 
+@pytest.mark.internal
 def test_a_film_that_carries_everything_grows_nothing():
     with pytest.raises(InfeasibleError, match="carries all of the load"):
         under_oil(rubbed((3.0, 3.0)), HEIGHT * 0.02, RADII, Lubricant(0.03, pressure_viscosity=18e-9), 48)

@@ -148,6 +148,7 @@ def test_a_strip_on_a_thin_soft_layer_has_cells_to_match(tmp_path):
     assert [row for row in found if not row.passed] == []
 
 
+@pytest.mark.internal
 def test_points_of_a_drawn_rectangle_are_middles_of_the_cells_of_its_gate():
     """A width that was none ended the draw in a ValueError: no point was left below (1.4, 0.5 width)."""
     from bem.verification.fresh import _rectangle

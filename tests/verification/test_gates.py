@@ -187,6 +187,7 @@ def test_cells_of_a_disc_have_an_error_of_the_second_order_beside_its_edge():
     assert abs(found[1]) < 1e-3 * 0.1145  # 5.8e-4 measured, 1.4e-4 with cells half as wide
 
 
+@pytest.mark.internal
 def test_von_mises_moves_by_no_more_than_the_bars_of_its_stresses_allow():
     rng = np.random.default_rng(4)
     stress, errors = rng.normal(size=(6, 200)), 1e-3 * rng.normal(size=(6, 200))

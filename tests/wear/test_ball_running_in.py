@@ -10,6 +10,8 @@ from bem.runs import run_scene
 from bem.scenes import library
 from bem.wear.outcome import hertz_area
 
+pytestmark = pytest.mark.internal
+
 
 @pytest.mark.parametrize("half_axes", [(8.3e-6, 19.6e-6), (2.1e-6, 2.1e-6), (1e-9, 1e-9)])
 def test_hertz_area_is_an_ellipse(half_axes):

@@ -119,6 +119,7 @@ def test_bad_parameters_are_named(chosen, words):
         run_in(lower, upper, cycles=1, criterion=chosen, **ARGUMENTS)
 
 
+@pytest.mark.internal
 def test_a_length_larger_than_the_grid_is_refused():
     lower, upper = surfaces()
     for law in (AveragedVonMises(averaging_length=1e-3), Sphere(diameter=1e-3)):
@@ -129,6 +130,7 @@ def test_a_length_larger_than_the_grid_is_refused():
 # averaged over a disc
 
 
+@pytest.mark.internal
 def test_stress_of_the_averaged_pressure_is_the_average_of_the_stress():
     """On a grid with room about the contact, so that no stress is cut off at a free edge."""
     grid = Grid((40, 40), (100e-9, 80e-9), periodic=(False, True))
@@ -148,6 +150,7 @@ def test_stress_of_the_averaged_pressure_is_the_average_of_the_stress():
     assert smooth.sum() == pytest.approx(pressure.sum(), rel=1e-12)
 
 
+@pytest.mark.internal
 @settings(deadline=None, max_examples=25)
 @given(diameter=st.floats(1.0, 7.0), dy=st.floats(0.4, 2.0))
 def test_a_disc_s_cells_share_its_area(diameter, dy):
@@ -162,6 +165,7 @@ def test_a_disc_s_cells_share_its_area(diameter, dy):
     assert strips == pytest.approx((below[:, 1] - below[:, 0]) / (np.pi * radius**2), abs=0.02)
 
 
+@pytest.mark.internal
 def test_an_average_over_less_than_a_cell_changes_nothing():
     lower, upper = surfaces()
     plain = run_in(lower, upper, cycles=3, **ARGUMENTS)
@@ -172,6 +176,7 @@ def test_an_average_over_less_than_a_cell_changes_nothing():
 # a sphere has room
 
 
+@pytest.mark.internal
 @settings(deadline=None, max_examples=25)
 @given(seed=st.integers(0, 10**6), diameter=st.floats(0.6, 4.5))
 def test_pieces_that_hold_a_sphere_are_those_of_a_search_over_every_place(seed, diameter):
@@ -202,6 +207,7 @@ def test_pieces_that_hold_a_sphere_are_those_of_a_search_over_every_place(seed, 
     ]
 
 
+@pytest.mark.internal
 def test_small_pieces_stay_and_large_ones_leave_as_they_are():
     lower, upper = surfaces()
     every = run_in(lower, upper, cycles=1, **ARGUMENTS).particles
@@ -214,6 +220,7 @@ def test_small_pieces_stay_and_large_ones_leave_as_they_are():
 # junctions
 
 
+@pytest.mark.internal
 def test_critical_size_is_the_energy_balance_s_and_near_that_of_a_half_space():
     law = Junction(surface_energy=0.1)
     size = law.critical_size(STEEL)
@@ -232,6 +239,7 @@ def test_critical_size_is_the_energy_balance_s_and_near_that_of_a_half_space():
     assert energy == pytest.approx((1 - 0.3 / 2) * diameter**3 / (6 * STEEL.shear_modulus), rel=2e-3)
 
 
+@pytest.mark.internal
 @settings(deadline=None, max_examples=25)
 @given(seed=st.integers(0, 10**6), x_periodic=st.booleans(), y_periodic=st.booleans())
 def test_junctions_are_the_merged_spots(seed, x_periodic, y_periodic):
@@ -273,6 +281,7 @@ def test_junctions_are_the_merged_spots(seed, x_periodic, y_periodic):
                 assert group == beside
 
 
+@pytest.mark.internal
 def test_spots_farther_apart_than_they_are_wide_do_not_merge():
     wide = round_spot(3, (10, 20)) + round_spot(3, (24, 20))  # 14 apart, six wide: eight between
     near = round_spot(3, (10, 20)) + round_spot(3, (20, 20))
@@ -280,6 +289,7 @@ def test_spots_farther_apart_than_they_are_wide_do_not_merge():
     assert junctions(near, near, GRID).diameter.size == 1
 
 
+@pytest.mark.internal
 @settings(deadline=None, max_examples=30)
 @given(
     diameter=st.floats(0.1, 9.0), i=st.floats(-0.5, 19.5), j=st.floats(-0.5, 14.5), dy=st.sampled_from([0.7, 1.0, 1.6])
@@ -294,6 +304,7 @@ def test_a_half_sphere_has_its_volume_on_any_grid(diameter, i, j, dy):
         assert pieces.thickness.max() == pytest.approx(diameter / 2, rel=0.06)
 
 
+@pytest.mark.internal
 def test_half_spheres_that_overlap_share_columns_and_one_inside_another_is_none():
     middle, diameter = np.array([[8.0, 8.0], [12.0, 8.0], [8.2, 8.0]]), np.array([6.0, 6.0, 1.5])
     pieces = half_spheres(middle, diameter, Grid((20, 20), (1.0, 1.0)), 2.5)
@@ -302,6 +313,7 @@ def test_half_spheres_that_overlap_share_columns_and_one_inside_another_is_none(
     assert pieces.thickness.max() == 2.5
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("shift", [1, 2])
 def test_a_junction_comes_off_when_it_was_dragged_over_its_size(shift):
     """The same spot in every cycle: what comes off by distance slid does not depend on the slide of a cycle."""
@@ -321,6 +333,7 @@ def test_a_junction_comes_off_when_it_was_dragged_over_its_size(shift):
 # low-cycle fatigue
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("passes", [100.0, 1000.0])
 def test_a_voxel_bears_as_many_passes_as_coffin_and_manson_say(passes):
     flat, spot = np.zeros(GRID.shape), round_spot(6)
@@ -338,6 +351,7 @@ def test_a_voxel_bears_as_many_passes_as_coffin_and_manson_say(passes):
     assert (result.cycles["volume"][:-1] == 0).all()
 
 
+@pytest.mark.internal
 def test_damage_moves_up_with_its_material():
     depths = np.array([0.0, 1.0, 2.0, 4.0])
     stack = np.repeat(np.array([4.0, 3.0, 1.0, 0.5])[:, None, None], 3, axis=1)
@@ -358,6 +372,7 @@ def test_what_stays_has_life_left_and_nothing_is_damaged_twice():
     assert damage.min() >= 0
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("stress", [0.3e9, 0.64e9])
 def test_nothing_breaks_that_does_not_yield(stress):
     assert (LowCycleFatigue().damage(np.full((2, 3), stress), STEEL) == 0).all()

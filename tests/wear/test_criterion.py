@@ -7,6 +7,8 @@ from hypothesis import strategies as st
 
 from bem.wear.criterion import MaximumTension, Tresca, VonMises, principal_stresses
 
+pytestmark = pytest.mark.internal
+
 
 def matrices(stress):
     xx, yy, zz, yz, xz, xy = stress

@@ -19,6 +19,7 @@ GRID = Grid((16, 16), (1e-6, 1e-6), periodic=(True, True))
 PRESSURE, RATE, DISTANCE = 2e8, 1e-15, 1e-3
 
 
+@pytest.mark.internal
 def test_it_is_kingsbury_s_and_rises_from_nothing_to_all():
     # x / U over t0 exp(E / kT), where that is small: 5e-10 / 0.5 / (3e-12 exp(22.369)) by hand
     assert float(FILM.share()) == pytest.approx(1e-9 / (3e-12 * np.exp(0.7 / (8.617333262e-5 * 363.15))), rel=1e-6)
@@ -32,6 +33,7 @@ def test_it_is_kingsbury_s_and_rises_from_nothing_to_all():
     assert float(replace(FILM, sliding_speed=0.0).share()) == 0
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("name", ["adsorption_energy", "temperature", "molecule_length", "vibration_time"])
 def test_what_is_no_film_is_refused(name):
     with pytest.raises(InputError, match=f"{name} 0.0 must be positive"):
@@ -52,11 +54,13 @@ def loop(**model):
     )
 
 
+@pytest.mark.internal
 def test_a_loop_wears_that_share_of_its_volume():
     volume = loop(film_defect=FILM).cycles["volume"]
     assert volume == pytest.approx(float(FILM.share()) * loop().cycles["volume"], rel=1e-9)
 
 
+@pytest.mark.internal
 def test_only_wear_by_pressure_and_distance_is_protected():
     with pytest.raises(InputError, match="film_defect of criterion von_mises"):
         WearModel(film_defect=FILM)
@@ -76,6 +80,7 @@ def life(temperature, cycles):
     )
 
 
+@pytest.mark.internal
 def test_a_life_wears_each_place_by_its_own_temperature():
     flat, warm = np.zeros(GRID.shape), np.full(GRID.shape, 400.0)
     wavy = 1e-9 * np.cos(2 * np.pi * np.arange(16) / 16)[:, None] * np.ones(GRID.shape)

@@ -9,6 +9,8 @@ from bem.wear import WearModel, WearSetup
 from bem.wear.loads import LOWER, UPPER, SurfaceLoad
 from bem.wear.yielding import largest_stress
 
+pytestmark = pytest.mark.internal
+
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3, hardness=7e9)
 HALF, HIGHEST = 91e-6, 1.05e9
 MODEL = WearModel(criterion="maximum_tension", wears="lower")

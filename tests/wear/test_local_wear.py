@@ -11,6 +11,8 @@ from bem import Body, Grid, InputError, Material, contact_modulus, generate_surf
 from bem.wear import WearModel
 from bem.wear.criterion import Archard, ArchardOverHardness, EnergyWear
 
+pytestmark = pytest.mark.internal
+
 STEEL = Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3))
 HARDENED = Body(Material("hardened", youngs_modulus=210e9, poissons_ratio=0.3, hardness=7e9))
 RATE, RADIUS, LOAD = 1e-14, 5e-3, 5.0

@@ -14,6 +14,8 @@ from bem.scenes.load import load_scene
 from bem.wear.outcome import contact_strip, drift, hertz_area, rms_error, sizes_over_cycles, strip_wear
 from bem.wear.state import PARTICLE_FIELDS
 
+pytestmark = pytest.mark.internal
+
 
 @pytest.mark.parametrize("half_width", [0.1, 1.0, 1.7, 3.0])
 def test_hertz_strip_is_as_wide_as_the_contact(half_width):

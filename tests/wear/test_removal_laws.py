@@ -16,6 +16,7 @@ DEPTHS = np.linspace(0, 9e-8, 10)
 STACK = np.abs(np.random.default_rng(4).normal(size=(10, 24, 20))).cumsum(axis=0)[::-1] / 4
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(("name", "law"), [("cap", Cap()), ("top_run", TopRun())])
 def test_a_name_a_table_and_a_law_are_the_same(name, law):
     named = segment(STACK, DEPTHS, yield_stress=1.5, removal=name)
@@ -27,6 +28,7 @@ def test_a_name_a_table_and_a_law_are_the_same(name, law):
     assert WearModel(removal=name).removal == law
 
 
+@pytest.mark.internal
 def test_a_law_of_your_own():
     """Pieces thinner than a least thickness stay: those of `cap` without them, counted anew."""
 

@@ -30,6 +30,7 @@ def rough(rms=60e-9):
     return generate_surface(GRID, rms_height=rms, seed=4, correlation_length=2e-6)
 
 
+@pytest.mark.internal
 def test_equal_hardnesses_share_the_depth_and_press_as_far_as_the_closed_form_says():
     z = 30e-9
     force, (lower, upper) = ThirdBodies(D, 1.0).indented(np.array([D - 2 * z]), (SOFT, SOFT))
@@ -38,6 +39,7 @@ def test_equal_hardnesses_share_the_depth_and_press_as_far_as_the_closed_form_sa
     assert force == pytest.approx(SOFT * np.pi * z * (D - z), rel=1e-12)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("hardnesses", [(SOFT, HARD), (HARD, SOFT), (SOFT, 1.001 * SOFT)])
 def test_forces_on_both_sides_are_equal_and_depths_add_up_to_what_is_too_large(hardnesses):
     gap = np.linspace(0.0, 1.1 * D, 45)
@@ -51,6 +53,7 @@ def test_forces_on_both_sides_are_equal_and_depths_add_up_to_what_is_too_large(h
     assert (force[gap >= D] == 0).all()
 
 
+@pytest.mark.internal
 def test_a_soft_particle_yields_itself_and_cuts_nothing():
     particle = ThirdBodies(D, 1.0, hardness=1e9, removed=1.0)
     force, depths = particle.indented(np.array([0.8 * D]), (SOFT, HARD))
@@ -59,6 +62,7 @@ def test_a_soft_particle_yields_itself_and_cuts_nothing():
     assert not particle.cut(depths[0], SOFT, 1e-6).any()
 
 
+@pytest.mark.internal
 def test_many_between_flats_hold_them_apart_as_far_as_one_would():
     particles = ThirdBodies(D, 3e12)
     outcome = third_body_contact(setup(upper=SOFT), particles, 0.0)(np.zeros(GRID.shape), None)
@@ -72,6 +76,7 @@ def test_many_between_flats_hold_them_apart_as_far_as_one_would():
     assert force * particles.number_per_area * GRID.area == pytest.approx(LOAD, rel=1e-9)
 
 
+@pytest.mark.internal
 def test_few_between_flats_carry_what_fills_the_area_below_them():
     # the flats touch, and every particle is pressed in whole: hardness times half a sphere's area
     particles = ThirdBodies(D, 2e10)
@@ -82,6 +87,7 @@ def test_few_between_flats_carry_what_fills_the_area_below_them():
     assert outcome.load + outcome.third_bodies.load == pytest.approx(LOAD, rel=1e-6)
 
 
+@pytest.mark.internal
 def test_rough_surfaces_share_the_load_with_them_and_none_is_as_it_was():
     heights, dry = rough(), dry_contact(setup())
     alone = dry(heights, None)
@@ -106,6 +112,7 @@ def test_rough_surfaces_share_the_load_with_them_and_none_is_as_it_was():
     assert third_body_contact(setup(), few, 0.0)(heights, None).third_bodies.load == pytest.approx(expected, rel=1e-3)
 
 
+@pytest.mark.internal
 def test_a_cell_that_sinks_at_the_hardness_does_not_keep_them_from_their_share():
     # it sinks under one load until the next one touches, and the gap jumps with the load
     heights = rough()
@@ -119,6 +126,7 @@ def test_a_cell_that_sinks_at_the_hardness_does_not_keep_them_from_their_share()
     assert found.convolutions > 20
 
 
+@pytest.mark.internal
 def test_a_groove_is_a_segment_of_the_sphere_along_half_the_slide():
     particles = ThirdBodies(D, 1e10, removed=0.25)
     whole = particles.cut(np.array([D / 2, 0.0]), SOFT, 2e-6)
@@ -166,11 +174,13 @@ def test_they_roll_as_far_as_a_cycle_stands_for_and_not_out_of_their_grooves():
         loop(6e-3, third_bodies=table)
 
 
+@pytest.mark.internal
 def test_partial_slip_has_none():
     with pytest.raises(InputError, match="third bodies roll where surfaces slide"):
         WearModel(third_bodies=ThirdBodies(D, 1e10), traction={"kind": "oscillating_force", "share": 0.5})
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
@@ -186,6 +196,7 @@ def test_what_are_no_particles_is_refused(changes, message):
         ThirdBodies(**{"diameter": D, "number_per_area": 1e10} | changes)
 
 
+@pytest.mark.internal
 def test_surfaces_without_hardness_and_films_are_refused():
     soft = (bodies()[0], Body(Material("upper", youngs_modulus=210e9, poissons_ratio=0.3)))
     plain = setup()

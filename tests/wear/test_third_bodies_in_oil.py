@@ -10,6 +10,8 @@ from bem.wear import WearModel
 from bem.wear.mixed import MixedContact
 from bem.wear.third_bodies import ThirdBodies
 
+pytestmark = pytest.mark.internal
+
 ELASTIC = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
 SOFT, HARD = (Body(Material(str(h), **ELASTIC, hardness=h)) for h in (2e9, 6e9))
 OIL = Lubricant(0.36, pressure_viscosity=25e-9)

@@ -17,6 +17,8 @@ from bem.wear.loads import LOWER, UPPER, SurfaceLoad
 from bem.wear.traction import OscillatingForce, OscillatingShift
 from bem.wear.traction.oscillating import ALL_SLIPS, AT_ONCE
 
+pytestmark = pytest.mark.internal
+
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
 RADIUS, LOAD, FRICTION, RATE = 5e-3, 5.0, 0.3, 1e-17
 HERTZ = (3 * LOAD * RADIUS / (4 * contact_modulus(STEEL, STEEL))) ** (1 / 3)

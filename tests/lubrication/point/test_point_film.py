@@ -153,6 +153,7 @@ def test_a_rigid_ball_carries_what_reynolds_equation_on_rays_does():
     assert film.minimum_thickness == pytest.approx(film.central_thickness, rel=1e-5)
 
 
+@pytest.mark.internal
 def test_far_pressure_of_a_sphere_ruptures_where_the_closed_form_does():
     from bem.lubrication.point.far import ANGLES, far_profile
 
@@ -303,6 +304,7 @@ def test_a_start_whose_errors_rest_while_steps_are_long_is_not_given_up(load):
     assert film.cycles < 60  # 25 to 32 over twelve loads within a hundredth; 188 by way of milder oils
 
 
+@pytest.mark.internal
 def test_a_start_that_creeps_is_gone_on_with_where_no_other_leads_to_a_film(monkeypatch):
     case = moes(30, 8) | {"shape": (48, 48)}
     plain = solve_point_film(**case)
@@ -321,6 +323,7 @@ def test_a_start_that_creeps_is_gone_on_with_where_no_other_leads_to_a_film(monk
     np.testing.assert_array_equal(found.thickness, plain.thickness)
 
 
+@pytest.mark.internal
 def test_the_oil_at_the_end_of_the_way_is_the_one_asked_for(monkeypatch):
     """Where nothing is found from the dry contact; the film is the one that is."""
     case = moes(30, 8) | {"shape": (48, 48)}
@@ -340,6 +343,7 @@ def test_the_oil_at_the_end_of_the_way_is_the_one_asked_for(monkeypatch):
     np.testing.assert_allclose(led.thickness, plain.thickness, rtol=1e-7)
 
 
+@pytest.mark.internal
 def test_what_is_not_met_is_not_called_converged():
     case = moes(150, 6)
     film = solve_point_film(**case, shape=(48, 48), max_iterations=2)
@@ -354,6 +358,7 @@ def test_what_is_not_met_is_not_called_converged():
     assert certificate(kept.level, kept.state.pressure * 1.001, kept.state.datum).residual > 1e-4
 
 
+@pytest.mark.internal
 def test_no_constriction_is_so_narrow_that_a_film_is_negative():
     """The paraboloid through its lowest cell went below zero, and that was shown."""
     x, y = np.arange(-5.0, 6.0)[:, None], np.arange(-5.0, 6.0)[None, :]
@@ -364,6 +369,7 @@ def test_no_constriction_is_so_narrow_that_a_film_is_negative():
     assert 0.8 < least_film(narrow) < 1.0
 
 
+@pytest.mark.internal
 def test_an_error_that_no_coarser_grid_gives_is_said_to_be_unknown(monkeypatch):
     """As where half as many cells have no film."""
     newton = cascade.newton
@@ -383,6 +389,7 @@ def test_an_error_that_no_coarser_grid_gives_is_said_to_be_unknown(monkeypatch):
     assert any("constriction is narrower than the cells" in note for note in film.notes)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(("shape", "wanted"), [((96, 64), (112, 112)), ((128, 64), (128, 112))])
 def test_cells_too_few_to_halve_are_said_with_those_that_tell_the_error(shape, wanted):
     """Along y the solver's axes are exchanged, not those of the note."""
@@ -406,6 +413,7 @@ def test_errors_cover_films_that_are_far_from_second_order():
     assert abs(film.minimum_thickness - 1.368e-9) < film.minimum_thickness_error
 
 
+@pytest.mark.internal
 def test_friction_of_a_light_contact_says_what_the_inlet_adds():
     """It goes with the logarithm of the grid's size; bars of 0.6 % were given where another 40 % came with it."""
     case = moes(1.0, 0.0, slide=0.1, density="incompressible") | {"contact_modulus": math.inf}

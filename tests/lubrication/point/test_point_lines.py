@@ -36,6 +36,7 @@ def balances(stencil, drag, dp, film, along_y=0):
     return out
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("drag", [(1.0, 0.0), (0.8, 0.6)])
 @pytest.mark.parametrize("downwards", [False, True])
 def test_a_line_alone_leaves_nothing_of_its_balances(drag, downwards):
@@ -64,6 +65,7 @@ def test_a_line_alone_leaves_nothing_of_its_balances(drag, downwards):
     np.testing.assert_allclose(balances(stencil, drag, dp, film)[1:4, j], residual[1:4, j], rtol=1e-11)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("drag", [(1.0, 0.0), (0.8, 0.6)])
 @pytest.mark.parametrize("along_y", [0, 1])
 def test_the_last_line_of_a_sweep_is_solved_with_what_those_before_it_have_changed(drag, along_y):
@@ -101,6 +103,7 @@ def rolling(drag, cells):
     )
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(("drag", "most", "cycles"), [((1.0, 0.0), 76, 28), ((0.8, 0.6), 108, 12)])
 def test_a_grid_keeps_76_bytes_a_cell_and_108_of_oil_at_an_angle(drag, most, cycles):
     """Derivatives and the factors of its lines; of oil that comes at an angle, lines along both axes. Where lines did
@@ -115,6 +118,7 @@ def test_a_grid_keeps_76_bytes_a_cell_and_108_of_oil_at_an_angle(drag, most, cyc
     assert film.cycles <= 1.1 * cycles  # the cascade and all
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize("drag", [(1.0, 0.0), (0.8, 0.6)])
 def test_lines_are_eliminated_once_for_all_sweeps(drag, monkeypatch):
     """A Newton step sweeps its grid three to seven times; it took as many eliminations. As good in half the digits: a
@@ -146,6 +150,7 @@ def test_lines_are_eliminated_once_for_all_sweeps(drag, monkeypatch):
     np.testing.assert_allclose(half, linear.relaxed(right, back=False), rtol=0, atol=1e-5 * np.abs(half).max())
 
 
+@pytest.mark.internal
 def test_derivatives_beyond_half_the_digits_are_the_most_these_hold():
     """Oil that hardly resists, in a trial: no infinity, which the next product would make not a number."""
     half = shortened(np.array([1.0, -2e38, 1e39, -1e300]))
@@ -163,6 +168,7 @@ def test_a_film_takes_950_bytes_a_cell_at_most():
     assert most < 950 * 128**2
 
 
+@pytest.mark.internal
 def test_equations_are_solved_as_well_as_their_step_is_good(monkeypatch):
     """Two thirds of the cycles of equations that are all solved to a thousandth, and the same film."""
     film = rolling((1.0, 0.0), 64)

@@ -193,6 +193,7 @@ def test_a_long_ellipse_squeezes_like_a_line():
     assert line[-1].central_thickness > 1.2 * line[0].central_thickness
 
 
+@pytest.mark.internal
 def test_surfaces_go_with_their_body():
     dent = Dent(1e-7, 2e-5, (-1e-4, 2e-5))
     travel = Travel.over(np.array([0.0, 1e-3, 2e-3]), lambda t: ((0.1 * t / 1e-3, 0.0), (0.3, 0.05)))
@@ -237,6 +238,7 @@ def test_a_first_film_has_the_surfaces_in_it_and_says_so():
     assert first.notes == ("surfaces that are in the contact at first lie in its film undeformed",)
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(("cells", "said"), [(6, "as waves of 6 cells do"), (9, "")])
 def test_heights_that_the_cells_do_not_resolve_are_told(cells, said):
     """Exact of a cosine over whole waves; along the axis that changes more."""
@@ -274,12 +276,14 @@ def test_heights_as_a_function_of_time_are_those_of_the_surface():
     assert given[-1].heights == pytest.approx(moved[-1].heights, abs=1e-18)
 
 
+@pytest.mark.internal
 def test_the_curve_of_amplitudes():
     assert amplitude_reduction(0.0) == 1.0
     assert amplitude_reduction(10.0) == pytest.approx(1 / (1 + 1.5 + 1.5))
     assert amplitude_reduction(1.0, 1e9) == pytest.approx(amplitude_reduction(math.e))
 
 
+@pytest.mark.internal
 @pytest.mark.slow
 def test_long_waves_are_pressed_flat_and_short_ones_stay():
     """Beside Venner and Lubrecht's fit, which amplitudes are above under a load as light as this: by 0.10 and 0.01
@@ -364,6 +368,7 @@ def test_a_lightly_loaded_ball_that_lifts_goes_on():
     assert films[-1].central_thickness > 1.05 * films[0].central_thickness
 
 
+@pytest.mark.internal
 def test_from_a_steady_film_that_is_not_found_it_does_not_go_on(monkeypatch):
     from bem.lubrication.point import march as stepping
 

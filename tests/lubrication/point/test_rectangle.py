@@ -8,6 +8,8 @@ from bem import Lubricant, solve_point_film
 from bem.errors import Status
 from bem.lubrication.point.kept import rectangle_error
 
+pytestmark = pytest.mark.internal
+
 OIL = Lubricant(0.05, pressure_viscosity=18e-9, density_law="dowson_higginson")
 CELLS = 48
 

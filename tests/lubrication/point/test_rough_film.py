@@ -172,6 +172,7 @@ def test_oil_from_nowhere_is_said_and_gone_where_account_is_kept():
     assert kept.contact_share > torn.contact_share
 
 
+@pytest.mark.internal
 @pytest.mark.parametrize(("rms", "speed"), [(60e-9, 5e-4), (40e-9, 2e-3)])
 def test_films_among_steep_bumps_at_creeping_speeds_are_found_by_way_of_oil_from_nowhere(rms, speed):
     film = solve_rough_point_film(**BALL, speeds=(0.0, speed), heights=random_bumps(2, rms), shape=SHAPE, errors=False)
@@ -183,6 +184,7 @@ def test_films_among_steep_bumps_at_creeping_speeds_are_found_by_way_of_oil_from
     assert film.iterations > touching_start.FIRST
 
 
+@pytest.mark.internal
 def test_a_film_is_found_by_steps_beyond_those_asked_for_while_errors_fall(monkeypatch):
     """Without patience it takes other ways."""
     given = BALL | {"speeds": (0.0, 4e-4), "heights": random_bumps(5, 89e-9, 0.44), "shape": (40, 40)}

@@ -75,6 +75,7 @@ def test_shear_flow_in_proportion_to_the_film_is_entrainment(speeds, share):
     assert (rough.central_thickness > film(speeds=speeds, extent=edges).central_thickness) == (share > 0)
 
 
+@pytest.mark.internal
 def test_derivatives(table):
     """What a small change of pressure and film does to the balance, against differences, and `off` has no walls."""
     kept = film(factors=replace(table, pressure_y=table.pressure_y**2), speeds=(0.3, 0.1)).state
@@ -129,6 +130,7 @@ def test_long_ellipse_is_the_line_contact(table, share):
     assert line.central_thickness > 1.2 * smooth.central_thickness
 
 
+@pytest.mark.internal
 def test_what_is_no_table(table):
     with pytest.raises(InputError, match="flow_factors: 'on'"):
         film(factors="on")
