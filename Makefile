@@ -4,7 +4,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 STAMP := .venv/.installed
 
-.PHONY: setup setup-fem setup-browser run test test-fast lint bench report docs notebooks validation gallery wheel clean
+.PHONY: setup setup-fem setup-browser run test test-fast lint bench report docs notebooks validation gallery wheel clean golden
 
 setup: $(STAMP)
 
@@ -34,6 +34,11 @@ lint: setup
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+
+# Renews the stored figures of tests/golden and prints what moved beyond its tolerance. The commit must say why it moved.
+# One group only: make golden GROUP=films. How far figures follow rounding: $(BIN)/python -m reports.golden --spread.
+golden: setup
+	$(BIN)/python -m reports.golden $(if $(GROUP),--only $(GROUP))
 
 bench: setup
 	$(BIN)/bem bench
