@@ -62,7 +62,7 @@ MIXED: dict[str, Any] = {
     "oil": {"viscosity": "0.36 Pa*s", "pressure_viscosity": "25 1/GPa"},
     "grid": {"shape": [64, 32], "spacing": "0.8 um", "periodic": [False, True]},
     "depths": {"count": 16, "spacing": "90 nm"},
-    "cycles": {"count": 3, "settled": 2},
+    "cycles": {"count": 3, "settled": 2, "averaged": 2},
 }
 SCENES: dict[str, dict[str, Any]] = {
     "third-bodies": WEAR
@@ -82,7 +82,7 @@ SCENES: dict[str, dict[str, Any]] = {
         "wear": {
             "criterion": {"kind": "archard", "specific_wear_rate": "5e-15 m^2/N", "distance": "1 m"},
             "film_defect": {
-                "adsorption_energy": "80 kJ/mol",
+                "adsorption_energy": "0.8 eV",
                 "sliding_speed": "0.01 m/s",
                 "temperature": "80 degC",
             },

@@ -32,13 +32,35 @@ class Record:
     counts: dict[str, float] = field(default_factory=dict)
 
     def plain(self) -> dict[str, Any]:
-        """The record as JSON holds it."""
-        return {"figures": self.figures, "counts": self.counts}
+        """The record as JSON holds it: figures NAME.0, NAME.1, ... as a list."""
+        return {"figures": _folded(self.figures), "counts": _folded(self.counts)}
 
     @classmethod
     def of(cls, table: Mapping[str, Any]) -> Record:
         """The record in a table of `plain`."""
-        return cls(dict(table["figures"]), dict(table["counts"]))
+        return cls(_unfolded(table["figures"]), _unfolded(table["counts"]))
+
+
+def _folded(values: Mapping[str, Any]) -> dict[str, Any]:
+    lists: dict[str, list[Any]] = {}
+    for name, value in values.items():
+        stem, _, index = name.rpartition(".")
+        if index.isdigit() and int(index) == len(lists.get(stem, ())):
+            lists.setdefault(stem, []).append(value)
+    single = {name: value for name, value in values.items() if not _in_list(name, lists)}
+    return single | lists
+
+
+def _in_list(name: str, lists: Mapping[str, list[Any]]) -> bool:
+    stem, _, index = name.rpartition(".")
+    return index.isdigit() and int(index) < len(lists.get(stem, ()))
+
+
+def _unfolded(values: Mapping[str, Any]) -> dict[str, Any]:
+    found: dict[str, Any] = {}
+    for name, value in values.items():
+        found |= {f"{name}.{at}": one for at, one in enumerate(value)} if isinstance(value, list) else {name: value}
+    return found
 
 
 Case = Callable[[Trial, Path], Record]

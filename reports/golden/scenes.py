@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import copy
+import re
 from collections.abc import Iterator
 from functools import partial
 from pathlib import Path
@@ -22,6 +23,8 @@ COUNTS = {
 """Keys of summaries and names of arrays that count work."""
 UNCOMPARED = {"scene", "kind", "version", "seed", "wall_time_s", "seconds_by_stage", "seconds_by_level", "where"}
 """Keys of summaries that say what ran, where and for how long."""
+PART_OF_BAR = re.compile(r"_error_")
+"""In names of the parts that an error bar is the sum of."""
 SMALLER: dict[str, dict[str, Any]] = {}
 """Scenes that take more than about two seconds at the gallery's size: keys and their values here."""
 _NUDGED = {"load", "loads", "mean_pressure", "rms_height", "viscosity", "hertz_pressures", "hertz_pressure"}
@@ -41,6 +44,9 @@ def small_scene(name: str, folder: Path) -> dict[str, Any]:
     folder : where stand-ins for measured surfaces are written.
     """
     scene = gallery_scene(name, folder, reduced=True)
+    for key, values in scene.get("over", {}).items():
+        if isinstance(values, list):
+            scene["over"][key] = [values[0], values[-1]]
     for path, value in SMALLER.get(name, {}).items():
         *tables, key = path.split(".")
         place = scene
@@ -90,7 +96,7 @@ def record_of_run(run: FinishedRun) -> Record:
     """
     record = Record()
     for key, value in run.summary.items():
-        if key in UNCOMPARED:
+        if key in UNCOMPARED or PART_OF_BAR.search(key):
             continue
         into: dict[str, Any] = record.counts if key in COUNTS else record.figures
         if key in ("notes", "outside_model"):
@@ -100,7 +106,7 @@ def record_of_run(run: FinishedRun) -> Record:
     arrays = run.dataset.variables
     for name in sorted(str(one) for one in arrays):
         array = arrays[name]
-        if array.dtype.kind not in "fiub":
+        if array.dtype.kind not in "fiub" or PART_OF_BAR.search(name):
             continue
         values = np.asarray(array.values, dtype=np.float64)
         finite = values[np.isfinite(values)]
@@ -115,7 +121,10 @@ def record_of_run(run: FinishedRun) -> Record:
 def _flat(key: str, value: Any) -> Iterator[tuple[str, Figure]]:
     if isinstance(value, dict):
         for name, one in value.items():
-            yield from _flat(f"{key}.{name}", one)
+            if not PART_OF_BAR.search(name):
+                yield from _flat(f"{key}.{name}", one)
+    elif isinstance(value, list) and not value:
+        yield key, "empty"
     elif isinstance(value, list):
         for number, one in enumerate(value):
             yield from _flat(f"{key}.{number}", one)

@@ -99,9 +99,15 @@ def store(group: str, records: Mapping[str, Record]) -> list[Difference]:
     return moved + (mean_differences(before, records) if before else [])
 
 
-def as_text(table: Any) -> str:
-    """The table as JSON with sorted keys, one figure a line."""
-    return json.dumps(table, indent=1, sort_keys=True, allow_nan=False) + "\n"
+def as_text(table: Mapping[str, Any], indent: int = 0) -> str:
+    """The table as JSON with sorted keys, one figure or list of figures a line."""
+    rows = [
+        f"{' ' * (indent + 1)}{json.dumps(key)}: "
+        + (as_text(value, indent + 1) if isinstance(value, dict) else json.dumps(value, allow_nan=False))
+        for key, value in sorted(table.items())
+    ]
+    end = "\n" if indent == 0 else ""
+    return "{\n" + ",\n".join(rows) + "\n" + " " * indent + "}" + end if rows else "{}" + end
 
 
 def _rounded(group: str, case: str, record: Record, old: Record, changed: set[str], drift: set[str]) -> Record:

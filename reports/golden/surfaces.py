@@ -44,7 +44,7 @@ def cases() -> dict[str, Case]:
 
 
 def _heights(trial: Trial, **given: Any) -> np.ndarray:
-    statistics = {"correlation_length": 8e-6} if not given else given
+    statistics = given or {"correlation_length": 8e-6}
     return generate_surface(GRID, rms_height=200e-9 * (1 + trial.nudge), seed=11, **statistics)
 
 
