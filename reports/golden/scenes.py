@@ -29,6 +29,7 @@ SMALLER: dict[str, dict[tuple[str, ...], Any]] = {
     "starved-ball": {("film", "cells"): 48, ("over", "supply.layer"): ["150 nm", "500 nm"]},
     "film-rough-ball": {("film", "cells"): 48},
     "dimple": {("march", "steps"): 6},
+    "waviness": {("march", "steps"): 6},
 }
 """Scenes that take more than about two seconds at the gallery's size: keys and their values here."""
 _NUDGED = {"load", "loads", "mean_pressure", "rms_height", "viscosity", "hertz_pressures", "hertz_pressure"}
@@ -107,6 +108,7 @@ def record_of_run(run: FinishedRun) -> Record:
             record.figures[key] = float(len(value))
         else:
             into.update(_flat(key, value))
+    record.figures["parts of error bars"] = " ".join(sorted(key for key in run.summary if PART_OF_BAR.search(key)))
     arrays = run.dataset.variables
     for name in sorted(str(one) for one in arrays):
         array = arrays[name]
