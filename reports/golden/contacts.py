@@ -17,7 +17,7 @@ CONTACTS, FIRST = 60, 555_000
 STRESSED, RUBBED = 2, 5
 """Every so many-th contact is followed by its stresses, and by partial slip."""
 FRICTION = 0.3
-"""Coefficient of partial slip; the force is six tenths of friction x load."""
+"""Coefficient of partial slip, whose force is six tenths of friction x load, and of stresses where none is drawn."""
 
 
 def cases() -> dict[str, Case]:
@@ -46,13 +46,15 @@ def _run(number: int, trial: Trial, folder: Path) -> Record:
 
 
 def _add_stress(record: Record, drawn: Contact, solution: Any) -> None:
-    """Mean of the von Mises stress and its largest value, at one and at four cells below the surface."""
+    """Von Mises stress, mean and largest, and the largest tension along x, one and four cells below the surface."""
     grid, (body,) = drawn.operator.grid, drawn.operator.bodies
     depths = np.array([1.0, 4.0]) * min(grid.spacing)
-    stress = von_mises(subsurface_stress(solution.pressure, grid, body, depths, friction=drawn.operator.friction))
-    for depth, plane in zip(("1", "4"), stress, strict=True):
-        record.figures[f"von_mises_max_{depth}"] = float(plane.max())
-        record.figures[f"von_mises_mean_{depth}"] = float(plane.mean())
+    stress = subsurface_stress(solution.pressure, grid, body, depths, friction=drawn.operator.friction or FRICTION)
+    mises = von_mises(stress)
+    for plane, depth in enumerate(("1", "4")):
+        record.figures[f"von_mises_max_{depth}"] = float(mises[plane].max())
+        record.figures[f"von_mises_mean_{depth}"] = float(mises[plane].mean())
+        record.figures[f"tension_max_{depth}"] = float(stress[0, plane].max())
 
 
 def _add_slip(record: Record, drawn: Contact, solution: Any, trial: Trial) -> None:

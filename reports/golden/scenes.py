@@ -21,8 +21,10 @@ COUNTS = {
     "depths_computed",
 }  # fmt: skip
 """Keys of summaries and names of arrays that count work."""
-UNCOMPARED = {"scene", "kind", "version", "seed", "wall_time_s", "seconds_by_stage", "seconds_by_level", "where"}
-"""Keys of summaries that say what ran, where and for how long."""
+UNCOMPARED = {"scene", "kind", "version", "seed", "wall_time_s", "where"}
+"""Keys of summaries that say what ran and where."""
+TIMES = "seconds"
+"""In names of times that the computer took."""
 PART_OF_BAR = re.compile(r"_error_")
 """In names of the parts that an error bar is the sum of."""
 SMALLER: dict[str, dict[tuple[str, ...], Any]] = {
@@ -101,7 +103,7 @@ def record_of_run(run: FinishedRun) -> Record:
     """
     record = Record()
     for key, value in run.summary.items():
-        if key in UNCOMPARED or PART_OF_BAR.search(key):
+        if key in UNCOMPARED or TIMES in key or PART_OF_BAR.search(key):
             continue
         into: dict[str, Any] = record.counts if key in COUNTS else record.figures
         if key in ("notes", "outside_model"):
@@ -112,7 +114,7 @@ def record_of_run(run: FinishedRun) -> Record:
     arrays = run.dataset.variables
     for name in sorted(str(one) for one in arrays):
         array = arrays[name]
-        if array.dtype.kind not in "fiub" or PART_OF_BAR.search(name):
+        if array.dtype.kind not in "fiub" or TIMES in name or PART_OF_BAR.search(name):
             continue
         values = np.asarray(array.values, dtype=np.float64)
         finite = values[np.isfinite(values)]
@@ -127,7 +129,7 @@ def record_of_run(run: FinishedRun) -> Record:
 def _flat(key: str, value: Any) -> Iterator[tuple[str, Figure]]:
     if isinstance(value, dict):
         for name, one in value.items():
-            if not PART_OF_BAR.search(name):
+            if not (TIMES in name or PART_OF_BAR.search(name)):
                 yield from _flat(f"{key}.{name}", one)
     elif isinstance(value, list) and not value:
         yield key, "empty"
