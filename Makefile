@@ -4,7 +4,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 STAMP := .venv/.installed
 
-.PHONY: setup setup-fem setup-browser run test test-fast lint bench report docs notebooks validation gallery wheel clean golden
+.PHONY: setup setup-fem setup-browser run test test-fast lint bench report docs notebooks validation gallery wheel clean golden mutants
 
 setup: $(STAMP)
 
@@ -28,6 +28,17 @@ test: setup setup-fem setup-browser
 
 test-fast: setup
 	$(BIN)/python -m pytest -n 2 --dist worksteal -m "not slow and not fem and not browser"
+
+# What the tests catch: chosen one-line slips in the physics (tests/mutants/seeds), each in a scratch copy of the tree
+# against the tests that guard its room. Outcomes go to reports/results/mutants.json, from which the verification report
+# shows them; an interrupted run goes on where it was. A mutant whose text is gone fails the run: carry it along, or
+# drop it from the list. After a change of the tests: make mutants MUTANTS="--renew". Others, see --help:
+#   MUTANTS="--only contact --suite full"    a room (or a file, or words of the slip); survivors on the slow tests, too
+#   MUTANTS="--sample 40 --seed 2"           forty of them, drawn
+#   MUTANTS="--loops without"                only files without compiled loops: seconds each, those with take minutes
+#   MUTANTS="--check"                        only look whether every mutant still has its text
+mutants: setup
+	$(BIN)/python -m tests.mutants $(MUTANTS)
 
 lint: setup
 	$(BIN)/ruff check .

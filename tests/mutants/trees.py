@@ -1,0 +1,93 @@
+"""Copies of the tree: one that stays as it is, and scratch copies in which one line is changed at a time.
+
+Compiled loops are kept beside the sources (`__pycache__`), and a loop that was compiled with a changed function inside
+it must neither be used without the change nor the other way round. So a scratch copy begins with the caches of the
+unchanged one; the changed file is newer than all of them, and `bem.compiled.drop_stale`, which each process calls when
+it imports the package, removes the loops of the file and of all files that compile it in. Afterwards the file gets its
+old text and time back, and each cache file that differs from that of the unchanged copy is put back.
+"""
+
+from __future__ import annotations
+
+import os
+import shutil
+import subprocess
+from collections.abc import Iterator
+from pathlib import Path
+
+ROOT = Path(__file__).resolve().parents[2]
+WORK = ROOT / "build" / "mutants"
+PACKAGE = "bem"
+
+
+def sources(root: Path) -> list[str]:
+    """Return the paths of the files that git tracks or would add."""
+    command = ["git", "ls-files", "-z", "--cached", "--others", "--exclude-standard"]
+    listed = subprocess.run(command, cwd=root, capture_output=True, check=True).stdout.decode().split("\0")
+    return sorted({name for name in listed if name and (root / name).is_file()})
+
+
+def unchanged(root: Path = ROOT, work: Path = WORK) -> Path:
+    """Return the unchanged copy of the tree, made or brought up to date; its caches stay."""
+    copy, wanted = work / "unchanged", sources(root)
+    new = not copy.exists()
+    for name in wanted:
+        source, target = root / name, copy / name
+        if target.is_file() and target.read_bytes() == source.read_bytes():
+            continue
+        target.parent.mkdir(parents=True, exist_ok=True)
+        shutil.copy2(source, target)
+    kept = set(wanted)
+    for path in [path for path in copy.rglob("*") if path.is_file() and "__pycache__" not in path.parts]:
+        if path.relative_to(copy).as_posix() not in kept:
+            path.unlink()
+    if new:  # the checkout's compiled loops serve: they are kept by the time and size of their sources
+        for name in caches(root):
+            (copy / name).parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(root / name, copy / name)
+    shared = root.parent / "shared"  # measured surfaces, which tests look for beside the checkout
+    if shared.is_dir() and not (work / "shared").exists():
+        (work / "shared").symlink_to(shared)
+    return copy
+
+
+def caches(tree: Path) -> Iterator[str]:
+    """Return the paths of the package's cached files in a tree: byte code and compiled loops."""
+    for folder, _, names in os.walk(tree / PACKAGE):
+        if Path(folder).name == "__pycache__":
+            for name in names:
+                if not name.startswith("sources-"):  # the record of `drop_stale`, which belongs to its own folder
+                    yield (Path(folder) / name).relative_to(tree).as_posix()
+
+
+class Scratch:
+    """A scratch copy of the unchanged tree, for one change at a time."""
+
+    def __init__(self, original: Path, folder: Path) -> None:
+        self.original, self.folder = original, folder
+        shutil.rmtree(folder, ignore_errors=True)
+        shutil.copytree(original, folder, ignore=shutil.ignore_patterns("sources-*", ".hypothesis"))
+
+    def write(self, file: str, text: str) -> None:
+        """Replace the text of a file; it is then newer than all caches."""
+        (self.folder / file).write_text(text, encoding="utf-8")
+
+    def restore(self, file: str) -> None:
+        """Undo a change: the file's text and time, and all cached files that are not those of the unchanged tree."""
+        shutil.copy2(self.original / file, self.folder / file)
+        for record in (self.folder / PACKAGE / "__pycache__").glob("sources-*"):
+            record.unlink()
+        wanted = {name: _stamp(self.original / name) for name in caches(self.original)}
+        for name in list(caches(self.folder)):
+            if name not in wanted:
+                (self.folder / name).unlink()
+        for name, stamp in wanted.items():
+            target = self.folder / name
+            if not target.exists() or _stamp(target) != stamp:
+                target.parent.mkdir(parents=True, exist_ok=True)
+                shutil.copy2(self.original / name, target)
+
+
+def _stamp(path: Path) -> tuple[int, int]:
+    status = path.stat()
+    return status.st_mtime_ns, status.st_size
