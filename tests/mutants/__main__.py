@@ -6,6 +6,7 @@ import argparse
 import fnmatch
 import os
 import random
+import shutil
 import signal
 import sys
 import time
@@ -138,7 +139,8 @@ class _Slot:
 
 def _run(left: list[Mutant], original: Path, times: Times, record: Record, asked: argparse.Namespace) -> None:
     """Judge mutants, some at a time, each in a scratch copy of its own."""
-    free = [Scratch(original, WORK / f"scratch-{k}") for k in range(min(asked.workers, len(left)))]
+    own = WORK / f"scratch-{os.getpid()}"  # another run's copies may still be in use
+    free = [Scratch(original, own / str(k)) for k in range(min(asked.workers, len(left)))]
     waiting, busy = list(left), {}
     try:
         while waiting or busy:
@@ -167,6 +169,7 @@ def _run(left: list[Mutant], original: Path, times: Times, record: Record, asked
     finally:
         for slot in busy.values():
             slot.run.end()
+        shutil.rmtree(own, ignore_errors=True)
 
 
 def _late(until: str | None) -> bool:

@@ -35,6 +35,8 @@ class Times:
         self.path = path
         known: dict[str, Any] = json.loads(path.read_text()) if path.is_file() else {}
         self.seconds: dict[str, float] = known.get("seconds", {})
+        self.guessed: dict[str, float] = known.get("guessed", {})
+        """Seconds on changed trees, of tests that have not been timed on the unchanged one."""
         self.setup: dict[str, float] = known.get("setup", {})
         self.broken: set[str] = set(known.get("broken", []))
         """Tests that fail without any change: they say nothing, and are left out."""
@@ -46,10 +48,16 @@ class Times:
         self.broken |= {*found.failed, *([found.killer] if found.killer is not None else [])}
         self.write()
 
+    def guess(self, found: Finished) -> None:
+        """Take over the times of a run of a changed tree, which may be longer for what had to be compiled."""
+        for name, seconds in found.seconds.items():
+            self.guessed[name] = min(seconds, self.guessed.get(name, seconds))
+        self.write()
+
     def write(self) -> None:
         """Keep them."""
-        text = json.dumps({"seconds": self.seconds, "setup": self.setup, "broken": sorted(self.broken)}, indent=0)
-        self.path.write_text(text)
+        kept = {"seconds": self.seconds, "guessed": self.guessed, "setup": self.setup, "broken": sorted(self.broken)}
+        self.path.write_text(json.dumps(kept, indent=0))
 
     def ranking(self, paths: list[str], first: Iterable[str] = (), mentioning: str = "") -> Callable[..., list[str]]:
         """Return what sorts tests: those in `first`, then by class of seconds, files that name the module `mentioning`
@@ -70,7 +78,7 @@ class Times:
                 file = name.split("::")[0]
                 if file not in importing:
                     importing[file] = bool(mentioning) and _imports(Path(file), mentioning)
-                seconds = together.get(file, self.seconds.get(name, UNKNOWN))
+                seconds = together.get(file, self.seconds.get(name, self.guessed.get(name, UNKNOWN)))
                 place = next((k for k, path in enumerate(paths) if file.startswith(path)), len(paths))
                 cost = sum(seconds > bound for bound in BOUNDS) + (0 if importing[file] else LEAD)
                 return early.get(name, len(early)), cost, not importing[file], place
@@ -123,6 +131,7 @@ def judge(
                 log = scratch.folder.with_suffix(".log")
                 found = yield Run(scratch.folder, paths, marks, ranked, times.seconds, log)
                 spent, tests = spent + found.processor, tests + len(found.seconds)
+                times.guess(found)
                 entry["suite"] = name
                 if found.killer is None:
                     break

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import os
 from collections.abc import Sequence
 from pathlib import Path
 from typing import Any
@@ -14,7 +15,8 @@ class Order:
     """Runs the tests that an order names, and writes a log: one JSON object a line.
 
     `{"collected": [ids]}` once, `{"started": id}` before a test, and `{"ended": id, "seconds": s, "setup": s,
-    "outcome": "passed" | "failed" | "skipped"}` after it.
+    "outcome": "passed" | "failed" | "skipped"}` after it. Seconds are of the processor, children included: they do not
+    depend on what else the machine does.
 
     Parameters
     ----------
@@ -24,7 +26,7 @@ class Order:
     def __init__(self, log: Path, ranked: Any) -> None:
         self._log = log
         self._ranked = ranked
-        self._phases: dict[str, dict[str, float]] = {}
+        self._began = self._setup = 0.0
         self._outcomes: dict[str, str] = {}
 
     def _write(self, record: dict[str, Any]) -> None:
@@ -49,22 +51,29 @@ class Order:
 
     def pytest_runtest_logstart(self, nodeid: str) -> None:
         """Log that a test begins."""
+        self._began, self._setup = _processor_time(), 0.0
         self._write({"started": nodeid})
 
     def pytest_runtest_logreport(self, report: pytest.TestReport) -> None:
-        """Collect the durations of the three phases of a test, and the first outcome that is not a pass."""
-        self._phases.setdefault(report.nodeid, {})[report.when or "call"] = report.duration
+        """Take the time of the set-up, and the first outcome that is not a pass."""
+        if report.when == "setup":
+            self._setup = _processor_time() - self._began
         if report.outcome != "passed":
             self._outcomes.setdefault(report.nodeid, report.outcome)
 
     def pytest_runtest_logfinish(self, nodeid: str) -> None:
         """Log how long a test took and how it ended."""
-        phases = self._phases.pop(nodeid, {})
         self._write(
             {
                 "ended": nodeid,
-                "seconds": round(sum(phases.values()), 3),
-                "setup": round(phases.get("setup", 0.0), 3),
+                "seconds": round(_processor_time() - self._began, 3),
+                "setup": round(self._setup, 3),
                 "outcome": self._outcomes.get(nodeid, "passed"),
             }
         )
+
+
+def _processor_time() -> float:
+    """Processor time of this process and of its children that have ended [s]."""
+    times = os.times()
+    return times.user + times.system + times.children_user + times.children_system

@@ -45,10 +45,15 @@ def unchanged(root: Path = ROOT, work: Path = WORK) -> Path:
         for name in caches(root):
             (copy / name).parent.mkdir(parents=True, exist_ok=True)
             shutil.copy2(root / name, copy / name)
-    shared = root.parent / "shared"  # measured surfaces, which tests look for beside the checkout
-    if shared.is_dir() and not (work / "shared").exists():
-        (work / "shared").symlink_to(shared)
+    link_shared(work, root)
     return copy
+
+
+def link_shared(folder: Path, root: Path = ROOT) -> None:
+    """Link the folder of measured surfaces, which tests look for beside the checkout, into the folder of a copy."""
+    shared = root.parent / "shared"
+    if shared.is_dir() and not (folder / "shared").exists():
+        (folder / "shared").symlink_to(shared.resolve())
 
 
 def caches(tree: Path) -> Iterator[str]:
@@ -65,8 +70,8 @@ class Scratch:
 
     def __init__(self, original: Path, folder: Path) -> None:
         self.original, self.folder = original, folder
-        shutil.rmtree(folder, ignore_errors=True)
         shutil.copytree(original, folder, ignore=shutil.ignore_patterns("sources-*", ".hypothesis"))
+        link_shared(folder.parent)
 
     def write(self, file: str, text: str) -> None:
         """Replace the text of a file; it is then newer than all caches."""
