@@ -1,6 +1,7 @@
 """The verification report: every case is there, every picture shows."""
 
 import copy
+import html
 import itertools
 import re
 import shutil
@@ -12,6 +13,7 @@ import pytest
 from bem.verification import registry
 from reports import (
     builder,
+    caught,
     lumped_heat,
     point_film,
     rolling_waves,
@@ -130,6 +132,19 @@ def test_observed_orders_and_limits_are_those_of_errors_that_fall_by_a_law():
     assert found["_order"] == pytest.approx(rate, rel=1e-9)  # rounding over differences of 1e-3
     assert found["_errors"] == pytest.approx([-(2 ** (-rate * level)) for level in range(3)], rel=1e-8)
     assert point_table._converged(np.array([1.0, 1.2, 1.1]))["_order"] is None
+
+
+def test_what_the_tests_catch_is_counted_with_each_survivor_and_its_reason(page):
+    (shown,) = [section.body for section in page.sections if section.title == "What the tests catch"]
+    for entry in caught.outcomes():
+        assert (html.escape(entry["slip"]) in shown) is (entry["result"] == "survived")
+    killed = {"room": "contact", "file": "bem/a.py", "slip": "a", "result": "killed", "processor_s": 2.0}
+    survived = killed | {"slip": "b", "result": "survived", "suite": "full", "reason": "gap: no test of b"}
+    body = caught.body([killed, survived, survived | {"slip": "c", "reason": "equivalent: c is never read"}])
+    numbers = r'<td class="number">(\d+)</td>' * 5
+    assert re.findall(rf"<td>contact</td>{numbers}", body) == [("3", "1", "1", "1", "0")]
+    assert "gap: no test of b" in body
+    assert ">a<" not in body
 
 
 def test_waves_that_roll_through_are_shown_with_fits(page):
