@@ -11,7 +11,6 @@ times finer. A row's `bar` is the error that was allowed; what could not be had 
 from __future__ import annotations
 
 import math
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -22,9 +21,8 @@ from bem.scenes.axes import with_keys
 from bem.scenes.context import PlainContext
 from bem.scenes.kinds import get_kind
 from bem.scenes.load import scene_from_table
-from reports.experiments.judging import judge
+from reports.experiments.judging import Comparison, Experiment, compare_records, main
 
-RESULT = Path(__file__).resolve().parents[1] / "results" / "accuracy_asked.json"
 FINER, MOST_CELLS = 4, 2048
 
 
@@ -56,34 +54,26 @@ def draw(rng: np.random.Generator) -> dict[str, Any]:
     return scene
 
 
-def rows_of(table: dict[str, Any]) -> list[dict[str, Any]]:
-    """What each figure was allowed to be off by, and is."""
+def solve(table: dict[str, Any]) -> Comparison | None:
+    """Figures of a scene, the errors allowed, and figures on four times the cells a side."""
     kind, context = get_kind("contact"), PlainContext(table["seed"])
     scene: Any = kind.resolved(scene_from_table(table))
     found: Any = solve_case(kind, scene, context)
-    told = found.refinement["levels"]
     shape = (FINER * len(found.x), FINER * len(found.y))
     if found.status is not Status.CONVERGED or max(shape) > MOST_CELLS:
-        return []
+        return None
     spacing = tuple(length / n for length, n in zip(_lengths(found), shape, strict=True))
     finer = {"accuracy": None, "grid.shape": shape, "grid.spacing": spacing, "outputs.errors": False}
     if found.depth is not None:
         finer["outputs.depths.count"] = FINER * (len(found.depth) - 1) + 1
     truth: Any = kind.run(with_keys(scene, finer), context)
-    where = f"{table.get('shape', {}).get('kind', 'patch')} {table['contact'].get('behaviour', 'elastic')}"
-    return [
-        {
-            "figure": name,
-            "contact": f"{where}, {'rough' if 'surface' in table['lower'] else 'smooth'}",
-            "asked": table["accuracy"],
-            "levels": [level["resolution"] for level in told],
-            "value": value,
-            "error": abs(value - getattr(truth, name)),
-            "bar": table["accuracy"] * (found.contact_area_fraction if name.startswith("plastic") else abs(value)),
-        }
-        for name in told[-1]["errors"]
-        for value in (getattr(found, name),)
-    ]
+    names = list(found.refinement["levels"][-1]["errors"])
+    allowed = {
+        name: table["accuracy"]
+        * (found.contact_area_fraction if name.startswith("plastic") else abs(getattr(found, name)))
+        for name in names
+    }
+    return compare_records(found, truth, allowed, names)
 
 
 def _lengths(found: Any) -> tuple[float, float]:
@@ -92,10 +82,7 @@ def _lengths(found: Any) -> tuple[float, float]:
     return float(x) * len(found.x), float(y) * len(found.y)
 
 
-def main() -> None:
-    """Judge so many scenes."""
-    judge(lambda rng: rows_of(draw(rng)), RESULT, cases=60)
-
+EXPERIMENT = Experiment("accuracy_asked", draw, solve, cases=60)
 
 if __name__ == "__main__":
-    main()
+    main(EXPERIMENT)

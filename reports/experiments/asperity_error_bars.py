@@ -11,8 +11,6 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -20,9 +18,8 @@ from bem import Body, Grid, Material, contact_modulus
 from bem.accuracy import asperity_bars
 from bem.convolution import displacement_operator
 from bem.friction.asperity_array import ArrayLoads, press_array
-from reports.experiments.judging import judge
+from reports.experiments.judging import Comparison, Experiment, main
 
-RESULT = Path(__file__).resolve().parents[1] / "results" / "asperities_error_bars.json"
 FINER = 4
 _STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
 
@@ -60,31 +57,16 @@ def draw(rng: np.random.Generator) -> ArrayDrawn:
     return ArrayDrawn(radius, height, depth, spacing, max(16, cells))
 
 
-def rows_of(case: ArrayDrawn) -> list[dict[str, Any]]:
-    """Bar and true error of every load."""
+def solve(case: ArrayDrawn) -> Comparison:
+    """Loads at every depth, their bars, and loads on four times the cells a side."""
     found, coarser, reference = (case.loads(n) for n in (case.cells, case.cells // 2, FINER * case.cells))
     bars = asperity_bars(found, coarser, case.radius, case.spacing / case.cells).values
-    return [
-        {
-            "figure": {"mean_plane": "asperity_load", "from_flat": "asperity_load_window"}[name],
-            "array": f"{case.cells} cells, radius {case.radius:.3g}, depth {depth:.3g}, spacing {case.spacing:.3g} m",
-            "value": float(value),
-            "difference": float(abs(value - other)),
-            "at_edge": (case.spacing / case.cells) ** 2 / (case.radius * depth) * float(value),
-            "error": float(abs(value - truth)),
-            "bar": float(bar),
-        }
-        for name in bars
-        for depth, value, other, truth, bar in zip(
-            found.depth,
-            getattr(found, name),
-            getattr(coarser, name),
-            getattr(reference, name),
-            bars[name],
-            strict=True,
-        )
-    ]
+    figures = {"mean_plane": "asperity_load", "from_flat": "asperity_load_window"}
+    own, truth = ({figures[name]: getattr(one, name) for name in bars} for one in (found, reference))
+    return Comparison(own, truth, {figures[name]: bar for name, bar in bars.items()})
 
+
+EXPERIMENT = Experiment("asperities_error_bars", draw, solve, cases=100)
 
 if __name__ == "__main__":
-    judge(lambda rng: rows_of(draw(rng)), RESULT, 100)
+    main(EXPERIMENT)

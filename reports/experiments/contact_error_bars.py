@@ -12,21 +12,17 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass, replace
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bem import Body, Grid, Layer, Material, displacement_operator, solve_contact
 from bem.accuracy import ContactCase, contact_bars, figures_of, solve_coarser, stress_bars
-from bem.accuracy.contact import is_resolved, share_at_edge
 from bem.errors import Status
 from bem.stress import StressBelow, stress_below
 from bem.surfaces import generate_surface
-from reports.experiments.judging import judge
+from reports.experiments.judging import Comparison, Experiment, main
 
-RESULT = Path(__file__).resolve().parents[1] / "results" / "contact_error_bars.json"
 FINER = 4
 _YIELDING, _STRESSES = 0.7, ("max_von_mises", "max_von_mises_depth", "yielded_volume")
 """What yields is beyond this share of the highest von Mises stress; and figures of stresses."""
@@ -35,9 +31,12 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class Problem:
-    """A contact that any grid can take: bodies, curvatures [1/m], their centre [m], waves, what is prescribed."""
+    """A contact on any grid: body, curvatures [1/m], their centre [m], waves of the surface, and what is prescribed.
 
-    words: str
+    given : the load [N], or, once `prescribed`, the approach or the mean gap [m] that `control` names.
+    settled_on : factor of refinement of the grid whose approach or mean gap is prescribed.
+    """
+
     grid: Grid
     body: Body
     curvature: tuple[float, float]
@@ -45,7 +44,17 @@ class Problem:
     given: dict[str, float]
     hardness: float | None
     depths: int
+    control: str = "load"
     centre: tuple[float, float] = (0.0, 0.0)
+    settled_on: int = 1
+
+    def prescribed(self) -> Problem:
+        """Return the contact with the approach or mean gap that its load causes in place of the load."""
+        if self.control == "load":
+            return self
+        solution = self.case(self.settled_on).solution
+        value = solution.approach if self.control == "approach" else float(np.maximum(solution.gap, 0).mean())
+        return replace(self, given={self.control: float(value)})
 
     def refined(self, factor: int) -> Grid:
         """Each cell cut into factor x factor."""
@@ -141,57 +150,33 @@ def draw(rng: np.random.Generator) -> Problem:
         share = float(rng.uniform(0.3, 0.9))
         hardness = share * modulus * (slope if surface == "rough" else 2 * radius * bend / math.pi)
         load = min(load, 0.8 * hardness * grid.area)
-    words = f"{surface} {shortest:.1f} {behaviour} {periodic}"
     depths = 12 if rng.random() < 0.4 else 0
-    problem = Problem(words, grid, body, curvature, heights, {"load": load}, hardness, depths)
     control = str(rng.choice(["load", "approach", "mean_gap"], p=[0.7, 0.15, 0.15]))
-    if control != "load":
-        solution = problem.case(1).solution
-        value = solution.approach if control == "approach" else float(np.maximum(solution.gap, 0).mean())
-        problem = Problem(f"{words} {control}", grid, body, curvature, heights, {control: value}, hardness, depths)
-    return problem
+    return Problem(grid, body, curvature, heights, {"load": load}, hardness, depths, control)
 
 
-def rows_of(problem: Problem) -> list[dict[str, Any]]:
-    """Bar and true error of every figure of a contact."""
+def solve(drawn: Problem) -> Comparison | None:
+    """Figures of a contact, their bars, and figures on four times the cells a side."""
+    problem = drawn.prescribed()
     case = problem.case(1)
     coarser = solve_coarser(case)
     bars = contact_bars(case, coarser)
     fine = problem.case(FINER, 1e-7)
     statuses = {case.solution.status, fine.solution.status}
     if coarser.solution is None or statuses != {Status.CONVERGED}:
-        return []
+        return None
     found, truth = figures_of(case.solution, case.grid.area), figures_of(fine.solution, case.grid.area)
-    coarse = figures_of(coarser.solution, case.grid.area)
     if problem.depths:
         problem = problem.yielding_at(_YIELDING * problem.stresses(case, 1).max_von_mises)
         below = problem.stresses(case, 1)
         bars = bars | stress_bars(case, coarser, problem.body, below)
         for figures, stresses in ((found, below), (truth, problem.stresses(fine, FINER))):
             figures |= {name: getattr(stresses, name) for name in _STRESSES}
-    across = 4 * case.solution.contact_area / max(case.solution.contact_perimeter, 1e-30)
-    return [
-        {
-            "figure": name,
-            "contact": problem.words,
-            "resolved": is_resolved(case),
-            "cells_across": round(across / math.sqrt(case.grid.cell_area), 2),
-            "share_at_edge": share_at_edge(case),
-            "value": found[name],
-            "difference": abs(found[name] - coarse.get(name, math.nan)),
-            "parts": {origin: part[name] for origin, part in bars.parts.items() if name in part},
-            "error": abs(found[name] - truth[name]),
-            "bar": bar,
-        }
-        for name, bar in bars.values.items()
-        if name not in problem.given  # which two solvers miss by their tolerances
-    ]
+    # two solvers miss a prescribed figure by their tolerances
+    return Comparison(found, truth, {name: bar for name, bar in bars.values.items() if name not in problem.given})
 
 
-def main() -> None:
-    """Judge the bars of so many."""
-    judge(lambda rng: rows_of(draw(rng)), RESULT, cases=240)
-
+EXPERIMENT = Experiment("contact_error_bars", draw, solve, cases=240)
 
 if __name__ == "__main__":
-    main()
+    main(EXPERIMENT)

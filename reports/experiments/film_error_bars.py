@@ -11,24 +11,20 @@ stored in `reports/results/film_error_bars.json`.
 from __future__ import annotations
 
 import math
-from dataclasses import replace
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from bem import Lubricant, solve_line_film
 from bem.accuracy import FilmCase, film_bars, film_figures, solve_coarser_film
-from bem.accuracy.film import spike_is_unresolved
 from bem.errors import Status
-from reports.experiments.judging import judge
+from reports.experiments.judging import Comparison, Experiment, main
 
-RESULT = Path(__file__).resolve().parents[1] / "results" / "film_error_bars.json"
 FINER = 4
 
 
-def draw(rng: np.random.Generator) -> tuple[str, dict[str, Any]]:
-    """A random film, in words and as the arguments of `bem.solve_line_film`."""
+def draw(rng: np.random.Generator) -> dict[str, Any]:
+    """A random film as the arguments of `bem.solve_line_film`."""
     load = 10 ** rng.uniform(math.log10(0.5), math.log10(2000))
     material = rng.uniform(1, 20)
     modulus, radius = 10 ** rng.uniform(9.5, 11.1), 10 ** rng.uniform(-2.5, -1)
@@ -40,8 +36,7 @@ def draw(rng: np.random.Generator) -> tuple[str, dict[str, Any]]:
     density = str(rng.choice(["incompressible", "dowson_higginson"]))
     law = str(rng.choice(["roelands", "barus"]))
     points = int(10 ** rng.uniform(2, math.log10(500)))
-    words = f"M {load:.3g} L {material:.3g} slide-roll {sliding:.2f} {density} {law} {points} points"
-    return words, {
+    return {
         "load": load * math.sqrt(2 * modulus * radius * viscosity * entrainment),
         "radius": radius,
         "contact_modulus": modulus,
@@ -53,33 +48,17 @@ def draw(rng: np.random.Generator) -> tuple[str, dict[str, Any]]:
     }
 
 
-def rows_of(words: str, given: dict[str, Any]) -> list[dict[str, Any]]:
-    """Bar and true error of every figure of a film."""
+def solve(given: dict[str, Any]) -> Comparison | None:
+    """Figures of a film, their bars, and figures on four times the points."""
     case = FilmCase(solve_line_film(**given), **given)
-    other = solve_coarser_film(case)
-    bars = film_bars(case, other)
+    bars = film_bars(case, solve_coarser_film(case))
     reference = solve_line_film(**{**given, "points": FINER * given["points"]}, initial=case.solution)
     if {case.solution.status, reference.status} != {Status.CONVERGED}:
-        return []
-    found, truth, there = (film_figures(one) for one in (case.solution, reference, other.solution))
-    return [
-        {
-            "figure": name,
-            "film": words,
-            "spike_at_the_reference": spike_is_unresolved(replace(case, solution=reference)),
-            "value": found[name],
-            "difference": abs(found[name] - there[name]),
-            "error": abs(found[name] - truth[name]),
-            "bar": bar,
-        }
-        for name, bar in bars.values.items()
-    ]
+        return None
+    return Comparison(film_figures(case.solution), film_figures(reference), bars.values)
 
 
-def main() -> None:
-    """Judge the bars of so many."""
-    judge(lambda rng: rows_of(*draw(rng)), RESULT, cases=100)
-
+EXPERIMENT = Experiment("film_error_bars", draw, solve, cases=100)
 
 if __name__ == "__main__":
-    main()
+    main(EXPERIMENT)

@@ -10,33 +10,36 @@ result is stored in `reports/results/heated_mixed_error_bars.json`.
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from bem import Body, Lubricant, Material
-from reports.experiments.judging import judge
-from reports.experiments.mixed_error_bars import draw, rows_of
+from reports.experiments import mixed_error_bars
+from reports.experiments.judging import Experiment, main
+from reports.experiments.mixed_error_bars import Problem
 
-RESULT = Path(__file__).resolve().parents[1] / "results" / "heated_mixed_error_bars.json"
 GRADES = ("ISO VG 10", "ISO VG 32", "ISO VG 100", "ISO VG 320")
 
 
-def heated_rows(rng: np.random.Generator) -> list[dict[str, Any]]:
-    """Bar and true error of every figure."""
-    words, setup, heights, speeds = draw(rng)
-    bodies = setup.bodies if isinstance(setup.bodies, tuple) else (setup.bodies,)
+def draw(rng: np.random.Generator) -> Problem:
+    """A random contact with lumped heat."""
+    cold = mixed_error_bars.draw(rng)
+    bodies = cold.setup.bodies if isinstance(cold.setup.bodies, tuple) else (cold.setup.bodies,)
     hot = replace(
-        setup,
+        cold.setup,
         bodies=(_conducting(bodies[0]), _conducting(bodies[-1])),
         lubricant=Lubricant.of(str(rng.choice(GRADES)), temperature=float(rng.uniform(320, 370))),
         thermal="lumped",
     )
-    # film ratios as drawn: films go with speed times viscosity
-    factor = setup.lubricant.viscosity / hot.lubricant.viscosity
-    factor = min(factor, 20 / max(abs(speed) for speed in speeds))
-    return rows_of((words, hot, heights, (factor * speeds[0], factor * speeds[1])))
+
+    def speeds() -> tuple[float, float]:
+        # film ratios as drawn: films go with speed times viscosity
+        first, second = cold.speeds()
+        factor = cold.setup.lubricant.viscosity / hot.lubricant.viscosity
+        factor = min(factor, 20 / max(abs(first), abs(second)))
+        return factor * first, factor * second
+
+    return replace(cold, setup=hot, speeds=speeds)
 
 
 def _conducting(body: Body) -> Body:
@@ -47,5 +50,7 @@ def _conducting(body: Body) -> Body:
     return Body(Material(body.material.name, **elastic, **dict(zip(names, heat, strict=True))))
 
 
+EXPERIMENT = Experiment("heated_mixed_error_bars", draw, mixed_error_bars.solve, cases=9, seed=2618)
+
 if __name__ == "__main__":
-    judge(heated_rows, RESULT, cases=9, seed=2618)
+    main(EXPERIMENT)

@@ -10,7 +10,6 @@ is stored in `reports/results/life_error_bars.json`.
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -23,9 +22,8 @@ from bem.scenes.context import PlainContext
 from bem.scenes.kind import get_kind
 from bem.scenes.load import scene_from_table
 from reports.experiments.contact_error_bars import waves_through
-from reports.experiments.judging import judge, rows_with_parts
+from reports.experiments.judging import Comparison, Experiment, main
 
-RESULT = Path(__file__).resolve().parents[1] / "results" / "life_error_bars.json"
 FINER, MORE = 2, 4
 FILM = {
     "activation_energy": "0.665 eV",
@@ -82,28 +80,23 @@ def draw(rng: np.random.Generator) -> dict[str, Any]:
     return table
 
 
-def rows_of(table: dict[str, Any]) -> list[dict[str, Any]]:
-    """Bar and true error of every figure of a life; none of one that cannot be run."""
+def solve(table: dict[str, Any]) -> Comparison | None:
+    """Figures of a life, their bars, and figures of a life on a finer grid; None where either cannot be run."""
     scene = get_kind("running-in-life").resolved(scene_from_table(table))
     grid, positions = build.grid_of(scene.grid), scene.wear.positions
-    words = f"{grid.shape[0]} cells, {positions} positions, {scene.wear.passes} passing, seed {table['seed']}"
-    waves = tuple(waves_through(h, 1) for h in build.both_heights(scene, grid, PlainContext(scene.seed)))
+    lower, upper = (waves_through(h, 1) for h in build.both_heights(scene, grid, PlainContext(scene.seed)))
     keys = wearing.grid_keys(scene, FINER) | {"wear.positions": MORE * positions}
     try:
-        end = lives.end_of(scene, (waves[0], waves[1]))
-        bars = lives.bars(scene, (waves[0], waves[1]), end)
-        truth = lives.end_of(with_keys(scene, keys), (waves_through(waves[0], FINER), waves_through(waves[1], FINER)))
+        end = lives.end_of(scene, (lower, upper))
+        bars = lives.bars(scene, (lower, upper), end)
+        truth = lives.end_of(with_keys(scene, keys), (waves_through(lower, FINER), waves_through(upper, FINER)))
     except BemError as error:
-        print(f"{words}: {error}")
-        return []
-    print(words, flush=True)
-    return rows_with_parts(life_figures(end), life_figures(truth), bars, life=words)
+        print(error)
+        return None
+    return Comparison(life_figures(end), life_figures(truth), bars.values)
 
 
-def main() -> None:
-    """Judge the bars of so many."""
-    judge(lambda rng: rows_of(draw(rng)), RESULT, cases=24, seed=1712)
-
+EXPERIMENT = Experiment("life_error_bars", draw, solve, cases=24, seed=1712)
 
 if __name__ == "__main__":
-    main()
+    main(EXPERIMENT)

@@ -12,21 +12,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import replace
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 
 from bem import Lubricant
 from bem.accuracy import MarchCase, march_bars, march_figures
 from bem.errors import Status
-from reports.experiments.judging import judge, rows_with_parts
+from reports.experiments.judging import Comparison, Experiment, main
 
-RESULT = Path(__file__).resolve().parents[1] / "results" / "march_error_bars.json"
 FINER = 4
 
 
-def draw(rng: np.random.Generator) -> tuple[str, MarchCase]:
+def draw(rng: np.random.Generator) -> MarchCase:
     """A random march, not yet done."""
     moes, material = 10 ** rng.uniform(0, 2), rng.uniform(1, 10)
     modulus, radius = 10 ** rng.uniform(10.5, 11.1), 10 ** rng.uniform(-2.5, -1)
@@ -53,10 +50,9 @@ def draw(rng: np.random.Generator) -> tuple[str, MarchCase]:
 
     steps, points = int(rng.integers(16, 49)), int(rng.integers(101, 161))
     cavitation = str(rng.choice(["swift_stieber", "mass_conserving"]))
-    words = f"{motion} M {moes:.3g} L {material:.3g} {cavitation} {points} points {steps} steps"
     oil = Lubricant(viscosity, pressure_viscosity=pressure_viscosity)
     times = np.linspace(0.0, duration, steps + 1)
-    return words, MarchCase((), times, loads, speeds, radius, modulus, oil, points | 1, None, cavitation)
+    return MarchCase((), times, loads, speeds, radius, modulus, oil, points | 1, None, cavitation)
 
 
 def done(case: MarchCase, factor: int = 1) -> MarchCase:
@@ -66,23 +62,19 @@ def done(case: MarchCase, factor: int = 1) -> MarchCase:
     return replace(case, films=case.again(case.points))
 
 
-def rows_of(words: str, case: MarchCase) -> list[dict[str, Any]]:
-    """Bar and true error of every figure."""
-    case = done(case)
+def solve(drawn: MarchCase) -> Comparison | None:
+    """Figures of a march, their bars, and figures with four times the points and steps."""
+    case = done(drawn)
     if case.films[-1].status is not Status.CONVERGED:
-        return []
+        return None
     bars = march_bars(case)
     reference = done(case, FINER).films
     if reference[-1].status is not Status.CONVERGED:
-        return []
-    found, truth = march_figures(case.films), march_figures(reference)
-    return rows_with_parts(found, truth, bars, march=words)
+        return None
+    return Comparison(march_figures(case.films), march_figures(reference), bars.values)
 
 
-def main() -> None:
-    """Judge the bars of so many."""
-    judge(lambda rng: rows_of(*draw(rng)), RESULT, cases=30, seed=2613)
-
+EXPERIMENT = Experiment("march_error_bars", draw, solve, cases=30, seed=2613)
 
 if __name__ == "__main__":
-    main()
+    main(EXPERIMENT)

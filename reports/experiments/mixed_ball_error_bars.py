@@ -10,7 +10,6 @@ patch. The result is stored in `reports/results/mixed_ball_error_bars.json`.
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
 import numpy as np
 
@@ -20,16 +19,15 @@ from bem.lubrication.point.scales import nijenbanning_film, point_scales
 from bem.reference_solutions.hertz import ellipse_contact
 from bem.surfaces import generate_surface
 from reports.experiments.contact_error_bars import waves_through
-from reports.experiments.judging import judge
-from reports.experiments.mixed_error_bars import Problem, rows_of
+from reports.experiments.judging import Experiment, main
+from reports.experiments.mixed_error_bars import Problem, solve
 
-RESULT = Path(__file__).resolve().parents[1] / "results" / "mixed_ball_error_bars.json"
 STEEL = Material("steel", youngs_modulus=206e9, poissons_ratio=0.3)
 MODULUS = 206e9 / 2 / (1 - 0.3**2)
 
 
 def draw(rng: np.random.Generator) -> Problem:
-    """A random ball or ellipsoid in words, its set-up, heights and speeds."""
+    """A random ball or ellipsoid."""
     along, hertz = 10 ** rng.uniform(-2.5, -1.8), 10 ** rng.uniform(8.5, 9)
     radii = (along, along * 2 ** rng.uniform(-1, 1))
     one = ellipse_contact(radii=radii, contact_modulus=MODULUS, load=1.0)
@@ -71,15 +69,11 @@ def draw(rng: np.random.Generator) -> Problem:
             scales.load, lubricant.pressure_viscosity * scales.pressure, scales.ratio
         )
         mean *= (wanted / film) ** 1.4
-    words = f"{model} {shortest:.1f} cells to a wave, {hertz / 1e9:.2f} GPa, {setup.film_cells} cells, {counted}"
     slide = mean * rng.uniform(0.05, 2) / 2
-    return words, setup, heights, (mean + slide, mean - slide)
+    return Problem(setup, heights, lambda: (mean + slide, mean - slide))
 
 
-def main() -> None:
-    """Judge the bars of so many."""
-    judge(lambda rng: rows_of(draw(rng)), RESULT, cases=16)
-
+EXPERIMENT = Experiment("mixed_ball_error_bars", draw, solve, cases=16)
 
 if __name__ == "__main__":
-    main()
+    main(EXPERIMENT)

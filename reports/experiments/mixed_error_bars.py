@@ -12,30 +12,35 @@ capped and uncoupled asperities, alike and unlike bodies, films of 120 to 500 po
 from __future__ import annotations
 
 import math
-from dataclasses import replace
-from pathlib import Path
-from typing import Any
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 
 import numpy as np
 
 from bem import Body, Grid, Lubricant, Material, solve_line_film
 from bem.accuracy import MixedCase, mixed_bars, mixed_figures, solve_coarser_mixed
-from bem.accuracy.contact import surface_is_resolved
 from bem.errors import InputError, Status
 from bem.friction.films import films_of
 from bem.friction.load_sharing import solve_setup
 from bem.friction.setup import MixedSetup
 from bem.surfaces import generate_surface
 from reports.experiments.contact_error_bars import FloatArray, waves_through
-from reports.experiments.judging import judge, rows_with_parts
+from reports.experiments.judging import Comparison, Experiment, main
 
-RESULT = Path(__file__).resolve().parents[1] / "results" / "mixed_error_bars.json"
 FINER = 4
-Problem = tuple[str, MixedSetup, FloatArray, tuple[float, float]]
+
+
+@dataclass(frozen=True)
+class Problem:
+    """A rough contact: set-up, heights [m], and a function that finds the speeds of both bodies [m/s]."""
+
+    setup: MixedSetup
+    heights: FloatArray
+    speeds: Callable[[], tuple[float, float]]
 
 
 def draw(rng: np.random.Generator) -> Problem:
-    """A random contact in words, its set-up, heights and speeds."""
+    """A random contact."""
     steel = Material("steel", youngs_modulus=206e9, poissons_ratio=0.3)
     other = steel if rng.random() < 0.7 else Material("bronze", youngs_modulus=110e9, poissons_ratio=0.34)
     radius, hertz = 10 ** rng.uniform(-2.7, -1.5), 10 ** rng.uniform(8.3, 9.1)
@@ -68,21 +73,24 @@ def draw(rng: np.random.Generator) -> Problem:
         film_points=int(10 ** rng.uniform(math.log10(120), math.log10(500))),
         contact_model="uncoupled" if model == "uncoupled" else "coupled",
     )
-    # films go like the speed to the power of about 0.7
     wanted = 10 ** rng.uniform(-1.3, 0.5) * float(heights.std())
-    mean = 0.1
-    for _ in range(3):
-        film = solve_line_film(
-            load=load / 1e-3,
-            radius=radius,
-            contact_modulus=modulus,
-            speeds=(mean, mean),
-            lubricant=lubricant,
-            points=200,
-        )
-        mean *= min(max((wanted / film.minimum_thickness) ** 1.4, 1e-3), 1e3)
-    words = f"{model} {shortest:.1f} cells to a wave, {hertz / 1e9:.2f} GPa, {setup.film_points} points"
-    return words, setup, heights, (mean * (1 + sliding / 2), mean * (1 - sliding / 2))
+
+    def speeds() -> tuple[float, float]:
+        # films go like the speed to the power of about 0.7
+        mean = 0.1
+        for _ in range(3):
+            film = solve_line_film(
+                load=load / 1e-3,
+                radius=radius,
+                contact_modulus=modulus,
+                speeds=(mean, mean),
+                lubricant=lubricant,
+                points=200,
+            )
+            mean *= min(max((wanted / film.minimum_thickness) ** 1.4, 1e-3), 1e3)
+        return mean * (1 + sliding / 2), mean * (1 - sliding / 2)
+
+    return Problem(setup, heights, speeds)
 
 
 def finer(setup: MixedSetup) -> MixedSetup:
@@ -95,37 +103,27 @@ def finer(setup: MixedSetup) -> MixedSetup:
     )
 
 
-def rows_of(problem: Problem) -> list[dict[str, Any]]:
-    """Bar and true error of every figure."""
-    words, setup, heights, speeds = problem
+def solve(problem: Problem) -> Comparison | None:
+    """Figures of load sharing, their bars, and figures on a finer grid and film."""
+    setup, heights, speeds = problem.setup, problem.heights, problem.speeds()
     try:
         solution = solve_setup(setup, heights, speeds)
         reference = solve_setup(finer(setup), waves_through(heights, FINER), speeds)
-    except InputError:  # a load that no film is looked for
-        return []
+    except InputError:  # the load is outside the range of the film solver
+        return None
     if {solution.status, reference.status} != {Status.CONVERGED}:
-        return []
+        return None
     case = MixedCase(setup, heights, solution)
-    coarser = solve_coarser_mixed(case)
-    bars = mixed_bars(case, coarser)
+    bars = mixed_bars(case, solve_coarser_mixed(case))
     found, truth = mixed_figures(solution), mixed_figures(reference)
-    # load sharing looks at the film under the whole load on few points where it does not clear the roughness
+    # load sharing solves the film under the whole load on few points where it does not clear the roughness
     films = films_of(setup, speeds, resolution=FINER * setup.film_resolution)
     whole = films.under(setup.load, len(films.errors) - 1, None)
     truth["lambda_ratio"] = whole.minimum_thickness / float(heights.std())
-    return rows_with_parts(
-        found,
-        truth,
-        bars,
-        contact=f"{words}, {solution.regime}, lambda {solution.lambda_ratio:.2g}",
-        resolved=surface_is_resolved(heights, setup.grid),
-    )
+    return Comparison(found, truth, bars.values)
 
 
-def main() -> None:
-    """Judge the bars of so many."""
-    judge(lambda rng: rows_of(draw(rng)), RESULT, cases=60, seed=2613)
-
+EXPERIMENT = Experiment("mixed_error_bars", draw, solve, cases=60, seed=2613)
 
 if __name__ == "__main__":
-    main()
+    main(EXPERIMENT)

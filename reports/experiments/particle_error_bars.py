@@ -10,7 +10,7 @@ result is stored in `reports/results/particle_error_bars.json`.
 
 from __future__ import annotations
 
-from pathlib import Path
+from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
@@ -18,9 +18,8 @@ import numpy as np
 from bem.accuracy import map_figures, particle_bars
 from bem.particles import particles_from_height_map
 from reports.experiments.contact_error_bars import FloatArray
-from reports.experiments.judging import judge, rows_with_parts
+from reports.experiments.judging import Comparison, Experiment, main
 
-RESULT = Path(__file__).resolve().parents[1] / "results" / "particle_error_bars.json"
 FINER, PIXEL = 4, 20e-9
 
 
@@ -44,22 +43,35 @@ def plate(rng: np.random.Generator, pixels: int, finer: int, radii: FloatArray) 
     return heights
 
 
-def rows_of(rng: np.random.Generator) -> list[dict[str, Any]]:
-    """Bar and true error of every figure of a random map."""
+@dataclass(frozen=True)
+class Maps:
+    """Heights [m] of a map and of its reference, and how particles are found in them."""
+
+    heights: FloatArray
+    fine: FloatArray
+    seen: dict[str, Any]
+
+
+def draw(rng: np.random.Generator) -> Maps:
+    """A random map."""
     pixels, count = int(rng.integers(96, 161)), int(rng.integers(8, 41))
     mean, spread = float(rng.uniform(3, 8)), float(rng.uniform(0.1, 0.5))
     seen = {"threshold": float(rng.uniform(0.1, 0.33)) * 0.3 * mean * PIXEL, "background": "none"}
     landed = (max(int(rng.poisson(count)), 2), int(rng.poisson(16 * count)))
     own, many = (np.minimum(mean * np.exp(spread * rng.standard_normal(n)), pixels / 6) for n in landed)
-    heights = plate(rng, pixels, 1, own)
-    found = particles_from_height_map(heights, (PIXEL, PIXEL), **seen)
-    fine = plate(rng, 4 * pixels, FINER, many)
-    truth = map_figures(particles_from_height_map(fine, (PIXEL / FINER,) * 2, **seen))
-    bars = particle_bars(found, heights, (PIXEL, PIXEL), seen)
-    words = f"{pixels} pixels, {len(found)} particles of {mean:.1f} pixels"
-    truth["count"] /= 16
-    return rows_with_parts(map_figures(found), truth, bars, map=words)
+    return Maps(plate(rng, pixels, 1, own), plate(rng, 4 * pixels, FINER, many), seen)
 
+
+def solve(maps: Maps) -> Comparison:
+    """Figures of a map, their bars, and figures of sixteen such maps of a quarter of the pixel."""
+    found = particles_from_height_map(maps.heights, (PIXEL, PIXEL), **maps.seen)
+    truth = map_figures(particles_from_height_map(maps.fine, (PIXEL / FINER,) * 2, **maps.seen))
+    truth["count"] /= 16
+    bars = particle_bars(found, maps.heights, (PIXEL, PIXEL), maps.seen)
+    return Comparison(map_figures(found), truth, bars.values)
+
+
+EXPERIMENT = Experiment("particle_error_bars", draw, solve, cases=60, seed=2616)
 
 if __name__ == "__main__":
-    judge(rows_of, RESULT, 60, seed=2616)
+    main(EXPERIMENT)

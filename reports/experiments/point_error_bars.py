@@ -13,7 +13,6 @@ same size, and added to what cells of a quarter change. The result is stored in
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
 import numpy as np
 
@@ -21,14 +20,13 @@ from bem import Lubricant, PointFilmSolution, solve_point_film
 from bem.accuracy.point import PointCase, point_bars, point_figures
 from bem.arguments import named
 from bem.errors import InputError, Status
-from reports.experiments.judging import Rows, judge, rows_with_parts
+from reports.experiments.judging import Comparison, Experiment, main
 
-RESULT = Path(__file__).resolve().parents[1] / "results" / "point_error_bars.json"
 FINER = 4
 
 
-def draw(rng: np.random.Generator) -> tuple[str, PointCase]:
-    """A random film in words and as its arguments."""
+def draw(rng: np.random.Generator) -> PointCase:
+    """A random film."""
     load, material = 10 ** rng.uniform(math.log10(2), math.log10(1000)), rng.uniform(0, 15)
     modulus, radius, ratio = 10 ** rng.uniform(9.5, 11.1), 10 ** rng.uniform(-2.5, -1), 10 ** rng.uniform(-1, 1)
     pressure_viscosity, viscosity = rng.uniform(0.8, 2.5) * 1e-8, 10 ** rng.uniform(-2, 0)
@@ -43,8 +41,7 @@ def draw(rng: np.random.Generator) -> tuple[str, PointCase]:
     first, second = (
         (mean * (1 + way) * math.cos(angle), mean * (1 + way) * math.sin(angle)) for way in (slide, -slide)
     )
-    words = f"M {load:.3g} L {material:.3g} Rx/Ry {ratio:.2g} at {math.degrees(angle):.0f} deg, {density} {law}"
-    case = PointCase(
+    return PointCase(
         load=load * 2 * modulus * radius**2 * number**0.75,
         radii=(radius, radius / ratio),
         contact_modulus=modulus,
@@ -53,7 +50,6 @@ def draw(rng: np.random.Generator) -> tuple[str, PointCase]:
         cells=(cells, cells),
         roughness=50e-9,
     )
-    return f"{words}, {cells} cells", case
 
 
 def further_out(case: PointCase, film: PointFilmSolution) -> PointFilmSolution:
@@ -70,20 +66,22 @@ def further_out(case: PointCase, film: PointFilmSolution) -> PointFilmSolution:
     return solve_point_film(**asked, shape=(shape[0], shape[1]), extent=edges, cavitation="mass_conserving")
 
 
-def rows_of(words: str, case: PointCase) -> Rows:
-    """Bar, its parts and true error of every figure of a film; none where a film is not found or asked for."""
+def solve(case: PointCase) -> Comparison | None:
+    """Figures of a film, their bars, and figures on finer and wider grids; None where a film is not found or asked."""
     nx, ny = case.cells
     try:
         film, reference = case.on(case.cells), case.on((FINER * nx, FINER * ny))
         wide = further_out(case, film)
     except InputError:  # across a narrow ellipse M is another, and may be out of range
-        return []
+        return None
     if {film.status, reference.status, wide.status} != {Status.CONVERGED}:
-        return []
+        return None
     found, finer, further = (point_figures(case, one) for one in (film, reference, wide))
     truth = {name: finer[name] + further[name] - found[name] for name in found}
-    return rows_with_parts(found, truth, point_bars(case, film), film=words)
+    return Comparison(found, truth, point_bars(case, film).values)
 
+
+EXPERIMENT = Experiment("point_error_bars", draw, solve, cases=30)
 
 if __name__ == "__main__":
-    judge(lambda rng: rows_of(*draw(rng)), RESULT, cases=30)
+    main(EXPERIMENT)

@@ -13,7 +13,6 @@ by counts as two thirds of the error, as in first order. Cases where no film is 
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
 import numpy as np
 
@@ -22,9 +21,8 @@ from bem.accuracy.rough_point import RoughPointCase, rough_point_bars, rough_poi
 from bem.errors import Status
 from bem.grid import FloatArray
 from bem.lubrication.point.moving import Heights
-from reports.experiments.judging import Rows, judge, rows_with_parts
+from reports.experiments.judging import Comparison, Experiment, main
 
-RESULT = Path(__file__).resolve().parents[1] / "results" / "rough_point_error_bars.json"
 FINER, WAVES = 3, 64
 MODULUS = 115e9
 """[Pa], of steel on steel."""
@@ -43,8 +41,8 @@ def isotropic(rng: np.random.Generator, rms: float, shortest: float) -> Heights:
     return heights
 
 
-def draw(rng: np.random.Generator) -> tuple[str, RoughPointCase, tuple[int, int], float]:
-    """A random film in words, its arguments, cells and Hertz' radius [m]."""
+def draw(rng: np.random.Generator) -> tuple[RoughPointCase, tuple[int, int], float]:
+    """A random film, its cells and Hertz' radius [m]."""
     highest, radius = rng.uniform(0.4e9, 1.5e9), 10 ** rng.uniform(-2.3, -1.7)
     half = math.pi * highest * radius / (2 * MODULUS)
     speed, rms, share = 10 ** rng.uniform(-3.5, -0.5), 10 ** rng.uniform(-8.3, -6.8), 10 ** rng.uniform(-0.45, 0)
@@ -62,27 +60,29 @@ def draw(rng: np.random.Generator) -> tuple[str, RoughPointCase, tuple[int, int]
         least_film=1e-9,
         boundary_friction=0.12,
     )
-    words = f"{1e-9 * highest:.2g} GPa {speed:.2g} m/s rms {1e9 * rms:.2g} nm shortest wave {share:.2g} radii"
-    return f"{words}, {cells} cells", case, (cells, cells), half
+    return case, (cells, cells), half
 
 
-def rows_of(words: str, case: RoughPointCase, cells: tuple[int, int], half: float) -> Rows:
-    """Bar, its parts and true error of every figure of a film; none where a film is not found."""
+def solve(drawn: tuple[RoughPointCase, tuple[int, int], float]) -> Comparison | None:
+    """Figures of a film, their bars, and figures on a finer grid; None where a film is not found."""
+    case, cells, half = drawn
     film = case.on(cells)
     if film.status is not Status.CONVERGED:
-        return []
+        return None
     area = math.pi * half**2
-    bars = rough_point_bars(case, film, area)
-    if all(bar is None for bar in bars.values.values()):
-        return []
+    bars = rough_point_bars(case, film, area).values
+    if all(bar is None for bar in bars.values()):
+        return None
     reference = case.on((FINER * cells[0], FINER * cells[1]))
     if reference.status is not Status.CONVERGED:
-        return []
+        return None
     found, finer = (rough_point_figures(case, one, area) for one in (film, reference))
     truth = {name: value + FINER / (FINER - 1) * (finer[name] - value) for name, value in found.items()}
-    unknown = {name: 0.0 for name in bars.values if name not in found}
-    return rows_with_parts(found | unknown, truth | unknown, bars, film=words)
+    unknown = {name: 0.0 for name in bars if name not in found}
+    return Comparison(found | unknown, truth | unknown, bars)
 
+
+EXPERIMENT = Experiment("rough_point_error_bars", draw, solve, cases=30, seed=2614)
 
 if __name__ == "__main__":
-    judge(lambda rng: rows_of(*draw(rng)), RESULT, cases=30, seed=2614)
+    main(EXPERIMENT)

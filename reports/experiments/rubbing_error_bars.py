@@ -9,33 +9,29 @@ result is stored in `reports/results/rubbing_error_bars.json`.
 
 from __future__ import annotations
 
-from pathlib import Path
-from typing import Any
-
 import numpy as np
 
 from bem import Body, Material
 from bem.accuracy import RubbingCase, rubbing_bars
-from bem.accuracy.contact import ContactCase, is_resolved
 from bem.errors import Status
-from reports.experiments.contact_error_bars import FINER, draw
-from reports.experiments.judging import judge, rows_with_parts
+from reports.experiments import contact_error_bars
+from reports.experiments.contact_error_bars import FINER, Problem
+from reports.experiments.judging import Comparison, Experiment, main
 
-RESULT = Path(__file__).resolve().parents[1] / "results" / "rubbing_error_bars.json"
 _HEAT = {"thermal_conductivity": 40.0, "density": 7800.0, "heat_capacity": 460.0}
 _STEEL = Material("steel", youngs_modulus=400e9, poissons_ratio=0.3, **_HEAT)
 """Two of them are as stiff as one of the contacts' bodies on a rigid one."""
 
 
-def rows_of(rng: np.random.Generator) -> list[dict[str, Any]]:
-    """Bar and true error of every figure of a random rubbing contact."""
-    problem = draw(rng)
-    while all(problem.grid.periodic) or problem.body.layers or "load" not in problem.given:
-        problem = draw(rng)
+def draw(rng: np.random.Generator) -> tuple[Problem, RubbingCase]:
+    """A random contact and what slides on it."""
+    problem = contact_error_bars.draw(rng)
+    while all(problem.grid.periodic) or problem.body.layers or problem.control != "load":
+        problem = contact_error_bars.draw(rng)
     diffusivity = 40.0 / (7800.0 * 460.0)
     speed = float(10 ** rng.uniform(-2, 1.5)) * diffusivity / (0.2 * problem.grid.lengths[0])
     pair = bool(rng.random() < 0.6)
-    case = RubbingCase(
+    return problem, RubbingCase(
         bodies=(Body(_STEEL), Body(_STEEL)) if pair else Body(_STEEL),
         # a body at rest has no steady temperature under a line of heat
         speeds=(speed, speed * float(rng.choice([-0.3, 0.5] if any(problem.grid.periodic) else [0.0, -1.0, 0.5]))),
@@ -43,22 +39,25 @@ def rows_of(rng: np.random.Generator) -> list[dict[str, Any]]:
         friction=0.2,
         asked={**problem.given, "hardness": problem.hardness, "tolerance": 1e-8},
     )
+
+
+def solve(drawn: tuple[Problem, RubbingCase]) -> Comparison | None:
+    """Temperatures, their bars, and temperatures on four times the cells a side."""
+    problem, case = drawn
     found = []
     for factor in (1, FINER):
         grid, gap = problem.refined(factor), problem.gap(factor)
         contact = case.contact(grid, gap)
         found.append((grid, gap, contact, case.temperature(grid, contact)))
     if any(one.status is not Status.CONVERGED for _, _, *solved in found for one in solved):
-        return []
+        return None
     grid, gap, contact, temperature = found[0]
-    bars = rubbing_bars(case, grid, gap, (contact, temperature))
-    own, truth = (case.figures(one, *solved) for one, _, *solved in found)
-    own, truth = own | {"load": contact.load}, truth | {"load": found[1][2].load}
-    operator = problem.case(1).operator
-    resolved = is_resolved(ContactCase(operator, gap, contact))
-    words = f"{problem.words} {'pair' if pair else 'one'}, {speed:.3g} m/s"
-    return rows_with_parts(own, truth, bars, contact=words, resolved=resolved)
+    bars = rubbing_bars(case, grid, gap, (contact, temperature)).values
+    own, truth = (case.figures(one, *solved) | {"load": solved[0].load} for one, _, *solved in found)
+    return Comparison(own, truth, bars)
 
+
+EXPERIMENT = Experiment("rubbing_error_bars", draw, solve, cases=60)
 
 if __name__ == "__main__":
-    judge(rows_of, RESULT, 60)
+    main(EXPERIMENT)

@@ -11,7 +11,6 @@ the same waves, with four times the depths and points of the film. The result is
 from __future__ import annotations
 
 import math
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -24,9 +23,8 @@ from bem.scenes.kind import get_kind
 from bem.scenes.kinds import running_in
 from bem.scenes.load import scene_from_table
 from reports.experiments.contact_error_bars import waves_through
-from reports.experiments.judging import judge, loop_rows, worn_bodies
+from reports.experiments.judging import Comparison, Experiment, compare_records, main, worn_bodies
 
-RESULT = Path(__file__).resolve().parents[1] / "results" / "running_in_error_bars.json"
 FINER, SIDE = 4, 51.2e-6
 
 
@@ -54,12 +52,10 @@ def draw(rng: np.random.Generator) -> dict[str, Any]:
     }
 
 
-def rows_of(table: dict[str, Any]) -> list[dict[str, Any]]:
-    """Bar and true error of every figure of a loop; none of a loop that cannot be run."""
-    kind = get_kind("running-in")
-    scene = kind.resolved(scene_from_table(table))
+def solve(table: dict[str, Any]) -> Comparison | None:
+    """Figures of a loop, their bars, and figures on a quarter of the cell; None where either cannot be run."""
+    scene = get_kind("running-in").resolved(scene_from_table(table))
     grid = build.grid_of(scene.grid)
-    words = f"{grid.shape[0]} cells, {table['speeds'][0]:.2g} m/s, seed {table['seed']}"
     lower, upper = (waves_through(h, 1) for h in build.both_heights(scene, grid, PlainContext(scene.seed)))
     fine = (waves_through(lower, FINER), waves_through(upper, FINER))
     try:
@@ -67,17 +63,13 @@ def rows_of(table: dict[str, Any]) -> list[dict[str, Any]]:
         bars = running_in.bars(scene, (lower, upper), found)
         truth = running_in.wear_down(running_in.at_resolution(scene, FINER), fine, PlainContext(scene.seed))
     except BemError as error:
-        print(f"{words}: {error}")
-        return []
-    print(words, flush=True)
+        print(error)
+        return None
     known = [name for name in MIXED_RULES if getattr(found, name) is not None]  # no temperatures without heat
-    return loop_rows(found, bars, truth, known, words)
+    return compare_records(found, truth, bars.values, known)
 
 
-def main() -> None:
-    """Judge the bars of so many."""
-    judge(lambda rng: rows_of(draw(rng)), RESULT, cases=24, seed=2612)
-
+EXPERIMENT = Experiment("running_in_error_bars", draw, solve, cases=24, seed=2612)
 
 if __name__ == "__main__":
-    main()
+    main(EXPERIMENT)

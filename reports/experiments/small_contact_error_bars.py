@@ -9,16 +9,14 @@ wide. The result is stored in `reports/results/small_contact_error_bars.json`.
 from __future__ import annotations
 
 import math
-from pathlib import Path
 
 import numpy as np
 
 from bem import Body, Grid, Layer, Material
 from bem.reference_solutions.hertz import ellipse_contact
-from reports.experiments.contact_error_bars import Problem, rows_of
-from reports.experiments.judging import judge
+from reports.experiments.contact_error_bars import Problem, solve
+from reports.experiments.judging import Experiment, main
 
-RESULT = Path(__file__).resolve().parents[1] / "results" / "small_contact_error_bars.json"
 _RADIUS, _SMALLEST, _LARGEST = 1e-3, 32, 80
 """Of the bodies [m]; cells along an axis: a grid of twice the cell needs so many, the reference four times more."""
 
@@ -47,17 +45,11 @@ def draw(rng: np.random.Generator) -> Problem:
     given = {"load": load}
     place = (float(centre[0]), float(centre[1]))
     heights = np.zeros(grid.shape)
-    problem = Problem(form, grid, body, curvature, heights, given, hardness=None, depths=0, centre=place)
-    if rng.random() < 0.5:
-        given = {"approach": float(problem.case(4).solution.approach)}
-        return Problem(f"{form} approach", grid, body, curvature, heights, given, None, 0, place)
-    return problem
+    control = "approach" if rng.random() < 0.5 else "load"
+    return Problem(grid, body, curvature, heights, given, None, 0, control, place, settled_on=4)
 
 
-def main() -> None:
-    """Judge the bars of so many."""
-    judge(lambda rng: rows_of(draw(rng)), RESULT, cases=100)
-
+EXPERIMENT = Experiment("small_contact_error_bars", draw, solve, cases=100)
 
 if __name__ == "__main__":
-    main()
+    main(EXPERIMENT)

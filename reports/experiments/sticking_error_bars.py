@@ -10,16 +10,14 @@ as close, and four times the steps in which the load of unlike bodies comes. The
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
 
 from bem.errors import Status
 from bem.scenes import PlainContext, get_kind, load_scene
-from reports.experiments.judging import Rows, judge
+from reports.experiments.judging import Comparison, Experiment, main
 
-RESULT = Path(__file__).resolve().parents[1] / "results" / "sticking_error_bars.json"
 FINER = 4
 _DEPTHS = 24
 _FIRST_STEPS = 6
@@ -99,27 +97,21 @@ def _run(scene: dict[str, Any]) -> Any:
     return kind.run(resolved, PlainContext(resolved.seed))
 
 
-def rows_of(rng: np.random.Generator) -> Rows:
-    """Bar, parts and true error of every figure of a random scene."""
-    scene = draw(rng)
+def solve(scene: dict[str, Any]) -> Comparison | None:
+    """Figures of a scene, their bars, and figures on a finer grid with more steps."""
     found, truth = _run(scene), _run(_finer(scene))
-    words = f"{scene['kind']}, {'rough' if 'surface' in scene['lower'] else 'ball'}, {scene['grid']['shape'][0]} cells"
     if not Status.CONVERGED is found.status is truth.status:
-        return []
+        return None
     push = scene.get("push", {})
     turned = "rotation" in push and "share" not in push
-    return [
-        {
-            "figure": f"{scene['kind']}: {name}",
-            "scene": words,
-            "value": getattr(found, name),
-            "parts": {origin: part[name] for origin, part in found.error_parts.items() if name in part},
-            "error": abs(getattr(found, name) - getattr(truth, name)),
-            "bar": bar,
-        }
-        for name, bar in found.errors.items()
-        if not ((turned and name in ("force", "shift")) or _is_zero(found, name))  # but for rounding
+    names = [
+        name
+        for name in found.errors
+        if not ((turned and name in ("force", "shift")) or _is_zero(found, name))  # zero but for rounding
     ]
+    kind = scene["kind"]
+    own, reference = ({f"{kind}: {name}": getattr(one, name) for name in names} for one in (found, truth))
+    return Comparison(own, reference, {f"{kind}: {name}": found.errors[name] for name in names})
 
 
 def _is_zero(found: Any, name: str) -> bool:
@@ -128,5 +120,7 @@ def _is_zero(found: Any, name: str) -> bool:
     return name in parts and abs(getattr(found, name)) < 1e-9 * max(abs(getattr(found, part)) for part in parts)
 
 
+EXPERIMENT = Experiment("sticking_error_bars", draw, solve, cases=60)
+
 if __name__ == "__main__":
-    judge(rows_of, RESULT, 60)
+    main(EXPERIMENT)

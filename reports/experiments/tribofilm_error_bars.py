@@ -10,8 +10,6 @@ over all cells, one in four with local feedback. The result is stored in `report
 from __future__ import annotations
 
 from dataclasses import replace
-from pathlib import Path
-from typing import Any
 
 import numpy as np
 
@@ -21,15 +19,14 @@ from bem.errors import ConvergenceError
 from bem.surfaces import generate_surface
 from bem.tribofilm import FadingSubstrate, FilmContact, StressActivatedGrowth, grow_local_film, grow_tribofilm
 from reports.experiments.contact_error_bars import FloatArray, waves_through
-from reports.experiments.judging import judge, rows_with_parts
+from reports.experiments.judging import Comparison, Experiment, main
 
-RESULT = Path(__file__).resolve().parents[1] / "results" / "tribofilm_error_bars.json"
 FINER, TIGHTER = 4, 20
 _STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
 
 
-def draw(rng: np.random.Generator) -> tuple[str, TribofilmCase, FloatArray, float]:
-    """A random film in words, its case, the waves of its surface and the curvature below them [1/m]."""
+def draw(rng: np.random.Generator) -> tuple[TribofilmCase, FloatArray, float]:
+    """A random film, the waves of its surface [m] and the curvature below them [1/m]."""
     cells, cell = int(rng.integers(24, 41)), 1e-7
     ball = bool(rng.random() < 0.4)
     grid = Grid((cells, cells), (cell, cell), periodic=(not ball, not ball))
@@ -71,8 +68,7 @@ def draw(rng: np.random.Generator) -> tuple[str, TribofilmCase, FloatArray, floa
         constants["lag"] = 0.3 / wear
     times = np.linspace(0.0, float(rng.uniform(0.5, 5)) / wear, 21)
     case = TribofilmCase(contact, times, constants, None if local else 2e-3, report=(0.4 * times[-1], times[-1]))
-    words = f"{'ball' if ball else 'patch'} {contact.average} {'local' if local else 'mean'} {cells} cells"
-    return words, case, heights, curvature
+    return case, heights, curvature
 
 
 def _gap(grid: Grid, heights: FloatArray, curvature: float, factor: int) -> FloatArray:
@@ -91,9 +87,9 @@ def grown(case: TribofilmCase, tighter: float = 1.0) -> dict[str, float | None]:
     return history_figures(found.history, found.steady, case.report)
 
 
-def rows_of(rng: np.random.Generator) -> list[dict[str, Any]]:
-    """Bar and true error of every figure of a random film."""
-    words, case, heights, curvature = draw(rng)
+def solve(drawn: tuple[TribofilmCase, FloatArray, float]) -> Comparison | None:
+    """Figures of a film, their bars, and figures on a finer grid to a smaller tolerance."""
+    case, heights, curvature = drawn
     grid = case.contact.grid
     fine = Grid((FINER * grid.shape[0],) * 2, (grid.spacing[0] / FINER,) * 2, periodic=grid.periodic)
     gap = _gap(fine, heights, curvature, FINER)
@@ -102,12 +98,13 @@ def rows_of(rng: np.random.Generator) -> list[dict[str, Any]]:
         finer = replace(case, contact=replace(case.contact, grid=fine, gap=gap))
         truth = grown(finer, 4 if case.reuse_tolerance is None else TIGHTER)
     except ConvergenceError:
-        return []
-    bars = tribofilm_bars(case, found)
-    known = {n: v for n, v in found.items() if v is not None and truth[n] is not None}
-    own, reference = ({name: each[name] or 0.0 for name in found} for each in (found, truth))
-    return [row for row in rows_with_parts(own, reference, bars, film=words) if row["figure"] in known]
+        return None
+    bars = tribofilm_bars(case, found).values
+    known = [name for name in bars if found[name] is not None and truth[name] is not None]
+    return Comparison(found, truth, {name: bars[name] for name in known})
 
+
+EXPERIMENT = Experiment("tribofilm_error_bars", draw, solve, cases=40, seed=2614)
 
 if __name__ == "__main__":
-    judge(rows_of, RESULT, 40, seed=2614)
+    main(EXPERIMENT)

@@ -11,7 +11,6 @@ every third pair is a fifth as rough and capped at 10 GPa. The finer grid sees t
 
 from __future__ import annotations
 
-from pathlib import Path
 from typing import Any
 
 import numpy as np
@@ -23,9 +22,8 @@ from bem.scenes.kind import get_kind
 from bem.scenes.kinds import wear
 from bem.scenes.load import load_scene
 from reports.experiments.contact_error_bars import waves_through
-from reports.experiments.judging import judge, loop_rows, worn_bodies
+from reports.experiments.judging import Comparison, Experiment, compare_records, main, worn_bodies
 
-RESULT = Path(__file__).resolve().parents[1] / "results" / "wear_error_bars.json"
 FINER, SIDE = 4, 4e-6
 
 
@@ -56,8 +54,8 @@ def draw(rng: np.random.Generator) -> dict[str, Any]:
     }
 
 
-def rows_of(table: dict[str, Any]) -> list[dict[str, Any]]:
-    """Bar and true error of every figure of a loop that wears something."""
+def solve(table: dict[str, Any]) -> Comparison:
+    """Figures of a loop, their bars, and figures on a quarter of the cell; none of a loop without wear."""
     scene = get_kind("wear").resolved(load_scene(table))
     grid = scene.domain.at(scene.cylinder, build.modulus_of(scene))[0]
     lower, upper = (waves_through(h, 1) for h in build.both_heights(scene, grid, PlainContext(scene.seed)))
@@ -65,16 +63,10 @@ def rows_of(table: dict[str, Any]) -> list[dict[str, Any]]:
     bars = wear.bars(scene, (lower, upper), found)
     fine = (waves_through(lower, FINER), waves_through(upper, FINER))
     truth = wear.wear_down(wear.at_resolution(scene, FINER), fine, PlainContext(scene.seed))
-    correlated = table["lower"]["surface"]["correlation_length"]
-    words = f"{table['domain']['cells']} cells, correlated over {correlated:.2g} m"
-    names = RULES if truth.worn_volume_per_cycle > 0 else ()
-    return loop_rows(found, bars, truth, names, words)
+    return compare_records(found, truth, bars.values, RULES if truth.worn_volume_per_cycle > 0 else ())
 
 
-def main() -> None:
-    """Judge the bars of so many."""
-    judge(lambda rng: rows_of(draw(rng)), RESULT, cases=60)
-
+EXPERIMENT = Experiment("wear_error_bars", draw, solve, cases=60)
 
 if __name__ == "__main__":
-    main()
+    main(EXPERIMENT)
