@@ -14,6 +14,7 @@ from pathlib import Path
 from reports.builder import HERE, write_site
 
 REPORTS = ("verification", "performance", "validation", "guide")
+NEEDED = "needed"
 GALLERY = "gallery"  # runs every built-in scene: only when it is named
 
 
@@ -24,7 +25,13 @@ def main() -> None:
     parser.add_argument("--pdf", action="store_true", help="print each page to PDF too (needs chromium)")
     parser.add_argument("--out", type=Path, default=HERE, help="folder to write into")
     parser.add_argument("--reduced", action="store_true", help="gallery: small grids, few cycles")
-    parser.add_argument("--renew", nargs="*", metavar="RESULT", help="validation: run what stored results are stale")
+    parser.add_argument(
+        "--renew",
+        nargs="*",
+        metavar="RESULT",
+        help="validation: run the named results, or all that are not of this commit; `needed`: those that are not "
+        "stored, of another scene text or settings, or failed to reproduce",
+    )
     parser.add_argument(
         "--set", action="append", default=[], metavar="RESULT:KEY=VALUE", help="renewal: a setting of a scene"
     )
@@ -55,8 +62,8 @@ def main() -> None:
 
 
 def renewed(parser: argparse.ArgumentParser, names: list[str], settings: list[str]) -> list[str]:
-    """What could not be renewed of the validation's stored results."""
-    from reports.validation_renewal import jobs, renew, rerun, scripts
+    """Renew stored results of the validation; return a line for each that could not be renewed."""
+    from reports.validation_renewal import is_needed, is_of_this_commit, jobs, renew, rerun, scripts
 
     given: dict[str, list[str]] = {}
     for setting in settings:
@@ -65,10 +72,15 @@ def renewed(parser: argparse.ArgumentParser, names: list[str], settings: list[st
             parser.error(f"--set {setting}: allowed: RESULT:KEY=VALUE")
         given.setdefault(name, []).append(words)
     known, others = jobs(given), scripts()
-    unknown = sorted({*names, *given} - {*known, *others} | {*given} & {*others})
+    everything = {**known, **others}
+    unknown = sorted({*names, *given} - {*everything, NEEDED} | {*given} & {*others})
     if unknown:
-        parser.error(f"no stored result {', '.join(unknown)}; there are {', '.join((*known, *others))}")
-    wanted = names or [*known, *others]
+        parser.error(f"no stored result {', '.join(unknown)}; there are {', '.join(everything)}, and {NEEDED}")
+    wanted = [name for name in names if name != NEEDED]
+    if NEEDED in names:
+        wanted += [name for name, job in everything.items() if is_needed(job) and name not in wanted]
+    elif not names:
+        wanted = [name for name, job in everything.items() if not is_of_this_commit(job)]
     try:
         failed = rerun([others[name] for name in wanted if name in others], say=say)
         return failed + renew([known[name] for name in wanted if name in known], say=say)

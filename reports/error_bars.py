@@ -9,10 +9,10 @@ from typing import Any
 
 from bem.scenes import get_kind, kind_names
 from bem.scenes.records import Figure, described, without_bars
+from reports import reproduced
 from reports.builder import Section, table, text
 from reports.experiments.judging import judged
 from reports.prose import prose
-from reports.validation_origin import changed_since_stored
 
 _WORDS = prose("guide")["error_bars"]
 RESULTS = Path(__file__).parent / "results"
@@ -42,7 +42,8 @@ def chapter() -> list[Section]:
             "An accuracy instead of a grid",
             "".join(text(item) for item in _WORDS["asked"])
             + text(_WORDS["asked_measured"])
-            + table(("figure", "scenes", "met", "allowed over true error, median"), list(_asked())),
+            + table(("figure", "scenes", "met", "allowed over true error, median"), list(_asked()))
+            + reproduced.paragraph("accuracy_asked"),
             level=3,
         ),
         Section(
@@ -57,7 +58,7 @@ def chapter() -> list[Section]:
                 ("drawn at random", "figure", "bars", "covered", "bar over error, median", "error, median"),
                 list(_covered()),
             )
-            + "".join(text(f"{_WORDS['drawn'][name]}: {state}.".capitalize()) for name, state in _stale()),
+            + "".join(text(f"{words}: {reproduced.words(f'{name}_error_bars')}.") for name, words in _drawn()),
             level=3,
         ),
         Section("What has none", text(_WORDS["none"]) + table(("kind", "figures", "why"), list(_without())), level=3),
@@ -92,12 +93,9 @@ def together(rows: Sequence[Mapping[str, Any]]) -> dict[str, float]:
     return judged([{**row, "figure": "all"} for row in rows])["all"]
 
 
-def _stale() -> Iterator[tuple[str, str]]:
-    """Experiments whose code has changed since they were stored, and how."""
-    for name, kind in _KINDS.items():
-        state = changed_since_stored(RESULTS / f"{name}_error_bars.json", (kind,))
-        if state:
-            yield name, state
+def _drawn() -> Iterator[tuple[str, str]]:
+    """Name of each experiment and what it drew, with a capital letter."""
+    return ((name, words[0].upper() + words[1:]) for name, words in _WORDS["drawn"].items())
 
 
 def _row(drawn: str, figure: str, row: Mapping[str, float]) -> tuple[str, ...]:

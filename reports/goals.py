@@ -175,11 +175,11 @@ def goals(run: Run) -> list[Goal]:
     return [*_others(run), *_floor(run), *_convolutions(), *_peers(run)]
 
 
-def section(run: Run, state: str) -> str:
-    """The table; `state` says why the run's figures no longer stand, empty where they do."""
+def section(run: Run) -> str:
+    """The table of goals of a run."""
     words = text(
         "Times are processor times of one thread unless said otherwise: medians of repeats, after kernels and plans "
-        f"are made; the run is of commit {run.commit}, {run.date[:10]}{': ' + state if state else ''}. Convolutions, "
+        f"are made; the run is of commit {run.commit}, {run.date[:10]}. Convolutions, "
         "the ratio to the imports and the large contact are of experiments of their own."
     )
     return (

@@ -11,6 +11,7 @@ from typing import Any
 from reports.builder import table, text
 from reports.experiments.large_contact import RESULT as CONTACTS
 from reports.experiments.slab_transforms import RESULT as SLABS
+from reports.reproduced import paragraph
 
 _NAMES = {
     "bem": "this project's passes, product included",
@@ -55,7 +56,7 @@ def contacts() -> str:
         for size, row in rows.items()
     ]
     caption = "Seconds of processor time on two threads. Small grids have the libraries' memory in theirs."
-    return body + table((*headers, "convolutions", "residual"), found, caption=caption)
+    return body + table((*headers, "convolutions", "residual"), found, caption=caption) + paragraph(CONTACTS.stem)
 
 
 def _of_runs(rows: dict[str, dict[str, Any]]) -> str:
@@ -101,4 +102,5 @@ def slabs() -> str:
         for way in ways
     ]
     headers = ("cells a side", "one pair of transforms", "one, s", "two, s")
-    return body + table(headers, found, caption="Processor time of all threads or processes together.")
+    shown = table(headers, found, caption="Processor time of all threads or processes together.")
+    return body + shown + paragraph(SLABS.stem)

@@ -8,6 +8,7 @@ from pathlib import Path
 
 from bem.benchmarks.line_film import drawing, read_table
 from reports.builder import picture, table, text
+from reports.reproduced import paragraph
 
 RESULTS = Path(__file__).resolve().parent / "results" / "line_film.csv"
 HEADERS = (
@@ -71,6 +72,7 @@ def body() -> str:
         + table(
             HEADERS, lines, caption="Line-contact films: errors in per cent; fit D: Dowson (1968), fit M: Moes (1992)."
         )
+        + paragraph(RESULTS.stem)
     )
 
 

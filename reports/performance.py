@@ -36,7 +36,6 @@ from reports.builder import Page, Section, figure, table, text
 from reports.experiments.kept import age, found, result_of
 from reports.experiments.large_peers import RESULT as LARGE_PEERS
 from reports.experiments.preconditioned_spectrum import RESULT as SPECTRUM
-from reports.validation_origin import changed_since_stored
 
 RESULTS = Path(__file__).resolve().parent / "results" / "performance.json"
 SLIP = "slip_beside_aspher"
@@ -222,15 +221,12 @@ def build() -> Page:
         sections.append(Section("Since the run before", _changes(runs[-2], run)))
     facts = {"commit": run.commit, "measured": run.date} | {f"measured on: {k}": v for k, v in run.machine.items()}
     facts["measured with"] = ", ".join(f"{name} {number}" for name, number in run.versions.items())
-    facts["code"] = changed_since_stored(RESULTS, work_precision.KINDS) or "holds"
     lead = "Error against run time and memory, goals beside what was measured, other codes, and where each part holds."
     return Page("performance", "Run time against error", lead, sections, facts)
 
 
 def _goals(run: Run) -> Section:
-    return Section(
-        "Goals and what was measured", goals.section(run, changed_since_stored(RESULTS, work_precision.KINDS))
-    )
+    return Section("Goals and what was measured", goals.section(run))
 
 
 def _work_sections(run: Run) -> Iterator[Section]:
@@ -302,7 +298,7 @@ def _slip() -> str:
         )
         for row in kept
     ]
-    return body + table(headers, rows)
+    return body + table(headers, rows) + age(SLIP)
 
 
 def convolutions() -> str:

@@ -1,7 +1,8 @@
 """Validation: every number and trend of the thesis beside ours, with the reason where they differ.
 
 Our numbers are the summaries of full-size runs of the built-in scenes, kept in `reports/results/validation/`, and of
-experiments, in `reports/results/experiments/`; `make validation` renews those that are stale.
+experiments, in `reports/results/experiments/`; `make validation` renews those that are of another scene text or failed
+to reproduce.
 """
 
 from __future__ import annotations
@@ -11,12 +12,12 @@ import math
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
-from reports import independent, neglects, open_choices, patch_length
+from reports import independent, neglects, open_choices, patch_length, reproduced
 from reports.builder import COLOURS, Page, Section, figure, table, text
 from reports.experiments import kept
 from reports.validation_lines import CHECKS, CHOICES, WITHOUT_LINE
-from reports.validation_origin import rooms, stale
-from reports.validation_renewal import is_kept, jobs, scripts
+from reports.validation_origin import stale
+from reports.validation_renewal import VALIDATION, jobs, scripts
 from reports.validation_values import (
     Check,
     Rule,
@@ -69,30 +70,27 @@ def counts(lines: Iterable[tuple[str, str, str, Any, str, str]]) -> dict[str, in
 
 
 def results_table() -> str:
-    """Every stored result: version, commit and hashes it came from, and whether it is stale."""
+    """Every stored result: its settings, version and commit, whether its scene is the same, when it was reproduced."""
     lines = []
+    wrong = reproduced.outside(VALIDATION)
     for job in jobs().values():
         try:
             summary = json.loads(job.target.read_text("utf-8"))
         except FileNotFoundError:
-            lines.append((job.name, "", "", "", "", "", "not run"))
+            lines.append((job.name, "", "", "", "not run"))
             continue
         source = summary.get("origin", {})
-        state = stale(job.scene, summary) or "holds"
+        state = stale(job.scene, summary) or wrong.get(job.name) or reproduced.row_words(VALIDATION, job.name)
         set_on = ", ".join(source.get("settings", ())) or "as built in"
-        origin = [source.get(key, "not kept") for key in ("commit", "scene_hash", "code_hash")]
-        lines.append((job.name, set_on, summary["version"], *origin, state))
+        lines.append((job.name, set_on, summary["version"], source.get("commit", "not stored"), state))
     for name in scripts():
-        path = kept.result_of(name)
-        origin = json.loads(path.read_text("utf-8"))["origin"] if path.exists() else {}
-        words = (f"reports/experiments/{name}.py", "", origin.get("commit", ""), "", origin.get("code_hash", ""))
-        lines.append((name, *words, kept.stale(name) or "holds"))
-    headers = ("result", "settings", "version", "commit", "scene", "code", "state")
-    kinds = sorted({stored(c.scene)["kind"] for checks in CHECKS.values() for c in checks if is_kept(c.scene)})
-    return table(headers, lines) + text(
-        "The scene's hash is of its resolved text, the code's of the modules its kind runs, without comments and "
-        "docstrings: for " + "; ".join(f"{kind}: {rooms(kind)}" for kind in kinds) + ". A result is stale when either "
-        "has changed since. make validation renews what is stale."
+        words = (f"reports/experiments/{name}.py", "", kept.stored_at(name))
+        lines.append((name, *words, reproduced.words(name) if kept.result_of(name).exists() else "not run"))
+    return table(("result", "settings", "version", "commit", "state"), lines) + text(
+        f"Of the runs of scenes: {reproduced.words(VALIDATION)}. A row is a run; of a scene with several repetitions "
+        "the first one is run again and compared with the stored first repetition. A result is stale when the text "
+        "of its scene has changed since it was stored. `make reproduce` computes rows of every stored result again; "
+        "`make validation` renews runs that are stale, not stored, or failed to reproduce."
     )
 
 

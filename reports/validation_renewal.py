@@ -17,14 +17,17 @@ from bem.results import FinishedRun
 from bem.runs import plan_scene, run_scene
 from bem.scenes.load import dump_scene, library
 from bem.scenes.planner import machine_rate, show_seconds
+from reports import reproduced
 from reports.builder import HERE
 from reports.experiments import kept
 from reports.validation_lines import CHECKS
-from reports.validation_origin import is_measured, origin, shown, stale
+from reports.validation_origin import commit, is_measured, origin, shown, stale
 from reports.validation_values import EXPERIMENTS, STORED, experiments
 
 RUNS = HERE / "validation-runs"
 ORIGIN = "origin.json"
+VALIDATION = "validation"
+"""Name of the stored runs in the record of what was reproduced."""
 
 
 @dataclass(frozen=True)
@@ -61,7 +64,7 @@ def jobs(settings: Mapping[str, Sequence[str]] | None = None) -> dict[str, Job]:
 
 
 def rerun(chosen: Sequence[Script], *, say: Callable[[str], None] = lambda words: None) -> list[str]:
-    """Run those experiments whose kept result is not there or of other code.
+    """Run those experiments.
 
     Returns
     -------
@@ -69,8 +72,6 @@ def rerun(chosen: Sequence[Script], *, say: Callable[[str], None] = lambda words
     """
     failed = []
     for script in chosen:
-        if not kept.stale(script.name):
-            continue
         say(f"{script.name}: minutes at most")
         try:
             import_module(f"reports.experiments.{script.name}").main()
@@ -80,10 +81,10 @@ def rerun(chosen: Sequence[Script], *, say: Callable[[str], None] = lambda words
 
 
 def renew(chosen: Sequence[Job], *, folder: Path = RUNS, say: Callable[[str], None] = lambda words: None) -> list[str]:
-    """Run these, the quickest first, and keep what comes; what is kept and not stale is left as it is.
+    """Run these scenes, the quickest first, and store their results.
 
-    A run that was interrupted goes on from its checkpoint if neither its scene nor the code has changed since. Each
-    result is kept as soon as it is there, and only if it converged.
+    A run that was interrupted goes on from its checkpoint if it was begun on this commit with this text of its scene.
+    Each result is stored as soon as it is there, and only if it converged.
 
     Returns
     -------
@@ -97,8 +98,7 @@ def renew(chosen: Sequence[Job], *, folder: Path = RUNS, say: Callable[[str], No
             )
             continue
         try:
-            if is_stale(job):
-                seconds[job] = plan_scene(job.scene, job.settings)[1].seconds(machine_rate())
+            seconds[job] = plan_scene(job.scene, job.settings)[1].seconds(machine_rate())
         except BemError as error:
             failed.append(f"{job.name}: {error}")
     for job in sorted(seconds, key=lambda job: seconds[job]):
@@ -114,22 +114,29 @@ def renew(chosen: Sequence[Job], *, folder: Path = RUNS, say: Callable[[str], No
     return failed
 
 
-def is_kept(scene: str) -> bool:
-    """Whether a result of a scene is kept."""
-    return (STORED / f"{scene}.json").exists()
-
-
 def lacks_files(job: Job) -> bool:
     """Whether a scene is of measured surfaces, and nobody says where they lie."""
     return is_measured(library()[job.scene]) and not any("path=" in setting for setting in job.settings)
 
 
-def is_stale(job: Job) -> bool:
-    """Whether a result is not kept, or of another scene, other settings or other code."""
-    if not job.target.exists():
+def is_needed(job: Job | Script) -> bool:
+    """Return True if a result is not stored, failed to reproduce, or is of another scene text or other settings."""
+    if isinstance(job, Script):
+        return not kept.result_of(job.name).exists() or bool(reproduced.outside(job.name))
+    if not job.target.exists() or job.name in reproduced.outside(VALIDATION):
         return True
     summary = json.loads(job.target.read_text("utf-8"))
     return bool(stale(job.scene, summary)) or summary["origin"]["settings"] != shown(job.settings)
+
+
+def is_of_this_commit(job: Job | Script) -> bool:
+    """Return True if a result was stored on this commit, of the same settings: this renewal has done it."""
+    if isinstance(job, Script):
+        return bool(commit()) and kept.stored_at(job.name) == commit()
+    if not commit() or not job.target.exists():
+        return False
+    source = json.loads(job.target.read_text("utf-8")).get("origin") or {}
+    return source.get("commit") == commit() and source.get("settings") == shown(job.settings)
 
 
 def keep(job: Job, run: FinishedRun) -> Path:
@@ -137,16 +144,16 @@ def keep(job: Job, run: FinishedRun) -> Path:
     summary = {**run.summary, "origin": json.loads(_origin_of(run.path).read_text("utf-8")), **_history(run)}
     job.target.parent.mkdir(parents=True, exist_ok=True)
     job.target.write_text(json.dumps(summary, indent=1) + "\n", encoding="utf-8")
+    reproduced.forget_row(VALIDATION, job.name)
     return job.target
 
 
 def _run(job: Job, folder: Path) -> FinishedRun:
-    """The finished run, begun anew where its scene or code has changed since it was begun."""
+    """Return the finished run; begun anew where its scene or the commit is another than when it was begun."""
     scene, _ = plan_scene(job.scene, job.settings)
-    now, before = origin(job.scene, scene.kind, job.settings), _origin_of(folder)
-    hashes = ("scene_hash", "code_hash")
+    now, before = origin(job.scene, job.settings), _origin_of(folder)
     known = json.loads(before.read_text("utf-8")) if before.exists() else {}
-    same = all(known.get(key) == now[key] for key in hashes) and _same_text(folder, dump_scene(scene))
+    same = known == now and _same_text(folder, dump_scene(scene))
     before.parent.mkdir(parents=True, exist_ok=True)
     if not same:
         before.write_text(json.dumps(now), encoding="utf-8")

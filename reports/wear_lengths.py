@@ -12,6 +12,7 @@ from typing import Any
 
 from reports.builder import COLOURS, Section, figure, table, text
 from reports.prose import prose
+from reports.reproduced import paragraph
 
 RESULT = Path(__file__).parent / "results" / "wear_lengths.json"
 MEASURED_RATE = {"steel": 350e-16, "brass": 800e-16}
@@ -63,7 +64,8 @@ def chapter() -> list[Section]:
             "".join(text(item) for item in words["lead"])
             + figure(_drawing(), words["caption"])
             + table(("criterion", "verdict"), [(words["names"][name], words["verdicts"][name]) for name in criteria()])
-            + "".join(text(item) for item in words["end"]),
+            + "".join(text(item) for item in words["end"])
+            + paragraph(RESULT.stem),
         ),
         Section("Over meshes", text(words["meshes"]) + _table(["cells"] * 4, _MESHES, words), level=3),
         Section("Over depths", text(words["depths"]) + _table(["depths"] * 4, _DEPTHS, words), level=3),

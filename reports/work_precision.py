@@ -14,14 +14,13 @@ from bem.benchmarks.physical_cases import PHYSICAL
 from bem.benchmarks.show import draw_errors, draw_reach
 from bem.benchmarks.work_precision import ERROR_HEADERS, REACH_HEADERS, error_rows, reach_rows
 from reports.builder import Section, figure, table, text
-from reports.validation_origin import changed_since_stored
+from reports.reproduced import paragraph
 
 RESULTS = Path(__file__).resolve().parent / "results" / "work_precision.json"
 AREA = RESULTS.with_name("contact_area.json")
 _AREA_ASKED = {256: 0.005, 512: 0.001}
 """Relative error of the contact area that was hoped for, by cells a side."""
 COMMAND = "bem bench --kind all --peers --json reports/results/work_precision.json"
-KINDS = ("contact", "film", "friction", "wear", "tribofilm")
 """Kinds of scene whose code the benchmarks run."""
 _WORDS = (
     "What a user waits for is an error of a figure, not a residual. Each figure is compared with the limit of its two "
@@ -84,12 +83,10 @@ def _area() -> Section:
         "edge inside cells (bem)",
         "asked for",
     )
-    return Section("Contact area from few cells", text(words) + table(head, rows))
+    return Section("Contact area from few cells", text(words) + table(head, rows) + paragraph(AREA.stem))
 
 
 def measured_on(run: Run) -> str:
     """Where and when, in words; a busy machine is told, and code that has changed since."""
     load = run.machine.get("load average at the end", "unknown")
-    where = f"Commit {run.commit}, {run.date}, {run.machine.get('processor', '')}, load average {load} ({COMMAND})."
-    state = changed_since_stored(RESULTS, KINDS)
-    return f"{where} {state[0].upper()}{state[1:]}." if state else where
+    return f"Commit {run.commit}, {run.date}, {run.machine.get('processor', '')}, load average {load} ({COMMAND})."

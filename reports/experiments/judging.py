@@ -15,6 +15,8 @@ from typing import Any, Generic, TypeVar
 
 import numpy as np
 
+from reports import reproduced
+
 RESULTS = Path(__file__).resolve().parents[1] / "results"
 DIGITS = 8
 """Significant digits of a stored number: figures of one case differ from digit 9 on by rounding alone."""
@@ -90,6 +92,7 @@ class Experiment(Generic[Case]):
         for name, row in judged(rows).items():
             print(name, {key: round(value, 5) for key, value in row.items()})
         store(self.path, count, self.seed, rows)
+        reproduced.forget(self.name)
 
 
 def main(experiment: Experiment[Any]) -> None:

@@ -1,17 +1,13 @@
-"""Where the results of experiments lie and what they came from: written with a result, and held against the code now.
-
-`python -m reports validation --renew` runs the scripts named here when their result is stale.
-"""
+"""Files of the results of experiments: written with the commit, read by the pages."""
 
 from __future__ import annotations
 
 import json
-from functools import cache
 from pathlib import Path
 from typing import Any
 
-from reports.builder import text
-from reports.validation_origin import bare_digest, commit, modules
+from reports import reproduced
+from reports.validation_origin import commit
 
 RESULTS = Path(__file__).resolve().parents[1] / "results"
 SCRIPTS = (
@@ -22,29 +18,22 @@ SCRIPTS = (
     "separation_datum",
     "stribeck_effects",
 )
-"""Experiments whose results the validation page reads; of each, module and result have that name."""
+"""Experiments that the validation page reads; module and result have the same name."""
 
 
 def result_of(name: str) -> Path:
-    """Where an experiment's result lies."""
+    """Return the file of an experiment's result."""
     return RESULTS / f"{name}.json"
 
 
-@cache
-def code_hash(name: str) -> str:
-    """Of an experiment and of all that computes a contact or a film, without comments, docstrings and layout."""
-    here = Path(__file__).parent
-    return bare_digest([here / f"{name}.py", *modules("friction")])
-
-
 def keep(path: Path, found: Any) -> None:
-    """Store what an experiment found, with the commit and the hash of the code that it came from."""
-    origin = {"commit": commit(), "code_hash": code_hash(path.stem)}
-    path.write_text(json.dumps({"origin": origin, "found": found}, indent=1) + "\n", encoding="utf-8")
+    """Store the result of an experiment with the commit of the code."""
+    path.write_text(json.dumps({"origin": {"commit": commit()}, "found": found}, indent=1) + "\n", encoding="utf-8")
+    reproduced.forget(path.stem)
 
 
 def rounded(value: Any) -> Any:
-    """Of dictionaries and lists of figures: floats to four digits."""
+    """Round floats in nested dictionaries and lists to four significant digits."""
     if isinstance(value, dict):
         return {key: rounded(one) for key, one in value.items()}
     if isinstance(value, list):
@@ -53,28 +42,22 @@ def rounded(value: Any) -> Any:
 
 
 def found(name: str) -> Any:
-    """What an experiment found.
+    """Return the stored result of an experiment.
 
     Raises
     ------
-    FileNotFoundError : it was not run.
+    FileNotFoundError : the experiment was not run.
     """
     return json.loads(result_of(name).read_text("utf-8"))["found"]
 
 
-def stale(name: str) -> str:
-    """Why an experiment's result no longer stands; empty where it does."""
+def stored_at(name: str) -> str:
+    """Return the commit that a result was stored with; empty where there is none."""
     path = result_of(name)
-    if not path.exists():
-        return "not run"
-    document = json.loads(path.read_text("utf-8"))
-    origin = document.get("origin") if isinstance(document, dict) else None
-    if origin is None:
-        return "stale: kept without its code's hash"
-    return "" if origin["code_hash"] == code_hash(name) else "stale: code changed since"
+    document = json.loads(path.read_text("utf-8")) if path.exists() else {}
+    return str(document.get("origin", {}).get("commit", "")) if isinstance(document, dict) else ""
 
 
 def age(name: str) -> str:
-    """A paragraph, as HTML, below an experiment's result that no longer stands; empty where it does."""
-    state = stale(name)
-    return text(f"Result of {name}: {state}.") if state else ""
+    """Return an HTML paragraph that says when a result was last reproduced."""
+    return reproduced.paragraph(name)

@@ -96,7 +96,7 @@ def solve(table: dict[str, Any]) -> Comparison | None:
     return Comparison(life_figures(end), life_figures(truth), bars.values)
 
 
-EXPERIMENT = Experiment("life_error_bars", draw, solve, cases=24, seed=1712)
+EXPERIMENT = Experiment("life_error_bars", draw, solve, cases=12, seed=1711)
 
 if __name__ == "__main__":
     main(EXPERIMENT)

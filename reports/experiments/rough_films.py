@@ -143,6 +143,17 @@ def _line_films(points: int, load: float, speed: float, wavelength: float, centr
     return whole(found, inside)
 
 
+def line_figures(share: float, speed: float, points: int) -> list[dict[str, float] | str]:
+    """Figures of ridges under the cylinder on one grid, at `LAMBDAS`."""
+    half = 2 * LINE_PRESSURE * RADIUS / MODULUS
+    load = 0.5 * math.pi * LINE_PRESSURE * half
+    central = solve_line_film(
+        load=load, radius=RADIUS, contact_modulus=MODULUS, speeds=(0.0, speed), lubricant=OIL
+    ).central_thickness
+    films = _line_films(points, load, speed, share * half, central)
+    return [film if isinstance(film, str) else film_figures(*film, speed) for film in films]
+
+
 def of_line(share: float, speed: float) -> dict[str, Any]:
     """Ridges under the cylinder, of a wavelength over Hertz' half-width, at a speed [m/s]."""
     half = 2 * LINE_PRESSURE * RADIUS / MODULUS

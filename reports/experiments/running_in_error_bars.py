@@ -69,7 +69,7 @@ def solve(table: dict[str, Any]) -> Comparison | None:
     return compare_records(found, truth, bars.values, known)
 
 
-EXPERIMENT = Experiment("running_in_error_bars", draw, solve, cases=24, seed=2612)
+EXPERIMENT = Experiment("running_in_error_bars", draw, solve, cases=30, seed=2612)
 
 if __name__ == "__main__":
     main(EXPERIMENT)

@@ -71,14 +71,19 @@ def differences(length: float, hertz_pressure: float, seed: int) -> dict[str, fl
     return found
 
 
+def row(length: float, pressure: float) -> dict[str, Any]:
+    """Means over surfaces of a correlation length [m], at a Hertz pressure [Pa]."""
+    found = [differences(length, pressure, seed) for seed in SEEDS]
+    means = {datum: float(np.mean([one[datum] for one in found])) for datum in found[0]}
+    return {"correlation_length_um": 1e6 * length, "hertz_pressure_GPa": 1e-9 * pressure, **means}
+
+
 def main() -> None:
     """Solve, print, store: means over surfaces."""
     rows: list[dict[str, Any]] = []
     for length in LENGTHS:
         for pressure in PRESSURES:
-            found = [differences(length, pressure, seed) for seed in SEEDS]
-            means = {datum: float(np.mean([one[datum] for one in found])) for datum in found[0]}
-            rows.append({"correlation_length_um": 1e6 * length, "hertz_pressure_GPa": 1e-9 * pressure, **means})
+            rows.append(row(length, pressure))
             print(rows[-1])
     keep(RESULT, rows)
 

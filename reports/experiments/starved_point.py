@@ -8,6 +8,7 @@ verification report shows beside the thin limit and the published fit.
 
 from __future__ import annotations
 
+from collections.abc import Iterator, Sequence
 from pathlib import Path
 from typing import Any
 
@@ -38,29 +39,33 @@ def arguments(load: float, oil: float) -> dict[str, Any]:
     }
 
 
+def rows_of(load: float, oil: float, shares: Sequence[float] = SHARES) -> Iterator[dict[str, Any]]:
+    """A row for each layer of oil, as a share of what floods the contact."""
+    case = arguments(load, oil)
+    flooded = solve_point_film(**case, supply=PLENTY * RADIUS)
+    assert flooded.starvation is not None
+    for share in shares:
+        film = solve_point_film(**case, supply=share * flooded.starvation.flooded_layer)
+        assert film.starvation is not None
+        bar = film.central_thickness_error
+        yield {
+            "M": load,
+            "L": oil,
+            "share": share,
+            "status": film.status.value,
+            "reduction": film.starvation.reduction,
+            "bar": None if bar is None else bar / film.central_thickness,
+            "cycles": film.cycles,
+        }
+
+
 def main() -> None:
     """Solve, print, store."""
     rows: list[dict[str, Any]] = []
-    for load, oil in CONTACTS:
-        case = arguments(load, oil)
-        flooded = solve_point_film(**case, supply=PLENTY * RADIUS)
-        assert flooded.starvation is not None
-        for share in SHARES:
-            film = solve_point_film(**case, supply=share * flooded.starvation.flooded_layer)
-            assert film.starvation is not None
-            bar = film.central_thickness_error
-            rows.append(
-                {
-                    "M": load,
-                    "L": oil,
-                    "share": share,
-                    "status": film.status.value,
-                    "reduction": film.starvation.reduction,
-                    "bar": None if bar is None else bar / film.central_thickness,
-                    "cycles": film.cycles,
-                }
-            )
-            print(rows[-1], flush=True)
+    for contact in CONTACTS:
+        for row in rows_of(*contact):
+            rows.append(row)
+            print(row, flush=True)
     keep(RESULT, rows)
 
 

@@ -19,6 +19,7 @@ The result is stored in `reports/results/stribeck_effects.json`, which the valid
 from __future__ import annotations
 
 import math
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -101,8 +102,11 @@ def effects(contact: Compared, factors: Any) -> dict[str, dict[str, Any]]:
     }  # fmt: skip
 
 
-def curves(contact: Compared) -> list[dict[str, Any]]:
-    """All curves of one contact."""
+def curves(
+    contact: Compared, names: Sequence[str] | None = None, speeds: Sequence[float] | None = None
+) -> list[dict[str, Any]]:
+    """All curves of one contact, or the named ones, at all its speeds or at these [m/s]."""
+    speeds = contact.speeds if speeds is None else speeds
     bodies, height = (Body(STEEL), Body(STEEL)), contact.height()
     factors = factors_for_films(height, np.zeros_like(height), contact.grid, bodies, hardness=contact.hardness)
     given: dict[str, Any] = {
@@ -112,14 +116,16 @@ def curves(contact: Compared) -> list[dict[str, Any]]:
     }  # fmt: skip
     found = []
     for name, changes in effects(contact, factors).items():
-        points = stribeck_curve(contact.speeds, **given, **changes)
+        if names is not None and name not in names:
+            continue
+        points = stribeck_curve(speeds, **given, **changes)
         rows = {
             "friction": [float(point.friction) for point in points],
             "contact_share": [float(point.contact_load / point.load) for point in points],
             "minimum_film": [float(point.minimum_film) for point in points],
             "status": [str(point.status.value) for point in points],
         }
-        found.append({"name": name, "speeds": list(contact.speeds), **rows})
+        found.append({"name": name, "speeds": list(speeds), **rows})
         print(name, rows)
     return found
 

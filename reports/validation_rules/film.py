@@ -7,7 +7,6 @@ import math
 from collections.abc import Iterable
 
 from reports.experiments.kept import found
-from reports.experiments.kept import stale as script_stale
 from reports.validation_values import (
     Rule,
     Summary,
@@ -86,10 +85,7 @@ def _by_datum(*lengths: float) -> str:
             values = _signed(row[datum] for row in rows if round(row["correlation_length_um"]) == length)
             each.append(f"{values} % for {length:g} um")
         parts.append(f"{' and '.join(each)} with {words}")
-    return (
-        f"on flat squares under the mean pressures of 0.6, 0.8, 1.0 GPa, in load carried, d is {'; '.join(parts)}"
-        + (f" ({state})" if (state := script_stale("separation_datum")) else "")
-    )
+    return f"on flat squares under the mean pressures of 0.6, 0.8, 1.0 GPa, in load carried, d is {'; '.join(parts)}"
 
 
 FILM_LOADS = {

@@ -1,16 +1,17 @@
-"""A stored result is stale when its scene or the code that its kind runs has changed; renewal runs just those."""
+"""A stored result is stale when its scene has changed; renewal runs what is named, needed, or of another commit."""
 
+import argparse
 import json
-import subprocess
 from types import SimpleNamespace
 
 import numpy as np
 import pytest
 import xarray
 
-from reports import validation_origin, validation_renewal
-from reports.validation_origin import code_hash, modules, origin, scene_hash, stale
-from reports.validation_renewal import Job, jobs, renew
+from reports import __main__ as command
+from reports import reproduced, validation_origin, validation_renewal
+from reports.validation_origin import origin, scene_hash, stale
+from reports.validation_renewal import Job, is_needed, is_of_this_commit, jobs, renew
 from reports.validation_values import EXPERIMENTS, STORED
 
 SMALL = ("synthetic.shape=[256, 256]",)
@@ -21,17 +22,23 @@ def small(tmp_path):
     return Job("map", "particles-afm-map", SMALL, tmp_path / "kept" / "map.json")
 
 
+@pytest.fixture(autouse=True)
+def record(tmp_path, monkeypatch):
+    monkeypatch.setattr(reproduced, "RECORD", tmp_path / "reproduced.json")
+
+
 def test_a_result_without_origin_is_stale():
-    assert stale("uniform-asperities", {"kind": "asperities"}).startswith("stale: kept without")
+    assert stale("uniform-asperities", {"kind": "asperities"}).startswith("stale: stored without")
 
 
-def test_scene_and_code_each_make_a_result_stale():
-    summary = {"kind": "friction", "origin": origin("stribeck-mineral-oil", "friction")}
+def test_a_result_is_stale_when_the_text_of_its_scene_has_changed():
+    summary = {"kind": "friction", "origin": origin("stribeck-mineral-oil")}
     assert stale("stribeck-mineral-oil", summary) == ""
-    for part, key in (("scene", "scene_hash"), ("code", "code_hash")):
-        other = {**summary, "origin": {**summary["origin"], key: "0"}}
-        assert stale("stribeck-mineral-oil", other) == f"stale: {part} changed since"
-    set_otherwise = {**summary, "origin": origin("stribeck-mineral-oil", "friction", ["repetitions=1"])}
+    other = {**summary, "origin": {**summary["origin"], "scene_hash": "0"}}
+    assert stale("stribeck-mineral-oil", other) == "stale: scene changed since"
+    older = {**summary, "origin": {**summary["origin"], "code_hash": "0", "commit": "0"}}
+    assert stale("stribeck-mineral-oil", older) == ""  # what its code gives now, `reports.reproduce` says
+    set_otherwise = {**summary, "origin": origin("stribeck-mineral-oil", ["repetitions=1"])}
     assert stale("stribeck-mineral-oil", set_otherwise) == ""  # it holds for what was set, which the page shows
     set_otherwise["origin"]["settings"] = []
     assert stale("stribeck-mineral-oil", set_otherwise) == "stale: scene changed since"
@@ -42,84 +49,55 @@ def test_where_measured_surfaces_lie_is_no_part_of_the_scene():
     assert at[0] == at[1] != scene_hash("stribeck-measured", ["lower.surface.path=/a/other.al3d"])
 
 
-def test_code_of_a_kind_is_its_own_module_and_the_rooms_below():
-    names = {
-        kind: {"/".join(p.relative_to(validation_origin.CODE).parts) for p in modules(kind)}
-        for kind in ("friction", "wear", "asperities")
-    }
-    assert names["friction"] >= {"scenes/kinds/friction.py", "scenes/build.py", "materials.py"}
-    assert any(name.startswith("lubrication/") for name in names["friction"])
-    assert not any(name.startswith("wear/") for name in names["friction"])
-    assert any(name.startswith("stress/") for name in names["wear"])
-    for kind, found in names.items():
-        assert not any(name.startswith(("cli/", "plots/", "results/", "campaigns/")) for name in found), kind
-    assert len({code_hash(kind) for kind in names}) == len(names)
+def test_renewal_stores_a_result_with_its_origin_and_knows_what_is_needed(small, tmp_path):
+    assert is_needed(small)
+    assert renew([small], folder=tmp_path / "runs") == []
+    stored = json.loads(small.target.read_text())
+    assert stale(small.scene, stored) == ""
+    assert stored["origin"] == origin(small.scene, SMALL)
+    assert stored["status"] == "converged"
+    assert not is_needed(small)
+    reproduced.add("validation", {"map": "count 3, stored 5, bar 1"}, 1)
+    assert is_needed(small)
+    assert is_needed(Job(small.name, small.scene, (), small.target))  # other settings
+    assert renew([small], folder=tmp_path / "runs") == []
+    assert reproduced.outside("validation") == {}  # stored anew
 
 
-def test_comments_and_docstrings_are_no_code():
-    texts = ('"""A."""\nx = 1  # one\n', '"""B."""\n\n\nx = 1\n', "x = 2\n")
-    bare = []
-    for text in texts:
-        bare.append(validation_origin._bare(text))
-    assert bare[0] == bare[1] != bare[2]
-
-
-def test_code_changed_since_a_result_was_stored_is_told_from_history(tmp_path, monkeypatch):
-    def git(*words):
-        return subprocess.run(
-            ["git", "-c", "user.name=a", "-c", "user.email=a@b", *words], cwd=tmp_path, check=True, capture_output=True
-        )
-
-    (tmp_path / "bem").mkdir()
-    module, beside, result = tmp_path / "bem" / "m.py", tmp_path / "bem" / "other.py", tmp_path / "result.json"
-    module.write_text("x = 1\n")
-    monkeypatch.setattr(validation_origin, "CODE", tmp_path / "bem")
-    monkeypatch.setattr(validation_origin, "modules", lambda kind: (module,))
-    monkeypatch.setattr(validation_origin, "_bare_once", lambda path: validation_origin._bare(path.read_text()))
-    assert validation_origin.changed_since_stored(result, ["any"]) == ""  # no history to tell
-    git("init", "-q")
-    result.write_text("{}")
-    git("add", ".")
-    git("commit", "-qm", "one")
-    module.write_text("x = 1  # the same\n")
-    beside.write_text("y = 1\n")
-    assert validation_origin.changed_since_stored(result, ["any"]) == ""
-    module.write_text("x = 2\n")
-    assert validation_origin.changed_since_stored(result, ["any"]).endswith("code changed in bem/m.py")
-    git("rm", "-q", "--cached", "bem/m.py")
-    git("commit", "-qm", "two")
-    (tmp_path / "result.json").write_text("{}\n")
-    git("commit", "-qam", "three")
-    git("add", ".")
-    assert validation_origin.changed_since_stored(result, ["any"]).endswith("code changed in bem/m.py")  # a new one
-    result.write_text("{} ")  # stored anew
-    assert validation_origin.changed_since_stored(result, ["any"]) == ""
-
-
-def test_renewal_keeps_a_result_with_its_origin_and_leaves_it_while_it_holds(small, tmp_path):
-    said = []
-    assert renew([small], folder=tmp_path / "runs", say=said.append) == []
-    kept = json.loads(small.target.read_text())
-    assert stale(small.scene, kept) == ""
-    assert kept["origin"]["settings"] == list(SMALL)
-    assert kept["status"] == "converged"
-    assert renew([small], folder=tmp_path / "runs", say=said.append) == []
-    assert len(said) == 1  # it held: nothing was run
-    kept["origin"]["code_hash"] = "0"
-    small.target.write_text(json.dumps(kept))
-    assert renew([small], folder=tmp_path / "runs", say=said.append) == []
-    assert len(said) == 2
-    assert stale(small.scene, json.loads(small.target.read_text())) == ""
-
-
-def test_a_run_begun_with_other_code_is_not_gone_on_with(small, tmp_path, monkeypatch):
-    monkeypatch.setattr(validation_origin, "code_hash", lambda kind: "before")
+def test_all_is_renewed_once_a_commit(small, tmp_path, monkeypatch):
+    for module in (validation_origin, validation_renewal):
+        monkeypatch.setattr(module, "commit", lambda: "before")
     renew([small], folder=tmp_path / "runs")
+    assert is_of_this_commit(small)
     first = (tmp_path / "runs" / "map" / "summary.json").stat().st_mtime_ns
-    monkeypatch.undo()
+    renew([small], folder=tmp_path / "runs")  # finished on this commit
+    assert (tmp_path / "runs" / "map" / "summary.json").stat().st_mtime_ns == first
+    for module in (validation_origin, validation_renewal):
+        monkeypatch.setattr(module, "commit", lambda: "now")
+    assert not is_of_this_commit(small)
     renew([small], folder=tmp_path / "runs")
     assert (tmp_path / "runs" / "map" / "summary.json").stat().st_mtime_ns > first
-    assert json.loads(small.target.read_text())["origin"]["code_hash"] == code_hash("particles")
+    assert json.loads(small.target.read_text())["origin"]["commit"] == "now"
+
+
+def test_names_decide_what_is_renewed(monkeypatch):
+    """None: what is not of this commit; `needed`: what is needed; a name: that."""
+    parser, renewed = argparse.ArgumentParser(), []
+    for one in (validation_renewal.renew, validation_renewal.rerun):
+        monkeypatch.setattr(validation_renewal, one.__name__, lambda chosen, say: renewed.extend(chosen) or [])
+    monkeypatch.setattr(validation_renewal, "is_of_this_commit", lambda job: job.name != "wear-steel-steel")
+    monkeypatch.setattr(validation_renewal, "is_needed", lambda job: job.name == "film_regimes")
+    for asked, names in (
+        ([], ["wear-steel-steel"]),
+        (["needed"], ["film_regimes"]),
+        (["uniform-asperities"], ["uniform-asperities"]),
+        (["needed", "uniform-asperities"], ["film_regimes", "uniform-asperities"]),
+    ):
+        renewed.clear()
+        assert command.renewed(parser, asked, []) == []
+        assert [job.name for job in renewed] == names
+    with pytest.raises(SystemExit):
+        command.renewed(parser, ["no-such-result"], [])
 
 
 def test_a_scene_that_cannot_run_does_not_stop_the_others(small, tmp_path):
@@ -191,16 +169,16 @@ def test_measured_surfaces_without_their_files_are_left_alone(tmp_path):
     assert not job.target.exists()
 
 
-def test_scripts_are_run_where_their_result_is_stale(monkeypatch):
-    ran, module = [], SimpleNamespace(main=lambda: ran.append("main"))
-    monkeypatch.setattr(validation_renewal, "import_module", lambda name: module)
-    monkeypatch.setattr(validation_renewal.kept, "stale", lambda name: "" if name == "fresh" else "not run")
-    scripts = [validation_renewal.Script(name) for name in ("fresh", "old")]
-    assert validation_renewal.rerun(scripts) == []
-    assert ran == ["main"]
+def test_a_script_that_fails_does_not_stop_the_others(monkeypatch):
+    ran = []
 
     def broken():
         raise ValueError("no")
 
-    module.main = broken
+    modules = {"old": broken, "other": lambda: ran.append("other")}
+    monkeypatch.setattr(
+        validation_renewal, "import_module", lambda name: SimpleNamespace(main=modules[name.rsplit(".", 1)[1]])
+    )
+    scripts = [validation_renewal.Script(name) for name in modules]
     assert validation_renewal.rerun(scripts) == ["old: ValueError: no"]
+    assert ran == ["other"]

@@ -84,19 +84,6 @@ def test_an_experiment_that_was_not_run_or_is_stale_is_said_so_in_the_remark(mon
     assert "(5 of 5 stale)" in remark
 
 
-def test_results_of_scripts_turn_stale_with_their_code(monkeypatch, tmp_path):
-    monkeypatch.setattr(kept, "RESULTS", tmp_path)
-    name = "separation_datum"
-    assert kept.stale(name) == "not run"
-    kept.keep(tmp_path / f"{name}.json", [1, 2])
-    assert kept.found(name) == [1, 2]
-    assert kept.stale(name) == ""
-    document = json.loads((tmp_path / f"{name}.json").read_text())
-    document["origin"]["code_hash"] = "0"
-    (tmp_path / f"{name}.json").write_text(json.dumps(document))
-    assert kept.stale(name) == "stale: code changed since"
-
-
 def test_the_page_is_drawn():
     page = build()
     body = "".join(section.body for section in page.sections)

@@ -34,7 +34,7 @@ _SERIES = {
 def rougher_by_its_own_pieces(facts: Facts, outcome: Outcome) -> Iterator[str]:
     """Running-in takes summits off. Pieces deeper than the roughness leave holes instead, and friction, film and pieces
     of later cycles are of those: two surfaces of 112 and 55 nm ended at 907, 630 and 469 nm on cells of 1, 0.5 and 0.25
-    um (`reports/experiments/roughening.py`), so that it is the criterion's, and the cell's."""
+    um (scene `running-in-stribeck` after 40 cycles at 0.01 m/s), so that it is the criterion's, and the cell's."""
     found = roughened(facts, outcome)
     if not found.grown:
         return

@@ -1,0 +1,98 @@
+"""Compute rows of stored results anew and compare each figure within its bar.
+
+    python -m reports.reproduce [NAME ...] [--sample N] [--seed S] [--minutes M]
+
+Rows are drawn from the seed: N of every result, results in random order, rows that were outside their bars first. A row
+that is longer than what is left of the processor time waits for another seed. The verdicts are stored in
+`reports/results/reproduced.json`, which the pages show. The exit code is 1 where a row is outside its bars.
+"""
+
+from __future__ import annotations
+
+import argparse
+import contextlib
+import io
+import random
+import resource
+import sys
+from collections.abc import Iterator, Sequence
+
+from reports import reproduced
+from reports.reproducible import RESULTS, Row
+
+
+def drawn(names: Sequence[str], sample: int, seed: int) -> Iterator[tuple[str, Row]]:
+    """Yield rows of the named results, a row of each in turn, in an order that depends on the seed alone."""
+    rng = random.Random(seed)
+    chosen: dict[str, list[Row]] = {}
+    for name in sorted(names):
+        rows = list(RESULTS[name].rows())
+        rng.shuffle(rows)
+        wrong = reproduced.outside(name)
+        rows.sort(key=lambda row, wrong=wrong: row.label not in wrong)  # type: ignore[misc]
+        chosen[name] = rows[: max(sample, len(wrong))]
+    order = list(chosen)
+    rng.shuffle(order)
+    for place in range(max(map(len, chosen.values()), default=0)):
+        for name in order:
+            if place < len(chosen[name]):
+                yield name, chosen[name][place]
+
+
+def processor_time() -> float:
+    """Return the processor time of this process and its finished children [s]."""
+    used = [resource.getrusage(who) for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN)]
+    return sum(one.ru_utime + one.ru_stime for one in used)
+
+
+def reproduce(names: Sequence[str], *, sample: int, seed: int, minutes: float) -> dict[str, dict[str, str]]:
+    """Compute rows until the processor time is used; print and record a verdict for each row.
+
+    Returns
+    -------
+    verdicts : by result and row; "in" or the figure outside its bar.
+    """
+    end = processor_time() + 60 * minutes
+    verdicts: dict[str, dict[str, str]] = {}
+    skipped = 0
+    for name, row in drawn(names, sample, seed):
+        began = processor_time()
+        if row.seconds > end - began:
+            skipped += 1
+            continue
+        try:
+            with contextlib.redirect_stdout(io.StringIO()):
+                verdict = row.verdict()
+        except Exception as error:
+            verdict = f"{type(error).__name__}: {error}"
+        verdicts.setdefault(name, {})[row.label] = verdict
+        print(f"{name:26} {row.label:46} {processor_time() - began:6.1f} s  {verdict}", flush=True)
+        reproduced.add(name, verdicts[name], len(RESULTS[name].rows()))
+    if skipped:
+        print(f"{skipped} rows are longer than the processor time that was left")
+    return verdicts
+
+
+def main() -> None:
+    """Command line."""
+    parser = argparse.ArgumentParser(prog="python -m reports.reproduce", description=__doc__)
+    parser.add_argument(
+        "names", nargs="*", metavar="NAME", help=f"any of {', '.join(RESULTS)}; all where none is named"
+    )
+    parser.add_argument("--sample", type=int, default=1, help="rows of every result (default 1)")
+    parser.add_argument("--seed", type=int, default=1, help="of the draw (default 1)")
+    parser.add_argument("--minutes", type=float, default=10.0, help="processor time (default 10)")
+    options = parser.parse_args()
+    unknown = [name for name in options.names if name not in RESULTS]
+    if unknown:
+        parser.error(f"no result {', '.join(unknown)}; there are {', '.join(RESULTS)}")
+    names = options.names or list(RESULTS)
+    verdicts = reproduce(names, sample=options.sample, seed=options.seed, minutes=options.minutes)
+    rows = [verdict for own in verdicts.values() for verdict in own.values()]
+    wrong = sum(verdict != reproduced.INSIDE for verdict in rows)
+    print(f"{len(rows)} rows of {len(verdicts)} results: {len(rows) - wrong} within their bars, {wrong} outside")
+    sys.exit(1 if wrong else 0)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,153 @@
+"""Rows of stored results computed anew: figures within their bars, the draw, the record, and the command's verdict."""
+
+import json
+import sys
+
+import pytest
+
+from reports import reproduce, reproduced, reproducible
+from reports.experiments import film_error_bars, kept
+from reports.reproducible import RESULTS, Result, Row, compared, first_repetition, within
+
+
+@pytest.fixture(autouse=True)
+def record(tmp_path, monkeypatch):
+    monkeypatch.setattr(reproduced, "RECORD", tmp_path / "reproduced.json")
+
+
+def verdict(stored, found, **bars):
+    return Row("row", lambda: compared(stored, found, within(**bars)), 0.0).verdict()
+
+
+def test_every_stored_result_is_reproduced_or_a_measured_time():
+    stored = {path.stem for path in kept.RESULTS.iterdir() if path.is_file()} - {"reproduced"}
+    assert stored == (RESULTS.keys() - {"validation"}) | reproduced.TIMES.keys()
+
+
+@pytest.mark.parametrize("name", RESULTS)
+def test_rows_of_a_result_have_labels_of_their_own(name):
+    labels = [row.label for row in RESULTS[name].rows()]
+    assert labels
+    assert len(set(labels)) == len(labels)
+
+
+def test_a_figure_beyond_its_bar_is_outside():
+    assert verdict({"a": 1.0}, {"a": 1.009}, relative=0.01) == "in"
+    assert verdict({"a": 1.0}, {"a": 1.011}, relative=0.01) == "a 1.011, stored 1, bar 0.01"
+    assert (
+        verdict({"a": 0.0, "b": [1.0, 2.0]}, {"a": 0.1, "b": [1.0, 2.5]}, absolute=0.2) == "b[1] 2.5, stored 2, bar 0.2"
+    )
+    assert verdict({"a": 1.0}, {"a": 2.0}, a=(0.0, 1.5)) == "in"
+
+
+def test_words_and_gaps_have_to_be_equal():
+    assert verdict({"status": "converged"}, {"status": "stalled"}, absolute=9.0).startswith("status stalled")
+    assert verdict({"a": 1.0}, {"a": None}, absolute=9.0).startswith("a None")
+    assert verdict({"a": None}, {"a": 1.0}, absolute=9.0).startswith("a 1")
+    assert verdict({"a": [1.0, 2.0]}, {"a": [1.0]}, absolute=9.0) != "in"
+    assert verdict({"a": float("nan")}, {"a": float("nan")}) == "in"
+    assert verdict({"a": True}, {"a": False}, absolute=9.0) != "in"
+
+
+@pytest.mark.parametrize(
+    ("name", "label"),
+    [
+        ("film_error_bars", "case 5"),
+        ("particle_error_bars", "case 1"),
+        ("film_regimes", "M 3, L 2"),
+        ("line_film", "M 1, L 5"),
+        ("random_contacts", "contact 7"),
+    ],
+)
+def test_a_quick_row_of_a_result_comes_back(name, label):
+    (row,) = (row for row in RESULTS[name].rows() if row.label == label)
+    assert row.verdict() == "in"
+
+
+@pytest.mark.parametrize("key", ["value", "error", "bar"])
+def test_a_judged_case_with_another_number_is_outside(key):
+    experiment = film_error_bars.EXPERIMENT
+    rows = [row for row in json.loads(experiment.path.read_text())["rows"] if row["case"] == 5]
+    wrong = [{**row, key: (row[key] or 0.0) + 3 * (row["bar"] or row["error"])} for row in rows[:1]] + rows[1:]
+    found = [reproducible.inside(figure) for figure in reproducible.judged_case(experiment, wrong)]
+    assert not all(found)
+    assert all(reproducible.inside(figure) for figure in reproducible.judged_case(experiment, rows))
+
+
+def test_an_error_bar_that_came_or_went_is_outside():
+    experiment = film_error_bars.EXPERIMENT
+    rows = [row for row in json.loads(experiment.path.read_text())["rows"] if row["case"] == 5]
+    without = [{**rows[0], "bar": None}, *rows[1:]]
+    assert not all(reproducible.inside(figure) for figure in reproducible.judged_case(experiment, without))
+
+
+def test_the_first_repetition_is_found_whatever_the_order_of_axes():
+    values = {"a": [1.5, 3.5], "a_each": [[1.0, 2.0], [3.0, 4.0]]}
+    assert first_repetition({"kind": "wear", **values}, "a") == [1.0, 3.0]  # repetitions of each load
+    assert first_repetition({"kind": "friction", **values}, "a") == [1.0, 2.0]  # speeds of each repetition
+    assert first_repetition({"kind": "wear", "a": 1.5, "a_each": [1.0, 2.0]}, "a") == 1.0
+    assert first_repetition({"kind": "wear", "a": 1.5}, "a") == 1.5
+
+
+def fake(name, found, seconds=0.0):
+    """A result of rows whose stored value is 1."""
+    rows = [
+        Row(label, lambda value=value: compared(1.0, value, within(absolute=0.1), name="a"), seconds)
+        for label, value in found.items()
+    ]
+    return Result(name, lambda: rows, "")
+
+
+def test_the_command_prints_records_and_fails_where_a_row_is_outside(monkeypatch, capsys):
+    monkeypatch.setattr(
+        reproduce, "RESULTS", {"good": fake("good", {"one": 1.0, "two": 1.05}), "bad": fake("bad", {"one": 2.0})}
+    )
+    for names, code in ((["good"], 0), (["good", "bad"], 1)):
+        monkeypatch.setattr(sys, "argv", ["reproduce", *names, "--sample", "2"])
+        with pytest.raises(SystemExit) as end:
+            reproduce.main()
+        assert end.value.code == code
+    assert "3 rows of 2 results: 2 within their bars, 1 outside" in capsys.readouterr().out
+    assert "2 of 2 rows, all within their bars" in reproduced.words("good")
+    assert "outside their bars: one" in reproduced.words("bad")
+    assert "not reproduced since" in reproduced.words("never")
+    assert "processor times" in reproduced.words("shared_work")
+
+
+def test_an_error_of_a_row_is_a_row_outside(monkeypatch):
+    def broken():
+        raise ValueError("no")
+
+    monkeypatch.setattr(reproduce, "RESULTS", {"bad": Result("bad", lambda: [Row("one", broken, 0.0)], "")})
+    assert reproduce.reproduce(["bad"], sample=1, seed=1, minutes=1) == {"bad": {"one": "ValueError: no"}}
+
+
+def test_a_row_longer_than_the_time_left_waits(monkeypatch, capsys):
+    results = {"short": fake("short", {"one": 1.0}), "long": fake("long", {"one": 1.0}, seconds=3600)}
+    monkeypatch.setattr(reproduce, "RESULTS", results)
+    assert reproduce.reproduce(list(results), sample=1, seed=1, minutes=1) == {"short": {"one": "in"}}
+    assert "1 rows are longer" in capsys.readouterr().out
+
+
+def test_the_draw_is_the_seeds_and_rows_outside_come_first(monkeypatch):
+    found = {str(number): 1.0 for number in range(40)}
+    monkeypatch.setattr(reproduce, "RESULTS", {"many": fake("many", found)})
+
+    def labels(seed):
+        return [row.label for _, row in reproduce.drawn(["many"], 3, seed)]
+
+    assert labels(1) == labels(1) != labels(2)
+    wrong = next(number for number in found if number not in labels(1) + labels(2))
+    reproduced.add("many", {wrong: "a 2, stored 1, bar 0.1"}, 40)
+    assert labels(1)[0] == labels(2)[0] == wrong
+    reproduced.add("many", {"3": "in"}, 40)
+    assert list(reproduced.outside("many")) == [wrong]  # until it is computed again
+    reproduced.add("many", {wrong: "in"}, 40)
+    assert reproduced.outside("many") == {}
+
+
+def test_a_result_that_is_stored_anew_is_forgotten(tmp_path):
+    reproduced.add("some", {"one": "in"}, 1)
+    kept.keep(tmp_path / "some.json", [1, 2])
+    assert "not reproduced since" in reproduced.words("some")
+    assert json.loads((tmp_path / "some.json").read_text())["found"] == [1, 2]
