@@ -66,7 +66,7 @@ notebooks: setup
 	VIRTUAL_ENV=.venv $(BIN)/uv run --no-project --active --with nbconvert --with ipykernel jupyter nbconvert \
 		--to notebook --execute --inplace --ExecutePreprocessor.record_timing=False reports/notebooks/*.ipynb
 
-# Runs what the validation report lacks: not stored, of another scene text, or failed to reproduce. Hours; goes on where
+# Runs what the validation report lacks: not stored, of another scene text, or failed to reproduce. About an hour; goes on where
 # it was interrupted.
 validation: setup
 	$(BIN)/python -m reports validation --renew needed
