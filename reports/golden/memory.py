@@ -23,7 +23,6 @@ from bem import (
     contact_modulus,
     displacement_operator,
     generate_surface,
-    run_in,
     solve_contact,
     solve_line_film,
     solve_mixed,
@@ -31,7 +30,6 @@ from bem import (
     subsurface_stress,
 )
 from reports.golden.films import STEEL
-from reports.golden.loops import HARD, SOFT
 from reports.golden.stored import FOLDER, Difference, as_text
 from reports.golden.tolerances import MEMORY
 
@@ -76,20 +74,11 @@ def _mixed(small: bool) -> None:
     )  # fmt: skip
 
 
-def _loop(small: bool) -> None:
-    grid, height = _surface(32 if small else 96, True)
-    run_in(
-        height, np.zeros(grid.shape), grid=grid, bodies=(Body(SOFT), Body(HARD)), load=0.1 * SOFT.hardness * grid.area,
-        depths=np.arange(8 if small else 24) * 200e-9, friction=0.15, cycles=2,
-    )  # fmt: skip
-
-
 CASES: dict[str, Callable[[bool], None]] = {
     "contact": _contact,
     "line-film": _line_film,
     "point-film": _point_film,
     "mixed": _mixed,
-    "loop": _loop,
 }
 
 

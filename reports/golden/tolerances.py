@@ -32,6 +32,8 @@ RULES: tuple[Rule, ...] = (
     Rule("*/outside_model", 0.0, 0.0, "a number of notes"),
     Rule("*/*imbalance*", 0.0, 1e-4, "zero within the tolerance of the balance; the status says so"),
     Rule("*/*residual*", 0.0, 1e-4, "zero within the tolerance of the solver; the status says so"),
+    Rule("*/*load_missed*", 0.0, 1e-4, "zero within the tolerance of the solver; the status says so"),
+    Rule("*/accuracy.*errors.*", 0.05, 1e-6, "differences of nearly equal figures"),
     Rule("surfaces/*Ssk", 1e-6, 1e-9, "zero for heights without skewness"),
     Rule("surfaces/*", 1e-6, 0.0, "moments met to 1e-6, else transforms to rounding"),
     Rule("contacts/contact-01/contact_*", 5e-3, 0.0, PUNCH),
