@@ -45,6 +45,7 @@ lint: setup
 	$(BIN)/ruff format --check .
 	$(BIN)/mypy
 	$(BIN)/lint-imports
+	$(BIN)/numpydoc lint $$(git ls-files 'bem/*.py')
 
 # Renews the stored figures of tests/golden and prints what moved beyond its tolerance. The commit must say why it moved.
 # One group only: make golden GROUP=films. How far figures follow rounding: $(BIN)/python -m reports.golden --spread.

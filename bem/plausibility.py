@@ -34,7 +34,7 @@ _PREFIXED = frozenset(("m", "N", "Pa", "Pa*s", "m/s", "N/m"))
 class UsualRange:
     """Usual range of a quantity.
 
-    Parameters
+    Attributes
     ----------
     quantity : what it is called in notes.
     unit : SI unit of the values; empty for a ratio.

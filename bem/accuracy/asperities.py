@@ -23,7 +23,9 @@ def asperity_bars(found: ArrayLoads, coarser: ArrayLoads, radius: float, cell: f
 
     Parameters
     ----------
-    found, coarser : on the grid, and on that of twice the cell. radius : of the spheres [m]. cell : of the grid [m].
+    found, coarser : on the grid, and on that of twice the cell.
+    radius : of the spheres [m].
+    cell : of the grid [m].
     """
     at_edge = cell**2 / (radius * found.depth)
     grid, residual = {}, {}

@@ -70,7 +70,9 @@ def particle_bars(
 
     Parameters
     ----------
-    found : in the map. heights, spacing : (nx, ny) [m] and [m]. choices : what else
+    found : in the map.
+    heights, spacing : (nx, ny) [m] and [m].
+    choices : what else
         `bem.particles.particles_from_height_map` was given.
     """
     figures = map_figures(found)

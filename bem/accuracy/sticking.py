@@ -83,11 +83,13 @@ def sticking_bars(
 
     Parameters
     ----------
-    rules : by the names of figures. case : the contact without friction.
+    rules : by the names of figures.
+    case : the contact without friction.
     fine, coarse : figures on its grid and on that of twice the cell, SI units.
     residual : the largest of all steps and of the contact.
     fewer : figures on the coarser grid with half the pressing steps; None where the load comes at once.
-    given : figures that are prescribed, which have no error but the residual's. limit : friction x load [N], which
+    given : figures that are prescribed, which have no error but the residual's.
+    limit : friction x load [N], which
         residuals of forces are relative to.
     """
     resolved, edge = is_resolved(case), share_at_edge(case)

@@ -68,7 +68,8 @@ def stress_bars(
     Parameters
     ----------
     case, coarser : the contact and its coarser solution, as `bem.accuracy.contact` makes them.
-    body, friction : as `bem.stress.stress_below` takes them. below : what it gave for the contact.
+    body, friction : as `bem.stress.stress_below` takes them.
+    below : what it gave for the contact.
     traction : the coarser one (2, nx, ny) [Pa] where `below` is that of tractions of their own.
     fewer : pressure (nx, ny) and traction [Pa] on the coarser grid with half of the steps in which the load comes.
     """

@@ -24,7 +24,7 @@ _MOST_CASES = 100_000
 class Case:
     """One case of a campaign.
 
-    Parameters
+    Attributes
     ----------
     index : place in the campaign, the last axis running fastest.
     scene : with one value of everything that runs.

@@ -49,7 +49,7 @@ class Result:
 class CaseJob:
     """A case to be computed anywhere, see `bem.campaigns.jobs.Job`.
 
-    Parameters
+    Attributes
     ----------
     index, case, plan : which, what, and how much work it is.
     file : of its checkpoint, None where there is none.

@@ -40,7 +40,7 @@ _FALL, _PATIENCE = 0.9, 2
 class Level:
     """A level that is over.
 
-    Parameters
+    Attributes
     ----------
     shown : its cells, points, ... for a reader.
     errors : relative errors of the figures that the accuracy is asked of, by fields; infinite without a bar.

@@ -103,11 +103,18 @@ def contact_region(
 
     Parameters
     ----------
-    pressure : (nx, ny) [Pa], zero outside contact. gap, undeformed : (nx, ny), deformed and undeformed gap [m].
-    grid : of the cells. modulus : E* as the length of a cell sees it [Pa]. ends : what narrow contact and narrow gaps
-    add, in place of the fitted constants. cap : highest pressure of a cell, the hardness [Pa]. compliance : what each
-    cell gives way besides, by its own pressure [m/Pa].
+    pressure : (nx, ny) [Pa], zero outside contact.
+    gap, undeformed : (nx, ny), deformed and undeformed gap [m].
+    grid : of the cells.
+    modulus : E* as the length of a cell sees it [Pa].
+    ends : what narrow contact and narrow gaps
+        add, in place of the fitted constants.
+    cap : highest pressure of a cell, the hardness [Pa].
+    compliance : what each
+        cell gives way besides, by its own pressure [m/Pa].
 
+    Notes
+    -----
     At an edge whose cells are at the cap the pressure has no root to follow, and the law cuts off too much: 3 % of the
     area where a tenth of the edge is so, 30 % where nearly all is. There the edge lies half-way between centres, cells
     at the cap count whole, and those between count for no less than the share of the cap that they carry. That takes

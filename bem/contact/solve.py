@@ -76,6 +76,8 @@ def solve_contact(
     max_iterations : limit on iterations of conjugate gradients over all grids.
     callback : called with iterations, residual and fraction of cells in contact after each round on the grid itself.
 
+    Notes
+    -----
     An elastic contact on a free axis may have no answer for a `mean_gap`, or several: a layer much stiffer than its
     base bends and stands off somewhere, however hard it is pressed, and the mean gap then grows with the load. Where a
     larger or smaller load is found to have the same mean gap, `notes` says so; the search begins without contact and

@@ -21,7 +21,7 @@ equal circles is 1 + 3/4 (a / R)^2 of its parabola at the edge (series of x^2 / 
 class ElementContact:
     """One place of a machine element where two bodies touch, body 1 the lower one of a scene.
 
-    Parameters
+    Attributes
     ----------
     name : which, such as "inner ring, 40 deg".
     place : where, as the element counts it: an angle [rad] or a distance along the path [m].

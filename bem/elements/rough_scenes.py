@@ -44,9 +44,11 @@ _CELLS_PER_DEPTH = 5.0
 class Patch:
     """Grid over a Hertz contact.
 
-    Parameters
+    Attributes
     ----------
-    shape : cells along x and y. lengths : sides [m]. periodic : whether the patch repeats along x and y.
+    shape : cells along x and y.
+    lengths : sides [m].
+    periodic : whether the patch repeats along x and y.
     """
 
     shape: tuple[int, int]
@@ -113,7 +115,8 @@ def mixed_scene(
 
     Parameters
     ----------
-    model : the element. contact : its place.
+    model : the element.
+    contact : its place.
     bodies : tables of `lower` and `upper` with their materials.
     oil : the element's table of the oil.
     kind : "friction" or "running-in".

@@ -112,7 +112,8 @@ def cell_flow(
 
     Parameters
     ----------
-    gap : (nx, ny), >= 0, zero in contact; any unit (of order one is best). spacing : (dx, dy), any unit.
+    gap : (nx, ny), >= 0, zero in contact; any unit (of order one is best).
+    spacing : (dx, dy), any unit.
     tolerance, max_iterations : of the solver, relative to the flow.
     inverse : of the gap, for `sliding_shear`, where centres do not say it: next to contact, towards which it has no
         limit; one over the gap of each open cell if None.

@@ -20,9 +20,12 @@ class Curve:
     the factor less its limit falls with `decay`, as the second order of perturbation theory has it; before the first
     one it rises with `growth` if it is a number, else goes on with its slope, or stays if it would fall from infinity.
 
-    Parameters
+    Attributes
     ----------
-    separation : (n,) rising [m]. value : (n,) >= 0. limit : the value of endless separation. decay, growth : see above.
+    separation : (n,) rising [m].
+    value : (n,) >= 0.
+    limit : the value of endless separation.
+    decay, growth : see above.
     """
 
     separation: FloatArray

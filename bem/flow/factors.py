@@ -59,15 +59,19 @@ class FlowFactors:
     pressure_xy : pressure flow along x for a gradient along y (and the reverse), in the same measure: of skewed lays.
     shear_x : phi_s, of roughness on wall 1 alone; see the module for both.
     friction_sliding, friction_shear, friction_pressure : phi_f, phi_fs and phi_fp of the stress on the smooth wall.
-    mean_gap : [m], of the deformed gap. contact_area_fraction : of the patch.
+    mean_gap : [m], of the deformed gap.
+    contact_area_fraction : of the patch.
     mean_gap_scatter : [m], by how much the mean gap over cells scatters with where heights that are cut off lie between
         their centres, as a standard deviation; 0 of bodies that deform.
     flows_through_x, flows_through_y : whether fluid hangs together from patch to patch.
     pressure_x_error, pressure_y_error, shear_x_error : what cells twice as large say, over 3 (second order); NaN where
         not asked for.
-    residual : the largest of the contact's and the flow's. iterations : of the flow's conjugate gradients.
-    statuses : outcome at each separation. status : the worst of them.
-    rms_height : s [m]. notes : sentences on what should not be believed.
+    residual : the largest of the contact's and the flow's.
+    iterations : of the flow's conjugate gradients.
+    statuses : outcome at each separation.
+    status : the worst of them.
+    rms_height : s [m].
+    notes : sentences on what should not be believed.
     wall_share : (s1^2 - s2^2)/s^2, for films that use the table: 1 is all roughness on wall 1, -1 on wall 2.
     coarser : all factors on cells twice as large, by name; None where not asked for, or not to be had.
     """
@@ -138,6 +142,7 @@ def flow_factors(
     ----------
     heights : (nx, ny) [m], positive out of the body: of one rough surface, or the sum of both surfaces' heights. The
         patch repeats along both axes, whatever the grid says; its mean is taken out.
+    grid : of the patch, (nx, ny) cells.
     bodies : one Body (the other rigid), a pair, or None: heights above d are cut off and nothing is deformed, as in
         Patir and Cheng's simulations.
     separations : [m], positive, in any order; the table is in rising order.

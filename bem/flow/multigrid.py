@@ -149,8 +149,10 @@ def solve(
 
     Parameters
     ----------
-    network : the nodes and links. source : (nodes,) into each.
-    allowed : from a potential to the sum over nodes of what they may lack or have too much. most : iterations at most.
+    network : the nodes and links.
+    source : (nodes,) into each.
+    allowed : from a potential to the sum over nodes of what they may lack or have too much.
+    most : iterations at most.
 
     Returns
     -------

@@ -70,9 +70,12 @@ def press_array(
     Parameters
     ----------
     operator : of both bodies on the doubly periodic cell of one asperity, as wide as their spacing.
-    radius, height : of the spheres, and how far they stand out of the flat [m]. contact_modulus : E* [Pa].
-    depths : at which loads are wanted, rising [m]. window : side of the square array that ends [m].
-    state : of the same array, from which it goes on to the same bits. callback : called after each contact.
+    radius, height : of the spheres, and how far they stand out of the flat [m].
+    contact_modulus : E* [Pa].
+    depths : at which loads are wanted, rising [m].
+    window : side of the square array that ends [m].
+    state : of the same array, from which it goes on to the same bits.
+    callback : called after each contact.
 
     Raises
     ------

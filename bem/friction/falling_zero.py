@@ -39,9 +39,14 @@ def falling_zero(
 
     Parameters
     ----------
-    evaluate : the value at a place, and whether it is near enough to zero. start, slope : where to begin, and how
-        steeply it falls there. ends : an end is the last place tried if the zero is not between them. trials : at most.
+    evaluate : the value at a place, and whether it is near enough to zero.
+    start, slope : where to begin, and how
+        steeply it falls there.
+    ends : an end is the last place tried if the zero is not between them.
+    trials : at most.
 
+    Notes
+    -----
     Method of Illinois (Dowell and Jarratt, *BIT* 11, 1971, 168): regula falsi, the value that stays halved; the place
     as a parabola of the value instead where `_parabola` has one. It takes a tenth fewer of the films and contacts of
     forty load sharings.

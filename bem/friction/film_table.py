@@ -59,6 +59,8 @@ class FilmTable:
     films : that are tabulated.
     load : the largest load, on the whole contact [N]; more than a film is looked for is cut to that.
 
+    Notes
+    -----
     A film between two entries is interpolated by cubics in ln(load) through the four nearest, at abscissae in units of
     Hertz' contact, which moves with the load that deforms the bodies. Entries are solved as far down as is asked for,
     each started from the one above where films start from one another: the same bits whatever is asked for first.

@@ -30,7 +30,10 @@ def films_of(
 
     Parameters
     ----------
-    setup, speeds : of the load sharing. at : other abscissae. resolution : other than the set-up's. initial : a film of
+    setup, speeds : of the load sharing.
+    at : other abscissae.
+    resolution : other than the set-up's.
+    initial : a film of
         a similar case.
 
     Raises

@@ -52,7 +52,8 @@ def fit_load_share(lambda_ratio: ArrayLike, contact_share: ArrayLike) -> LoadSha
 
     Parameters
     ----------
-    lambda_ratio : (n,) film over roughness, positive. contact_share : (n,) of the load, 0 to 1.
+    lambda_ratio : (n,) film over roughness, positive.
+    contact_share : (n,) of the load, 0 to 1.
 
     Returns
     -------

@@ -91,7 +91,8 @@ def solve_mixed(
         table such as {"kind": "pressure_dependent", "shear_strength": 1e6, "pressure_coefficient": 0.1}.
     hardness : cap of the contact pressure [Pa]; None is elastic.
     tolerance : of the balance, (F_H + F_C - load) / load.
-    film_points : nodes of the film's own mesh. film_cells : of a ball's film along an axis.
+    film_points : nodes of the film's own mesh.
+    film_cells : of a ball's film along an axis.
     contact_model : "coupled" (the half-space), or "uncoupled" (every summit a Hertz sphere), the usual baseline.
     asperity_separation : distance of the mean planes for uncoupled asperities: "volume" keeps the volume of oil between
         the surfaces, cut where they overlap; "film" is the film thickness itself.
@@ -187,7 +188,7 @@ def stribeck_curve(speeds: Sequence[float | Sequence[float]], **as_solve_mixed: 
     Parameters
     ----------
     speeds : sliding speeds of the flat [m/s], the cylinder at rest; or pairs (u1, u2).
-    as_solve_mixed : the other arguments of `solve_mixed`.
+    **as_solve_mixed : the other arguments of `solve_mixed`.
 
     Returns
     -------

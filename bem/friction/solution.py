@@ -42,7 +42,8 @@ class MixedSolution:
     lambda_ratio : minimum of the smooth film under the whole load over the rms height of the patch.
     minimum_film : minimum thickness [m] of `film`.
     contact_area : real, on the whole width [m^2].
-    evaluations : films solved; contact_solves : rough contacts solved.
+    evaluations : films solved.
+    contact_solves : rough contacts solved.
     imbalance : (film_load + contact_load - load) / load, of these three.
     balance_slope : of ln(opening / film thickness) with ln(film_load): where the next speed's balance starts from.
     continuation : what else the next speed's balance starts from.

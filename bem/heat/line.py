@@ -27,7 +27,8 @@ def band_temperatures(edges: FloatArray, body: Conductor) -> FloatArray:
 
     Parameters
     ----------
-    edges : (m+1,) of the cells, ascending [m]. body : a half-space that moves.
+    edges : (m+1,) of the cells, ascending [m].
+    body : a half-space that moves.
 
     Raises
     ------

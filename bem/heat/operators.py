@@ -46,7 +46,9 @@ def heat_operator(grid: Grid, body: Conductor, begin: float = 0.0, end: float = 
 
     Parameters
     ----------
-    grid : free along x. body : a half-space. begin, end : since the heat ended and began to be made [s].
+    grid : free along x.
+    body : a half-space.
+    begin, end : since the heat ended and began to be made [s].
     """
     nx, ny = grid.shape
     dx, dy = grid.spacing

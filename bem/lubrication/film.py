@@ -58,7 +58,8 @@ class FilmSolution:
     film_fraction : (n,) share of the gap that is filled with oil; 1 in the full film. None with Swift and Stieber's
         cavitation, which keeps no account of it.
     volume_imbalance : relative error of the volume balance of a time step; None for a steady film.
-    mean_temperature : of the oil [K], mean across the film, weighted by pressure. maximum_temperature : its highest, of
+    mean_temperature : of the oil [K], mean across the film, weighted by pressure.
+    maximum_temperature : its highest, of
         the mean across the film where only that is known ("lumped"). None where heat was not solved for.
     sliding_stress : (n,) in the middle of the film [Pa], at the oil's temperatures; None where heat was not solved for.
     starvation : what a supply of oil made of a steady film; None where none was given: flooded.

@@ -44,10 +44,12 @@ class Lubricant:
     film_rheology : "newtonian": the shear law acts on the friction and not on the film; "shear_law": on both, through
         the profile of stress and speed across the film (`bem.lubrication.shear_profile`).
     temperature : that of the oil [K], for a reader; None where it is not known, as the next four.
-    density : at ambient pressure [kg/m^3]. heat_capacity : per mass [J/(kg K)]. thermal_conductivity : [W/(m K)].
+    density : at ambient pressure [kg/m^3].
+    heat_capacity : per mass [J/(kg K)].
+    thermal_conductivity : [W/(m K)].
     temperature_viscosity : beta, -d ln(viscosity)/dT at ambient pressure [1/K].
     oil : the oil it is of at that temperature, which knows it at others; see `of` and `bem.lubrication.oils`.
-    parameters : of the laws, by name: `shear_stress_limit` [Pa] of eyring and carreau, `carreau_exponent`,
+    **parameters : of the laws, by name: `shear_stress_limit` [Pa] of eyring and carreau, `carreau_exponent`,
         `limiting_shear_coefficient`, `ambient_shear_strength` [Pa], those of your own laws. They are attributes, too.
 
     Raises
@@ -143,7 +145,7 @@ class Lubricant:
         name : name or grade, such as "ISO VG 68", "SAE 5W-30", "PAO 4"; `bem oils` lists them.
         temperature : [K].
         viscosity_index, base : of a grade, see `bem.lubrication.oils.find_oil`.
-        laws : other arguments of `Lubricant`; `pressure_viscosity` in place of the oil's own.
+        **laws : other arguments of `Lubricant`; `pressure_viscosity` in place of the oil's own.
 
         Raises
         ------

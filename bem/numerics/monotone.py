@@ -18,7 +18,8 @@ class MonotoneCubic:
 
     Parameters
     ----------
-    x : (n,) ascending, n >= 2. values : (n, ...), finite.
+    x : (n,) ascending, n >= 2.
+    values : (n, ...), finite.
     """
 
     def __init__(self, x: FloatArray, values: FloatArray) -> None:

@@ -25,8 +25,12 @@ def dowson_higginson_minimum_film(
 
     Parameters
     ----------
-    load : per unit length [N/m]; radius [m]; contact_modulus E* [Pa]; mean_speed (u1 + u2)/2 [m/s];
-    viscosity : at the temperature of the inlet [Pa s]; pressure_viscosity [1/Pa].
+    load : per unit length [N/m].
+    radius : of the equivalent cylinder [m].
+    contact_modulus : E* [Pa].
+    mean_speed : (u1 + u2)/2 [m/s].
+    viscosity : at the temperature of the inlet [Pa s].
+    pressure_viscosity : slope of ln(viscosity) with pressure [1/Pa].
 
     Raises
     ------

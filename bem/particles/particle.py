@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 class Particle:
     """A wear particle as a set of grid columns with a thickness each.
 
-    Parameters
+    Attributes
     ----------
     volume : [m^3]; cell area times the sum of the columns' thicknesses.
     length, width : sides of the bounding rectangle [m], length >= width.

@@ -64,11 +64,13 @@ def synthetic_afm_map(
 
     Parameters
     ----------
-    shape, lengths : cells and sides of the map [m]; seed : the same seed gives the same bits.
+    shape, lengths : cells and sides of the map [m].
+    seed : the same seed gives the same bits.
     count : of particles.
     number_mean_radius, volume_mean_radius : means of their equivalent radii [m].
     width_over_thickness, length_over_width : mean ratios of their sides.
-    plate_rms : roughness of the plate [m]; tilt : its slopes along x and y.
+    plate_rms : roughness of the plate [m].
+    tilt : its slopes along x and y.
 
     Raises
     ------

@@ -41,8 +41,11 @@ def write_animation(
     figure : with its canvas, of constrained layout or settled.
     moving : artists of its axes that change between frames, titles among them; they are drawn in this order, over what
         does not change, with the spines of their axes over them.
-    show : changes them to what frame i shows. count : of frames, not less than one.
-    path : of the file. dots : per inch. per_second : frames.
+    show : changes them to what frame i shows.
+    count : of frames, not less than one.
+    path : of the file.
+    dots : per inch.
+    per_second : frames.
     """
     canvas = figure.canvas
     assert isinstance(canvas, FigureCanvasAgg)

@@ -53,7 +53,8 @@ def case_shown(data: Any, kind: str, names: Sequence[str]) -> str:
 
     Parameters
     ----------
-    data : arrays of a run. kind : of the run.
+    data : arrays of a run.
+    kind : of the run.
     names : variables that are drawn together; those that keep the first or the last case alone decide.
     """
     known = described(get_kind(kind).record) if kind else {}

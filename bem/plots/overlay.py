@@ -56,7 +56,8 @@ def panel(dataset: Any, name: str, *, row: int | None = None) -> Panel | None:
 
     Parameters
     ----------
-    dataset : of a run. name : of a variable in it.
+    dataset : of a run.
+    name : of a variable in it.
     row : where to cut maps, an index along y; None is the highest pressure's, or the middle.
 
     Returns

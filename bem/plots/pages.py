@@ -36,10 +36,11 @@ _MOST_READ = 256 << 20
 class Pages:
     """Figures and report to be made of a run.
 
-    Parameters
+    Attributes
     ----------
     path, scene, summary : of the run, as of `FinishedRun`; `results.nc` is there.
-    names : of the figures, in their order. formats : of their files.
+    names : of the figures, in their order.
+    formats : of their files.
     headline : figures that the report begins with.
     epoch : clock time [s] at which the run would have begun had it not been interrupted.
     processes : that draw at once, as many as cores where None.

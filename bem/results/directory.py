@@ -72,6 +72,7 @@ class RunDirectory:
 
         Parameters
         ----------
+        name, scene : of the run: first part of a new folder's name, and text of the resolved scene.
         out : the folder; None takes the next free `runs/NAME-001`, or with `resume` this scene's latest unfinished one.
         resume : go on from the checkpoint in it.
         overwrite : replace an older run in it, which stays until this one is finished; with `resume`, one of another

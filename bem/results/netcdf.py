@@ -28,7 +28,9 @@ class NetCDF:
 
     Parameters
     ----------
-    file : empty, of `track_order`. attributes : of the whole file. shapes : dimensions and shape of all variables.
+    file : empty, of `track_order`.
+    attributes : of the whole file.
+    shapes : dimensions and shape of all variables.
     """
 
     def __init__(

@@ -26,7 +26,7 @@ from bem.scenes.planner import Plan
 class Point:
     """A point to be computed anywhere, see `bem.campaigns.jobs.Job`.
 
-    Parameters
+    Attributes
     ----------
     index : place in the sweep, the last swept key running fastest.
     scene, plan : resolved, and what it takes.

@@ -61,7 +61,7 @@ _POINTS = "points"
 class FinishedSweep:
     """A sweep on disk.
 
-    Parameters
+    Attributes
     ----------
     path : its folder, with `sweep.nc`, `sweep.csv`, figures and a run folder for each point under `points/`.
     computed : how many points this call computed; the others were there.

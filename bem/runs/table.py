@@ -39,7 +39,8 @@ def dataset_variables(
     Parameters
     ----------
     kind : of the scene; its record says what figures are.
-    axes : the swept keys. inner : axes of the cases of one point.
+    axes : the swept keys.
+    inner : axes of the cases of one point.
     summaries : of the points.
     """
     keys = {axis.name for axis in axes}

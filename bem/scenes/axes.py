@@ -27,7 +27,7 @@ Model = TypeVar("Model", bound=BaseModel)
 class Axis:
     """One thing that runs.
 
-    Parameters
+    Attributes
     ----------
     name : the dimension in the dataset, and with the figure's unit the key of the summary.
     values : of each place: numbers in SI units, or texts.

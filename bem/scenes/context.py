@@ -74,7 +74,7 @@ class Bars(Protocol):
 class Variable:
     """A named array of the results.
 
-    Parameters
+    Attributes
     ----------
     dimensions : one name per axis. A variable with the name of its only dimension is that dimension's coordinate.
     values : numbers.
@@ -98,7 +98,7 @@ class Variable:
 class Outcome:
     """What a run gives.
 
-    Parameters
+    Attributes
     ----------
     summary : figures for `summary.json`; names carry their unit. Lists run over speeds, loads, temperatures or seeds.
     variables : arrays for `results.nc`, by name.

@@ -32,13 +32,16 @@ _DEEPEST = 6
 class Entry:
     """A key of a form.
 
-    Parameters
+    Attributes
     ----------
     key : dotted, from the top of the scene.
     name : its last part, in words.
-    allowed : what may be typed, with the unit. default : as it would be typed, "" for none.
-    choices : words that may be typed; closed : no others.
-    required : whether the scene needs it. switch : true or false.
+    allowed : what may be typed, with the unit.
+    default : as it would be typed, "" for none.
+    choices : words that may be typed.
+    closed : no others.
+    required : whether the scene needs it.
+    switch : true or false.
     tables : what may stand there as a table: one, or several told apart by their `kind`.
     typed : whether a value may be typed, too (or only, without tables).
     """

@@ -34,17 +34,24 @@ _NAME = re.compile(r"[a-z][a-z0-9-]{0,63}")
 class Kind:
     """A kind of scene, with one case in a scene wherever a function takes one, but for `axes` and `summarise`.
 
-    Parameters
+    Attributes
     ----------
-    name : what `kind = "..."` in a scene says; the file's name with "-" for "_". title : one line.
-    model : of the scene's tables. plan : what will be computed, without any work. run : does it. record : its result.
+    name : what `kind = "..."` in a scene says; the file's name with "-" for "_".
+    title : one line.
+    model : of the scene's tables.
+    plan : what will be computed, without any work.
+    run : does it.
+    record : its result.
     figures : names from `bem.plots.figures`, drawn when the run is over.
     headline : keys of the summary to show first; the figures that the record marks so follow.
-    resolve : fills in what files decide, first of all. axes : what a scene runs over.
-    summarise : further keys of the summary, from all records. volumes : variables for ParaView.
+    resolve : fills in what files decide, first of all.
+    axes : what a scene runs over.
+    summarise : further keys of the summary, from all records.
+    volumes : variables for ParaView.
     scattering : figures that its record says never have an error bar, but whose scatter over repetitions is one under
         the models that a scene has chosen.
-    always_lists : whether the summary has lists for a single case too. resolutions : what is refined where an accuracy
+    always_lists : whether the summary has lists for a single case too.
+    resolutions : what is refined where an accuracy
         is asked for.
     """
 

@@ -29,7 +29,7 @@ _START = 0.8  # seconds until libraries and compiled loops are loaded
 class Step:
     """One computation of a plan.
 
-    Parameters
+    Attributes
     ----------
     name : what is computed.
     why : why it is needed, or why it is skipped.

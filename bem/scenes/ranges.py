@@ -27,7 +27,7 @@ _ALLOWED = (
 class Axis:
     """A swept key.
 
-    Parameters
+    Attributes
     ----------
     key : dotted key of the scene, with indices into lists as in `variants[0].name`.
     values : what each point sets it to, as text of `bem run --set key=VALUE`.

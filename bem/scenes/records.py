@@ -46,7 +46,7 @@ _WRITTEN = {"C": "degC", "nm_s": "nm/s", "m_s": "m/s", "N_m": "N/m", "Nm": "N m"
 class Figure:
     """A number of a record, or one for each place along `dimensions`; in the summary and in the dataset.
 
-    Parameters
+    Attributes
     ----------
     unit : as the name of the figure ends in the summary, a key of `UNITS`; the record holds SI.
     text : what it is, for labels.
@@ -117,7 +117,7 @@ class Figure:
 class Series:
     """An array of a record that is in the dataset only.
 
-    Parameters
+    Attributes
     ----------
     dimensions : one name for each of its axes; an array named like its only dimension is that dimension's coordinate.
     unit : SI.

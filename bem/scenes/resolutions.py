@@ -40,7 +40,7 @@ _DEEP, _DEPTHS, _MOST_DEPTHS = 1.5, 24, 1024
 class Resolution:
     """One thing that the scenes of a kind resolve.
 
-    Parameters
+    Attributes
     ----------
     what : what there are more of on a finer level, such as "cells".
     first : the scene with its first choice, where the scene leaves it out.

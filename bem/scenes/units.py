@@ -51,7 +51,7 @@ _COMMON_UNITS = (
 class Dimension:
     """What a key of a scene measures; as annotation of a float it parses, converts and refuses.
 
-    Parameters
+    Attributes
     ----------
     unit : the SI unit the value is kept in; "" for a plain ratio.
     noun : what to call it in messages, such as "a length".

@@ -87,9 +87,13 @@ def stress_below(
 
     Parameters
     ----------
-    pressure : (nx, ny) on the grid [Pa]. grid, body : where, and whose stresses.
-    depths : (nz,) [m], rising. friction : of the traction along +x. traction : (2, nx, ny) [Pa] instead.
-    components : whether the six are kept. out : (nz, nx, ny) for von Mises, made if not given.
+    pressure : (nx, ny) on the grid [Pa].
+    grid, body : where, and whose stresses.
+    depths : (nz,) [m], rising.
+    friction : of the traction along +x.
+    traction : (2, nx, ny) [Pa] instead.
+    components : whether the six are kept.
+    out : (nz, nx, ny) for von Mises, made if not given.
     after : called with the number of planes that are done, after each.
     """
     places = np.asarray(depths, dtype=np.float64)

@@ -57,7 +57,9 @@ def reached_stress(
 
     Parameters
     ----------
-    pressure, grid, body, friction : as in `subsurface_stress`. depths : (nz,) [m], rising. limit : [Pa].
+    pressure, grid, body, friction : as in `subsurface_stress`.
+    depths : (nz,) [m], rising.
+    limit : [Pa].
     reach : depths above and below a row that exceeds the limit that are computed in it and in those beside it.
 
     Raises

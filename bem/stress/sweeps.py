@@ -55,6 +55,7 @@ def subsurface_stress(
     pressure : (nx, ny) [Pa], positive in compression.
     grid : free or periodic along each axis. On a doubly periodic grid the pressure is its trigonometric interpolant
         and the mean pressure gives the laterally constrained uniform state; otherwise it is constant on each cell.
+    body : a half-space under any number of layers.
     depths : (nz,) [m], any order, each >= 0; on a layer's interface the layer's side.
     friction : f of the traction on the body.
     traction : (2, nx, ny) [Pa] on the body along +x and +y, instead of friction x pressure (partial slip).

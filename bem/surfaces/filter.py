@@ -185,6 +185,9 @@ def resample(
 
     Parameters
     ----------
+    surface : heights [m] and spacing [m] of the map.
+    grid : of the result, (nx, ny) cells.
+    centre : (x, y) of the grid's middle, from the middle of the map [m].
     method : "spline": cubic spline through the heights; where the grid is coarser than the map, wavelengths that it
         cannot hold (below two of its cells) are removed first. "fourier": trigonometric interpolation of a periodic
         surface, exact for what both can hold; the grid must then cover exactly the map and `centre` may be anything.

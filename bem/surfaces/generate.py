@@ -51,7 +51,8 @@ def generate_surface(
     Parameters
     ----------
     grid : where; the surface repeats with its lengths whatever `grid.periodic` says.
-    rms_height : Sq [m], met to round-off. Instead of it `rms_slope` (Sdq of the continuous surface) may be given.
+    rms_height : Sq [m], met to round-off.
+    rms_slope : instead of `rms_height`: Sdq of the continuous surface.
     seed : integer >= 0; the same seed gives the same bits.
     correlation_length : lag at which the autocorrelation falls to 1/e [m]; a pair for different lengths along x and y.
         Met to 0.1 % by the prescribed spectrum; at most about a quarter of the grid's side can be had.

@@ -76,11 +76,14 @@ def solve_coupled_slip(
 
     Parameters
     ----------
-    gap : undeformed (nx, ny) [m]. load, approach, mean_gap, hardness : as for `solve_contact`; exactly one of the first
-        three. grid, bodies, friction, force, shift, rotation : as for `solve_partial_slip`.
+    gap : undeformed (nx, ny) [m].
+    load, approach, mean_gap, hardness : as for `solve_contact`; exactly one of the first
+        three.
+    grid, bodies, friction, force, shift, rotation : as for `solve_partial_slip`.
     previous : the step before, of the same grid and bodies, under any load.
     tolerance : bound on the residual, see `CoupledSolution`.
-    max_iterations : limit of each contact and of each partial slip. max_rounds : of both by turns.
+    max_iterations : limit of each contact and of each partial slip.
+    max_rounds : of both by turns.
 
     Raises
     ------

@@ -47,8 +47,10 @@ def stuck_area(
 
     Parameters
     ----------
-    operator : of the grid and the bodies. bound : friction x pressure (nx, ny) [Pa].
-    traction, slip : (2, nx, ny) [Pa], [m]. sticks : the cells (nx, ny).
+    operator : of the grid and the bodies.
+    bound : friction x pressure (nx, ny) [Pa].
+    traction, slip : (2, nx, ny) [Pa], [m].
+    sticks : the cells (nx, ny).
     contact : where stick ends with the contact its gap says where; None: half-way between cells.
     """
     if not sticks.any():

@@ -91,7 +91,9 @@ class Inverses:
 
         Parameters
         ----------
-        numbers : (n,). slips : (n,), which of them slip. normal : (2, n), of their discs where they do.
+        numbers : (n,).
+        slips : (n,), which of them slip.
+        normal : (2, n), of their discs where they do.
         curvature : (n,), what their discs add to the stiffness there [m/Pa], 0 where cells stick.
         """
         sticks = ~slips

@@ -58,7 +58,8 @@ def solve_partial_slip(
     contact : a normal contact, or its pressure (nx, ny) [Pa].
     grid, bodies : as for `displacement_operator`: one body (the other rigid) or (first, second).
     friction : coefficient, a number or a map (nx, ny), not negative.
-    force : (Fx, Fy) [N], total traction on the first body. shift : (sx, sy) [m]; exactly one of the two. Signs: see
+    force : (Fx, Fy) [N], total traction on the first body.
+    shift : (sx, sy) [m]; exactly one of the two. Signs: see
         `TangentialSolution`.
     rotation : [rad], about the grid's centre from x to y, in addition to the shift or the force.
     previous : the step before, of the same grid and bodies: what sticks keeps what it had, so that a history of forces

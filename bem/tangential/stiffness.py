@@ -30,7 +30,8 @@ def tangential_stiffness(
     Parameters
     ----------
     contact : a normal contact, or its pressure (nx, ny) [Pa]; which cells carry load is all that counts.
-    grid, bodies : as for `solve_partial_slip`. tolerance : relative, of displacements.
+    grid, bodies : as for `solve_partial_slip`.
+    tolerance : relative, of displacements.
 
     Raises
     ------

@@ -21,7 +21,8 @@ def narrowed_lengths(cells: int, padded: tuple[int, int], decay: float) -> tuple
 
     Parameters
     ----------
-    cells : nx of the field. padded : (px, py), lengths of the transforms; py is the period, and px >= 2 nx - 1.
+    cells : nx of the field.
+    padded : (px, py), lengths of the transforms; py is the period, and px >= 2 nx - 1.
     decay : 2 pi spacing_x / (py spacing_y): how far the first wave falls in a cell along x.
 
     Returns

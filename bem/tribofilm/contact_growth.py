@@ -201,10 +201,13 @@ class GrowthTable:
     trusted in any case: as single cells come into contact the mean over the contact takes steps, and these are resolved
     to that width.
 
-    Parameters
+    Attributes
     ----------
-    sample : thickness, last sample or None -> ContactSample. tolerance : relative. first_interval : [m].
-    narrowest : relative width of an interval that is trusted in any case. samples : solved so far, ascending.
+    sample : thickness, last sample or None -> ContactSample.
+    tolerance : relative.
+    first_interval : [m].
+    narrowest : relative width of an interval that is trusted in any case.
+    samples : solved so far, ascending.
     """
 
     sample: Callable[[float, ContactSample | None], ContactSample]

@@ -78,8 +78,10 @@ def evolve_film(
 
     Parameters
     ----------
-    times : increasing, the first is the start [s] (cycles if rates are per cycle). growth_rate : g(h) >= 0 [m/s].
-    wear_coefficient : alpha [1/s]; 0 for none. lag : [s]; 0 for none; before the start there is no film to wear.
+    times : increasing, the first is the start [s] (cycles if rates are per cycle).
+    growth_rate : g(h) >= 0 [m/s].
+    wear_coefficient : alpha [1/s]; 0 for none.
+    lag : [s]; 0 for none; before the start there is no film to wear.
     concentration_constant : C1 [1/m]; infinite for no substrate wear.
     initial_thickness : at the start [m].
     tolerance : relative, on each of grown, worn and substrate wear; where these are thinner than an atom, relative to

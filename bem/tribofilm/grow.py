@@ -91,10 +91,14 @@ def grow_tribofilm(
     Parameters
     ----------
     times : increasing, from the start of rubbing [s]; in cycles where the rates are per cycle.
-    contact : where it grows. wear_coefficient : alpha [1/s]. lag : delay of the film's wear [s].
-    concentration_constant : C1 [1/m], infinite for no substrate wear. initial_thickness : [m].
+    contact : where it grows.
+    wear_coefficient : alpha [1/s].
+    lag : delay of the film's wear [s].
+    concentration_constant : C1 [1/m], infinite for no substrate wear.
+    initial_thickness : [m].
     reuse_tolerance : relative error of growth that is accepted from reusing contacts; 0 solves one at every evaluation.
-    tolerance : of the time integration. callback : called with every contact as it is solved.
+    tolerance : of the time integration.
+    callback : called with every contact as it is solved.
     known : contacts that the same film was told of before, in that order: they are not solved again, and what follows
         has the same bits.
 

@@ -37,10 +37,12 @@ class StressActivatedGrowth(GrowthLaw):
 
     Gosvami et al., Science 348 (2015) 102; thesis, paper E, eq. 3 (its prefactor is 1e-2 m/s, not nm/s).
 
-    Parameters
+    Attributes
     ----------
-    prefactor : [m/s]. activation_energy : without stress [J]. activation_volume : [m^3]; 0 switches stress activation
-    off and leaves plain Arrhenius growth.
+    prefactor : [m/s].
+    activation_energy : without stress [J].
+    activation_volume : [m^3]; 0 switches stress activation
+        off and leaves plain Arrhenius growth.
     """
 
     name: ClassVar[str] = "stress_activated"

@@ -74,11 +74,13 @@ class FadingSubstrate(PropertyLaw):
     the scenes that redo it do. The default of `substrate_temperature_slope` is 0, so that the factor acts on the film's
     part only: without a film the value is the substrate's, and steel keeps its hardness below 200 degrees Celsius.
 
-    Parameters
+    Attributes
     ----------
-    substrate, film : [Pa] at the reference temperature. length : decay length [m].
+    substrate, film : [Pa] at the reference temperature.
+    length : decay length [m].
     temperature_slope, substrate_temperature_slope : fall of the film's and of the substrate's factor per kelvin [1/K].
-    reference_temperature : temperature at which both factors are 1 [K]. lowest_factor : lower bound of both factors.
+    reference_temperature : temperature at which both factors are 1 [K].
+    lowest_factor : lower bound of both factors.
     """
 
     name: ClassVar[str] = "fading_substrate"
@@ -120,9 +122,12 @@ class FadingSubstrate(PropertyLaw):
 class Table(PropertyLaw):
     """Linear interpolation in thickness, times a factor linear in temperature; constant beyond both ends.
 
-    Parameters
+    Attributes
     ----------
-    thickness : increasing [m]. value : [Pa] at each. temperature : increasing [K]. factor : at each.
+    thickness : increasing [m].
+    value : [Pa] at each.
+    temperature : increasing [K].
+    factor : at each.
     """
 
     name: ClassVar[str] = "table"

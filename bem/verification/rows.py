@@ -52,7 +52,8 @@ class Curve:
     along : which points.
     coordinates : (n, 3), as in the stored result.
     bem, reference, error_bar : (n,) in `unit`.
-    allowance : the part of the tolerance that is bem's own discretisation, relative; reason : why.
+    allowance : the part of the tolerance that is bem's own discretisation, relative.
+    reason : why.
     """
 
     quantity: str

@@ -37,7 +37,8 @@ def step_error(
 
     Parameters
     ----------
-    state : after the cycle. setup, model : of the loop.
+    state : after the cycle.
+    setup, model : of the loop.
     half_step : contact of half a cycle: one that wears by the pressure of its end gives way by half as much.
     facing : (rows (n, ny) of a body, LOWER or UPPER) -> those that faced the grid in the last cycle (nx, ny).
     """

@@ -106,6 +106,8 @@ class MixedContact:
     table : films of the same set-up and speeds, to share; a new one by default.
     state, rows, last : to go on from, as they were after the last cycle.
 
+    Notes
+    -----
     `rows` has a row of `MIXED_FIELDS` per cycle, of this contact and of all that `bearing` makes of it; `film` is the
     last cycle's film and `separation` the distance (nx,) of the mean planes [m]. A cycle in which the film clears the
     roughness solves no contact. The oil's shear stress, a hundred times smaller than the boundary traction, is left out

@@ -122,15 +122,22 @@ def run_in(
     lower_heights, upper_heights : (nx, ny) heights out of each body [m]. The moving body (`model.frame`) slides by
         `model.shift` cells per cycle in the direction of friction (`sliding_direction`). It may have more rows than
         the grid, which then pass through the contact, and is taken as periodic along x.
-    grid : of the contact, usually free in x and periodic in y. bodies : (lower, upper).
-    load : on the grid [N]. depths : (nz,) [m], increasing. gap : macroscopic, of the smooth bodies [m]; None is flat.
+    grid : of the contact, usually free in x and periodic in y.
+    bodies : (lower, upper).
+    load : on the grid [N].
+    depths : (nz,) [m], increasing.
+    gap : macroscopic, of the smooth bodies [m]; None is flat.
     friction : traction over pressure, along +x on the lower body where positive, along -x where negative.
     hardness : cap of the contact pressure [Pa]; None takes the softer surface's.
-    cycles : how many, counted from the start of the run. model : the replaceable parts. criterion : what comes off, in
-        place of the model's: a name, a table with `kind` and parameters, or a `Detachment`. stop : rule to end
+    cycles : how many, counted from the start of the run.
+    model : the replaceable parts.
+    criterion : what comes off, in
+        place of the model's: a name, a table with `kind` and parameters, or a `Detachment`.
+    stop : rule to end
         sooner.
     contact_step : the contact of one cycle; None is the dry contact of these arguments, `wear.mixed.MixedContact` is
-        that of a lubricated one. state : to go on from; the heights given are then ignored.
+        that of a lubricated one.
+    state : to go on from; the heights given are then ignored.
     callback : called with the state after every cycle (checkpoints, progress).
 
     Raises

@@ -138,7 +138,7 @@ class Oil:
         Parameters
         ----------
         temperature : [K].
-        laws : further arguments of `bem.Lubricant`: viscosity, density and shear law and their parameters;
+        **laws : further arguments of `bem.Lubricant`: viscosity, density and shear law and their parameters;
             `pressure_viscosity`, `density` and the like in place of the oil's own.
 
         Raises

@@ -34,25 +34,29 @@ class PointFilmSolution:
     central_thickness_error, minimum_thickness_error : estimates of their errors [m] by the cells, from a grid of half
         as many, of the minimum also by how steep its constriction is on them, and by where the rectangle of the grid
         ends; None where the coarser grid is too coarse or has no film.
-    load : what the pressure carries [N]: on the grid, and the far inlet around it (`inlet_load_fraction` of it).
+    load : what the pressure carries [N]: on the grid, and the far inlet around it.
+    inlet_load_fraction : share of `load` that the far inlet carries.
     shear_force : (2, 2) [N], forces of the oil on surface 1, then on surface 2, along x and y: integrals of the shear
         stress on either in the full film of the grid. They add up to -integral h grad p: what is missing to equilibrium
         is the pressure's on the slopes of the ball.
     rolling_force : (2,) [N], -integral h/2 grad p: the part of both that is there without sliding.
-    iterations : Newton steps in all, coarser grids included. cycles : of multigrid. convolutions : applications of the
-        elastic operator, weighed by cells over those of this grid.
+    iterations : Newton steps in all, coarser grids included.
+    cycles : of multigrid.
+    convolutions : applications of the elastic operator, weighed by cells over those of this grid.
     residual : largest of what the result's own pressure leaves of the equations: flow out of a cell over that through
         it, load, film against deflection.
     mass_imbalance : largest difference in oil through lines across the flow, with what leaves through the sides, over
         all that goes through.
     status : outcome, from what is recomputed of the result.
-    speeds : ((u1x, u1y), (u2x, u2y)) [m/s]. lubricant : as given.
+    speeds : ((u1x, u1y), (u2x, u2y)) [m/s].
+    lubricant : as given.
     film_fraction : (nx, ny) share of the gap that is filled with oil, 1 in the full film; None with Swift and Stieber's
         cavitation, which keeps no account of it.
     time : [s] of a film in time (`march_point_film`), whose residual and mass_imbalance count what the film gains.
     heights : (nx, ny) of both surfaces then, out of the bodies [m]; None of smooth ones.
-    temperature : (nx, ny), mean across the film [K]; mean_temperature, maximum_temperature : of it, by pressure, and
-    the highest; middle_stress : (2, nx, ny) in the middle of the film at it [Pa]; all None of films without heat.
+    temperature : (nx, ny), mean across the film [K].
+    mean_temperature, maximum_temperature : of it, by pressure, and the highest.
+    middle_stress : (2, nx, ny) in the middle of the film at it [Pa]; all None of films without heat.
     starvation : what a supply makes of it, the meniscus along the entrainment; None of a flooded inlet.
     notes : where the model is outside its validity, a sentence each.
     state : what a solver can start from.

@@ -50,23 +50,33 @@ class RoughPointFilm:
     Attributes
     ----------
     x, y : (nx,) and (ny,) centres of cells [m].
-    pressure : (nx, ny) of oil and contact together [Pa]. oil_pressure : (nx, ny), of the oil [Pa].
-    thickness : (nx, ny) [m], the least film where surfaces touch. heights : (nx, ny) out of the rough body [m].
-    touching : (nx, ny), where they touch. least_film : [m]. approach_datum : H0 of the film [m].
-    load : of all [N], what is outside the grid included. contact_load : of surfaces alone [N].
-    contact_share : of the load. contact_share_error : the difference to a grid of half as many cells a side; None
-        where that has no film or was not asked for. contact_area : of cells that touch [m^2], of first order in
-        the cells.
-    mean_thickness : by pressure [m]. minimum_thickness : of any cell [m].
-    oil_friction : sliding stress of the oil where nothing touches, over the load. oil_on_contact : the same where
-        surfaces touch, where a film of molecules has no viscosity to speak of: beside, in no sum.
+    pressure : (nx, ny) of oil and contact together [Pa].
+    oil_pressure : (nx, ny), of the oil [Pa].
+    thickness : (nx, ny) [m], the least film where surfaces touch.
+    heights : (nx, ny) out of the rough body [m].
+    touching : (nx, ny), where they touch.
+    least_film : [m].
+    approach_datum : H0 of the film [m].
+    load : of all [N], what is outside the grid included.
+    contact_load : of surfaces alone [N].
+    contact_share : of the load.
+    contact_share_error : the difference to a grid of half as many cells a side; None where that has no film or was not asked for.
+    contact_area : of cells that touch [m^2], of first order in the cells.
+    mean_thickness : by pressure [m].
+    minimum_thickness : of any cell [m].
+    oil_friction : sliding stress of the oil where nothing touches, over the load.
+    oil_on_contact : the same where surfaces touch, where a film of molecules has no viscosity to speak of: beside, in no sum.
     created_oil : oil that comes from nowhere where a ruptured film forms again in Hertz' contact, over what goes
         through its middle: Swift and Stieber's condition keeps no account of empty cells. Zero with mass conserved.
-    iterations : Newton steps. cycles : of multigrid. residual : largest relative error of balances of oil, film
-        against deflection, complementarity and load, recomputed from both pressures and H0 alone. complementarity :
-        that of films alone, over the least film. mass_imbalance : as of `PointFilmSolution`, empty cells left out.
-    status : converged where residual and complementarity, recomputed, meet what was asked for. notes : why there is no
-        film, and what bears on its figures. speeds, lubricant : as given.
+    iterations : Newton steps.
+    cycles : of multigrid.
+    residual : largest relative error of balances of oil, film against deflection, complementarity and load, recomputed
+        from both pressures and H0 alone.
+    complementarity : that of films alone, over the least film.
+    mass_imbalance : as of `PointFilmSolution`, empty cells left out.
+    status : converged where residual and complementarity, recomputed, meet what was asked for.
+    notes : why there is no film, and what bears on its figures.
+    speeds, lubricant : as given.
     """
 
     x: FloatArray

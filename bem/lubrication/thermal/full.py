@@ -64,19 +64,28 @@ class FullThermalFilm(HeatedFilm):
     ----------
     film : solution of the film at these temperatures; its own shear force is that of the oil at its own temperature.
     isothermal : the film without heat.
-    position : (m,) middles of columns [m]. width : (m,) of them [m].
+    position : (m,) middles of columns [m].
+    width : (m,) of them [m].
     height : (K,) of the layers' middles over the film's thickness, from the flat (0) to the cylinder (1).
-    temperature : (m, K) of the oil [K]. surface_temperatures : (2, m) of flat and cylinder [K].
+    temperature : (m, K) of the oil [K].
+    surface_temperatures : (2, m) of flat and cylinder [K].
     sliding_stress : in the middle of the film at its positions [Pa], signed like the force.
-    heat_made : (m,) [W/m^2], that of compression included. heat_into : (2, m) into flat and cylinder [W/m^2].
-    shear_force : as of `FilmSolution`, at these temperatures [N/m]. sliding_force : its part from sliding [N/m].
+    heat_made : (m,) [W/m^2], that of compression included.
+    heat_into : (2, m) into flat and cylinder [W/m^2].
+    shear_force : as of `FilmSolution`, at these temperatures [N/m].
+    sliding_force : its part from sliding [N/m].
     friction_power, power_into, power_carried : per unit length [W/m]: of the friction; (2,) into flat and cylinder;
-        carried on by the oil. energy_imbalance : of the three, relative to the friction, each from the result itself.
-    residual : of Reynolds' equation at these temperatures, relative to the film; surface_residual : by how much the
+        carried on by the oil.
+    energy_imbalance : of the three, relative to the friction, each from the result itself.
+    residual : of Reynolds' equation at these temperatures, relative to the film.
+    surface_residual : by how much the
         surfaces are not as warm as the heat into them makes them, over the largest rise.
-    rounds : temperature fields solved for. iterations : Newton steps of all films. status : of film and temperatures;
+    rounds : temperature fields solved for.
+    iterations : Newton steps of all films.
+    status : of film and temperatures;
         where it is not converged all temperatures,
-        heat flows, stresses and friction are NaN. notes : sentences.
+        heat flows, stresses and friction are NaN.
+    notes : sentences.
     """
 
     height: FloatArray

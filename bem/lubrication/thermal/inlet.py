@@ -36,8 +36,11 @@ def inlet_heating_factor(
 
     Parameters
     ----------
-    viscosity : at ambient pressure [Pa s]. softening : -d ln(viscosity)/dT [1/K]. conductivity : of the oil [W/(m K)].
-    speeds : of both surfaces [m/s]. hertz_ratio : Hertz pressure over E*.
+    viscosity : at ambient pressure [Pa s].
+    softening : -d ln(viscosity)/dT [1/K].
+    conductivity : of the oil [W/(m K)].
+    speeds : of both surfaces [m/s].
+    hertz_ratio : Hertz pressure over E*.
     """
     mean = 0.5 * abs(sum(speeds))
     if mean == 0:

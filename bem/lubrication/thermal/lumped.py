@@ -68,16 +68,24 @@ class ThermalFilm(HeatedFilm):
     ----------
     film : solution of the film, of the oil as thin as inlet heating makes it; its own shear force is isothermal.
     isothermal : the film without heat, a sketch (`bem.lubrication.line_sketch`).
-    position : (m,) middles of cells [m]. width : (m,) of them [m].
-    film_temperature : (m,) mean across the film [K]. surface_temperatures : (2, m) of flat and cylinder [K].
+    position : (m,) middles of cells [m].
+    width : (m,) of them [m].
+    film_temperature : (m,) mean across the film [K].
+    surface_temperatures : (2, m) of flat and cylinder [K].
     sliding_stress : (m,) of the oil in the middle of the film [Pa], signed like the force.
-    heat_made : (m,) [W/m^2]. heat_into : (2, m) into flat and cylinder [W/m^2].
-    shear_force : as of `FilmSolution`, at these temperatures [N/m]. sliding_force : its part from sliding [N/m].
+    heat_made : (m,) [W/m^2].
+    heat_into : (2, m) into flat and cylinder [W/m^2].
+    shear_force : as of `FilmSolution`, at these temperatures [N/m].
+    sliding_force : its part from sliding [N/m].
     friction_power, power_into, power_carried : per unit length [W/m]: of the friction; (2,) into flat and cylinder;
-        carried on by the oil. energy_imbalance : of the three, relative to the friction.
-    inlet : factor of inlet heating. inlet_missed : by how much the film misses it, relative, of sketches.
+        carried on by the oil.
+    energy_imbalance : of the three, relative to the friction.
+    inlet : factor of inlet heating.
+    inlet_missed : by how much the film misses it, relative, of sketches.
     inlet_viscosity : at ambient pressure that leaves such a film [Pa s].
-    films : solved. iterations : Newton steps of all films. notes : sentences.
+    films : solved.
+    iterations : Newton steps of all films.
+    notes : sentences.
     status : of film and temperatures. Where it is not converged, temperatures, heat flows, stresses and friction are
         NaN: what was not found may be -3865 K.
     """

@@ -45,7 +45,7 @@ def wide_enough(run: Any) -> bool:
 class FigureKind:
     """A figure that can be drawn from a run.
 
-    Parameters
+    Attributes
     ----------
     name : as kinds and `bem plot --figure` call it; the file's name.
     caption : what is seen, for the report.

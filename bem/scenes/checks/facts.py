@@ -30,7 +30,7 @@ _MOST_SURFACES = 24
 class Case:
     """One contact of a scene; a scene with several loads, variants or spacings has several.
 
-    Parameters
+    Attributes
     ----------
     lower, upper : the bodies; a rigid upper one is None.
     label : which of the scene's contacts, such as "10 N"; empty where there is but one.

@@ -19,11 +19,12 @@ STEEP = 0.5
 class SmoothContact:
     """Hertz contact of the two substrates.
 
-    Parameters
+    Attributes
     ----------
     radii : (Rx, Ry) of the relative curvature [m]; infinite along a cylinder's axis.
     semi_axes : (ax, ay) of the contact [m]; infinite along a cylinder's axis.
-    maximum_pressure : p0 [Pa]. approach : of distant points [m]; None for a line contact, which has none.
+    maximum_pressure : p0 [Pa].
+    approach : of distant points [m]; None for a line contact, which has none.
     contact_modulus : E* of the substrates [Pa].
     """
 

@@ -25,7 +25,7 @@ _CELLS = 1 << 18
 class RoughSurface:
     """A rough surface on a scene's grid.
 
-    Parameters
+    Attributes
     ----------
     body : "lower" or "upper".
     table : what the scene says.
@@ -34,7 +34,8 @@ class RoughSurface:
         autocorrelation falls to 1/e, nan where it does not within the grid.
     filled : share of a measured map's points that were missing.
     source_points : points of the measured map under the grid along x and y; None where generated.
-    source_spacing : their distance [m]. scaled : what heights were multiplied by to meet `rms_height`.
+    source_spacing : their distance [m].
+    scaled : what heights were multiplied by to meet `rms_height`.
     """
 
     body: str
