@@ -238,6 +238,7 @@ def test_a_cylinder_wears_to_the_flat_of_archards_law():
     assert summary["particles_per_cycle"] == 0
 
 
+@pytest.mark.internal
 def test_what_is_listed_where_both_bodies_wear_says_of_which_it_is(scene_file):
     """Particles were those of the lower body, about half of the volume, and nothing said so."""
     both = scene_file(WEAR.replace("steel-cylinder", "steel-disk") + '\n[wear]\nwears = "both"\n')
@@ -257,6 +258,7 @@ def test_what_is_listed_where_both_bodies_wear_says_of_which_it_is(scene_file):
     assert "0 lower, 1 upper" in found["lower"].variables["particle_body"].description
 
 
+@pytest.mark.internal
 def test_particles_asked_for_of_a_body_that_does_not_wear_are_told(scene_file):
     scene = load_scene(scene_file(WEAR + '\n[wear]\nwears = "lower"\n'), ("sizes.particles_of=upper",))
     outcome = compute(campaign_of(get_kind("wear").resolve(scene))).outcome
