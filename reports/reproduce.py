@@ -15,18 +15,18 @@ import io
 import random
 import resource
 import sys
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 
 from reports import reproduced
 from reports.reproducible import RESULTS, Row
 
 
-def drawn(names: Sequence[str], sample: int, seed: int) -> Iterator[tuple[str, Row]]:
-    """Yield rows of the named results, a row of each in turn, in an order that depends on the seed alone."""
+def drawn(results: Mapping[str, Sequence[Row]], sample: int, seed: int) -> Iterator[tuple[str, Row]]:
+    """Yield rows of results, one of each in turn, in an order that depends on the seed and on rows found outside."""
     rng = random.Random(seed)
     chosen: dict[str, list[Row]] = {}
-    for name in sorted(names):
-        rows = list(RESULTS[name].rows())
+    for name in sorted(results):
+        rows = list(results[name])
         rng.shuffle(rows)
         wrong = reproduced.outside(name)
         rows.sort(key=lambda row, wrong=wrong: row.label not in wrong)  # type: ignore[misc]
@@ -55,7 +55,8 @@ def reproduce(names: Sequence[str], *, sample: int, seed: int, minutes: float) -
     end = processor_time() + 60 * minutes
     verdicts: dict[str, dict[str, str]] = {}
     skipped = 0
-    for name, row in drawn(names, sample, seed):
+    results = {name: RESULTS[name].rows() for name in names}
+    for name, row in drawn(results, sample, seed):
         began = processor_time()
         if row.seconds > end - began:
             skipped += 1
@@ -67,7 +68,7 @@ def reproduce(names: Sequence[str], *, sample: int, seed: int, minutes: float) -
             verdict = f"{type(error).__name__}: {error}"
         verdicts.setdefault(name, {})[row.label] = verdict
         print(f"{name:26} {row.label:46} {processor_time() - began:6.1f} s  {verdict}", flush=True)
-        reproduced.add(name, verdicts[name], len(RESULTS[name].rows()))
+        reproduced.add(name, verdicts[name], len(results[name]))
     if skipped:
         print(f"{skipped} rows are longer than the processor time that was left")
     return verdicts

@@ -129,12 +129,12 @@ def test_a_row_longer_than_the_time_left_waits(monkeypatch, capsys):
     assert "1 rows are longer" in capsys.readouterr().out
 
 
-def test_the_draw_is_the_seeds_and_rows_outside_come_first(monkeypatch):
+def test_the_draw_is_the_seeds_and_rows_outside_come_first():
     found = {str(number): 1.0 for number in range(40)}
-    monkeypatch.setattr(reproduce, "RESULTS", {"many": fake("many", found)})
+    rows = {"many": fake("many", found).rows()}
 
     def labels(seed):
-        return [row.label for _, row in reproduce.drawn(["many"], 3, seed)]
+        return [row.label for _, row in reproduce.drawn(rows, 3, seed)]
 
     assert labels(1) == labels(1) != labels(2)
     wrong = next(number for number in found if number not in labels(1) + labels(2))
