@@ -1,4 +1,4 @@
-"""Attributes in the docstrings of public dataclasses are the fields of the class; linters do not see dataclass fields."""
+"""Attributes in the docstrings of public dataclasses are the fields of the class; linters do not see those."""
 
 import dataclasses
 import inspect

@@ -60,12 +60,14 @@ class RoughPointFilm:
     load : of all [N], what is outside the grid included.
     contact_load : of surfaces alone [N].
     contact_share : of the load.
-    contact_share_error : the difference to a grid of half as many cells a side; None where that has no film or was not asked for.
+    contact_share_error : the difference to a grid of half as many cells a side; None where that has no
+        film or was not asked for.
     contact_area : of cells that touch [m^2], of first order in the cells.
     mean_thickness : by pressure [m].
     minimum_thickness : of any cell [m].
     oil_friction : sliding stress of the oil where nothing touches, over the load.
-    oil_on_contact : the same where surfaces touch, where a film of molecules has no viscosity to speak of: beside, in no sum.
+    oil_on_contact : the same where surfaces touch, where a film of molecules has no viscosity to speak of:
+        beside, in no sum.
     created_oil : oil that comes from nowhere where a ruptured film forms again in Hertz' contact, over what goes
         through its middle: Swift and Stieber's condition keeps no account of empty cells. Zero with mass conserved.
     iterations : Newton steps.
