@@ -144,7 +144,7 @@ def _fraction_of(march: March, initial: FilmSolution, film: FloatArray) -> Float
 
 def given_start(march: March, film: Film, time: float) -> tuple[Reached[Film], FilmSolution]:
     """The march from a film as it is, and by how much it misses the load."""
-    solution = _solution(march, film, time)
+    solution = solution_at(march, film, time)
     missed = solution.load / march.operation.load(time) - 1
     if solution.load > 0 and abs(missed) > march.tolerance:
         note = f"the first film is the one given: on this mesh it carries the load {100 * missed:+.2g} %"
@@ -161,7 +161,7 @@ def steady_start(march: March, film: Film, time: float) -> tuple[Reached[Film], 
         if outcome.converged:
             break
     kept = outcome.film if outcome.converged else film
-    return Reached(time, kept), _solution(march, kept, time, outcome)
+    return Reached(time, kept), solution_at(march, kept, time, outcome)
 
 
 def advance(march: March, at: Reached[Film], time: float) -> tuple[Reached[Film], FilmSolution]:
@@ -170,12 +170,12 @@ def advance(march: March, at: Reached[Film], time: float) -> tuple[Reached[Film]
     def step(at: Reached[Film], time: float) -> tuple[Film, FilmSolution]:
         change = Derivative.at(at, time, march.scaling.clock)
         outcome = march.step(time, at.film, change.leading, change.history(at, lambda film: film.mass))
-        return outcome.film, _solution(march, outcome.film, time, outcome)
+        return outcome.film, solution_at(march, outcome.film, time, outcome)
 
     return time_steps.advance(step, at, time)
 
 
-def _solution(march: March, film: Film, time: float, outcome: StepOutcome | None = None) -> FilmSolution:
+def solution_at(march: March, film: Film, time: float, outcome: StepOutcome | None = None) -> FilmSolution:
     """What is said of a film at a time; without an outcome it was not solved for."""
     scales, contact = march.scaling.scales, march.contact
     x = march.mesh.position * scales.length
