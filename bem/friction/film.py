@@ -193,6 +193,10 @@ class SolvedFilm:
         """As `TabulatedFilms`: a table's films lie too far apart to start by one another's equations."""
         return without_equations(solved_line_film(self.contact, self.speeds, load, self.points, initial=initial))
 
+    def solved(self, load: float) -> FilmSolution:
+        """Return the film that is solved for a load [N]."""
+        return self.solve(load, self.initial)
+
     def sampled(self, film: FilmSolution, load: float, stretch: float = 1.0) -> PatchFilm:
         """As `TabulatedFilms`."""
         return sampled(film, stretch * self.position, load, self.contact, striated_exit=self.striated_exit)

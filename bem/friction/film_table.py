@@ -82,6 +82,12 @@ class FilmTable:
                 self.entries[at] = self.films.solve(self._load(at), self.entries.get(at - 1))
         return self.entries[index]
 
+    def solved(self, load: float) -> Any:
+        """Return the film that is solved for a load [N]: the entry at this load, or a film of its own between two."""
+        index = round(math.log(self.largest_load / load) / self.films.step)
+        entry = self.entry(max(index, 0))
+        return entry if abs(math.log(self._load(index) / load)) < 1e-9 else self.films.solve(load, entry)
+
     def under(self, load: float, level: int = 0, start: PatchFilm | None = None) -> PatchFilm:
         """The film at a load [N] up to the largest; `level` and `start` make no difference.
 

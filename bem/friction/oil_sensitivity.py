@@ -9,12 +9,13 @@ default, which needs none), started from the balance found. Verified in tests/fr
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import replace
 
 from bem.errors import Status
 from bem.friction.balance import Balance, BalanceStart, Regime, share_load
-from bem.friction.film import BALANCE_CELLS, BALANCE_POINTS, COARSE_TOLERANCE, PatchFilm, SolvedFilm
-from bem.friction.films import films_of
+from bem.friction.film import BALANCE_CELLS, BALANCE_POINTS, COARSE_TOLERANCE, Film, PatchFilm, SolvedFilm
+from bem.friction.films import SolvedFilms, films_of
 from bem.friction.forces import friction_forces
 from bem.friction.oil_beside import OilBeside
 from bem.friction.oil_volume import OilVolume
@@ -37,13 +38,14 @@ def oil_beside(
     speeds: tuple[float, float],
     friction: float,
     before: OilBeside | None = None,
+    changed: Callable[[MixedSetup, SolvedFilms], Film] | None = None,
 ) -> OilBeside:
     """Of a balance that was found for heights (nx, ny) [m] at a pair of speeds (u1, u2) [m/s].
 
     One more balance, with films on few points, unless the oil was counted where the film is loaded or one of film and
     surfaces carries everything.
     `whole` is the film under the whole load, which is the same for both. It starts from the found one, or as far from
-    that as at the speed `before`.
+    that as at the speed `before`. changed : films of a set-up, from those of the unworn bodies; None leaves them.
     """
     share = 0.0 if found.contact is None else found.contact.load / setup.load
     own = OilBeside(share_beside(setup, found.film), share, friction := float(friction), counted=setup.counted)
@@ -56,9 +58,10 @@ def oil_beside(
         setup, oil_volume=OilVolume.LOADED, contact_tolerance=max(setup.contact_tolerance, TOLERANCE / 100)
     )
     few = BALANCE_POINTS if setup.radii is None else BALANCE_CELLS
-    film = films_of(counted, speeds, resolution=min(setup.film_resolution, few))
-    if isinstance(film, SolvedFilm):
-        film = replace(film, tolerance=COARSE_TOLERANCE)
+    unworn = films_of(counted, speeds, resolution=min(setup.film_resolution, few))
+    if isinstance(unworn, SolvedFilm):
+        unworn = replace(unworn, tolerance=COARSE_TOLERANCE)
+    film = unworn if changed is None else changed(counted, unworn)
     first, load = _first_load(found.film.load, setup.load, before), setup.load
     similar = found.film.load / load, found.slope
     if before is not None and before.slope is not None:
