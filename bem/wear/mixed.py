@@ -1,7 +1,8 @@
 """The contact of a lubricated wear cycle: load shared between film and rough contact (thesis, paper D).
 
-The film depends on the load it carries and on nothing else, so one table of films per speed serves all cycles
-(`bem.friction.film_table`). Balance, forces and lambda ratio are those of `solve_mixed`.
+The film of the unworn bodies depends on the load it carries and on nothing else, so one table of films per speed serves
+all cycles (`bem.friction.film_table`). Where the standing body wears, its worn shape changes these films
+(`bem.wear.worn_shape`). Balance, forces and lambda ratio are those of `solve_mixed`.
 """
 
 from __future__ import annotations
@@ -9,7 +10,7 @@ from __future__ import annotations
 from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cached_property, partial
 from typing import Any
 
 import numpy as np
@@ -18,7 +19,7 @@ from numpy.typing import NDArray
 from bem.contact import ContactSolution
 from bem.errors import InputError, Status
 from bem.friction.balance import NEGLIGIBLE, NO_FILM_NOTE, Balance, BalanceStart, Regime, boundary_note, share_load
-from bem.friction.film import PatchFilm, middle_line
+from bem.friction.film import Film, PatchFilm, middle_line
 from bem.friction.film_table import FilmTable
 from bem.friction.films import films_of
 from bem.friction.forces import Forces, coupling_notes, friction_forces, lambda_ratio, unrubbed, validity_notes
@@ -34,6 +35,7 @@ from bem.wear.cycle import ContactOutcome, rows_of_contact
 from bem.wear.state import pack_table, unpack_table
 from bem.wear.third_bodies import ThirdBodies
 from bem.wear.third_body_mixed import ContactWithBodies
+from bem.wear.worn_shape import ShapeFollower, WornShape, check_film_shape, pack_worn, unpack_worn, worn_as
 
 MIXED_FIELDS = np.dtype(
     [
@@ -82,7 +84,7 @@ class LastCycle:
     from, and part of its checkpoint.
 
     balance : of film and contact; its film is without `solution`.
-    heights : (nx, ny) [m], sum of both bodies in that cycle.
+    heights : (nx, ny) [m], sum of both bodies in that cycle, without the worn shape that the film has.
     forces : of friction.
     coupling : notes on how friction couples into the normal gap.
     borne : share of the load on particles.
@@ -104,7 +106,9 @@ class MixedContact:
         1e-5 of itself, and where the balance cannot be met for it, the contact is solved better.
     speeds : (u1, u2) of flat and cylinder [m/s].
     table : films of the same set-up and speeds, to share; a new one by default.
-    state, rows, last : to go on from, as they were after the last cycle.
+    film_shape : macroscopic shape of the film, "worn" (of a cylinder that stands with the contact, or on a disk that
+        does) or "unworn".
+    state, rows, last, worn : to go on from, as they were after the last cycle.
 
     Notes
     -----
@@ -124,9 +128,11 @@ class MixedContact:
         speeds: Sequence[float],
         *,
         table: FilmTable | None = None,
+        film_shape: str = "worn",
         state: MixedState | None = None,
         rows: NDArray[np.void] | None = None,
         last: LastCycle | None = None,
+        worn: WornShape | None = None,
     ) -> None:
         if setup.repeated_cell:
             raise InputError("grid: a cell that repeats does not wear; take a patch that holds the contact of the ball")
@@ -137,11 +143,30 @@ class MixedContact:
         self.rows = rows if rows is not None else np.zeros(0, MIXED_FIELDS)
         self.contact_solves = 0
         self.last = last
+        check_film_shape(film_shape)
+        self.film_shape = film_shape
+        self.worn = worn if worn is not None else WornShape()
 
     @cached_property
+    def _follower(self) -> ShapeFollower:
+        return ShapeFollower.of(self.setup, self.table)
+
+    @property
+    def films(self) -> Film:
+        """The films of the last cycle's shape over the load they carry."""
+        return self._follower.films(self.worn)
+
+    @property
     def _whole(self) -> PatchFilm:
         """The film under the whole load."""
-        return self.table.under(self.table.largest_load)
+        films = self.films
+        return films.under(films.largest_load, 0, None)
+
+    def follow_wear(self, heights: FloatArray) -> None:
+        """Let the films of the next cycles follow the standing body's heights (nx,) [m], mean along y; see
+        `bem.wear.running_in.FollowsWear`."""
+        if self.film_shape == "worn":
+            self.worn = self._follower.followed(self.worn, heights, None if self.last is None else self.last.balance)
 
     @property
     def roughness_over_cycles(self) -> FloatArray:
@@ -164,18 +189,30 @@ class MixedContact:
 
     def __call__(self, heights: FloatArray, last_pressure: FloatArray | None) -> ContactOutcome:
         """The contact of one cycle; see `bem.wear.ContactStep`."""
+        heights = self.worn.left(heights)
         return self.cycle(heights, last_pressure, rough_contact(self.setup, heights, self.speeds))
 
     def cycle(
         self, heights: FloatArray, last_pressure: FloatArray | None, rough: RoughContact, slide: float = 0.0
     ) -> ContactOutcome:
-        """The same with a rough contact of these heights, between whose surfaces there may be particles."""
-        setup = self.setup
-        start = BalanceStart(self.state.film_load, self.state.slope, last_pressure)
-        balance = share_load(self.table, rough, setup.load, setup.tolerance, self._whole, start)
+        """The same with a rough contact of these heights, without the films' worn shape; between its surfaces there may
+        be particles."""
+        balance = self._balance(rough, last_pressure)
         if balance.contact is not None:
             self.state = MixedState(balance.film.load, balance.slope)
         return self._outcome(balance, rough, heights, slide)
+
+    def _balance(self, rough: RoughContact, pressure: FloatArray | None) -> Balance:
+        """Return the balance, repeated while it needs films of the worn shape at other loads."""
+        setup = self.setup
+        start = BalanceStart(self.state.film_load, self.state.slope, pressure)
+        while True:
+            balance = share_load(self.films, rough, setup.load, setup.tolerance, self._whole, start)
+            known = len(self.worn.changes)
+            self.worn = self._follower.completed(self.worn, balance)
+            if len(self.worn.changes) == known:
+                return balance
+            start = BalanceStart(balance.film.load, balance.slope, start.pressure)
 
     @property
     def film(self) -> PatchFilm | None:
@@ -212,7 +249,8 @@ class MixedContact:
         if last.borne > FEW and self.setup.counted is not OilVolume.LOADED:
             hanging = (_OIL_UNKNOWN,)
         covered = covered_notes([(float(self.rows["friction"][-1]), last.forces.covered / self.setup.load)])
-        return (*notes, *last.coupling, *hanging, *(f"last cycle: {note}" for note in covered))
+        shape = self._follower.notes(self.worn, len(self.rows)) if self.film_shape == "worn" else ()
+        return (*notes, *last.coupling, *hanging, *(f"last cycle: {note}" for note in covered), *shape)
 
     def oil(self) -> OilBeside | None:
         """How far the last cycle's load sharing hangs on the oil beside Hertz' contact; one more balance."""
@@ -220,7 +258,15 @@ class MixedContact:
         if last is None or last.borne > FEW:
             return None  # with particles it would be another contact's
         friction = float(self.rows["friction"][-1])
-        return oil_beside(self.setup, last.heights, last.balance, self._whole, speeds=self.speeds, friction=friction)
+        return oil_beside(
+            self.setup,
+            last.heights,
+            last.balance,
+            self._whole,
+            speeds=self.speeds,
+            friction=friction,
+            changed=partial(worn_as, self.worn.shape, self.speeds),
+        )
 
     def _outcome(self, balance: Balance, rough: RoughContact, heights: FloatArray, slide: float) -> ContactOutcome:
         setup, film, contact = self.setup, balance.film, balance.contact
@@ -289,6 +335,7 @@ class BearingContact:
         ------
         InputError : a contact of uncoupled asperities.
         """
+        heights = self.contact.worn.left(heights)
         rough: RoughContact = rough_contact(self.contact.setup, heights, self.contact.speeds)
         if self.particles.number_per_area > 0:
             if not isinstance(rough, CoupledContact):
@@ -298,16 +345,22 @@ class BearingContact:
 
 
 def pack_balance(step: MixedContact) -> dict[str, Any]:
-    """Where the next balance starts and the rows so far, as plain arrays and numbers, for a checkpoint. It lacks the
-    last cycle (`MixedContact.last`), which the caller packs."""
-    return {"film_load": step.state.film_load, "slope": step.state.slope, "rows": pack_table(step.rows)}
+    """Where the next balance starts, the rows and the worn shape so far, as plain arrays and numbers, for a checkpoint.
+    It lacks the last cycle (`MixedContact.last`), which the caller packs."""
+    return {
+        "film_load": step.state.film_load,
+        "slope": step.state.slope,
+        "rows": pack_table(step.rows),
+        "worn": pack_worn(step.worn),
+    }
 
 
 def unpack_balance(packed: dict[str, Any]) -> dict[str, Any]:
-    """The arguments `state` and `rows` of the `MixedContact` that was packed."""
+    """The arguments `state`, `rows` and `worn` of the `MixedContact` that was packed."""
     return {
         "state": MixedState(packed["film_load"], packed["slope"]),
         "rows": unpack_table(packed["rows"], MIXED_FIELDS),
+        "worn": unpack_worn(packed["worn"]),
     }
 
 

@@ -12,7 +12,7 @@ import copy
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any
+from typing import Any, Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
@@ -200,6 +200,14 @@ def _notes_on_arguments(setup: WearSetup) -> tuple[str, ...]:
     return notes_on_arguments(arguments | body_arguments(setup.bodies))
 
 
+@runtime_checkable
+class FollowsWear(Protocol):
+    """A contact step whose macroscopic shape follows wear."""
+
+    def follow_wear(self, heights: FloatArray) -> None:
+        """Take the heights (nx,) [m] of the body that stands with the contact, mean along y, before each cycle."""
+
+
 def _step_error(
     state: RunningInState,
     setup: WearSetup,
@@ -221,6 +229,22 @@ def _contact_steps(
 ) -> Callable[[RunningInState], ContactStep]:
     """The contact of the cycle after a state: the same in all, or with the particles that there then are between the
     surfaces."""
+    if isinstance(contact_step, FollowsWear):
+        following, standing = contact_step, UPPER if model.moving == LOWER else LOWER
+        steps = _steps_between(setup, model, contact_step, compliance)
+
+        def followed(state: RunningInState) -> ContactStep:
+            following.follow_wear(state.heights[standing].mean(axis=1))
+            return steps(state)
+
+        return followed
+    return _steps_between(setup, model, contact_step, compliance)
+
+
+def _steps_between(
+    setup: WearSetup, model: WearModel, contact_step: ContactStep | None, compliance: float
+) -> Callable[[RunningInState], ContactStep]:
+    """As `_contact_steps`, of a contact that knows of wear by the heights alone."""
     particles = model.particles
     if particles is None:
         step = contact_step if contact_step is not None else dry_contact(setup, compliance=compliance)

@@ -26,7 +26,7 @@ from bem.scenes.planner import Plan, Step
 from bem.scenes.records import LAMBDA_MIXED, LAMBDA_WHOLE, Figure, GridRecord, Series, filled, without_bars
 from bem.scenes.resolutions import CELLS, of_loop
 from bem.scenes.rubbing import FRICTION_SLIDES
-from bem.scenes.tables.sharing import TEMPERATURES, OneLoadScene, RunningInCycles, RunningInSharing
+from bem.scenes.tables.sharing import TEMPERATURES, OneLoadScene, RunningInCycles, WearingSharing
 from bem.scenes.tables.wear_model import WearScenePart
 from bem.scenes.third_bodies import tell_of_third_bodies
 
@@ -48,7 +48,7 @@ class RunningInScene(OneLoadScene):
     depths: wearing.WearDepthsScene
     wear: WearScenePart = WearScenePart()
     cycles: RunningInCycles = RunningInCycles()
-    sharing: RunningInSharing = RunningInSharing()
+    sharing: WearingSharing = WearingSharing()
     sizes: pieces.SizesScene = pieces.SizesScene()
     hardnesses: list[PositivePressure] = []  # noqa: RUF012
     repetitions: Repetitions = 1
@@ -224,7 +224,7 @@ def _of_heights(scene: RunningInScene, found: RunningInRecord) -> ErrorBars:
     from bem.accuracy.bars import GRID, ErrorBars
     from bem.wear.outcome import rms_error
 
-    setup = scene.setup(**scene.sharing.model_dump(), heat_mesh=1.0)
+    setup = scene.setup(**scene.sharing.model_dump(exclude={"film_shape"}), heat_mesh=1.0)
     along, across = setup.smooth.half_axes(setup.load)
     # on a body that moves through the contact, the whole length of the track counts
     along = math.inf if wearing.wears_on_a_track(scene) else along
@@ -245,11 +245,12 @@ def wear_down(
     from bem.wear.mixed import MixedContact, pack_balance, shared_film_table, unpack_balance
 
     sharing, (speeds,), saved = scene.sharing, scene.speeds.build(), context.saved()
-    setup = scene.setup(**sharing.model_dump(), heat_mesh=heat_mesh)
+    setup = scene.setup(**sharing.model_dump(exclude={"film_shape"}), heat_mesh=heat_mesh)
     frames = [] if saved is None else [np.asarray(frame) for frame in saved["frames"]]
     balance = {} if saved is None else unpack_balance(saved) | {"last": unpacked(saved["last_cycle"])}
     load = scene.contact.on_patch(setup.load, setup.grid.lengths)
-    step = MixedContact(setup, speeds, table=shared_film_table(setup, speeds), **balance)
+    table = shared_film_table(setup, speeds)
+    step = MixedContact(setup, speeds, table=table, film_shape=sharing.film_shape, **balance)
 
     def watch(now: RunningInState) -> dict[str, float]:
         if now.cycle in _frame_cycles(scene.cycles.count) and now.pressure is not None:

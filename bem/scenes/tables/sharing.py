@@ -231,6 +231,16 @@ class RunningInSharing(Table):
     oil_volume: Literal["loaded", "patch", "hertz"] = "loaded"
 
 
+class WearingSharing(RunningInSharing):
+    """As `RunningInSharing`, with the film's shape.
+
+    `film_shape`: macroscopic shape of a cylinder's film, "worn" as the body that stands with the contact
+    (`wear.frame`), or "unworn" throughout. The film of a ball keeps the unworn shape.
+    """
+
+    film_shape: Literal["worn", "unworn"] = "worn"
+
+
 class RunningInCycles(LastCycles):
     """How many cycles; run-in friction is the mean of the last `averaged`, particles those of the last `settled`."""
 

@@ -1,0 +1,296 @@
+"""The worn macroscopic shape in the film of a wear loop: what wear took off the body that stands with the contact.
+
+The shape w(x) is the mean along y of the worn depth, smoothed by a Gaussian a quarter as wide as Hertz' half-width. It
+deepens the gap of the smooth bodies, and the rough contact sees what is left, heights plus w, so that no height counts
+twice. A body that moves through the contact wears alike along its whole track and keeps its shape.
+
+The films follow w in steps: they are solved anew where the gap of their shape is off by more than `RESOLUTION`, or the
+balance leaves the loads that were solved. Where no film of a new shape is found, the last shape stays, and a note says
+so. Verified in tests/wear/test_worn_shape.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, field, replace
+from typing import Any
+
+import numpy as np
+
+from bem.errors import OUTSIDE, InputError
+from bem.friction.balance import Balance, Regime
+from bem.friction.film import Film, PatchFilm, middle_line
+from bem.friction.film_table import FilmTable
+from bem.friction.setup import MixedSetup
+from bem.friction.smooth import LineContact
+from bem.friction.worn_film import SearchedWornFilms, ShapeChange, ShapeSolver, WornFilms, neighbours
+from bem.grid import FloatArray
+from bem.lubrication.line_shaped import ShapedStart
+
+FILM_SHAPES = ("worn", "unworn")
+"""Macroscopic shapes that the film of a wear loop may have."""
+SMOOTHING = 0.25
+"""Width of the Gaussian (standard deviation) that the worn depth is smoothed by, in Hertz' half-widths."""
+RESOLUTION = 0.2
+"""Largest change of the worn depth, relative to the film's gap at the same place, that the films are not solved for."""
+RETRY = 1.5
+"""Growth of the change of the worn depth before a shape without a film is tried again."""
+
+
+@dataclass(frozen=True, eq=False)
+class WornShape:
+    """State of the worn shape in a loop, part of its checkpoint.
+
+    unworn : (nx,) heights of the standing body before the first cycle, mean along y [m]; None before it.
+    shape : (nx,) [m] of the films; None while the films are those of the unworn bodies.
+    changes, starts : of the films by index of the lattice of loads.
+    updates : shapes that films were solved for. solves : solutions of the film's equations, continuation included.
+    kept : cycles in which an earlier shape stayed since no film of the new one was found.
+    clamped : cycles whose film load lies outside the loads that were solved.
+    retry : change of the worn depth over the gap below which a shape without a film is not tried again.
+    behind : the same change that the films of the last cycle do not know of.
+    """
+
+    unworn: FloatArray | None = None
+    shape: FloatArray | None = None
+    changes: Mapping[int, ShapeChange] = field(default_factory=dict)
+    starts: Mapping[int, ShapedStart] = field(default_factory=dict)
+    updates: int = 0
+    solves: int = 0
+    kept: int = 0
+    clamped: int = 0
+    retry: float = 0.0
+    behind: float = 0.0
+
+    def left(self, heights: FloatArray) -> FloatArray:
+        """Return heights (nx, ny) [m] without the shape that the film has: what the rough contact sees."""
+        return heights if self.shape is None else heights + self.shape[:, None]
+
+
+@dataclass(frozen=True, eq=False)
+class ShapeFollower:
+    """Rule by which the films of a load sharing follow the worn shape; it keeps no state of the loop.
+
+    solver : None where the films cannot follow: under a ball, and where a supply of oil limits the film.
+    """
+
+    setup: MixedSetup
+    table: FilmTable
+    solver: ShapeSolver | None
+
+    @classmethod
+    def of(cls, setup: MixedSetup, table: FilmTable) -> ShapeFollower:
+        """Return the rule for a set-up and its table of unworn films."""
+        return cls(setup, table, shape_solver(setup, table, table.speeds))
+
+    def films(self, worn: WornShape) -> Film:
+        """Return the films of a shape; those of the table where there is none yet."""
+        if self.solver is None or worn.shape is None:
+            return self.table
+        return worn_films(self.solver, worn)
+
+    def followed(self, worn: WornShape, heights: FloatArray, last: Balance | None) -> WornShape:
+        """Return the state for the next cycle.
+
+        heights : (nx,) of the standing body, mean along y [m]. last : balance of the last cycle.
+        """
+        if worn.unworn is None:
+            return replace(worn, unworn=heights)
+        if last is None:
+            return worn
+        depth = smoothed(worn.unworn - heights, self.setup)
+        behind = self._behind(depth, worn, last.film)
+        worn = replace(worn, behind=behind)
+        if behind <= RESOLUTION or self.solver is None:
+            return worn
+        if behind < worn.retry:
+            return replace(worn, kept=worn.kept + 1)
+        indices = sorted({0, *neighbours(last.film.load, self.table.largest_load)})
+        found = {}
+        for index in indices:
+            film = self.solver.film(index, depth, worn.starts)
+            if film is None:
+                return replace(worn, kept=worn.kept + 1, retry=RETRY * behind)
+            found[index] = film
+        return replace(
+            worn,
+            shape=depth,
+            changes={index: film.change for index, film in found.items()},
+            starts={index: film.start for index, film in found.items()},
+            updates=worn.updates + 1,
+            solves=worn.solves + sum(film.solves for film in found.values()),
+            retry=0.0,
+            behind=0.0,
+        )
+
+    def completed(self, worn: WornShape, balance: Balance) -> WornShape:
+        """Return the state with the films next to the film load of a balance solved; itself where they are there, or
+        the film carries nothing that counts."""
+        if self.solver is None or worn.shape is None or balance.regime is Regime.BOUNDARY:
+            return worn
+        missing = [
+            index for index in neighbours(balance.film.load, self.table.largest_load) if index not in worn.changes
+        ]
+        for index in missing:
+            film = self.solver.film(index, worn.shape, worn.starts)
+            if film is None:
+                return replace(worn, clamped=worn.clamped + 1)
+            worn = replace(
+                worn,
+                changes={**worn.changes, index: film.change},
+                starts={**worn.starts, index: film.start},
+                solves=worn.solves + film.solves,
+            )
+        return worn
+
+    def notes(self, worn: WornShape, cycles: int) -> tuple[str, ...]:
+        """Return the notes on the worn shape after a number of cycles."""
+        if self.solver is None:
+            if worn.behind <= RESOLUTION:
+                return ()
+            why = "the film of a ball" if self.setup.radii is not None else "a film with a limited supply of oil"
+            return (
+                f"{why} keeps the unworn shape: what wear took off the standing body is off the film's gap by "
+                f"{100 * worn.behind:.2g} % and counts as roughness alone",
+            )
+        notes = []
+        if worn.shape is not None:
+            notes.append(_followed_note(worn))
+        if worn.shape is not None and self.setup.thermal != "off":
+            notes.append("the worn shape changes the film as it changes one without heat")
+        if worn.shape is not None and (end := _end_note(worn.shape)):
+            notes.append(end)
+        if worn.kept:
+            notes.append(
+                f"{OUTSIDE}in {worn.kept} of {cycles} cycles no film of the worn shape was found, and the film kept an "
+                f"earlier shape; at the end the worn depth is off the film's gap by {100 * worn.behind:.2g} %. Compare "
+                'sharing.film_shape = "unworn"'
+            )
+        if worn.clamped:
+            notes.append(
+                f"{OUTSIDE}in {worn.clamped} of {cycles} cycles the worn shape changed the film as at another film "
+                "load, since no film was found at its own"
+            )
+        return tuple(notes)
+
+    def _behind(self, depth: FloatArray, worn: WornShape, film: PatchFilm) -> float:
+        """Return the largest change of the worn depth since the films' shape, over the gap at the same place.
+
+        A uniform change counts as none: it moves the rigid body and leaves the film as it is.
+        """
+        change, gap = depth if worn.shape is None else depth - worn.shape, middle_line(film.thickness)
+        uniform = float(np.average(change, weights=gap**-2))
+        return float(np.max(np.abs(change - uniform) / gap))
+
+
+def shape_solver(setup: MixedSetup, films: Any, speeds: tuple[float, float]) -> ShapeSolver | None:
+    """Return the solver of worn films for a set-up and its unworn films; None where films keep the unworn shape."""
+    contact = setup.smooth
+    if not isinstance(contact, LineContact) or contact.supply is not None:
+        return None
+    return ShapeSolver(films, contact, speeds, setup.film_grid.x)
+
+
+def worn_films(solver: ShapeSolver, worn: WornShape) -> WornFilms:
+    """Return the films of a state's shape."""
+    assert worn.shape is not None
+    return solver.films(worn.shape, worn.changes)
+
+
+def worn_as(shape: FloatArray | None, speeds: tuple[float, float], setup: MixedSetup, unworn: Film) -> Film:
+    """Return the films of a set-up between bodies worn by a shape (nx,) [m], from its unworn films; these themselves
+    without a shape."""
+    solver = None if shape is None else shape_solver(setup, unworn, speeds)
+    return unworn if solver is None or shape is None else SearchedWornFilms(solver, shape)
+
+
+def smoothed(depth: FloatArray, setup: MixedSetup) -> FloatArray:
+    """Return a worn depth (nx,) [m] smoothed by a Gaussian of `SMOOTHING` half-widths, at least one cell."""
+    half_width, spacing = setup.smooth.half_axes(setup.load)[0], setup.grid.spacing[0]
+    width = max(SMOOTHING * half_width / spacing, 1.0)
+    reach = math.ceil(4 * width)
+    weights = np.exp(-0.5 * (np.arange(-reach, reach + 1) / width) ** 2)
+    return np.convolve(np.pad(depth, reach, mode="edge"), weights / weights.sum(), mode="valid")
+
+
+def check_film_shape(film_shape: str) -> None:
+    """Check the choice of the film's shape.
+
+    Raises
+    ------
+    InputError : a choice that is not there.
+    """
+    if film_shape not in FILM_SHAPES:
+        raise InputError(f"film_shape: {film_shape!r} is unknown; choose from {', '.join(FILM_SHAPES)}")
+
+
+END_SHARE = 0.1
+"""Worn depth at the end of the patch, relative to the deepest, from which a note says so."""
+
+
+def _followed_note(worn: WornShape) -> str:
+    assert worn.shape is not None
+    return (
+        f"the film has the worn shape of the standing body, {1e9 * float(np.ptp(worn.shape)):.3g} nm deep "
+        f'(sharing.film_shape = "worn"); it was solved for {worn.updates} shapes'
+    )
+
+
+def _end_note(shape: FloatArray) -> str:
+    end, deepest = max(abs(float(shape[0])), abs(float(shape[-1]))), float(np.abs(shape).max())
+    if end <= END_SHARE * deepest:
+        return ""
+    return (
+        f"the worn shape reaches the ends of the patch, {1e9 * end:.3g} nm deep there, and the film takes it as going "
+        "on beyond them: make the grid longer along x"
+    )
+
+
+def pack_worn(worn: WornShape) -> dict[str, Any]:
+    """Return a state as plain arrays and numbers, for a checkpoint."""
+    packed = {name: getattr(worn, name) for name in ("unworn", "shape", *_COUNTS)}
+    indices = sorted(worn.changes)
+    packed["indices"] = np.array(indices, dtype=np.int64)
+    for name in _CHANGES:
+        packed[f"change_{name}"] = np.array([getattr(worn.changes[index], name) for index in indices])
+    for name in _STARTS:
+        packed[f"start_{name}"] = np.array([getattr(worn.starts[index], name) for index in indices])
+    return packed
+
+
+def unpack_worn(packed: Mapping[str, Any]) -> WornShape:
+    """Return the state that was packed."""
+    indices = [int(index) for index in packed["indices"]]
+    changes = {
+        index: ShapeChange(**{name: _entry(packed[f"change_{name}"][k]) for name in _CHANGES})
+        for k, index in enumerate(indices)
+    }
+    starts = {
+        index: ShapedStart(**{name: _entry(packed[f"start_{name}"][k]) for name in _STARTS})
+        for k, index in enumerate(indices)
+    }
+    return WornShape(**{name: packed[name] for name in ("unworn", "shape", *_COUNTS)}, changes=changes, starts=starts)
+
+
+def _entry(value: Any) -> Any:
+    """Return a number as such, an array as an array."""
+    return float(value) if np.ndim(value) == 0 else np.ascontiguousarray(value)
+
+
+_COUNTS = ("updates", "solves", "kept", "clamped", "retry", "behind")
+_CHANGES = ("thickness", "minimum_thickness", "pressure", "shear_stress", "shear_force")
+_STARTS = ("pressure", "datum", "profile")
+
+__all__ = [
+    "FILM_SHAPES",
+    "ShapeFollower",
+    "WornShape",
+    "check_film_shape",
+    "pack_worn",
+    "shape_solver",
+    "smoothed",
+    "unpack_worn",
+    "worn_as",
+    "worn_films",
+]

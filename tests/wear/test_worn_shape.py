@@ -1,0 +1,181 @@
+"""Worn shape in the film of a wear loop: balance, volume, effort, checkpoint, shapes without a film."""
+
+from functools import cache
+
+import numpy as np
+import pytest
+
+from bem import CATALOGUE, Body, Grid, InputError, Lubricant, Status, generate_surface
+from bem.errors import OUTSIDE
+from bem.friction.setup import MixedSetup
+from bem.friction.worn_film import extended
+from bem.lubrication.line_case import LineCase
+from bem.lubrication.line_shaped import ShapedContact
+from bem.lubrication.steady import line_film
+from bem.wear import WearModel, run_in
+from bem.wear.mixed import LastCycle, MixedContact, pack_balance, unpack_balance
+from bem.wear.worn_shape import smoothed
+
+GRID = Grid((64, 32), (0.7e-6, 0.7e-6), periodic=(False, True))
+BODIES = (Body(CATALOGUE["steel-disk-110HV"].material), Body(CATALOGUE["steel-cylinder"].material))
+OIL = Lubricant(0.36, pressure_viscosity=25e-9)
+CASE = {
+    "grid": GRID,
+    "bodies": BODIES,
+    "radius": 2e-3,
+    "width": 6e-3,
+    "load": 5.5,
+    "lubricant": OIL,
+    "boundary_friction": 0.15,
+    "hardness": 1.08e9,
+    "film_points": 300,
+    "tolerance": 5e-4,
+    "contact_tolerance": 1e-4,
+}
+SPEED = 0.05
+CYCLES = 30
+LOWER = generate_surface(GRID, rms_height=120e-9, correlation_length=1e-6, seed=4)
+UPPER = generate_surface(GRID, rms_height=55e-9, correlation_length=2e-6, seed=5)
+
+
+def contact_of(speed=SPEED, film_shape="worn", resumed=None, **changes):
+    return MixedContact(MixedSetup(**CASE | changes), (speed, 0.0), film_shape=film_shape, **resumed or {})
+
+
+def loop(step, cycles=CYCLES, frame="disk", **more):
+    setup = step.setup
+    return run_in(
+        LOWER,
+        UPPER,
+        grid=GRID,
+        bodies=BODIES,
+        load=setup.load / setup.slices,
+        depths=90e-9 * np.arange(24),
+        friction=0.15,
+        hardness=1.08e9,
+        cycles=cycles,
+        model=WearModel(criterion={"kind": "von_mises", "skin_depth": 90e-9}, frame=frame),
+        contact_step=step,
+        **more,
+    )
+
+
+@cache
+def worn_loop(counted="loaded"):
+    step = contact_of(oil_volume=counted)
+    return step, loop(step)
+
+
+@pytest.mark.parametrize("counted", ["loaded", "patch"])
+def test_film_and_contact_of_the_last_cycle_carry_the_load(counted):
+    """Both parts solved apart: the film under its load on its own mesh, the oil between the surfaces."""
+    step, _ = worn_loop(counted)
+    setup, worn, balance = step.setup, step.worn, step.last.balance
+    assert worn.shape is not None
+    assert balance.status is Status.CONVERGED
+    film, contact = balance.film, balance.contact
+    assert film.load + contact.load == pytest.approx(setup.load, rel=5e-4)
+    assert contact.load == pytest.approx(float(contact.pressure.sum()) * GRID.cell_area * setup.slices, rel=1e-6)
+    assert setup.mean_counted(film.thickness, film) == pytest.approx(contact.opening, rel=2e-3)
+    modulus = setup.smooth.film_modulus(film.load)
+    case = LineCase(film.load / setup.width, setup.radius, modulus, (SPEED, 0.0), OIL, points=1000)
+    shaped = ShapedContact.of(case, line_film(case), 3 * GRID.x[-1], cells=1200)
+    solved = shaped.solve(extended(worn.shape, GRID.x, shaped.position), shaped.unworn)
+    assert film.minimum_thickness == pytest.approx(solved.film.minimum_thickness, rel=1e-2)
+    assert film.thickness[:, 0] == pytest.approx(solved.film.at(GRID.x)[1], rel=1e-2)
+
+
+def test_films_are_fewer_than_cycles():
+    step, result = worn_loop()
+    assert step.worn.updates > 0
+    assert step.worn.solves < len(result.cycles)
+    assert step.worn.kept == step.worn.clamped == 0
+
+
+def test_the_worn_depth_holds_the_volume_that_left():
+    step, result = worn_loop()
+    depth = step.worn.unworn - result.lower_heights.mean(axis=1)
+    lost = float(depth.sum()) * GRID.cell_area * GRID.shape[1]
+    assert lost == pytest.approx(float(result.cycles["volume"].sum()), rel=1e-9)
+    hill = np.exp(-((GRID.x / 8e-6) ** 2)) + 0.2 * np.random.default_rng(1).standard_normal(64) * (
+        np.abs(GRID.x) < 1e-5
+    )
+    smooth = smoothed(hill, step.setup)
+    assert smooth.sum() == pytest.approx(hill.sum(), rel=1e-3)
+    assert np.abs(np.diff(smooth)).max() < 0.5 * np.abs(np.diff(hill)).max()
+    # the films' shape is the worn depth up to what they do not follow
+    assert step.worn.shape.sum() == pytest.approx(depth.sum(), rel=0.1)
+
+
+def test_the_rough_contact_sees_what_the_film_does_not():
+    step, result = worn_loop()
+    heights = result.lower_heights + UPPER
+    left = step.worn.left(heights)
+    assert left - heights == pytest.approx(np.broadcast_to(step.worn.shape[:, None], GRID.shape), abs=1e-18)
+
+
+def test_the_worn_shape_changes_film_and_friction():
+    step, _ = worn_loop()
+    unworn = contact_of(film_shape="unworn")
+    loop(unworn, 15)
+    assert unworn.worn.shape is None
+    assert unworn.rows["friction"][0] == step.rows["friction"][0]
+    assert unworn.rows["friction"][14] != step.rows["friction"][14]
+    assert np.abs(step.films.under(3.0, 0, None).thickness / step.table.under(3.0).thickness - 1).max() > 0.05
+    assert np.array_equal(unworn.films.under(3.0, 0, None).thickness, unworn.table.under(3.0).thickness)
+
+
+def test_where_the_standing_body_keeps_its_shape_both_choices_are_one():
+    """The disk moves through the contact, and the harder cylinder does not wear."""
+    one, other = contact_of(), contact_of(film_shape="unworn")
+    for step in (one, other):
+        loop(step, 6, frame="cylinder")
+    assert one.worn.updates == 0
+    assert np.array_equal(one.rows, other.rows)
+    assert one.notes == other.notes
+
+
+@pytest.mark.parametrize("stop", [1, 13, 22])
+def test_a_loop_goes_on_to_the_same_bits(stop):
+    whole, result = worn_loop()
+    first = contact_of()
+    state = loop(first, stop).state
+    resumed = unpack_balance(pack_balance(first)) | {"last": first.last}
+    second = contact_of(resumed=resumed)
+    again = loop(second, state=state)
+    assert isinstance(first.last, LastCycle)
+    assert np.array_equal(again.lower_heights, result.lower_heights)
+    assert np.array_equal(second.rows, whole.rows)
+    assert np.array_equal(second.worn.shape, whole.worn.shape)
+    assert second.worn.solves == whole.worn.solves
+    assert second.notes == whole.notes
+
+
+def test_where_no_film_is_found_the_last_shape_stays(monkeypatch):
+    """After some cycles no film of a new shape is found: the loop goes on, and says so."""
+    step = contact_of()
+    loop_state = loop(step, 8).state
+    shape = step.worn.shape
+    assert shape is not None
+    monkeypatch.setattr("bem.lubrication.line_shaped.ShapedContact.solve", lambda self, profile, start: None)
+    result = loop(step, 20, state=loop_state)
+    assert len(result.cycles) == 20
+    assert result.status is Status.CONVERGED
+    assert np.array_equal(step.worn.shape, shape)
+    assert step.worn.kept > 0
+    assert step.worn.updates > 0
+    (note,) = [note for note in step.notes if "earlier shape" in note]
+    assert note.startswith(OUTSIDE)
+    assert f"{step.worn.kept} of 20 cycles" in note
+
+
+def test_a_limited_supply_keeps_the_unworn_film():
+    step = contact_of(supply=1e-6)
+    loop(step, 8)
+    assert step.worn.shape is None
+    assert any("keeps the unworn shape" in note for note in step.notes)
+
+
+def test_an_unknown_shape_is_refused():
+    with pytest.raises(InputError, match="film_shape: 'round' is unknown; choose from worn, unworn"):
+        contact_of(film_shape="round")
