@@ -4,9 +4,9 @@ The shape w(x) is the mean along y of the worn depth, smoothed by a Gaussian a q
 deepens the gap of the smooth bodies, and the rough contact sees what is left, heights plus w, so that no height counts
 twice. A body that moves through the contact wears alike along its whole track and keeps its shape.
 
-The films follow w in steps: they are solved anew where the gap of their shape is off by more than `RESOLUTION`, or the
-balance leaves the loads that were solved. Where no film of a new shape is found, the last shape stays, and a note says
-so. Verified in tests/wear/test_worn_shape.py.
+The films follow w in steps. They are solved anew where the gap of their shape is off by more than `RESOLUTION`, or by
+more than the film's share of the load allows, or where the balance leaves the loads that were solved. Where no film of a
+new shape is found, the last shape stays, and a note says so. Verified in tests/wear/test_worn_shape.py.
 """
 
 from __future__ import annotations
@@ -34,6 +34,9 @@ SMOOTHING = 0.25
 """Width of the Gaussian (standard deviation) that the worn depth is smoothed by, in Hertz' half-widths."""
 RESOLUTION = 0.2
 """Largest change of the worn depth, relative to the film's gap at the same place, that the films are not solved for."""
+SHARE_RESOLUTION = 0.05
+"""The same times the film's share of the load: an error of the gap counts for the load sharing by what the film
+carries."""
 RETRY = 1.5
 """Growth of the change of the worn depth before a shape without a film is tried again."""
 
@@ -102,7 +105,8 @@ class ShapeFollower:
         depth = smoothed(worn.unworn - heights, self.setup)
         behind = self._behind(depth, worn, last.film)
         worn = replace(worn, behind=behind)
-        if behind <= RESOLUTION or self.solver is None:
+        share = last.film.load / self.setup.load
+        if self.solver is None or max(behind / RESOLUTION, share * behind / SHARE_RESOLUTION) <= 1:
             return worn
         if behind < worn.retry:
             return replace(worn, kept=worn.kept + 1)

@@ -86,10 +86,17 @@ def test_film_and_contact_of_the_last_cycle_carry_the_load(counted):
 
 
 def test_films_are_fewer_than_cycles():
-    step, result = worn_loop()
+    step = contact_of(speed=0.1)
+    result = loop(step, 80)
     assert step.worn.updates > 0
     assert step.worn.solves < len(result.cycles)
-    assert step.worn.kept == step.worn.clamped == 0
+
+
+def test_every_film_is_found():
+    for counted in ("loaded", "patch"):
+        step, _ = worn_loop(counted)
+        assert step.worn.updates > 1
+        assert step.worn.kept == step.worn.clamped == 0
 
 
 def test_the_worn_depth_holds_the_volume_that_left():
@@ -104,7 +111,7 @@ def test_the_worn_depth_holds_the_volume_that_left():
     assert smooth.sum() == pytest.approx(hill.sum(), rel=1e-3)
     assert np.abs(np.diff(smooth)).max() < 0.5 * np.abs(np.diff(hill)).max()
     # the films' shape is the worn depth up to what they do not follow
-    assert step.worn.shape.sum() == pytest.approx(depth.sum(), rel=0.1)
+    assert step.worn.shape.sum() == pytest.approx(depth.sum(), rel=0.25)
 
 
 def test_the_rough_contact_sees_what_the_film_does_not():
