@@ -5,8 +5,8 @@ deepens the gap of the smooth bodies, and the rough contact sees what is left, h
 twice. A body that moves through the contact wears alike along its whole track and keeps its shape.
 
 The films follow w in steps. They are solved anew where the gap of their shape is off by more than `RESOLUTION`, or by
-more than the film's share of the load allows, or where the balance leaves the loads that were solved. Where no film of a
-new shape is found, the last shape stays, and a note says so. Verified in tests/wear/test_worn_shape.py.
+more than the share of the load that they carry allows, or where the balance leaves the loads that were solved. Where no
+film of a new shape is found, the last shape stays, and a note says so. Verified in tests/wear/test_worn_shape.py.
 """
 
 from __future__ import annotations
