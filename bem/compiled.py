@@ -24,8 +24,8 @@ from pathlib import Path
 from typing import Any, Literal
 
 _HERE = Path(__file__).resolve().parent
-SECONDS = 15.0
-"""What compiling takes, about, beside a contact that takes one [s]."""
+SECONDS = 40.0
+"""Approximate time that the loops of a contact take to compile on two cores [s]."""
 
 
 def compiled(function: Any) -> Any:
@@ -153,6 +153,8 @@ def _imports(root: Path, text: str, looped: set[str]) -> set[str]:
 
 def is_cold() -> bool:
     """Whether the next run has to compile first: none of the transforms' loops is newer than their source."""
+    if os.environ.get("NUMBA_DISABLE_JIT", "0") != "0":
+        return False
     named = os.environ.get("NUMBA_CACHE_DIR")
     folders = Path(named).glob("*") if named else [_HERE / "transforms" / "__pycache__"]
     version = f"py{sys.version_info[0]}{sys.version_info[1]}"

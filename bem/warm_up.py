@@ -1,14 +1,19 @@
-"""Compiles every loop once, by running small scenes of all kinds, so that no user's first run has to."""
+"""Compilation of every loop before a user's first run, from a record of their signatures.
+
+The record, `compiled_signatures.json`, is what small scenes of all kinds compile; `bem warm-up --record` renews it.
+
+Verified in tests/packaging/test_warm_up.py.
+"""
 
 from __future__ import annotations
 
 import tempfile
-from collections.abc import Callable
 from pathlib import Path
 
-from bem.errors import BemError
 from bem.runs import run_scene
-from bem.threads import get_threads, set_threads
+from bem.startup.compile_ahead import Progress, compile_loops, find_dispatchers
+from bem.startup.signatures import SignatureRecord, SignatureWriter
+from bem.threads import cores, get_threads, set_threads
 
 _FEW = ("repetitions=1", "cycles.count=3", "cycles.settled=1", "depths.count=8")
 _SHORT = ("life.count=64", "wear.positions=2")
@@ -17,9 +22,9 @@ _MANY = ("grid.shape=256", 'contact={mean_pressure = "40 GPa"}', "outputs={}")
 """More cells in contact than one block of the passes has; run by two threads, whose loops are others than one's."""
 
 SCENES: tuple[tuple[str, tuple[str, ...]], ...] = (
+    ("rough-contact", ("grid.shape=256",)),
     ("hertz-sphere", ()),
     ("hertz-cylinder", ()),
-    ("rough-contact", ("grid.shape=256",)),
     ("sinusoid", ()),
     ("flash-temperature", ("grid.shape=96",)),
     ("fretting-ball", ("grid.shape=48", "push.steps=2")),
@@ -47,26 +52,42 @@ SCENES: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("particles-afm-map", ("synthetic.shape=[256, 256]",)),
     ("rough-contact", _MANY),
 )
-"""Built-in scenes and what makes them small; between them they pass through every compiled loop."""
+"""Built-in scenes and what makes them small; together they pass through every compiled loop. The first is the main job."""
 
 
-def warm_up(say: Callable[[str], None]) -> list[str]:
-    """Run them all in a temporary folder; returns the scenes that could not be run, with the reason.
+RECORD = Path(__file__).resolve().parent / "compiled_signatures.json"
+"""Signatures of all loops; see `bem.startup.signatures`."""
+
+
+def warm_up(progress: Progress, *, main: bool = False, workers: int | None = None) -> list[str]:
+    """Compile the recorded loops on all cores; return the loops that could not be compiled, with the reason.
 
     Parameters
     ----------
-    say : told in words how far it is.
+    progress : called with the number of loops that are compiled and the number of all.
+    main : only what the main job, a rough contact, needs.
+    workers : number of processes; None takes one per core.
     """
-    failed = []
-    threads = get_threads()
+    record = SignatureRecord(RECORD.read_text(encoding="utf-8"))
+    return compile_loops(record, cores() if workers is None else workers, progress, main=main)
+
+
+def record_signatures() -> str:
+    """Run all scenes in this process and return the record of the loops that they compiled.
+
+    numba's cache must be empty at the start: what is read from there does not show the loops that it calls.
+    """
+    writer, threads = SignatureWriter(), get_threads()
     with tempfile.TemporaryDirectory() as folder:
         for number, (name, settings) in enumerate(SCENES):
-            say(f"compiling, {number + 1} of {len(SCENES)}: {name}")
             set_threads(2 if settings is _MANY else threads)
             try:
                 run_scene(name, Path(folder) / str(number), settings=settings, figures=False)
-            except BemError as error:
-                failed.append(f"{name}: {error}")
             finally:
                 set_threads(threads)
-    return failed
+            for (module, loop), dispatcher in find_dispatchers():
+                for signature in dispatcher.overloads:
+                    writer.add(module, loop, signature)
+            if number == 0:
+                writer.end_main_job()
+    return writer.text()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from pathlib import Path
 from typing import Annotated
 
@@ -67,6 +68,27 @@ def asked(accuracy: list[str] | None) -> str | dict[str, str | float] | None:
     return str(table["all"]) if list(table) == ["all"] else table or None
 
 
+def prepare_first_run(scene: str, settings: Sequence[str], accuracy: str | dict[str, str | float] | None) -> None:
+    """Compile what a contact needs on all cores where nothing is compiled yet; of other kinds say that it takes time.
+
+    Raises
+    ------
+    InputError : the scene has a mistake; nothing is compiled then.
+    """
+    from bem.compiled import is_cold
+
+    if not is_cold():
+        return
+    from bem.cli.warm_up import compile_with_progress
+    from bem.runs import plan_scene
+
+    resolved, _ = plan_scene(scene, settings, accuracy)
+    if resolved.kind == "contact":
+        compile_with_progress(main=True)
+    else:
+        typer.echo("bem: compiling loops, once for this installation (`bem warm-up` compiles all of them)", err=True)
+
+
 def register(app: typer.Typer) -> None:
     """Add the command."""
     app.command()(run)
@@ -115,6 +137,7 @@ def run(
         set_threads(threads)
     if resume and out is None and (Path(scene) / "scene.toml").is_file():
         out = Path(scene)
+    prepare_first_run(scene, set_ or (), asked(accuracy))
     with resumable() as terminal:
         done = run_scene(
             scene,

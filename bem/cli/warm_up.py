@@ -2,6 +2,11 @@
 
 from __future__ import annotations
 
+import os
+import tempfile
+from pathlib import Path
+from typing import Annotated
+
 import typer
 
 
@@ -9,14 +14,42 @@ def register(app: typer.Typer) -> None:
     """Add the command."""
 
     @app.command("warm-up", hidden=True)
-    def warm_up() -> None:
+    def warm_up(
+        main: Annotated[bool, typer.Option("--main", help="Only what `bem run rough-contact` needs.")] = False,
+        record: Annotated[
+            Path | None, typer.Option(metavar="FILE", help="Write the signatures that small scenes compile instead.")
+        ] = None,
+    ) -> None:
         """Compile every loop now instead of in the first run; `make setup` does."""
         from bem.cli._streams import results_saved
-        from bem.warm_up import warm_up
 
         results_saved()
-        failed = warm_up(lambda words: typer.echo(words, err=True))
+        if record is not None:
+            with tempfile.TemporaryDirectory() as folder:
+                _empty_cache(folder)
+                from bem.warm_up import record_signatures
+
+                record.write_text(record_signatures(), encoding="utf-8")
+            return
+        failed = compile_with_progress(main=main)
         for words in failed:
-            typer.echo(f"bem: left cold: {words}", err=True)
+            typer.echo(f"bem: not compiled: {words}", err=True)
         if failed:
             raise typer.Exit(1)
+
+
+def compile_with_progress(*, main: bool) -> list[str]:
+    """Compile the loops, showing progress where the error stream is a terminal; return those that failed, with why."""
+    from bem.cli._terminal import Terminal
+    from bem.warm_up import warm_up
+
+    with Terminal() as terminal:
+        terminal.say("compiling loops, once for this installation")
+        return warm_up(lambda done, total: terminal.progress(done, total, "compiling", {}), main=main)
+
+
+def _empty_cache(folder: str) -> None:
+    """Have numba keep what it compiles in this folder from now on."""
+    import numba
+
+    os.environ["NUMBA_CACHE_DIR"] = numba.config.CACHE_DIR = folder

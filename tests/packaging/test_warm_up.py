@@ -1,71 +1,228 @@
 """Compiled loops: made at set-up, kept where they can be kept, and missed in words."""
 
+import ast
+import importlib
+import inspect
+import json
 import os
 import subprocess
 import sys
 from pathlib import Path
+from typing import NamedTuple
 
 import pytest
+from numba import types
 
 from bem import compiled
 from bem.runs import plan_scene
-from bem.warm_up import SCENES, warm_up
+from bem.startup.signatures import SignatureRecord, SignatureWriter
+from bem.warm_up import RECORD, SCENES
 
 ROOT = Path(__file__).resolve().parents[2]
 
 
 @pytest.mark.parametrize(("name", "settings"), SCENES)
-def test_every_scene_of_the_warm_up_can_be_run(name, settings):
+def test_every_scene_of_the_record_can_be_run(name, settings):
     plan_scene(name, settings)
 
 
-def test_every_kind_is_warmed_up():
+def test_every_kind_is_recorded():
     from bem.scenes import kind_names, library
 
     assert {library()[name]["kind"] for name, _ in SCENES} == set(kind_names())
 
 
-def test_what_cannot_be_run_is_said_and_the_rest_is(monkeypatch):
-    ran = []
+def sources_with_loops():
+    for path in sorted((ROOT / "bem").rglob("*.py")):
+        for node in ast.walk(ast.parse(path.read_text(encoding="utf-8"))):
+            if isinstance(node, ast.FunctionDef) and "compiled" in map(ast.unparse, node.decorator_list):
+                yield ".".join(path.relative_to(ROOT).with_suffix("").parts), node.name
 
-    def run(name, folder, *, settings, figures):
-        ran.append(name)
-        plan_scene(name, ["grid.shape=-1"] if name == "sinusoid" else settings)
 
-    monkeypatch.setattr("bem.warm_up.run_scene", run)
-    said = []
-    failed = warm_up(said.append)
-    assert len(said) == len(SCENES)
-    assert ran == [name for name, _ in SCENES]
-    assert [words.split(":")[0] for words in failed] == ["sinusoid"]
+FIRST_RUN_COMPILES = {
+    ("bem.kernels.half_plane", "_logs"),
+    ("bem.kernels.half_plane", "_many"),
+    ("bem.kernels.half_space", "_many"),
+    ("bem.kernels.layered_hankel", "_evaluate_all"),
+    ("bem.kernels.subsurface", "_many"),
+    ("bem.lubrication.point.rough_loops", "_barred"),
+    ("bem.lubrication.point.rough_loops", "rough_flows"),
+    ("bem.stress.packed", "_pack"),
+    ("bem.stress.packed", "_unpack"),
+    ("bem.stress.reach", "_clear"),
+    ("bem.stress.spectra", "_join_traction"),
+    ("bem.stress.sweeps", "_add_square"),
+    ("bem.tangential.operator", "_normal"),
+    ("bem.tangential.operator", "_push"),
+}
+"""Loops through which no scene of the record passes: the first run or call that needs one compiles it."""
+
+
+def test_the_record_has_every_loop_that_its_scenes_use():
+    """`bem warm-up --record bem/compiled_signatures.json` renews it."""
+    recorded = set(SignatureRecord(RECORD.read_text()).loops())
+    assert recorded | FIRST_RUN_COMPILES == set(sources_with_loops())
+    assert not recorded & FIRST_RUN_COMPILES
+
+
+def test_every_recorded_signature_fits_its_loop():
+    """Types are still there, and a loop takes as many arguments as its record says."""
+    record = SignatureRecord(RECORD.read_text())
+    for module, name in record.loops():
+        parameters = inspect.signature(getattr(importlib.import_module(module), name).py_func).parameters
+        for signature in record.signatures(module, name):
+            assert len(signature) == len(parameters), (module, name)
+
+
+class Pair(NamedTuple):
+    """Fields of two types."""
+
+    values: object
+    count: object
+
+
+SIGNATURES = [
+    (),
+    (types.float64, types.int32, types.uint8, types.complex64, types.boolean, types.none),
+    (types.Array(types.float32, 2, "C"), types.Array(types.int64, 1, "A", readonly=True)),
+    (types.UniTuple(types.float64, 3), types.Tuple([types.int64, types.Optional(types.float64)])),
+    (types.NamedTuple([types.Array(types.float64, 1, "C"), types.int64], Pair),),
+    (types.NamedUniTuple(types.float64, 2, Pair), types.CPointer(types.float32)),
+    (types.literal(0), types.literal(-3), types.literal(True)),
+]
+
+
+@pytest.mark.parametrize("signature", SIGNATURES, ids=str)
+def test_a_signature_is_read_as_it_was_written(signature):
+    writer = SignatureWriter()
+    writer.add("module", "loop", signature)
+    (read,) = SignatureRecord(writer.text()).signatures("module", "loop")
+    assert read == signature
+    assert list(map(str, read)) == list(map(str, signature))
+
+
+def test_a_signature_that_cannot_be_written_is_refused():
+    with pytest.raises(TypeError, match="no text form"):
+        SignatureWriter().add("module", "loop", (types.unicode_type,))
+
+
+def test_the_main_job_takes_the_first_signatures():
+    writer = SignatureWriter()
+    writer.add("module", "loop", (types.int64,))
+    writer.end_main_job()
+    writer.add("module", "loop", (types.float64,))
+    writer.add("module", "other", (types.float64,))
+    record = SignatureRecord(writer.text())
+    assert record.loops(main=True) == [("module", "loop")]
+    assert record.loops() == [("module", "loop"), ("module", "other")]
+    assert record.signatures("module", "loop", main=True) == [(types.int64,)]
+    assert record.signatures("module", "other", main=True) == []
+
+
+AHEAD = """
+import sys
+from numba import types
+from numba.core import event
+from bem.startup.compile_ahead import compile_loops
+from bem.startup.signatures import SignatureRecord, SignatureWriter
+values, count = types.Array(types.float64, 1, "C"), types.int64
+writer = SignatureWriter()
+for caller in ("_survey_of_a_test", "no_such_loop"):
+    writer.add("bem.ahead_of_a_test", caller, (values,))
+writer.add("bem.ahead_of_a_test", "total", (values,))
+writer.add("bem.ahead_of_a_test", "square", (types.float64,))
+writer.add("bem.ahead_of_a_test", "square", (types.int64,))
+writer.add("bem.ahead_of_a_test", "wrong", (types.float64,))
+import bem, os
+bem.__path__.append(os.environ["FOLDER_OF_A_TEST"])
+seen = []
+with event.install_recorder("numba:compile") as record:
+    failed = compile_loops(SignatureRecord(writer.text()), int(sys.argv[1]), lambda *counts: seen.append(counts))
+    from bem.ahead_of_a_test import _survey_of_a_test
+    import numpy
+    assert _survey_of_a_test(numpy.array([1.0, 2.0])) == 8.0
+compiled = [item.data["dispatcher"].py_func.__module__ for _, item in record.buffer if item.is_start]
+import json
+print(json.dumps([failed, seen, compiled.count("bem.ahead_of_a_test")]))
+"""
+
+LOOPS_AHEAD = """
+from bem.compiled import compiled, inlined
+
+@compiled
+def square(value):
+    return value * value
+
+@inlined
+def twice(value):
+    return square(value) + square(value) - square(1) + 1
+
+@compiled
+def total(values):
+    found = 0.0
+    for value in values:
+        found += square(value)
+    return found
+
+@compiled
+def _survey_of_a_test(values):
+    return total(values) + twice(values[0]) + values.size - 1.0
+
+@compiled
+def wrong(value):
+    return value.no_such_field
+"""
+
+
+@pytest.mark.parametrize("workers", [1, 2])
+def test_recorded_loops_are_compiled_ahead_and_not_again(workers, tmp_path):
+    """In other processes, where there are several; what cannot be compiled is named and the rest is compiled."""
+    (tmp_path / "ahead_of_a_test.py").write_text(LOOPS_AHEAD)
+    environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path / "cache"), "FOLDER_OF_A_TEST": str(tmp_path)}
+
+    def compile_ahead():
+        done = subprocess.run(
+            [sys.executable, "-c", AHEAD, str(workers)],
+            capture_output=True, text=True, timeout=300, check=False, env=environment,
+        )  # fmt: skip
+        assert done.returncode == 0, done.stderr
+        return json.loads(done.stdout.splitlines()[-1])
+
+    failed, seen, compiled_here = compile_ahead()
+    assert sorted(words.split(":")[0].rpartition(".")[2] for words in failed) == ["no_such_loop", "wrong"]
+    assert seen == [[done, 4] for done in range(5)]
+    if workers == 2:
+        assert compiled_here == 0
+    again = compile_ahead()
+    assert again[2] == (1 if workers == 1 else 0)  # `wrong` is tried once more
 
 
 COMPILED = """
 import sys
-from numba.core import event
-with event.install_recorder("numba:compile") as record:
-    from bem.runs import run_scene
-    run_scene(sys.argv[1], sys.argv[2], settings=sys.argv[3:], figures=False)
-print(sum(1 for _, item in record.buffer if item.is_start))
+from pathlib import Path
+from bem.startup.compile_ahead import find_dispatchers
+from bem.startup.signatures import SignatureRecord
+from bem.runs import run_scene
+run_scene(sys.argv[1], sys.argv[2], settings=sys.argv[3:], figures=False)
+import bem.warm_up
+record = SignatureRecord(bem.warm_up.RECORD.read_text())
+for loop, dispatcher in find_dispatchers():
+    known = record.signatures(*loop)
+    for signature in dispatcher.overloads:
+        if signature not in known:
+            print("lacks", *loop, signature)
 """
 
 
 @pytest.mark.slow
-def test_what_was_compiled_once_is_not_compiled_again(tmp_path):
-    """On caches of their own; another load takes the same loops."""
-    environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path / "cache")}
-
-    def compilations(folder, name, *settings):
-        done = subprocess.run(
-            [sys.executable, "-c", COMPILED, name, str(tmp_path / folder), *settings],
-            capture_output=True, text=True, timeout=300, check=False, env=environment,
-        )  # fmt: skip
-        assert done.returncode == 0, done.stderr
-        return int(done.stdout.splitlines()[-1])
-
-    name, settings = SCENES[0]
-    assert compilations("first", name, *settings) > 10
-    assert compilations("second", name, *settings, "contact.load=11 N") == 0
+@pytest.mark.parametrize(("name", "settings"), SCENES)
+def test_the_record_has_what_a_scene_compiles(name, settings, tmp_path):
+    done = subprocess.run(
+        [sys.executable, "-c", COMPILED, name, str(tmp_path / "run"), *settings],
+        capture_output=True, text=True, timeout=600, check=False,
+    )  # fmt: skip
+    assert done.returncode == 0, done.stderr
+    assert done.stdout == ""
 
 
 LOOP = "from bem.compiled import compiled\n@compiled\n"
@@ -182,33 +339,6 @@ def test_a_plan_says_that_loops_are_not_compiled_yet(tmp_path):
     warm.mkdir(parents=True)
     (warm / f"loops.convolve-1.py{sys.version_info[0]}{sys.version_info[1]}.nbi").write_text("")
     assert "not compiled yet" not in plan(NUMBA_CACHE_DIR=str(tmp_path / "warm"))
-
-
-LOADED = """
-import importlib, sys
-from bem.runs import run_scene
-from bem.warm_up import SCENES
-name, module, *loops = sys.argv[1:]
-run_scene(name, "run", settings=dict(SCENES)[name], figures=False)
-print([loop for loop in loops if not getattr(importlib.import_module(module), loop).signatures])
-"""
-
-
-@pytest.mark.parametrize(
-    ("scene", "module", "loops"),
-    [
-        ("film-rough-ball", "bem.lubrication.point.supply_loops", ("contents", "nothing_dragged", "carried")),
-        ("film-rough-ball", "bem.lubrication.point.touching", ("_oil_rows",)),
-        ("hot-film", "bem.lubrication.thermal.made", ("_gather", "_gather_expansion")),
-        ("fretting-wear", "bem.tangential.operator", ("_combine",)),
-    ],
-)
-def test_loops_that_first_runs_had_to_compile_are_passed_through(tmp_path, scene, module, loops):
-    done = subprocess.run(
-        [sys.executable, "-c", LOADED, scene, module, *loops],
-        cwd=tmp_path, capture_output=True, text=True, timeout=600, check=True,
-    )  # fmt: skip
-    assert done.stdout.splitlines()[-1] == "[]"
 
 
 def test_a_numba_that_compiles_nothing_is_one_message(tmp_path):
