@@ -5,15 +5,17 @@ from __future__ import annotations
 import argparse
 import logging
 import os
+import random
 import sys
+from collections.abc import Iterable
 from concurrent.futures import ThreadPoolExecutor
 from dataclasses import replace
 from pathlib import Path
 from subprocess import run
 from typing import Any
 
-from fem_reference import results
-from fem_reference.problem import Parameter, Problem, all_problems, stored_cases
+from fem_reference import provenance, results
+from fem_reference.problem import Parameter, Problem, all_problems, module_of, stored_cases
 
 STORED = Path(__file__).resolve().parents[1] / "bem" / "verification" / "fem_results"
 
@@ -53,12 +55,33 @@ def _table(result: results.Result) -> str:
     return "\n".join(lines)
 
 
-def _all(folder: Path, check: bool, jobs: int, only: list[str]) -> int:
-    """Recompute the stored set, each case in its own process;
+def _changed(folder: Path, cases: Iterable[str]) -> list[str]:
+    """Cases that are not stored, or whose sources or parameters are not those of the stored result."""
+    known = stored_cases()
+    found = []
+    for case in cases:
+        problem, parameters = known[case]
+        path = folder / f"{case}.json"
+        digest = provenance.inputs_digest(module_of(problem), parameters)
+        if not path.is_file() or results.read(path).inputs != digest:
+            found.append(case)
+    return found
 
-    with `check` compare to what is there and write nothing.
+
+def _all(chosen: argparse.Namespace) -> int:
+    """Solve the stored set again, each case in its own process.
+
+    With `check` compare to what is stored and write nothing; with `changed` solve only the cases whose sources or
+    parameters changed, and `sample` of the others, drawn by `seed`.
     """
-    cases = [case for case, (problem, _) in stored_cases().items() if not only or {case, problem.name} & set(only)]
+    folder, check, only = chosen.out, chosen.check, set(chosen.only)
+    cases = [case for case, (problem, _) in stored_cases().items() if not only or {case, problem.name} & only]
+    if chosen.changed:
+        changed = _changed(folder, cases)
+        others = [case for case in cases if case not in changed]
+        drawn = random.Random(chosen.seed).sample(others, min(chosen.sample, len(others)))
+        print(f"{len(changed)} of {len(cases)} cases have changed inputs; {len(drawn)} of the others are drawn")
+        cases = sorted({*changed, *drawn})
     folder.mkdir(parents=True, exist_ok=True)
 
     def one(case: str) -> tuple[str, int, str]:
@@ -69,7 +92,7 @@ def _all(folder: Path, check: bool, jobs: int, only: list[str]) -> int:
         return case, done.returncode, (done.stdout + done.stderr).strip()
 
     failed = 0
-    with ThreadPoolExecutor(jobs) as pool:
+    with ThreadPoolExecutor(chosen.jobs) as pool:
         for case, code, text in pool.map(one, cases):
             failed += code != 0
             print(f"{'ok    ' if code == 0 else 'FAILED'} {case}", flush=True)
@@ -101,8 +124,10 @@ def main(arguments: list[str] | None = None) -> int:
         options.add_argument("--check", action="store_true", help="compare to the stored set; write nothing")
         options.add_argument("--jobs", type=int, default=1, help="processes at a time")
         options.add_argument("--only", nargs="*", default=[], help="these cases or problems only")
-        chosen = options.parse_args(rest + (["--help"] if known.help else []))
-        return _all(chosen.out, chosen.check, chosen.jobs, chosen.only)
+        options.add_argument("--changed", action="store_true", help="only cases whose sources or parameters changed")
+        options.add_argument("--sample", type=int, default=0, help="with --changed: as many of the others, drawn")
+        options.add_argument("--seed", type=int, default=0, help="of the drawn cases")
+        return _all(options.parse_args(rest + (["--help"] if known.help else [])))
 
     problems, stored = all_problems(), stored_cases()
     if known.case in stored:
@@ -136,7 +161,8 @@ def _one(case: str, problem: Problem, parameters: dict, rest: list[str]) -> int:
     except ValueError as error:
         print(f"{case}: {error}", file=sys.stderr)
         return 2
-    result = replace(result, case=out.stem if out is not None else case)
+    digest = provenance.inputs_digest(module_of(problem), {**parameters, **chosen})
+    result = replace(result, case=out.stem if out is not None else case, inputs=digest)
     print(_table(result))
     if out is not None:
         results.write(result, out)

@@ -9,6 +9,7 @@ import importlib
 import pkgutil
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Any
 
 from fem_reference.results import Result
@@ -75,6 +76,16 @@ class Problem:
 
 def all_problems() -> dict[str, Problem]:
     """Every problem of the package by name, in order of name."""
+    return {name: problem for name, (problem, _) in sorted(_problems_with_modules().items())}
+
+
+def module_of(problem: Problem) -> str:
+    """Name of the module that defines and solves a problem."""
+    return _problems_with_modules()[problem.name][1]
+
+
+@cache
+def _problems_with_modules() -> dict[str, tuple[Problem, str]]:
     import fem_reference
 
     found = {}
@@ -83,8 +94,8 @@ def all_problems() -> dict[str, Problem]:
             continue
         module = importlib.import_module(f"fem_reference.{info.name}")
         for problem in getattr(module, "PROBLEMS", ()):
-            found[problem.name] = problem
-    return dict(sorted(found.items()))
+            found[problem.name] = problem, module.__name__
+    return found
 
 
 def stored_cases() -> dict[str, tuple[Problem, dict[str, Any]]]:

@@ -17,6 +17,7 @@ A result is one JSON object (UTF-8, one file per case, ``<case>.json``):
 ``versions``        ``python``, ``numpy``, ``dolfinx``, ``petsc``, ``gmsh``: texts
 ``date``            day of the computation, ISO 8601
 ``time_s``          processor time of the whole case, seconds
+``inputs``          digest of the sources and parameters that determine the figures, see `provenance.inputs_digest`
 ``checks``          name -> ``{"value", "expected", "tolerance"}``: equilibrium and the like
 ``quantities``      list of curves, see below
 
@@ -95,6 +96,7 @@ class Result:
     versions: dict[str, str] = field(default_factory=dict)
     date: str = ""
     time_s: float = 0.0
+    inputs: str = ""
     format: str = FORMAT
 
     def quantity(self, name: str, along: str | None = None) -> Quantity:

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from fem_reference import results
+from fem_reference import provenance, results
 from fem_reference.results import Quantity, Result
 from fem_reference.richardson import estimate, observed_order
 
@@ -242,3 +242,50 @@ def test_reproduction_allows_the_round_off_of_a_solve_where_a_wave_has_decayed()
     assert off_by(1.5e-12) == []  # of values up to two beside it
     (complaint,) = off_by(3e-12)
     assert "along deep" in complaint
+
+
+SOURCES = {
+    "fem_reference/__init__.py": "",
+    "fem_reference/results.py": "FORMAT = 1\n",
+    "fem_reference/disc.py": "from fem_reference import results\nfrom fem_reference.layers import E\nNU = 0.3\n",
+    "fem_reference/layers.py": "import meshes\nE = 1.0\n",
+    "fem_reference/strip.py": "L = 1.0\n",
+    "meshes/__init__.py": "H = 1.0\n",
+}
+
+
+@pytest.fixture
+def digest_with(tmp_path, monkeypatch):
+    """The digest of a disc with one source edited."""
+    monkeypatch.setattr(provenance, "_ROOT", tmp_path)
+
+    def digest(name="", text="", parameters=(("nu", 0.3),)):
+        for source, before in SOURCES.items():
+            (tmp_path / source).parent.mkdir(exist_ok=True)
+            (tmp_path / source).write_text(text if source == name else before)
+        provenance._imported.cache_clear()
+        provenance._statements.cache_clear()
+        return provenance.inputs_digest("fem_reference.disc", dict(parameters))
+
+    yield digest
+    provenance._imported.cache_clear()
+    provenance._statements.cache_clear()
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "changes"),
+    [
+        ("fem_reference/disc.py", SOURCES["fem_reference/disc.py"].replace("0.3", "0.2"), True),
+        ("fem_reference/layers.py", "import meshes\nE = 2.0\n", True),
+        ("meshes/__init__.py", "H = 2.0\n", True),
+        ("meshes/__init__.py", '"""Meshes."""\n\nH = 1.0  # half\n', False),
+        ("fem_reference/strip.py", "L = 2.0\n", False),
+        ("fem_reference/results.py", "FORMAT = 2\n", False),
+    ],
+)
+def test_inputs_change_with_statements_that_a_figure_depends_on(digest_with, name, text, changes):
+    assert (digest_with(name, text) != digest_with()) is changes
+
+
+def test_inputs_change_with_parameters(digest_with):
+    assert digest_with(parameters=(("nu", 0.25),)) != digest_with()

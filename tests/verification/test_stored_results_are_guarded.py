@@ -14,10 +14,31 @@ CASE = "strip-antiplane"
 INTERPRETER = ROOT / ".venv-fem" / "bin" / "python"
 
 
-def check(folder):
-    command = [str(INTERPRETER), "-m", "fem_reference", "all", "--check", "--only", CASE, "--out", str(folder)]
+def check(folder, *options):
+    command = [str(INTERPRETER), "-m", "fem_reference", "all", "--check", "--only", CASE, "--out", str(folder), *options]
     environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     return subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False, timeout=300)
+
+
+@pytest.mark.fem
+def test_only_changed_cases_and_a_sample_are_solved_again(tmp_path):
+    if not INTERPRETER.exists():
+        pytest.skip("no .venv-fem: `make setup-fem` makes it")
+    path = tmp_path / f"{CASE}.json"
+    shutil.copy(STORED / path.name, path)
+    same = check(tmp_path, "--changed")
+    assert same.returncode == 0, same.stdout + same.stderr
+    assert "0 of 0 cases reproduced" in same.stdout
+    assert "1 of 1 cases reproduced" in check(tmp_path, "--changed", "--sample", "5", "--seed", "1").stdout
+
+    document = json.loads(path.read_text())
+    document["inputs"] = "of other sources"
+    curve = document["quantities"][0]
+    curve["values"][0] += 10 * curve["error_bar"][0] + 1e-6 * max(map(abs, curve["values"]))
+    path.write_text(json.dumps(document))
+    changed = check(tmp_path, "--changed")
+    assert changed.returncode == 1
+    assert f"FAILED {CASE}" in changed.stdout
 
 
 @pytest.mark.fem
