@@ -213,7 +213,7 @@ def test_tab_completion_installs_and_completes(tmp_path):
     environment = {"HOME": str(tmp_path), "PATH": str(Path(sys.executable).parent), "SHELL": "/bin/bash"}
     command = [str(Path(sys.executable).with_name("bem"))]
     done = subprocess.run(
-        [*command, "--show-completion", "bash"],
+        ["/bin/bash", "-c", "bem --show-completion; exit $?"],  # the shell is recognised among the processes above
         env=environment,
         capture_output=True,
         text=True,
