@@ -52,7 +52,7 @@ SCENES: tuple[tuple[str, tuple[str, ...]], ...] = (
     ("particles-afm-map", ("synthetic.shape=[256, 256]",)),
     ("rough-contact", _MANY),
 )
-"""Built-in scenes and what makes them small; together they pass through every compiled loop. The first is the main job."""
+"""Built-in scenes of every kind and what makes them small. The first is the main job."""
 
 
 RECORD = Path(__file__).resolve().parent / "compiled_signatures.json"

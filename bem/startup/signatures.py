@@ -56,18 +56,19 @@ class SignatureWriter:
         loops, main = _by_module(self._loops), _by_module(self._main)
         return f'{{\n "types": [\n{types}\n ],\n "loops": {{\n{loops}\n }},\n "main": {{\n{main}\n }}\n}}\n'
 
-    def _encode(self, given: Any) -> int:
+    def _encode(self, argument: Any) -> int:
         from numba import types
 
+        given: Any = argument
         if isinstance(given, types.Array):
             if not given.aligned:
                 raise TypeError(f"an array of unaligned entries has no text form: {given}")
             return self._store(["array", self._encode(given.dtype), given.ndim, given.layout, given.mutable])
-        if isinstance(given, types.BaseNamedTuple):
+        if isinstance(argument, types.BaseNamedTuple):
             owner = given.instance_class
             fields = [self._encode(field) for field in given]
             return self._store(["named", f"{owner.__module__}:{owner.__qualname__}", *fields])
-        if isinstance(given, types.BaseTuple):
+        if isinstance(argument, types.BaseTuple):
             return self._store(["tuple", *(self._encode(item) for item in given)])
         if isinstance(given, types.Optional):
             return self._store(["optional", self._encode(given.type)])

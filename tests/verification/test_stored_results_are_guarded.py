@@ -15,7 +15,8 @@ INTERPRETER = ROOT / ".venv-fem" / "bin" / "python"
 
 
 def check(folder, *options):
-    command = [str(INTERPRETER), "-m", "fem_reference", "all", "--check", "--only", CASE, "--out", str(folder), *options]
+    options = ["--check", "--only", CASE, "--out", str(folder), *options]
+    command = [str(INTERPRETER), "-m", "fem_reference", "all", *options]
     environment = {**os.environ, "OMP_NUM_THREADS": "1", "OPENBLAS_NUM_THREADS": "1"}
     return subprocess.run(command, cwd=ROOT, env=environment, capture_output=True, text=True, check=False, timeout=300)
 
