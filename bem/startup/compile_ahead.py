@@ -98,6 +98,8 @@ def _in_processes(
         try:
             while waiting or running:
                 ready = [loop for loop in waiting if not left[loop]][: workers - len(running)]
+                if not ready and not running:  # loops that name one another
+                    ready = waiting[:1]
                 for loop in ready:
                     waiting.remove(loop)
                     running[pool.submit(_compile, record, loop, main)] = loop
