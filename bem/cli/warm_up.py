@@ -50,6 +50,7 @@ def compile_with_progress(*, main: bool) -> list[str]:
 
 def _empty_cache(folder: str) -> None:
     """Have numba keep what it compiles in this folder from now on."""
-    import numba
+    from numba import config
 
-    os.environ["NUMBA_CACHE_DIR"] = numba.config.CACHE_DIR = folder
+    os.environ["NUMBA_CACHE_DIR"] = folder
+    vars(config)["CACHE_DIR"] = folder
