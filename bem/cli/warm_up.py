@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 import tempfile
 from pathlib import Path
 from typing import Annotated
@@ -26,7 +25,9 @@ def register(app: typer.Typer) -> None:
         results_saved()
         if record is not None:
             with tempfile.TemporaryDirectory() as folder:
-                _empty_cache(folder)
+                from bem.startup.compile_ahead import use_cache_folder
+
+                use_cache_folder(folder)
                 from bem.warm_up import record_signatures
 
                 record.write_text(record_signatures(), encoding="utf-8")
@@ -46,11 +47,3 @@ def compile_with_progress(*, main: bool) -> list[str]:
     with Terminal() as terminal:
         terminal.say("compiling loops, once for this installation")
         return warm_up(lambda done, total: terminal.progress(done, total, "compiling", {}), main=main)
-
-
-def _empty_cache(folder: str) -> None:
-    """Have numba keep what it compiles in this folder from now on."""
-    from numba import config
-
-    os.environ["NUMBA_CACHE_DIR"] = folder
-    vars(config)["CACHE_DIR"] = folder

@@ -10,6 +10,7 @@ from __future__ import annotations
 
 import importlib
 import multiprocessing
+import os
 import signal
 import sys
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -172,3 +173,11 @@ def _callees(function: Any) -> Iterator[Any]:
     for module in [value for value in values if isinstance(value, ModuleType)]:
         values += [getattr(module, name) for name in names if hasattr(module, name)]
     yield from (value for value in values if hasattr(value, "py_func"))
+
+
+def use_cache_folder(folder: str) -> None:
+    """Keep compiled loops in this folder from now on."""
+    from numba import config
+
+    os.environ["NUMBA_CACHE_DIR"] = folder
+    vars(config)["CACHE_DIR"] = folder
