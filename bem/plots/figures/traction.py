@@ -219,8 +219,16 @@ def _mark_places(run: Any, top: Axes, below: Sequence[Axes]) -> None:
     for group in groups:
         middle = 0.5 * (group[0][0] + group[-1][0])
         letters = " ".join(name for _, name in group)
-        at = {"xy": (middle, 1), "xycoords": ("data", "axes fraction"), "textcoords": "offset points"}
-        top.annotate(letters, xytext=(0, 3), ha="center", va="bottom", fontsize=8.5, **at)
+        top.annotate(
+            letters,
+            xy=(middle, 1),
+            xycoords=("data", "axes fraction"),
+            xytext=(0, 3),
+            textcoords="offset points",
+            ha="center",
+            va="bottom",
+            fontsize=8.5,
+        )
 
 
 def _first_of(data: Any, axis: str) -> str:
