@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from reports.builder import table, text
@@ -45,6 +45,7 @@ def body() -> str:
                 "disk",
                 "skin (nm)",
                 "oil counted over",
+                "shape of the film",
                 *(f"drop at {speed:g} m/s" for speed in SPEEDS),
                 "largest at (m/s)",
             ),
@@ -67,20 +68,31 @@ def body() -> str:
 
 
 def drops() -> list[tuple[str, ...]]:
-    """Return one row for each combination of frame, skin and area: its drops of friction and where they are largest."""
+    """Return one row for each combination of choices: its drops of friction and where they are largest."""
     rows = []
+    for name, *choice in combinations():
+        try:
+            summary = experiment(name)
+        except FileNotFoundError:
+            rows.append((*choice, *("not run" for _ in SPEEDS), ""))
+            continue
+        found = [drop(summary, speed) for speed in SPEEDS]
+        largest = SPEEDS[found.index(max(found))]
+        rows.append((*choice, *(f"{one:.4f}" for one in found), f"{largest:g}"))
+    return rows
+
+
+def combinations() -> Iterator[tuple[str, str, str, str, str]]:
+    """Yield the name of each experiment with its disk, skin [nm], area and shape of the film in words.
+
+    The film follows wear only where the standing body wears, which is the disk.
+    """
     for frame, disk in FRAMES.items():
         for skin in SKINS:
             for oil, area in OILS.items():
-                try:
-                    summary = experiment(f"drop-{frame}-{skin}-{oil}")
-                except FileNotFoundError:
-                    rows.append((disk, str(skin), area, *("not run" for _ in SPEEDS), ""))
-                    continue
-                found = [drop(summary, speed) for speed in SPEEDS]
-                largest = SPEEDS[found.index(max(found))]
-                rows.append((disk, str(skin), area, *(f"{one:.4f}" for one in found), f"{largest:g}"))
-    return rows
+                yield f"drop-{frame}-{skin}-{oil}", disk, str(skin), area, "unworn"
+    for oil in ("patch", "loaded"):
+        yield f"drop-disk-90-{oil}-worn", FRAMES["disk"], "90", OILS[oil], "worn"
 
 
 def experiment_name(scene: str, choice: str) -> str:
