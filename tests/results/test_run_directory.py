@@ -139,9 +139,18 @@ def test_volume_cells_have_positive_volume(tmp_path):
 
 
 @pytest.mark.internal
-def test_large_volumes_are_thinned(tmp_path):
-    (path,) = write_volumes(tmp_path, fields(256, 5), ("von_mises",))
+def test_large_volumes_are_thinned_to_points_that_keep_their_values(tmp_path):
+    import meshio
+
+    variables = fields(256, 5)
+    (path,) = write_volumes(tmp_path, variables, ("von_mises",))
     assert path.name == "volume-every-2.vtu"
+    mesh = meshio.read(path)
+    kept = variables["von_mises"].values[:, ::2, ::2]
+    x, y, depth = variables["x"].values[::2], variables["y"].values[::2], variables["depth"].values
+    places = np.stack(np.meshgrid(x, y, -depth, indexing="ij"), axis=-1)
+    np.testing.assert_array_equal(mesh.points, places.reshape(-1, 3))
+    np.testing.assert_array_equal(mesh.point_data["von_mises"], np.moveaxis(kept, 0, 2).ravel())
 
 
 @pytest.mark.internal

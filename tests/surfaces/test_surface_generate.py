@@ -121,6 +121,17 @@ def test_rms_slope_instead_of_rms_height():
     assert np.sqrt(np.mean(slopes[0] ** 2 + slopes[1] ** 2)) == pytest.approx(0.1, rel=1e-10)
 
 
+def test_rms_slope_counts_each_of_the_shortest_waves_once():
+    """By the whole transform, which has each wave once; waves of two cells are their own mirror image."""
+    grid = Grid((8, 6), (CELL, 1.5 * CELL), periodic=(True, True))
+    heights = generate_surface(grid, rms_slope=0.1, seed=5, hurst=0.8)
+    power = np.abs(np.fft.fft2(heights)) ** 2
+    assert power[:, 3].sum() > 1e-3 * power.sum()
+    kx, ky = (2 * np.pi * np.fft.fftfreq(n, d) for n, d in zip(grid.shape, grid.spacing, strict=True))
+    squares = float((power * (kx[:, None] ** 2 + ky[None, :] ** 2)).sum())
+    assert np.sqrt(squares) / grid.cells == pytest.approx(0.1, rel=1e-10)
+
+
 def test_same_seed_same_bits_in_another_process():
     code = (
         "import hashlib, bem; g = bem.Grid((64, 48), (1e-7, 1e-7));"
