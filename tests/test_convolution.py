@@ -245,6 +245,30 @@ def test_a_compliance_of_each_place_adds_its_own_pressure(periodic):
         displacement_operator(grid, body, compliance=-1.0)
 
 
+def test_without_friction_the_compliance_stays():
+    grid = Grid((20, 24), (1e-6, 2e-6))
+    pair = (Body(STEEL), Body(Material("soft", youngs_modulus=5e9, poissons_ratio=0.2)))
+    pressure = np.random.default_rng(6).random(grid.shape) * 1e9
+    rubbed = displacement_operator(grid, pair, friction=0.3, compliance=3e-17)
+    expected = displacement_operator(grid, pair, compliance=3e-17)(pressure)
+    assert not np.array_equal(rubbed(pressure), expected)
+    assert np.array_equal(rubbed.frictionless(pressure), expected)
+
+
+def test_moduli_are_of_plane_strain_and_of_the_layer_for_short_waves_alone():
+    steel = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
+    soft = Material("soft", youngs_modulus=20e9, poissons_ratio=0.4)
+    grid = Grid((16, 16), (1e-6, 1e-6))
+    pair = displacement_operator(grid, (Body(steel), Body(soft)))
+    of_both = 1 / ((1 - 0.3**2) / 210e9 + (1 - 0.4**2) / 20e9)
+    assert pair.contact_modulus == pytest.approx(of_both, rel=1e-14)
+    assert pair.modulus_at(2e6) == pytest.approx(of_both, rel=1e-12)
+    coated = displacement_operator(grid, Body(steel, layer=Layer(soft, 1e-6)))
+    assert coated.contact_modulus == pytest.approx(20e9 / (1 - 0.4**2), rel=1e-14)
+    assert coated.modulus_at(40e6) == pytest.approx(20e9 / (1 - 0.4**2), rel=1e-12)  # exp(-2 q h) is left of the base
+    assert coated.modulus_at(1.0) == pytest.approx(210e9 / (1 - 0.3**2), rel=1e-4)  # q h of the layer's part
+
+
 @pytest.mark.parametrize("moved", [copy.deepcopy, lambda operator: pickle.loads(pickle.dumps(operator))])
 def test_an_operator_that_was_moved_counts_its_own_with_its_coarser_ones(moved):
     operator = displacement_operator(Grid((64, 64), (1.0, 1.0)), Body(STEEL), friction=0.1)
