@@ -318,6 +318,16 @@ def test_gaussian_filter_transmits_half_at_the_cutoff():
         low_pass(surface, 1.0, kind="butterworth")
 
 
+@pytest.mark.parametrize("axis", [0, 1])
+def test_a_filter_of_free_axes_transmits_half_of_a_cosine_at_the_cutoff(axis):
+    """A cosine with its crests on both edges, of which a map of n cells holds one for every half wave."""
+    shape, spacing, half_waves = (18, 25), (1e-6, 2e-6), 6
+    place = (np.arange(shape[axis]) + 0.5) / shape[axis]
+    heights = np.zeros(shape) + np.expand_dims(np.cos(np.pi * half_waves * place), 1 - axis)
+    passed = low_pass(Surface(heights, spacing), 2 * shape[axis] * spacing[axis] / half_waves)
+    np.testing.assert_allclose(passed.heights, 0.5 * heights, atol=1e-13)
+
+
 def test_scale_to_rms():
     surface = scale_to_rms(Surface(np.random.default_rng(1).normal(size=(9, 8)) + 3, (1.0, 1.0)), 5e-8)
     assert describe_surface(surface.heights, surface.spacing).Sq == pytest.approx(5e-8, rel=1e-13)

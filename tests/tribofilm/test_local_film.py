@@ -21,10 +21,14 @@ def test_without_feedback_from_the_surface_it_is_the_mean_model():
     thermal = StressActivatedGrowth.from_electron_volts(1e-2, 0.7, 0.0)
     case = contact(grid=flat, gap=np.zeros(flat.shape), growth=thermal, load=6.4e-8)
     times = np.linspace(0, 2000, 6)
-    local = grow_local_film(times, case, wear_coefficient=1e-3, tolerance=1e-4)
-    mean = grow_tribofilm(times, case, wear_coefficient=1e-3)
+    given = {"wear_coefficient": 1e-3, "concentration_constant": 1e8}
+    local = grow_local_film(times, case, tolerance=1e-4, **given)
+    mean = grow_tribofilm(times, case, **given).history
     # growth is constant, so the exponential rule is exact; the mean model integrates to 1e-6
-    assert np.allclose(local.thickness, mean.history.thickness, rtol=1e-5)
+    assert np.allclose(local.thickness, mean.thickness, rtol=1e-5, atol=0)
+    # the film of a step wears with the mean of what it holds of the substrate at both ends
+    assert np.allclose(local.substrate_wear, mean.substrate_wear, rtol=1e-2, atol=0)
+    assert local.substrate_wear[-1] < 0.9 * local.worn[-1]
 
 
 def test_second_order_in_time():

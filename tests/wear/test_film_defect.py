@@ -57,7 +57,8 @@ def loop(**model):
 @pytest.mark.internal
 def test_a_loop_wears_that_share_of_its_volume():
     volume = loop(film_defect=FILM).cycles["volume"]
-    assert volume == pytest.approx(float(FILM.share()) * loop().cycles["volume"], rel=1e-9)
+    assert (volume > 0).all()
+    assert volume / loop().cycles["volume"] == pytest.approx(float(FILM.share()), rel=1e-9, abs=0)
 
 
 @pytest.mark.internal
@@ -86,7 +87,7 @@ def test_a_life_wears_each_place_by_its_own_temperature():
     wavy = 1e-9 * np.cos(2 * np.pi * np.arange(16) / 16)[:, None] * np.ones(GRID.shape)
     end = run_life(life(warm, 50.0), wavy, flat)
     share = float(FILM.share(np.array(400.0)))
-    assert end.surfaces.volume[0] == pytest.approx(share * RATE * DISTANCE * 50 * PRESSURE * GRID.area, rel=1e-9)
+    assert end.surfaces.volume[0] == pytest.approx(share * RATE * DISTANCE * 50 * PRESSURE * GRID.area, rel=1e-9, abs=0)
     # one half hotter, few cycles: the depths are as the shares, for the pressure has not answered yet
     warm = np.where(np.arange(16)[:, None] < 8, 400.0, 440.0) * np.ones(GRID.shape)
     after = round_of(life(warm, 1.0), begun(life(warm, 1.0), wavy, flat).surfaces, 1.0).surfaces
