@@ -30,6 +30,12 @@ def body(entries: Sequence[dict[str, Any]]) -> str:
     rows = [_row(room, [entry for entry in entries if entry["room"] == room]) for room in rooms]
     rows.append(_row("all", entries))
     found = text(words["introduction"]) + table(_HEADERS, rows)
+    closed = [entry for entry in entries if "survived_before" in entry]
+    if closed:
+        found += text(words["closed"]) + table(
+            ["file", "slip", "killed now by", "what was missing"],
+            [[f"`{e['file']}`", e["slip"], f"`{e['by']}`", e.get("reason", "")] for e in closed],
+        )
     survivors = [entry for entry in entries if entry["result"] == "survived"]
     if survivors:
         found += text(words["survivors"]) + table(
@@ -42,7 +48,16 @@ def body(entries: Sequence[dict[str, Any]]) -> str:
     return found
 
 
-_HEADERS = ("room", "run", "killed", "survived: equivalent", "survived: gap", "gone", "median time to kill [s]")
+_HEADERS = (
+    "room",
+    "run",
+    "killed",
+    "of these survived once",
+    "survived: equivalent",
+    "survived: gap",
+    "gone",
+    "median time to kill [s]",
+)
 _SUITES = {"fast": "the room's fast tests", "full": "all tests of the room", "gates": "all, and the gates"}
 
 
@@ -53,4 +68,5 @@ def _row(room: str, entries: Sequence[dict[str, Any]]) -> list[Any]:
     gone = sum(entry["result"] == "gone" for entry in entries)
     times = sorted(entry["processor_s"] for entry in killed)
     median = float(times[len(times) // 2]) if times else None
-    return [room, len(entries), len(killed), equivalent, len(survived) - equivalent, gone, median]
+    closed = sum("survived_before" in entry for entry in entries)
+    return [room, len(entries), len(killed), closed, equivalent, len(survived) - equivalent, gone, median]

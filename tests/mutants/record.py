@@ -29,7 +29,11 @@ class Record:
             self.entries = json.loads(path.read_text(encoding="utf-8"))["mutants"]
 
     def enter(self, mutant: Mutant, entry: Entry) -> None:
-        """Store an outcome."""
+        """Store an outcome; one that is killed now keeps the suite that it survived before."""
+        before = self.entries.get(mutant.key, {})
+        survived = before["suite"] if before.get("result") == SURVIVED else before.get("survived_before")
+        if survived is not None and entry["result"] == KILLED:
+            entry = entry | {"survived_before": survived}
         described = {"file": mutant.file, "slip": mutant.slip, "old": mutant.old, "new": mutant.new}
         self.entries[mutant.key] = {"room": mutant.room, **described, **entry}
         self.write()
@@ -52,7 +56,7 @@ class Record:
 
 
 def by_room(entries: Mapping[str, Entry]) -> list[list[Any]]:
-    """Return a row for each room and one for all: room, chosen, killed, survived (equivalent, gap), gone, minutes."""
+    """Return a row for each room and one for all: the columns of `HEADERS`."""
     rooms = sorted({entry["room"] for entry in entries.values()})
     rows = []
     for room in [*rooms, "all"]:
@@ -60,12 +64,16 @@ def by_room(entries: Mapping[str, Entry]) -> list[list[Any]]:
         survived = [entry for entry in own if entry["result"] == SURVIVED]
         equivalent = sum(entry.get("reason", "").startswith("equivalent") for entry in survived)
         killed, gone = (sum(entry["result"] == kind for entry in own) for kind in (KILLED, GONE))
+        closed = sum("survived_before" in entry for entry in own)
         minutes = sum(entry.get("processor_s", 0.0) for entry in own) / 60
-        rows.append([room, len(own), killed, len(survived), equivalent, gone, round(minutes, 1)])
+        rows.append([room, len(own), killed, closed, len(survived), equivalent, gone, round(minutes, 1)])
     return rows
 
 
-HEADERS = ["room", "chosen", "killed", "survived", "of these equivalent", "gone", "processor time [min]"]
+HEADERS = [
+    *("room", "run", "killed", "of these survived an earlier run", "survived", "of these equivalent", "gone"),
+    "processor time [min]",
+]
 
 
 def survivors(entries: Mapping[str, Entry]) -> list[list[str]]:

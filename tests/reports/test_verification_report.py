@@ -123,12 +123,15 @@ def test_observed_orders_and_limits_are_those_of_errors_that_fall_by_a_law():
 def test_what_the_tests_catch_is_counted_with_each_survivor_and_its_reason(page):
     (shown,) = [section.body for section in page.sections if section.title == "What the tests catch"]
     for entry in caught.outcomes():
-        assert (html.escape(entry["slip"]) in shown) is (entry["result"] == "survived")
+        told = entry["result"] == "survived" or "survived_before" in entry
+        assert (html.escape(entry["slip"]) in shown) is told
     killed = {"room": "contact", "file": "bem/a.py", "slip": "a", "result": "killed", "processor_s": 2.0}
     survived = killed | {"slip": "b", "result": "survived", "suite": "full", "reason": "gap: no test of b"}
-    body = caught.body([killed, survived, survived | {"slip": "c", "reason": "equivalent: c is never read"}])
-    numbers = r'<td class="number">(\d+)</td>' * 5
-    assert re.findall(rf"<td>contact</td>{numbers}", body) == [("3", "1", "1", "1", "0")]
+    closed = killed | {"slip": "d", "survived_before": "fast", "by": "tests/test_d.py::test_d"}
+    body = caught.body([killed, closed, survived, survived | {"slip": "c", "reason": "equivalent: c is never read"}])
+    numbers = r'<td class="number">(\d+)</td>' * 6
+    assert re.findall(rf"<td>contact</td>{numbers}", body) == [("4", "2", "1", "1", "1", "0")]
+    assert "tests/test_d.py::test_d" in body
     assert "gap: no test of b" in body
     assert ">a<" not in body
 
