@@ -55,8 +55,8 @@ def test_worn_volume_is_the_surfaces_loss_to_round_off():
     assert result.particles.size > 10
     lost = (lower - result.lower_heights).sum() * GRID.cell_area
     # sums of some thousand heights of 1e-7 m: their round-off over the volume
-    assert result.particles["volume"].sum() == pytest.approx(lost, rel=1e-11)
-    assert result.cycles["volume"].sum() == pytest.approx(lost, rel=1e-11)
+    assert result.particles["volume"].sum() == pytest.approx(lost, rel=1e-11, abs=0)
+    assert result.cycles["volume"].sum() == pytest.approx(lost, rel=1e-11, abs=0)
     assert np.array_equal(result.upper_heights, upper)
     assert (result.lower_heights <= lower).all()
 
@@ -252,7 +252,7 @@ def test_the_bodies_that_should_wear_do(wears):
         == {"lower": (True, False), "upper": (False, True), "both": (True, True), "softer": (True, False)}[wears]
     )
     lost = (lower - result.lower_heights).sum() + (upper - result.upper_heights).sum()
-    assert result.particles["volume"].sum() == pytest.approx(lost * GRID.cell_area, rel=1e-11)
+    assert result.particles["volume"].sum() == pytest.approx(lost * GRID.cell_area, rel=1e-11, abs=0)
 
 
 @pytest.mark.parametrize("below", [(), (Layer(STIFF, 200e-9),)], ids=["one layer", "two layers"])
@@ -354,7 +354,7 @@ def test_periodic_in_both_axes_runs_and_particles_do_not_depend_on_the_origin():
     here = run_in(lower, upper, cycles=1, **arguments)
     there = run_in(np.roll(lower, 7, 0), np.roll(upper, 7, 0), cycles=1, **arguments)
     # contact is solved to 1e-6 of the roughness: volumes follow to about that
-    assert sorted(there.particles["volume"]) == pytest.approx(sorted(here.particles["volume"]), rel=1e-3)
+    assert sorted(there.particles["volume"]) == pytest.approx(sorted(here.particles["volume"]), rel=1e-3, abs=0)
 
 
 @pytest.mark.parametrize(
@@ -382,5 +382,5 @@ def test_particles_of_the_cycle_are_those_of_the_public_function():
     pressure = dry_contact(fixed)(lower + upper, None).pressure
     stack = von_mises_field(pressure, GRID, SOFT, DEPTHS, friction=0.16)
     particles = find_particles(stack, DEPTHS, GRID, yield_stress=0.64e9)
-    result = run_in(lower, upper, cycles=1, **ARGUMENTS)
-    assert sorted(p.volume for p in particles) == pytest.approx(sorted(result.particles["volume"]), rel=1e-12)
+    result = run_in(lower, upper, cycles=1, model=WearModel(criterion=NO_SKIN), **ARGUMENTS)
+    assert sorted(p.volume for p in particles) == pytest.approx(sorted(result.particles["volume"]), rel=1e-12, abs=0)
