@@ -16,10 +16,10 @@ import numpy as np
 from bem.accuracy.bars import GRID, RESIDUAL, ErrorBars, Rule
 from bem.accuracy.sharp import is_sharp
 from bem.contact import ContactSolution, solve_contact
-from bem.contact.cascade import sample
 from bem.contact.certificate import free_edges_reached
-from bem.contact.edge import plastic_region
-from bem.contact.spots import count_spots
+from bem.contact.contact_area import plastic_region
+from bem.contact.nested_iteration import sample
+from bem.contact.regions import count_spots
 from bem.convolution import DisplacementOperator
 from bem.errors import InfeasibleError, Status
 from bem.grid import FloatArray, Grid

@@ -19,7 +19,7 @@ from bem.accuracy.bars import GRID, POINTS, ErrorBars, Rule
 from bem.accuracy.contact import SPOT, surface_is_resolved
 from bem.accuracy.film import FEWEST
 from bem.accuracy.traction import DIFFERENCE, FILM_SHARE
-from bem.contact.cascade import sample
+from bem.contact.nested_iteration import sample
 from bem.errors import Status
 from bem.friction import MixedSolution
 from bem.friction.balance import BalanceStart, Regime, share_load

@@ -18,7 +18,7 @@ import numpy as np
 
 from bem.accuracy.bars import GRID, REUSE, STEPS, ErrorBars
 from bem.accuracy.mixed import half_grid
-from bem.contact.cascade import sample
+from bem.contact.nested_iteration import sample
 from bem.errors import ConvergenceError, InfeasibleError
 from bem.grid import FloatArray
 from bem.tribofilm import (

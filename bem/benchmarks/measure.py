@@ -14,6 +14,7 @@ import time
 from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
+from types import FunctionType
 from typing import Any
 
 THREAD_VARIABLES = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
@@ -162,7 +163,7 @@ def watched() -> Iterator[dict[str, float]]:
     Counters stand around the functions only here, so that a timed solve does not pay for them.
     """
     import bem.stress.sweeps
-    from bem.contact import face, gradients, long_waves, passes, preconditioner
+    from bem.contact import coarse_correction, pcg, reductions, sparse_inverse
     from bem.transforms import PaddedTransform
     from bem.wear import yielding
 
@@ -187,17 +188,16 @@ def watched() -> Iterator[dict[str, float]]:
     kinds = ("convolve", "convolve_cells", "forward", "inverse", "inverse_squared")
     targets: list[tuple[Any, str, str]] = [(PaddedTransform, name, "transforms") for name in kinds]
     targets += [
-        (module, name, "elementwise")
-        for module in (passes, gradients)
-        for name, value in vars(module).items()
-        if not name.startswith("_") and callable(value) and getattr(value, "__module__", "") == module.__name__
+        (reductions, name, "elementwise")
+        for name, value in vars(reductions).items()
+        if not name.startswith("_") and isinstance(value, FunctionType) and value.__module__ == reductions.__name__
     ]
     targets += [
-        (face, "solve_in_one_call", "rounds"),  # transforms, passes and preconditioner, compiled together
-        (preconditioner.SparseInverse, "on", "preconditioner"),
-        (preconditioner.SparseInverseOnCells, "spread", "preconditioner"),
-        (preconditioner.SparseInverseOnCells, "collect", "preconditioner"),
-        (long_waves.LongWavesOnCells, "apply", "preconditioner"),
+        (pcg, "close_gap", "rounds"),  # transforms, passes and preconditioner, compiled together
+        (sparse_inverse.SparseInverse, "on", "preconditioner"),
+        (sparse_inverse.SparseInverseOnCells, "spread", "preconditioner"),
+        (sparse_inverse.SparseInverseOnCells, "collect", "preconditioner"),
+        (coarse_correction.CoarseCorrectionOnCells, "apply", "preconditioner"),
         (bem.stress.sweeps, "_recombine", "elementwise"),
         (yielding, "segment", "pieces"),
     ]

@@ -1,9 +1,10 @@
 """Physical figures over grids and tolerances, a function for each kind: what a user reads, not a residual.
 
 Each takes cells + digits / 100, one number as every size is, and gives figures whose errors `work_precision` finds from
-the two finest grids; under `raw:` and the same name stands what cells and points have, without what `bem.contact.edge`,
-`bem.contact.peak` and `bem.numerics.subcell` add. All grids of a kind see the same surface, whose waves are cut off.
-Verified in tests/benchmarks/test_work_precision.py: all run at their smallest sizes.
+the two finest grids; under `raw:` and the same name stands what cells and points have, without what
+`bem.contact.contact_area`, `bem.contact.peak_pressure` and `bem.numerics.subcell` add. All grids of a kind see the
+same surface, whose waves are cut off. Verified in tests/benchmarks/test_work_precision.py: all run at their smallest
+sizes.
 """
 
 from __future__ import annotations

@@ -1,7 +1,7 @@
-"""What a contact is judged by: the pressure that is returned, and nothing else that the solver believes.
+"""Certificate of a contact, recomputed from the returned pressure alone.
 
-The displacement is the operator applied to that pressure; load, approach or mean gap, bounds and complementarity are
-formed anew from both. `converged` is said of that.
+The displacement is the operator applied to that pressure; load, approach or mean gap, bounds and complementarity follow
+from both. The status "converged" refers to this residual, not to what the solver reached inside.
 """
 
 from __future__ import annotations
@@ -11,11 +11,11 @@ import math
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.contact import passes
-from bem.contact.edge import Region, contact_region, plastic_region
-from bem.contact.level import LevelResult, is_flat
-from bem.contact.peak import highest_pressure
-from bem.contact.request import Request, Units
+from bem.contact import reductions
+from bem.contact.contact_area import Region, contact_region, plastic_region
+from bem.contact.grid_workspace import GridResult, is_flat
+from bem.contact.peak_pressure import highest_pressure
+from bem.contact.problem import Request, Units
 from bem.contact.solution import ContactSolution
 from bem.errors import Status
 from bem.grid import Grid
@@ -23,13 +23,14 @@ from bem.grid import Grid
 FloatArray = NDArray[np.float64]
 
 _ROUND_OFF = 1e-15
-"""Of the sum of lengths that an approach is made of: what units and datum leave of one that was asked for. Bodies that
-are flat and do not touch have no other length that it could be held against."""
+"""Round-off of an approach by the change of units, relative to the lengths that it is a sum of."""
 
 
 def elastic_length(request: Request) -> float:
-    """By how much a cell gives way under the mean pressure asked for [m]; zero where no load is. On a doubly periodic
-    grid an even pressure displaces nothing, and yet displacements are rounded as if by this."""
+    """Return the displacement of a cell under the prescribed mean pressure [m]; zero unless a load is prescribed.
+
+    On a doubly periodic grid a uniform pressure displaces nothing, but displacements are rounded on this scale.
+    """
     return 0.0 if request.load is None else request.load / request.operator.grid.area * request.operator.unit
 
 
@@ -37,22 +38,25 @@ def certify(
     request: Request,
     units: Units,
     roughness: float,
-    result: LevelResult,
+    result: GridResult,
     *,
     unmet: Status,
     iterations: int,
     convolutions_before: float,
 ) -> ContactSolution:
-    """Judge the pressure by itself, and put everything in SI units; `unmet` is the status if it does not pass."""
+    """Recompute the residual from the pressure, and convert everything to SI units.
+
+    unmet : status if the residual exceeds the tolerance.
+    """
     operator, grid = request.operator, request.operator.grid
     pressure = result.pressure.reshape(grid.shape)
     displacement = result.displacement.reshape(grid.shape)
-    if not result.fresh:
+    if not result.exact_displacement:
         operator.scaled().apply(pressure, displacement)
     approach = _approach(request, units, result)
     deformed = np.empty(grid.shape)
     depth = np.zeros(grid.shape)
-    largest, reach, force, _, capped, volume = passes.assemble(
+    largest, reach, force, _, capped, volume = reductions.assemble(
         (pressure.reshape(-1), displacement.reshape(-1), request.gap.reshape(-1)),
         (units.pressure, units.length),
         approach,
@@ -79,7 +83,7 @@ def certify(
         approach=approach,
         load=load,
         contact_area=contact.area,
-        plastic_area=min(plastic.area, contact.area),  # both are sums of all cells where all are at the cap
+        plastic_area=min(plastic.area, contact.area),  # equal up to round-off where all cells are at the cap
         counted_area=contact.counted_area,
         counted_plastic_area=plastic.counted_area,
         contact_perimeter=contact.perimeter,
@@ -93,8 +97,8 @@ def certify(
     )
 
 
-def _approach(request: Request, units: Units, result: LevelResult) -> float:
-    """In SI units; the one asked for where only these are between."""
+def _approach(request: Request, units: Units, result: GridResult) -> float:
+    """Return the approach in SI units; exactly the prescribed one where they differ by the change of units only."""
     approach = result.approach * units.length + units.datum
     asked = request.approach
     if asked is not None and abs(approach - asked) <= _ROUND_OFF * (abs(asked) + abs(units.datum)):
@@ -103,16 +107,17 @@ def _approach(request: Request, units: Units, result: LevelResult) -> float:
 
 
 _SHORT, _MANY = 0.98, 1.1
-"""Of load / cap: where the area by elastic edges is less and the cells in contact are more, spots are a cell or two
-wide and the area is not known to a tenth."""
+"""Fractions of load / cap: if the area with elastic edges is below the first and the area of cells above the second,
+spots are one or two cells wide and the area is uncertain by more than a tenth."""
 
 
 def _regions(
     request: Request, pressure: FloatArray, deformed: FloatArray, load: float, *, capped: bool
 ) -> tuple[Region, Region, tuple[str, ...]]:
-    """Return the contact, the part of it that is at the cap, and a sentence where the cells do not tell the area.
+    """Return the contact, its part at the cap, and a note where the cells do not determine the area.
 
-    capped : whether a cell is at the cap."""
+    capped : True if a cell is at the cap.
+    """
     operator, grid, cap = request.operator, request.operator.grid, request.cap
     modulus = operator.modulus_at(0.5 * math.pi / math.sqrt(grid.cell_area))
     contact = contact_region(pressure, deformed, request.gap, grid, modulus, cap=cap, compliance=operator.compliance)
@@ -144,7 +149,7 @@ def free_edges_reached(periodic: tuple[bool, bool], pressure: FloatArray) -> tup
 
 
 def _notes(grid: Grid, pressure: FloatArray) -> tuple[str, ...]:
-    """What a user should know of a contact whatever its status."""
+    """Return a note if the contact reaches a free edge of the grid."""
     reached = " and ".join("xy"[axis] for axis in free_edges_reached(grid.periodic, pressure))
     if not reached:
         return ()
@@ -154,8 +159,8 @@ def _notes(grid: Grid, pressure: FloatArray) -> tuple[str, ...]:
     )
 
 
-def _why(request: Request, units: Units, result: LevelResult, status: Status, opening: float) -> tuple[str, ...]:
-    """What there is to say of a mean gap that was not found; `opening` is the one of this contact."""
+def _why(request: Request, units: Units, result: GridResult, status: Status, opening: float) -> tuple[str, ...]:
+    """Return a note if the prescribed mean gap was not found; `opening` is the mean gap of this contact [m]."""
     if request.mean_gap is None:
         return ()
     if result.least_mean_gap is not None:

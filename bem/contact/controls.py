@@ -1,39 +1,222 @@
-"""What is prescribed: the load, the approach, or the volume of the gap. Small constraints on one algorithm.
+"""The prescribed quantity: load, approach, or mean gap. Constraints on one algorithm.
 
-All in the solver's own units: `force` is a sum of scaled pressures over cells, lengths are scaled gaps.
+Everything that depends on the kind of control is a method here: the approach of a pressure, the projection onto the
+feasible set, the restoration of the prescribed quantity, the constraint on search directions, and the transfer to
+another grid. All numbers are in the solver's units: forces are sums of scaled pressures, lengths are scaled gaps.
 """
 
 from __future__ import annotations
 
+import math
+from abc import ABC, abstractmethod
 from dataclasses import dataclass
+from typing import ClassVar
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bem.contact.bounds import Iterate, clip_to_bounds, clip_to_load, shift_to_sum, split_field
+from bem.contact.grid_workspace import GridWorkspace, InitialPressure
+
+FloatArray = NDArray[np.float64]
+
+_FEW = 0.1
+"""Cells between the bounds over cells at the cap, below which the former do not determine the approach."""
+
+_SMALLEST_FALL = 0.02
+"""Smallest fall of the mean gap with the approach (one without contact) that search directions count on."""
+
+
+class Control(ABC):
+    """Constraint on the pressure of a contact."""
+
+    zero_sum: ClassVar[bool] = False
+    """True if search directions carry no net load."""
+
+    coupled: ClassVar[bool] = False
+    """True if search directions are corrected by the pressure of a rise of the approach."""
+
+    has_energy: ClassVar[bool] = True
+    """True if the contact minimises an energy over the feasible pressures."""
+
+    leaves_uniform_pressure: ClassVar[bool] = False
+    """True if a uniform pressure, which displaces nothing where displacements have no mean, is not determined."""
+
+    @abstractmethod
+    def approach_without_contact(self, gap: FloatArray) -> float:
+        """Return the approach at zero pressure over a gap (flat, lowest value zero); infinite under a positive load."""
+
+    @abstractmethod
+    def approach(self, grid: GridWorkspace, iterate: Iterate, total: float) -> float:
+        """Return the approach of a pressure whose displacement is in the grid's buffer.
+
+        total : sum of gap + displacement over the cells between the bounds.
+        """
+
+    def potential(self, energy: float, force: float) -> float:
+        """Return the minimised energy, from the energy at approach zero and the sum of pressures."""
+        return energy
+
+    def initial_iterate(self, grid: GridWorkspace, start: InitialPressure) -> Iterate:
+        """Return a feasible first pressure."""
+        if start is None:
+            overlapping = np.flatnonzero(grid.gap < self.approach_without_contact(grid.gap))
+            return Iterate(overlapping, np.zeros(overlapping.size), overlapping[:0])
+        return start if isinstance(start, Iterate) else split_field(start, grid.cap)
+
+    def keeps_regional_load(self, *, capped: bool, mean_free: bool) -> bool:
+        """Return True if clipped load stays in its region, because no other response would restore it.
+
+        capped : True below a finite hardness. mean_free : True if displacements have no mean.
+        """
+        return capped or mean_free
+
+    def restore(self, grid: GridWorkspace, iterate: Iterate, raw: FloatArray) -> Iterate:
+        """Clip trial pressures to the bounds and restore the prescribed quantity, if the pressure determines it."""
+        return clip_to_bounds(iterate, raw, grid.cap)
+
+    def project(self, raw: FloatArray, cap: float) -> FloatArray:
+        """Return the closest feasible field."""
+        return np.clip(raw, 0.0, cap)
+
+    def rise_coefficient(self, grid: GridWorkspace, iterate: Iterate, total: float) -> float:
+        """Return the multiple of the rise pressure that is subtracted from a direction of unit sum.
+
+        The rise pressure is the preconditioner's answer to a unit rise of the approach; `total` is its sum.
+        """
+        return 0.0
+
+    def approach_change(self, response: FloatArray, grid: GridWorkspace, iterate: Iterate) -> float:
+        """Return the change of the approach by a direction.
+
+        response : displacement on the active cells; the grid's single-precision buffer has the displacement everywhere.
+        """
+        return 0.0
+
+    def on_coarser(self, gap: FloatArray, coarse_gap: FloatArray, *, force_factor: float, mean_free: bool) -> Control:
+        """Return the control on a coarser grid.
+
+        gap, coarse_gap : of both grids. force_factor : ratio of sums of pressures. mean_free : as above.
+        """
+        return self
 
 
 @dataclass(frozen=True)
-class LoadControl:
-    """Sum of pressures given; the approach is the constraint's multiplier."""
+class LoadControl(Control):
+    """Prescribed sum of pressures; the approach is its Lagrange multiplier."""
 
     force: float
 
+    zero_sum: ClassVar[bool] = True
+    coupled: ClassVar[bool] = True
+
+    def approach_without_contact(self, gap: FloatArray) -> float:
+        """Return zero without a load, infinity with a load."""
+        return 0.0 if self.force == 0 else math.inf
+
+    def approach(self, grid: GridWorkspace, iterate: Iterate, total: float) -> float:
+        """Return the mean of gap + displacement over the cells between the bounds.
+
+        Where hardly any cell is between the bounds, return the approach with the least violation of all cells.
+        """
+        if iterate.cells.size > _FEW * iterate.capped.size:
+            return total / iterate.cells.size
+        deepest, nearest = grid.separations(iterate)
+        return deepest if deepest <= nearest else 0.5 * (deepest + nearest)
+
+    def initial_iterate(self, grid: GridWorkspace, start: InitialPressure) -> Iterate:
+        """Return the start scaled to the load, or a uniform pressure."""
+        if start is not None:
+            iterate = start if isinstance(start, Iterate) else split_field(start, grid.cap)
+            if iterate.cells.size or iterate.capped.size:
+                return self.restore(grid, iterate, iterate.values)
+        cells = np.arange(grid.gap.size)
+        return Iterate(cells, np.full(cells.size, self.force / cells.size), cells[:0])
+
+    def keeps_regional_load(self, *, capped: bool, mean_free: bool) -> bool:
+        """Return True below a finite hardness; elastic load is restored over all cells."""
+        return capped
+
+    def restore(self, grid: GridWorkspace, iterate: Iterate, raw: FloatArray) -> Iterate:
+        """Clip trial pressures and restore the load."""
+        return clip_to_load(iterate, raw, grid.cap, self.force, grid.gap.size)
+
+    def project(self, raw: FloatArray, cap: float) -> FloatArray:
+        """Return the closest field within the bounds that carries the load."""
+        return shift_to_sum(raw, self.force, cap if math.isfinite(cap) else self.force)
+
+    def rise_coefficient(self, grid: GridWorkspace, iterate: Iterate, total: float) -> float:
+        """Return the coefficient that leaves no net load."""
+        return 1 / total
+
+    def approach_change(self, response: FloatArray, grid: GridWorkspace, iterate: Iterate) -> float:
+        """Return the mean response of the active cells."""
+        return float(response.mean())
+
+    def on_coarser(
+        self, gap: FloatArray, coarse_gap: FloatArray, *, force_factor: float, mean_free: bool
+    ) -> LoadControl:
+        """Scale the force, which is a sum over cells."""
+        return LoadControl(self.force * force_factor)
+
 
 @dataclass(frozen=True)
-class ApproachControl:
-    """Approach given; nothing is constrained."""
+class ApproachControl(Control):
+    """Prescribed approach; the pressure is constrained by its bounds only."""
 
-    approach: float
+    distance: float
+
+    leaves_uniform_pressure: ClassVar[bool] = True
+
+    def approach_without_contact(self, gap: FloatArray) -> float:
+        """Return the prescribed approach."""
+        return self.distance
+
+    def approach(self, grid: GridWorkspace, iterate: Iterate, total: float) -> float:
+        """Return the prescribed approach."""
+        return self.distance
+
+    def potential(self, energy: float, force: float) -> float:
+        """Return the energy less the work of the approach."""
+        return energy - self.distance * force
+
+    def on_coarser(
+        self, gap: FloatArray, coarse_gap: FloatArray, *, force_factor: float, mean_free: bool
+    ) -> ApproachControl:
+        """Keep the distance from the mean gap where displacements have no mean: full contact is reached there."""
+        return ApproachControl(self.distance + float(coarse_gap.mean() - gap.mean())) if mean_free else self
 
 
 @dataclass(frozen=True)
-class MeanGapControl:
-    """Mean of the positive part of the deformed gap given; the approach follows from it.
+class MeanGapControl(Control):
+    """Prescribed mean of the positive part of the deformed gap; the approach follows from the displacement.
 
-    Where bodies touch below the cap the gap is zero: it is the mean of gap + displacement over the cells that are not
-    at the cap, less the approach, times their share of all.
+    The gap vanishes in elastic contact. The mean gap is therefore the mean of gap + displacement less the approach over
+    the cells below the cap, times the fraction of these cells. Every cell changes the approach: there is no energy.
     """
 
     mean_gap: float
 
+    coupled: ClassVar[bool] = True
+    has_energy: ClassVar[bool] = False
 
-Control = LoadControl | ApproachControl | MeanGapControl
+    def approach_without_contact(self, gap: FloatArray) -> float:
+        """Return the approach that closes the undeformed gap to the prescribed mean."""
+        return float(gap.mean()) - self.mean_gap
+
+    def approach(self, grid: GridWorkspace, iterate: Iterate, total: float) -> float:
+        """Return the approach that gives the mean gap."""
+        opening = grid.mean_below_cap(grid.gap + grid.flat["displacement"], iterate.capped)
+        return opening - self.mean_gap * grid.gap.size / max(1, grid.gap.size - iterate.capped.size)
+
+    def rise_coefficient(self, grid: GridWorkspace, iterate: Iterate, total: float) -> float:
+        """Return the negative coefficient by which the approach follows the mean displacement."""
+        rise = grid.mean_rise(iterate)
+        return -rise / max(1 - rise * total, _SMALLEST_FALL)
+
+    def approach_change(self, response: FloatArray, grid: GridWorkspace, iterate: Iterate) -> float:
+        """Return the mean response of the cells below the cap."""
+        return grid.mean_below_cap(grid.single_field.reshape(-1), iterate.capped)
 
 
 def scaled_control(
@@ -45,9 +228,9 @@ def scaled_control(
     length: float,
     datum: float,
 ) -> Control:
-    """The one control that is given, in the solver's units: forces over `cell_force`, lengths over `length`.
+    """Return the prescribed quantity in the solver's units.
 
-    `datum` [m] is what was taken from the gap beforehand.
+    cell_force : force of a cell at unit pressure [N]. length : unit of length [m]. datum : offset of the gap [m].
     """
     if load is not None:
         return LoadControl(load / cell_force)

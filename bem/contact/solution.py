@@ -1,4 +1,4 @@
-"""The result of a contact problem."""
+"""The result of a contact problem, and the state of its cells. Verified in tests/contact/test_state.py."""
 
 from __future__ import annotations
 
@@ -26,20 +26,20 @@ class ContactSolution:
         minus `plastic_depth` where the pressure is at the hardness.
     approach : [m], of the datum of the undeformed gap.
     load : [N].
-    contact_area, plastic_area : [m^2], of second order in the cell (`bem.contact.edge`), not a count of cells.
-    counted_area, counted_plastic_area : [m^2], of the cells with pressure and of those at the hardness: of first order,
-        and the former too large.
-    contact_perimeter : length of the contact's edge [m].
-    maximum_pressure : [Pa], between the centres of cells where the pressure is smooth (`bem.contact.peak`).
+    contact_area, plastic_area : [m^2], second-order accurate in the cell size (`bem.contact.contact_area`).
+    counted_area, counted_plastic_area : [m^2], of the cells with pressure and of those at the hardness; first-order
+        accurate, the former too large.
+    contact_perimeter : length of the contact boundary [m].
+    maximum_pressure : [Pa], between the centres of cells where the pressure is smooth (`bem.contact.peak_pressure`).
     plastic_depth : [m], overlap of the bodies where the pressure is at the hardness, zero elsewhere.
-    iterations : iterations of conjugate gradients on all grids.
-    convolutions : applications of the operator on all grids, each weighed by its share of the cells.
+    iterations : CG iterations on all grids.
+    convolutions : applications of the operator on all grids, each weighted by the grid's fraction of the cells.
     residual : largest violation of the contact conditions, recomputed from `pressure` alone, over the rms roughness of
         the undeformed gap (over the largest displacement or a larger prescribed mean gap, where the gap is flat in
-        comparison); what is missed of a prescribed approach or mean gap counts as such a violation, and what is missed
-        of a prescribed load, relative to it, where that is more.
+        comparison). The error of a prescribed approach or mean gap counts as a violation; the relative error of a
+        prescribed load counts if it is larger.
     status : outcome; `residual` is at most the tolerance if it is converged.
-    notes : sentences on what this contact should not be believed in, such as one that reaches the edge of a free grid.
+    notes : warnings, such as a contact that reaches the edge of a free grid.
     """
 
     pressure: FloatArray
@@ -59,3 +59,14 @@ class ContactSolution:
     residual: float
     status: Status
     notes: tuple[str, ...] = ()
+
+
+OPEN, ELASTIC, CAPPED = 0, 1, 2
+
+
+def contact_state(pressure: FloatArray, hardness: float | None = None) -> NDArray[np.int8]:
+    """Return OPEN, ELASTIC or CAPPED for each cell (nx, ny), from its pressure [Pa] and the hardness [Pa], if any."""
+    state = (pressure > 0).view(np.int8)  # ELASTIC is one
+    if hardness is not None:
+        state[pressure >= hardness] = CAPPED
+    return state

@@ -40,7 +40,7 @@ class Site:
 
     def coarser(self, grid: Grid, contact: ContactSolution) -> Site:
         """On every second cell, whose middle lies half a cell beside that of an even number of them."""
-        from bem.contact.cascade import sample
+        from bem.contact.nested_iteration import sample
 
         gap = np.array(sample(self.gap, grid.shape, grid.periodic))
         middles = [

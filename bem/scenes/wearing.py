@@ -210,7 +210,7 @@ def on_every_second_cell(
     along y that has: half, or as many in a strip of fewer than a coarser grid needs along which nothing changes. None
     where cells are odd or too few for one, or a contact there does not converge."""
     from bem.accuracy.wear import FEWEST
-    from bem.contact.cascade import sample
+    from bem.contact.nested_iteration import sample
 
     (nx, ny), enough = grid.shape, [n % 2 == 0 and n >= FEWEST for n in grid.shape]
     strip = ny < FEWEST and all(bool((each == each[:, :1]).all()) for each in heights)

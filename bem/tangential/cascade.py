@@ -7,7 +7,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.contact.cascade import sample
+from bem.contact.nested_iteration import sample
 from bem.grid import FloatArray, Grid
 from bem.tangential.rounds import Effort, Slipped, Slipping, slip_on_grid
 

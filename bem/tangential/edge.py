@@ -2,9 +2,9 @@
 
 Next to that edge the traction falls short of friction x pressure by k sqrt(d) at a distance d inside, and surfaces
 slip by 4 k d^(3/2) / (3 E) outside: what is missing of the bound is as the pressure of a smaller contact, and the slip
-as its gap (Ciavarella, J. Mech. Phys. Solids 46 (1998); Jaeger, Arch. Appl. Mech. 68 (1998)). `bem.contact.edge`
-therefore finds one edge like the other. E is that of slip across the edge or along it (E* and E* (1 - nu) of like
-bodies).
+as its gap (Ciavarella, J. Mech. Phys. Solids 46 (1998); Jaeger, Arch. Appl. Mech. 68 (1998)).
+`bem.contact.contact_area` therefore finds one edge like the other. E is that of slip across the edge or along it (E*
+and E* (1 - nu) of like bodies).
 
 The slip is that of a step: where a history moves the edge by less than a cell in one, it is less than that law says,
 and the area is known to a part of a cell only. What rolls slips by another power and is counted.
@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from scipy.ndimage import gaussian_filter
 
 from bem.contact import ContactSolution
-from bem.contact.edge import contact_region
+from bem.contact.contact_area import contact_region
 from bem.grid import FloatArray
 from bem.kernels import layered
 from bem.tangential.operator import TangentialOperator
@@ -27,7 +27,7 @@ from bem.tangential.operator import TangentialOperator
 _SMOOTH = 1.5
 """Cells over which the edge's direction is taken."""
 _HALF_WAY = 0.602
-"""Of 3 E opening / (4 strength link): there the edge lies half-way between two centres (`bem.contact.edge`)."""
+"""Of 3 E opening / (4 strength link): there the edge lies half-way between two centres (`bem.contact.contact_area`)."""
 _WAVE = 0.5 * math.pi
 """Wavenumber times the cell's length that stands for the cell, as in the contact's certificate."""
 _TINY = 1e-12

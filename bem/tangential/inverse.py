@@ -17,9 +17,18 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.compiled import compiled
-from bem.contact.long_waves import LongWaves, LongWavesOnCells, long_waves
-from bem.contact.patterns import Patterns, pack, row_of_inverse
-from bem.contact.preconditioner import Rows, Seam, SparseInverse, SparseInverseOnCells, neighbours, sparse_inverse
+from bem.contact.coarse_correction import CoarseCorrection, CoarseCorrectionOnCells, coarse_correction
+from bem.contact.sparse_inverse import (
+    IrregularRows,
+    PackedRows,
+    Patterns,
+    SparseInverse,
+    SparseInverseOnCells,
+    neighbours,
+    pack,
+    row_of_inverse,
+    sparse_inverse,
+)
 from bem.grid import FloatArray
 from bem.tangential.along import AlongOperator
 from bem.tangential.operator import TangentialOperator
@@ -34,14 +43,14 @@ class _Kernel:
 
     unit: float
     sparse: SparseInverse
-    waves: LongWaves | None
+    waves: CoarseCorrection | None
 
     @classmethod
     def of(cls, operator: AlongOperator) -> _Kernel:
         """For this direction."""
         grid, near = operator.grid, operator.near_field(2 * math.isqrt(_SQUARED_RADIUS))
         sparse = sparse_inverse(grid.shape, grid.periodic, near, _SQUARED_RADIUS)
-        return cls(operator.unit, sparse, long_waves(operator, sparse.near))
+        return cls(operator.unit, sparse, coarse_correction(operator, sparse.near_response))
 
     def on(self, numbers: NDArray[np.int64], diagonal: FloatArray | None = None) -> _Part:
         """On cells of these flat indices, with a diagonal (n,) added to the kernel [m/Pa]."""
@@ -56,7 +65,7 @@ class _Part:
     """One direction's inverse on given cells."""
 
     near: SparseInverseOnCells
-    far: LongWavesOnCells | None
+    far: CoarseCorrectionOnCells | None
     unit: float
 
     def apply(self, values: FloatArray) -> FloatArray:
@@ -127,20 +136,26 @@ class InverseOnCells:
 
 def _with_diagonal(on: SparseInverseOnCells, patterns: Patterns, diagonal: FloatArray) -> SparseInverseOnCells:
     """The sparse inverse of the kernel with a diagonal (n,) added: rows of their own where it is not zero around."""
-    rows, seam = on.rows, on.seam
+    rows, irregular = on.rows, on.irregular
     near_field = patterns.near_field
-    table, packed = _rows_with_diagonal(rows, seam, patterns.offsets, near_field, patterns.table, diagonal)
+    table, packed = _rows_with_diagonal(rows, irregular, patterns.offsets, near_field, patterns.table, diagonal)
     own = np.arange(diagonal.size, dtype=np.int32)
     return SparseInverseOnCells(
-        Rows(rows.upper, rows.lower, own, packed), Seam(seam.cells, seam.columns, seam.cells, table), on.outside
+        PackedRows(rows.upper, rows.lower, own, packed),
+        IrregularRows(irregular.cells, irregular.columns, irregular.cells, table),
     )
 
 
 @compiled
 def _rows_with_diagonal(
-    rows: Rows, seam: Seam, offsets: Any, near_field: FloatArray, table: FloatArray, diagonal: FloatArray
+    rows: PackedRows,
+    irregular: IrregularRows,
+    offsets: Any,
+    near_field: FloatArray,
+    table: FloatArray,
+    diagonal: FloatArray,
 ) -> tuple[FloatArray, FloatArray]:
-    """Rows (n, m + 1) of G, one for each cell, as `bem.contact.patterns` makes those of a pattern; and packed."""
+    """Rows (n, m + 1) of G, one for each cell, as `bem.contact.sparse_inverse` makes those of a pattern; and packed."""
     n, m = diagonal.size, offsets.shape[0]
     middle = near_field.shape[0] // 2
     out, packed = np.zeros((n, m + 1)), np.zeros((n, rows.table.shape[1]))
@@ -151,9 +166,9 @@ def _rows_with_diagonal(
     listed = 0
     for k in range(n):
         bits = rows.pattern[k] & (table.shape[0] - 1)
-        apart = listed < seam.cells.size and seam.cells[listed] == k
+        apart = listed < irregular.cells.size and irregular.cells[listed] == k
         if apart:
-            columns[:] = seam.columns[listed]
+            columns[:] = irregular.columns[listed]
             listed += 1
         else:
             neighbours(rows, k, columns)

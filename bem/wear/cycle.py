@@ -14,7 +14,7 @@ import numpy as np
 
 from bem.arguments import named
 from bem.contact import ContactSolution, solve_contact
-from bem.contact.edge import rows_in_contact
+from bem.contact.contact_area import rows_in_contact
 from bem.convolution import DisplacementOperator, displacement_operator
 from bem.errors import InputError, Status
 from bem.grid import FloatArray, Grid

@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.compiled import compiled
-from bem.contact.spots import label_spots
+from bem.contact.regions import label_spots
 from bem.grid import FloatArray, Grid
 from bem.wear.loads import BodyCycle, Removal
 from bem.wear.segmentation import Segmentation

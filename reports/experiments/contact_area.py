@@ -1,5 +1,5 @@
 """Contact area of rough surfaces from few cells: counted, with the correction by the perimeter, and by the edge inside
-cells, against the finest grid; fits what narrow contact and narrow gaps add (`bem.contact.edge`) anew.
+cells, against the finest grid; fits what narrow contact and narrow gaps add (`bem.contact.contact_area`) anew.
 
     python -m reports.experiments.contact_area
 
@@ -23,7 +23,7 @@ from typing import Any
 import numpy as np
 
 from bem import Body, Grid, Material, displacement_operator, generate_surface, solve_contact
-from bem.contact.edge import contact_region
+from bem.contact.contact_area import contact_region
 from bem.grid import FloatArray
 
 RESULT = Path(__file__).resolve().parents[1] / "results" / "contact_area.json"

@@ -3,11 +3,12 @@
     python -m reports.experiments.preconditioned_spectrum
 
 Half a minute. On the cells that touch of rough surfaces as those of `contact_convolutions`, kernel and approximate
-inverse (`bem.contact.inverse`) are written out as dense matrices. If their product has eigenvalues between a and b,
-conjugate gradients take (sqrt(b/a) + 1)/(sqrt(b/a) - 1) off the error with each convolution, steps of one length
-(b + a)/(b - a): digits asked for over digits a convolution are the convolutions on the finest grid, whatever the search
-for what touches does. The lowest eigenvalue of a periodic kernel belongs to a pressure that is the same everywhere,
-which a given load leaves alone: it is left out. The result is stored in `reports/results/preconditioned_spectrum.json`.
+inverse (`bem.contact.coarse_correction`) are written out as dense matrices. If their product has eigenvalues between
+a and b, conjugate gradients take (sqrt(b/a) + 1)/(sqrt(b/a) - 1) off the error with each convolution, steps of one
+length (b + a)/(b - a): digits asked for over digits a convolution are the convolutions on the finest grid, whatever
+the search for what touches does. The lowest eigenvalue of a periodic kernel belongs to a pressure that is the same
+everywhere, which a given load leaves alone: it is left out. The result is stored in
+`reports/results/preconditioned_spectrum.json`.
 """
 
 from __future__ import annotations
@@ -19,7 +20,7 @@ import numpy as np
 import scipy.linalg
 
 from bem import solve_contact
-from bem.contact.level import Level, Tuning
+from bem.contact.grid_workspace import GridWorkspace, SolverParameters
 from reports.experiments.contact_convolutions import SLOPE, heights, operator
 from reports.experiments.kept import keep, result_of, rounded
 
@@ -32,7 +33,7 @@ def row(kind: str, cells: int, share: float) -> dict[str, Any]:
     applied, gap = operator(cells, kind), -heights(cells, 0)
     contact = solve_contact(gap, applied, load=0.5 * share * SLOPE)
     touching = np.flatnonzero(contact.pressure.reshape(-1) > 0)
-    level = Level(applied, gap.reshape(-1) - gap.min(), math.inf, Tuning())
+    level = GridWorkspace(applied, gap.reshape(-1) - gap.min(), math.inf, SolverParameters())
     inverse, out = level.preconditioner(touching), np.empty(touching.size)
     rows = np.empty((touching.size, touching.size))
     for number in range(touching.size):

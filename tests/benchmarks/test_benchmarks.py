@@ -90,15 +90,15 @@ def test_hierarchical_equations_give_the_dense_film_for_less_work():
 
 
 def test_counters_leave_no_trace():
-    from bem.contact import passes
+    from bem.contact import reductions
     from bem.transforms import PaddedTransform
 
-    before = PaddedTransform.convolve, passes.moments
+    before = PaddedTransform.convolve, reductions.moments
     with watched():
         assert PaddedTransform.convolve is not before[0]
     with pytest.raises(ZeroDivisionError), watched():
         _ = 1 / 0
-    assert (PaddedTransform.convolve, passes.moments) == before
+    assert (PaddedTransform.convolve, reductions.moments) == before
 
 
 def test_a_point_in_a_process_of_its_own_and_a_failure_that_says_why():

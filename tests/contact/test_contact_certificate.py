@@ -9,8 +9,8 @@ from contact_oracles import FREE, HALF_X, HALF_Y, PERIODIC, body, operator, roug
 
 from bem import Body, Grid, Layer, Material, Status, displacement_operator, solve_contact
 from bem.contact.certificate import certify
-from bem.contact.level import LevelResult
-from bem.contact.request import Request, Units
+from bem.contact.grid_workspace import GridResult
+from bem.contact.problem import Request, Units
 from bem.convolution import DisplacementOperator
 from bem.plausibility import without_argument_notes
 
@@ -124,7 +124,7 @@ def judged(pressure, *, displacement=0.0, at=-1.0, cap=math.inf, fresh=True, **a
     request = Request(
         gap, op, cap=cap / op.unit, tolerance=1e-6, **({"load": None, "approach": None, "mean_gap": None} | asked)
     )
-    level = LevelResult(np.full(24, pressure), np.full(24, displacement), at, 0.0, True, fresh)
+    level = GridResult(np.full(24, pressure), np.full(24, displacement), at, 0.0, True, fresh)
     return certify(
         request,
         Units(1.0, 1 / op.unit, 0.0),

@@ -7,8 +7,7 @@ from random_surfaces import self_affine
 
 from bem import Body, Grid, Layer, Material, displacement_operator, generate_surface
 from bem.contact import solve_contact
-from bem.contact.feasible import lift
-from bem.contact.level import Iterate, Level, Tuning
+from bem.contact.bounds import Iterate, shift_full_contact
 
 
 def random_problem(seed):
@@ -142,15 +141,14 @@ def test_approach_of_a_step_near_full_contact(shape, low, rounding):
 @pytest.mark.parametrize("shift", [-0.1, 0.1])
 def test_full_contact_is_moved_to_a_bound_once(shift):
     """Uniformly, which no displacement answers; there the cells that are at a bound are the ones out of contact."""
-    level = Level(operator((4, 5), (1.0, 1.0), PERIODIC), np.zeros(20), 2.0, Tuning())
     values = np.random.default_rng(1).uniform(0.1, 1.9, 20)
     full = Iterate(np.arange(20), values, np.empty(0, np.int64))
-    moved = lift(level, full, shift)
+    moved = shift_full_contact(full, shift, 2.0)
     assert moved.cells.size == 19
     assert moved.capped.size == (shift < 0)
     np.testing.assert_allclose(np.ptp(moved.values - values[moved.cells]), 0.0, atol=1e-15)
     values[3] = 0.0 if shift > 0 else 2.0
-    assert lift(level, full, shift) is None
+    assert shift_full_contact(full, shift, 2.0) is None
 
 
 @pytest.mark.parametrize("seed", [0, 2])

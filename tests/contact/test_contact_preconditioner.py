@@ -1,11 +1,10 @@
-"""The approximate inverse on the cells in contact: exact where it can be, symmetric, positive, blind to the threads."""
+"""The approximate inverse on the cells in contact: well conditioned, symmetric, positive."""
 
 import numpy as np
 import pytest
 from contact_oracles import FREE, HALF_Y, PERIODIC, displacement, notes_surface, operator
 
-from bem.contact import passes
-from bem.contact.level import Level, Tuning
+from bem.contact.grid_workspace import GridWorkspace, SolverParameters
 
 pytestmark = pytest.mark.internal
 
@@ -14,7 +13,7 @@ N = 96
 
 def level(periodic, n=N):
     op = operator((n, n), (1 / n, 1 / n), periodic)
-    return op, Level(op, np.zeros(n * n), np.inf, Tuning())
+    return op, GridWorkspace(op, np.zeros(n * n), np.inf, SolverParameters())
 
 
 def apply(inverse, values):
@@ -67,20 +66,9 @@ def test_positive_definite_and_nearly_symmetric(share):
             assert abs((v * images[j]).sum() - (vectors[j] * images[i]).sum()) <= 0.1 * size
 
 
-def test_blocks_do_not_change_it(monkeypatch):
-    rng = np.random.default_rng(2)
-    cells = np.sort(rng.permutation(N * N)[:3000])
-    values = rng.standard_normal(cells.size)
-    whole = apply(level(PERIODIC)[1].preconditioner(cells), values)
-    monkeypatch.setattr(passes, "BLOCK", 101)
-    parts = apply(level(PERIODIC)[1].preconditioner(cells), values)
-    # the transforms in it are in single precision
-    assert np.abs(parts - whole).max() <= 1e-5 * np.abs(whole).max()
-
-
 def test_grids_too_small_for_a_coarser_one_do_without():
     _, grid_level = level(FREE, 12)
     cells = np.arange(40)
     inverse = grid_level.preconditioner(cells)
-    assert grid_level.smooth is None
+    assert grid_level.coarse is None
     assert (apply(inverse, np.ones(40)) > 0).any()

@@ -14,7 +14,8 @@ import pytest
 from contact_oracles import FREE, HALF_Y, PERIODIC, body, notes_surface, operator, rough
 
 from bem import threads
-from bem.contact import cascade, face, feasible, passes, request, solve_contact
+from bem.contact import bounds, nested_iteration, pcg, reductions, solve_contact
+from bem.contact import problem as contact_problem
 from bem.convolution import displacement_operator
 from bem.errors import InfeasibleError, InputError, Status
 from bem.grid import Grid
@@ -211,7 +212,7 @@ def test_fields_fit_together(problem):
 @pytest.mark.internal
 @pytest.mark.parametrize("periodic", [FREE, PERIODIC])
 def test_threads_leave_the_pressure_alone(monkeypatch, periodic):
-    monkeypatch.setattr(passes, "BLOCK", 1000)  # many blocks on a small grid
+    monkeypatch.setattr(reductions, "BLOCK", 1000)  # many blocks on a small grid
     gap = -notes_surface(128)
     op = operator((128, 128), (1 / 128, 1 / 128), periodic)
     before = threads.get_threads()
@@ -231,7 +232,7 @@ def test_blocks_change_nothing_but_round_off(monkeypatch):
     gap = -notes_surface(128)
     op = operator((128, 128), (1 / 128, 1 / 128), PERIODIC)
     whole = solve_contact(gap, op, load=3e-3)
-    monkeypatch.setattr(passes, "BLOCK", 77)
+    monkeypatch.setattr(reductions, "BLOCK", 77)
     parts = solve_contact(gap, op, load=3e-3)
     assert parts.convolutions == pytest.approx(whole.convolutions, rel=0.1)
     assert np.abs(parts.pressure - whole.pressure).max() <= 1e-5 * whole.pressure.max()  # both certified to 1e-8
@@ -378,7 +379,7 @@ def test_a_first_step_without_a_convolution_saves_them_and_leaves_the_answer(mon
     gap = -notes_surface(128)
     op = operator((128, 128), (1 / 128, 1 / 128), PERIODIC)
     quick = solve_contact(gap, op, load=0.0035)
-    monkeypatch.setattr(face, "LEFT", np.inf)  # as if clipping never undid enough
+    monkeypatch.setattr(pcg, "LEFT", np.inf)  # as if clipping never undid enough
     plain = solve_contact(gap, op, load=0.0035)
     assert quick.convolutions < plain.convolutions
     assert np.abs(quick.pressure - plain.pressure).max() <= 1e-5 * plain.pressure.max()  # both certified to 1e-8
@@ -391,11 +392,11 @@ def test_regions_that_keep_their_load_save_convolutions_and_leave_the_answer(mon
     op = operator((256, 256), (1 / 256, 1 / 256), FREE)
     assert solve_contact(gap, op, load=0.022).convolutions <= 16  # 14.1, without a cap neighbours make up for it
     kept = solve_contact(gap, op, load=0.022, hardness=0.05)
-    monkeypatch.setattr(feasible, "_REGION", 256)  # one region: the load of all is restored anyway
-    monkeypatch.setattr(cascade, "_REGION", 256)
-    cascade._regions.cache_clear()
+    monkeypatch.setattr(bounds, "REGION", 256)  # one region: the load of all is restored anyway
+    monkeypatch.setattr(nested_iteration, "_REGION", 256)
+    nested_iteration._regions.cache_clear()
     moved = solve_contact(gap, op, load=0.022, hardness=0.05)
-    cascade._regions.cache_clear()
+    nested_iteration._regions.cache_clear()
     assert kept.convolutions <= 18  # 15.6 and 28.6 counted
     assert kept.convolutions < 0.7 * moved.convolutions
     assert np.abs(kept.pressure - moved.pressure).max() <= 1e-5 * moved.pressure.max()  # both certified to 1e-8
@@ -408,8 +409,8 @@ def test_a_large_gap_that_touches_zero_is_not_copied(monkeypatch):
     gap -= gap.min()
     before, op = gap.copy(), operator((128, 128), (1 / 128, 1 / 128), PERIODIC)
     copied = solve_contact(gap, op, load=0.0035)
-    monkeypatch.setattr(request, "LARGE", 1)
-    monkeypatch.delattr(passes, "rescale")
+    monkeypatch.setattr(contact_problem, "LARGE", 1)
+    monkeypatch.delattr(reductions, "rescale")
     taken = solve_contact(gap, op, load=0.0035)
     assert taken.status is copied.status is Status.CONVERGED
     np.testing.assert_array_equal(gap, before)

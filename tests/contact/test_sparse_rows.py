@@ -5,10 +5,7 @@ from concurrent.futures import ThreadPoolExecutor
 import numpy as np
 import pytest
 
-from bem.contact import passes
-from bem.contact.patterns import ENTRIES, Patterns, stencil
-from bem.contact.preconditioner import neighbours, sparse_inverse
-from bem.threads import get_threads, set_threads
+from bem.contact.sparse_inverse import ENTRIES, Patterns, neighbours, sparse_inverse, stencil
 
 pytestmark = pytest.mark.internal
 
@@ -49,14 +46,13 @@ def dense(shape, periodic, cells, kernel, offsets):
 
 @pytest.mark.parametrize("periodic", [FREE, HALF_X, HALF_Y, PERIODIC])
 @pytest.mark.parametrize(
-    ("shape", "squared_radius", "block"),
+    ("shape", "squared_radius"),
     [
-        *(((19, 23), 5, passes.BLOCK), ((12, 5), 5, 7), ((5, 40), 5, 33), ((4, 17), 5, 7), ((21, 3), 5, 33)),
-        *(((1, 30), 5, 7), ((30, 1), 5, passes.BLOCK), ((15, 16), 2, 33), ((9, 14), 8, 7)),
+        *(((19, 23), 5), ((12, 5), 5), ((5, 40), 5), ((4, 17), 5), ((21, 3), 5)),
+        *(((1, 30), 5), ((30, 1), 5), ((15, 16), 2), ((9, 14), 8)),
     ],
 )
-def test_products_with_the_rows(shape, squared_radius, periodic, block, monkeypatch):
-    monkeypatch.setattr(passes, "BLOCK", block)
+def test_products_with_the_rows(shape, squared_radius, periodic):
     kernel = near_field(squared_radius)
     inverse = sparse_inverse(shape, periodic, kernel, squared_radius)
     rng = np.random.default_rng(7)
@@ -84,34 +80,15 @@ def test_few_rows_are_of_the_seam_and_the_rest_know_their_neighbours(periodic):
     x, y = np.divmod(cells, 50)
     ends = (np.arange(900) < 2) | (np.arange(900) >= 896)
     across = (x < 2) | (y < 2) | (y >= 48) if periodic == PERIODIC else np.zeros(900, bool)
-    assert on.seam.cells.tolist() == np.flatnonzero(ends | across).tolist()
+    assert on.irregular.cells.tolist() == np.flatnonzero(ends | across).tolist()
     found = np.empty(10, np.int64)
     offsets = [tuple(way) for way in stencil(5)]
-    for k in np.setdiff1d(np.arange(900), on.seam.cells):
+    for k in np.setdiff1d(np.arange(900), on.irregular.cells):
         neighbours(on.rows, int(k), found)
         there = neighbours_of(cells[k], shape, periodic, cells, inverse.patterns.offsets)
         assert on.rows.pattern[k] == sum(1 << offsets.index(way) for way, _ in there)
         for way, number in there:
             assert found[offsets.index(way)] == number
-
-
-def test_threads_do_not_change_the_products(monkeypatch):
-    monkeypatch.setattr(passes, "BLOCK", 500)
-    rng = np.random.default_rng(5)
-    cells = np.sort(rng.permutation(120 * 90)[:6000])
-    values, results = rng.standard_normal(6000), []
-    before = get_threads()
-    try:
-        for threads in (1, 2, 2):
-            set_threads(threads)
-            on = sparse_inverse((120, 90), PERIODIC, near_field(5)).on(cells)
-            spread, collected = np.empty((2, 6000))
-            on.spread(values, spread)
-            results.append(np.array([on.collect(values, collected), *spread, *collected]))
-    finally:
-        set_threads(before)
-    for other in results[1:]:
-        np.testing.assert_allclose(other, results[0], rtol=0, atol=1e-11)  # sums of 6000 numbers in another order
 
 
 def test_contacts_side_by_side_share_patterns_that_are_whole():

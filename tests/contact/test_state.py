@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bem.contact.state import contact_state
+from bem.contact.solution import contact_state
 
 pytestmark = pytest.mark.internal
 

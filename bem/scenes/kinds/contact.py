@@ -122,7 +122,7 @@ class ContactRecord(GridRecord):
 def run(scene: ContactScene, context: Context) -> ContactRecord:
     """Solve the contact and, where asked for, the stresses below it."""
     from bem.accuracy import counted_figures, figures_of
-    from bem.contact.state import contact_state
+    from bem.contact.solution import contact_state
 
     grid = build.grid_of(scene.grid)
     lower, upper = build.both_heights(scene, grid, context)

@@ -1,31 +1,36 @@
-"""What is asked of a contact: checked, refused where nothing can carry it, and put in the solver's units."""
+"""The contact problem: checked arguments in SI units, the solver's units, and the problem on one grid."""
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bem.arguments import is_finite, is_positive
+from bem.contact.active_set import Report, solve_active_set
 from bem.contact.controls import Control, scaled_control
+from bem.contact.grid_workspace import GridResult, InitialPressure, IterationBudget, SolverParameters, Tolerance
 from bem.convolution import DisplacementOperator
 from bem.errors import InfeasibleError, InputError
 
 FloatArray = NDArray[np.float64]
 
-
 LARGE = 1 << 22
-"""Cells from which on a gap is not copied where that can be helped."""
+"""Cells from which on copying the gap is avoided where possible."""
 
 _FAR = 1e-15
-"""Lengths [m] below this, or above its inverse, get near to what single precision can hold beside their errors."""
+"""Lengths [m] below this, or above its inverse, approach the range of single precision."""
 
 
 @dataclass(frozen=True)
 class Request:
-    """What was asked for, in SI units: gap (nx, ny), one of three quantities, the cap (infinite for none)."""
+    """Checked arguments of `solve_contact` in SI units.
+
+    gap : (nx, ny) [m]. load [N], approach [m], mean_gap [m] : exactly one is not None. cap : highest pressure [Pa], may
+    be infinite. tolerance : of the residual.
+    """
 
     gap: FloatArray
     operator: DisplacementOperator
@@ -37,11 +42,13 @@ class Request:
 
     @property
     def controls(self) -> dict[str, float | None]:
-        """The three quantities by name."""
+        """Return the three quantities by name."""
         return {"load": self.load, "approach": self.approach, "mean_gap": self.mean_gap}
 
     def refuse_infeasible(self, mean: float, slack: float) -> None:
-        """Refuse what no pressure can do; `mean` is that of the gap.
+        """Refuse a request that no pressure can meet.
+
+        mean : of the gap [m]. slack : of the approach [m].
 
         Raises
         ------
@@ -73,20 +80,67 @@ class Units:
 
     @classmethod
     def of(cls, request: Request, roughness: float, datum: float) -> Units:
-        """A power of two [m] near the roughness, or near the displacement to come where the gap is flat; one where a
-        large gap is zero at its lowest, so that it need not be copied: the same but for round-off."""
+        """Choose a power of two [m] near the roughness, or near the expected displacement of a flat gap.
+
+        The unit is one for a large gap with lowest value zero, which then need not be copied.
+        """
         length = _length_unit(request, roughness, datum)
         if request.gap.size >= LARGE and datum == 0.0 and _FAR < length < 1 / _FAR:
             length = 1.0
         return cls(length, length / request.operator.unit, datum)
 
     def control(self, request: Request) -> Control:
-        """What is given, in these units."""
+        """Return the prescribed quantity in these units."""
         return scaled_control(
             **request.controls,
             cell_force=self.pressure * request.operator.grid.cell_area,
             length=self.length,
             datum=self.datum,
+        )
+
+
+@dataclass(frozen=True)
+class Settings:
+    """Settings that all grids of one problem share.
+
+    tolerance, roughness : in the solver's length. of_first : as in `Tolerance`, on coarse grids.
+    """
+
+    tolerance: float
+    roughness: float
+    budget: IterationBudget
+    parameters: SolverParameters = field(default_factory=SolverParameters)
+    of_first: float = math.inf
+
+    @property
+    def scale(self) -> float:
+        """Return the roughness, or one where the gap is flat."""
+        return self.roughness or 1.0
+
+    def allowed(self, tolerance: float) -> Tolerance:
+        """Return the tolerance of the violation; relative to the displacement where the gap is flat."""
+        if not self.roughness > 0:
+            return Tolerance(math.inf, tolerance)
+        return Tolerance(tolerance, tolerance / self.roughness, self.of_first, self.tolerance)
+
+
+@dataclass(frozen=True)
+class GridProblem:
+    """The problem on one grid: operator, gap (flat, lowest value zero) and cap."""
+
+    settings: Settings
+    operator: DisplacementOperator
+    gap: FloatArray
+    cap: float
+    report: Report | None = None
+
+    def solve(
+        self, control: Control, start: InitialPressure, allowed: Tolerance, parameters: SolverParameters
+    ) -> GridResult:
+        """Solve by the active set, without fallbacks."""
+        budget = self.settings.budget
+        return solve_active_set(
+            self.operator, self.gap, control, self.cap, start, allowed, budget, parameters, self.report
         )
 
 
@@ -114,7 +168,7 @@ def checked_request(
     initial_pressure: FloatArray | None,
     max_iterations: int,
 ) -> Request:
-    """The arguments of `solve_contact` as a request.
+    """Check the arguments of `solve_contact`.
 
     Raises
     ------
@@ -149,7 +203,7 @@ def checked_request(
 def _checked_fields(
     gap: FloatArray, initial_pressure: FloatArray | None, operator: DisplacementOperator, messages: list[str]
 ) -> FloatArray:
-    """The gap as an array of floats; adds what is wrong with either field to the messages."""
+    """Return the gap as an array of floats; append the mistakes of both fields to the messages."""
     checked = gap
     try:
         checked = operator.grid.check_field(gap, "solve_contact: gap")

@@ -1,14 +1,14 @@
 """Area and perimeter of contact against closed forms and finer grids: order and constant."""
 
-import edge_oracle
+import boundary_oracle
 import numpy as np
 import pytest
 from test_contact_closed_forms import order
 
 from bem import Body, Grid, Layer, Material, displacement_operator, generate_surface, solve_contact
-from bem.contact import crossings, edge
-from bem.contact.edge import contact_region
-from bem.contact.spots import count_spots
+from bem.contact import contact_area, contact_boundary
+from bem.contact.contact_area import contact_region
+from bem.contact.regions import count_spots
 from bem.reference_solutions.hertz import sphere_contact
 from bem.threads import set_threads
 from reports.experiments.contact_error_bars import waves_through
@@ -30,7 +30,7 @@ def ball(radius_in_cells, seed, stretch=1):
 
 def summed(field, spacing, wraps, law):
     """The sums over the squares of a field."""
-    return crossings.sum_squares(crossings.cross_links(field, spacing, wraps, law), spacing, wraps)
+    return contact_boundary.sum_squares(contact_boundary.cross_links(field, spacing, wraps, law), spacing, wraps)
 
 
 def waves(cells, seed, cutoff=24, slope=0.1):
@@ -288,17 +288,17 @@ def test_the_edge_is_what_single_links_and_squares_make(wraps, shape, hardness, 
         inside[: shape[0] // 3] = False  # long gaps, and lines all alike
         strength = np.where(inside, rng.random(shape), 0.0)
         opening = (-1 if hardness > 0 else 1) * np.where(inside, 0.0, rng.random(shape))
-        field = crossings.Field(inside.view(np.uint8), strength, opening, 0.3 * rng.normal(size=shape).cumsum(0))
-        law = crossings.Law(0.75, hardness, edge._CELLS, (0.06, 0.42))
+        field = contact_boundary.Field(inside.view(np.uint8), strength, opening, 0.3 * rng.normal(size=shape).cumsum(0))
+        law = contact_boundary.Law(0.75, hardness, contact_area._CELLS, (0.06, 0.42))
         found = [summed(field, (0.7, 1.1), wraps, law)]
-        monkeypatch.setattr(crossings.passes, "BLOCK", 5 * shape[1])
+        monkeypatch.setattr(contact_boundary.reductions, "BLOCK", 5 * shape[1])
         set_threads(2)
         found.append(summed(field, (0.7, 1.1), wraps, law))
         set_threads(1)
         monkeypatch.undo()
         assert found[0] == found[1]
-        blurred = crossings.blur(field.inside, *wraps)
-        plain = edge_oracle.sum_squares((*field, blurred), (0.7, 1.1), wraps, (0.75, hardness), *law[2:4])
+        blurred = contact_boundary.blur(field.inside, *wraps)
+        plain = boundary_oracle.sum_squares((*field, blurred), (0.7, 1.1), wraps, (0.75, hardness), *law[2:4])
         # lengths of chords are rounded otherwise than by math.hypot
         np.testing.assert_allclose(found[0], plain, rtol=1e-13, atol=1e-13 * inside.size)
 
@@ -330,7 +330,7 @@ def test_a_square_has_what_its_polygon_bounds(code):
     centres = tuple(code >> k & 1 for k in range(4))
     number = sum(centres)
     for sides in np.random.default_rng(code).uniform(-0.3, 1.3, (20, 4)):
-        share, u, v, turn = crossings._polygon(centres, number, tuple(sides))
+        share, u, v, turn = contact_boundary._polygon(centres, number, tuple(sides))
         polygon, crossed = walked(centres, sides)
         if sum(crossed) == 4:
             # joined it is all of the polygon; parted it is what the other centres, joined, leave
@@ -352,8 +352,8 @@ def test_a_chord_counts_by_what_it_runs_along_the_edge(turned):
     """The normal points into the region, on the left of the way: (0, 1) where the edge runs along x."""
     u, v = 0.6 * np.cos(turned), 0.6 * np.sin(turned)
     along = np.cos(turned)
-    assert crossings._chord(u, v, 0.0, 3.0) == pytest.approx(np.sign(along) * 0.6 * min(1, 1.5 * abs(along)))
-    assert crossings._chord(u, v, 0.0, 0.0) == pytest.approx(0.6)
+    assert contact_boundary._chord(u, v, 0.0, 3.0) == pytest.approx(np.sign(along) * 0.6 * min(1, 1.5 * abs(along)))
+    assert contact_boundary._chord(u, v, 0.0, 0.0) == pytest.approx(0.6)
 
 
 @pytest.mark.internal
@@ -361,7 +361,7 @@ def test_a_chord_counts_by_what_it_runs_along_the_edge(turned):
 def test_like_cells_are_counted_from_link_to_link(wraps):
     inside = (np.random.default_rng(7).random((25, 19)) < 0.6).astype(np.uint8)
     inside[:, 0], inside[:, 1], inside[3], inside[17:, 4] = 1, 0, 1, 1
-    links, _, starts = crossings._find_links(inside, *wraps)
+    links, _, starts = contact_boundary._find_links(inside, *wraps)
     for axis, (places, runs) in enumerate(links):
         found = {}
         for i in range(25):
@@ -369,8 +369,8 @@ def test_like_cells_are_counted_from_link_to_link(wraps):
                 found[i, int(places[link])] = tuple(runs[link])
         expected = {}
         for (i, j), like in np.ndenumerate(inside):
-            k, m = edge_oracle.neighbour(inside.shape, i, j, axis, 1, wraps)
+            k, m = boundary_oracle.neighbour(inside.shape, i, j, axis, 1, wraps)
             if inside[k, m] != like:
-                behind = edge_oracle.count_like(inside, i, j, axis, -1, wraps[axis])
-                expected[i, j] = behind, edge_oracle.count_like(inside, k, m, axis, 1, wraps[axis])
+                behind = boundary_oracle.count_like(inside, i, j, axis, -1, wraps[axis])
+                expected[i, j] = behind, boundary_oracle.count_like(inside, k, m, axis, 1, wraps[axis])
         assert found == expected

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bem import Grid, generate_surface
-from bem.contact.spots import count_spots, label_spots
+from bem.contact.regions import count_spots, label_spots
 
 pytestmark = pytest.mark.internal
 

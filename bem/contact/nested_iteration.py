@@ -1,14 +1,18 @@
-"""From coarse grids to fine ones: sampling the gap, and interpolating a pressure so that its contact area is right.
+"""Nested iteration: the solution on a coarser grid, interpolated, starts each grid; the coarsest has 32 cells.
 
 The square of the pressure falls linearly to zero at the edge of a contact, and the gap outside grows like the distance
-to the power 3/2: phi = p^2 inside and -c gap^(2/3) outside is smooth across the edge, and is what is interpolated.
+to the power 3/2. The interpolated function is therefore phi = p^2 inside and -c gap^(2/3) outside, which is smooth
+across the edge. The interpolation changes the load of each region by its edges; load errors between regions excite
+long-wavelength displacement errors, so each region of 8 x 8 coarse cells keeps its coarse-grid load.
 
-That gives a region more load or less, by its edges, and of load moved across the surface the bodies make long waves:
-each region then gets the load that it has on the coarser grid.
+Coarse grids are solved until a tenth of their first violation is left, which is what the interpolation to them cost.
+Verified in tests/contact/test_nested_iteration.py.
 """
 
 from __future__ import annotations
 
+import math
+from dataclasses import replace
 from functools import lru_cache
 from typing import NamedTuple
 
@@ -16,22 +20,68 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.compiled import compiled
-from bem.contact import passes
+from bem.contact import reductions
+from bem.contact.bounds import split_cells
+from bem.contact.controls import Control
+from bem.contact.fallbacks import COARSE_TOLERANCE, Start, solve_on_grid, without_contact
+from bem.contact.problem import GridProblem
 from bem.threads import share
 
 FloatArray = NDArray[np.float64]
 Table = tuple[NDArray[np.int64], FloatArray]
 
 _REGION = 8
-"""Coarse cells along a region that keeps its load. Rough free contacts of 512 cells with a third in contact took 17.9
-convolutions without, 14.0 with regions of 4 cells, 13.6 with 8, 15.2 with 16."""
+"""Coarse cells along the side of a region that keeps its load."""
 
-_MOST = 0.5
-"""Of its pressure between the bounds: the most that a region gets or gives."""
+_LARGEST_CHANGE = 0.5
+"""Largest relative change of the pressures of a region."""
+
+_COARSEST = 32
+"""Cells along the longer side up to which a grid starts without a coarser one; smaller grids save nothing."""
+
+OF_FIRST = 0.1
+"""Fraction of the first violation that coarse grids are solved to. On large grids both that violation and the next
+grid's first one are far below `COARSE_TOLERANCE`, because most of the roughness has long wavelengths."""
+
+
+def start_from_coarser(problem: GridProblem, control: Control) -> Start:
+    """Return the initial pressure interpolated from the next coarser grid, which is started in the same way."""
+    nothing = Start(None, -math.inf)
+    operator, settings = problem.operator, problem.settings
+    coarse = operator.coarsened()
+    if coarse is None or coarse.grid.cells == operator.grid.cells:
+        return nothing
+    shape, periodic = coarse.grid.shape, operator.grid.periodic
+    # the units of the kernels may differ by a power of two
+    factor = coarse.unit / operator.unit
+    gap = sample(problem.gap.reshape(operator.grid.shape), shape, periodic)
+    coarser = GridProblem(replace(settings, of_first=OF_FIRST), coarse, gap.reshape(-1), problem.cap * factor)
+    prescribed = control.on_coarser(
+        problem.gap,
+        coarser.gap,
+        force_factor=factor * operator.grid.cell_area / coarse.grid.cell_area,
+        mean_free=operator.mean_free,
+    )
+    if without_contact(prescribed, coarser.gap) is not None:
+        return nothing
+    start = start_from_coarser(coarser, prescribed) if max(shape) > _COARSEST else nothing
+    tolerance = max(settings.tolerance, COARSE_TOLERANCE * settings.scale)
+    result = solve_on_grid(coarser, prescribed, start, tolerance)
+    cells, pressure = prolong(
+        result.pressure.reshape(shape),
+        result.displacement.reshape(shape),
+        gap,
+        result.approach,
+        coarser.cap,
+        operator.grid.shape,
+        periodic,
+    )
+    pressure /= factor
+    return Start(split_cells(cells, pressure, problem.cap), result.approach)
 
 
 def _spacing(cells: int, onto: int, periodic: bool) -> float:
-    """Of `onto` points in that of `cells`, on the same axis."""
+    """Return the spacing of `onto` points in that of `cells` points, on the same axis."""
     if periodic:
         return cells / onto
     return 0.5 if onto > cells else 2.0 if onto < cells else 1.0
@@ -39,7 +89,7 @@ def _spacing(cells: int, onto: int, periodic: bool) -> float:
 
 @lru_cache(maxsize=64)
 def interpolation(cells: int, onto: int, periodic: bool) -> Table:
-    """Cubic interpolation along an axis, from `cells` points to `onto`: four indices and weights for each.
+    """Return four indices and weights (onto, 4) of cubic interpolation from `cells` to `onto` points along an axis.
 
     Periodic axes have the same length on both grids; on a free axis point k of the coarser is point 2k of the finer.
     """
@@ -57,12 +107,12 @@ def interpolation(cells: int, onto: int, periodic: bool) -> Table:
     )
     indices = base[:, None] + np.arange(-1, 3)
     indices = indices % cells if periodic else np.clip(indices, 0, cells - 1)
-    indices.flags.writeable = weights.flags.writeable = False  # kept for the next contact
+    indices.flags.writeable = weights.flags.writeable = False
     return indices, weights
 
 
 def sample(field: FloatArray, shape: tuple[int, int], periodic: tuple[bool, bool]) -> FloatArray:
-    """A field on a coarser grid of the same rectangle."""
+    """Restrict a field to a coarser grid of the same rectangle."""
     for axis in (0, 1):
         n, m = field.shape[axis], shape[axis]
         if n == m:
@@ -86,18 +136,18 @@ def prolong(
     shape: tuple[int, int],
     periodic: tuple[bool, bool],
 ) -> tuple[NDArray[np.int64], FloatArray]:
-    """Cells with pressure on the finer grid `shape`, by number, and their pressures, at most the cap; what is given are
-    the arrays (nx, ny) of the coarser grid.
+    """Prolong a solution, given as arrays (nx, ny) of the coarser grid, to the finer grid `shape`.
 
-    No pressure is made where none of the sixteen cells that it is interpolated from has any.
+    Returns the flat indices of the cells with pressure, and their pressures, at most the cap. A cell gets no pressure
+    where none of the sixteen cells that it is interpolated from has any.
     """
-    phi, marks = _make_phi(pressure, displacement, gap, approach, *periodic)
-    _stretch(phi, _edge_scale(pressure, phi, marks, cap))
+    phi, marks = _evaluate_phi(pressure, displacement, gap, approach, *periodic)
+    _scale_outside(phi, _edge_scale(pressure, phi, marks, cap))
     rows = interpolation(pressure.shape[0], shape[0], periodic[0])
     columns = interpolation(pressure.shape[1], shape[1], periodic[1])
-    begins = _begins(pressure.shape[1], shape[1], periodic[1])
-    lines = max(1, passes.BLOCK // shape[1])
-    cells, values = np.empty(shape[0] * shape[1], np.int64), np.empty(shape[0] * shape[1])  # only in part written
+    begins = _first_points(pressure.shape[1], shape[1], periodic[1])
+    lines = max(1, reductions.BLOCK // shape[1])
+    cells, values = np.empty(shape[0] * shape[1], np.int64), np.empty(shape[0] * shape[1])  # partly written
     parts = [slice(0)] * -(-shape[0] // lines)
 
     def work(_worker: int, block: int) -> None:
@@ -112,13 +162,13 @@ def prolong(
     else:
         cells, values = cells[parts[0]].copy(), values[parts[0]].copy()
     along = [_regions(n, m, wraps) for n, m, wraps in zip(pressure.shape, shape, periodic, strict=True)]
-    _keep_loads(pressure, (cells, values), shape[1], along[0], along[1], cap)
+    _restore_region_loads(pressure, (cells, values), shape[1], along[0], along[1], cap)
     return cells, values
 
 
 @lru_cache(maxsize=64)
-def _begins(cells: int, onto: int, periodic: bool) -> NDArray[np.int64]:
-    """The first of `onto` points at or beyond each of `cells` points along an axis, and how many there are."""
+def _first_points(cells: int, onto: int, periodic: bool) -> NDArray[np.int64]:
+    """Return the first of `onto` points at or beyond each of `cells` points along an axis, and `onto`."""
     position = np.arange(onto) * _spacing(cells, onto, periodic)
     begins = np.searchsorted(position, np.arange(cells + 1))
     begins[-1] = onto
@@ -127,8 +177,11 @@ def _begins(cells: int, onto: int, periodic: bool) -> NDArray[np.int64]:
 
 
 class _Regions(NamedTuple):
-    """Along an axis: how many regions, the one that each point of the coarser grid is in, the two that each of the
-    finer is in, its share in the second, and its length in the coarser's spacings."""
+    """Regions along an axis.
+
+    number : of regions. coarse : region of each coarse point. first, second : regions of each fine point.
+    share : weight of the second. length : spacing of fine points in that of coarse points.
+    """
 
     number: int
     coarse: NDArray[np.int64]
@@ -140,7 +193,7 @@ class _Regions(NamedTuple):
 
 @lru_cache(maxsize=64)
 def _regions(cells: int, onto: int, periodic: bool) -> _Regions:
-    """A point of the finer grid between two of the coarser belongs to both, as in linear interpolation."""
+    """Assign points to regions; a fine point between two coarse points belongs to both, by linear interpolation."""
     spacing = _spacing(cells, onto, periodic)
     position = np.arange(onto) * spacing
     below = np.floor(position).astype(np.int64)
@@ -150,7 +203,7 @@ def _regions(cells: int, onto: int, periodic: bool) -> _Regions:
 
 
 def _edge_scale(pressure: FloatArray, phi: FloatArray, marks: NDArray[np.uint8], cap: float) -> float:
-    """c of phi outside, so that phi has the same slope on both sides of the edges: by mean values next to them."""
+    """Return c of phi outside: phi then has the same mean slope on both sides of the edges."""
     squares, opening, edges = _edge_means(pressure, phi, marks, cap)
     if edges == 0 or not opening > 0:
         return 0.0 if not squares > 0 else squares
@@ -158,14 +211,12 @@ def _edge_scale(pressure: FloatArray, phi: FloatArray, marks: NDArray[np.uint8],
 
 
 _NEAR, _WITHIN = 1, 2
-"""Bits of a cell's mark: a cell with pressure lies no more than three columns away, so that both are in four in a row;
-it is one of the four that are interpolated from beyond this one."""
+"""Bits of a cell's mark: a cell with pressure lies within three columns; the interpolation beyond the cell uses one."""
 
 
 @compiled
-def _make_phi(pressure, displacement, gap, approach, wraps_x, wraps_y):
-    """phi with c = 1 outside, and the marks; zero where no cell with pressure is within three lines and columns, as
-    nothing is interpolated from there."""
+def _evaluate_phi(pressure, displacement, gap, approach, wraps_x, wraps_y):
+    """Return phi with c = 1 outside, and the marks; phi is zero where no cell with pressure is within three cells."""
     nx, ny = pressure.shape
     marks = np.empty((nx, ny), np.uint8)
     wide = np.zeros(ny + 6, np.uint8)  # with three columns before and behind
@@ -201,7 +252,7 @@ def _make_phi(pressure, displacement, gap, approach, wraps_x, wraps_y):
 
 @compiled
 def _edge_means(pressure, phi, marks, cap):
-    """Sums of p^2 and of -phi over the links from a cell with pressure below the cap to one without; their number."""
+    """Return the sums of p^2 and of -phi over the links from cells with pressure to cells without, and their number."""
     nx, ny = pressure.shape
     squares = 0.0
     opening = 0.0
@@ -230,8 +281,8 @@ def _edge_means(pressure, phi, marks, cap):
 
 
 @compiled
-def _stretch(phi, scale):
-    """phi outside with the factor c."""
+def _scale_outside(phi, scale):
+    """Multiply phi outside by c."""
     phi = phi.reshape(-1)
     for cell in range(phi.size):
         phi[cell] *= scale if phi[cell] < 0 else 1.0
@@ -239,7 +290,7 @@ def _stretch(phi, scale):
 
 @compiled
 def _prolong_phi(phi, marks, rows, lines, columns, begins, cap, cells, values):
-    """Cells with pressure on those lines of the finer grid, and their pressures; returns how many."""
+    """Write the cells with pressure on some lines of the finer grid and their pressures; return their number."""
     (rows, row_weights), (columns, column_weights) = rows, columns
     width, ny = phi.shape[1], columns.shape[0]
     line = np.empty(width)
@@ -259,7 +310,7 @@ def _prolong_phi(phi, marks, rows, lines, columns, begins, cap, cells, values):
                 begin = begins[k]
                 if within[k] == 0 or begin == begins[k + 1]:
                     continue
-                # all points up to the next column of the coarser grid are made from the same four
+                # all points up to the next coarse column use the same four values
                 e, f = line[columns[begin, 0]], line[columns[begin, 1]]
                 g, h = line[columns[begin, 2]], line[columns[begin, 3]]
                 for j in range(begin, begins[k + 1]):
@@ -277,10 +328,11 @@ def _prolong_phi(phi, marks, rows, lines, columns, begins, cap, cells, values):
 
 
 @compiled
-def _keep_loads(pressure, fine, width, rows, columns, cap):
-    """Multiply each region without a cell at the cap so that it has the load that it has on the coarser grid.
+def _restore_region_loads(pressure, fine, width, rows, columns, cap):
+    """Scale each region without a capped cell to its load on the coarser grid.
 
-    fine : cells of the finer grid, of so many columns, and their pressures."""
+    fine : cells of the finer grid, which has `width` columns, and their pressures.
+    """
     cells, values = fine
     missing = np.zeros((rows.number, columns.number))
     inside = np.zeros(missing.shape)
@@ -298,7 +350,7 @@ def _keep_loads(pressure, fine, width, rows, columns, cap):
         a, b, s = rows.first[i], rows.second[i], rows.share[i]
         c, d, t = columns.first[j], columns.second[j], columns.share[j]
         p = values[n] * cell
-        if a == b and c == d:  # nearly always: one number is not stored and fetched four times
+        if a == b and c == d:  # nearly always
             left = missing[a, c] - (1 - s) * (1 - t) * p
             missing[a, c] = left - (1 - s) * t * p - s * (1 - t) * p - s * t * p
         else:
@@ -309,8 +361,8 @@ def _keep_loads(pressure, fine, width, rows, columns, cap):
         inside[a, c] += p if values[n] < cap else -np.inf
     for i in range(rows.number):
         for j in range(columns.number):
-            more = missing[i, j] / inside[i, j] if inside[i, j] > 0 else 0.0
-            missing[i, j] = 1 + max(-_MOST, min(_MOST, more))
+            change = missing[i, j] / inside[i, j] if inside[i, j] > 0 else 0.0
+            missing[i, j] = 1 + max(-_LARGEST_CHANGE, min(_LARGEST_CHANGE, change))
     i = 0
     for n in range(cells.size):
         while cells[n] >= (i + 1) * width:

@@ -1,11 +1,9 @@
-"""Mean gaps that several loads give: a note where a prescribed mean gap has more than one contact.
+"""Note on mean gaps that several loads give.
 
 A stiff layer on a soft base bends on a free grid: the mean gap falls with the load until the bodies nearly fill it, and
-grows again as the layer stands off beside the contact. A mean gap between the least one and the one without contact is
-then met twice; a larger one is met without contact and at a large load. Contacts under loads around the one found are
-solved on a coarse grid: each change of sign of (mean gap - prescribed one) over the load is an answer.
-Verified in
-tests/contact/test_several_answers.py.
+grows again as the layer stands off beside the contact. A mean gap between the least one and the one without contact
+then has two solutions. Contacts under loads around the solution are computed on a coarse grid; each change of sign of
+(mean gap - prescribed mean gap) over the load is a solution. Verified in tests/contact/test_several_answers.py.
 """
 
 from __future__ import annotations
@@ -18,7 +16,7 @@ from typing import TYPE_CHECKING
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.contact.cascade import sample
+from bem.contact.nested_iteration import sample
 from bem.errors import InputError
 
 if TYPE_CHECKING:
@@ -28,20 +26,24 @@ if TYPE_CHECKING:
 FloatArray = NDArray[np.float64]
 
 _MOST_CELLS = 48
-"""Cells along an axis of the grid that the loads are tried on."""
+"""Cells along an axis of the coarse grid."""
+
 _STIFFER = 1.2
-"""Ratio of the moduli that short and long waves see, above which a layer may stand off; one of a half-space is 1."""
+"""Ratio of the moduli at short and long wavelengths above which a layer may stand off; a half-space has 1."""
+
 _STEP, _LIGHTER, _HEAVIER = 4.0, 4, 8
-"""Ratio of the loads tried, and how many are below and above that of the contact found."""
+"""Ratio of successive trial loads, and their number below and above the load of the solution."""
+
 _TOLERANCE = 1e-4
-"""Of the contacts under the loads tried."""
+"""Tolerance of the trial contacts."""
+
 _SAME = 0.05
-"""Relative distance of two mean gaps on the coarse grid below which their order is not known."""
+"""Relative distance below which the order of two mean gaps on the coarse grid is uncertain."""
 
 
 @dataclass(frozen=True)
 class Trial:
-    """A load tried [N] and its mean gap [m]."""
+    """A trial load [N] and its mean gap [m]."""
 
     load: float
     mean_gap: float
@@ -50,7 +52,7 @@ class Trial:
 def note_on_several_answers(
     gap: FloatArray, operator: DisplacementOperator, found: ContactSolution, mean_gap: float, hardness: float | None
 ) -> tuple[str, ...]:
-    """A note if contacts under other loads have the prescribed mean gap, too.
+    """Return a note if contacts under other loads have the prescribed mean gap as well.
 
     Parameters
     ----------
@@ -76,7 +78,7 @@ def note_on_several_answers(
 
 
 def _may_stand_off(operator: DisplacementOperator) -> bool:
-    """Return True if short waves see a stiffer body than long ones: a stiff layer on a soft base."""
+    """Return True for a stiff layer on a soft base: the modulus is larger at short wavelengths than at long ones."""
     grid = operator.grid
     shortest = math.pi / math.sqrt(grid.cell_area)
     longest = 2 * math.pi / max(grid.lengths)
@@ -86,7 +88,7 @@ def _may_stand_off(operator: DisplacementOperator) -> bool:
 def _trials(
     gap: FloatArray, operator: DisplacementOperator, found: ContactSolution, mean_gap: float, hardness: float | None
 ) -> list[Trial]:
-    """Contacts on a coarse grid under rising loads, from none."""
+    """Return contacts on a coarse grid under rising loads, starting without load."""
     from bem.contact.solve import solve_contact
 
     while max(operator.grid.shape) > _MOST_CELLS and (coarser := operator.coarsened()) is not None:
@@ -117,20 +119,20 @@ def _trials(
 
 
 def _brackets(trials: list[Trial], load: float, mean_gap: float) -> list[tuple[float, float]]:
-    """Pairs of loads [N] between which a mean gap is met by another contact than the one found.
+    """Return pairs of loads [N] between which another contact has the prescribed mean gap.
 
-    A trial too near the prescribed mean gap to be told from it is left out. Where the mean gaps of the loads next to
-    that of the contact found are both larger, another answer lies between them.
+    Trials too close to the prescribed mean gap are left out. Where the mean gaps at the loads next to that of the
+    solution are both larger, another solution lies between them.
     """
-    told = [one for one in trials if abs(one.mean_gap - mean_gap) > _SAME * mean_gap]
+    certain = [one for one in trials if abs(one.mean_gap - mean_gap) > _SAME * mean_gap]
     pairs = [
         (before.load, after.load)
-        for before, after in pairwise(told)
+        for before, after in pairwise(certain)
         if (before.mean_gap - mean_gap) * (after.mean_gap - mean_gap) < 0
     ]
     others = [(low, high) for low, high in pairs if not low <= load <= high]
-    below = [one for one in told if one.load < load]
-    above = [one for one in told if one.load > load]
+    below = [one for one in certain if one.load < load]
+    above = [one for one in certain if one.load > load]
     if below and above and min(below[-1].mean_gap, above[0].mean_gap) > mean_gap:
         others.insert(0, (below[-1].load, above[0].load))
     return others

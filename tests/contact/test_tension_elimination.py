@@ -4,10 +4,10 @@ import numpy as np
 import pytest
 from contact_oracles import FREE, HALF_X, HALF_Y, PERIODIC, notes_surface, operator
 
-from bem.contact import imposing
-from bem.contact.imposing import _ITERATIONS, impose
-from bem.contact.level import Level, Tuning
-from bem.contact.preconditioner import sparse_inverse
+from bem.contact import bounds
+from bem.contact.bounds import _TENSION_ITERATIONS, eliminate_tension
+from bem.contact.grid_workspace import GridWorkspace, SolverParameters
+from bem.contact.sparse_inverse import sparse_inverse
 
 pytestmark = pytest.mark.internal
 
@@ -29,7 +29,7 @@ def contact_of(periodic, share, seed):
     op = operator((N, N), (1 / N, 1 / N), periodic)
     height = notes_surface(N, seed, rolloff=3).ravel()
     cells = np.flatnonzero(height > np.quantile(height, 1 - share))
-    level = Level(op, np.zeros(N * N), np.inf, Tuning())
+    level = GridWorkspace(op, np.zeros(N * N), np.inf, SolverParameters())
     level.preconditioner(cells)
     matrix = kernel(op, cells) + 1e-6 * np.eye(cells.size)  # a doubly periodic grid has none for a uniform pressure
     closing = height[cells] - height[cells].min()
@@ -54,7 +54,7 @@ def test_neighbours_make_up_for_what_is_taken_off(periodic, share, seed):
     pulls = raw < 0
     assert 0.02 < pulls.mean() < 0.5
     found = raw.copy()
-    impose(near, found)
+    eliminate_tension(near, found)
     assert (found[pulls] == 0).all()
     stays = found != 0
     exact = np.zeros(raw.size)
@@ -77,7 +77,7 @@ def test_a_single_cell_is_taken_off_as_the_sparse_inverse_says():
     raw = np.full(size, 5.0)
     raw[size // 2] = -1.0
     found = raw.copy()
-    impose(near, found)
+    eliminate_tension(near, found)
     expected = raw - inverse[:, size // 2] * (-1.0 / inverse[size // 2, size // 2])
     expected[size // 2] = 0.0
     np.testing.assert_allclose(found, expected, rtol=1e-12)
@@ -87,17 +87,18 @@ def test_pressures_that_push_are_left_as_they_are():
     near, _, raw = contact_of(FREE, 0.1, 1)
     pushing = np.abs(raw)
     found = pushing.copy()
-    impose(near, found)
+    eliminate_tension(near, found)
     assert np.array_equal(found, pushing)
 
 
 def plainly(inverse, raw):
-    """`impose` with a dense inverse B, in numpy: what two conjugate gradients for B y = p take off those that pull."""
+    """`eliminate_tension` with a dense inverse B, in numpy: what two conjugate gradients for B y = p take off those
+    that pull."""
 
     def take_off(pulls, taken):
         missed = (raw - taken)[pulls]
         way = missed.copy()
-        for _ in range(_ITERATIONS):
+        for _ in range(_TENSION_ITERATIONS):
             if not missed @ missed > 0:
                 break
             response = inverse[:, pulls] @ way
@@ -127,7 +128,7 @@ def test_rows_of_the_seam_and_at_the_ends_of_the_list_take_part(shape, periodic)
         on = near.on(cells)
         raw = rng.standard_normal(cells.size) + rng.uniform(-0.5, 1.5)
         found = raw.copy()
-        impose(on, found)
+        eliminate_tension(on, found)
         rows = dense_rows(on, cells.size)
         # a few hundred products of order one
         np.testing.assert_allclose(found, plainly(rows.T @ rows, raw), rtol=0, atol=1e-12 * np.abs(raw).max())
@@ -137,10 +138,10 @@ def test_rows_take_off_by_the_arithmetic_of_their_text():
     """Bit for bit what the interpreter makes of the loop. Of its sums of products the compiler fused one or another, by
     what had been compiled in the same process, and contacts had other bits."""
     near, _, raw = contact_of(PERIODIC, 0.4, 1)
-    listed = imposing._reaching(near.rows, near.seam, (raw < 0).astype(np.uint8))
+    listed = bounds._rows_reaching(near.rows, near.irregular, (raw < 0).astype(np.uint8))
     found = np.zeros((2, raw.size))
-    imposing._respond(near.rows, near.seam, listed, raw, found[0])
-    imposing._respond.py_func(near.rows, near.seam, listed, raw, found[1])
+    bounds._add_response(near.rows, near.irregular, listed, raw, found[0])
+    bounds._add_response.py_func(near.rows, near.irregular, listed, raw, found[1])
     assert min(rows.size for rows in listed) > 10
     assert found[0].any()
     assert found[0].tobytes() == found[1].tobytes()

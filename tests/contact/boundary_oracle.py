@@ -1,13 +1,13 @@
 """The edge of contact square by square and link by link, in plain Python: for the walk and cuts of
-`bem.contact.crossings`. What a square's polygon and chord are is the same there, and tested by itself."""
+`bem.contact.contact_boundary`. What a square's polygon and chord are is the same there, and tested by itself."""
 
 import numpy as np
 
-from bem.contact import crossings
+from bem.contact import contact_boundary
 
 
 def sum_squares(given, spacing, wraps, factors, constants, ends):
-    """See `crossings.Sums`; given : (inside, strength, opening, shape, inside blurred)."""
+    """See `contact_boundary.Sums`; given : (inside, strength, opening, shape, inside blurred)."""
     inside, strength, opening, shape, blurred = given
     dx, dy = spacing
     wraps_x, wraps_y = wraps
@@ -38,13 +38,13 @@ def sum_squares(given, spacing, wraps, factors, constants, ends):
                 sides += 0.0 if wraps_x else dx * (a != d)
             right = _cut(inside, strength, opening, shape, blurred, (k, j, 1), place, constants)
             rights[j] = right
-            share, u, v, turn = crossings._polygon.py_func((a, b, c, d), number, (low, high, left, right))
+            share, u, v, turn = contact_boundary._polygon.py_func((a, b, c, d), number, (low, high, left, right))
             corners += turn
             # across the smoothed edge: where it runs at 45 degrees crossings change places and a chord runs back
             lower, upper = float(blurred[i, j]), float(blurred[k, m])
             ahead, aside = float(blurred[k, j]), float(blurred[i, m])
             along, across = (upper + ahead - lower - aside) / dx, (upper + aside - lower - ahead) / dy
-            chord = crossings._chord.py_func(u * dx, v * dy, along, across)
+            chord = contact_boundary._chord.py_func(u * dx, v * dy, along, across)
             area += (share - 0.25 * number) * dx * dy
             length += chord
             chords += abs(chord)
@@ -70,7 +70,7 @@ def _cut(inside, strength, opening, shape, blurred, link, place, constants):
     before, behind = neighbour(size, i, j, axis, -1, wraps), neighbour(size, i, j, axis, 2, wraps)
     jump = abs(shape[k, m] - shape[i, j])
     beside = max(abs(shape[i, j] - shape[before]), abs(shape[behind] - shape[k, m]))
-    if held <= 0.0 or jump > crossings._STEP * beside:
+    if held <= 0.0 or jump > contact_boundary._STEP * beside:
         return 0.5
     opened = opening[k, m] if first else opening[i, j]
     if hardness > 0.0:
@@ -83,7 +83,7 @@ def _cut(inside, strength, opening, shape, blurred, link, place, constants):
         across -= float(blurred[neighbour(size, u, v, 1 - axis, -1, wraps)])
     across /= side
     norm = np.hypot(along, across)
-    cosine = max(abs(along) / norm, crossings._LEAST_COSINE) if norm > 0 else 1.0
+    cosine = max(abs(along) / norm, contact_boundary._LEAST_COSINE) if norm > 0 else 1.0
     ratio = factor * max(opened, 0.0) / (held * step * cosine)
     a = ((constants[0, 0] * cosine + constants[0, 1]) * cosine + constants[0, 2]) * cosine + constants[0, 3]
     b = ((constants[1, 0] * cosine + constants[1, 1]) * cosine + constants[1, 2]) * cosine + constants[1, 3]
@@ -92,7 +92,7 @@ def _cut(inside, strength, opening, shape, blurred, link, place, constants):
     ahead, back = count_like(inside, k, m, axis, 1, closed), count_like(inside, i, j, axis, -1, closed)
     held_cells, open_cells = (back, ahead) if first else (ahead, back)
     crossing = (a - b * ratio) / (c + ratio) + within / held_cells - beyond / open_cells
-    crossing = min(max(crossing, crossings._BEFORE), crossings._BEYOND)
+    crossing = min(max(crossing, contact_boundary._BEFORE), contact_boundary._BEYOND)
     return crossing if first else 1 - crossing
 
 

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from contact_oracles import FREE, HALF_X, HALF_Y, PERIODIC, notes_surface, operator, rough
 
-from bem.contact import cascade, solve_contact
+from bem.contact import nested_iteration, solve_contact
 from bem.threads import set_threads
 
 
@@ -21,8 +21,8 @@ def _loads(pressure, side, spacing):
 
 
 def prolonged(fields, cap, shape, periodic):
-    """`cascade.prolong` as a field."""
-    cells, values = cascade.prolong(*fields, cap, shape, periodic)
+    """`nested_iteration.prolong` as a field."""
+    cells, values = nested_iteration.prolong(*fields, cap, shape, periodic)
     assert (values > 0).all()
     assert (np.diff(cells) > 0).all()
     fine = np.zeros(shape)
@@ -44,7 +44,7 @@ def plain(fields, cap, shape, periodic):
     scale = np.concatenate(squares).sum() / np.concatenate(openings).sum()
     phi, near = np.where(pressure > 0, pressure**2, -scale * root), pressure > 0
     for axis in (0, 1):
-        indices, weights = cascade.interpolation(pressure.shape[axis], shape[axis], periodic[axis])
+        indices, weights = nested_iteration.interpolation(pressure.shape[axis], shape[axis], periodic[axis])
         phi, near = np.moveaxis(phi, axis, 0), np.moveaxis(near, axis, 0)
         phi = sum(weights[:, k, None] * phi[indices[:, k]] for k in range(4))
         near = np.any([near[indices[:, k]] for k in range(4)], axis=0)
@@ -68,8 +68,8 @@ def plain(fields, cap, shape, periodic):
 )
 def test_pressures_on_the_finer_grid_are_those_of_whole_fields(shape, finer, periodic, threads, monkeypatch):
     rng = np.random.default_rng(shape[0])
-    monkeypatch.setattr(cascade.passes, "BLOCK", 5 * finer[1])
-    monkeypatch.setattr(cascade, "_keep_loads", lambda *_: None)
+    monkeypatch.setattr(nested_iteration.reductions, "BLOCK", 5 * finer[1])
+    monkeypatch.setattr(nested_iteration, "_restore_region_loads", lambda *_: None)
     set_threads(threads)
     for cap in (np.inf, 0.8):
         for share in (0.03, 0.3):

@@ -2,10 +2,10 @@
 
 import numpy as np
 import pytest
-from test_contact_edge import UNIT, ball, waves
+from test_contact_area import UNIT, ball, waves
 
 from bem import Body, Grid, displacement_operator, solve_contact
-from bem.contact.peak import highest_pressure
+from bem.contact.peak_pressure import highest_pressure
 from bem.reference_solutions.hertz import ellipse_contact
 from reports.experiments.contact_error_bars import draw
 

@@ -1,7 +1,7 @@
-"""Separate spots of contact; cells of one hang together through their sides.
+"""Connected regions (spots) of contact; cells are connected through their sides.
 
-Runs of cells along the rows are joined, not cells: of a rough contact there is one for each ten or twenty cells of the
-grid, and no field is needed. Verified in tests/contact/test_contact_spots.py.
+Runs of cells along the rows are joined by union-find instead of single cells. Verified in
+tests/contact/test_regions.py.
 """
 
 from __future__ import annotations
@@ -10,18 +10,17 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.compiled import compiled
-from bem.contact.crossings import place
+from bem.contact.contact_boundary import wrapped_index
 from bem.grid import FloatArray, Grid
 
 
 def count_spots(pressure: FloatArray, grid: Grid) -> int:
-    """How many separate spots of contact a pressure (nx, ny) has."""
+    """Return the number of separate spots of a pressure (nx, ny)."""
     return int(_join_runs(np.ascontiguousarray(pressure), grid.periodic)[1])
 
 
 def label_spots(pressure: FloatArray, grid: Grid) -> NDArray[np.int32]:
-    """The number of the spot of contact that each cell (nx, ny) is in, 1, 2, ... in the order of their first cells, 0
-    outside; as `count_spots` counts them."""
+    """Label the spots of a pressure (nx, ny): 1, 2, ... in the order of their first cells, 0 outside contact."""
     pressure = np.ascontiguousarray(pressure)
     parent, _ = _join_runs(pressure, grid.periodic)
     return np.asarray(_number(pressure, parent))
@@ -29,7 +28,7 @@ def label_spots(pressure: FloatArray, grid: Grid) -> NDArray[np.int32]:
 
 @compiled
 def _join_runs(pressure, wraps):
-    """The union-find of all runs, numbered as they come, and how many trees it has."""
+    """Return the union-find of all runs, numbered row by row, and the number of its trees."""
     nx, ny = pressure.shape
     before = _runs_before(pressure)
     count = before[nx]
@@ -37,7 +36,7 @@ def _join_runs(pressure, wraps):
     for i in range(nx):
         if wraps[1] and pressure[i, 0] > 0 and pressure[i, ny - 1] > 0:
             count -= _joined(parent, before[i], before[i + 1] - 1)
-        k = place(i + 1, nx, wraps[0])
+        k = wrapped_index(i + 1, nx, wraps[0])
         here, there = before[i] - 1, before[k] - 1
         inside, beyond = False, False
         for j in range(ny):
@@ -52,7 +51,7 @@ def _join_runs(pressure, wraps):
 
 @compiled
 def _runs_before(pressure):
-    """How many runs begin before each row, and in all."""
+    """Return the number of runs before each row, and the total."""
     nx, ny = pressure.shape
     before = np.zeros(nx + 1, np.int64)
     for i in range(nx):
@@ -65,7 +64,7 @@ def _runs_before(pressure):
 
 @compiled
 def _joined(parent, one, other):
-    """Whether two runs were in trees of their own; they are in one now."""
+    """Join two runs; return True if they were in separate trees."""
     first, second = _root(parent, one), _root(parent, other)
     parent[max(first, second)] = min(first, second)
     return first != second

@@ -1,9 +1,9 @@
-"""Where the edge of contact crosses the links between centres of cells, and what it cuts off the squares between four.
+"""Crossings of the contact boundary with the links between cell centres, and the area that it cuts off.
 
-The compiled part of `edge`, which says what is made of a link. Three passes: one over cells finds the links that join
-a cell inside to one that is not, and how far along the link's line the next ones are; one over links finds the
-crossings; one over squares adds up what lies inside. The last two take time by the length of the edge alone. Verified
-against every link by itself in plain Python (tests).
+The compiled part of `contact_area`, which derives the position of a crossing. Three passes: one over cells finds the
+links between a cell inside and a cell outside, and the distance to the next links along the line; one over links finds
+the crossings; one over squares of four centres adds up area and length. The last two take time in proportion to the
+length of the boundary. Verified in tests/contact/test_contact_area.py against every link in plain Python.
 """
 
 from __future__ import annotations
@@ -15,30 +15,34 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.compiled import compiled
-from bem.contact import passes
+from bem.contact import reductions
 from bem.grid import FloatArray
 from bem.threads import share
 from bem.transforms.addresses import fetch
 
 _LEAST_COSINE = 0.24
+"""Least cosine between link and normal for which the crossing law is fitted."""
+
 _BEFORE, _BEYOND = -0.3, 1.0
-"""How far from the cell inside, in links, a crossing may lie: behind the centre of a cell that barely touches."""
+"""Bounds of a crossing from the cell inside, in links; negative for a cell that barely touches."""
 
 _ASLANT = 1.5
-"""A chord counts with its length, backwards where it runs against the smoothed edge; but no longer than this many times
-what it runs along it, for the chords that crossings at one place make lie in any direction."""
+"""Largest length of a chord over its component along the smoothed boundary; coincident crossings give chords in any
+direction."""
 
 _STEP = 5.0
-"""A parabola's steps grow by 3, 5/3, ...: on a smooth surface none is this many times both its neighbours."""
+"""Ratio of a step of the gap to both neighbouring steps above which the gap is discontinuous; a parabola has 3."""
 
-_SOON = 12
-"""Links ahead whose numbers are asked for: nearly each is on a line of memory of its own (half the time at 1024 cells
-a side)."""
+_PREFETCH = 12
+"""Links ahead whose values are prefetched; nearly each lies on its own cache line."""
 
 
 class Field(NamedTuple):
-    """What decides where the edge lies, (nx, ny): cells inside (0 or 1), what vanishes like the root of the distance to
-    the edge inside, what grows with its power 3/2 outside, the undeformed gap."""
+    """Fields (nx, ny) that determine the boundary.
+
+    inside : 0 or 1. strength : vanishes like the root of the distance to the boundary inside.
+    opening : grows with the power 3/2 of the distance outside. shape : undeformed gap.
+    """
 
     inside: NDArray[np.uint8]
     strength: FloatArray
@@ -47,10 +51,14 @@ class Field(NamedTuple):
 
 
 class Law(NamedTuple):
-    """How the edge follows from them: the factor of the opening; the hardness where contact turns plastic as it opens,
-    seen from its elastic part (strength is then what the pressure given is below it, and the opening has its sign
-    turned), zero for none; the polynomials in the cosine; what narrow regions add inside and outside; the factor times
-    what each cell gives way besides, by its own pressure [m/Pa], zero for none."""
+    """Law of the crossing.
+
+    factor : of the opening.
+    hardness : at the boundary of plastic contact, else zero. The strength is then hardness less pressure, the opening
+        has the opposite sign.
+    constants : polynomials in the cosine. ends : contributions of narrow regions inside and outside.
+    give : factor times the compliance of a cell by its own pressure [m/Pa].
+    """
 
     factor: float
     hardness: float
@@ -60,8 +68,11 @@ class Law(NamedTuple):
 
 
 class Sums(NamedTuple):
-    """Area within the polygons beyond a quarter of a cell for each centre inside [m^2], length of the edge [m], that of
-    sides between cells inside and not [m], sums of chords [m] and of their cubes [m^3], Euler's number of the region.
+    """Sums over the squares of four centres.
+
+    area : of the polygons, less a quarter of a cell for each centre inside [m^2]. length : of the boundary [m].
+    sides : length of the sides between cells inside and outside [m]. chords, cubes : sums of chords [m] and of their
+    cubes [m^3]. turns : Euler number of the region.
     """
 
     area: float
@@ -73,9 +84,13 @@ class Sums(NamedTuple):
 
 
 class Crossed(NamedTuple):
-    """Where the edge crosses the links: the smoothed indicator; links along either axis (columns of their first cells,
-    cells that are alike behind and ahead); squares (columns of their lowest cells, bits of their centres); where each
-    row begins among the three; crossings along either axis, as fractions of each link."""
+    """Crossings of the boundary.
+
+    blurred : smoothed indicator. links : along either axis, columns of the first cells and run lengths behind and
+    ahead.
+    squares : columns of the lowest cells, and bits of the four centres. starts : first link and square of each row.
+    crossings : along either axis, as fractions of each link.
+    """
 
     blurred: NDArray[np.uint16]
     links: tuple[tuple[NDArray[np.int32], FloatArray], tuple[NDArray[np.int32], FloatArray]]
@@ -85,16 +100,16 @@ class Crossed(NamedTuple):
 
 
 def cross_links(field: Field, spacing: tuple[float, float], wraps: tuple[bool, bool], law: Law) -> Crossed:
-    """Find all links between cells inside and outside, and where the edge crosses them."""
+    """Find all links between cells inside and outside, and the crossings of the boundary."""
     nx, ny = field.inside.shape
     blurred = blur(field.inside, *wraps)
     links, squares, starts = _find_links(field.inside, *wraps)
     crossings = (np.empty(links[0][0].size), np.empty(links[1][0].size))
-    lines = max(1, passes.BLOCK // ny)
+    lines = max(1, reductions.BLOCK // ny)
 
     def work(_worker: int, block: int) -> None:
         first, last = block * lines, min(nx, (block + 1) * lines)
-        _cut(first, last, links, starts, field, blurred, (spacing, wraps), law, crossings)
+        _write_crossings(first, last, links, starts, field, blurred, (spacing, wraps), law, crossings)
 
     share(work, -(-nx // lines), nx * ny)
     return Crossed(blurred, links, squares, starts, crossings)
@@ -102,12 +117,15 @@ def cross_links(field: Field, spacing: tuple[float, float], wraps: tuple[bool, b
 
 def sum_squares(crossed: Crossed, spacing: tuple[float, float], wraps: tuple[bool, bool]) -> Sums:
     """Add up areas, lengths and turns over the squares between four centres."""
-    return Sums(*_add(crossed.squares, crossed.starts, crossed.crossings, crossed.blurred, spacing, wraps))
+    return Sums(*_sum_over_squares(crossed.squares, crossed.starts, crossed.crossings, crossed.blurred, spacing, wraps))
 
 
 class Links(NamedTuple):
-    """The links along an axis between a cell inside and one outside (m,): numbers of their first and second cells along
-    the axis and of both across it, the crossings as fractions of each link, and the cosines between link and normal.
+    """Links (m,) along an axis between a cell inside and a cell outside.
+
+    first, second : indices of both cells along the axis. aside : their index across it. crossing : fraction of the
+    link.
+    cosine : between link and normal.
     """
 
     first: NDArray[np.int64]
@@ -126,24 +144,26 @@ def links_along(crossed: Crossed, axis: int, spacing: tuple[float, float], wraps
     first, aside = (row, column) if axis == 0 else (column, row)
 
     def blurred(along: int, across: int) -> NDArray[np.int64]:
-        places = [_places(first + along, shape[axis], wraps[axis])]
-        places.insert(1 - axis, _places(aside + across, shape[1 - axis], wraps[1 - axis]))
+        places = [_wrapped_indices(first + along, shape[axis], wraps[axis])]
+        places.insert(1 - axis, _wrapped_indices(aside + across, shape[1 - axis], wraps[1 - axis]))
         return crossed.blurred[places[0], places[1]].astype(np.int64)
 
     along = (blurred(2, 0) + blurred(1, 0) - blurred(0, 0) - blurred(-1, 0)) / spacing[axis]
     across = (blurred(0, 1) + blurred(1, 1) - blurred(0, -1) - blurred(1, -1)) / spacing[1 - axis]
     norm = np.hypot(along, across)
     cosine = np.divide(np.abs(along), norm, out=np.ones(count), where=norm > 0)
-    second = _places(first + 1, shape[axis], wraps[axis])
+    second = _wrapped_indices(first + 1, shape[axis], wraps[axis])
     return Links(first, second, aside, crossed.crossings[axis][:count], cosine)
 
 
 def cells_at_edge(
     crossed: Crossed, inside: NDArray[np.uint8], spacing: tuple[float, float], wraps: tuple[bool, bool]
 ) -> tuple[NDArray[np.int64], FloatArray]:
-    """The cells inside with a link to one outside (m,), as numbers row by row, and the fraction of each cell that lies
-    beyond the edge (m,), to first order: half a link less the crossing's distance from the centre, summed over the
-    cell's links with the square of the cosine between link and normal, as the squares of both cosines add up to one."""
+    """Return the flat indices (m,) of the cells at the boundary, and the fraction of each cell beyond it (m,).
+
+    To first order the fraction is half a link less the distance of the crossing from the centre, summed over the links
+    of the cell with the squared cosine between link and normal; the squares of both cosines sum to one.
+    """
     cells, beyond = [], []
     for axis in (0, 1):
         links = links_along(crossed, axis, spacing, wraps)
@@ -157,21 +177,23 @@ def cells_at_edge(
     return numbers.astype(np.int64), total.astype(np.float64)
 
 
-def _places(numbers: NDArray[np.int64], n: int, wraps: bool) -> NDArray[np.int64]:
-    """As `place`, of an array."""
+def _wrapped_indices(numbers: NDArray[np.int64], n: int, wraps: bool) -> NDArray[np.int64]:
+    """Return `wrapped_index` of an array."""
     return np.asarray(numbers % n if wraps else np.clip(numbers, 0, n - 1))
 
 
 @compiled
 def _find_links(inside, wraps_x, wraps_y):
-    """Of the links along either axis the columns of their first cells, with how many cells are alike behind and ahead
-    (a gap that reaches a free edge has no end); of the squares those of their lowest cells, with a bit for each centre
-    inside, counter-clockwise from the lowest; and where each row begins among the three."""
+    """Return links, squares and starts as in `Crossed`.
+
+    A gap that reaches a free edge has infinite run length; the bits of a square run counter-clockwise from its lowest
+    cell.
+    """
     nx, ny = inside.shape
-    room = 8 * (nx + ny)
-    down, down_runs = np.empty(room, np.int32), np.empty((room, 2))
-    across, across_runs = np.empty(room, np.int32), np.empty((room, 2))
-    squares, codes = np.empty(room, np.int32), np.empty(room, np.uint8)
+    capacity = 8 * (nx + ny)
+    down, down_runs = np.empty(capacity, np.int32), np.empty((capacity, 2))
+    across, across_runs = np.empty(capacity, np.int32), np.empty((capacity, 2))
+    squares, codes = np.empty(capacity, np.int32), np.empty(capacity, np.uint8)
     starts = np.zeros((nx + 1, 3), np.int64)
     first, last = np.full((2, ny), -1), np.full((2, ny), -1)  # of the links down each column: which, and its row
     row = np.zeros(8 * ((ny + 7) // 8), np.uint8)
@@ -179,12 +201,12 @@ def _find_links(inside, wraps_x, wraps_y):
     u = v = w = 0
     for i in range(nx):
         starts[i, 0], starts[i, 1], starts[i, 2] = u, v, w
-        down, down_runs = _with_room(down, u + ny), _with_room(down_runs, u + ny)
-        across, across_runs = _with_room(across, v + ny), _with_room(across_runs, v + ny)
-        squares, codes = _with_room(squares, w + ny), _with_room(codes, w + ny)
+        down, down_runs = _with_capacity(down, u + ny), _with_capacity(down_runs, u + ny)
+        across, across_runs = _with_capacity(across, v + ny), _with_capacity(across_runs, v + ny)
+        squares, codes = _with_capacity(squares, w + ny), _with_capacity(codes, w + ny)
         ends = i + 1 == nx and not wraps_x
         here = inside[i]
-        _tell_apart(here, inside[i if ends else (i + 1) % nx], wraps_y, row)
+        _write_corner_bits(here, inside[i if ends else (i + 1) % nx], wraps_y, row)
         for word in range(words.size):
             if words[word] == 0:
                 continue
@@ -218,8 +240,8 @@ def _find_links(inside, wraps_x, wraps_y):
 
 
 @compiled
-def _tell_apart(here, above, wraps, row):
-    """In which of the other three centres a cell's square differs from the cell: bits 1, 2 and 3."""
+def _write_corner_bits(here, above, wraps, row):
+    """Write the bits (1, 2 and 3) of the centres of each square that differ from its lowest cell."""
     n = here.size
     for j in range(n - 1):
         row[j] = (here[j] ^ above[j]) << 1 | (here[j] ^ above[j + 1]) << 2 | (here[j] ^ here[j + 1]) << 3
@@ -229,7 +251,7 @@ def _tell_apart(here, above, wraps, row):
 
 @compiled
 def _ends(line, first, last, wraps):
-    """How many cells of a line are alike before its first link and behind its last one."""
+    """Return the run lengths of a line before its first link and after its last link."""
     if wraps:
         return float(first + line.size - last), float(first + line.size - last)
     before, behind = float(first + 1), float(line.size - 1 - last)
@@ -237,8 +259,8 @@ def _ends(line, first, last, wraps):
 
 
 @compiled
-def _with_room(array, size):
-    """The array, or a copy of it with room for twice so many rows."""
+def _with_capacity(array, size):
+    """Return the array, or a copy with twice the rows."""
     if array.shape[0] >= size:
         return array
     larger = np.empty((2 * size, *array.shape[1:]), array.dtype)
@@ -247,8 +269,8 @@ def _with_room(array, size):
 
 
 @compiled
-def _cut(first, last, links, starts, field, blurred, where, law, crossings):
-    """Where the edge crosses the links of the rows from one to another, as a fraction of each."""
+def _write_crossings(first, last, links, starts, field, blurred, where, law, crossings):
+    """Write the crossings of the links of some rows, as fractions of each link."""
     spacing, (wraps_x, wraps_y) = where
     nx, ny = field[0].shape
     inside, strength, opening = field[0].reshape(-1), field[1].reshape(-1), field[2].reshape(-1)
@@ -256,54 +278,60 @@ def _cut(first, last, links, starts, field, blurred, where, law, crossings):
     factor, hardness, constants, ends, give = law
     addresses = strength.ctypes.data, opening.ctypes.data, shape.ctypes.data
     for i in range(first, last):
-        # by their cells' numbers: rows before, here, beyond and behind those
-        before, here, beyond = place(i - 1, nx, wraps_x) * ny, i * ny, place(i + 1, nx, wraps_x) * ny
-        behind = place(i + 2, nx, wraps_x) * ny
+        # flat indices of the rows before, here, beyond and behind
+        before, here = wrapped_index(i - 1, nx, wraps_x) * ny, i * ny
+        beyond = wrapped_index(i + 1, nx, wraps_x) * ny
+        behind = wrapped_index(i + 2, nx, wraps_x) * ny
         for axis in range(2):
             (places, runs), found = links[axis], crossings[axis]
             for link in range(starts[i, axis], starts[i + 1, axis]):
-                j, soon = places[link], places[min(link + _SOON, starts[i + 1, axis] - 1)]
+                j, later = places[link], places[min(link + _PREFETCH, starts[i + 1, axis] - 1)]
                 for address in addresses:
-                    fetch(address + 8 * (here + soon))
+                    fetch(address + 8 * (here + later))
                     if axis == 0:
-                        fetch(address + 8 * (beyond + soon))
+                        fetch(address + 8 * (beyond + later))
                 if axis == 0:
-                    fetch(addresses[2] + 8 * (behind + soon))
-                left, right = place(j - 1, ny, wraps_y), place(j + 1, ny, wraps_y)
+                    fetch(addresses[2] + 8 * (behind + later))
+                left, right = wrapped_index(j - 1, ny, wraps_y), wrapped_index(j + 1, ny, wraps_y)
                 if axis == 0:
                     a, b, c, d = before + j, here + j, beyond + j, behind + j
                     e, f, g, h = here + left, here + right, beyond + left, beyond + right
                 else:
-                    a, b, c, d = here + left, here + j, here + right, here + place(j + 2, ny, wraps_y)
+                    a, b, c, d = here + left, here + j, here + right, here + wrapped_index(j + 2, ny, wraps_y)
                     e, f, g, h = before + j, beyond + j, before + right, beyond + right
                 lower = inside[b] != 0
                 back, ahead = runs[link, 0], runs[link, 1]
-                held, opened, cells = strength[b], opening[c], (back, ahead)
+                strength_inside, opening_outside, cells = strength[b], opening[c], (back, ahead)
                 if not lower:
-                    held, opened, cells = strength[c], opening[b], (ahead, back)
+                    strength_inside, opening_outside, cells = strength[c], opening[b], (ahead, back)
                 if hardness > 0.0:
-                    held = hardness - held if held > 0.0 else held
-                    opened = -opened
+                    strength_inside = hardness - strength_inside if strength_inside > 0.0 else strength_inside
+                    opening_outside = -opening_outside
                 jump = abs(shape[c] - shape[b])
-                if held <= 0.0 or jump > _STEP * max(abs(shape[b] - shape[a]), abs(shape[d] - shape[c])):
+                if strength_inside <= 0.0 or jump > _STEP * max(abs(shape[b] - shape[a]), abs(shape[d] - shape[c])):
                     found[link] = 0.5
                     continue
                 along = np.int64(blurred[d]) + blurred[c] - blurred[b] - blurred[a]
                 across = np.int64(blurred[f]) + blurred[h] - blurred[e] - blurred[g]
                 normal = along / spacing[axis], across / spacing[1 - axis]
-                crossing = _crossing(held, opened, cells, normal, spacing[axis], (factor, give), constants, ends)
+                crossing = _crossing(
+                    strength_inside, opening_outside, cells, normal, spacing[axis], (factor, give), constants, ends
+                )
                 found[link] = crossing if lower else 1 - crossing
 
 
 @compiled
-def _crossing(held, opened, cells, normal, link, factors, constants, ends):
-    """How far from the cell inside, in links; `link` is their length, `cells` are alike inside and out. Where cells
-    give way by their own pressure alone, the overlap give x pressure and the gap are linear across the edge."""
+def _crossing(strength, opening, cells, normal, link, factors, constants, ends):
+    """Return the distance of the crossing from the cell inside, in links of length `link`.
+
+    cells : run lengths inside and outside. Where cells give way by their own pressure alone, the overlap give *
+    pressure and the gap are linear across the boundary.
+    """
     factor, give = factors
     along, across = normal
     norm = math.sqrt(along * along + across * across)
     cosine = max(abs(along) / norm, _LEAST_COSINE) if norm > 0 else 1.0
-    ratio = factor * max(opened, 0.0) / (held * link * cosine)
+    ratio = factor * max(opening, 0.0) / (strength * link * cosine)
     give = give / (link * cosine)
     a = ((constants[0, 0] * cosine + constants[0, 1]) * cosine + constants[0, 2]) * cosine + constants[0, 3]
     b = ((constants[1, 0] * cosine + constants[1, 1]) * cosine + constants[1, 2]) * cosine + constants[1, 3]
@@ -313,8 +341,8 @@ def _crossing(held, opened, cells, normal, link, factors, constants, ends):
 
 
 @compiled
-def _add(squares, starts, crossings, blurred, spacing, wraps):
-    """See `Sums`."""
+def _sum_over_squares(squares, starts, crossings, blurred, spacing, wraps):
+    """Add up `Sums` over the squares."""
     dx, dy = spacing
     wraps_x, wraps_y = wraps
     (places, codes), (rows, columns) = squares, crossings
@@ -363,11 +391,10 @@ def _add(squares, starts, crossings, blurred, spacing, wraps):
 
 @compiled
 def _polygon(centres, number, crossings):
-    """Of a square with some of its four centres inside: share of it inside, chord from crossing to crossing with the
-    region on the left [sides], and a quarter turn to the left (1), to the right (-1) or neither.
+    """Return the fraction of a square inside, the chord with the region on its left [sides], and its quarter turn.
 
-    centres : whether inside, counter-clockwise from the lowest; `number` of them are. crossings : of the lower, upper,
-    left and right side, from their lower end.
+    The turn is 1 to the left, -1 to the right, or 0. centres : 0 or 1, counter-clockwise from the lowest; `number` are
+    inside. crossings : of the lower, upper, left and right side, from their lower end.
     """
     a, b, c, d = centres
     low, high, left, right = crossings
@@ -399,8 +426,8 @@ def _polygon(centres, number, crossings):
 
 @compiled
 def _chord(u, v, along, across):
-    """Length of the chord (u, v) [m], negative where it runs backwards along an edge whose normal is (along, across);
-    that of a saddle is none."""
+    """Return the length of the chord (u, v) [m], negative where it runs against a boundary with normal (along,
+    across)."""
     length, norm = math.sqrt(u * u + v * v), math.sqrt(along * along + across * across)
     if not norm > 0:
         return length
@@ -410,13 +437,13 @@ def _chord(u, v, along, across):
 
 @compiled
 def blur(inside, wraps_x, wraps_y):
-    """256 times the indicator, blurred twice by 1 2 1 along each axis; beyond a free edge that of the last cell."""
+    """Return 256 times the indicator, smoothed twice by 1 2 1 along each axis; free edges repeat the last cell."""
     nx, ny = inside.shape
     blurred = np.empty((nx, ny), np.uint16)
     row = np.empty(ny, np.uint8)
     for i in range(nx):
-        a, b = place(i - 2, nx, wraps_x), place(i - 1, nx, wraps_x)
-        c, d = place(i + 1, nx, wraps_x), place(i + 2, nx, wraps_x)
+        a, b = wrapped_index(i - 2, nx, wraps_x), wrapped_index(i - 1, nx, wraps_x)
+        c, d = wrapped_index(i + 1, nx, wraps_x), wrapped_index(i + 2, nx, wraps_x)
         for j in range(ny):
             row[j] = inside[a, j] + 4 * inside[b, j] + 6 * inside[i, j] + 4 * inside[c, j] + inside[d, j]
         for j in range(2, ny - 2):  # apart from the ends, where places wrap: a loop without branches
@@ -424,15 +451,15 @@ def blur(inside, wraps_x, wraps_y):
         for j in range(ny):
             if 2 <= j < ny - 2:
                 continue
-            a, b = place(j - 2, ny, wraps_y), place(j - 1, ny, wraps_y)
-            c, d = place(j + 1, ny, wraps_y), place(j + 2, ny, wraps_y)
+            a, b = wrapped_index(j - 2, ny, wraps_y), wrapped_index(j - 1, ny, wraps_y)
+            c, d = wrapped_index(j + 1, ny, wraps_y), wrapped_index(j + 2, ny, wraps_y)
             blurred[i, j] = row[a] + 4 * row[b] + 6 * row[j] + 4 * row[c] + row[d]
     return blurred
 
 
 @compiled
-def place(i, n, wraps):
-    """The number of a cell along an axis of n; beyond a free end that of the last one."""
-    if 0 <= i < n:  # hardly any other: a remainder each time is what a certificate would spend its time on
+def wrapped_index(i, n, wraps):
+    """Return the index of a cell along an axis of n cells; free ends repeat the last cell."""
+    if 0 <= i < n:  # avoids a remainder in nearly all cases
         return i
     return i % n if wraps else min(max(i, 0), n - 1)

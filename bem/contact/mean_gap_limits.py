@@ -1,8 +1,8 @@
-"""Mean gaps that do not exist: a proof for elastic bodies that cannot be pressed flat.
+"""Least mean gap of elastic bodies that cannot be pressed flat, with a proof by duality.
 
-A stiff layer on a soft base bends: however hard it is pressed on a flat (or the deeper, the more) it stands off
-somewhere on a free grid, so the mean gap m has a least value over all approaches d, and less may be asked for. That is
-proved by weights y of the cells. With the gap g = h + K p - d, let
+A stiff layer on a soft base bends: however hard it is pressed, it stands off somewhere on a free grid, so the mean gap
+m has a least value over all approaches d, and a smaller one may be prescribed. The bound follows from weights y of the
+cells. With the gap g = h + K p - d, let
 
     (1) K^T y >= 0,    (2) sum y = 0,    (3) y <= 1/n.
 
@@ -11,15 +11,17 @@ For every p >= 0 and every d with g >= 0
     m = sum g / n >= y.g = y.h + (K^T y).p - d sum y >= y.h,
 
 so y.h bounds every mean gap from below, with contact or without. A contact that touches on the cells C and is open on O
-gives such weights but for (2): 1/n on O, and on C what makes K^T y vanish there; then y.h - d sum y is its own mean
-gap, and -sum y the slope of m over d. Two contacts with slopes of either sign, mixed so that (2) holds, cut m off from
-below by their tangents; the next approach is where those meet.
+gives such weights except for (2): 1/n on O, and on C the values for which K^T y vanishes there. Then y.h - d sum y is
+the contact's mean gap, and -sum y the slope of m over d. Two contacts with slopes of opposite sign, combined so that
+(2) holds, bound m from below by their tangents; the next approach is the intersection of the tangents.
 
-(1) and (3) are not taken for granted but checked of the weights that are used, with the round-off and the error of the
-linear solution covered by a uniform weight (a uniform pressure sinks every cell); a negative sum will do for (2), since
-bodies that touch have come closer than their first touch, d >= 0. Where any of them fails nothing is proved: contacts
-of layers so thin and stiff that a pressure lifts cells next to it may have K^T y < 0. Their tangents bound nothing and
-can meet where a contact was found already; the search ends there, with the least mean gap it has seen.
+Conditions (1) and (3) are checked for the weights that are used; a uniform weight covers round-off and the error of the
+linear solution, because a uniform pressure sinks every cell. A negative sum suffices for (2), because d >= 0 in
+contact. Where a condition fails nothing is proved: a layer so thin and stiff that a pressure lifts the cells beside it
+may have K^T y < 0. The tangents are then no bounds and may meet at an earlier contact; the search ends there with the
+least mean gap found.
+
+Verified in tests/contact/test_least_gap.py against linear programming.
 """
 
 from __future__ import annotations
@@ -31,60 +33,63 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.contact.level import LevelResult
-from bem.contact.search import mean_opening
+from bem.contact.fallbacks import mean_opening
+from bem.contact.grid_workspace import GridResult
 from bem.convolution import DisplacementOperator
 
 FloatArray = NDArray[np.float64]
 
 _STEPS = 40
-"""Contacts that are tried; six to twelve are usual."""
+"""Limit of the contacts that are solved; six to twelve are usual."""
 
 _SAME = 1e-9
-"""Of an approach: tangents of the same contacts meet there but for round-off and the weights' linear equations."""
+"""Relative distance of two approaches that count as equal."""
 
 _PRECISE = 1e-11
 """Residual of the weights' linear equations, relative to their right side."""
 
 
 @dataclass(frozen=True)
-class LeastGap:
-    """Outcome: an approach bracket (low, high) across which the wanted mean gap is reached, or a bound above it; with
-    neither, `result` has the least mean gap that was found, and nothing is proved."""
+class LeastMeanGap:
+    """Outcome of the search.
 
-    result: LevelResult
+    bracket : approaches (low, high) between which the prescribed mean gap is reached, or None.
+    bound : lower bound on every mean gap, above the prescribed one, or None.
+    result : with neither, the contact with the least mean gap found.
+    """
+
+    result: GridResult
     bracket: tuple[float, float] | None
     bound: float | None
 
 
 @dataclass(frozen=True)
-class _Cut:
-    """A contact with its weights: at an approach, its mean gap, sum of weights, and y.h."""
+class _Tangent:
+    """A contact with its mean gap, weights y, their sum, and y.h: a tangent of the mean gap over the approach."""
 
-    result: LevelResult
+    result: GridResult
     mean_gap: float
     weights: FloatArray
     total: float
     bound: float
 
 
-def least_gap(
+def least_mean_gap(
     mean_gap: float,
     operator: DisplacementOperator,
     gap: FloatArray,
-    first: LevelResult,
+    first: GridResult,
     scale: float,
     tolerance: float,
-    solve: Callable[[float, FloatArray | None], LevelResult],
-) -> LeastGap | None:
-    """Close in on the least mean gap until the wanted one is passed, or proved not to exist, or contacts repeat; else
-    None.
+    solve: Callable[[float, FloatArray | None], GridResult],
+) -> LeastMeanGap | None:
+    """Approach the least mean gap until the prescribed one is passed, is proved not to exist, or contacts repeat.
 
-    `gap` flat, its lowest value zero; `first` a converged contact with a larger mean gap; `solve` the contact at an
-    approach, from a start.
+    gap : flat, lowest value zero. first : converged contact with a larger mean gap. solve : contact at an approach from
+    an initial pressure. Returns None where a contact does not converge or nothing is decided.
     """
-    left = _cut(operator, gap, first)
-    right: _Cut | None = None
+    left = _tangent(operator, gap, first)
+    right: _Tangent | None = None
     if left is None:
         return None
     if left.total <= 0:
@@ -102,20 +107,20 @@ def least_gap(
         else:
             bound = _proved(operator, gap, left, right)
             if bound is not None and bound > mean_gap + tolerance:
-                return LeastGap(min((left, right), key=lambda cut: cut.mean_gap).result, None, bound)
+                return LeastMeanGap(min((left, right), key=lambda cut: cut.mean_gap).result, None, bound)
             approach = (left.bound - right.bound) / (left.total - right.total)
             start = left.result.pressure
             if any(abs(approach - one) <= _SAME * abs(one) for one in tried):
                 assert nearest is not None
-                return LeastGap(nearest.result, None, None)
+                return LeastMeanGap(nearest.result, None, None)
         tried.add(approach)
         result = solve(approach, start)
         if not result.converged or not math.isfinite(approach):
             return None
         reached = mean_opening(gap, result)
         if reached <= mean_gap:
-            return LeastGap(result, (left.result.approach if left is not None else 0.0, approach), None)
-        cut = _cut(operator, gap, result)
+            return LeastMeanGap(result, (left.result.approach if left is not None else 0.0, approach), None)
+        cut = _tangent(operator, gap, result)
         if cut is None:
             return None
         left, right = (cut, right) if cut.total > 0 else (left, cut)
@@ -123,8 +128,8 @@ def least_gap(
     return None
 
 
-def _proved(operator: DisplacementOperator, gap: FloatArray, left: _Cut, right: _Cut) -> float | None:
-    """The bound on the mean gap from both contacts' weights together; None where they do not qualify."""
+def _proved(operator: DisplacementOperator, gap: FloatArray, left: _Tangent, right: _Tangent) -> float | None:
+    """Return the bound from the weights of both contacts; None where they do not meet the conditions."""
     shape = operator.grid.shape
     apply = _transposed(operator).scaled().apply
     one = np.ones(gap.size)
@@ -135,10 +140,10 @@ def _proved(operator: DisplacementOperator, gap: FloatArray, left: _Cut, right: 
     if not uniform.min() > 0:
         return None
     size = float(np.abs(response).max())
-    # what round-off and the linear solution may have left below zero
-    lift = max(0.0, float((1e-13 * size - response).max())) / float(uniform.min())
-    mixed += lift
-    # back to a sum that is not positive: the approach of any contact is not negative
+    # cover round-off and the error of the linear solution
+    uniform_weight = max(0.0, float((1e-13 * size - response).max())) / float(uniform.min())
+    mixed += uniform_weight
+    # restore a sum that is not positive
     steeper = (mixed.sum() + 1e-13 * np.abs(mixed).sum()) / (left.total - right.total)
     if not 0 <= share - steeper <= 1:
         return None
@@ -149,8 +154,8 @@ def _proved(operator: DisplacementOperator, gap: FloatArray, left: _Cut, right: 
     return float(mixed @ gap) / max(1.0, float(mixed.max()) * gap.size)
 
 
-def _cut(operator: DisplacementOperator, gap: FloatArray, contact: LevelResult) -> _Cut | None:
-    """The weights of a contact, by a linear solution on its cells; None if that fails."""
+def _tangent(operator: DisplacementOperator, gap: FloatArray, contact: GridResult) -> _Tangent | None:
+    """Return the tangent of a contact, whose weights solve linear equations on its cells; None if that fails."""
     import scipy.sparse.linalg  # only where a mean gap is not found
 
     touching = contact.pressure > 0
@@ -174,9 +179,9 @@ def _cut(operator: DisplacementOperator, gap: FloatArray, contact: LevelResult) 
     if failed:
         return None
     weights[cells] = found
-    return _Cut(contact, mean_opening(gap, contact), weights, float(weights.sum()), float(weights @ gap))
+    return _Tangent(contact, mean_opening(gap, contact), weights, float(weights.sum()), float(weights @ gap))
 
 
 def _transposed(operator: DisplacementOperator) -> DisplacementOperator:
-    """The transposed operator: the coupling of friction is odd, so friction changes its sign."""
+    """Return the transposed operator: the coupling of friction is odd, so friction changes sign."""
     return operator if operator.symmetric else replace(operator, friction=-operator.friction)

@@ -1,24 +1,23 @@
-"""The edge of contact inside cells: area and perimeter of second order from a solution on cells.
+"""Area and perimeter of contact, second-order accurate in the cell size, from the boundary inside cells.
 
-A count of the cells in contact is of first order: 8 % high on a rough surface at 256 cells a side. Next to an edge
-p = k sqrt(d) at a distance d inside, and gap = 4 k d^(3/2) / (3 E*) outside (k as of a crack's tip: Johnson, *Contact
-Mechanics*, section 5.1), so the pressure of the last cell inside and the gap of its neighbour outside say where the
-edge crosses the link between their centres: k drops out of q = 3 E* gap / (4 p d n), d the link's length, n the cosine
-between link and normal. What the discrete problem makes of that field is linear in the edge's place, so the place is
-(a - b q) / (c + q) of the link, a, b, c depending on n and on how the operator represents a pressure: constant on
-cells, or as waves (`spectral`). The polygon through the crossings, with what chords cut off from a curve, bounds the
-contact.
+A count of the cells in contact is first-order accurate: 8 % high on a rough surface at 256 cells a side. Next to the
+boundary p = k sqrt(d) at a distance d inside, and gap = 4 k d^(3/2) / (3 E*) outside (k as at a crack tip: Johnson,
+*Contact Mechanics*, section 5.1). The pressure of the last cell inside and the gap of its neighbour outside therefore
+determine where the boundary crosses the link between their centres: k cancels in q = 3 E* gap / (4 p d n), with d the
+length of the link and n the cosine between link and normal. The discrete solution near the boundary is linear in its
+position, so the crossing is at the fraction (a - b q) / (c + q) of the link. The constants a, b, c depend on n and on
+the discretisation: constant on cells, or waves (`spectral`). The polygon through the crossings, with the segments that
+its chords cut off, bounds the contact.
 
-The same holds with hardness less pressure in place of the pressure, and the overlap in place of the gap, where contact
-turns plastic. At a step of the undeformed gap, as round a punch, the pressure has no root to follow: the edge is then
-half-way between the centres.
+The same law holds with hardness less pressure in place of the pressure, and the overlap in place of the gap, where
+contact turns plastic. At a discontinuity of the undeformed gap, as around a punch, the boundary is half-way between the
+centres.
 
-The constants are fitted to contacts of known edge, Hertz' (cells) and Westergaard's (waves), as the cell becomes small;
-crossings are met to 0.007 of a cell. The fit is by least squares over all links of Hertz' balls of 30 to 120 cells in
-radius at 16 random places, and of waves in 15 directions, with a term in proportion to a cell over the contact's radius
-that is left out of the constants. What a narrow piece of contact or of gap adds goes with the inverse of its number of
-cells along the link; those two constants are fitted to areas of rough surfaces (`reports/experiments/contact_area.py`)
-and held against Hertz' and Westergaard's.
+The constants are fitted to contacts with known boundary, Hertz (cells) and Westergaard (waves), in the limit of small
+cells. The contribution of narrow regions falls with the inverse of their number
+of cells along the link; its two constants are fitted to rough surfaces (`reports/experiments/contact_area.py`).
+
+Verified in tests/contact/test_contact_area.py.
 """
 
 from __future__ import annotations
@@ -29,7 +28,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.contact.crossings import Crossed, Field, Law, cells_at_edge, cross_links, links_along, sum_squares
+from bem.contact.contact_boundary import Crossed, Field, Law, cells_at_edge, cross_links, links_along, sum_squares
 from bem.grid import FloatArray, Grid
 
 _CELLS = np.array(
@@ -50,28 +49,26 @@ _WAVES = np.array(
 
 _CELLS_ENDS = (0.0, 0.42)
 _WAVES_ENDS = (0.06, 0.217)
-"""How far the edge lies out for a narrow region, and in for a narrow opening beyond it: in cells, times the number of
-cells along the link. Fits that weigh 256 and 512 cells in other ways give 0.059 to 0.071 and 0.20 to 0.22 (waves),
--0.01 to 0.01 and 0.42 to 0.48 (cells)."""
+"""Shift of the boundary outwards at a narrow region, and inwards at a narrow gap: in cells, times their number of cells
+along the link."""
 
 _LEAST_SHARE = 0.1
-"""Of the cells' area: spots that barely touch a single cell have an area that no cell can tell."""
-
+"""Least area over the area of the cells in contact; single-cell spots do not determine their area."""
 
 _KINK = 5.0
-"""The undeformed gap has a kink where its slope changes this many times as much as beside it. The slope of a parabola
-changes twice as much over two links as over one."""
-
+"""Ratio of a change of slope to those beside it above which the undeformed gap has a kink; a parabola has two."""
 
 _ELASTIC_SHARE = 0.05
-"""Of the part of a partly loaded cell beyond pressure / cap, the least that touches as well: 0.05 to 0.1 of it do on
-eight times finer cells, at slopes of 6 to 26 times the hardness over E*."""
+"""Least fraction in contact of the part of a partly loaded cell beyond pressure / cap."""
 
 
 @dataclass(frozen=True)
 class Region:
-    """Part of the surface: area [m^2] and perimeter [m], of second order; the area of its cells as counted [m^2]; the
-    length of the sides that they do not share [m]; the area with elastic edges everywhere [m^2]."""
+    """Part of the surface.
+
+    area [m^2], perimeter [m] : second-order accurate. counted_area : of its cells [m^2]. sides : length of the outer
+    sides of its cells [m]. elastic_edge_area : area by the law of elastic boundaries alone [m^2].
+    """
 
     area: float
     perimeter: float
@@ -80,10 +77,9 @@ class Region:
     elastic_edge_area: float
 
     def of_area(self, area: float) -> Region:
-        """The same with another area [m^2], and a perimeter that is not shorter than its cells' sides leave it.
+        """Replace the area [m^2]; bound the perimeter from below by the sides of the cells.
 
-        A length of edge passes sides of at most sqrt(2) times its length, and the cells' edge is to that of the region
-        as the roots of their areas. Where chords run back by far, as round single cells, nothing else is known of it.
+        A boundary passes sides of at most sqrt(2) times its length, and perimeters scale as the roots of areas.
         """
         share = min(area / self.counted_area, 1.0) if self.counted_area > 0 else 0.0
         return replace(self, area=area, perimeter=max(self.perimeter, math.sqrt(0.5 * share) * self.sides))
@@ -99,27 +95,23 @@ def contact_region(
     cap: float = math.inf,
     compliance: float = 0.0,
 ) -> Region:
-    """The cells in contact; under a cap no less than what carries their load at the cap.
+    """Return the region in contact; below a cap, at least the area that carries the load at the cap.
 
     Parameters
     ----------
     pressure : (nx, ny) [Pa], zero outside contact.
     gap, undeformed : (nx, ny), deformed and undeformed gap [m].
     grid : of the cells.
-    modulus : E* as the length of a cell sees it [Pa].
-    ends : what narrow contact and narrow gaps
-        add, in place of the fitted constants.
-    cap : highest pressure of a cell, the hardness [Pa].
-    compliance : what each
-        cell gives way besides, by its own pressure [m/Pa].
+    modulus : E* at wavelengths of the cell size [Pa].
+    ends : contributions of narrow regions and gaps, in place of the fitted constants.
+    cap : hardness [Pa].
+    compliance : additional displacement of a cell by its own pressure [m/Pa].
 
     Notes
     -----
-    At an edge whose cells are at the cap the pressure has no root to follow, and the law cuts off too much: 3 % of the
-    area where a tenth of the edge is so, 30 % where nearly all is. There the edge lies half-way between centres, cells
-    at the cap count whole, and those between count for no less than the share of the cap that they carry. That takes
-    off too much as well where edges curve or are elastic, so the larger area of both is nearer (measured in
-    `tests/contact/test_contact_edge.py`).
+    At a boundary with cells at the cap the pressure has no root singularity, and the law removes too much area. There
+    cells at the cap count fully, and others at least with the fraction of the cap that they carry. This estimate is
+    also too small where boundaries curve or are elastic, so the larger area is taken.
     """
     inside = pressure > 0
     found, crossed = _region(inside, pressure, gap, undeformed, grid, modulus, ends, compliance=compliance)
@@ -133,8 +125,8 @@ def contact_region(
 
 
 def _beyond_kinks(inside: NDArray[np.bool_], worn: FloatArray, crossed: Crossed, grid: Grid) -> float:
-    """The area [m^2] that the contact gains where its edge lies at a kink of the worn gap (nx, ny) [m] instead of where
-    the law of a smooth gap has put it."""
+    """Return the area [m^2] gained where the boundary lies at a kink of the worn gap (nx, ny) [m] instead of the
+    crossing."""
     gained = 0.0
     for axis in (0, 1):
         first, second, column, crossing, cosine = links_along(crossed, axis, grid.spacing, grid.periodic)
@@ -148,8 +140,10 @@ def _beyond_kinks(inside: NDArray[np.bool_], worn: FloatArray, crossed: Crossed,
 
 
 def _capped_area(inside: NDArray[np.bool_], pressure: FloatArray, cap: float, crossed: Crossed, grid: Grid) -> float:
-    """The area of cells in contact [m^2], each with the fraction of it that lies within the edge: all of a cell at the
-    cap, and of others a little more than their pressure over the cap, at least."""
+    """Return the area of the cells in contact [m^2], each with its fraction within the boundary.
+
+    Cells at the cap count fully, others at least with a little more than their pressure over the cap.
+    """
     numbers, beyond = cells_at_edge(crossed, inside.view(np.uint8), grid.spacing, grid.periodic)
     below_cap = np.maximum(1 - pressure.reshape(-1)[numbers] / cap, 0.0)
     beyond = np.where(below_cap > 0, np.minimum(beyond, (1 - _ELASTIC_SHARE) * below_cap), 0.0)
@@ -166,12 +160,11 @@ def rows_in_contact(
     cap: float = math.inf,
     compliance: float = 0.0,
 ) -> FloatArray:
-    """The fraction of each row of cells (nx,) within the strip along y that is in contact anywhere; 1 everywhere where
-    nothing touches.
+    """Return the fraction (nx,) of each row of cells within the strip along y that is in contact anywhere.
 
-    The strip ends at the outermost crossing of the edge with the links along x, inside the last row that touches or the
-    row beyond it, or at a kink of the gap as what each cell gives way has left it, as at the edge of a scar. Means over
-    the strip thus converge with the cell. Parameters as in `contact_region`.
+    The strip ends at the outermost crossing of the boundary with the links along x, or at a kink of the worn gap, so
+    that means over the strip converge with the cell size. Without contact all fractions are one. Parameters as in
+    `contact_region`.
     """
     inside = pressure > 0
     touched = np.asarray(inside.any(axis=1))
@@ -197,11 +190,10 @@ def rows_in_contact(
 
 
 def _kink(gap: FloatArray, row: NDArray[np.int64], column: NDArray[np.int64], outwards: int, wraps: bool) -> FloatArray:
-    """Where an undeformed gap has a kink in the link from a cell inside (row, column) to the next row outwards (m,),
-    in links from the cell; not-a-number where it has none.
+    """Return the position (m,) of a kink of the undeformed gap, in links from a cell inside to the next row outwards.
 
-    Bodies that are worn where they touch meet at an angle where the contact ends. The kink is where the straight lines
-    through the last two cells inside and the first two outside cross.
+    Not-a-number where there is none. Bodies worn in contact meet at an angle where contact ends: the kink is the
+    intersection of the lines through the last two cells inside and the first two outside.
     """
     nx = gap.shape[0]
     rows = [row + outwards * step for step in range(-2, 4)]
@@ -216,8 +208,10 @@ def _kink(gap: FloatArray, row: NDArray[np.int64], column: NDArray[np.int64], ou
 def plastic_region(
     pressure: FloatArray, gap: FloatArray, undeformed: FloatArray, hardness: float, grid: Grid, modulus: float
 ) -> Region:
-    """The cells at the hardness [Pa], as in `contact_region`; there the gap is minus the overlap. Where plastic contact
-    meets no contact at all, the edge lies half-way between centres."""
+    """Return the region at the hardness [Pa], as in `contact_region`; its gap is minus the overlap.
+
+    Where plastic contact borders on open gap, the boundary is half-way between centres.
+    """
     elastic = pressure < hardness
     rest, _ = _region(elastic, pressure, gap, undeformed, grid, modulus, hardness=hardness)
     area = grid.area - rest.area
@@ -242,8 +236,8 @@ def _region(
     crossed = cross_links(field, grid.spacing, grid.periodic, law)
     sums = sum_squares(crossed, grid.spacing, grid.periodic)
     count = int(np.count_nonzero(inside))
-    # chords cut off curvature x chord^3 / 12; the curvature of all edges adds up to 2 pi a piece, less that of holes;
-    # chords that run back count as well, or what is left of a jagged edge's length makes any area
+    # chords cut off curvature x chord^3 / 12; curvature integrates to 2 pi per region, less holes; chords that run back
+    # count as well, or a jagged boundary would have any area
     segments = 2 * math.pi * sums.turns * (sums.cubes / sums.chords) / 12 if sums.chords > 0 else 0.0
     area = count * grid.cell_area + sums.area + segments
     area = min(max(area, _LEAST_SHARE * count * grid.cell_area), grid.area)

@@ -1,0 +1,386 @@
+"""Workspace of one grid: operator, gap, buffers and preconditioner; tolerances, limits and results.
+
+Pressures and gaps are flat and in the solver's units.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+from typing import Any, NamedTuple
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bem.compiled import compiled
+from bem.contact import reductions
+from bem.contact.bounds import Iterate, merge
+from bem.contact.coarse_correction import CoarseCorrection, Preconditioner, coarse_correction
+from bem.contact.reductions import CAPPED, CONTACT, NO_PRESSURE, Survey
+from bem.contact.sparse_inverse import SparseInverse, SparseInverseOnCells, connect, sparse_inverse
+from bem.convolution import DisplacementOperator
+
+FloatArray = NDArray[np.float64]
+Indices = NDArray[np.int64]
+
+InitialPressure = FloatArray | Iterate | None
+"""A feasible field, an iterate, or None for no pressure."""
+
+_RESOLUTION = 4e-16
+"""Violations below this fraction of the lengths they are differences of are round-off."""
+
+_FLAT = 1e-6
+"""A gap with roughness below this fraction of the displacement is flat: its residual is relative to the
+displacement."""
+
+_FLAT_RESOLUTION = 1e-12
+"""Largest relative violation aimed at for a flat gap; the transforms resolve little less."""
+
+
+def is_flat(roughness: float, displacement: float) -> bool:
+    """Return True if a gap is flat compared with a displacement [m]."""
+    return roughness <= _FLAT * displacement
+
+
+@dataclass
+class IterationBudget:
+    """CG iterations on all grids so far, and their limit."""
+
+    limit: int
+    iterations: int = 0
+
+    @property
+    def left(self) -> int:
+        """Return the iterations that remain."""
+        return self.limit - self.iterations
+
+
+@dataclass(frozen=True)
+class Tolerance:
+    """Largest violation allowed: the least of several bounds.
+
+    length : absolute bound.
+    relative : bound relative to the displacement.
+    of_first : bound relative to the first violation, on coarse grids; not below `least`.
+    """
+
+    length: float
+    relative: float
+    of_first: float = math.inf
+    least: float = 0.0
+
+    @staticmethod
+    def is_round_off(violation: float, displacement: float) -> bool:
+        """Return True if a violation is near the resolution of the transforms."""
+        return violation <= _FLAT_RESOLUTION * displacement
+
+    def bound(self, approach: float, displacement: float, first: float) -> float:
+        """Return the bound at an approach, largest displacement and first violation; never below round-off."""
+        goal = min(self.length, self.relative * displacement)
+        if math.isfinite(self.of_first):
+            goal = min(goal, max(self.of_first * first, self.least))
+        if is_flat(self.length, self.relative * displacement):
+            goal = min(self.relative, _FLAT_RESOLUTION) * displacement
+        return max(goal, _RESOLUTION * (abs(approach) + displacement))
+
+
+@dataclass(frozen=True)
+class GridResult:
+    """Result on one grid: scaled pressure and displacement (flat), approach, and largest violation.
+
+    exact_displacement : True if the displacement is the operator applied to this pressure, not a combination of others.
+    round_off : not converged, and the remaining violation is round-off of the transforms; fallbacks would not help.
+    least_mean_gap : lower bound on every mean gap, where a smaller one was prescribed.
+    least_found : least mean gap found, where a smaller one was neither found nor excluded.
+    """
+
+    pressure: FloatArray
+    displacement: FloatArray
+    approach: float
+    violation: float
+    converged: bool = False
+    exact_displacement: bool = True
+    round_off: bool = False
+    least_mean_gap: float | None = None
+    least_found: float | None = None
+
+
+@dataclass(frozen=True)
+class SolverParameters:
+    """Numbers that balance outer iterations against CG iterations.
+
+    reduction : relative residual (2-norm) that ends CG.
+    least_reduction : relative residual above which clipping does not end CG.
+    clipping : largest residual, in responses of a cell to the pressure out of bounds, that ends CG.
+    iterations_per_round : limit of CG iterations in an outer iteration.
+    final : fraction of the tolerance that ends CG.
+    squared_radius : of the stencil of the sparse inverse.
+    rounds : limit of outer iterations.
+    patience : outer iterations without progress before the energy guard is set.
+    stall : outer iterations without progress before the solver gives up.
+    """
+
+    reduction: float = 1e-4
+    least_reduction: float = 0.3
+    clipping: float = 0.3
+    iterations_per_round: int = 80
+    final: float = 0.8
+    squared_radius: int = 5
+    rounds: int = 100
+    patience: int = 8
+    stall: int = 60
+
+
+@dataclass(slots=True)
+class Extrapolation:
+    """Final CG step of extrapolated length, without a convolution; disabled once it fails to halve the violation."""
+
+    length: float = 1.0
+    trusted: bool = True
+    taken: bool = False
+    before: float = math.inf
+
+    def judge(self, violation: float) -> None:
+        """Compare the violation with that of the outer iteration before."""
+        if self.taken and violation > 0.5 * self.before:
+            self.trusted = False
+        self.taken, self.before = False, violation
+
+
+class Rise(NamedTuple):
+    """Pressures that answer a unit rise of the approach, on the active cells, and their sum."""
+
+    cells: Indices
+    pressure: FloatArray
+    total: float
+
+
+_NO_RISE = Rise(np.empty(0, np.int64), np.empty(0), 0.0)
+
+
+@dataclass(frozen=True)
+class ActiveCells:
+    """The active cells of an outer iteration, those that violated their state included.
+
+    iterate : their pressures. gap : (n,), gap + displacement - approach (overwritten by solvers). mean_gap : its mean.
+    near : the sparse inverse. rise : pressures of a rise of the approach; total 0 where unknown.
+    """
+
+    iterate: Iterate
+    gap: FloatArray
+    mean_gap: float
+    near: SparseInverseOnCells
+    rise: Rise
+
+
+def _single_field(field: FloatArray) -> NDArray[np.float32]:
+    """Return a single-precision field in the memory of a double-precision one."""
+    return field.reshape(-1).view(np.float32).reshape(2, *field.shape)[0]
+
+
+class GridWorkspace:
+    """Operator, gap, buffers and preconditioner of one grid."""
+
+    def __init__(
+        self, operator: DisplacementOperator, gap: FloatArray, cap: float, parameters: SolverParameters
+    ) -> None:
+        self.operator = operator
+        self.double = operator.scaled()
+        self.single = operator.scaled(np.float32)
+        self.gap = gap
+        self.cap = cap
+        self.parameters = parameters
+        self.state = np.zeros(gap.size, np.uint8)
+        self.displacement = self.double.transform.empty_field()
+        self.before = self.double.transform.empty_field()
+        names = ("displacement", "before")
+        self.flat: dict[str, NDArray[Any]] = {name: getattr(self, name).reshape(-1) for name in names}
+        # single-precision results share memory with the displacement before, which CG does not need
+        self.single_field, self._other_field = _single_field(self.before), _single_field(self.displacement)
+        self._swapped = False
+        self.self_response = float(operator.near_field(0)[0, 0])
+        self.extrapolation = Extrapolation()
+        self.rise = _NO_RISE
+        self.sparse: SparseInverse | None = None
+        self.near: tuple[Indices, SparseInverseOnCells] | None = None
+        self.coarse: CoarseCorrection | None = None
+
+    @property
+    def largest_eigenvalue(self) -> float:
+        """Return a bound on the eigenvalues of the symmetric part of the operator."""
+        real = self.double.multiplier.real
+        assert real is not None
+        return float(np.abs(real).max())
+
+    def mean_below_cap(self, field: NDArray[Any], capped: Indices) -> float:
+        """Return the mean of a field (flat) over the cells below the cap."""
+        total = float(field.sum(dtype=np.float64) - field[capped].sum(dtype=np.float64))
+        return total / max(1, field.size - capped.size)
+
+    def mean_rise(self, iterate: Iterate) -> float:
+        """Return the mean displacement below the cap per unit sum of pressures, for the displacement in the buffer."""
+        force = float(iterate.values.sum())
+        if iterate.capped.size:
+            force += self.cap * iterate.capped.size
+        return self.mean_below_cap(self.flat["displacement"], iterate.capped) / force if force > 0 else 0.0
+
+    def displace(self, iterate: Iterate) -> None:
+        """Write the displacement of a pressure to the buffer."""
+        if iterate.capped.size == 0:
+            self.double.apply_to_cells(iterate.cells, iterate.values, self.displacement)
+            return
+        reductions.scatter(self.flat["displacement"], iterate.cells, iterate.values, iterate.capped, self.cap)
+        self.double.apply(self.displacement, self.displacement)
+
+    def swap_displacements(self) -> None:
+        """Make the displacement the one before, once in an outer iteration."""
+        if self._swapped:
+            return
+        self._swapped = True
+        self.displacement, self.before = self.before, self.displacement
+        self.flat["displacement"], self.flat["before"] = self.flat["before"], self.flat["displacement"]
+        self.single_field, self._other_field = self._other_field, self.single_field
+
+    def begin_round(self, iterate: Iterate, *, keep: bool) -> None:
+        """Write the displacement of a pressure to the buffer; `keep` the last displacement as the one before."""
+        if keep:
+            self.swap_displacements()
+        self._swapped = False
+        self.displace(iterate)
+
+    def survey(self, iterate: Iterate, other: Iterate | None = None) -> Survey:
+        """Return the reductions of a pressure with its displacement, and the work of another pressure there."""
+        before = NO_PRESSURE if other is None else (other.cells, other.values, other.capped)
+        pressure = iterate.cells, iterate.values, iterate.capped
+        return reductions.survey(self.flat["displacement"], self.gap, pressure, self.cap, before)
+
+    def separations(self, iterate: Iterate) -> tuple[float, float]:
+        """Return the largest gap + displacement of cells with pressure, and the smallest of cells below the cap."""
+        reductions.mark(self.state, iterate.cells, iterate.capped)
+        return reductions.separations(self.flat["displacement"], self.gap, self.state)
+
+    def violations(self, iterate: Iterate, approach: float) -> tuple[NDArray[np.int32], float]:
+        """Write all states; return the cells that violate theirs, and the largest violation."""
+        pressure = iterate.cells, iterate.values, iterate.capped
+        return reductions.find_violations(self.flat["displacement"], self.gap, self.state, pressure, approach)
+
+    def sparse_inverse(self) -> SparseInverse:
+        """Return the sparse inverse of this grid; the coarse correction is prepared with it."""
+        if self.sparse is None:
+            reach = 2 * math.isqrt(self.parameters.squared_radius)
+            self.sparse = sparse_inverse(
+                self.operator.grid.shape,
+                self.operator.grid.periodic,
+                self.operator.near_field(reach),
+                self.parameters.squared_radius,
+            )
+            self.coarse = coarse_correction(self.operator, self.sparse.near_response)
+        return self.sparse
+
+    def activate(
+        self, iterate: Iterate, violating: NDArray[np.int32], approach: float, *, with_rise: bool
+    ) -> ActiveCells:
+        """Add the violating cells to those between the bounds, and connect the rows of the sparse inverse.
+
+        The rise pressures are carried over from the outer iteration before, if `with_rise`.
+        """
+        sparse, capped = self.sparse_inverse(), iterate.capped
+        known = sparse.patterns
+        merged, rows, irregular, unsolved, rise, total = _activate(
+            (iterate.cells, iterate.values),
+            violating,
+            (self.state, self.cap),
+            (self.flat["displacement"], self.gap, approach),
+            (*sparse.shape, *sparse.periodic),
+            (known.offsets, known.solved),
+            (self.rise.cells, self.rise.pressure, self.rise.total),
+            with_rise,
+        )
+        known.solve(rows[2], unsolved=unsolved)
+        cells, values, gap, mean_gap = merged
+        near = sparse.of_rows(rows, irregular)
+        self.near = cells, near
+        if capped.size:
+            self.state[violating] = CONTACT
+            capped = capped[self.state[capped] == CAPPED]
+        return ActiveCells(Iterate(cells, values, capped), gap, mean_gap, near, Rise(cells, rise, total))
+
+    def known_rise(self, active: ActiveCells) -> Rise:
+        """Return the rise pressures of the active cells, by one preconditioning where they are unknown."""
+        rise = active.rise
+        if not rise.total > 0:
+            total = self.preconditioner_on(active)(np.ones(rise.pressure.size), rise.pressure)
+            if not total > 0:
+                rise.pressure[:] = 1.0
+                total = float(rise.pressure.size)
+            rise = Rise(rise.cells, rise.pressure, total)
+        self.rise = rise
+        return rise
+
+    def preconditioner(self, cells: Indices) -> Preconditioner:
+        """Return the two-level approximate inverse on the cells."""
+        sparse = self.sparse_inverse()
+        self.near = None  # release the old rows first
+        near = sparse.on(cells)
+        self.near = cells, near
+        return self._with_coarse(cells, near)
+
+    def preconditioner_on(self, active: ActiveCells) -> Preconditioner:
+        """Return the two-level approximate inverse on the active cells."""
+        return self._with_coarse(active.iterate.cells, active.near)
+
+    def _with_coarse(self, cells: Indices, near: SparseInverseOnCells) -> Preconditioner:
+        coarse = None if self.coarse is None else self.coarse.on(cells, near.row_sums())
+        return Preconditioner(near, coarse, np.empty(cells.size))
+
+    def near_on(self, cells: Indices) -> SparseInverseOnCells | None:
+        """Return the sparse inverse last connected, if it is on these cells (the same array)."""
+        return self.near[1] if self.near is not None and self.near[0] is cells else None
+
+    def release(self, iterate: Iterate) -> tuple[FloatArray, FloatArray]:
+        """Return the pressure as a field and the displacement; both own the buffers of the workspace."""
+        pressure = self.flat["before"]
+        reductions.scatter(pressure, iterate.cells, iterate.values, iterate.capped, self.cap)
+        return pressure, self.flat["displacement"]
+
+
+@compiled
+def _activate(old, violating, states, surface, grid, known, rise, with_rise):
+    """Merge the cells, connect the rows of the sparse inverse and carry the rise pressures; see `activate`."""
+    merged = merge(old, violating, states[0], states[1], surface)
+    cells = merged[0]
+    rows, irregular, unsolved = connect(cells, grid, known[0], known[1])
+    carried, total = np.empty(cells.size if with_rise else 0), 0.0
+    if with_rise:
+        total = carry(rise[0], rise[1], rise[2], cells, carried)
+    return merged, rows, irregular, unsolved, carried, total
+
+
+@compiled
+def carry(before, values, total, cells, out):
+    """Carry values (their sum is `total`) from the cells `before` to `cells`; both ascend. Returns the new sum.
+
+    New cells get the mean of the carried values. Returns zero where at most half of the cells are known, or where the
+    carried values sum to at most half of their share of the total.
+    """
+    a = 0
+    known = 0
+    sum_known = 0.0
+    for k in range(cells.size):
+        while a < before.size and before[a] < cells[k]:
+            a += 1
+        if a < before.size and before[a] == cells[k]:
+            out[k] = values[a]
+            known += 1
+            sum_known += values[a]
+        else:
+            out[k] = np.nan
+    if not (2 * known > cells.size and 2 * sum_known * values.size > total * known > 0):
+        return 0.0
+    mean = sum_known / known
+    carried = 0.0
+    for k in range(cells.size):
+        if np.isnan(out[k]):
+            out[k] = mean
+        carried += out[k]
+    return carried
