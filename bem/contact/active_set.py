@@ -89,9 +89,14 @@ def solve_active_set(
 
     Parameters
     ----------
+    operator : displacement operator of the grid.
     gap : flat, lowest value zero.
+    control : prescribed quantity.
     cap : highest pressure; may be infinite.
     start : feasible initial pressure, or None.
+    tolerance : largest violation allowed.
+    budget : iterations that are left to all grids.
+    parameters : numbers that balance outer iterations against CG iterations.
     report : called after each outer iteration.
     """
     grid = GridWorkspace(operator, gap, cap, parameters)
