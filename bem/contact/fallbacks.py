@@ -27,7 +27,7 @@ from numpy.typing import NDArray
 
 from bem.contact.bounds import Iterate
 from bem.contact.controls import ApproachControl, Control, LoadControl, MeanGapControl
-from bem.contact.grid_workspace import GridResult, InitialPressure, Tolerance
+from bem.contact.grid_workspace import GridResult, InitialPressure, Tolerance, mean_opening
 from bem.contact.problem import GridProblem
 from bem.convolution import DisplacementOperator
 
@@ -192,14 +192,6 @@ def _below_least_mean_gap(problem: GridProblem, mean_gap: float, missed: GridRes
         return mean_gap - mean_opening(gap, contact)
 
     return _search_approach(problem, excess, outcome.result.pressure, tolerance, outcome.bracket)
-
-
-def mean_opening(gap: FloatArray, result: GridResult) -> float:
-    """Return the mean positive gap of a contact; round-off in contact does not count as volume."""
-    opening = gap + result.displacement
-    opening -= result.approach
-    opening[result.pressure > 0] = 0.0
-    return float(np.maximum(opening, 0.0).mean())
 
 
 def _approach_by_load(problem: GridProblem, control: ApproachControl, tolerance: float) -> GridResult:

@@ -105,6 +105,14 @@ class GridResult:
     least_found: float | None = None
 
 
+def mean_opening(gap: FloatArray, result: GridResult) -> float:
+    """Return the mean positive gap of a contact; round-off in contact does not count as volume."""
+    opening = gap + result.displacement
+    opening -= result.approach
+    opening[result.pressure > 0] = 0.0
+    return float(np.maximum(opening, 0.0).mean())
+
+
 @dataclass(frozen=True)
 class SolverParameters:
     """Numbers that balance outer iterations against CG iterations.

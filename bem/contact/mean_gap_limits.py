@@ -33,8 +33,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.contact.fallbacks import mean_opening
-from bem.contact.grid_workspace import GridResult
+from bem.contact.grid_workspace import GridResult, mean_opening
 from bem.convolution import DisplacementOperator
 
 FloatArray = NDArray[np.float64]
