@@ -55,6 +55,8 @@ def body() -> str:
         + text(
             "The source has the largest drop at 0.03 to 0.05 m/s. The scenes that redo paper D take the only "
             "combination that gives this; its price is that the optimum of hardness is lost, which a skin of 0 keeps. "
+            "That drop is the groove's: where the film follows the worn shape (last two rows), little of it is left at "
+            "0.01 to 0.05 m/s. The source takes the film of the unworn cylinder, as these scenes do. "
             "In the wear scenes of paper C sizes hardly depend on the frame, so they take the moving disk of the test. "
             "With a skin of 0 sizes by number follow the cell, and pieces at 2.5 N are half as long again. The lines "
             "of these scenes under each choice, all else as built in:"
