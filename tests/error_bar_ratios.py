@@ -3,6 +3,11 @@
 import numpy as np
 
 
+def rows_of(experiment, rng, cases):
+    """Return an experiment's rows of the next cases that the generator draws."""
+    return [row for number in range(cases) for row in experiment.rows(experiment.draw(rng), number)]
+
+
 def known_rows(rows):
     """Rows with a bar and an error that is more than the reference's own."""
     return [row for row in rows if row["bar"] is not None and row["error"] > 1e-7 * abs(row["value"])]

@@ -173,7 +173,8 @@ def solve(drawn: Problem) -> Comparison | None:
         for figures, stresses in ((found, below), (truth, problem.stresses(fine, FINER))):
             figures |= {name: getattr(stresses, name) for name in _STRESSES}
     # two solvers miss a prescribed figure by their tolerances
-    return Comparison(found, truth, {name: bar for name, bar in bars.values.items() if name not in problem.given})
+    judged = {name: bar for name, bar in bars.values.items() if name not in problem.given}
+    return Comparison(found, truth, judged, bars.parts)
 
 
 EXPERIMENT = Experiment("contact_error_bars", draw, solve, cases=240)

@@ -55,7 +55,7 @@ def solve(given: dict[str, Any]) -> Comparison | None:
     reference = solve_line_film(**{**given, "points": FINER * given["points"]}, initial=case.solution)
     if {case.solution.status, reference.status} != {Status.CONVERGED}:
         return None
-    return Comparison(film_figures(case.solution), film_figures(reference), bars.values)
+    return Comparison(film_figures(case.solution), film_figures(reference), bars.values, bars.parts)
 
 
 EXPERIMENT = Experiment("film_error_bars", draw, solve, cases=100)

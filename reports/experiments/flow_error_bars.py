@@ -75,9 +75,9 @@ def solve(patch: Patch) -> Comparison | None:
     own, reference = patch.factors(1), patch.factors(FINER)
     if {own.status, reference.status} != {Status.CONVERGED}:
         return None
-    bars = flow_bars(own, patch.heights, patch.grid(1)).values
-    found, truth = ({name: getattr(one, name) for name in bars} for one in (own, reference))
-    return Comparison(found, truth, bars)
+    bars = flow_bars(own, patch.heights, patch.grid(1))
+    found, truth = ({name: getattr(one, name) for name in bars.values} for one in (own, reference))
+    return Comparison(found, truth, bars.values, bars.parts)
 
 
 EXPERIMENT = Experiment("flow_error_bars", draw, solve, cases=60, seed=2616)

@@ -9,7 +9,7 @@ from __future__ import annotations
 import argparse
 import json
 from collections.abc import Callable, Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, Generic, TypeVar
 
@@ -21,6 +21,7 @@ RESULTS = Path(__file__).resolve().parents[1] / "results"
 DIGITS = 8
 """Significant digits of a stored number: figures of one case differ from digit 9 on by rounding alone."""
 Rows = list[dict[str, Any]]
+Parts = Mapping[str, Mapping[str, Any]]
 Case = TypeVar("Case")
 
 
@@ -30,11 +31,13 @@ class Comparison:
 
     found, truth : a number or an array for each figure, of the case and of the reference.
     bars : error bars; None for a figure without one. The figures judged are those that `bars` names.
+    parts : contribution of each origin of errors to the bars, by origin and figure; not stored.
     """
 
     found: Mapping[str, Any]
     truth: Mapping[str, Any]
     bars: Mapping[str, Any]
+    parts: Parts = field(default_factory=dict)
 
 
 def figure_rows(solved: Comparison) -> Rows:
@@ -134,11 +137,13 @@ def worn_bodies(
     }
 
 
-def compare_records(found: Any, truth: Any, bars: Mapping[str, Any], names: Iterable[str]) -> Comparison:
-    """Return the named attributes of two records with their error bars."""
+def compare_records(
+    found: Any, truth: Any, bars: Mapping[str, Any], names: Iterable[str], parts: Parts | None = None
+) -> Comparison:
+    """Return the named attributes of two records with their error bars and the parts of these."""
     names = list(names)
     own, reference = ({name: getattr(one, name) for name in names} for one in (found, truth))
-    return Comparison(own, reference, {name: bars[name] for name in names})
+    return Comparison(own, reference, {name: bars[name] for name in names}, parts or {})
 
 
 def judged(rows: Rows) -> dict[str, dict[str, float]]:

@@ -93,7 +93,7 @@ def solve(table: dict[str, Any]) -> Comparison | None:
     except BemError as error:
         print(error)
         return None
-    return Comparison(life_figures(end), life_figures(truth), bars.values)
+    return Comparison(life_figures(end), life_figures(truth), bars.values, bars.parts)
 
 
 EXPERIMENT = Experiment("life_error_bars", draw, solve, cases=12, seed=1711)

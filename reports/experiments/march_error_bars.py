@@ -71,7 +71,7 @@ def solve(drawn: MarchCase) -> Comparison | None:
     reference = done(case, FINER).films
     if reference[-1].status is not Status.CONVERGED:
         return None
-    return Comparison(march_figures(case.films), march_figures(reference), bars.values)
+    return Comparison(march_figures(case.films), march_figures(reference), bars.values, bars.parts)
 
 
 EXPERIMENT = Experiment("march_error_bars", draw, solve, cases=30, seed=2613)

@@ -120,7 +120,7 @@ def solve(problem: Problem) -> Comparison | None:
     films = films_of(setup, speeds, resolution=FINER * setup.film_resolution)
     whole = films.under(setup.load, len(films.errors) - 1, None)
     truth["lambda_ratio"] = whole.minimum_thickness / float(heights.std())
-    return Comparison(found, truth, bars.values)
+    return Comparison(found, truth, bars.values, bars.parts)
 
 
 EXPERIMENT = Experiment("mixed_error_bars", draw, solve, cases=60, seed=2613)

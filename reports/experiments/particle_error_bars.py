@@ -68,7 +68,7 @@ def solve(maps: Maps) -> Comparison:
     truth = map_figures(particles_from_height_map(maps.fine, (PIXEL / FINER,) * 2, **maps.seen))
     truth["count"] /= 16
     bars = particle_bars(found, maps.heights, (PIXEL, PIXEL), maps.seen)
-    return Comparison(map_figures(found), truth, bars.values)
+    return Comparison(map_figures(found), truth, bars.values, bars.parts)
 
 
 EXPERIMENT = Experiment("particle_error_bars", draw, solve, cases=60, seed=2616)

@@ -78,7 +78,8 @@ def solve(case: PointCase) -> Comparison | None:
         return None
     found, finer, further = (point_figures(case, one) for one in (film, reference, wide))
     truth = {name: finer[name] + further[name] - found[name] for name in found}
-    return Comparison(found, truth, point_bars(case, film).values)
+    bars = point_bars(case, film)
+    return Comparison(found, truth, bars.values, bars.parts)
 
 
 EXPERIMENT = Experiment("point_error_bars", draw, solve, cases=30)

@@ -70,16 +70,16 @@ def solve(drawn: tuple[RoughPointCase, tuple[int, int], float]) -> Comparison | 
     if film.status is not Status.CONVERGED:
         return None
     area = math.pi * half**2
-    bars = rough_point_bars(case, film, area).values
-    if all(bar is None for bar in bars.values()):
+    bars = rough_point_bars(case, film, area)
+    if all(bar is None for bar in bars.values.values()):
         return None
     reference = case.on((FINER * cells[0], FINER * cells[1]))
     if reference.status is not Status.CONVERGED:
         return None
     found, finer = (rough_point_figures(case, one, area) for one in (film, reference))
     truth = {name: value + FINER / (FINER - 1) * (finer[name] - value) for name, value in found.items()}
-    unknown = {name: 0.0 for name in bars if name not in found}
-    return Comparison(found | unknown, truth | unknown, bars)
+    unknown = {name: 0.0 for name in bars.values if name not in found}
+    return Comparison(found | unknown, truth | unknown, bars.values, bars.parts)
 
 
 EXPERIMENT = Experiment("rough_point_error_bars", draw, solve, cases=30, seed=2614)

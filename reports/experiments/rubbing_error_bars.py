@@ -52,9 +52,9 @@ def solve(drawn: tuple[Problem, RubbingCase]) -> Comparison | None:
     if any(one.status is not Status.CONVERGED for _, _, *solved in found for one in solved):
         return None
     grid, gap, contact, temperature = found[0]
-    bars = rubbing_bars(case, grid, gap, (contact, temperature)).values
+    bars = rubbing_bars(case, grid, gap, (contact, temperature))
     own, truth = (case.figures(one, *solved) | {"load": solved[0].load} for one, _, *solved in found)
-    return Comparison(own, truth, bars)
+    return Comparison(own, truth, bars.values, bars.parts)
 
 
 EXPERIMENT = Experiment("rubbing_error_bars", draw, solve, cases=60)

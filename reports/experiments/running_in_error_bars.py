@@ -66,7 +66,7 @@ def solve(table: dict[str, Any]) -> Comparison | None:
         print(error)
         return None
     known = [name for name in MIXED_RULES if getattr(found, name) is not None]  # no temperatures without heat
-    return compare_records(found, truth, bars.values, known)
+    return compare_records(found, truth, bars.values, known, bars.parts)
 
 
 EXPERIMENT = Experiment("running_in_error_bars", draw, solve, cases=30, seed=2612)

@@ -99,9 +99,9 @@ def solve(drawn: tuple[TribofilmCase, FloatArray, float]) -> Comparison | None:
         truth = grown(finer, 4 if case.reuse_tolerance is None else TIGHTER)
     except ConvergenceError:
         return None
-    bars = tribofilm_bars(case, found).values
-    known = [name for name in bars if found[name] is not None and truth[name] is not None]
-    return Comparison(found, truth, {name: bars[name] for name in known})
+    bars = tribofilm_bars(case, found)
+    known = [name for name in bars.values if found[name] is not None and truth[name] is not None]
+    return Comparison(found, truth, {name: bars.values[name] for name in known}, bars.parts)
 
 
 EXPERIMENT = Experiment("tribofilm_error_bars", draw, solve, cases=40, seed=2614)

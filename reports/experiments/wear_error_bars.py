@@ -63,7 +63,8 @@ def solve(table: dict[str, Any]) -> Comparison:
     bars = wear.bars(scene, (lower, upper), found)
     fine = (waves_through(lower, FINER), waves_through(upper, FINER))
     truth = wear.wear_down(wear.at_resolution(scene, FINER), fine, PlainContext(scene.seed))
-    return compare_records(found, truth, bars.values, RULES if truth.worn_volume_per_cycle > 0 else ())
+    names = RULES if truth.worn_volume_per_cycle > 0 else ()
+    return compare_records(found, truth, bars.values, names, bars.parts)
 
 
 EXPERIMENT = Experiment("wear_error_bars", draw, solve, cases=60)

@@ -4,13 +4,13 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from error_bar_ratios import ratios_of
+from error_bar_ratios import ratios_of, rows_of
 
 from bem import Lubricant, solve_line_film
 from bem.accuracy import FilmCase, film_bars, film_figures, solve_coarser_film
 from bem.benchmarks.line_film import similarity_case
 from bem.errors import Status
-from reports.experiments.film_error_bars import draw, rows_of
+from reports.experiments.film_error_bars import EXPERIMENT
 
 OIL = Lubricant(0.1, pressure_viscosity=2e-8, density_law="dowson_higginson")
 
@@ -89,9 +89,6 @@ def test_the_other_film_takes_few_steps():
 
 def test_bars_cover_nine_errors_in_ten_and_are_not_far_too_large():
     """Of random films; `reports/experiments/film_error_bars.py` has a hundred and the verdict for each figure."""
-    rng, rows = np.random.default_rng(21), []
-    for _ in range(12):
-        rows += rows_of(*draw(rng))
-    ratios = ratios_of(rows, 50)
+    ratios = ratios_of(rows_of(EXPERIMENT, np.random.default_rng(21), cases=12), 50)
     assert np.mean(ratios >= 1) >= 0.9
     assert np.median(ratios) <= 5

@@ -4,7 +4,7 @@ from dataclasses import replace
 
 import numpy as np
 import pytest
-from error_bar_ratios import ratios_of
+from error_bar_ratios import ratios_of, rows_of
 from mixed_case import steel_line
 
 from bem import Grid, Lubricant
@@ -15,7 +15,7 @@ from bem.friction.balance import Regime
 from bem.friction.films import films_of
 from bem.friction.load_sharing import solve_setup
 from bem.friction.setup import MixedSetup
-from reports.experiments.mixed_error_bars import draw, rows_of
+from reports.experiments.mixed_error_bars import EXPERIMENT
 
 
 def case_of(speed, cells=(48, 24), rms=100e-9, **changes):
@@ -90,10 +90,7 @@ def test_the_coarser_grid_is_as_large(cells):
 
 def test_bars_cover_nine_errors_in_ten_and_are_not_far_too_large():
     """Of random contacts; `reports/experiments/mixed_error_bars.py` has more and the verdict for each figure."""
-    rng, rows = np.random.default_rng(31), []
-    for _ in range(4):
-        rows += rows_of(draw(rng))
-    ratios = ratios_of(rows, 20)
+    ratios = ratios_of(rows_of(EXPERIMENT, np.random.default_rng(31), cases=4), 20)
     # of so few contacts, whose figures go together, the share scatters by a tenth
     assert np.mean(ratios >= 1) >= 0.8
     assert np.median(ratios) <= 7

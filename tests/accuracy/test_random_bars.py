@@ -6,13 +6,13 @@ from dataclasses import replace
 import numpy as np
 from error_bar_ratios import ratios_of
 
-from reports.experiments.contact_error_bars import draw, rows_of
+from reports.experiments.contact_error_bars import EXPERIMENT, draw
 
 
 def test_bars_cover_nine_errors_in_ten_and_are_not_far_too_large():
     rng, rows = np.random.default_rng(20), []
-    for _ in range(20):
-        rows += rows_of(replace(draw(rng), depths=0))  # stresses of references take long
+    for number in range(20):
+        rows += EXPERIMENT.rows(replace(draw(rng), depths=0), number)  # stresses of references take long
     ratios = ratios_of(rows, 80)
     assert np.mean(ratios >= 1) >= 0.9
     # asked for: five; of so few contacts the median scatters by a half
@@ -25,8 +25,9 @@ def test_at_a_given_approach_the_mean_gap_has_what_first_touch_between_cells_mov
     rng, rows = np.random.default_rng(5), []
     while len(rows) < 16:
         problem = draw(rng)
-        if "approach" in problem.given and problem.heights.any():
-            rows += [row for row in rows_of(replace(problem, depths=0)) if row["figure"] == "mean_gap"]
+        if problem.control == "approach" and problem.heights.any():
+            found = EXPERIMENT.rows(replace(problem, depths=0), len(rows))
+            rows += [row for row in found if row["figure"] == "mean_gap"]
     ratios = ratios_of(rows, 12)
     assert np.mean(ratios >= 1) >= 0.85
     assert np.median(ratios) < 7

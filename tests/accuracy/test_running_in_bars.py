@@ -15,7 +15,7 @@ from bem.scenes import build, get_kind
 from bem.scenes.kinds.running_in import at_resolution
 from bem.scenes.load import scene_from_table
 from bem.scenes.wearing import on_every_second_cell
-from reports.experiments.running_in_error_bars import RESULT
+from reports.experiments.running_in_error_bars import EXPERIMENT
 
 SCENE = {
     "kind": "running-in",
@@ -118,7 +118,7 @@ def test_odd_grids_have_none_and_say_so(tmp_path):
 
 
 def test_the_stored_judgement_covers():
-    stored = json.loads(RESULT.read_text())
+    stored = json.loads(EXPERIMENT.path.read_text())
     bars = sum(row["bars"] for row in stored["figures"].values())
     covered = sum(row["bars"] * row["covered"] for row in stored["figures"].values())
     assert bars > 100
