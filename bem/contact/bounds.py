@@ -404,7 +404,7 @@ def _rows_reaching(rows, irregular, marked):
 
 @compiled
 def _add_response(rows, irregular, listed, field, response):
-    """Add G^T G field to `found`, over the listed rows."""
+    """Add G^T G field to `response`, over the listed rows."""
     upper, lower, pattern, table = rows
     for r in range(listed[0].size):
         k = listed[0][r]

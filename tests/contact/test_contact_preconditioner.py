@@ -11,7 +11,7 @@ pytestmark = pytest.mark.internal
 N = 96
 
 
-def level(periodic, n=N):
+def workspace_of(periodic, n=N):
     op = operator((n, n), (1 / n, 1 / n), periodic)
     return op, GridWorkspace(op, np.zeros(n * n), np.inf, SolverParameters())
 
@@ -33,10 +33,10 @@ def matrix_product(op, cells, values):
 @pytest.mark.parametrize("share", [0.05, 0.3, 0.9])
 def test_the_preconditioned_kernel_is_well_conditioned_at_all_wavelengths(periodic, share):
     """Rayleigh quotients of long and of short waves; by the sparse inverse alone they reach 1.4 to 2.9."""
-    op, grid_level = level(periodic)
+    op, workspace = workspace_of(periodic)
     height = notes_surface(N, rolloff=4).ravel()
     cells = np.flatnonzero(height > np.quantile(height, 1 - share))
-    inverse = grid_level.preconditioner(cells)
+    inverse = workspace.preconditioner(cells)
     x, y = np.divmod(cells, N)
     rng = np.random.default_rng(0)
     quotients = []
@@ -52,10 +52,10 @@ def test_the_preconditioned_kernel_is_well_conditioned_at_all_wavelengths(period
 
 @pytest.mark.parametrize("share", [0.02, 0.5, 1.0])
 def test_positive_definite_and_nearly_symmetric(share):
-    _, grid_level = level(FREE)
+    _, workspace = workspace_of(FREE)
     rng = np.random.default_rng(1)
     cells = np.sort(rng.permutation(N * N)[: max(2, int(share * N * N))])
-    inverse = grid_level.preconditioner(cells)
+    inverse = workspace.preconditioner(cells)
     vectors = [rng.standard_normal(cells.size), np.ones(cells.size), np.linspace(-1, 1, cells.size)]
     images = [apply(inverse, v) for v in vectors]
     for i, v in enumerate(vectors):
@@ -67,8 +67,8 @@ def test_positive_definite_and_nearly_symmetric(share):
 
 
 def test_grids_too_small_for_a_coarser_one_do_without():
-    _, grid_level = level(FREE, 12)
+    _, workspace = workspace_of(FREE, 12)
     cells = np.arange(40)
-    inverse = grid_level.preconditioner(cells)
-    assert grid_level.coarse is None
+    inverse = workspace.preconditioner(cells)
+    assert workspace.coarse is None
     assert (apply(inverse, np.ones(40)) > 0).any()

@@ -29,11 +29,11 @@ def contact_of(periodic, share, seed):
     op = operator((N, N), (1 / N, 1 / N), periodic)
     height = notes_surface(N, seed, rolloff=3).ravel()
     cells = np.flatnonzero(height > np.quantile(height, 1 - share))
-    level = GridWorkspace(op, np.zeros(N * N), np.inf, SolverParameters())
-    level.preconditioner(cells)
+    workspace = GridWorkspace(op, np.zeros(N * N), np.inf, SolverParameters())
+    workspace.preconditioner(cells)
     matrix = kernel(op, cells) + 1e-6 * np.eye(cells.size)  # a doubly periodic grid has none for a uniform pressure
     closing = height[cells] - height[cells].min()
-    return level.near_on(cells), matrix, np.linalg.solve(matrix, closing)
+    return workspace.near_on(cells), matrix, np.linalg.solve(matrix, closing)
 
 
 def dense_rows(near, size):
@@ -119,8 +119,8 @@ def plainly(inverse, raw):
 
 @pytest.mark.parametrize("periodic", [FREE, HALF_X, HALF_Y, PERIODIC])
 @pytest.mark.parametrize("shape", [(2, 9), (9, 2), (3, 11), (11, 3), (5, 7), (1, 30), (30, 1), (19, 23)])
-def test_rows_of_the_seam_and_at_the_ends_of_the_list_take_part(shape, periodic):
-    """On narrow and periodic grids most rows are of the seam; on few cells all are, as the list's first and last."""
+def test_irregular_rows_and_those_at_the_ends_of_the_list_take_part(shape, periodic):
+    """On narrow and periodic grids most rows are irregular; on few cells all are, as the list's first and last."""
     rng = np.random.default_rng(shape[0])
     near = sparse_inverse(shape, periodic, operator((24, 24), (1.0, 1.0), FREE).near_field(4))
     for share in (0.05, 0.3, 0.7, 1.0):
