@@ -39,10 +39,10 @@ def test_a_contact_takes_less_than_75_bytes_a_cell_in_a_fresh_process():
                 check=True,
             ).stdout.splitlines()[-1]
         )
-        for size in (512, 1024)
+        for size in (1024, 2048)
     )
     for what in ("surface_bytes_a_cell", "contact_bytes_a_cell"):
-        assert 1024**2 * many[what] - 512**2 * few[what] < 75 * (1024**2 - 512**2)
+        assert 2048**2 * many[what] - 1024**2 * few[what] < 75 * (2048**2 - 1024**2)
 
 
 def test_a_run_of_16384_cells_a_side_is_planned_within_24_gigabytes():

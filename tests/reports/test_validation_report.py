@@ -5,7 +5,7 @@ import json
 import pytest
 
 from bem.scenes.load import library
-from reports import validation_values
+from reports import open_choices, validation_values
 from reports.experiments import kept
 from reports.validation import CHECKS, build, counts, rows
 from reports.validation_lines import CHOICES
@@ -65,10 +65,11 @@ def test_remarks_read_what_they_quote_and_every_experiment_is_read(monkeypatch):
         read.add(name)
         return stored(runs[name])
 
-    for module in (validation_values, film, tribofilm):
+    for module in (validation_values, film, tribofilm, open_choices):
         monkeypatch.setattr(module, "experiment", instead)
     for check in LINES:
         assert bool(check.rule.quoted(stored(check.scene))) == ("{quoted}" in check.remark), check.item
+    open_choices.body()
     assert read == set(runs)
 
 
