@@ -7,7 +7,7 @@ from typing import Any
 
 from reports.builder import table, text
 from reports.validation_lines import CHECKS
-from reports.validation_values import Check, Summary, drop, experiment, stored
+from reports.validation_values import Check, Summary, drop, experiment, experiments, stored
 
 FRAMES = {"disk": "stands still", "cylinder": "moves through the contact"}
 OILS = {"patch": "whole patch", "loaded": "loaded area", "hertz": "Hertz contact"}
@@ -111,10 +111,11 @@ def checks() -> list[Check]:
 
 def lines() -> list[tuple[str, ...]]:
     """Return one row for each line: our figure and verdict as built in and under each other choice."""
-    rows = []
+    rows, known = [], {run["name"] for run in experiments()}
     for check in checks():
         variants = [experiment_name(check.scene, variant) for variant in VARIANTS]
-        shown = [_judged(check, stored, check.scene), *(_judged(check, experiment, name) for name in variants)]
+        others = [_judged(check, experiment, name) if name in known else "–" for name in variants]
+        shown = [_judged(check, stored, check.scene), *others]
         rows.append((check.item, check.scene, check.source, *shown))
     return rows
 
@@ -133,9 +134,13 @@ def _agrees(check: Check, choice: str) -> bool:
 
 
 def _judged(check: Check, read: Any, name: str) -> str:
-    """Return our figure and its verdict from a stored result; a dash where it is not there or lacks the case."""
+    """Return our figure and its verdict from a stored result; dashes for what it does not hold."""
     try:
         summary: Summary = read(name)
-        return f"{check.rule.ours(summary)}: {VERDICTS[check.rule.agrees(summary)]}"
+        ours = check.rule.ours(summary)
     except (FileNotFoundError, LookupError):
         return "–"
+    try:
+        return f"{ours}: {VERDICTS[check.rule.agrees(summary)]}"
+    except LookupError:  # one repetition has no spread
+        return f"{ours}: –"

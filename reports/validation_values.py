@@ -70,7 +70,7 @@ class Check:
 
 
 SCATTER = math.sqrt(175 / 110)
-"""The source's own scatter of sizes, 1.26 either way: light scattering gives radii of 110 to 175 nm for one pair."""
+"""Half the range of the radii by light scattering, 110 to 175 nm for both materials and all loads: 1.26 either way."""
 CONSTANT = (747 * 541 * 145 / (600 * 476 * 129)) ** (1 / 3)
 """What the source calls hardly any change: by its AFM the size rises by a sixth from 2.5 to 10 N."""
 READING = 0.05
