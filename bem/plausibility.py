@@ -304,7 +304,7 @@ def body_arguments(bodies: Any) -> dict[str, tuple[str, Any]]:
 
 
 def material_arguments(key: str, material: Any) -> dict[str, tuple[str, Any]]:
-    """What a `bem.Material` gives to `notes_on_arguments`; None and a stiff stand-in called rigid give nothing."""
+    """Return a material's constants as arguments of `notes_on_arguments`; none for None and for a rigid stand-in."""
     if material is None or "rigid" in material.name.lower():
         return {}
     return {

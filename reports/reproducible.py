@@ -60,7 +60,7 @@ class Row:
             return "in"
         name, stored, found, bar = wrong[0]
         more = f", and {len(wrong) - 1} more" if len(wrong) > 1 else ""
-        return f"{name} {_shown(found)}, stored {_shown(stored)}, bar {bar:.2g}{more}"
+        return f"{name} {_format_value(found)}, stored {_format_value(stored)}, bar {bar:.2g}{more}"
 
 
 @dataclass(frozen=True)
@@ -82,7 +82,7 @@ def inside(figure: Figure) -> bool:
     return (math.isnan(stored) and math.isnan(found)) or abs(found - stored) <= bar
 
 
-def _shown(value: Any) -> str:
+def _format_value(value: Any) -> str:
     return f"{value:.5g}" if isinstance(value, int | float) else str(value)
 
 
@@ -170,13 +170,13 @@ def experiment(
 ) -> Result:
     """Return a result whose `rows(module, stored)` yields a label and a comparison for each row."""
 
-    def made() -> list[Row]:
+    def build_rows() -> list[Row]:
         module = import_module(f"reports.experiments.{name}")
         document = json.loads(kept.result_of(name).read_text("utf-8"))
         stored = document["found"] if isinstance(document, dict) and "found" in document else document
         return [Row(label, compute, seconds) for label, compute in rows(module, stored)]
 
-    return Result(name, made, reason)
+    return Result(name, build_rows, reason)
 
 
 Rows = Iterator[tuple[str, Callable[[], Iterable[Figure]]]]

@@ -78,16 +78,16 @@ class WornFilms:
 
     @property
     def largest_load(self) -> float:
-        """As `Film`."""
+        """Load [N] up to which there are films; see `Film`."""
         return self.unworn.largest_load
 
     @property
     def errors(self) -> tuple[float, ...]:
-        """As `Film`."""
+        """Errors of the films; see `Film`."""
         return self.unworn.errors
 
     def under(self, load: float, level: int = 0, start: PatchFilm | None = None) -> PatchFilm:
-        """As `Film`."""
+        """Return the film under a load; see `Film`."""
         film = self.unworn.under(load, level, start)
         if not self.changes:
             return film
@@ -233,16 +233,16 @@ class SearchedWornFilms:
 
     @property
     def largest_load(self) -> float:
-        """As `Film`."""
+        """Load [N] up to which there are films; see `Film`."""
         return self.solver.unworn.largest_load
 
     @property
     def errors(self) -> tuple[float, ...]:
-        """As `Film`."""
+        """Errors of the films; see `Film`."""
         return self.solver.unworn.errors
 
     def under(self, load: float, level: int = 0, start: PatchFilm | None = None) -> PatchFilm:
-        """As `Film`."""
+        """Return the film under a load; see `Film`."""
         for index in neighbours(load, self.largest_load):
             if index in self._found:
                 continue

@@ -345,8 +345,9 @@ class BearingContact:
 
 
 def pack_balance(step: MixedContact) -> dict[str, Any]:
-    """Where the next balance starts, the rows and the worn shape so far, as plain arrays and numbers, for a checkpoint.
-    It lacks the last cycle (`MixedContact.last`), which the caller packs."""
+    """Pack the start of the next balance, the rows and the worn shape as plain arrays and numbers for a checkpoint.
+
+    The state lacks the last cycle (`MixedContact.last`), which the caller packs."""
     return {
         "film_load": step.state.film_load,
         "slope": step.state.slope,

@@ -244,7 +244,7 @@ def _contact_steps(
 def _steps_between(
     setup: WearSetup, model: WearModel, contact_step: ContactStep | None, compliance: float
 ) -> Callable[[RunningInState], ContactStep]:
-    """As `_contact_steps`, of a contact that knows of wear by the heights alone."""
+    """Return the contact steps of a contact that follows wear only through the heights."""
     particles = model.particles
     if particles is None:
         step = contact_step if contact_step is not None else dry_contact(setup, compliance=compliance)

@@ -14,7 +14,7 @@ Figure = float | str | None
 
 @dataclass(frozen=True)
 class Trial:
-    """How a case is run.
+    """Perturbation under which a case is run.
 
     nudge : relative change of the inputs, for measuring how far figures follow rounding errors.
     tighter : factor on the tolerance of the solvers, for measuring how far figures follow it.

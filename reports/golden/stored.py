@@ -38,7 +38,7 @@ def stored(group: str) -> dict[str, Record]:
 
 
 def differences(group: str, case: str, before: Record, after: Record) -> list[Difference]:
-    """What of a case is not as stored: figures beyond their tolerances, counts beyond the limit for a single case."""
+    """Return the differences of a case: figures beyond their tolerances, counts beyond the limit of a single case."""
     found = []
     for name in sorted(before.figures.keys() | after.figures.keys()):
         old, new = before.figures.get(name, MISSING), after.figures.get(name, MISSING)

@@ -44,7 +44,7 @@ class MarksScene(Table):
     E: Length | None = None
 
     def places(self) -> dict[str, float]:
-        """Those that are given [m], in alphabetical order."""
+        """Return the given places [m] by their letters, in alphabetical order."""
         found = {name: getattr(self, name) for name in "ABCDE"}
         return {name: place for name, place in found.items() if place is not None}
 

@@ -232,7 +232,7 @@ class RunningInSharing(Table):
 
 
 class WearingSharing(RunningInSharing):
-    """As `RunningInSharing`, with the film's shape.
+    """Load sharing in running-in with the macroscopic shape of the film.
 
     `film_shape`: macroscopic shape of a cylinder's film, "worn" as the body that stands with the contact
     (`wear.frame`), or "unworn" throughout. The film of a ball keeps the unworn shape.
