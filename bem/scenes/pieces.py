@@ -103,10 +103,7 @@ def _reported(quantity: str) -> Figure:
     )
 
 
-FOLLOWS_CELL = (
-    "it follows the mesh, or was not shown to converge with it: the source's criterion has no length but the cell, and "
-    "most of its pieces are of one cell or a few"
-)
+FOLLOWS_CELL = "it follows the mesh, or was not shown to converge with it: most pieces are one cell or a few cells wide"
 """Why a mean by number, and a count, has no error bar."""
 
 

@@ -249,9 +249,9 @@ def particles_of_one_cell(facts: Facts, outcome: Outcome) -> Iterator[str]:
     small = [value for value in numbers(radius) if 0 < value < 0.78 * cell]
     if small:
         yield (
-            f"the mean particle, by number, is smaller than two cells of {cell:.3g} nm in {len(small)} of "
-            f"{len(numbers(radius))} runs (radius {min(small):.3g} nm): most are one cell, and their size is the "
-            "mesh's; take a finer grid, or the mean by volume"
+            f"the mean particle, by number, is smaller than two cells of {si(1e-9 * cell, 'm')} in {len(small)} of "
+            f"{len(numbers(radius))} runs (radius {si(1e-9 * min(small), 'm')}): most are one cell, and their size is "
+            "the mesh's; take a finer grid, or the mean by volume"
         )
 
 
