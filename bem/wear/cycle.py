@@ -36,8 +36,8 @@ class WearModel:
     criterion : the name of one of `bem.wear.criterion` or of your own, or a `Detachment`. "von_mises" is the
         source's; "tresca" and "maximum_tension", too, let material leave where an equivalent stress exceeds the yield
         stress. These have no length but the cell and a skin at the surface; "averaged_von_mises", "sphere", "junction"
-        have one of the material, "low_cycle_fatigue" counts passes. "archard", "archard_over_hardness" and "energy" wear by pressure and
-        distance, without pieces.
+        have one of the material, "low_cycle_fatigue" counts passes. "archard", "archard_over_hardness" and "energy"
+        wear by pressure and distance, without pieces.
     stress_range : judge half the change of stress that each body's material has seen since the last cycle instead of
         the stress (low-cycle fatigue: a range of twice the yield stress is what shakedown can bear).
     refine, refinement : fine voxels per depth interval and how stress is interpolated between depths; "exact" computes
