@@ -8,11 +8,7 @@ from __future__ import annotations
 from typing import Any
 
 from bem import surfaces
-from bem.compiled import drop_stale, provide_folder
 from bem.startup.lazy import loader
-
-provide_folder()
-drop_stale()
 
 _HOMES = {
     "grid": ["Grid"],

@@ -1,11 +1,11 @@
-"""How many threads the numerical work may use, and one way to share blocks of work between them.
+"""Number of threads of the numerical work, blocks of work shared between threads, and locks that survive a fork.
 
-Blocks never depend on the number of threads, so neither do the bits of a result. What is small is not shared, and what
-is shared shares nothing further. Linear algebra is another matter: how many threads BLAS takes is the environment's
-choice, and the order of its sums follows it. It gets one, wherever a result is made.
+Blocks do not depend on the number of threads, so the bits of a result do not either. A pass over few entries is done by
+the caller alone, and work inside a shared block is not shared again. Linear algebra gets one thread
+(`one_blas_thread`): the order of its sums would depend on their number.
 
-Threads besides the caller's wait on a lock each, which is let go for them. They take one block after the other, and who
-has not come when all are taken is not waited for: on a busy machine the caller does them alone.
+`share` hands blocks to the threads of one pool and to the caller, each taking the next block as it gets free. Threads
+that have not begun when no block is left are not waited for.
 """
 
 from __future__ import annotations
@@ -17,22 +17,27 @@ import sys
 import threading
 import weakref
 from collections.abc import Callable
-from typing import Any, ParamSpec, TypeVar
+from typing import TYPE_CHECKING, Any, ParamSpec, TypeVar
 
 from bem.errors import InputError
+
+if TYPE_CHECKING:
+    from concurrent.futures import Future, ThreadPoolExecutor
 
 SHARED_FROM = 1 << 19
 """Entries of a pass or a transform from which threads share it."""
 
 
 class ForkSafeLock:
-    """Reentrant lock that a forked process never finds held by a thread that stayed behind.
+    """Reentrant lock that is free in a forked process, whose other threads do not exist.
 
-    Every lock of this package that outlives a call is one.
+    Every lock of this package that outlives a call is a `ForkSafeLock`.
 
-    whole : True makes a fork wait until the lock is free, so that the child finds what it guards complete; only for a
-        lock whose holders take no other one. False gives the child a new lock; what it guards must then be usable in
-        every state that its holder leaves it in.
+    Parameters
+    ----------
+    whole : True makes a fork wait until the lock is free, so that the child finds complete what the lock guards; only
+        for a lock whose holders take no second lock. False gives the child a new lock; the guarded data must then be
+        usable in every state in which a holder leaves them.
     """
 
     def __init__(self, *, whole: bool = False) -> None:
@@ -90,7 +95,7 @@ def _from_environment() -> int:
 
 
 class _Inside(threading.local):
-    """Of each thread, whether it is at work that is shared."""
+    """Whether the present thread works on a shared block."""
 
     shared = False
 
@@ -98,88 +103,24 @@ class _Inside(threading.local):
 _INSIDE = _Inside()
 
 
-class _Task:
-    """Blocks that threads take one after the other, until there are none or one has failed."""
-
-    def __init__(self, work: Callable[[int, int], None], blocks: int, count: int) -> None:
-        self.work, self.blocks, self.count = work, blocks, count
-        self.next = itertools.count()
-        self.lock, self.done = threading.Lock(), threading.Lock()
-        self.inside, self.closed = 0, False
-        self.errors: list[tuple[int, BaseException]] = []
-        self.done.acquire()
-
-    def take(self, worker: int) -> None:
-        """Do blocks while there are any, sharing nothing further."""
-        _INSIDE.shared, block = True, 0
-        try:
-            for block in self.next:
-                if block >= self.blocks or self.errors:
-                    return
-                self.work(worker, block)
-        except BaseException as error:
-            self.errors.append((block, error))
-        finally:
-            _INSIDE.shared = False
-
-    def help(self, worker: int) -> None:
-        """The same, by a thread that the caller waits for from now on, if it does not come too late."""
-        with self.lock:
-            if self.closed or worker >= self.count:  # called for another task, and late
-                return
-            self.inside += 1
-        self.take(worker)
-        with self.lock:
-            self.inside -= 1
-            if self.closed and self.inside == 0:
-                self.done.release()
-
-    def close(self) -> None:
-        """Wait for those who came; nobody else may come."""
-        with self.lock:
-            self.closed = True
-            waits = self.inside > 0
-        if waits:
-            self.done.acquire()
-
-
 class _Pool:
-    """Threads besides the caller's; made when first needed, and made anew in a forked process."""
+    """Threads beside the caller's, started when needed, and the number of threads that users asked for."""
 
     def __init__(self, threads: int) -> None:
         self.threads = threads
         self.busy = threading.Lock()
-        self.bells: list[Any] = []
-        self.task: _Task | None = None
+        self._executor: ThreadPoolExecutor | None = None
+        self._size = 0
 
-    def share(self, task: _Task) -> None:
-        """Do a task with others; the caller holds `busy`."""
-        self.task = task
-        while len(self.bells) < task.count - 1:
-            self._engage()
-        for bell in self.bells[: task.count - 1]:
-            if bell.locked():  # otherwise it has not heard the last one yet
-                bell.release()
-        try:
-            task.take(0)
-        finally:
-            task.close()
-            self.task = None
+    def submit(self, take: Callable[[int], None], helpers: int) -> list[Future[None]]:
+        """Call `take(1)` ... `take(helpers)`, each in a thread of its own; the caller holds `busy`."""
+        if self._executor is None or self._size < helpers:
+            from concurrent.futures import ThreadPoolExecutor
 
-    def _engage(self) -> None:
-        bell, number = threading.Lock(), len(self.bells) + 1
-        bell.acquire()
-
-        def serve() -> None:
-            while True:
-                bell.acquire()
-                task = self.task
-                if task is not None:
-                    task.help(number)
-                del task  # what it holds is not kept while waiting
-
-        threading.Thread(target=serve, name=f"bem_{number}", daemon=True).start()
-        self.bells.append(bell)
+            if self._executor is not None:
+                self._executor.shutdown(wait=False)
+            self._executor, self._size = ThreadPoolExecutor(helpers, thread_name_prefix="bem"), helpers
+        return [self._executor.submit(take, worker) for worker in range(1, helpers + 1)]
 
 
 _POOL = _Pool(_from_environment())
@@ -196,7 +137,7 @@ def _in_parent() -> None:
 
 
 def _in_child() -> None:
-    """Threads stay behind: the process begins with none, and with no lock that one of them holds."""
+    """Begin without threads, and without a lock that a thread of the parent holds."""
     for lock in list(_LOCKS):
         lock.in_child()
     if sys.version_info < (3, 12):
@@ -220,7 +161,7 @@ if hasattr(os, "register_at_fork"):
 
 
 def set_threads(count: int) -> None:
-    """Let transforms and elementwise passes use `count` threads (default 1, or the variable BEM_THREADS).
+    """Set the number of threads of transforms and elementwise passes (default 1, or the variable BEM_THREADS).
 
     Raises
     ------
@@ -232,40 +173,64 @@ def set_threads(count: int) -> None:
 
 
 def get_threads() -> int:
-    """Number of threads that the next computation may use: one within work that is shared already."""
+    """Number of threads that the next computation may use; 1 inside a shared block."""
     return 1 if _INSIDE.shared else _POOL.threads
 
 
 def threads_for(entries: int) -> int:
-    """Number of threads that a pass over so many entries may use: no more than there are cores."""
+    """Number of threads for a pass over `entries` entries, at most the number of cores."""
     return min(get_threads(), cores()) if entries >= SHARED_FROM else 1
 
 
 def cores() -> int:
-    """Cores that this process may use."""
+    """Number of cores that this process may use."""
     return len(os.sched_getaffinity(0)) if hasattr(os, "sched_getaffinity") else (os.cpu_count() or 1)
 
 
 def share(work: Callable[[int, int], None], blocks: int, entries: int) -> None:
-    """Call `work(worker, block)` once for every block in 0..blocks-1, which are passes over so many entries together.
+    """Call `work(worker, block)` once for every block in 0..blocks-1.
 
-    `worker` numbers the thread (0..get_threads()-1): scratch that may not be shared is indexed by it. `work` must
-    release the interpreter lock in its heavy parts for this to be worth anything; what it calls has one thread, so
-    that `share` within it does its blocks itself, as does one while another thread's is under way. Threads take blocks
-    as they come. The exception of the first block that is known to have failed is raised here.
+    Parameters
+    ----------
+    work : must release the interpreter lock in its heavy parts. `worker` (0..get_threads()-1) numbers the thread, to
+        index scratch arrays. A nested `share` runs in its caller's thread, and so does a second one at the same time.
+    blocks : number of blocks.
+    entries : of all blocks together; few entries are not shared.
+
+    Raises
+    ------
+    BaseException : the exception of the first block that is known to have failed.
     """
     workers = min(threads_for(entries), blocks)
     if workers <= 1 or not _POOL.busy.acquire(blocking=False):
         for block in range(blocks):
             work(0, block)
         return
-    task = _Task(work, blocks, workers)
+    following = itertools.count()
+    errors: list[tuple[int, BaseException]] = []
+
+    def take(worker: int) -> None:
+        _INSIDE.shared, block = True, 0
+        try:
+            for block in following:
+                if block >= blocks or errors:
+                    return
+                work(worker, block)
+        except BaseException as error:
+            errors.append((block, error))
+        finally:
+            _INSIDE.shared = False
+
     try:
-        _POOL.share(task)
+        futures = _POOL.submit(take, workers - 1)
+        take(0)
+        for future in futures:
+            if not future.cancel():  # it has begun
+                future.result()
     finally:
         _POOL.busy.release()
-    if task.errors:
-        raise min(task.errors, key=lambda found: found[0])[1]
+    if errors:
+        raise min(errors, key=lambda found: found[0])[1]
 
 
 _Arguments = ParamSpec("_Arguments")
@@ -273,7 +238,7 @@ _Result = TypeVar("_Result")
 
 
 def one_blas_thread(function: Callable[_Arguments, _Result]) -> Callable[_Arguments, _Result]:
-    """The function with one thread for linear algebra while it runs, as many as before after it."""
+    """Decorate a function to run with one thread of the linear algebra."""
 
     @functools.wraps(function)
     def alone(*arguments: _Arguments.args, **keywords: _Arguments.kwargs) -> _Result:
@@ -285,7 +250,7 @@ def one_blas_thread(function: Callable[_Arguments, _Result]) -> Callable[_Argume
 
 @functools.cache
 def _blas(loaded: int) -> Any:
-    """The linear algebra of so many packages, which bring one each."""
+    """Controller of the linear algebra of `loaded` packages; each package brings its own library."""
     from threadpoolctl import ThreadpoolController
 
     return ThreadpoolController().select(user_api="blas")

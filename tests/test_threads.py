@@ -11,7 +11,8 @@ import numpy as np
 import pytest
 
 from bem import threads
-from bem.transforms import Multiplier, PaddedTransform
+from bem.threads import share
+from bem.transforms import Multiplier, PaddedTransform, padded
 
 
 @pytest.fixture(autouse=True)
@@ -56,16 +57,17 @@ def test_threads_are_kept_and_no_more_are_used_than_there_are_cores():
 
 
 @pytest.mark.internal
-def test_who_comes_late_or_was_called_for_another_task_does_nothing():
-    done = []
-    task = threads._Task(lambda worker, block: done.append(worker), 4, 2)
-    task.help(2)  # two share this one: 0 and 1
-    assert done == []
-    task.help(1)
-    task.close()  # nobody is inside: returns
-    task.help(1)
-    assert done == [1] * 4
-    assert task.inside == 0
+def test_a_thread_that_has_not_begun_is_not_waited_for():
+    threads.set_threads(2)
+    threads.share(lambda worker, block: None, 2, 100)
+    gate, done = threading.Event(), []
+    try:
+        with threads._POOL.busy:
+            threads._POOL.submit(lambda worker: gate.wait(60), 2)  # all threads of the pool are at other work
+        threads.share(lambda worker, block: done.append(worker), 4, 100)
+    finally:
+        gate.set()
+    assert done == [0] * 4
 
 
 @pytest.mark.internal
@@ -98,8 +100,10 @@ def test_a_forked_process_has_threads_of_its_own():
 
 @pytest.mark.internal
 def test_a_convolution_is_three_tasks_of_two_pieces_a_thread(monkeypatch):
-    found, plain = [], threads._Pool.share
-    monkeypatch.setattr(threads._Pool, "share", lambda pool, task: (found.append(task.blocks), plain(pool, task))[1])
+    found = []
+    monkeypatch.setattr(
+        padded, "share", lambda work, blocks, entries: (found.append(blocks), share(work, blocks, entries))
+    )
     transform = PaddedTransform((1024, 256), (1024, 512))
     field, factor = np.random.default_rng(1).random((1024, 256)), Multiplier(np.ones((257, 513)))
     together = transform.convolve(field, factor)

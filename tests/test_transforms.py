@@ -2,7 +2,6 @@
 
 import gc
 import hashlib
-import importlib
 import itertools
 import subprocess
 import sys
@@ -17,7 +16,6 @@ from hypothesis import strategies as st
 
 from bem import Body, Grid, Material, displacement_operator, solve_contact, threads, transforms
 from bem.errors import InputError
-from bem.numerics import pocketfft
 from bem.stress import von_mises_field
 from bem.transforms import plans
 
@@ -335,9 +333,9 @@ def test_threads_share_nothing_that_takes_less_than_handing_it_over(monkeypatch)
     """Contacts of 256 and 512 cells lost a fifth to two threads, as did stresses at 32 depths: 2 to 16 hand-overs a
     pass or component."""
     handed = []
-    plain = threads._Pool.share
+    plain = threads._Pool.submit
     monkeypatch.setattr(
-        threads._Pool, "share", lambda pool, task: (handed.append(task.count - 1), plain(pool, task))[1]
+        threads._Pool, "submit", lambda pool, take, helpers: (handed.append(helpers), plain(pool, take, helpers))[1]
     )
     monkeypatch.setattr(threads, "cores", lambda: 2)
     threads.set_threads(2)
@@ -363,67 +361,6 @@ def test_padded_lengths_hold_every_offset_and_prefer_powers_of_two_that_are_litt
         assert transforms.padded_length(cells, True) == cells
     chosen = {cells: transforms.padded_length(cells, False) for cells in (120, 240, 480, 500, 1000)}
     assert chosen == {120: 240, 240: 512, 480: 960, 500: 1024, 1000: 2048}
-
-
-@pytest.mark.internal
-@pytest.mark.parametrize("compiled", [True, False])
-def test_scipys_transforms_without_scipy_fft_have_its_bits(monkeypatch, compiled):
-    if not compiled:
-        monkeypatch.setattr(pocketfft, "_compiled", lambda: None)
-    values = np.random.default_rng(3).normal(size=(5, 34))
-    part = values[:, 1:-1]
-    half = scipy.fft.rfft2(values)
-    assert (pocketfft.half_spectrum(values) == half).all()
-    assert (pocketfft.half_spectrum(values.T, (0,)) == scipy.fft.rfft(values.T, axis=0)).all()
-    assert (pocketfft.from_half_spectrum(half, 34) == scipy.fft.irfft2(half, (5, 34))).all()
-    assert (
-        pocketfft.from_half_spectrum(np.abs(half)[:, :17], 33, (1,)) == scipy.fft.irfft(np.abs(half)[:, :17], 33)
-    ).all()
-    assert (pocketfft.cosines(values) == scipy.fft.dct(values, type=1)).all()
-    assert (pocketfft.sines(part) == scipy.fft.dst(part, type=1)).all()
-    for length in (1, 7, 97, 241, 1023):
-        assert pocketfft.fast_length(length) == scipy.fft.next_fast_len(length, real=True)
-
-
-@pytest.mark.internal
-@pytest.mark.parametrize(
-    "change",
-    [
-        "def dct(x, axes, type): return x",
-        "def dct(x, type, axes): return 2 * x",
-        "del dst",
-        "def r2c(x, axes, forward, inorm, out, threads): return x + 0j",
-        "raise ImportError",
-        "gone",
-    ],
-)
-def test_another_version_of_scipys_compiled_module_is_not_used(monkeypatch, tmp_path, change):
-    """Moved, not to be loaded, with other arguments, other values, or fewer functions."""
-    folder = tmp_path / "fft" / "_pocketfft"
-    folder.mkdir(parents=True)
-    begin = "from scipy.fft._pocketfft.pypocketfft import c2r, dct, dst, good_size, r2c\n"
-    if change != "gone":
-        (folder / "other.py").write_text(begin + change)
-    elsewhere = importlib.machinery.ModuleSpec("scipy", None, is_package=True)
-    elsewhere.submodule_search_locations = [str(tmp_path)]
-    real = importlib.util.find_spec
-    monkeypatch.setattr(importlib.util, "find_spec", lambda name: elsewhere if name == "scipy" else real(name))
-    monkeypatch.setattr(pocketfft, "_NAME", "scipy.fft._pocketfft.other")
-    assert pocketfft._compiled.__wrapped__() is None
-
-
-def test_scipy_finds_the_compiled_transforms_that_were_loaded_before():
-    code = """
-import sys, numpy
-from bem.numerics import pocketfft
-pocketfft.cosines(numpy.ones((1, 3)))
-assert "scipy.fft._basic" not in sys.modules
-ours = pocketfft._compiled()
-import scipy.fft, scipy.fft._pocketfft.pypocketfft as theirs
-assert ours is theirs
-assert numpy.allclose(scipy.fft.ifft(scipy.fft.fft([1.0, 2.0, 4.0])), [1.0, 2.0, 4.0])
-"""
-    subprocess.run([sys.executable, "-c", code], timeout=60, check=True)
 
 
 WAVES = 40  # along a periodic y

@@ -27,7 +27,6 @@ from bem.scenes.kind import get_kind
 from bem.scenes.planner import Plan
 from bem.scenes.records import pack, unpack, without
 from bem.startup.lazy import collecting
-from bem.startup.quick_loads import quicken
 from bem.threads import one_blas_thread
 
 _RECORD = "_record"
@@ -69,7 +68,6 @@ class CaseJob:
     def compute(self, watcher: Watcher) -> Result:
         """Run the case, going on from its checkpoint; errors that a scene can cause come back as words."""
         state = None if self.file is None else load_checkpoint(self.file)
-        quicken()
         context = CaseContext(self.case, self.file, state, watcher, self.epoch)
         try:
             with interrupts_as_they_are(), collecting():

@@ -130,7 +130,6 @@ def _done() -> None:
     gives such signals back to the system there, unless they are ignored."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGALRM):
         signal.signal(number, signal.SIG_IGN)
-    gc.freeze()  # all of it goes in a moment: not searched for garbage first
 
 
 def _interrupt(*_: object) -> None:

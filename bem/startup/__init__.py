@@ -1,5 +1,6 @@
-"""What makes a process start quickly: names that load when first used, compiled loops read without the compiler, and
-loops compiled ahead of their first use.
+"""Quick starts: names that load when first used, and loops compiled ahead of their first use.
 
-Knows Python's imports and numba's inside, nothing of what is computed. Verified in tests/packaging/.
+`lazy` has the packages that load names on demand, `compile_ahead` compiles recorded loops on all cores, `signatures`
+is the text form of the record. Knows Python's imports and numba's dispatchers, nothing of what is computed. Verified in
+tests/packaging/.
 """

@@ -176,8 +176,5 @@ def _callees(function: Any) -> Iterator[Any]:
 
 
 def use_cache_folder(folder: str) -> None:
-    """Keep compiled loops in this folder from now on."""
-    from numba import config
-
+    """Keep the compiled code of loops that are defined from now on in this folder."""
     os.environ["NUMBA_CACHE_DIR"] = folder
-    vars(config)["CACHE_DIR"] = folder

@@ -9,7 +9,7 @@ import numpy as np
 
 from bem.errors import InputError
 from bem.grid import FloatArray
-from bem.numerics.pocketfft import fast_length, from_half_spectrum, half_spectrum
+from bem.numerics.fast_length import fast_length
 from bem.representation import readable
 from bem.surfaces.surface import Surface, check_map, spacing_of
 
@@ -105,8 +105,8 @@ def autocorrelation(heights: FloatArray, axis: int, *, periodic: bool = False) -
     size = n if periodic else fast_length(n + n // 2 + 1)
     if not periodic:
         deviation = np.pad(deviation, [(0, size - n if i == axis else 0) for i in (0, 1)])
-    power = np.abs(half_spectrum(deviation, (axis,))) ** 2
-    raw = from_half_spectrum(power.sum(axis=1 - axis), size, (0,))[: n // 2 + 1]
+    power = np.abs(np.fft.rfft(deviation, axis=axis)) ** 2
+    raw = np.fft.irfft(power.sum(axis=1 - axis), size)[: n // 2 + 1]
     if not periodic:
         raw = raw * n / (n - np.arange(n // 2 + 1))
     return raw / raw[0] if raw[0] > 0 else np.full_like(raw, math.nan)

@@ -23,7 +23,6 @@ import numpy as np
 
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
-from bem.numerics.pocketfft import from_half_spectrum, half_spectrum
 from bem.surfaces.moments import impose_moments, standardise
 from bem.surfaces.request import Request, check
 from bem.surfaces.spectrum import correlation_lengths, multiplicity, phases, spectrum_of, to_centres
@@ -89,7 +88,7 @@ def generate_surface(
     waves = phases(grid.shape, int(seed))
     waves *= amplitude
     to_centres(waves, grid.shape)
-    heights = standardise(from_half_spectrum(waves, grid.shape[1]))
+    heights = standardise(np.fft.irfft2(waves, grid.shape))
     del waves
     heights = impose_moments(heights, amplitude, float(skewness), float(kurtosis))
     if request.lengths is not None and (skewness, kurtosis) != (0.0, 3.0):
@@ -119,12 +118,12 @@ def check_statistics(grid: Grid, **statistics: Any) -> None:
 def _rms_slope(heights: FloatArray, grid: Grid) -> float:
     """Sdq of the continuous surface through the heights."""
     kx, ky = grid.wavevectors()
-    spectrum = np.abs(half_spectrum(heights)) ** 2 * multiplicity(grid.shape)
+    spectrum = np.abs(np.fft.rfft2(heights)) ** 2 * multiplicity(grid.shape)
     return math.sqrt(float((spectrum * (kx**2 + ky**2)).sum())) / grid.cells
 
 
 def _check_lengths(heights: FloatArray, grid: Grid, lengths: tuple[float, float]) -> None:
-    found = correlation_lengths(np.abs(half_spectrum(heights)) ** 2, grid)
+    found = correlation_lengths(np.abs(np.fft.rfft2(heights)) ** 2, grid)
     for axis, given in enumerate(found):
         if grid.shape[axis] > 1 and abs(given / lengths[axis] - 1) > SAMPLE_LENGTH_TOLERANCE:
             raise InputError(

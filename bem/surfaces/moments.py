@@ -16,7 +16,6 @@ from numpy.typing import NDArray
 
 from bem.errors import InputError
 from bem.grid import FloatArray
-from bem.numerics.pocketfft import from_half_spectrum, half_spectrum
 from bem.surfaces.ranks import in_order_of
 from bem.surfaces.spectrum import multiplicity
 
@@ -72,9 +71,9 @@ def _rank_and_spectrum(heights: FloatArray, amplitude: FloatArray, skewness: flo
 
     target, heights = standard_quantiles(heights.size, skewness, kurtosis), heights.copy()
     for _ in range(_ITERATIONS):
-        spectrum = half_spectrum(in_order_of(heights, target))
+        spectrum = np.fft.rfft2(in_order_of(heights, target))
         spectrum *= _over_size(amplitude, spectrum)
-        heights = standardise(from_half_spectrum(spectrum, heights.shape[1]))
+        heights = standardise(np.fft.irfft2(spectrum, heights.shape))
     return heights
 
 
@@ -93,12 +92,12 @@ def _polish(
         power = heights * heights
         if exponent == 3:
             power *= heights  # the library's powers beyond the second take fifteen times as long
-        spectrum = half_spectrum(power)
+        spectrum = np.fft.rfft2(power)
         del power
         share = _over_size(envelope, spectrum)
         spectrum *= np.minimum(1.0, share, out=share)
         del share
-        return np.asarray(from_half_spectrum(spectrum, heights.shape[1]))
+        return np.asarray(np.fft.irfft2(spectrum, heights.shape))
 
     wanted = np.array([skewness, kurtosis])
     for _ in range(40):

@@ -15,7 +15,6 @@ import numpy as np
 
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
-from bem.numerics.pocketfft import from_half_spectrum, half_spectrum
 from bem.surfaces.request import Request
 
 LENGTH_TOLERANCE = 1e-3
@@ -39,7 +38,7 @@ def spectrum_of(grid: Grid, request: Request) -> FloatArray:
 
 def correlation_lengths(power: FloatArray, grid: Grid) -> tuple[float, float]:
     """Lags at which the autocorrelation of a half spectrum of squares falls to 1/e [m]; 0 along an axis of one cell."""
-    correlation = from_half_spectrum(power, grid.shape[1])
+    correlation = np.fft.irfft2(power, grid.shape)
     found = [0.0, 0.0]
     for axis in (0, 1):
         if grid.shape[axis] > 1:
@@ -133,7 +132,7 @@ def _model_amplitude(grid: Grid, lengths: tuple[float, float], model: str) -> Fl
     nx, ny = grid.shape
     full_x = quarter[np.minimum(np.arange(nx), nx - np.arange(nx))]
     whole = full_x[:, np.minimum(np.arange(ny), ny - np.arange(ny))]
-    return np.sqrt(np.maximum(half_spectrum(whole).real, 0.0))
+    return np.sqrt(np.maximum(np.fft.rfft2(whole).real, 0.0))
 
 
 def _self_affine_amplitude(grid: Grid, hurst: float, rolloff_wavelength: float | None) -> FloatArray:

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.numerics.pocketfft import cosines, fast_length, sines
+from bem.numerics.blocks import row_blocks
+from bem.numerics.fast_length import fast_length
 from bem.transforms.count import COUNT
 
 FloatArray = NDArray[Any]
@@ -72,24 +73,18 @@ def offset_cosines(length: int, offsets: NDArray[np.int64]) -> FloatArray:
 
 
 def _half_spectrum(values: FloatArray, length: int, parity: int) -> FloatArray:
-    """Real or imaginary part of the transform along the last axis of an even or odd sequence."""
-    kept = length // 2 + 1
-    half = np.zeros((values.shape[0], kept))
-    given = min(kept, values.shape[1])
-    half[:, :given] = values[:, :given]
-    if length == 1:
-        return half if parity == 1 else np.zeros_like(half)
-    if length % 2 == 0:
-        if parity == 1:
-            return cosines(half)
-        result = np.zeros_like(half)
-        if kept > 2:
-            result[:, 1:-1] = -sines(half[:, 1:-1])
-        return result
-    full = np.concatenate([half, parity * half[:, :0:-1]], axis=1)
-    if parity == -1:
-        full[:, 0] = 0
-    import scipy.fft  # only of odd lengths, which periodic grids may have
-
-    spectrum = scipy.fft.rfft(full, axis=-1)
-    return np.ascontiguousarray(spectrum.real if parity == 1 else spectrum.imag)
+    """Real or imaginary part of the transform along the last axis of an even or odd sequence, from its first half."""
+    half = length // 2 + 1
+    given = min(half, values.shape[1])
+    result = np.empty((values.shape[0], half))
+    for first, last in row_blocks((values.shape[0], length)):
+        whole = np.zeros((last - first, length))
+        whole[:, :given] = values[first:last, :given]
+        if parity == -1:  # zero at offset zero, and at half a period
+            whole[:, 0] = 0
+            if length % 2 == 0:
+                whole[:, length // 2] = 0
+        whole[:, half:] = parity * whole[:, length - half : 0 : -1]
+        spectrum = np.fft.rfft(whole, axis=1)
+        result[first:last] = spectrum.real if parity == 1 else spectrum.imag
+    return result

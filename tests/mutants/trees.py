@@ -1,15 +1,15 @@
 """Copies of the tree: one that stays as it is, and scratch copies in which one line is changed at a time.
 
-Compiled loops are kept beside the sources (`__pycache__`), and a loop that was compiled with a changed function inside
-it must neither be used without the change nor the other way round. So a scratch copy begins with the caches of the
-unchanged one; the changed file is newer than all of them, and `bem.compiled.drop_stale`, which each process calls when
-it imports the package, removes the loops of the file and of all files that compile it in. Afterwards the file gets its
-old text and time back, and each cache file that differs from that of the unchanged copy is put back.
+Compiled loops are kept in the package's `__pycache__/loops`, in folders named by a hash of what they are compiled from
+(`bem.compiled`), so a scratch copy begins with those of the unchanged copy and compiles only what a change reaches.
+Inside such a folder numba names the folder of a module by a hash of its path, which `in_tree` translates. After a
+mutant the file gets its old text and time back, and each cache file that differs from that of the unchanged copy is
+put back.
 """
 
 from __future__ import annotations
 
-import os
+import hashlib
 import shutil
 import subprocess
 from collections.abc import Iterator
@@ -41,10 +41,11 @@ def unchanged(root: Path = ROOT, work: Path = WORK) -> Path:
     for path in [path for path in copy.rglob("*") if path.is_file() and "__pycache__" not in path.parts]:
         if path.relative_to(copy).as_posix() not in kept:
             path.unlink()
-    if new:  # the checkout's compiled loops serve: they are kept by the time and size of their sources
+    if new:  # the checkout's compiled loops serve
         for name in caches(root):
-            (copy / name).parent.mkdir(parents=True, exist_ok=True)
-            shutil.copy2(root / name, copy / name)
+            target = copy / in_tree(copy, name)
+            target.parent.mkdir(parents=True, exist_ok=True)
+            shutil.copy2(root / name, target)
     link_shared(work, root)
     return copy
 
@@ -58,11 +59,19 @@ def link_shared(folder: Path, root: Path = ROOT) -> None:
 
 def caches(tree: Path) -> Iterator[str]:
     """Return the paths of the package's cached files in a tree: byte code and compiled loops."""
-    for folder, _, names in os.walk(tree / PACKAGE):
-        if Path(folder).name == "__pycache__":
-            for name in names:
-                if not name.startswith("sources-"):  # the record of `drop_stale`, which belongs to its own folder
-                    yield (Path(folder) / name).relative_to(tree).as_posix()
+    for path in sorted((tree / PACKAGE).rglob("*")):
+        if "__pycache__" in path.parts and path.is_file():
+            yield path.relative_to(tree).as_posix()
+
+
+def in_tree(tree: Path, name: str) -> str:
+    """Return the path that a cached file of another tree has in this one."""
+    parts = Path(name).parts
+    if "loops" not in parts[:-1]:
+        return name
+    module, _, _ = parts[-3].rpartition("-")
+    home = tree.resolve().joinpath(*module.split(".")[:-1])
+    return Path(*parts[:-2], f"{home.name}_{hashlib.sha1(str(home).encode()).hexdigest()}", parts[-1]).as_posix()
 
 
 class Scratch:
@@ -70,7 +79,8 @@ class Scratch:
 
     def __init__(self, original: Path, folder: Path) -> None:
         self.original, self.folder = original, folder
-        shutil.copytree(original, folder, ignore=shutil.ignore_patterns("sources-*", ".hypothesis"))
+        shutil.copytree(original, folder, ignore=shutil.ignore_patterns(".hypothesis", "loops"))
+        self._put_back()
         link_shared(folder.parent)
 
     def write(self, file: str, text: str) -> None:
@@ -80,17 +90,18 @@ class Scratch:
     def restore(self, file: str) -> None:
         """Undo a change: the file's text and time, and all cached files that are not those of the unchanged tree."""
         shutil.copy2(self.original / file, self.folder / file)
-        for record in (self.folder / PACKAGE / "__pycache__").glob("sources-*"):
-            record.unlink()
-        wanted = {name: _stamp(self.original / name) for name in caches(self.original)}
+        self._put_back()
+
+    def _put_back(self) -> None:
+        wanted = {in_tree(self.folder, name): self.original / name for name in caches(self.original)}
         for name in list(caches(self.folder)):
             if name not in wanted:
                 (self.folder / name).unlink()
-        for name, stamp in wanted.items():
+        for name, source in wanted.items():
             target = self.folder / name
-            if not target.exists() or _stamp(target) != stamp:
+            if not target.exists() or _stamp(target) != _stamp(source):
                 target.parent.mkdir(parents=True, exist_ok=True)
-                shutil.copy2(self.original / name, target)
+                shutil.copy2(source, target)
 
 
 def _stamp(path: Path) -> tuple[int, int]:

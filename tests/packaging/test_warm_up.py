@@ -233,67 +233,94 @@ def test_the_record_has_what_a_scene_compiles(name, settings, tmp_path):
     assert done.stdout == ""
 
 
-LOOP = "from bem.compiled import compiled\n@compiled\n"
+CALL = """
+import os
+import bem
+bem.__path__.append(os.environ["FOLDER_OF_A_TEST"])
+import bem.caller_of_a_test as module
+print(module.caller(1.0), sum(module.caller.stats.cache_hits.values()))
+"""
+
+SOURCES = {
+    "caller": """
+import math
+from bem import callee_of_a_test
+from bem.compiled import compiled
+from bem.function_of_a_test import describe
+from bem.plain_of_a_test import BASE, Pair
+
+@compiled
+def caller(value):
+    pair = Pair(10.0 * value, 1.0 * value)
+    return callee_of_a_test.tens(value) + BASE + pair.second
+""",
+    "callee": """
+from bem.compiled import compiled, inlined
+from bem.deep_of_a_test import hundreds
+
+@inlined
+def tens(value):
+    return 20.0 + hundreds(value)
+""",
+    "deep": """
+from bem.compiled import compiled
+
+@compiled
+def hundreds(value):
+    return 300.0 * value
+""",
+    "plain": """
+from typing import NamedTuple
+
+BASE = 4000.0
+
+class Pair(NamedTuple):
+    first: float
+    second: float
+""",
+    "function": """
+def describe():
+    return "a function that is not compiled"
+""",
+}
 
 
-@pytest.mark.parametrize("named", [False, True])
-def test_loops_go_with_what_was_compiled_into_them(named, tmp_path, monkeypatch):
-    """numba keeps them while their own file is as it was."""
-    root = tmp_path / "bem"
-    sources = {
-        "threads.py": "",
-        "sizes.py": "",
-        "compiled.py": "def compiled(function):\n",
-        "loops.py": LOOP + "from bem.threads import share\nfrom bem.sizes import LINE, size\n",
-        "contact/passes.py": LOOP + "from bem.loops import one, two\n",
-        "contact/round.py": LOOP + "from bem.contact import (\n    passes,\n    plain,\n)\n",
-        "contact/plain.py": "from bem.contact import alone\n",
-        "contact/alone.py": LOOP,
-    }
-    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path / "cache") if named else "")
+def test_an_edit_recompiles_all_that_contains_it_and_nothing_else(tmp_path):
+    """numba keeps a loop while its own file is as it was, and would run the loops that it calls as they were."""
+    environment = os.environ | {"NUMBA_CACHE_DIR": str(tmp_path / "cache"), "FOLDER_OF_A_TEST": str(tmp_path)}
 
-    def folder(name):
-        return tmp_path / "cache" / "contact_0" if named else (root / name).parent / "__pycache__"
+    def write(name, old="", new=""):
+        assert old in SOURCES[name]
+        (tmp_path / f"{name}_of_a_test.py").write_text(SOURCES[name].replace(old, new) if old else SOURCES[name])
 
-    def write():
-        for name in sources:
-            folder(name).mkdir(parents=True, exist_ok=True)
-            index = folder(name) / f"{Path(name).stem}.go-1.py311.nbi"
-            index.touch()
-            os.utime(index, (2000, 2000))
+    def call():
+        done = subprocess.run(
+            [sys.executable, "-B", "-c", CALL], capture_output=True, text=True, timeout=100, check=True, env=environment
+        )
+        value, hits = done.stdout.split()
+        return float(value), int(hits)
 
-    def edit(name):
-        os.utime(root / name, (3000, 3000))
-        dropped = sorted(index.split(".")[0] for index in compiled.drop_stale(root))
-        assert compiled.drop_stale(root) == []
-        os.utime(root / name, (1000, 1000))
-        compiled.drop_stale(root)
-        write()
-        return dropped
-
-    assert compiled.drop_stale(root) == []  # of an installation nothing is looked at
-    (tmp_path / "pyproject.toml").touch()
-    for name, text in sources.items():
-        (root / name).parent.mkdir(parents=True, exist_ok=True)
-        (root / name).write_text(text)
-        os.utime(root / name, (1000, 1000))
-    write()
-    assert compiled.drop_stale(root) == []
-    assert edit("loops.py") == ["loops", "passes", "round"]
-    assert edit("contact/passes.py") == ["passes", "round"]
-    assert edit("contact/round.py") == ["round"]
-    assert edit("threads.py") == []  # nothing in a loop is plain Python
-    assert edit("sizes.py") == ["loops", "passes", "round"]  # but for numbers
-    assert edit("contact/plain.py") == ["round"]
-    assert edit("compiled.py") == ["alone", "compiled", "loops", "passes", "round"]  # how they are compiled
-    assert edit("contact/alone.py") == ["alone"]  # nothing compiled calls it by way of a plain file
-    os.utime(root / "loops.py", (1500, 1500))  # loops are newer, but of a process that may have read what was there
-    assert len(compiled.drop_stale(root)) == 3
+    for name in SOURCES:
+        write(name)
+    assert call() == (4321.0, 0)
+    assert call() == (4321.0, 1)
+    for name, old, new, value in (
+        ("deep", "300.0", "500.0", 4521.0),
+        ("callee", "20.0", "60.0", 4361.0),
+        ("plain", "4000.0", "7000.0", 7321.0),
+        ("plain", "first: float\n    second", "second: float\n    first", 4330.0),
+    ):
+        write(name, old, new)
+        assert call() == (value, 0), name
+        write(name)
+        assert call() == (4321.0, 1), name
+    write("function", "not compiled", "never compiled")
+    assert call() == (4321.0, 1)
 
 
 @pytest.fixture
 def locked(monkeypatch, tmp_path):
-    """An installation that cannot be written, and a home in `tmp_path`; numba's variable is put back afterwards."""
+    """An installation that cannot be written, and a home in `tmp_path`."""
     here = tmp_path / "site-packages" / "bem"
     here.mkdir(parents=True)
     real = os.access
@@ -303,21 +330,16 @@ def locked(monkeypatch, tmp_path):
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
     monkeypatch.setenv("TMPDIR", str(tmp_path))
     monkeypatch.setattr("tempfile.tempdir", None)
-    import numba
-
-    monkeypatch.setattr(numba.config, "CACHE_DIR", "")
     return tmp_path
 
 
 def test_a_read_only_installation_keeps_its_loops_with_the_user(locked):
-    compiled.provide_folder()
-    assert os.environ["NUMBA_CACHE_DIR"] == str(locked / "cache" / "bem" / "compiled")
+    assert compiled.cache_folder() == locked / "cache" / "bem" / "compiled"
 
 
 def test_without_a_home_a_folder_of_ones_own_is_taken(locked, monkeypatch):
     (locked / "cache").write_text("no folder")
-    compiled.provide_folder()
-    folder = Path(os.environ["NUMBA_CACHE_DIR"])
+    folder = compiled.cache_folder()
     assert folder.parent == locked
     assert folder.stat().st_mode & 0o777 == 0o700
 
@@ -328,8 +350,7 @@ def test_a_folder_that_others_may_write_is_not_trusted(locked):
     own = locked / f"bem-compiled-{os.getuid()}"
     own.mkdir()
     own.chmod(0o777)
-    compiled.provide_folder()
-    assert os.environ["NUMBA_CACHE_DIR"] == ""
+    assert compiled.cache_folder() is None
 
 
 def test_a_plan_says_that_loops_are_not_compiled_yet(tmp_path):
@@ -343,7 +364,7 @@ def test_a_plan_says_that_loops_are_not_compiled_yet(tmp_path):
     cold = plan(NUMBA_CACHE_DIR=str(tmp_path / "empty"))
     assert "not compiled yet" in cold
     assert "bem warm-up" in cold
-    warm = tmp_path / "warm" / "bem"
+    warm = tmp_path / "warm" / "bem.transforms.loops-0" / "transforms"
     warm.mkdir(parents=True)
     (warm / f"loops.convolve-1.py{sys.version_info[0]}{sys.version_info[1]}.nbi").write_text("")
     assert "not compiled yet" not in plan(NUMBA_CACHE_DIR=str(tmp_path / "warm"))
