@@ -1,4 +1,4 @@
-"""What of a body matters to heat, and checks of what users hand over."""
+"""Thermal properties of the bodies, and checks of the arguments of the public functions."""
 
 from __future__ import annotations
 
@@ -11,14 +11,19 @@ from bem.errors import InputError
 from bem.grid import Grid
 from bem.materials import Body
 
-_NEEDED = {"thermal_conductivity": "W/(m K)", "density": "kg/m^3", "heat_capacity": "J/(kg K)"}
+_THERMAL_CONSTANTS = {"thermal_conductivity": "W/(m K)", "density": "kg/m^3", "heat_capacity": "J/(kg K)"}
 
 
 @dataclass(frozen=True)
 class Conductor:
-    """A half-space that moves along x.
+    """Half-space that moves along x under the heat source.
 
-    conductivity [W/(m K)]; diffusivity [m^2/s]; speed over the heat [m/s]; bulk temperature [K].
+    Attributes
+    ----------
+    conductivity : k [W/(m K)].
+    diffusivity : kappa [m^2/s].
+    speed : U, of the body relative to the source, positive along +x [m/s].
+    bulk : temperature far below the surface [K].
     """
 
     conductivity: float
@@ -35,20 +40,20 @@ class Conductor:
 def conductors_of(
     owner: str, bodies: Body | Sequence[Body], speeds: float | Sequence[float], bulk: float | Sequence[float]
 ) -> tuple[Conductor, ...]:
-    """One or two half-spaces; one message per mistake.
+    """Check bodies, speeds and bulk temperatures, and return one or two conductors.
 
     Raises
     ------
-    InputError : neither a body nor a pair, speeds or bulk temperatures that do not go with them or are not finite, a
-        body with layers, a material without its three thermal constants.
+    InputError : bodies that are neither a body nor a pair, speeds or bulk temperatures of another number or not finite,
+        a body with layers, a material without its three thermal constants; one message per mistake.
     """
-    found = (bodies,) if isinstance(bodies, Body) else tuple(bodies) if isinstance(bodies, Sequence) else ()
-    if len(found) not in (1, 2) or not all(isinstance(body, Body) for body in found):
+    given = (bodies,) if isinstance(bodies, Body) else tuple(bodies) if isinstance(bodies, Sequence) else ()
+    if len(given) not in (1, 2) or not all(isinstance(body, Body) for body in given):
         raise InputError(f"{owner}: bodies {bodies!r} must be a Body or a pair of them")
     messages: list[str] = []
-    velocities = _numbers(owner, "speeds", speeds, len(found), "m/s", messages)
-    temperatures = _numbers(owner, "bulk", bulk, len(found), "K", messages)
-    for number, body in enumerate(found):
+    velocities = _numbers(owner, "speeds", speeds, len(given), "m/s", messages)
+    temperatures = _numbers(owner, "bulk", bulk, len(given), "K", messages)
+    for number, body in enumerate(given):
         what = f"{owner}: body {number + 1} ({body.material.name})"
         if body.layers:
             messages.append(
@@ -56,23 +61,23 @@ def conductors_of(
                 "(Body(body.material)) to take the half-space alone: a layer of thickness t and conductivity k adds up "
                 "to heat x t / k to the temperature of its surface"
             )
-        for key, unit in _NEEDED.items():
+        for key, unit in _THERMAL_CONSTANTS.items():
             if getattr(body.material, key) is None:
                 messages.append(f"{what}: its Material needs {key}, positive and finite [{unit}]")
     if messages:
         raise InputError(messages)
     return tuple(
         Conductor(body.material.thermal_conductivity or 0.0, body.material.thermal_diffusivity or 0.0, speed, bulk_k)
-        for body, speed, bulk_k in zip(found, velocities, temperatures, strict=True)
+        for body, speed, bulk_k in zip(given, velocities, temperatures, strict=True)
     )
 
 
 def check_steady(grid: Grid, bodies: Sequence[Conductor]) -> None:
-    """Refuse what has no steady temperature.
+    """Check that a steady temperature exists.
 
     Raises
     ------
-    InputError : a grid periodic along x, or along y under a body at rest.
+    InputError : a grid periodic along x, or periodic along y under a body at rest.
     """
     advice = (
         "make the grid free along that axis, wide enough for the heat to spread, or ask for the temperature after a "
@@ -91,7 +96,10 @@ def check_steady(grid: Grid, bodies: Sequence[Conductor]) -> None:
 
 
 def _numbers(owner: str, key: str, given: object, count: int, unit: str, messages: list[str]) -> tuple[float, ...]:
-    """`count` finite numbers; of one body a plain number will do, or the first of a pair."""
+    """Return `count` finite numbers.
+
+    For one body a plain number will do, and of a pair of bulk temperatures the first is taken.
+    """
     values = (given,) if isinstance(given, Real) else tuple(given) if isinstance(given, Sequence) else ()
     if key == "bulk" and count == 1:
         values = values[:1]

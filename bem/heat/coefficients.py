@@ -32,7 +32,7 @@ FloatArray = NDArray[np.float64]
 
 _POINTS = 14
 _REACH = 6.0
-"""erfc of it is below round-off."""
+"""Distance from a cell over s beyond which the cell's heat is below round-off: erfc(6) = 2e-17."""
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(_POINTS)
 _CHUNK = 64
 _STILL = 1e-14
@@ -41,9 +41,13 @@ _STILL = 1e-14
 
 @dataclass(frozen=True)
 class Rows:
-    """How heat varies across the motion: in cells (offsets 0, 1, ... times `step`) or as cosines (wavenumbers).
+    """Variation of the heat across the motion: in cells, or as cosines.
 
-    count : offsets or wavenumbers. step : side of a cell [m], or the spacing of wavenumbers [rad/m].
+    Attributes
+    ----------
+    count : number of offsets from the cell, or of wavenumbers, from zero on.
+    step : side of a cell [m], or spacing of the wavenumbers [rad/m].
+    cosines : True for wavenumbers.
     """
 
     count: int
@@ -54,7 +58,7 @@ class Rows:
 def temperature_table(
     cells: int, spacing: float, rows: Rows, wavenumber: float, begin: float, end: float
 ) -> FloatArray:
-    """Temperature times conductivity per flux [m] at offsets from a heated cell, (2 cells - 1, rows.count).
+    """Temperature times conductivity per unit flux [m] at offsets from a heated cell, (2 cells - 1, rows.count).
 
     Parameters
     ----------
@@ -79,12 +83,12 @@ def temperature_table(
 def _rule(
     finest: float, reach: float, length: float, wavenumber: float, begin: float, end: float
 ) -> tuple[FloatArray, FloatArray]:
-    """Nodes s and weights between `begin` and `end` [m]; see the module."""
-    # until then a source has left no cell but its own, and that not at its edges
+    """Return the Gauss points s and weights between `begin` and `end` [m]; see the module."""
+    # until then the heat has not reached the next cell
     calm = finest / (2 * _REACH)
     if wavenumber > 0:
         calm = min(calm, math.sqrt(finest / wavenumber))
-        # from then on it has left the grid: w s^2 / 2 > length + 6 s
+        # from then on the source has left the grid: w s^2 / 2 > length + 6 s
         gone = (_REACH + math.sqrt(_REACH**2 + 2 * wavenumber * length)) / wavenumber
         end = min(end, gone)
     edges = [begin]
@@ -110,7 +114,7 @@ def _rule(
 
 @compiled
 def _difference(high: float, low: float) -> float:
-    """erf(high) - erf(low) for high > low, without cancellation where both are far out."""
+    """Return erf(high) - erf(low) for high > low without cancellation in the tails."""
     if low > 0:
         return math.erfc(low) - math.erfc(high)
     if high < 0:
@@ -128,7 +132,7 @@ def _sum(
     cosines: bool,
     table: FloatArray,
 ) -> None:
-    """Add up all nodes' products of a column and a row, a block of nodes at a time."""
+    """Add the product of a column and a row for each Gauss point to the table, a block of points at a time."""
     offsets, count = table.shape
     middle = (offsets - 1) // 2
     column = np.zeros((offsets, _CHUNK))

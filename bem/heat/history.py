@@ -1,4 +1,4 @@
-"""Surface temperature over time of heat made over one or two half-spaces that may move under it."""
+"""Surface temperature over time of a heat source at rest over one or two half-spaces that may move."""
 
 from __future__ import annotations
 
@@ -13,8 +13,7 @@ from bem.errors import InputError, Status
 from bem.grid import FloatArray, Grid
 from bem.heat.bodies import Conductor, conductors_of
 from bem.heat.operators import HeatOperator, approximate_inverse, heat_operator, periodic_operator
-from bem.heat.pair import Pair, assembled, solve_pair
-from bem.heat.solution import TemperatureSolution
+from bem.heat.partition import Pair, TemperatureSolution, solve_partition, temperature_solution
 from bem.heat.steady import TOLERANCE
 from bem.materials import Body
 
@@ -22,8 +21,16 @@ _NAME = "surface_temperature_history"
 
 
 @dataclass
-class _Past:
-    """One body: its operator for each lag, and the spectra of the heat that has entered it, oldest first."""
+class _HeatHistory:
+    """Heat that has entered one body.
+
+    Attributes
+    ----------
+    grid, body : of the temperature.
+    step : length of a time step [s].
+    lags : operator for each lag in steps, made when first needed.
+    spectra : spectrum of the heat of each step, oldest first.
+    """
 
     grid: Grid
     body: Conductor
@@ -32,7 +39,7 @@ class _Past:
     spectra: list[NDArray[Any]] = field(default_factory=list)
 
     def operator(self, lag: int) -> HeatOperator:
-        """Rise that heat made `lag` steps ago leaves at the end of this step."""
+        """Operator from the heat of `lag` steps ago to the temperature rise at the end of the present step."""
         while len(self.lags) <= lag:
             make = periodic_operator if all(self.grid.periodic) else heat_operator
             since = len(self.lags)
@@ -40,7 +47,7 @@ class _Past:
         return self.lags[lag]
 
     def temperature(self) -> FloatArray:
-        """Bulk and what all earlier steps leave at the end of this one."""
+        """Temperature (nx, ny) [K] at the end of the present step without its own heat."""
         before = np.full(self.grid.shape, self.body.bulk)
         if not self.spectra:
             return before
@@ -52,7 +59,7 @@ class _Past:
         return before + transform.inverse(total)
 
     def enter(self, heat: FloatArray) -> None:
-        """Keep what has entered during this step."""
+        """Add the heat (nx, ny) [W/m^2] of the present step."""
         self.spectra.append(self.operator(0).transform.forward(heat))
 
 
@@ -93,28 +100,28 @@ def surface_temperature_history(
             f"{_NAME}: a grid periodic along x (the motion) and free along y is not included; make it periodic along "
             "both, or free along x"
         )
-    past = [_Past(grid, body, step) for body in conductors]
-    inverse = approximate_inverse(grid, conductors, 0.25 * np.pi / step)
-    found: list[TemperatureSolution] = []
+    histories = [_HeatHistory(grid, body, step) for body in conductors]
+    preconditioner = approximate_inverse(grid, conductors, 0.25 * np.pi / step)
+    solutions: list[TemperatureSolution] = []
     for flux in fluxes:
-        before = [one.temperature() for one in past]
-        if len(past) == 1:
-            surface = before[0] + past[0].operator(0)(flux)
-            solution = assembled(flux, flux[None], surface[None], conductors, 1, 0.0, Status.CONVERGED)
+        before = [history.temperature() for history in histories]
+        if len(histories) == 1:
+            surface = before[0] + histories[0].operator(0)(flux)
+            solution = temperature_solution(flux, flux[None], surface[None], conductors, 1, 0.0, Status.CONVERGED)
         else:
-            pair = Pair(conductors, tuple(one.operator(0) for one in past), inverse)
-            guess = found[-1].partition * flux if found and np.isfinite(found[-1].share) else None
-            solution = solve_pair(flux, pair, before, guess, tolerance)
-        for one, into in zip(past, solution.heat, strict=True):
-            one.enter(into)
-        found.append(solution)
-    return found
+            pair = Pair(conductors, tuple(history.operator(0) for history in histories), preconditioner)
+            guess = solutions[-1].partition * flux if solutions and np.isfinite(solutions[-1].share) else None
+            solution = solve_partition(flux, pair, before, guess, tolerance)
+        for history, heat_into in zip(histories, solution.heat, strict=True):
+            history.enter(heat_into)
+        solutions.append(solution)
+    return solutions
 
 
 def _steps(
     times: ArrayLike, heat: ArrayLike | Callable[[float], ArrayLike], grid: Grid
 ) -> tuple[float, list[FloatArray]]:
-    """Length of a step and the flux of each."""
+    """Return the length of a step [s] and the flux (nx, ny) [W/m^2] in each step."""
     instants = np.asarray(times, dtype=np.float64)
     if instants.ndim != 1 or instants.size < 2 or not np.isfinite(instants).all():
         raise InputError(f"{_NAME}: times must be two or more finite instants [s], got shape {instants.shape}")

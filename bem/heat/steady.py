@@ -1,4 +1,4 @@
-"""Steady surface temperature of heat that stands still over one or two moving half-spaces."""
+"""Steady surface temperature of a heat source at rest over one or two moving half-spaces."""
 
 from __future__ import annotations
 
@@ -12,11 +12,11 @@ from bem.errors import InputError, Status
 from bem.grid import Grid
 from bem.heat.bodies import Conductor, check_steady, conductors_of
 from bem.heat.operators import approximate_inverse, heat_operator
-from bem.heat.pair import Pair, assembled, solve_pair
-from bem.heat.solution import TemperatureSolution
+from bem.heat.partition import Pair, TemperatureSolution, solve_partition, temperature_solution
 from bem.materials import Body
 
 TOLERANCE = 1e-8
+"""Default bound on the difference of the two surfaces, over the largest rise."""
 
 
 def surface_temperature(
@@ -62,7 +62,7 @@ def surface_temperature(
     if len(conductors) == 1:
         (body,) = conductors
         surface = body.bulk + heat_operator(grid, body)(field)
-        return assembled(field, field[None], surface[None], conductors, 1, 0.0, Status.CONVERGED)
+        return temperature_solution(field, field[None], surface[None], conductors, 1, 0.0, Status.CONVERGED)
     first = heat_operator(grid, conductors[0])
     alike = _response(conductors[0]) == _response(conductors[1])
     pair = Pair(
@@ -71,10 +71,11 @@ def surface_temperature(
         approximate_inverse(grid, conductors),
     )
     before = [np.full(grid.shape, body.bulk) for body in conductors]
-    return solve_pair(field, pair, before, None, tolerance)
+    return solve_partition(field, pair, before, None, tolerance)
 
 
 def _response(body: Conductor) -> tuple[float, float]:
+    """What decides a body's operator."""
     return body.conductivity, body.wavenumber
 
 

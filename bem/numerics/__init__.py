@@ -1,5 +1,7 @@
-"""Helpers of numerical work: cubics, means of large fields, what lies between cells, transforms, values kept for reuse.
+"""Numerical methods without physics, one subject a module.
 
-Knows arrays, and a grid where cells have a size; nothing of mechanics. One subject a module, imported from there.
-Verified in tests/numerics/, tests/test_transforms.py and tests/frugality/test_allocations.py.
+`blocks` has sums and means of large fields block by block, `cache` values kept within a bound on memory, `fast_length`
+lengths of fast transforms, `gmres` a Krylov solver, `monotone` monotone cubics, and `subcell` maxima and areas between
+the centres of cells. Knows arrays, and a grid where cells have a size. Verified in tests/numerics/,
+tests/test_transforms.py and tests/frugality/test_allocations.py.
 """

@@ -7,8 +7,8 @@ m columns along the entrainment of K even layers each, and the surfaces above an
 with the flow across the layers from what comes and leaves along them, so that the oil that turns round in the inlet
 takes its heat with it. What flows through a face has the temperature extrapolated from the two volumes upstream of it,
 whichever way it flows; conduction along the film, h/l times smaller than that across, is left out. At the walls the
-flux is that of the parabola through the wall and two layers, and enters bodies whose surfaces follow `bem.heat.line`.
-Second order in both directions. Oil that comes has the temperature of the supply.
+flux is that of the parabola through the wall and two layers, and enters bodies whose surfaces follow
+`bem.heat.operators`. Second order in both directions. Oil that comes has the temperature of the supply.
 
 Newton's method on all temperatures: each step a banded system (LAPACK), with the distant warming of the surfaces by
 GMRES around it. Verified in tests/lubrication/test_full_thermal.py.
@@ -25,8 +25,8 @@ from scipy.linalg.lapack import dgbtrf, dgbtrs
 
 from bem.grid import FloatArray
 from bem.heat.bodies import Conductor
-from bem.heat.krylov import gmres
-from bem.heat.line import band_temperatures
+from bem.heat.operators import band_temperatures
+from bem.numerics.gmres import gmres
 
 MAX_STEPS = 200
 WILD = 150.0

@@ -18,7 +18,7 @@ import numpy as np
 from bem.errors import Status
 from bem.grid import FloatArray
 from bem.heat.bodies import Conductor
-from bem.heat.line import band_temperatures
+from bem.heat.operators import band_temperatures
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.point.film import PointFilmSolution
 from bem.lubrication.thermal.conductors import moving_bodies
