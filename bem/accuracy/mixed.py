@@ -23,9 +23,9 @@ from bem.contact.nested_iteration import sample
 from bem.errors import Status
 from bem.friction import MixedSolution
 from bem.friction.balance import BalanceStart, Regime, share_load
+from bem.friction.choose_contact import rough_contact
 from bem.friction.films import films_of
 from bem.friction.forces import friction_forces, lambda_ratio, unrubbed
-from bem.friction.rough_contact import rough_contact
 from bem.friction.setup import FEWEST_CELLS, MixedSetup
 from bem.grid import FloatArray, Grid
 

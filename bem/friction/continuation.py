@@ -8,36 +8,19 @@ from __future__ import annotations
 
 import dataclasses
 import math
-from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
 from bem.friction.balance import Balance, BalanceStart, Regime
 from bem.friction.film import PatchFilm
+from bem.friction.setup import MixedSetup
+from bem.friction.solution import Continuation, MixedSolution
 from bem.lubrication import FilmSolution
 from bem.lubrication.line_kept import without_equations
-
-if TYPE_CHECKING:
-    from bem.friction.setup import MixedSetup
-    from bem.friction.solution import MixedSolution
 
 MOST_BEGUN = 0.999
 """Share of the load with which a film is looked for first."""
 LEAST_APART, HIGHEST_POWER = 0.05, 2.5
 """Logarithms of two speeds that tell how shares of the load go with the speed; and the highest power that is taken:
 next to full film there is none."""
-
-
-@dataclass(frozen=True, eq=False)
-class Continuation:
-    """What is kept of a balance.
-
-    speed_power : power of the speed with which the film's load over the contact's went from the solution before.
-    refinement : as of `Balance`. whole : the film under the whole load on the coarsest mesh; None of a ball.
-    """
-
-    speed_power: float = 1.0
-    refinement: float = 0.0
-    whole: PatchFilm | None = None
 
 
 def first_trial(setup: MixedSetup, speeds: tuple[float, float], initial: MixedSolution | None) -> BalanceStart:

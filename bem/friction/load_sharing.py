@@ -19,6 +19,7 @@ import numpy as np
 from bem.errors import InputError, Status
 from bem.friction.balance import Balance, Regime, share_load
 from bem.friction.boundary import BoundaryFrictionGiven
+from bem.friction.choose_contact import rough_contact
 from bem.friction.continuation import continuation, first_trial
 from bem.friction.curves import relative_difference
 from bem.friction.film import PatchFilm, SolvedFilm, middle_line
@@ -28,7 +29,7 @@ from bem.friction.oil_beside import oil_notes
 from bem.friction.oil_on_contact import covered_notes
 from bem.friction.oil_sensitivity import oil_beside
 from bem.friction.oil_volume import OilVolume
-from bem.friction.rough_contact import RoughContact, rough_contact
+from bem.friction.rough_contact import RoughContact
 from bem.friction.setup import FILM_CELLS, MixedSetup
 from bem.friction.solution import MixedSolution
 from bem.grid import FloatArray, Grid

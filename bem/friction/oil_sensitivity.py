@@ -14,12 +14,12 @@ from dataclasses import replace
 
 from bem.errors import Status
 from bem.friction.balance import Balance, BalanceStart, Regime, share_load
+from bem.friction.choose_contact import rough_contact
 from bem.friction.film import BALANCE_CELLS, BALANCE_POINTS, COARSE_TOLERANCE, Film, PatchFilm, SolvedFilm
 from bem.friction.films import SolvedFilms, films_of
 from bem.friction.forces import friction_forces
 from bem.friction.oil_beside import OilBeside
 from bem.friction.oil_volume import OilVolume
-from bem.friction.rough_contact import rough_contact
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray
 

@@ -30,7 +30,7 @@ from bem.plausibility import without_argument_notes
 from bem.reference_solutions.hertz import ellipse_contact
 
 if TYPE_CHECKING:
-    from bem.lubrication.thermal.inlet import InletHeating
+    from bem.lubrication.inlet_heating import InletHeating
     from bem.lubrication.thermal.lumped_point import Thinning
 
 COARSE_FILM = 0.03
@@ -170,7 +170,7 @@ def _of_oil(contact: PointContact, lubricant: Lubricant) -> PointContact:
 
 def _inlet(contact: PointContact, speeds: Sequence[float], load: float) -> InletHeating:
     """Of line contacts, with the ellipse's Hertz pressure."""
-    from bem.lubrication.thermal.inlet import inlet_heating_factor
+    from bem.lubrication.inlet_heating import inlet_heating_factor
 
     oil, modulus = contact.lubricant, contact.film_modulus(load)
     assert oil.temperature_viscosity is not None

@@ -24,10 +24,9 @@ from bem.convolution import DisplacementOperator, displacement_operator
 from bem.errors import Status
 from bem.friction.cell_law import CellLaw, SolvedCell
 from bem.friction.film import PatchFilm
-from bem.friction.rough_contact import OfPatch, Pressed
+from bem.friction.rough_contact import OfPatch, Pressed, SpreadContact
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray, Grid
-from bem.representation import readable
 
 LEAST, MOST, STEPS = 1e-4, 4.0, 28
 """Mean pressures of the cells that are tabulated: from and to that many times Hertz' mean, in so many equal ratios."""
@@ -46,20 +45,6 @@ COUNTS = 1e-3
 FEWEST_CELLS_ACROSS = 4.0
 """Lengths of the cell to a half-axis, above which its roughness is short against the contact. With five and a half, two
 crossed waves, the surfaces' share was within 1 % of a patch's (tests)."""
-
-
-@readable
-@dataclass(frozen=True)
-class SpreadContact:
-    """Contact of a cell that repeats. pressure, displacement : (nx, ny) of the cell where the mean pressure is highest
-    [Pa, m]. mean_pressure : of the cells, on the film's grid [Pa]. load, contact_area : mean of the cells within Hertz'
-    ellipse, of one [N, m^2]."""
-
-    pressure: FloatArray
-    displacement: FloatArray
-    mean_pressure: FloatArray
-    load: float
-    contact_area: float
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,4 +1,4 @@
-"""Rough surfaces with a film between them: what load sharing asks of a contact, and the two contacts there are.
+"""Rough surfaces with a film between them: what load sharing asks of a contact, and the two contacts of a patch.
 
 The film is as thick as between smooth surfaces. The rough ones are pressed together until they carry what they are
 given; the film says how the smooth bodies lie apart, and where the opening between them is counted (`oil_volume`).
@@ -36,10 +36,24 @@ from bem.friction.oil_volume import OilVolume
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray, Grid
 from bem.plausibility import without_argument_notes
+from bem.representation import readable
 
 if TYPE_CHECKING:
     from bem.friction.cell_law import CellLaw
-    from bem.friction.repeated_cell import SpreadContact
+
+
+@readable
+@dataclass(frozen=True)
+class SpreadContact:
+    """Contact of a cell that repeats. pressure, displacement : (nx, ny) of the cell where the mean pressure is highest
+    [Pa, m]. mean_pressure : of the cells, on the film's grid [Pa]. load, contact_area : mean of the cells within Hertz'
+    ellipse, of one [N, m^2]."""
+
+    pressure: FloatArray
+    displacement: FloatArray
+    mean_pressure: FloatArray
+    load: float
+    contact_area: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -106,23 +120,6 @@ def shift_apart(film: PatchFilm, rough: FloatArray, setup: MixedSetup) -> float:
 def boundary_traction(speeds: Sequence[float], boundary_friction: float) -> float:
     """Traction on the flat over the contact's pressure, along +x: against its sliding over the cylinder."""
     return boundary_friction * float(np.sign(speeds[1] - speeds[0]))
-
-
-def rough_contact(setup: MixedSetup, height: FloatArray, speeds: Sequence[float]) -> RoughContact:
-    """The contact of a set-up; `height` (nx, ny) [m] out of the flat, of both surfaces together."""
-    rough = height - height.mean()
-    if setup.at_film_separation:
-        from bem.friction.given_separation import contact_at_film_separation  # of few scenes
-
-        return contact_at_film_separation(setup, rough, speeds)
-    if setup.contact_model == "uncoupled":
-        return UncoupledAsperities(setup, rough)
-    patch = CoupledContact(setup, rough, boundary_traction(speeds, reference_friction(setup, rough, speeds)))
-    if not setup.repeated_cell:
-        return patch
-    from bem.friction.repeated_cell import RepeatedCell  # of balls alone
-
-    return RepeatedCell(patch)
 
 
 def reference_friction(setup: MixedSetup, height: FloatArray, speeds: Sequence[float]) -> float:

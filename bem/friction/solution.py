@@ -12,7 +12,6 @@ from bem.errors import Status
 from bem.friction.asperities import AsperityContact
 from bem.friction.balance import Regime
 from bem.friction.boundary import BoundaryFrictionGiven, boundary_law, filled_part
-from bem.friction.continuation import Continuation
 from bem.friction.film import PatchFilm, middle_line
 from bem.friction.oil_beside import OilBeside
 from bem.grid import FloatArray, Grid
@@ -20,7 +19,20 @@ from bem.lubrication import FilmSolution, PointFilmSolution
 from bem.representation import readable
 
 if TYPE_CHECKING:
-    from bem.friction.repeated_cell import SpreadContact
+    from bem.friction.rough_contact import SpreadContact
+
+
+@dataclass(frozen=True, eq=False)
+class Continuation:
+    """What is kept of a balance.
+
+    speed_power : power of the speed with which the film's load over the contact's went from the solution before.
+    refinement : as of `Balance`. whole : the film under the whole load on the coarsest mesh; None of a ball.
+    """
+
+    speed_power: float = 1.0
+    refinement: float = 0.0
+    whole: PatchFilm | None = None
 
 
 @readable

@@ -15,7 +15,7 @@ from bem.life.fatigue import RollingFatigue, pitted_share
 from bem.life.march import LifeState
 from bem.life.pieces import PieceSizes, carried_away
 from bem.life.surfaces import LifeCase
-from bem.wear.loads import LOWER
+from bem.wear.setup import LOWER
 
 FIGURES = (
     *("particles", "particle_equivalent_radius", "particles_over_cycles"),

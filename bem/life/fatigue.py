@@ -28,7 +28,7 @@ from bem.life.surfaces import LifeCase
 from bem.materials import Body
 from bem.stress import subsurface_stress
 from bem.wear.damage import move_up
-from bem.wear.loads import LOWER
+from bem.wear.setup import LOWER
 
 
 @dataclass(frozen=True, eq=False)

@@ -18,7 +18,7 @@ from bem.errors import ConvergenceError
 from bem.grid import FloatArray
 from bem.life.passes import Pass, PassStart, mean_over
 from bem.life.surfaces import LifeCase, Round, Surfaces, round_of
-from bem.wear.loads import LOWER, UPPER
+from bem.wear.setup import LOWER, UPPER
 
 ROW = (
     *("cycles", "step", "friction", "boundary_friction", "film_friction", "contact_share", "area_share"),

@@ -16,10 +16,11 @@ from bem.contact import solve_contact
 from bem.convolution import displacement_operator
 from bem.errors import ConvergenceError, Status
 from bem.friction.balance import BalanceStart, share_load
+from bem.friction.choose_contact import rough_contact
 from bem.friction.film import PatchFilm
 from bem.friction.film_table import FilmTable
 from bem.friction.forces import friction_forces, lambda_ratio, unrubbed
-from bem.friction.rough_contact import CoupledContact, rough_contact
+from bem.friction.rough_contact import CoupledContact
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray, Grid
 from bem.materials import Body

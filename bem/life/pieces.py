@@ -14,9 +14,10 @@ from bem.grid import FloatArray, Grid
 from bem.life.passes import Pass
 from bem.materials import Body
 from bem.wear.criterion import Detachment
-from bem.wear.cycle import WearModel, WearSetup
-from bem.wear.loads import LOWER, BodyCycle, SurfaceLoad
+from bem.wear.cycle import WearModel
+from bem.wear.loads import BodyCycle, SurfaceLoad
 from bem.wear.segmentation import describe_pieces
+from bem.wear.setup import LOWER, WearSetup
 
 
 @dataclass(frozen=True, eq=False)

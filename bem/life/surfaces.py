@@ -18,7 +18,7 @@ from bem.life.passes import Pass, PassContact, Passing, PassStart, facing
 from bem.tribofilm.balance import FilmBalance
 from bem.tribofilm.growth import GrowthLaw
 from bem.wear.film_defect import FilmDefect
-from bem.wear.loads import LOWER, UPPER
+from bem.wear.setup import LOWER, UPPER
 
 Temperature = Callable[[FloatArray], float | FloatArray]
 """contact pressure (nx, ny) [Pa] -> temperature [K] at which a film grows, one number or (nx, ny)"""

@@ -1,11 +1,11 @@
 """Rheology and the film of line and point contacts, steady and in time.
 
 Laws of the oil: `viscosity`, `density`, `shear`, gathered in `lubricant`; grades of it in `oils`; what a shear law does
-across a film: `shear_profile`. The steady film: `steady`, by Newton's method (`line_newton`, from the starts of
-`line_continuation`) on a mesh that follows it (`line_mesh`), with hierarchical weights of the deflection
-(`line_kernel`); coarsely: `line_sketch`; starved: `supply`, `line_starved`. In time: `transient`, in steps
-(`line_step`) with a ruptured film (`line_rupture`, `cavitation`). Point contacts: `point`. Heat: `thermal`. `validity`
-says where a model ends. Names are loaded when first used, so that laws cost no solver.
+across a film: `shear_profile`. The steady film: `solve` chooses the model of heat; `steady` solves without heat, by
+Newton's method (`line_newton`, from the starts of `line_continuation`) on a mesh that follows it (`line_mesh`), with
+hierarchical weights of the deflection (`line_kernel`); coarsely: `line_sketch`; starved: `supply`, `line_starved`. In
+time: `transient`, in steps (`line_step`) with a ruptured film (`line_rupture`, `cavitation`). Point contacts: `point`.
+Heat: `thermal`. `validity` says where a model ends. Names are loaded when first used, so that laws cost no solver.
 
 Sees grids, laws and the dry contact of smooth bodies, no scene. Verified in tests/lubrication: Martin's and Hertz'
 limits, both equations by plain quadrature, order of convergence, closed forms of cavitation, conservation.
@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from bem.lubrication.point.rough_film import RoughPointFilm, solve_rough_point_film
     from bem.lubrication.point.solve import solve_point_film
     from bem.lubrication.point.transient import march_point_film
-    from bem.lubrication.steady import solve_line_film
+    from bem.lubrication.solve import solve_line_film
     from bem.lubrication.supply import InletDistance, OilLayer
     from bem.lubrication.thermal import (
         FullThermalFilm,
@@ -72,7 +72,7 @@ __getattr__ = loader(
         "point.rough_film": ["RoughPointFilm", "solve_rough_point_film"],
         "point.solve": ["solve_point_film"],
         "point.transient": ["march_point_film"],
-        "steady": ["solve_line_film"],
+        "solve": ["solve_line_film"],
         "supply": ["InletDistance", "OilLayer"],
         "thermal": ["FullThermalFilm", "ThermalFilm", "solve_full_thermal_line_film", "solve_thermal_line_film"],
         "transient": ["march_line_film"],

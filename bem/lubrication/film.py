@@ -15,9 +15,6 @@ from bem.lubrication.supply import Starvation
 from bem.numerics.monotone import MonotoneCubic
 from bem.representation import readable
 
-if TYPE_CHECKING:
-    from bem.lubrication.thermal import FullThermalFilm, ThermalFilm
-
 
 class KeptFilm(Protocol):
     """A film as its solver left it: it may be looked at anywhere, and the solver that made it may start from it."""
@@ -92,7 +89,7 @@ class FilmSolution:
     mean_temperature: float | None = None
     maximum_temperature: float | None = None
     sliding_stress: FloatArray | None = None
-    heat: ThermalFilm | FullThermalFilm | None = field(default=None, repr=False, compare=False)
+    heat: HeatedFilm | None = field(default=None, repr=False, compare=False)
     state: KeptFilm | None = field(default=None, repr=False, compare=False)
 
     def shear_stress(self, position: FloatArray | None = None) -> FloatArray:
@@ -136,3 +133,41 @@ class FilmSolution:
             np.interp(position, self.position, self.pressure),
             MonotoneCubic(self.position, self.thickness)(position),
         )
+
+
+@dataclass(frozen=True)
+class HeatedFilm:
+    """A film, that without heat, and the middles (m,) and widths (m,) of the cells along it that have temperatures
+    [m]. `film_temperature` : (m,) mean across the film [K], of the model."""
+
+    film: FilmSolution
+    isothermal: FilmSolution
+    position: FloatArray
+    width: FloatArray
+
+    if TYPE_CHECKING:  # one model keeps it, the other averages its field
+
+        @property
+        def film_temperature(self) -> FloatArray:
+            """Mean across the film (m,) [K]."""
+
+    @property
+    def minimum_thickness(self) -> float:
+        """Of the film [m]."""
+        return self.film.minimum_thickness
+
+    @property
+    def central_thickness(self) -> float:
+        """Of the film [m]."""
+        return self.film.central_thickness
+
+    @property
+    def mean_film_temperature(self) -> float:
+        """Mean along the film by pressure [K], that of the contact."""
+        weights = np.interp(self.position, self.film.position, self.film.pressure) * self.width
+        return float((weights * self.film_temperature).sum() / weights.sum())
+
+    @property
+    def highest_film_temperature(self) -> float:
+        """Mean across the film, where it is highest [K]."""
+        return float(self.film_temperature.max())

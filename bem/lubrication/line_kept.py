@@ -8,20 +8,17 @@ film. Verified in tests/lubrication/test_line_film_steady.py and tests/friction/
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import TYPE_CHECKING
 
 import numpy as np
 
 from bem.grid import FloatArray
 from bem.lubrication.film import FilmSolution
+from bem.lubrication.kept_heat import KeptHeat
 from bem.lubrication.line_kernel import DEFLECTION, logarithmic_integral
 from bem.lubrication.line_newton import State
 from bem.lubrication.line_scales import Scales
 from bem.numerics.monotone import MonotoneCubic
 from bem.threads import one_blas_thread
-
-if TYPE_CHECKING:
-    from bem.lubrication.thermal.warm_start import KeptHeat
 
 
 @dataclass(frozen=True)

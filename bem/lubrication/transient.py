@@ -31,7 +31,7 @@ from bem.lubrication.line_march import (
 from bem.lubrication.line_scales import line_scales, scaled_problem
 from bem.lubrication.line_step import Film, FixedMesh, fixed_mesh
 from bem.lubrication.lubricant import Lubricant
-from bem.lubrication.steady import solve_line_film
+from bem.lubrication.solve import solve_line_film
 from bem.lubrication.supply import OilLayer, checked_supply
 from bem.lubrication.time_steps import MarchState, Schedule, first_of, load_messages, schedule_of, start_messages
 from bem.plausibility import lubricant_arguments, notes_on_arguments, with_argument_notes

@@ -16,9 +16,9 @@ from numpy.typing import NDArray
 
 from bem.errors import OUTSIDE, UNRESOLVED_SPIKE, InputError
 from bem.grid import FloatArray
+from bem.lubrication.inlet_heating import hertz_over_modulus, inlet_heating_factor
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.shear import LimitedShear
-from bem.lubrication.thermal.inlet import hertz_over_modulus, inlet_heating_factor
 
 LARGEST_SHEAR_COEFFICIENT = 0.12
 """Largest limiting shear stress over pressure that was measured; Hoglund and Jacobson (1986), Bair (2007)."""
@@ -232,7 +232,7 @@ def spike_unresolved(case: Case) -> str | None:
 def inlet_heating(case: Case) -> str | None:
     """Shear in the inlet heats the oil, and the film is thinner for it.
 
-    By the factor of `bem.lubrication.thermal.inlet`, for a mineral oil. A film that is starved by more than that is
+    By the factor of `bem.lubrication.inlet_heating`, for a mineral oil. A film that is starved by more than that is
     as thick as the oil that comes, hot or not.
     """
     load = max(case.integral(case.pressure), 0.0)

@@ -20,7 +20,7 @@ from bem.grid import FloatArray, Grid
 from bem.scenes.common import BODIES, PositiveLength, Table
 from bem.scenes.records import Figure, Record, Series, without_bars
 from bem.scenes.units import Length, WearCoefficient
-from bem.wear.loads import LOWER, UPPER, wearing_bodies
+from bem.wear.setup import LOWER, UPPER, wearing_bodies
 
 if TYPE_CHECKING:
     from bem.wear import RunningIn

@@ -28,7 +28,7 @@ from bem.scenes.tables.film_defect import film_defect
 from bem.scenes.third_bodies import ThirdBodyRecord, third_bodies, third_body_figures
 from bem.scenes.units import Length
 from bem.wear.criterion import WearCriterion
-from bem.wear.loads import wearing_bodies
+from bem.wear.setup import wearing_bodies
 
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars

@@ -10,8 +10,6 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-import numpy as np
-
 from bem.arguments import named
 from bem.contact import ContactSolution, solve_contact
 from bem.contact.contact_area import rows_in_contact
@@ -19,12 +17,13 @@ from bem.convolution import DisplacementOperator, displacement_operator
 from bem.errors import InputError, Status
 from bem.grid import FloatArray, Grid
 from bem.laws import make_laws
-from bem.materials import Body, softer_hardness
 from bem.wear.criterion import Detachment
-from bem.wear.film_defect import FilmDefect, boundary_film_misfits
-from bem.wear.loads import LOWER, UPPER, BodyCycle, Removal, SurfaceLoad, half_the_change, wearing_bodies
+from bem.wear.film_defect import FilmDefect
+from bem.wear.loads import BodyCycle, Removal, SurfaceLoad, half_the_change
+from bem.wear.misfits import boundary_film_misfits
 from bem.wear.removal import RemovalLaw
 from bem.wear.segmentation import CONNECTIVITIES, REFINEMENTS
+from bem.wear.setup import LOWER, UPPER, WearSetup
 from bem.wear.third_bodies import ThirdBodies, ThirdBodyLoad
 from bem.wear.traction import Rubbing, TractionLaw
 
@@ -140,48 +139,6 @@ class WearModel:
         """The traction law, also where it was named."""
         assert isinstance(self.traction, TractionLaw)
         return self.traction
-
-
-@dataclass(frozen=True, eq=False)
-class WearSetup:
-    """What stays the same over all cycles.
-
-    grid : of the contact. bodies : (lower, upper). gap : macroscopic gap of the smooth bodies, (nx, ny) [m].
-    load : on the grid [N]. friction : of the contact, traction over pressure. depths : (nz,) [m], increasing, >= 0.
-    hardness : cap of the contact pressure [Pa]; None takes the softer surface's, which may be None (elastic).
-    """
-
-    grid: Grid
-    bodies: tuple[Body, Body]
-    gap: FloatArray
-    load: float
-    friction: float
-    depths: FloatArray
-    hardness: float | None = None
-
-    def __post_init__(self) -> None:
-        depths = np.asarray(self.depths, dtype=np.float64)
-        if depths.ndim != 1 or depths.size < 2 or depths[0] < 0 or not (np.diff(depths) > 0).all():
-            raise InputError("WearSetup: depths must be at least two increasing values >= 0 [m]")
-        object.__setattr__(self, "depths", depths)
-        object.__setattr__(self, "gap", self.grid.check_field(self.gap, "gap"))
-        if self.hardness is None:
-            object.__setattr__(self, "hardness", softer_hardness(*self.bodies))
-
-    def yield_stress(self, body: int) -> float:
-        """Yield stress of a body's surface material [Pa]; infinite where none is given: it does not wear."""
-        value = self.bodies[body].surface_material.yield_stress
-        return np.inf if value is None else value
-
-    def wearing(self, model: WearModel) -> tuple[int, ...]:
-        """Indices of the bodies that wear."""
-        model.law.check_length(self.grid)
-        model.tractions.check(self.friction)
-        bodies = wearing_bodies(self.bodies, model.wears)
-        if model.law.needs_strength and any(not np.isfinite(self.yield_stress(body)) for body in bodies):
-            raise InputError("the body that wears has no yield_stress and no hardness: give its material one of them")
-        model.law.check_depths(self.depths)
-        return bodies
 
 
 @dataclass(frozen=True, eq=False)

@@ -7,23 +7,31 @@ none. Verified in tests/wear/test_criteria_with_length.py.
 from __future__ import annotations
 
 import time
-from typing import TYPE_CHECKING
+from collections.abc import Callable
 
 import numpy as np
 
 from bem.compiled import compiled
+from bem.grid import FloatArray
+from bem.materials import Material
 from bem.wear.lengths import averaged_loads
 from bem.wear.loads import BodyCycle, Removal
 from bem.wear.yielding import depths_for, no_pieces, pieces_above, yielded_stress
 
-if TYPE_CHECKING:
-    from bem.wear.criterion import LowCycleFatigue
 
+def broken(
+    cycle: BodyCycle, averaging_length: float, damage_of: Callable[[FloatArray, Material], FloatArray]
+) -> Removal:
+    """Return pieces of voxels that have no life left, and the damage of the material that stays.
 
-def broken(cycle: BodyCycle, law: LowCycleFatigue) -> Removal:
-    """Pieces of voxels that have no life left, and the damage of what stays."""
+    Parameters
+    ----------
+    cycle : of the body.
+    averaging_length : diameter of the disc over which stresses are averaged [m]; 0 for none.
+    damage_of : (von Mises stress [Pa], material) -> life fraction lost in the cycle, of the stress' shape.
+    """
     setup, model, body = cycle.setup, cycle.model, cycle.body
-    loads = averaged_loads(cycle.loads, setup.grid, law.averaging_length) if law.averaging_length > 0 else cycle.loads
+    loads = averaged_loads(cycle.loads, setup.grid, averaging_length) if averaging_length > 0 else cycle.loads
     found = yielded_stress(loads, setup, model, body)
     start = time.perf_counter()
     depths = depths_for(setup, model, body)
@@ -33,7 +41,7 @@ def broken(cycle: BodyCycle, law: LowCycleFatigue) -> Removal:
     if cycle.memory is not None:
         damage[:known] = cycle.memory
     if new:
-        damage[:new] += law.damage(found.stress, cycle.solid.surface_material)
+        damage[:new] += damage_of(found.stress, cycle.solid.surface_material)
     pieces = no_pieces(setup.grid.shape)
     if len(damage) >= 2 and damage[0].max() > 1.0:
         pieces = pieces_above(damage, depths[: len(damage)], 1.0, setup, model)

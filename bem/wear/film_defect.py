@@ -18,8 +18,6 @@ import numpy as np
 from bem.errors import InputError
 from bem.friction.boundary import BOLTZMANN
 from bem.grid import FloatArray
-from bem.wear.criterion import Detachment, LocalWear
-from bem.wear.traction import TractionLaw
 
 
 @dataclass(frozen=True)
@@ -56,13 +54,3 @@ class FilmDefect:
             return np.zeros_like(warm)
         stays = self.vibration_time * np.exp(np.minimum(self.adsorption_energy / (BOLTZMANN * warm), 700.0))
         return np.asarray(-np.expm1(-self.molecule_length / self.sliding_speed / stays))
-
-
-def boundary_film_misfits(law: Detachment, tractions: TractionLaw) -> list[str]:
-    """What does not go with a boundary film that protects, in words."""
-    found = []
-    if not isinstance(law, LocalWear):
-        found.append(f"film_defect of criterion {law.name}; allowed: archard, archard_over_hardness, energy, or none")
-    if not tractions.slides:
-        found.append(f"film_defect has one sliding speed; allowed: no traction {tractions.name}, or none")
-    return found

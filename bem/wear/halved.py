@@ -19,8 +19,8 @@ import numpy as np
 from bem.errors import ConvergenceError, Status
 from bem.grid import FloatArray
 from bem.wear.criterion import LocalWear
-from bem.wear.cycle import ContactStep, WearModel, WearSetup, wear_cycle
-from bem.wear.loads import LOWER, UPPER
+from bem.wear.cycle import ContactStep, WearModel, wear_cycle
+from bem.wear.setup import LOWER, UPPER, WearSetup
 from bem.wear.state import RunningInState
 
 

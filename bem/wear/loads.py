@@ -9,23 +9,11 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from bem.grid import FloatArray
+from bem.wear.setup import LOWER, WearChoices, WearSetup
 
 if TYPE_CHECKING:
     from bem.materials import Body
-    from bem.wear.cycle import WearModel, WearSetup
     from bem.wear.segmentation import Segmentation
-
-LOWER, UPPER = 0, 1
-
-
-def wearing_bodies(bodies: tuple[Body, Body], wears: str) -> tuple[int, ...]:
-    """Indices of those of (lower, upper) that wear: "lower", "upper", "both", or the "softer", which has the lower
-    yield stress; the lower body where equal."""
-    if wears != "softer":
-        return {"lower": (LOWER,), "upper": (UPPER,), "both": (LOWER, UPPER)}[wears]
-    known = [body.surface_material.yield_stress for body in bodies]
-    lower, upper = (float("inf") if value is None else value for value in known)
-    return (LOWER,) if lower <= upper else (UPPER,)
 
 
 @dataclass(frozen=True, eq=False)
@@ -72,7 +60,7 @@ class BodyCycle:
     pressure: FloatArray
     loads: tuple[SurfaceLoad, ...]
     setup: WearSetup
-    model: WearModel
+    model: WearChoices
     body: int
     slide: float
     memory: FloatArray | None = None

@@ -19,6 +19,7 @@ from numpy.typing import NDArray
 from bem.contact import ContactSolution
 from bem.errors import InputError, Status
 from bem.friction.balance import NEGLIGIBLE, NO_FILM_NOTE, Balance, BalanceStart, Regime, boundary_note, share_load
+from bem.friction.choose_contact import rough_contact
 from bem.friction.film import Film, PatchFilm, middle_line
 from bem.friction.film_table import FilmTable
 from bem.friction.films import films_of
@@ -27,7 +28,7 @@ from bem.friction.oil_beside import OilBeside, oil_notes
 from bem.friction.oil_on_contact import covered_notes
 from bem.friction.oil_sensitivity import oil_beside
 from bem.friction.oil_volume import OilVolume
-from bem.friction.rough_contact import CoupledContact, RoughContact, boundary_traction, rough_contact
+from bem.friction.rough_contact import CoupledContact, RoughContact, boundary_traction
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray
 from bem.materials import Body

@@ -23,11 +23,12 @@ from bem.materials import Body
 from bem.plausibility import body_arguments, notes_on_arguments
 from bem.representation import tabled
 from bem.wear.criterion import Detachment, LocalWear
-from bem.wear.cycle import ContactOutcome, ContactStep, WearModel, WearSetup, dry_contact, wear_cycle
+from bem.wear.cycle import ContactOutcome, ContactStep, WearModel, dry_contact, wear_cycle
 from bem.wear.halved import step_error
-from bem.wear.loads import LOWER, UPPER, Removal, SurfaceLoad
+from bem.wear.loads import Removal, SurfaceLoad
 from bem.wear.outcome import contact_strip, strip_wear
 from bem.wear.segmentation import describe_pieces
+from bem.wear.setup import LOWER, UPPER, WearSetup
 from bem.wear.state import CYCLE_FIELDS, PARTICLE_FIELDS, TIME_FIELDS, RunningInState, initial_state
 from bem.wear.third_bodies import ThirdBodies
 from bem.wear.third_body_contact import steps_with_bodies

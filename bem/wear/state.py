@@ -13,7 +13,7 @@ from numpy.typing import NDArray
 
 from bem.errors import Status
 from bem.grid import FloatArray
-from bem.wear.loads import LOWER, UPPER
+from bem.wear.setup import LOWER, UPPER
 from bem.wear.traction import Rubbing
 
 PARTICLE_FIELDS = np.dtype(

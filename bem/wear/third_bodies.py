@@ -23,7 +23,7 @@ import numpy as np
 from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.materials import Body
-from bem.wear.loads import LOWER, UPPER
+from bem.wear.setup import LOWER, UPPER
 
 
 @dataclass(frozen=True)

@@ -16,8 +16,8 @@ from bem.convolution import displacement_operator
 from bem.errors import InputError, Status
 from bem.friction.falling_zero import falling_zero
 from bem.grid import FloatArray
-from bem.wear.cycle import ContactOutcome, ContactStep, WearSetup, dry_contact, outcome_of
-from bem.wear.loads import LOWER, UPPER
+from bem.wear.cycle import ContactOutcome, ContactStep, dry_contact, outcome_of
+from bem.wear.setup import LOWER, UPPER, WearSetup
 from bem.wear.third_bodies import ThirdBodies, ThirdBodyLoad
 
 BALANCE = 1e-6

@@ -19,7 +19,7 @@ from bem.friction.film import PatchFilm
 from bem.friction.forces import Forces
 from bem.friction.rough_contact import OfPatch, Pressed, shift_apart
 from bem.grid import FloatArray
-from bem.wear.loads import LOWER, UPPER
+from bem.wear.setup import LOWER, UPPER
 from bem.wear.third_bodies import ThirdBodies, ThirdBodyLoad
 from bem.wear.third_body_contact import MET, BodiesAndContact
 

@@ -9,20 +9,37 @@ import time
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from functools import cached_property
-from typing import TYPE_CHECKING
+from typing import Protocol, runtime_checkable
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bem.grid import FloatArray
 from bem.stress import cleared, reached_stress, subsurface_stress, von_mises_limit, von_mises_planes
-from bem.wear.criterion import WearCriterion
 from bem.wear.loads import Removal, SurfaceLoad
 from bem.wear.removal import RemovalLaw
 from bem.wear.segmentation import Segmentation, refine_depths, segment
+from bem.wear.setup import WearChoices, WearSetup
 
-if TYPE_CHECKING:
-    from bem.wear.cycle import WearModel, WearSetup
+
+@runtime_checkable
+class StressCriterion(Protocol):
+    """A criterion that compares one equivalent stress with the yield stress (`bem.wear.criterion.WearCriterion`)."""
+
+    @property
+    def skin_depth(self) -> float:
+        """Depth down to which stress counts as that at this depth [m]."""
+
+    @property
+    def is_von_mises(self) -> bool:
+        """Whether the equivalent stress is von Mises' own."""
+
+    @property
+    def von_mises_factor(self) -> float | None:
+        """Largest ratio to von Mises' stress; None where there is none."""
+
+    def equivalent_stress(self, stress: FloatArray) -> FloatArray:
+        """Equivalent stress (...) of stresses (6, ...) [Pa]."""
 
 
 def equivalent_stress_planes(
@@ -30,7 +47,7 @@ def equivalent_stress_planes(
     setup: WearSetup,
     body: int,
     depths: FloatArray,
-    criterion: WearCriterion,
+    criterion: StressCriterion,
     out: FloatArray,
 ) -> Iterator[FloatArray]:
     """Equivalent stress of all loads together in one body, a plane of `out` (nz, nx, ny) [Pa] per depth, each written
@@ -49,7 +66,7 @@ def equivalent_stress_planes(
         yield out[index]
 
 
-def largest_stress(load: SurfaceLoad, setup: WearSetup, model: WearModel, body: int) -> tuple[float, float]:
+def largest_stress(load: SurfaceLoad, setup: WearSetup, model: WearChoices, body: int) -> tuple[float, float]:
     """The largest equivalent stress of one body at any of the depths [Pa], and the depth there [m].
 
     What nothing came off is told beside its strength: half as much, or a hundredth. Under a line contact the surface is
@@ -59,7 +76,7 @@ def largest_stress(load: SurfaceLoad, setup: WearSetup, model: WearModel, body: 
     little of it and a stiff one a multiple.
     """
     law = model.law
-    assert isinstance(law, WearCriterion)
+    assert isinstance(law, StressCriterion)
     depths, plane = depths_for(setup, model, body), np.empty((1, *setup.grid.shape))
     found = [
         max(float(each.max()) for each in equivalent_stress_planes((load,), setup, body, depth[None], law, plane))
@@ -69,7 +86,7 @@ def largest_stress(load: SurfaceLoad, setup: WearSetup, model: WearModel, body: 
 
 
 def cannot_yield(
-    loads: Sequence[SurfaceLoad], setup: WearSetup, body: int, depth: float, criterion: WearCriterion
+    loads: Sequence[SurfaceLoad], setup: WearSetup, body: int, depth: float, criterion: StressCriterion
 ) -> bool:
     """Whether a bound, found without a transform, proves that nothing yields at a depth; there is none for tractions
     that are not friction x pressure.
@@ -84,7 +101,7 @@ def cannot_yield(
     return bool(factor * limit <= setup.yield_stress(body))
 
 
-def depths_for(setup: WearSetup, model: WearModel, body: int) -> FloatArray:
+def depths_for(setup: WearSetup, model: WearChoices, body: int) -> FloatArray:
     """Return the depths at which stress is computed (nz,) [m].
 
     These are the setup's depths from the criterion's skin depth down to the outermost interface, refined where the
@@ -93,7 +110,7 @@ def depths_for(setup: WearSetup, model: WearModel, body: int) -> FloatArray:
     """
     interfaces = setup.bodies[body].interfaces
     layered = bool(interfaces) and model.within_layer
-    skin = model.law.skin_depth if isinstance(model.law, WearCriterion) else 0.0
+    skin = model.law.skin_depth if isinstance(model.law, StressCriterion) else 0.0
     # a depth closer to the skin or to the interface than a tenth of an interval gives way to it
     sliver = 0.1 * float(np.diff(setup.depths).min())
     depths = _below_skin(setup.depths, min(skin, 0.5 * interfaces[0]) if layered else skin, sliver)
@@ -132,7 +149,7 @@ class YieldedStress:
 
 
 def yielded_stress(
-    load: FloatArray | Sequence[SurfaceLoad], setup: WearSetup, model: WearModel, body: int
+    load: FloatArray | Sequence[SurfaceLoad], setup: WearSetup, model: WearChoices, body: int
 ) -> YieldedStress:
     """Equivalent stress of one body under a pressure with the setup's friction, or under loads with their own.
 
@@ -143,7 +160,7 @@ def yielded_stress(
     start = time.perf_counter()
     loads = (SurfaceLoad(load, setup.friction),) if isinstance(load, np.ndarray) else load
     law = model.law
-    assert isinstance(law, WearCriterion)
+    assert isinstance(law, StressCriterion)
     strength = setup.yield_stress(body)
     depths = depths_for(setup, model, body)
     below = 1 if model.refinement == "monotone_cubic" else 0
@@ -166,7 +183,7 @@ def yielded_stress(
 
 
 def piece_stress(
-    load: FloatArray | Sequence[SurfaceLoad], setup: WearSetup, model: WearModel, body: int
+    load: FloatArray | Sequence[SurfaceLoad], setup: WearSetup, model: WearChoices, body: int
 ) -> YieldedStress:
     """As `yielded_stress`, where pieces can be: rows that none reaches are zero if von Mises stress of one load is
     asked for, of which pieces from the surface down leave, found on the way (`bem.stress.reach`).
@@ -177,7 +194,7 @@ def piece_stress(
     loads = (SurfaceLoad(load, setup.friction),) if isinstance(load, np.ndarray) else load
     law, removal, (first, *others) = model.law, model.removal, loads
     assert isinstance(removal, RemovalLaw)
-    assert isinstance(law, WearCriterion)
+    assert isinstance(law, StressCriterion)
     if not law.is_von_mises or others or first.traction is not None or not removal.follows_pieces:
         return yielded_stress(loads, setup, model, body)
     start = time.perf_counter()
@@ -194,7 +211,9 @@ def piece_stress(
     return YieldedStress(found[:used], depths[:used], len(found), seconds, reached.exceeding, rows[:used])
 
 
-def yielded_pieces(load: FloatArray | Sequence[SurfaceLoad], setup: WearSetup, model: WearModel, body: int) -> Removal:
+def yielded_pieces(
+    load: FloatArray | Sequence[SurfaceLoad], setup: WearSetup, model: WearChoices, body: int
+) -> Removal:
     """The pieces that come off one body where its stress exceeds the yield stress; arguments as in `yielded_stress`."""
     found = piece_stress(load, setup, model, body)
     start = time.perf_counter()
@@ -208,7 +227,7 @@ def pieces_above(
     depths: FloatArray,
     limit: float,
     setup: WearSetup,
-    model: WearModel,
+    model: WearChoices,
     exceeding: NDArray[np.bool_] | None = None,
     rows: NDArray[np.bool_] | None = None,
 ) -> Segmentation:

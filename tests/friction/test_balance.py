@@ -25,8 +25,9 @@ from bem.friction import film as film_model
 from bem.friction import oil_sensitivity
 from bem.friction import rough_contact as rough_model
 from bem.friction.balance import BalanceStart, Regime, share_load
+from bem.friction.choose_contact import rough_contact
 from bem.friction.film import PatchFilm
-from bem.friction.rough_contact import boundary_traction, rough_contact
+from bem.friction.rough_contact import boundary_traction
 from bem.friction.setup import MixedSetup
 from bem.wear import mixed as mixed_cycles
 from bem.wear.mixed import MixedContact, pack_balance, unpack_balance

@@ -14,11 +14,11 @@ from bem.benchmarks.lubricated_cases import mixed_case
 from bem.errors import outside
 from bem.friction import load_sharing, oil_sensitivity
 from bem.friction.balance import NO_FILM_NOTE, BalanceStart, Regime, share_load
+from bem.friction.choose_contact import rough_contact
 from bem.friction.falling_zero import _parabola, falling_zero
 from bem.friction.film import PatchFilm
 from bem.friction.oil_beside import OilBeside, oil_notes
 from bem.friction.oil_volume import OilVolume, mean_where_counted
-from bem.friction.rough_contact import rough_contact
 from bem.friction.setup import MixedSetup
 from bem.friction.smooth import LineContact, PointContact
 from bem.wear.mixed import MixedContact, film_table

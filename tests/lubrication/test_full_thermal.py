@@ -13,11 +13,12 @@ from bem.errors import InputError, Status
 from bem.heat.bodies import Conductor
 from bem.lubrication import Lubricant, solve_full_thermal_line_film, solve_line_film, solve_thermal_line_film
 from bem.lubrication.density import DowsonHigginson
+from bem.lubrication.kept_heat import middles
 from bem.lubrication.shear import Newtonian
 from bem.lubrication.thermal import coupled, full
 from bem.lubrication.thermal.across import Given
 from bem.lubrication.thermal.field import Duct, Sources, carried, temperature_field, warming_of
-from bem.lubrication.thermal.layers import HotFilm, Oil, middles
+from bem.lubrication.thermal.layers import HotFilm, Oil
 from bem.lubrication.thermal.made import Made
 from bem.lubrication.thermal.strip import Strip
 from bem.materials import CATALOGUE, Body, Material

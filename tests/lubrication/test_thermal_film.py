@@ -10,10 +10,10 @@ from bem.grid import Grid
 from bem.heat import surface_temperature
 from bem.heat.bodies import Conductor
 from bem.lubrication import Lubricant, line_case, solve_line_film
+from bem.lubrication.inlet_heating import inlet_heating_factor
 from bem.lubrication.thermal import lumped, solve_full_thermal_line_film, solve_thermal_line_film
 from bem.lubrication.thermal.energy import Channel, film_temperatures
 from bem.lubrication.thermal.hot_viscosity import HotViscosity
-from bem.lubrication.thermal.inlet import inlet_heating_factor
 from bem.lubrication.thermal.notes import FAST_INLET, HEAT_NOT_FOUND, SLOW_SURFACE
 from bem.materials import CATALOGUE, Body, Material
 

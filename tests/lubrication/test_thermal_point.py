@@ -21,9 +21,9 @@ from bem import (
 from bem.friction.point_film import cold_film, point_film
 from bem.friction.setup import MixedSetup
 from bem.friction.smooth import PointContact
+from bem.lubrication.inlet_heating import InletHeating
 from bem.lubrication.thermal import lumped_point
 from bem.lubrication.thermal.conductors import moving_bodies
-from bem.lubrication.thermal.inlet import InletHeating
 from bem.lubrication.thermal.lumped_point import SPREADS, point_heat, thinning
 from bem.lubrication.thermal.notes import HEAT_NOT_FOUND
 from bem.lubrication.with_heat import FilmHeat

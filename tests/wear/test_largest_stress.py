@@ -6,7 +6,8 @@ import pytest
 
 from bem import Body, Grid, Layer, Material
 from bem.wear import WearModel, WearSetup
-from bem.wear.loads import LOWER, UPPER, SurfaceLoad
+from bem.wear.loads import SurfaceLoad
+from bem.wear.setup import LOWER, UPPER
 from bem.wear.yielding import largest_stress
 
 pytestmark = pytest.mark.internal

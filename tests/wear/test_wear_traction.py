@@ -13,7 +13,8 @@ from bem.reference_solutions.partial_slip import PushedBall
 from bem.stress import subsurface_stress
 from bem.wear import WearModel, dry_contact, pack_state, unpack_state, wear_cycle, yielded_pieces
 from bem.wear.criterion import Archard, AveragedVonMises, EnergyWear
-from bem.wear.loads import LOWER, UPPER, SurfaceLoad
+from bem.wear.loads import SurfaceLoad
+from bem.wear.setup import LOWER, UPPER
 from bem.wear.traction import OscillatingForce, OscillatingShift
 from bem.wear.traction.oscillating import ALL_SLIPS, AT_ONCE
 

@@ -12,13 +12,13 @@ import numpy as np
 from bem.errors import Status
 from bem.grid import FloatArray
 from bem.lubrication import validity
+from bem.lubrication.inlet_heating import inlet_heating_factor
 from bem.lubrication.point.cascade import COARSEST, shapes_up_to
 from bem.lubrication.point.far import far_shear
 from bem.lubrication.point.kept import rise_beside_lowest
 from bem.lubrication.point.levels import Level
 from bem.lubrication.point.scales import PointScales, point_scales
 from bem.lubrication.point.setting import Setting
-from bem.lubrication.thermal.inlet import inlet_heating_factor
 
 if TYPE_CHECKING:
     from bem.lubrication.point.film import PointFilmSolution

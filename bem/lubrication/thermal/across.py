@@ -18,10 +18,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.grid import FloatArray
+from bem.lubrication.kept_heat import middles
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.shear_profile import Profile, shear_profile
 from bem.lubrication.thermal.hot_viscosity import LARGEST_LOGARITHM
-from bem.lubrication.thermal.layers import Oil, Sums, middles, sums_of
+from bem.lubrication.thermal.layers import Oil, Sums, sums_of
 from bem.lubrication.thermal.section import Section
 from bem.lubrication.thermal.strip import Strip
 

@@ -13,6 +13,7 @@ import numpy as np
 from bem.grid import FloatArray
 from bem.heat.bodies import Conductor
 from bem.lubrication.film import FilmSolution
+from bem.lubrication.kept_heat import KeptHeat, moved
 from bem.lubrication.line_continuation import MAX_IMBALANCE, neighbour, smallest_cell
 from bem.lubrication.line_flow import Problem
 from bem.lubrication.line_newton import Outcome, State, mesh_imbalance, newton, remesh, spike_cell
@@ -21,7 +22,6 @@ from bem.lubrication.thermal.field import TOLERANCE, Duct, Field, temperature_fi
 from bem.lubrication.thermal.layers import HotFilm, Oil
 from bem.lubrication.thermal.made import Made
 from bem.lubrication.thermal.strip import Strip, cell_edges, strip_of
-from bem.lubrication.thermal.warm_start import KeptHeat, moved
 
 MOST_ROUNDS = 80
 SKETCH, SKETCHED = 400, 1e-3

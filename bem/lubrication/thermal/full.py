@@ -18,7 +18,8 @@ import numpy as np
 
 from bem.errors import InputError, Status
 from bem.grid import FloatArray
-from bem.lubrication.film import FilmSolution
+from bem.lubrication.film import FilmSolution, HeatedFilm
+from bem.lubrication.kept_heat import middles
 from bem.lubrication.line_case import LineCase
 from bem.lubrication.line_kept import KeptSteady, without_equations
 from bem.lubrication.line_newton import Outcome
@@ -28,8 +29,7 @@ from bem.lubrication.steady import line_film, solution_of
 from bem.lubrication.thermal.conductors import moving_bodies
 from bem.lubrication.thermal.coupled import Coupling, Heated, Neighbour, coupled
 from bem.lubrication.thermal.field import LEAST_RISE, carried
-from bem.lubrication.thermal.heated_film import HeatedFilm
-from bem.lubrication.thermal.layers import Oil, expansion_of, middles
+from bem.lubrication.thermal.layers import Oil, expansion_of
 from bem.lubrication.thermal.notes import notes_of_film, notes_of_heat
 from bem.materials import Body
 from bem.representation import readable

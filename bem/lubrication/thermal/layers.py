@@ -20,17 +20,13 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from bem.grid import FloatArray
+from bem.lubrication.kept_heat import middles
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.thermal.hot_viscosity import LARGEST_LOGARITHM, HotViscosity
 
 EXPANSION_PRESSURE = 5e8
 """At which oils expand half as much as without pressure [Pa]: at 1 GPa a third, as measured ones do (Bair,
 High-pressure rheology, 2007; from memory)."""
-
-
-def middles(layers: int) -> FloatArray:
-    """s of the layers' middles (K,), -1 to 1 from the lower wall to the upper one."""
-    return np.asarray((2 * np.arange(layers) + 1) / layers - 1)
 
 
 def expansion_of(lubricant: Lubricant) -> float | None:

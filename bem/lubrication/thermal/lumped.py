@@ -24,7 +24,8 @@ import numpy as np
 from bem.errors import InputError, Status
 from bem.grid import FloatArray
 from bem.heat.bodies import Conductor
-from bem.lubrication.film import FilmSolution
+from bem.lubrication.film import FilmSolution, HeatedFilm
+from bem.lubrication.inlet_heating import InletHeating, hertz_over_modulus, inlet_heating_factor
 from bem.lubrication.line_case import LineCase, load_range
 from bem.lubrication.line_kept import KeptSteady, without_equations
 from bem.lubrication.line_scales import line_scales
@@ -36,9 +37,7 @@ from bem.lubrication.steady import line_film
 from bem.lubrication.supply import Supply
 from bem.lubrication.thermal.conductors import moving_bodies
 from bem.lubrication.thermal.energy import Channel, Temperatures, film_temperatures
-from bem.lubrication.thermal.heated_film import HeatedFilm
 from bem.lubrication.thermal.hot_viscosity import HotViscosity
-from bem.lubrication.thermal.inlet import InletHeating, hertz_over_modulus, inlet_heating_factor
 from bem.lubrication.thermal.notes import HEAT_NOT_FOUND, heat_limits, notes_of_film, notes_of_heat
 from bem.lubrication.thermal.strip import Strip, cell_edges, derivative_of, strip_of, summed
 from bem.lubrication.viscosity import ViscosityLaw

@@ -19,12 +19,12 @@ from bem.errors import Status
 from bem.grid import FloatArray
 from bem.heat.bodies import Conductor
 from bem.heat.operators import band_temperatures
+from bem.lubrication.inlet_heating import InletHeating
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.point.film import PointFilmSolution
 from bem.lubrication.thermal.conductors import moving_bodies
 from bem.lubrication.thermal.energy import Channel, film_temperatures
 from bem.lubrication.thermal.hot_viscosity import HotViscosity
-from bem.lubrication.thermal.inlet import InletHeating
 from bem.lubrication.thermal.lumped import FACTOR_TOLERANCE, MOST_FILMS, thinned_oil
 from bem.lubrication.thermal.notes import HEAT_NOT_FOUND, LARGEST_RISE, heat_limits, notes_of_heat
 from bem.lubrication.validity import HEATING_NOTES

@@ -6,11 +6,11 @@ import numpy as np
 
 from bem.grid import FloatArray
 from bem.lubrication.film import FilmSolution
+from bem.lubrication.inlet_heating import InletHeating
 from bem.lubrication.line_kept import KeptSteady
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.oils.oil import EXTRAPOLATED, HOTTEST, Oil
 from bem.lubrication.oils.over_temperature import CELSIUS
-from bem.lubrication.thermal.inlet import InletHeating
 from bem.lubrication.validity import HEATING_NOTES, Case, notes_on, why_no_line_film
 
 HEAT_NOT_FOUND = (

@@ -19,8 +19,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from bem.grid import FloatArray
+from bem.lubrication.kept_heat import middles
 from bem.lubrication.shear import Moments, ShearLaw
-from bem.lubrication.thermal.layers import Sums, middles
+from bem.lubrication.thermal.layers import Sums
 
 _STEPS = 60
 _TOLERANCE = 1e-13

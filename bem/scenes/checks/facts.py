@@ -89,7 +89,7 @@ class Case:
         """Which bodies wear in a wear loop: 0 the lower, 1 the upper one."""
         if self.wear is None or self.upper is None:
             return ()
-        from bem.wear.loads import wearing_bodies
+        from bem.wear.setup import wearing_bodies
 
         return wearing_bodies((self.lower, self.upper), self.wear.wears)
 

@@ -16,7 +16,7 @@ from bem.scenes.tables.tribofilm import KineticsScene
 from bem.scenes.units import Pressure, Ratio, Temperature, Time
 from bem.scenes.wearing import WearDepthsScene
 from bem.wear.criterion import Detachment, LocalWear, VonMises
-from bem.wear.loads import LOWER, UPPER
+from bem.wear.setup import LOWER, UPPER
 
 if TYPE_CHECKING:
     from bem.life.fatigue import RollingFatigue

@@ -11,7 +11,7 @@ from bem.scenes.laws import LawKey
 from bem.scenes.tables.film_defect import FilmDefectScene
 from bem.scenes.tables.third_bodies import ThirdBodiesScene
 from bem.wear.criterion import Detachment, VonMises
-from bem.wear.film_defect import boundary_film_misfits
+from bem.wear.misfits import boundary_film_misfits
 from bem.wear.removal import Cap, RemovalLaw
 from bem.wear.traction import GrossSliding, TractionLaw
 

@@ -12,8 +12,8 @@ from bem.laws import Law, parameter
 
 if TYPE_CHECKING:
     from bem.materials import Material
-    from bem.wear.cycle import WearSetup
     from bem.wear.loads import BodyCycle, Removal
+    from bem.wear.setup import WearSetup
 
 
 FEWEST_CELLS = 2.9

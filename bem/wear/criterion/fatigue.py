@@ -61,4 +61,4 @@ class LowCycleFatigue(VonMises):
         """What is broken and reaches the surface; the damage of what stays is remembered."""
         from bem.wear.damage import broken
 
-        return broken(cycle, self)
+        return broken(cycle, self.averaging_length, self.damage)

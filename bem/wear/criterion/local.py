@@ -12,13 +12,13 @@ import numpy as np
 from bem.errors import InputError
 from bem.laws import parameter, register
 from bem.wear.criterion.base import Detachment
-from bem.wear.loads import UPPER
+from bem.wear.setup import UPPER
 
 if TYPE_CHECKING:
     from bem.grid import Grid
     from bem.materials import Body
-    from bem.wear.cycle import WearSetup
     from bem.wear.loads import BodyCycle, Removal
+    from bem.wear.setup import WearSetup
 
 
 @dataclass(frozen=True, kw_only=True)

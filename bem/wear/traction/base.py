@@ -15,7 +15,7 @@ from bem.laws import Law
 
 if TYPE_CHECKING:
     from bem.wear.criterion import Detachment
-    from bem.wear.cycle import WearSetup
+    from bem.wear.setup import WearSetup
 
 
 @dataclass(frozen=True, eq=False)

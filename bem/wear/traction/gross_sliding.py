@@ -11,7 +11,7 @@ from bem.wear.criterion import Detachment, LocalWear
 from bem.wear.traction.base import TractionLaw
 
 if TYPE_CHECKING:
-    from bem.wear.cycle import WearSetup
+    from bem.wear.setup import WearSetup
 
 
 @register

@@ -16,7 +16,7 @@ from bem.wear.traction.base import Rubbing, TractionLaw
 
 if TYPE_CHECKING:
     from bem.tangential import TangentialSolution
-    from bem.wear.cycle import WearSetup
+    from bem.wear.setup import WearSetup
 
 TOLERANCE = 1e-6
 """Of the displacements, as `solve_partial_slip` takes it: far below what the cells leave open."""

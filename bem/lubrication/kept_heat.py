@@ -1,4 +1,4 @@
-"""What a film with full heat leaves for the next one to start from: its temperatures, over the film's own length."""
+"""Warm start of a film with full heat: the temperatures of an earlier film, over that film's own length."""
 
 from __future__ import annotations
 
@@ -9,7 +9,6 @@ from numpy.typing import NDArray
 
 from bem.grid import FloatArray
 from bem.lubrication.film import FilmSolution
-from bem.lubrication.thermal.layers import middles
 
 
 @dataclass(frozen=True)
@@ -44,6 +43,11 @@ class KeptHeat:
         """The same of columns (m, layers + 2) [K]."""
         heights = [np.concatenate([[-1.0], middles(count), [1.0]]) for count in (self.rise.shape[1] - 2, layers)]
         return supply + moved(self.columns, _resampled(self.rise, *heights), columns)
+
+
+def middles(layers: int) -> FloatArray:
+    """s of the layers' middles (K,), -1 to 1 from the lower wall to the upper one."""
+    return np.asarray((2 * np.arange(layers) + 1) / layers - 1)
 
 
 def moved(old: FloatArray, values: FloatArray, new: FloatArray) -> FloatArray:

@@ -1,0 +1,113 @@
+"""What stays the same over all cycles of a wear loop, and which of its choices a criterion may read.
+
+Knows bodies and grids; no law. Verified in tests/wear/test_cycle.py.
+"""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any, Protocol
+
+import numpy as np
+
+from bem.errors import InputError
+from bem.grid import FloatArray, Grid
+from bem.materials import Body, softer_hardness
+
+if TYPE_CHECKING:
+    from bem.wear.film_defect import FilmDefect
+    from bem.wear.removal import RemovalLaw
+
+LOWER, UPPER = 0, 1
+
+
+class WearChoices(Protocol):
+    """Choices of a wear model (`bem.wear.WearModel`) that criteria and segmentation read."""
+
+    @property
+    def law(self) -> Any:
+        """Criterion of the model."""
+
+    @property
+    def tractions(self) -> Any:
+        """Traction law of the model."""
+
+    @property
+    def removal(self) -> str | RemovalLaw:
+        """Law of what leaves with a piece."""
+
+    @property
+    def boundary_film(self) -> FilmDefect | None:
+        """Boundary film that protects from local wear; None for none."""
+
+    @property
+    def wears(self) -> str:
+        """Which body wears: "softer", "lower", "upper" or "both"."""
+
+    @property
+    def refine(self) -> int:
+        """Fine voxels per depth interval."""
+
+    @property
+    def refinement(self) -> str:
+        """Interpolation of the stress between depths."""
+
+    @property
+    def connectivity(self) -> int:
+        """Neighbours of a voxel: 6, 18 or 26."""
+
+    @property
+    def within_layer(self) -> bool:
+        """Whether pieces of a coated body end at the interface."""
+
+
+def wearing_bodies(bodies: tuple[Body, Body], wears: str) -> tuple[int, ...]:
+    """Indices of those of (lower, upper) that wear: "lower", "upper", "both", or the "softer", which has the lower
+    yield stress; the lower body where equal."""
+    if wears != "softer":
+        return {"lower": (LOWER,), "upper": (UPPER,), "both": (LOWER, UPPER)}[wears]
+    known = [body.surface_material.yield_stress for body in bodies]
+    lower, upper = (float("inf") if value is None else value for value in known)
+    return (LOWER,) if lower <= upper else (UPPER,)
+
+
+@dataclass(frozen=True, eq=False)
+class WearSetup:
+    """What stays the same over all cycles.
+
+    grid : of the contact. bodies : (lower, upper). gap : macroscopic gap of the smooth bodies, (nx, ny) [m].
+    load : on the grid [N]. friction : of the contact, traction over pressure. depths : (nz,) [m], increasing, >= 0.
+    hardness : cap of the contact pressure [Pa]; None takes the softer surface's, which may be None (elastic).
+    """
+
+    grid: Grid
+    bodies: tuple[Body, Body]
+    gap: FloatArray
+    load: float
+    friction: float
+    depths: FloatArray
+    hardness: float | None = None
+
+    def __post_init__(self) -> None:
+        depths = np.asarray(self.depths, dtype=np.float64)
+        if depths.ndim != 1 or depths.size < 2 or depths[0] < 0 or not (np.diff(depths) > 0).all():
+            raise InputError("WearSetup: depths must be at least two increasing values >= 0 [m]")
+        object.__setattr__(self, "depths", depths)
+        object.__setattr__(self, "gap", self.grid.check_field(self.gap, "gap"))
+        if self.hardness is None:
+            object.__setattr__(self, "hardness", softer_hardness(*self.bodies))
+
+    def yield_stress(self, body: int) -> float:
+        """Yield stress of a body's surface material [Pa]; infinite where none is given: it does not wear."""
+        value = self.bodies[body].surface_material.yield_stress
+        return np.inf if value is None else value
+
+    def wearing(self, model: WearChoices) -> tuple[int, ...]:
+        """Indices of the bodies that wear."""
+        model.law.check_length(self.grid)
+        model.tractions.check(self.friction)
+        bodies = wearing_bodies(self.bodies, model.wears)
+        if model.law.needs_strength and any(not np.isfinite(self.yield_stress(body)) for body in bodies):
+            raise InputError("the body that wears has no yield_stress and no hardness: give its material one of them")
+        model.law.check_depths(self.depths)
+        return bodies
