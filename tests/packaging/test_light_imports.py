@@ -132,8 +132,8 @@ GAUSSIAN = (
 
 @pytest.mark.parametrize("scene", [SMALL, GAUSSIAN])
 def test_a_run_of_a_contact_loads_hardly_anything_of_scipy_and_nothing_of_wear(tmp_path, monkeypatch, scene):
-    """Its transforms, splines and special functions took a quarter of a second of every start, half of it for roots that
-    only surfaces of other heights than Gaussian ask for; wear's tables and laws came in by the checks of scenes, an
+    """Its transforms, splines and special functions took a quarter of a second of every start, half of it for roots
+    that only surfaces of other heights than Gaussian ask for; wear's tables and laws came in by the checks of scenes, an
     eighth of what the package itself takes to load."""
     monkeypatch.chdir(tmp_path)
     names = "\nimport sys; print(sorted(n for n in sys.modules if n.startswith(('scipy.', 'numpy.f2py', 'bem.'))))"
