@@ -236,18 +236,22 @@ class DisplacementOperator:
 
     On a doubly periodic grid the mean displacement is zero by definition: the mean pressure moves the datum only.
     `unit` is the power of two [m/Pa] that scales the kernel inside; `count` the applications so far, of the thread that
-    asks. `compliance` is what each place gives way besides, in proportion to its own pressure [m/Pa].
+    asks. `compliance` is what each place gives way besides, in proportion to its own pressure [m/Pa]. `kernel` returns
+    the spectra on a grid in place of those of normal displacement under pressure.
     """
 
     grid: Grid
     bodies: tuple[Body, ...]
     friction: float = 0.0
     compliance: float = field(default=0.0, kw_only=True)
+    kernel: Callable[[Grid], Spectra] | None = field(default=None, kw_only=True, repr=False)
     count: ConvolutionCount = field(default_factory=ConvolutionCount, compare=False, repr=False)
     weight: float = field(default=1.0, compare=False, repr=False)
 
     @cached_property
     def _spectra(self) -> Spectra:
+        if self.kernel is not None:
+            return self.kernel(self.grid)
         return _spectra(self.grid, self.bodies, self.friction, self.compliance)
 
     @property
@@ -371,6 +375,7 @@ class DisplacementOperator:
                 self.count,
                 ConvolutionCount.share(self.weight * grid.cells / self.grid.cells),
                 compliance=self.compliance,
+                kernel=self.kernel,
             )
         )
         self._coarser.append(coarser)

@@ -143,12 +143,13 @@ class SparseInverse:
         """Response of (G^T G)^-1 to a uniform unit pressure, on a cell with all its neighbours."""
         return float(1 / self.patterns.table[-1].sum() ** 2)
 
-    def on(self, cells: NDArray[Any]) -> SparseInverseOnCells:
-        """Return the inverse on the active cells (ascending flat indices)."""
+    def on(self, cells: NDArray[Any], diagonal: FloatArray | None = None) -> SparseInverseOnCells:
+        """Return the inverse on the active cells (ascending flat indices), with a diagonal (n,) added to the kernel."""
         known = self.patterns
         rows, irregular, unsolved = connect(cells, (*self.shape, *self.periodic), known.offsets, known.solved)
         known.solve(rows[2], unsolved=unsolved)
-        return self.of_rows(rows, irregular)
+        inverse = self.of_rows(rows, irregular)
+        return inverse if diagonal is None else inverse.with_diagonal(known, diagonal)
 
     def of_rows(
         self,
@@ -166,6 +167,18 @@ class SparseInverseOnCells:
 
     rows: PackedRows
     irregular: IrregularRows
+
+    def with_diagonal(self, patterns: Patterns, diagonal: FloatArray) -> SparseInverseOnCells:
+        """Return the factor of the kernel with a diagonal (n,) added; every cell has its own row of the tables."""
+        rows, irregular = self.rows, self.irregular
+        table, packed = _solve_rows_with_diagonal(
+            rows, irregular, patterns.offsets, patterns.near_field, patterns.table, diagonal
+        )
+        own = np.arange(diagonal.size, dtype=np.int32)
+        return SparseInverseOnCells(
+            PackedRows(rows.upper, rows.lower, own, packed),
+            IrregularRows(irregular.cells, irregular.columns, irregular.cells, table),
+        )
 
     def row_sums(self) -> FloatArray:
         """Return G applied to a constant."""
@@ -515,3 +528,58 @@ def _solve_patterns(pattern, offsets, near_field, table, packed, solved):
             table[bits, m] = 1 / np.sqrt(abs(near_field[middle, middle]))
         pack(table[bits], bits, packed[bits])
         packed[count + bits, 11] = packed[bits, 11]
+
+
+@compiled
+def _solve_rows_with_diagonal(rows, irregular, offsets, near_field, table, diagonal):
+    """Return the rows of G (n, m + 1), one for each cell, and the packed rows (n, ENTRIES).
+
+    A row whose cells have a zero diagonal is that of its pattern in `table`.
+    """
+    n, m = diagonal.size, offsets.shape[0]
+    middle = near_field.shape[0] // 2
+    out, packed = np.zeros((n, m + 1)), np.zeros((n, rows.table.shape[1]))
+    factor = np.empty((m + 1, m + 1))
+    active = np.empty(m + 1, np.int64)
+    row = np.empty(m + 1)
+    columns = np.empty(m, np.int64)
+    listed = 0
+    for k in range(n):
+        bits = rows.pattern[k] & (table.shape[0] - 1)
+        is_irregular = listed < irregular.cells.size and irregular.cells[listed] == k
+        if is_irregular:
+            columns[:] = irregular.columns[listed]
+            listed += 1
+        else:
+            neighbours(rows, k, columns)
+        largest = diagonal[k]
+        count = 0
+        for a in range(m):
+            if bits >> a & 1:
+                active[count] = a
+                count += 1
+                largest = max(largest, diagonal[columns[a]])
+        active[count] = m
+        count += 1
+        if largest > 0:
+            for a in range(count):
+                one = active[a]
+                for b in range(a + 1):
+                    two = active[b]
+                    di = (offsets[one, 0] if one < m else 0) - (offsets[two, 0] if two < m else 0)
+                    dj = (offsets[one, 1] if one < m else 0) - (offsets[two, 1] if two < m else 0)
+                    s = near_field[middle + di, middle + dj]
+                    for c in range(b):
+                        s -= factor[a, c] * factor[b, c]
+                    if a == b:
+                        s += diagonal[columns[one]] if one < m else diagonal[k]
+                        factor[a, a] = np.sqrt(max(s, 1e-12 * near_field[middle, middle]))
+                    else:
+                        factor[a, b] = s / factor[b, b]
+            row_of_inverse(factor, active[:count], row, out[k])
+        else:
+            out[k] = table[bits]
+        pack(out[k], bits, packed[k])
+        if is_irregular:
+            packed[k, : packed.shape[1] - 1] = 0.0
+    return out, packed

@@ -1,21 +1,48 @@
 """Tangential contact: where bodies pressed together stick and slip, under forces, shifts, rotation and rolling.
 
-`operator` is the in-plane displacement from tractions, `along` that of one direction alone, `discs` puts tractions
-inside Coulomb's bound, `rounds` solves partial slip on one grid, `inverse` is its preconditioner, `straight` and
-`cascade` are starts: a push that slips one way, coarser grids. `edge` finds the edge of stick inside cells, `solve` is
-the front door of partial slip, `coupled` that of contact and partial slip together, `rolling` that of steady rolling,
-`stiffness` that of a contact before anything slips.
+The tractions q on the cells in contact obey Coulomb's law: abs(q) <= g = friction x pressure, no slip where abs(q) < g,
+and slip against the traction where abs(q) = g. The in-plane displacement A q is a convolution of both components.
 
-Knows the normal contact (its pressure, its sparse inverse); nothing of lubrication, wear or scenes. Verified in
-tests/tangential against Cattaneo and Mindlin, Mindlin and Deresiewicz, Carter, Spence and Kalker's linear theory.
+Partial slip (`partial_slip`; Cattaneo 1938, Mindlin 1949) minimises the convex energy q (A q / 2 - b) on the friction
+discs abs(q) <= g, where b is the imposed displacement:
+
+1. `problem` checks the arguments. The previous step of a history enters b, with the shift, the rotation and the
+   in-plane displacement under the pressure. Cost: one convolution for bodies that differ in elasticity, else none.
+2. `initial_tractions` starts a first straight push from a normal contact for the unused bound (Jaeger 1998, Ciavarella
+   1998), and any other step from coarser grids. Cost: three to four convolutions, weighted by cells over all grids.
+3. `slip_newton` takes Newton steps on the slip set until the law holds to the tolerance (primal-dual active sets:
+   Stadler 2004; Hueeber, Stadler & Wohlmuth 2008). Slipping cells move along the tangents of their discs, under a force
+   the directions carry no net force, and the energy guards each step. Cost: one convolution per iteration of conjugate
+   gradients and one per Newton step; about 17 for a first push of like bodies.
+4. `preconditioner` is the two-level inverse of the normal contact, for the main direction and across it, with the
+   curvature of the discs on the diagonal. Cost: about one convolution per Newton step, and a fifth per application.
+5. `friction_discs` projects tractions onto the discs, and onto those with a given total force, whose Lagrange
+   multiplier is the shift. Cost: a few passes over the cells in contact.
+6. `certificate` recomputes the residual of Coulomb's law from the returned tractions, and a stick area of second order.
+
+`tangential_stiffness` is the limit without slip (Mindlin 1949).
+
+Steady rolling (`rolling`; Kalker 1990) has no energy. Newton's method with GMRES solves q = P(q - t s) for the slip s
+over one cell, where P is the same projection; the creepage is the multiplier of a given force. Cost: two to three
+convolutions per cell along the contact.
+
+Contact and partial slip together (`coupled_slip`; Spence 1968): a fixed-point iteration between `bem.contact` and steps
+1 to 6, because the tractions of bodies that differ change the gap. Cost: two to ten rounds.
+
+`operator` is A with its adjoints under pressure; `solution` is the result of partial slip and rolling.
+
+Terms: a cell *sticks* or *slips*; the *slip set* is the set of slipping cells. The *displacement residual*
+r = b - A q is minus the slip. The *shift* is the rigid displacement of one body against the other.
+
+The package knows the normal contact (its pressure and its preconditioner), but no lubrication, wear or scenes. Verified
+in tests/tangential against Cattaneo and Mindlin, Mindlin and Deresiewicz, Carter, Spence and Kalker's linear theory.
 """
 
-from bem.tangential.coupled import CoupledSolution, solve_coupled_slip
-from bem.tangential.operator import TangentialOperator
+from bem.tangential.coupled_slip import CoupledSolution, solve_coupled_slip
+from bem.tangential.operator import TangentialOperator, tangential_operator
+from bem.tangential.partial_slip import solve_partial_slip, tangential_stiffness
 from bem.tangential.rolling import solve_rolling
 from bem.tangential.solution import TangentialSolution
-from bem.tangential.solve import solve_partial_slip, tangential_operator
-from bem.tangential.stiffness import tangential_stiffness
 
 __all__ = [
     "CoupledSolution",

@@ -1,12 +1,14 @@
-"""In-plane surface displacements from tractions along x and y: free and periodic axes, coated bodies.
+"""In-plane surface displacements from tangential tractions: free and periodic axes, coated bodies.
 
-What a pair of bodies does is the displacement of the first body's surface less the second's, under `traction` on the
-first and the opposite one on the second; pressure presses on both. Each kernel is even or odd along each axis, so a
-spectrum is a quarter array of reals; both tractions are transformed once, and both displacements once.
+The displacement of a pair of bodies is that of the first surface less that of the second, under a traction on the first
+body and the opposite traction on the second; the pressure acts on both. Every kernel is even or odd along each axis, so
+its spectrum is a quarter array of real numbers. One application transforms both components of the traction once, and
+both components of the displacement once back.
 """
 
 from __future__ import annotations
 
+import math
 from dataclasses import dataclass, field
 from functools import cached_property
 from typing import Any, NamedTuple
@@ -15,7 +17,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.compiled import compiled
-from bem.convolution import COUNT, SMALLEST, ConvolutionCount, couples, elastic, shared
+from bem.convolution import (
+    COUNT,
+    SMALLEST,
+    ConvolutionCount,
+    DisplacementOperator,
+    Spectra,
+    couples,
+    elastic,
+    shared,
+)
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
 from bem.kernels import spectral
@@ -27,7 +38,11 @@ ComplexArray = NDArray[np.complex128]
 
 
 class InPlaneSpectra(NamedTuple):
-    """Of displacement along x under traction along x, along y under y, and of one under the other (odd in both)."""
+    """Spectra of the in-plane kernels.
+
+    xx, yy : displacement along an axis under traction along that axis, even in x and y.
+    xy : displacement along one axis under traction along the other, odd in x and y.
+    """
 
     xx: FloatArray
     yy: FloatArray
@@ -35,25 +50,25 @@ class InPlaneSpectra(NamedTuple):
 
     @property
     def nbytes(self) -> int:
-        """Memory [bytes]."""
+        """Return the memory [bytes]."""
         return self.xx.nbytes + self.yy.nbytes + self.xy.nbytes
 
 
-class PushedSpectra(NamedTuple):
-    """Of displacements along x (odd in x) and along y (odd in y) under pressure, imaginary."""
+class PressureSpectra(NamedTuple):
+    """Imaginary parts of the spectra of displacement along x (odd in x) and along y (odd in y) under pressure."""
 
     x: FloatArray
     y: FloatArray
 
     @property
     def nbytes(self) -> int:
-        """Memory [bytes]."""
+        """Return the memory [bytes]."""
         return self.x.nbytes + self.y.nbytes
 
 
 @compiled
-def _combine(spectra: InPlaneSpectra, along_x: ComplexArray, along_y: ComplexArray) -> None:
-    """Spectra of the displacements in place of those of the tractions, (py // 2 + 1, px)."""
+def _multiply_traction(spectra: InPlaneSpectra, along_x: ComplexArray, along_y: ComplexArray) -> None:
+    """Replace the spectra (py // 2 + 1, px) of the traction by those of the displacement."""
     rows, length = along_x.shape
     half = length // 2 + 1
     for i in range(rows):
@@ -66,8 +81,8 @@ def _combine(spectra: InPlaneSpectra, along_x: ComplexArray, along_y: ComplexArr
 
 
 @compiled
-def _push(odd_x: FloatArray, odd_y: FloatArray, pressure: ComplexArray, out: ComplexArray) -> None:
-    """Spectra of displacement along x into `out` and along y in place of the pressure's; imaginary, odd in x or y."""
+def _multiply_pressure(odd_x: FloatArray, odd_y: FloatArray, pressure: ComplexArray, out: ComplexArray) -> None:
+    """Write the spectrum of the displacement along x to `out`, and replace the pressure's by that along y."""
     rows, length = pressure.shape
     half = length // 2 + 1
     for i in range(rows):
@@ -79,8 +94,8 @@ def _push(odd_x: FloatArray, odd_y: FloatArray, pressure: ComplexArray, out: Com
 
 
 @compiled
-def _normal(odd_x: FloatArray, odd_y: FloatArray, along_x: ComplexArray, along_y: ComplexArray) -> None:
-    """Spectrum of the normal displacement in place of that of the traction along x: the adjoint of `_push`."""
+def _multiply_normal(odd_x: FloatArray, odd_y: FloatArray, along_x: ComplexArray, along_y: ComplexArray) -> None:
+    """Replace the spectrum of the traction along x by that of the normal displacement; adjoint of the pressure's."""
     rows, length = along_x.shape
     half = length // 2 + 1
     for i in range(rows):
@@ -94,7 +109,7 @@ def _normal(odd_x: FloatArray, odd_y: FloatArray, along_x: ComplexArray, along_y
 class TangentialOperator:
     """Callable: traction (2, nx, ny) [Pa] on the first body -> displacement (2, nx, ny) [m], first less second.
 
-    On a doubly periodic grid displacements are mean-free: a mean traction moves the datum only.
+    On a doubly periodic grid the mean displacement is zero by definition: a mean traction moves the datum only.
     """
 
     grid: Grid
@@ -104,7 +119,7 @@ class TangentialOperator:
 
     @property
     def padded(self) -> tuple[int, int]:
-        """Lengths of the transforms."""
+        """Return the lengths of the transforms."""
         return padded_shape(self.grid.shape, self.grid.periodic)
 
     @property
@@ -113,7 +128,7 @@ class TangentialOperator:
 
     @cached_property
     def spectra(self) -> InPlaneSpectra:
-        """Of both bodies together [m/Pa]; shared between operators."""
+        """Return the spectra of both bodies together [m/Pa]; operators share them."""
 
         def make() -> InPlaneSpectra:
             COUNT.in_plane += len(self.bodies)
@@ -123,49 +138,57 @@ class TangentialOperator:
         return shared(("in plane", *self._key), make)
 
     @cached_property
-    def _pushed(self) -> PushedSpectra | None:
-        """Of displacements under pressure, first body less second; None where they cancel."""
+    def _pressure_spectra(self) -> PressureSpectra | None:
+        """Return the spectra under pressure [m/Pa], first body less second; None if both cancel."""
         if not self.coupled:
             return None
 
-        def make() -> PushedSpectra:
+        def make() -> PressureSpectra:
             COUNT.tangential += 2 * len(self.bodies)
             signs = (1.0, -1.0)
-            found = [_pressed(self.grid, body, self.padded) for body in self.bodies]
-            parts = (sum(sign * part[axis] for sign, part in zip(signs, found, strict=False)) for axis in range(2))
-            return PushedSpectra(*(np.ascontiguousarray(part) for part in parts))
+            responses = [_pressure(self.grid, body, self.padded) for body in self.bodies]
+            parts = (sum(sign * part[axis] for sign, part in zip(signs, responses, strict=False)) for axis in range(2))
+            return PressureSpectra(*(np.ascontiguousarray(part) for part in parts))
 
         return shared(("pushed", *self._key), make)
 
     @property
     def coupled(self) -> bool:
-        """Whether pressure alone makes the surfaces slip: Dundurs' beta is not zero, or layered bodies differ."""
+        """Return True if pressure displaces the surfaces in the plane: Dundurs' beta is not zero, or layers differ."""
         return couples(self.bodies)
 
     @property
     def compliance(self) -> tuple[float, float]:
-        """Displacements [m/Pa] of a cell along x and along y under a unit traction on itself alone."""
+        """Return the displacements [m/Pa] of a cell along x and along y under a unit traction on that cell alone."""
         px, py = self.padded
         here = np.zeros(1, np.int64)
         across, along = offset_cosines(px, here)[0], offset_cosines(py, here)[0]
         xx, yy = (float(np.einsum("i,ij,j->", along, part, across)) for part in self.spectra[:2])
         return xx, yy
 
-    def near_field(self, radius: int) -> FloatArray:
-        """Coefficients of the mean of both directions' kernels, (2 radius + 1,) squared, offset zero in the middle."""
-        px, py = self.padded
-        offsets = np.arange(-radius, radius + 1)
-        mean = 0.5 * (self.spectra.xx + self.spectra.yy)
-        rows = np.einsum("jk,kl->jl", offset_cosines(py, offsets), mean)
-        return np.einsum("il,jl->ij", offset_cosines(px, offsets), rows)
+    @property
+    def stiffness(self) -> float:
+        """Return the traction over the displacement [Pa/m] of a cell that is loaded alone, mean of both directions."""
+        return 2 / sum(self.compliance)
+
+    def along(self, direction: tuple[float, float]) -> DisplacementOperator:
+        """Return the displacement along a unit vector under traction along it, as the operator of a normal contact.
+
+        One application counts as half of an application of this operator.
+        """
+        kernel = DirectionalKernel(self.bodies, direction)
+        return DisplacementOperator(self.grid, self.bodies, count=self.count, weight=0.5 * self.weight, kernel=kernel)
 
     def coarsened(self) -> TangentialOperator | None:
-        """The same bodies on a grid of half as many cells along each axis; None where that grid is too small."""
+        """Return the operator on a grid of half as many cells along each axis; None if that grid is too small."""
         grid = self.grid.coarsened()
-        return None if max(grid.shape) < SMALLEST else _coarse(self, grid)
+        if max(grid.shape) < SMALLEST:
+            return None
+        weight = ConvolutionCount.share(self.weight * grid.cells / self.grid.cells)
+        return TangentialOperator(grid, self.bodies, self.count, weight)
 
     def __call__(self, traction: FloatArray) -> FloatArray:
-        """Displacement [m] under `traction` [Pa], both (2, nx, ny).
+        """Return the displacement [m] under `traction` [Pa], both (2, nx, ny).
 
         Raises
         ------
@@ -179,39 +202,39 @@ class TangentialOperator:
         return self.apply(traction)
 
     def apply(self, traction: FloatArray) -> FloatArray:
-        """The same unchecked."""
+        """Return the displacement [m] under a traction [Pa] without checks."""
         transform = transform_of(self.grid.shape, self.padded)
         along_x, along_y = transform.forward(traction[0]), transform.forward(traction[1])
-        _combine(self.spectra, along_x, along_y)
-        return self._back(along_x, along_y)
+        _multiply_traction(self.spectra, along_x, along_y)
+        return self._inverse(along_x, along_y)
 
     def under_pressure(self, pressure: FloatArray) -> FloatArray:
-        """In-plane displacement (2, nx, ny) [m] of the first surface less the second under `pressure` (nx, ny) [Pa]."""
+        """Return the in-plane displacement (2, nx, ny) [m], first less second, under `pressure` (nx, ny) [Pa]."""
         pressure = self.grid.check_field(pressure, "pressure")
-        if self._pushed is None:
+        if self._pressure_spectra is None:
             return np.zeros((2, *self.grid.shape))
         transform = transform_of(self.grid.shape, self.padded)
         along_y = transform.forward(pressure)
         along_x = transform.empty_spectrum()
-        _push(*self._pushed, along_y, along_x)
-        return self._back(along_x, along_y)
+        _multiply_pressure(*self._pressure_spectra, along_y, along_x)
+        return self._inverse(along_x, along_y)
 
     def normal_displacement(self, traction: FloatArray) -> FloatArray:
-        """Normal displacement (nx, ny) [m] of both surfaces together under `traction` (2, nx, ny) [Pa].
+        """Return the normal displacement (nx, ny) [m], sum of both surfaces, under `traction` (2, nx, ny) [Pa].
 
-        Into the bodies. By reciprocity the adjoint of `under_pressure`: zero where that is.
+        Positive into the bodies. By reciprocity it is the adjoint of `under_pressure`, and zero if that is zero.
         """
-        if self._pushed is None:
+        if self._pressure_spectra is None:
             return np.zeros(self.grid.shape)
         transform = transform_of(self.grid.shape, self.padded)
         along_x, along_y = transform.forward(traction[0]), transform.forward(traction[1])
-        _normal(*self._pushed, along_x, along_y)
+        _multiply_normal(*self._pressure_spectra, along_x, along_y)
         out = np.empty(self.grid.shape)
         transform.inverse(along_x, out=out)
         return out
 
-    def _back(self, along_x: ComplexArray, along_y: ComplexArray) -> FloatArray:
-        """Displacements (2, nx, ny) of their spectra, counted."""
+    def _inverse(self, along_x: ComplexArray, along_y: ComplexArray) -> FloatArray:
+        """Return the displacements (2, nx, ny) of two spectra, and count one application."""
         self.count.applications += 1
         self.count.weighted += self.weight
         transform = transform_of(self.grid.shape, self.padded)
@@ -221,13 +244,44 @@ class TangentialOperator:
         return out
 
 
-def _coarse(fine: TangentialOperator, grid: Grid) -> TangentialOperator:
-    weight = ConvolutionCount.share(fine.weight * grid.cells / fine.grid.cells)
-    return TangentialOperator(grid, fine.bodies, fine.count, weight)
+@dataclass(frozen=True)
+class DirectionalKernel:
+    """Kernel of the displacement along a unit vector under traction along it, without its odd part."""
+
+    bodies: tuple[Body, ...]
+    direction: tuple[float, float]
+
+    def __call__(self, grid: Grid) -> Spectra:
+        """Return its spectrum on a grid, divided by a power of two [m/Pa]."""
+        x, y = self.direction
+        spectra = TangentialOperator(grid, self.bodies).spectra
+        even = x * x * spectra.xx + y * y * spectra.yy
+        unit = 2.0 ** round(math.log2(float(np.abs(even).max())))
+        return Spectra(even / unit, None, unit)
+
+
+def tangential_operator(grid: Grid, bodies: Body | tuple[Body, Body]) -> TangentialOperator:
+    """Return the operator from the traction on the first of one or two bodies to their relative displacement.
+
+    Raises
+    ------
+    InputError : not a Grid, not one or two bodies.
+    """
+    messages = []
+    pair = (bodies,) if isinstance(bodies, Body) else bodies
+    if not isinstance(grid, Grid):
+        messages.append(f"grid: {grid!r} must be a Grid")
+    if not isinstance(pair, tuple | list) or len(pair) not in (1, 2) or not all(isinstance(b, Body) for b in pair):
+        messages.append(f"bodies: {bodies!r} must be one Body or a pair of them")
+    if not messages and grid.cells == 1 and all(grid.periodic):
+        messages.append("grid: one cell that is periodic along both axes has no displacement; give at least two cells")
+    if messages:
+        raise InputError(messages)
+    return TangentialOperator(grid, tuple(pair))
 
 
 def _in_plane(grid: Grid, body: Body, padded: tuple[int, int]) -> FloatArray:
-    """Spectra (3, py // 2 + 1, px // 2 + 1) of one body."""
+    """Return the spectra xx, yy and xy of one body, (3, py // 2 + 1, px // 2 + 1)."""
     if all(grid.periodic):
         response = spectral.in_plane_response(grid, body)
         return np.ascontiguousarray(response[:, : padded[0] // 2 + 1].swapaxes(1, 2))
@@ -238,8 +292,8 @@ def _in_plane(grid: Grid, body: Body, padded: tuple[int, int]) -> FloatArray:
     return np.stack([sign * kernel_spectrum(part, padded, parity) for sign, part, parity in parts])
 
 
-def _pressed(grid: Grid, body: Body, padded: tuple[int, int]) -> tuple[FloatArray, FloatArray]:
-    """Imaginary spectra of (ux, uy) under pressure: by reciprocity, minus those of uz under tractions along x and y."""
+def _pressure(grid: Grid, body: Body, padded: tuple[int, int]) -> tuple[FloatArray, FloatArray]:
+    """Return the imaginary spectra of (ux, uy) under pressure; by reciprocity minus those of uz under traction."""
     turned = Grid(grid.shape[::-1], grid.spacing[::-1], periodic=grid.periodic[::-1])
     if all(grid.periodic):
         along_x = spectral.surface_response(grid, body, Load.TANGENTIAL)[: padded[0] // 2 + 1].T.copy()

@@ -1,17 +1,24 @@
-"""Steady rolling along +x with creepage and spin: where the surfaces stick and slip while they pass through a contact.
+"""Steady rolling along +x with creepage and spin: where surfaces stick and slip while they pass through a contact.
 
-In a frame that moves with the contact, what is at x has come from x + dx, one cell ahead. Over a cell's length of
-rolling the first surface slides over the second by
+In a frame that moves with the contact, a particle at x was at x + dx one cell earlier. While it rolls over the length
+of a cell, the first surface slides over the second by the slip
 
     s = (creepage + spin x r) dx + u(x) - u(x + dx),
 
-u = A q + what the pressure moves. Coulomb's law holds for s: none where |q| < g, s = -lambda q where |q| = g. That is
-Kalker's steady state (CONTACT; *Three-Dimensional Elastic Bodies in Rolling Contact*, 1990) with the derivative along x
-taken over one cell, of first order. It has no energy, but is monotone: Newton on q = P(q - t s), where P projects onto
-the friction discs and, where a force is given, onto the tractions in them that have it (the creepage is the multiplier,
-finite at every step), with GMRES for the linear systems. Their matrix is of order zero in the wavenumber but small for
-waves across the rolling, so that convolutions grow with the cells along it: 2 to 3 for each were counted from 32 to
-256. Where a step does not help it is halved; where that does not help either, the status says "stalled".
+where u is the displacement under the tractions q and under the pressure. Coulomb's law holds for this slip: s = 0 where
+abs(q) < g, and s = -lambda q with lambda >= 0 where abs(q) = g. This is Kalker's steady state (*Three-Dimensional
+Elastic Bodies in Rolling Contact*, 1990) with a backward difference over one cell, of first order.
+
+The problem has no energy but is monotone. It is the fixed point q = P(q - t s), where t is the stiffness of a single
+cell and P the projection onto the friction discs. Where a force is given, P projects onto the tractions in the discs
+with that force; the creepage is its Lagrange multiplier and finite at every step.
+
+1. Project q - t s; the difference of q and its projection is the projection residual.
+2. Solve for the Newton step with GMRES; the derivative of P is known in closed form.
+3. Halve the step until the projection residual falls. If no step is short enough, the status says "stalled".
+
+Cost: one convolution per GMRES iteration. The linear operator is small for waves across the rolling, so the number of
+convolutions grows with the number of cells along it.
 """
 
 from __future__ import annotations
@@ -28,22 +35,29 @@ from bem.contact import ContactSolution
 from bem.errors import InputError, Status
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
-from bem.tangential.discs import nearest, nearest_with_force
-from bem.tangential.operator import TangentialOperator
-from bem.tangential.rounds import least_scale, reach
+from bem.tangential.certificate import certify
+from bem.tangential.friction_discs import project_to_friction_discs, project_with_force
+from bem.tangential.operator import TangentialOperator, tangential_operator
+from bem.tangential.problem import (
+    SAFETY,
+    check_force,
+    check_settings,
+    checked_vectors,
+    displacement_scale,
+    friction_bound,
+    rounding_scale,
+)
 from bem.tangential.solution import TangentialSolution
-from bem.tangential.solve import check_force, check_numbers, checked_bound, tangential_operator
 from bem.threads import one_blas_thread
 
-_TIGHTER = 0.9
 _REDUCTION = 0.03
-"""What a linear system is solved to: 0.1 to 0.01 all take about as many convolutions in all (counted)."""
+"""Relative residual of a linear system; from 0.1 to 0.01 the sum of all convolutions hardly depends on it."""
 
 _HALVINGS = 8
-_KRYLOV = 60
+_KRYLOV, _RESTARTS = 60, 4
 
 _FLAT = 1e-12
-"""Share of the largest, below which the force's response to an offset of all tractions counts as none."""
+"""Relative eigenvalue below which the force does not respond to a uniform offset of the tractions."""
 
 
 @one_blas_thread
@@ -59,19 +73,19 @@ def solve_rolling(
     tolerance: float = 1e-8,
     max_iterations: int = 200,
 ) -> TangentialSolution:
-    """Tractions of two bodies that roll along +x over each other, steadily, with Coulomb's law.
+    """Solve for the tractions of two bodies that roll steadily along +x over each other, with Coulomb's law.
 
     Parameters
     ----------
     contact, grid, bodies, friction : as for `solve_partial_slip`.
     creepage : (along x, along y), the velocity of the first body against the second over the rolling velocity. The
-        traction on the first body is against it.
+        traction on the first body is directed against it.
     spin : angular velocity of the first body against the second about the normal (from x to y) over the rolling
         velocity [1/m], about the grid's centre.
-    force : (Fx, Fy) [N], total traction on the first body; the creepage is then found. Not together with a
-        creepage.
+    force : (Fx, Fy) [N], total traction on the first body; the creepage is then part of the solution. Not together
+        with a creepage.
     tolerance : bound on the residual, see `TangentialSolution`.
-    max_iterations : limit on Newton steps.
+    max_iterations : limit of the Newton steps.
 
     Raises
     ------
@@ -79,78 +93,62 @@ def solve_rolling(
     InfeasibleError : a force that friction cannot carry.
     """
     operator = tangential_operator(grid, bodies)
-    check_numbers(0.0, tolerance, max_iterations)
-    pressure, bound = checked_bound(contact, grid, friction)
-    creep, total = _checked(grid, bound, creepage, spin, force)
-    if not grid.periodic[0] and (bound[0].any() or bound[-1].any()):  # so that u(x + dx) exists ahead of every cell
+    check_settings(0.0, tolerance, max_iterations)
+    pressure, bound = friction_bound(contact, grid, friction)
+    creep, total = _checked_creepage(grid, bound, creepage, spin, force)
+    inside = slice(None)
+    if not grid.periodic[0] and (bound[0].any() or bound[-1].any()):  # u(x + dx) must exist ahead of every cell
         inside = slice(1, -1)
         grid = Grid((grid.shape[0] + 2, grid.shape[1]), grid.spacing, periodic=grid.periodic)
         operator = tangential_operator(grid, bodies)
         pressure, bound = (np.pad(field, ((1, 1), (0, 0))) for field in (pressure, bound))
-    else:
-        inside = slice(None)
-    pushed = operator.under_pressure(pressure) if operator.coupled else np.zeros((2, *grid.shape))
-    side = grid.spacing[0]
+    under_pressure = operator.under_pressure(pressure) if operator.coupled else np.zeros((2, *grid.shape))
     x, y = grid.x - grid.x.mean(), grid.y - grid.y.mean()
     rigid = np.empty((2, *grid.shape))
-    rigid[0] = (creep[0] - spin * y[None, :]) * side
-    rigid[1] = (creep[1] + spin * x[:, None]) * side
-    rolling = Rolling(operator, bound, rigid + passing(grid, pushed), total)
-    found = roll(rolling, _TIGHTER * tolerance, max_iterations)
-    failed = Status.MAX_ITERATIONS if found.iterations >= max_iterations else Status.STALLED
-    solution = _certified(rolling, found, pushed, creep * side, tolerance, failed)
+    rigid[0] = (creep[0] - spin * y[None, :]) * grid.spacing[0]
+    rigid[1] = (creep[1] + spin * x[:, None]) * grid.spacing[0]
+    problem = RollingProblem(operator, bound, rigid + slip_over_cell(grid, under_pressure), total)
+    result = _solve(problem, SAFETY * tolerance, max_iterations)
+    failed = Status.MAX_ITERATIONS if result.iterations >= max_iterations else Status.STALLED
+    solution = _solution(problem, result, under_pressure, creep * grid.spacing[0], tolerance, failed)
     fields = {name: getattr(solution, name)[:, inside] for name in ("traction", "displacement", "slip")}
     return replace(solution, **fields)
 
 
-def _checked(
+def _checked_creepage(
     grid: Grid, bound: FloatArray, creepage: Sequence[float], spin: float, force: Sequence[float] | None
 ) -> tuple[FloatArray, FloatArray | None]:
-    """Creepage, and force over the area of a cell."""
-    creep = np.asarray(creepage, dtype=np.float64)
-    given = None if force is None else np.asarray(force, dtype=np.float64)
-    messages = [
-        f"{name}: {value!r} must be two finite numbers, along x and y"
-        for name, value, vector in (("creepage", creepage, creep), ("force", force, given))
-        if vector is not None and not (vector.shape == (2,) and np.isfinite(vector).all())
-    ]
+    """Return the creepage, and the force over the area of a cell if it is given."""
+    messages: list[str] = []
+    creep, total = checked_vectors({"creepage": creepage, "force": force}, messages)
     if not math.isfinite(spin):
         messages.append(f"spin: {spin!r} must be finite [1/m]")
-    if not messages and given is not None and creep.any():
+    if not messages and total is not None and np.any(creepage):
         messages.append("force, creepage: only one of them can be given")
     if messages:
         raise InputError(messages)
-    if given is None:
+    assert creep is not None
+    if total is None:
         return creep, None
-    check_force(given, bound, grid)
-    return creep, given / grid.cell_area
+    check_force(total, bound, grid)
+    return creep, total / grid.cell_area
 
 
-def passing(grid: Grid, displacement: FloatArray) -> FloatArray:
-    """u(x) - u(x + dx) on the grid (2, nx, ny); 0 at a free end, which no contact reaches."""
+def slip_over_cell(grid: Grid, displacement: FloatArray) -> FloatArray:
+    """Return u(x) - u(x + dx) on the grid, (2, nx, ny) [m]; zero at a free end, which no contact reaches."""
     ahead = np.roll(displacement, -1, axis=1)
     if not grid.periodic[0]:
         ahead[:, -1] = displacement[:, -1]
     return displacement - ahead
 
 
-def _mean_along(grid: Grid, traction: FloatArray) -> FloatArray:
-    """Mean traction (2, nx, ny) [Pa] on a particle between x + dx and x.
-
-    Its product with u(x) - u(x + dx), u = A q, sums to zero for every q, as A is symmetric and the same everywhere:
-    what tractions store they give back. The sum of its products with the slip therefore is the work of creepage, spin
-    and pressure. Tractions at x alone, after the step, miss it by the first order of the cell.
-    """
-    ahead = np.roll(traction, -1, axis=1)
-    if not grid.periodic[0]:
-        ahead[:, -1] = 0.0
-    return 0.5 * (traction + ahead)
-
-
 @dataclass(frozen=True)
-class Rolling:
-    """A problem: bound (nx, ny) [Pa]; `rigid` (2, nx, ny), what the surfaces slide by without tractions [m]; force
-    (2,), the sum of the tractions over the cells [Pa], or None where the creepage is part of `rigid`.
+class RollingProblem:
+    """Steady rolling on one grid.
+
+    bound : (nx, ny), friction x pressure [Pa].
+    rigid : (2, nx, ny), slip over a cell without tractions [m].
+    force : (2,), sum of the tractions over the cells [Pa]; None if the creepage is part of `rigid`.
     """
 
     operator: TangentialOperator
@@ -160,8 +158,8 @@ class Rolling:
 
 
 @dataclass(frozen=True)
-class Rolled:
-    """Tractions (2, n) on the cells in contact, and by what creepage adds over a cell [m]."""
+class _RollingResult:
+    """Tractions (2, n) [Pa] on the cells in contact, and the slip over a cell by the creepage of the force (2,) [m]."""
 
     traction: FloatArray
     creep: FloatArray
@@ -169,177 +167,188 @@ class Rolled:
 
 
 @dataclass(frozen=True)
-class _Cells:
-    """The problem on the n cells in contact; unknown are the tractions (2, n) [Pa].
-
-    bound : (n,) [Pa]. rigid : (2, n) [m]. stiffness : t [Pa/m], of one cell alone.
-    """
-
-    problem: Rolling
-    cells: NDArray[np.bool_]
-    bound: FloatArray
-    rigid: FloatArray
-    stiffness: float
-
-    def elastic_slip(self, traction: FloatArray) -> FloatArray:
-        """Slip over a cell that tractions cause, (2, n) [m]."""
-        grid = self.problem.operator.grid
-        full = np.zeros((2, *grid.shape))
-        full[:, self.cells] = traction
-        return passing(grid, self.problem.operator.apply(full))[:, self.cells]
-
-    def state(self, traction: FloatArray, slip: FloatArray) -> _State:
-        """Project q - t s onto the friction discs; with a force, onto the tractions in them whose sum is the force."""
-        wanted = traction - self.stiffness * slip
-        allowed = np.empty_like(wanted)
-        offset = np.zeros(2)
-        if self.problem.force is None:
-            nearest(wanted, self.bound, allowed)
-        else:
-            offset = nearest_with_force(wanted, self.bound, self.problem.force, allowed)
-        return _State(traction, slip, wanted + offset[:, None], offset, traction - allowed)
-
-    def derivative(self, state: _State) -> Callable[[FloatArray], FloatArray]:
-        """Return the Jacobian of the miss as a function of a change of the tractions (2 n,)."""
-        length = np.hypot(state.wanted[0], state.wanted[1])
-        slips = length > self.bound
-        normal = np.where(slips, state.wanted / np.where(slips, length, 1.0), 0.0)
-        share = np.where(slips, self.bound / np.where(slips, length, 1.0), 1.0)
-        inverse: FloatArray | None = None
-        if self.problem.force is not None:  # of how the force answers to a uniform offset of all wanted tractions
-            mixed = -float((share * normal[0] * normal[1]).sum())
-            own = [float((share * (1 - part**2)).sum()) for part in normal]
-            inverse = np.asarray(np.linalg.pinv([[own[0], mixed], [mixed, own[1]]], rcond=_FLAT, hermitian=True))
-
-        def projected(values: FloatArray) -> FloatArray:
-            return share * (values - normal * (normal * values).sum(0))
-
-        def apply(change: FloatArray) -> FloatArray:
-            traction = np.asarray(change).reshape(2, -1)
-            moved = projected(traction - self.stiffness * self.elastic_slip(traction))
-            if inverse is not None:
-                offset = inverse @ moved.sum(1)
-                moved -= projected(np.broadcast_to(offset[:, None], moved.shape))
-            return (traction - moved).ravel()
-
-        return apply
-
-
-@dataclass(frozen=True)
 class _State:
-    """Tractions q (2, n) [Pa] and their slip s (2, n) [m] without the creepage that is to be found.
+    """Tractions and their projection, on the n cells in contact.
 
-    wanted : (2, n) [Pa], q - t s plus the offset. offset : (2,) [Pa], minus t x the creepage to be found, over a cell.
-    miss : (2, n) [Pa], q less the projection of `wanted`.
+    traction : q, (2, n) [Pa].
+    slip : s, (2, n) [m], without the creepage of a given force.
+    wanted : (2, n) [Pa], q - t s plus the offset.
+    offset : (2,) [Pa], minus t x the slip over a cell by the creepage of the force.
+    residual : (2, n) [Pa], q less the projection of `wanted`.
     """
 
     traction: FloatArray
     slip: FloatArray
     wanted: FloatArray
     offset: FloatArray
-    miss: FloatArray
+    residual: FloatArray
 
 
-def roll(problem: Rolling, tolerance: float, limit: int) -> Rolled:
-    """Newton until the miss is at most tolerance x the largest slip; from tractions of zero, or from those nearest to
-    full sliding that have the force.
+@dataclass(frozen=True)
+class _RollingOnCells:
+    """The problem on the n cells in contact.
+
+    bound : (n,) [Pa]. rigid : (2, n) [m]. stiffness : t [Pa/m], of a single cell.
     """
+
+    problem: RollingProblem
+    cells: NDArray[np.bool_]
+    bound: FloatArray
+    rigid: FloatArray
+    stiffness: float
+
+    def elastic_slip(self, traction: FloatArray) -> FloatArray:
+        """Return the slip over a cell under tractions, (2, n) [m]."""
+        grid = self.problem.operator.grid
+        full = np.zeros((2, *grid.shape))
+        full[:, self.cells] = traction
+        return slip_over_cell(grid, self.problem.operator.apply(full))[:, self.cells]
+
+    def project(self, traction: FloatArray, slip: FloatArray) -> _State:
+        """Project q - t s onto the friction discs, and onto the force if it is given."""
+        wanted = traction - self.stiffness * slip
+        allowed = np.empty_like(wanted)
+        offset = np.zeros(2)
+        if self.problem.force is None:
+            project_to_friction_discs(wanted, self.bound, allowed)
+        else:
+            offset = project_with_force(wanted, self.bound, self.problem.force, allowed)
+        return _State(traction, slip, wanted + offset[:, None], offset, traction - allowed)
+
+    def jacobian(self, state: _State) -> Callable[[FloatArray], FloatArray]:
+        """Return the derivative of the projection residual, applied to a change of the tractions (2 n,)."""
+        length = np.hypot(*state.wanted)
+        slips = length > self.bound
+        normal = np.where(slips, state.wanted / np.where(slips, length, 1.0), 0.0)
+        ratio = np.where(slips, self.bound / np.where(slips, length, 1.0), 1.0)
+        inverse: FloatArray | None = None
+        if self.problem.force is not None:  # inverse of the derivative of the force by a uniform offset
+            mixed = -float((ratio * normal[0] * normal[1]).sum())
+            xx, yy = (float((ratio * (1 - part**2)).sum()) for part in normal)
+            inverse = np.asarray(np.linalg.pinv([[xx, mixed], [mixed, yy]], rcond=_FLAT, hermitian=True))
+
+        def projected(values: FloatArray) -> FloatArray:
+            return ratio * (values - normal * (normal * values).sum(0))
+
+        def apply(change: FloatArray) -> FloatArray:
+            traction = np.asarray(change).reshape(2, -1)
+            allowed = projected(traction - self.stiffness * self.elastic_slip(traction))
+            if inverse is not None:
+                offset = inverse @ allowed.sum(1)
+                allowed -= projected(np.broadcast_to(offset[:, None], allowed.shape))
+            return (traction - allowed).ravel()
+
+        return apply
+
+    def converged(self, state: _State, tolerance: float) -> bool:
+        """Return True if the projection residual, and the error of the force inside the discs, meet the tolerance."""
+        least = rounding_scale(self.problem.rigid, state.traction / self.stiffness)
+        scale = displacement_scale(state.slip, self.rigid, state.offset / self.stiffness, least=least)
+        if float(np.abs(state.residual).max()) > tolerance * self.stiffness * scale:
+            return False
+        if self.problem.force is None:
+            return True
+        inside = np.empty_like(state.traction)
+        project_to_friction_discs(state.traction, self.bound, inside)
+        return float(np.abs(inside.sum(1) - self.problem.force).max()) <= tolerance * float(self.bound.sum())
+
+
+def _solve(problem: RollingProblem, tolerance: float, limit: int) -> _RollingResult:
+    """Iterate from tractions of zero; under a force from the admissible tractions nearest to full sliding."""
     cells = problem.bound > 0
     if not cells.any():
-        return Rolled(np.zeros((2, 0)), np.zeros(2), 0)
-    stiffness = 2 / sum(problem.operator.compliance)
-    on = _Cells(problem, cells, problem.bound[cells], problem.rigid[:, cells], stiffness)
-    state = on.state(np.zeros_like(on.rigid), on.rigid)
+        return _RollingResult(np.zeros((2, 0)), np.zeros(2), 0)
+    on = _RollingOnCells(problem, cells, problem.bound[cells], problem.rigid[:, cells], problem.operator.stiffness)
+    state = on.project(np.zeros_like(on.rigid), on.rigid)
     if problem.force is not None and on.rigid.any():
-        traction = -state.miss
-        state = on.state(traction, on.rigid + on.elastic_slip(traction))
+        traction = -state.residual
+        state = on.project(traction, on.rigid + on.elastic_slip(traction))
     iterations = 0
-    while iterations < limit and not _enough(on, state, tolerance):
+    while iterations < limit and not on.converged(state, tolerance):
         iterations += 1
-        moved = _shortened(on, state, _newton_step(on, state))
-        if moved is None:
+        next_state = _backtrack(on, state, _newton_step(on, state))
+        if next_state is None:
             break
-        state = moved
-    return Rolled(state.traction, 0.0 - state.offset / stiffness, iterations)
+        state = next_state
+    return _RollingResult(state.traction, 0.0 - state.offset / on.stiffness, iterations)
 
 
-def _enough(on: _Cells, state: _State, tolerance: float) -> bool:
-    """Return True if the miss, and the force that tractions inside their discs miss, are within the tolerance."""
-    least = least_scale(on.problem.rigid, state.traction / on.stiffness)
-    scale = max(reach(state.slip, on.rigid, least), float(np.abs(state.offset).max()) / on.stiffness)
-    if float(np.abs(state.miss).max()) > tolerance * on.stiffness * scale:
-        return False
-    if on.problem.force is None:
-        return True
-    inside = np.empty_like(state.traction)
-    nearest(state.traction, on.bound, inside)
-    return float(np.abs(inside.sum(1) - on.problem.force).max()) <= tolerance * float(on.bound.sum())
-
-
-def _newton_step(on: _Cells, state: _State) -> FloatArray:
-    size = state.miss.size
-    matrix = LinearOperator((size, size), matvec=on.derivative(state), dtype=np.float64)
-    step, _ = gmres(matrix, -state.miss.ravel(), rtol=_REDUCTION, restart=_KRYLOV, maxiter=4)
+def _newton_step(on: _RollingOnCells, state: _State) -> FloatArray:
+    """Return the Newton step (2, n) [Pa]."""
+    size = state.residual.size
+    matrix = LinearOperator((size, size), matvec=on.jacobian(state), dtype=np.float64)
+    step, _ = gmres(matrix, -state.residual.ravel(), rtol=_REDUCTION, restart=_KRYLOV, maxiter=_RESTARTS)
     return np.asarray(step, dtype=np.float64).reshape(2, -1)
 
 
-def _shortened(on: _Cells, state: _State, step: FloatArray) -> _State | None:
-    """The step, halved until the miss falls; None where it does not."""
-    along = on.elastic_slip(step)
-    size = float(np.linalg.norm(state.miss))
-    share = 1.0
+def _backtrack(on: _RollingOnCells, state: _State, step: FloatArray) -> _State | None:
+    """Return the state after the step, halved until the projection residual falls; None if it does not."""
+    slip = on.elastic_slip(step)
+    before = float(np.linalg.norm(state.residual))
+    length = 1.0
     for _ in range(_HALVINGS):
-        moved = on.state(state.traction + share * step, state.slip + share * along)
-        if float(np.linalg.norm(moved.miss)) <= (1 - 0.1 * share) * size:
-            return moved
-        share *= 0.5
+        trial = on.project(state.traction + length * step, state.slip + length * slip)
+        if float(np.linalg.norm(trial.residual)) <= (1 - 0.1 * length) * before:
+            return trial
+        length *= 0.5
     return None
 
 
-def _certified(
-    problem: Rolling, found: Rolled, pushed: FloatArray, creep: FloatArray, tolerance: float, failed: Status
+def _solution(
+    problem: RollingProblem,
+    result: _RollingResult,
+    under_pressure: FloatArray,
+    creep: FloatArray,
+    tolerance: float,
+    failed: Status,
 ) -> TangentialSolution:
-    """Everything formed anew from the tractions; `converged` is said of that. `failed` : the status if not."""
-    operator, grid, bound = problem.operator, problem.operator.grid, problem.bound
-    cells = bound > 0
-    traction = np.zeros((2, *grid.shape))
-    traction[:, cells] = found.traction
-    length = np.hypot(traction[0], traction[1])
-    traction *= np.where(length > bound, bound / np.where(length > bound, length, 1.0), 1.0)
+    """Project the tractions onto the discs, certify them and return the solution.
+
+    creep : (2,), slip over a cell by the prescribed creepage [m]. failed : status if the tolerance is not met.
+    """
+    operator, grid, bound, rigid = problem.operator, problem.operator.grid, problem.bound, problem.rigid
+    cells, area = bound > 0, grid.cell_area
+    traction, allowed = np.zeros((2, *grid.shape)), np.empty_like(result.traction)
+    project_to_friction_discs(result.traction, bound[cells], allowed)
+    traction[:, cells] = allowed
     elastic = operator.apply(traction)
-    rigid = problem.rigid
     if problem.force is not None:
-        creep = found.creep
+        creep = result.creep
         rigid = rigid + creep[:, None, None]
-    slip = rigid + passing(grid, elastic)
-    stiffness = 2 / sum(operator.compliance)
-    wanted = traction[:, cells] - stiffness * slip[:, cells]
-    allowed = np.empty_like(wanted)
-    nearest(wanted, bound[cells], allowed)
-    slips = np.hypot(wanted[0], wanted[1]) > bound[cells]
-    violation = float(np.abs(allowed - traction[:, cells]).max(initial=0.0)) / stiffness
-    least = least_scale(problem.rigid, traction / stiffness)
-    scale = max(reach(slip[:, cells], problem.rigid[:, cells], least), float(np.abs(creep).max()))
-    residual = violation / scale if scale > 0 else 0.0
-    if problem.force is not None and cells.any():
-        residual = max(residual, float(np.abs(traction.sum((1, 2)) - problem.force).max() / bound.sum()))
-    slid = np.zeros_like(slip)
-    slid[:, cells] = np.where(slips, slip[:, cells], 0.0)
+    slip = rigid + slip_over_cell(grid, elastic)
+    least = rounding_scale(problem.rigid, traction / operator.stiffness)
+    scale = displacement_scale(slip[:, cells], problem.rigid[:, cells], creep, least=least)
+    certificate = certify(operator, bound, traction, -slip, scale=scale, force=problem.force)
+    stuck, in_contact = (float(np.count_nonzero(where)) * area for where in (certificate.sticks, cells))
     return TangentialSolution(
         traction=traction,
-        force=traction.sum((1, 2)) * grid.cell_area,
+        force=traction.sum((1, 2)) * area,
         shift=np.zeros(2),
         rotation=0.0,
         creepage=creep / grid.spacing[0],
-        displacement=elastic + pushed,
-        slip=slid,
-        stick_area=float(np.count_nonzero(~slips)) * grid.cell_area,
-        slip_area=float(np.count_nonzero(slips)) * grid.cell_area,
-        counted_stick_area=float(np.count_nonzero(~slips)) * grid.cell_area,
-        dissipated_energy=max(-float((_mean_along(grid, traction) * slip).sum()) * grid.cell_area, 0.0),
-        cell_energy=-float((traction * slid).sum()) * grid.cell_area,
-        residual=residual,
+        displacement=elastic + under_pressure,
+        slip=certificate.slip,
+        stick_area=stuck,
+        slip_area=in_contact - stuck,
+        counted_stick_area=stuck,
+        dissipated_energy=max(-float((_mean_traction(grid, traction) * slip).sum()) * area, 0.0),
+        cell_energy=-float((traction * certificate.slip).sum()) * area,
+        residual=certificate.residual,
         convolutions=operator.count.weighted,
-        iterations=found.iterations,
-        status=Status.CONVERGED if residual <= tolerance else failed,
+        iterations=result.iterations,
+        status=Status.CONVERGED if certificate.residual <= tolerance else failed,
     )
+
+
+def _mean_traction(grid: Grid, traction: FloatArray) -> FloatArray:
+    """Return the mean traction (2, nx, ny) [Pa] on a particle on its way from x + dx to x.
+
+    Its product with u(x) - u(x + dx), u = A q, sums to zero for every q, because A is symmetric and the same
+    everywhere: tractions return the energy that they store. The sum of its products with the slip is therefore the work
+    of creepage, spin and pressure. With the traction at x alone, after the slip, the error is of first order in the
+    cell.
+    """
+    ahead = np.roll(traction, -1, axis=1)
+    if not grid.periodic[0]:
+        ahead[:, -1] = 0.0
+    return 0.5 * (traction + ahead)

@@ -52,8 +52,8 @@ FIRST_RUN_COMPILES = {
     ("bem.stress.reach", "_clear"),
     ("bem.stress.spectra", "_join_traction"),
     ("bem.stress.sweeps", "_add_square"),
-    ("bem.tangential.operator", "_normal"),
-    ("bem.tangential.operator", "_push"),
+    ("bem.tangential.operator", "_multiply_normal"),
+    ("bem.tangential.operator", "_multiply_pressure"),
 }
 """Loops through which no scene of the record passes: the first run or call that needs one compiles it."""
 

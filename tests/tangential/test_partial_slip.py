@@ -22,7 +22,7 @@ from bem import (
 from bem.convolution import COUNT
 from bem.reference_solutions.partial_slip import PushedBall, spence_stick_share
 from bem.tangential import tangential_operator
-from bem.tangential.discs import nearest, nearest_with_force
+from bem.tangential.friction_discs import project_to_friction_discs, project_with_force
 
 # CONTACT's example of Cattaneo's shift (Kalker, Vollebregt): R 50 mm, G 200 MPa, nu 0.42, 9.1954 N, friction 0.4
 MODULUS, NU, RADIUS, LOAD, FRICTION = 200e6, 0.42, 50e-3, 9.1954, 0.4
@@ -430,9 +430,9 @@ def test_nearest_tractions_have_their_force_however_far_the_slip():
         angle = rng.choice([0.0, rng.uniform(0, 7)])
         force = share * bound.sum() * np.array([np.cos(angle), np.sin(angle)])
         out, inside = np.empty_like(wanted), np.empty_like(wanted)
-        offset = nearest_with_force(wanted, bound, force, out)
+        offset = project_with_force(wanted, bound, force, out)
         # the rounding of wanted + offset
         allowed = 1e-12 + 1e-14 * max(size, float(np.abs(offset).max()))
         assert np.abs(out.sum(1) - force).max() <= allowed * bound.sum()
-        nearest(wanted + offset[:, None], bound, inside)
+        project_to_friction_discs(wanted + offset[:, None], bound, inside)
         np.testing.assert_array_equal(out, inside)

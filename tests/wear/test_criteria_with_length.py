@@ -8,7 +8,7 @@ from wear_loops import goes_on
 
 from bem import Body, Grid, InputError, Layer, Material, Status, generate_surface, run_in, subsurface_stress
 from bem.contact.regions import count_spots, label_spots
-from bem.tangential.solve import tangential_operator
+from bem.tangential import tangential_operator
 from bem.transforms import COUNT
 from bem.wear import Segmentation, WearModel
 from bem.wear.criterion import AveragedVonMises, Junction, LowCycleFatigue, Sphere

@@ -1,0 +1,162 @@
+"""Contact and partial slip together: tractions of bodies that differ change the gap, and the pressure responds.
+
+Fixed-point iteration: solve the contact with the gap under the last tractions, then partial slip under its pressure.
+Each responds to the other through the bodies' mismatch (Dundurs' beta, at most 1/2), so that the iteration converges by
+a factor of two to ten a round. The certificate is that of the last pair: the contact with the gap under its own
+tractions.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from bem.contact import ContactSolution, solve_contact
+from bem.convolution import displacement_operator
+from bem.errors import InputError, Status
+from bem.grid import FloatArray, Grid
+from bem.materials import Body
+from bem.representation import readable
+from bem.tangential.operator import tangential_operator
+from bem.tangential.partial_slip import checked_step, solve_step
+from bem.tangential.problem import check_settings
+from bem.tangential.solution import TangentialSolution
+from bem.threads import one_blas_thread
+
+_INNER = 0.1
+"""Fraction of the tolerance to which the contact and the slip of a round are solved."""
+
+
+@readable
+@dataclass(frozen=True)
+class CoupledSolution:
+    """A contact and its tractions, each under the other.
+
+    Attributes
+    ----------
+    contact : its gap includes the displacement under the tractions, its displacement is that of the pressure alone.
+    tangential : stick and slip under its pressure; convolutions and iterations are those of all rounds.
+    normal_displacement : (nx, ny) [m], by which the tractions press the surfaces apart, sum of both.
+    rounds : number of contacts, each followed by slip.
+    residual : the larger of slip's residual and of the contact's, to which the change of its gap under the last
+        tractions is added, over its largest displacement.
+    status : outcome; `residual` is at most the tolerance if it is converged.
+    notes : of both.
+    """
+
+    contact: ContactSolution
+    tangential: TangentialSolution
+    normal_displacement: FloatArray
+    rounds: int
+    residual: float
+    status: Status
+    notes: tuple[str, ...] = ()
+
+
+@one_blas_thread
+def solve_coupled_slip(
+    gap: FloatArray,
+    grid: Grid,
+    bodies: Body | tuple[Body, Body],
+    *,
+    friction: float | FloatArray,
+    load: float | None = None,
+    approach: float | None = None,
+    mean_gap: float | None = None,
+    hardness: float | None = None,
+    force: Sequence[float] | None = None,
+    shift: Sequence[float] | None = None,
+    rotation: float = 0.0,
+    previous: CoupledSolution | None = None,
+    tolerance: float = 1e-6,
+    max_iterations: int = 2000,
+    max_rounds: int = 40,
+) -> CoupledSolution:
+    """Solve for pressure and tractions of two bodies pressed together, where the tractions change the pressure.
+
+    Parameters
+    ----------
+    gap : undeformed (nx, ny) [m].
+    load, approach, mean_gap, hardness : as for `solve_contact`; exactly one of the first
+        three.
+    grid, bodies, friction, force, shift, rotation : as for `solve_partial_slip`.
+    previous : the previous step, of the same grid and bodies, under any load.
+    tolerance : bound on the residual, see `CoupledSolution`.
+    max_iterations : limit of each contact and of each partial slip.
+    max_rounds : limit of the rounds of contact and slip.
+
+    Raises
+    ------
+    InputError : arguments out of range, one message for each.
+    InfeasibleError : a force that friction cannot carry, a load that the hardness cannot.
+
+    Notes
+    -----
+    Spence, Proc. R. Soc. A 305 (1968), J. Elasticity 5 (1975); Johnson, *Contact Mechanics* (1985), section 5.4. The
+    sticking area depends on how the load grew: for bodies that differ, load them in steps.
+    """
+    check_settings(rotation, tolerance, max_iterations)
+    if not (isinstance(max_rounds, int) and max_rounds >= 1):
+        raise InputError(f"max_rounds: {max_rounds!r} must be a whole number >= 1")
+    if not (previous is None or isinstance(previous, CoupledSolution)):
+        raise InputError(f"previous: {type(previous).__name__} must be a CoupledSolution, or None")
+    operator, tangential = displacement_operator(grid, bodies), tangential_operator(grid, bodies)
+    gap = grid.check_field(gap, "gap")
+    displacement = np.zeros(grid.shape) if previous is None else previous.normal_displacement
+    pressure = None if previous is None else previous.contact.pressure
+    slip: TangentialSolution | None = None
+    rounds, convolutions, iterations = 0, 0.0, 0
+    while True:
+        rounds += 1
+        contact = solve_contact(
+            gap + displacement,
+            operator,
+            load=load,
+            approach=approach,
+            mean_gap=mean_gap,
+            hardness=hardness,
+            tolerance=_INNER * tolerance,
+            initial_pressure=pressure,
+            max_iterations=max_iterations,
+        )
+        pressure = contact.pressure
+        step = checked_step(
+            contact,
+            grid,
+            bodies,
+            friction=friction,
+            force=force,
+            shift=shift,
+            rotation=rotation,
+            previous=None if previous is None else previous.tangential,
+        )
+        slip = solve_step(step, _INNER * tolerance, max_iterations, slip)
+        convolutions, iterations = convolutions + slip.convolutions, iterations + slip.iterations
+        response = tangential.normal_displacement(slip.traction)
+        error = _error_of_gap(contact, response - displacement, free=approach is None)
+        residual = max(contact.residual + error, slip.residual)
+        if residual <= tolerance or rounds >= max_rounds:
+            break
+        displacement = response
+    status = Status.CONVERGED if residual <= tolerance else Status.MAX_ITERATIONS
+    if Status.CONVERGED not in (contact.status, status):
+        status = contact.status
+    slip = replace(slip, convolutions=convolutions, iterations=iterations)
+    return CoupledSolution(contact, slip, response, rounds, residual, status, (*contact.notes, *slip.notes))
+
+
+def _error_of_gap(contact: ContactSolution, change: FloatArray, *, free: bool) -> float:
+    """Return by how much a contact violates its conditions if its gap changes, over its largest displacement.
+
+    change : (nx, ny) [m]. free : True if the bodies may move together.
+    """
+    touches = contact.pressure > 0
+    scale = float(np.abs(contact.displacement).max())
+    if not touches.any() or not scale > 0:
+        return 0.0
+    inside = change[touches]
+    middle = 0.5 * float(inside.max() + inside.min()) if free else 0.0
+    overlap = float((-(contact.gap + change - middle))[~touches].max(initial=0.0))
+    return max(float(np.abs(inside - middle).max()), overlap) / scale
