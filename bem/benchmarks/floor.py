@@ -39,7 +39,7 @@ def transform_pair(cells: int, bits: int, threads: int, *, measured: bool = True
     """Wall time [s] of the fastest of a few two-dimensional pairs, real to complex and back, periodic, in place of
     nothing else: no padding, no product. Of measured plans the best of several; what FFTW knew before is all it knows
     after, so that solvers of this process plan as they would have."""
-    from bem.transforms.fftw import pyfftw
+    import pyfftw
 
     if not measured:
         return _planned_pair(cells, bits, threads, "FFTW_ESTIMATE")
@@ -57,7 +57,7 @@ def transform_pair(cells: int, bits: int, threads: int, *, measured: bool = True
 
 def _planned_pair(cells: int, bits: int, threads: int, effort: str) -> float:
     """Wall time [s] of a pair that is planned now, with an effort that FFTW knows."""
-    from bem.transforms.fftw import pyfftw
+    import pyfftw
 
     real = pyfftw.empty_aligned((cells, cells), dtype=f"float{bits}")
     spectrum = pyfftw.empty_aligned((cells, cells // 2 + 1), dtype=f"complex{2 * bits}")

@@ -1,4 +1,4 @@
-"""Transforms that are kept with their plans and buffers, within a bound on memory."""
+"""Cache of transforms with their plans and buffers, within a bound on memory."""
 
 from __future__ import annotations
 
@@ -42,7 +42,7 @@ def transform_of(
 
 
 def _made(shape: tuple[int, int], padded: tuple[int, int], lengths: tuple[int, ...] | None) -> PaddedTransform:
-    keep_freed_memory()  # whoever transforms does so in a loop, with fields as large between the transforms
+    keep_freed_memory()  # solvers allocate fields of the same size again and again
     return PaddedTransform(shape, padded, np.float64, lengths)
 
 
@@ -57,5 +57,5 @@ def set_transform_memory(limit: int) -> None:
 
 
 def transform_memory() -> int:
-    """Memory held by cached plans and buffers [bytes]."""
+    """Return the memory held by cached plans and buffers [bytes]."""
     return _CACHE.nbytes

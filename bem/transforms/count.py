@@ -1,4 +1,4 @@
-"""How many transforms a process has done; tests and reports ask."""
+"""Counts of the transforms of this process, for tests and reports."""
 
 from __future__ import annotations
 
@@ -7,8 +7,15 @@ from dataclasses import dataclass
 
 @dataclass
 class TransformCount:
-    """How much was transformed since the last reset: two-dimensional transforms, one-dimensional ones in them, and how
-    many numbers those along x are long together."""
+    """Counts since the last reset.
+
+    Attributes
+    ----------
+    forward, inverse : two-dimensional transforms.
+    rows, columns : one-dimensional transforms along y and along x in them.
+    numbers : sum of the lengths of the transforms along x.
+    kernels : spectra of kernels.
+    """
 
     forward: int = 0
     inverse: int = 0
@@ -18,9 +25,9 @@ class TransformCount:
     kernels: int = 0
 
     def reset(self) -> None:
-        """Back to zero."""
+        """Set all counts to zero."""
         self.forward = self.inverse = self.rows = self.columns = self.numbers = self.kernels = 0
 
 
 COUNT = TransformCount()
-"""Counts of this process, for tests and reports."""
+"""Counts of this process."""

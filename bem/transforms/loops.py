@@ -14,9 +14,7 @@ from numpy.typing import NDArray
 from bem.compiled import compiled
 from bem.transforms.addresses import LINE, fetch, numbers
 from bem.transforms.pairs import pairs_through
-from bem.transforms.plans import execute
-
-ALIGNMENT = 64
+from bem.transforms.plans import ALIGNMENT, execute
 
 BEGINS, GOES_ON, ENDS = range(3)
 """What a field does to a sum of squares."""

@@ -7,7 +7,7 @@ import weakref
 from bisect import bisect_left
 from collections.abc import Sequence
 from functools import cached_property
-from typing import Any, cast
+from typing import Any
 
 import numpy as np
 from numpy.typing import DTypeLike, NDArray
@@ -15,9 +15,8 @@ from numpy.typing import DTypeLike, NDArray
 from bem.threads import ForkSafeLock, share, threads_for
 from bem.transforms import loops
 from bem.transforms.count import COUNT
-from bem.transforms.fftw import pyfftw
-from bem.transforms.loops import ALIGNMENT, GROUP, Factor, Room, Scratch, Singles, Squares
-from bem.transforms.plans import library
+from bem.transforms.loops import GROUP, Factor, Room, Scratch, Singles, Squares
+from bem.transforms.plans import ALIGNMENT, aligned_empty, aligned_zeros, library
 from bem.transforms.products import Multiplier, unit_factor
 
 FloatArray = NDArray[Any]
@@ -128,7 +127,7 @@ class PaddedTransform:
         """The array between rows and columns: its own, or the memory of another's, which is larger."""
         shape = (self.spectrum_shape[0], self._half_stride)
         if beside is None:
-            return cast(ComplexArray, pyfftw.empty_aligned(shape, self.complex_dtype, n=ALIGNMENT))
+            return aligned_empty(shape, self.complex_dtype)
         return beside.room.half.reshape(-1).view(self.complex_dtype)[: shape[0] * shape[1]].reshape(shape)
 
     def _room_of_pairs(self) -> Room:
@@ -157,16 +156,16 @@ class PaddedTransform:
 
     def empty_spectrum(self) -> ComplexArray:
         """An uninitialised array for a spectrum, aligned and strided so that no copy is needed."""
-        full = pyfftw.empty_aligned((self.spectrum_shape[0], self._spectrum_stride), self.complex_dtype, n=ALIGNMENT)
-        return cast(ComplexArray, full[:, : self.padded[0]])
+        full = aligned_empty((self.spectrum_shape[0], self._spectrum_stride), self.complex_dtype)
+        return full[:, : self.padded[0]]
 
     def zeros_field(self) -> FloatArray:
         """A contiguous field of zeros, aligned so that rows of whole cache lines need no copy."""
-        return cast(FloatArray, pyfftw.zeros_aligned(self.shape, self.dtype, n=ALIGNMENT))
+        return aligned_zeros(self.shape, self.dtype)
 
     def empty_field(self) -> FloatArray:
         """The same with values that mean nothing, for results."""
-        return cast(FloatArray, pyfftw.empty_aligned(self.shape, self.dtype, n=ALIGNMENT))
+        return aligned_empty(self.shape, self.dtype)
 
     def forward(self, values: FloatArray, out: ComplexArray | None = None) -> ComplexArray:
         """Spectrum (py // 2 + 1, px) of a field (nx, ny) padded with zeros."""
@@ -232,8 +231,8 @@ class PaddedTransform:
     def empty_squares(self, weights: FloatArray) -> Squares:
         """Room for the root of a sum of squares of so many fields, of which no group is begun."""
         shape = (len(weights), self.spectrum_shape[0], self._half_stride)
-        halves = pyfftw.empty_aligned(shape, self.complex_dtype, n=ALIGNMENT)
-        rows = pyfftw.empty_aligned((GROUP, self._real_stride), self.dtype, n=ALIGNMENT)
+        halves = aligned_empty(shape, self.complex_dtype)
+        rows = aligned_empty((GROUP, self._real_stride), self.dtype)
         columns, begun = np.zeros(len(weights), np.int64), np.zeros(-(-self.shape[0] // GROUP), np.bool_)
         return Squares(halves, columns, weights, rows, begun)
 
@@ -341,11 +340,11 @@ class PaddedTransform:
             spectra = (self._row_block, _stride(self.spectrum_shape[0], self.complex_dtype.itemsize))
             columns = (max(2, self._column_block), self._spectrum_stride)  # a pair at least
             scratch = Scratch(
-                pyfftw.zeros_aligned(rows, self.dtype, n=ALIGNMENT),
-                pyfftw.zeros_aligned(rows, self.dtype, n=ALIGNMENT),
-                pyfftw.zeros_aligned(spectra, self.complex_dtype, n=ALIGNMENT),
-                pyfftw.zeros_aligned(columns, self.complex_dtype, n=ALIGNMENT),
-                pyfftw.zeros_aligned(columns, self.complex_dtype, n=ALIGNMENT),
+                aligned_zeros(rows, self.dtype),
+                aligned_zeros(rows, self.dtype),
+                aligned_zeros(spectra, self.complex_dtype),
+                aligned_zeros(columns, self.complex_dtype),
+                aligned_zeros(columns, self.complex_dtype),
             )
             if not self._scratch:
                 self._plan(scratch)

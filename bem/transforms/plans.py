@@ -1,16 +1,20 @@
-"""FFTW's plans by address, so that compiled loops execute them without a Python call for each.
+"""FFTW's plans by address, executed by compiled loops without a Python call for each, and memory aligned for them.
 
-The library is the one that pyfftw has loaded; its functions are found through pyfftw's own extension module. A plan
-with the flags and strides that pyfftw would give it leads to the same bits. Executing one is safe in any thread, making
-one is not, nor destroying one: both are done here only, under one lock.
+The library is the one that comes with pyfftw, whose Python side is not imported; the functions are found through its
+extension module. Plans are made without timing (FFTW_ESTIMATE), so a result does not depend on the load of the machine.
+Executing a plan is safe in any thread. Making and destroying plans is not: both are done here only, under one lock.
 """
 
 from __future__ import annotations
 
 import ctypes
+import math
 from collections.abc import Iterable, Iterator
+from contextlib import suppress
 from functools import cache
 from importlib import import_module
+from importlib.machinery import EXTENSION_SUFFIXES
+from importlib.util import find_spec
 from pathlib import Path
 from typing import Any
 
@@ -18,11 +22,10 @@ import numpy as np
 from llvmlite import ir
 from numba import types
 from numba.extending import intrinsic
-from numpy.typing import NDArray
+from numpy.typing import DTypeLike, NDArray
 
 from bem.errors import InputError
 from bem.threads import ForkSafeLock
-from bem.transforms.fftw import pyfftw
 
 if import_module("numba.core.config").DISABLE_JIT:  # loops that call FFTW by address cannot be run by Python
     raise InputError(
@@ -30,10 +33,13 @@ if import_module("numba.core.config").DISABLE_JIT:  # loops that call FFTW by ad
         "compiled only; unset it (env -u NUMBA_DISABLE_JIT bem ...)"
     )
 
+ALIGNMENT = 64
+"""Alignment of arrays [bytes]: a cache line, and enough for all vector instructions."""
+
 _DESTROY_INPUT, _ESTIMATE = 1 << 0, 1 << 6
 _FORWARD, _BACKWARD = -1, 1
 _PLANNER = ForkSafeLock(whole=True)
-"""Held while a plan is made or destroyed. A thread that holds it may be made to collect garbage, plans among it."""
+"""Held while a plan is made or destroyed; reentrant, because garbage collection may destroy plans meanwhile."""
 
 
 class _Axis(ctypes.Structure):
@@ -43,40 +49,43 @@ class _Axis(ctypes.Structure):
 
 
 class Library:
-    """The functions of one precision."""
+    """FFTW's functions of one precision."""
 
     def __init__(self, dtype: np.dtype[Any]) -> None:
         letter = "" if dtype == np.float64 else "f"
         self._handle = next((found for found in _handles() if hasattr(found, f"fftw{letter}_destroy_plan")), None)
         if self._handle is None:
-            raise ImportError(f"pyfftw {pyfftw.__version__} shows no FFTW library for {dtype}; reinstall pyfftw")
+            raise ImportError(f"pyfftw is missing, or shows no FFTW library for {dtype}; reinstall pyfftw")
         self._prefix = f"fftw{letter}_"
         self._destroy = self._function("destroy_plan", None, 1)
 
     def executors(self) -> NDArray[np.int64]:
-        """Addresses of the functions that execute a plan on given arrays: real to complex, complex, and back."""
+        """Addresses of the functions that execute a plan on given arrays: real to complex, complex, complex to real."""
         names = ("execute_dft_r2c", "execute_dft", "execute_dft_c2r")
         addresses = [ctypes.cast(getattr(self._handle, self._prefix + name), ctypes.c_void_p).value for name in names]
         return np.array(addresses, np.int64)
 
     def real_to_complex(self, length: int, rows: int, strides: tuple[int, int, int, int], data: tuple[int, int]) -> int:
-        """Plan for `rows` transforms; strides of input and output along a row, and from row to row, in elements."""
+        """Plan `rows` transforms; strides of input and output along a row, and from row to row, in elements."""
         return self._plan("plan_guru64_dft_r2c", length, rows, strides, data, (_ESTIMATE,))
 
     def complex_to_real(self, length: int, rows: int, strides: tuple[int, int, int, int], data: tuple[int, int]) -> int:
-        """The same back; the input is destroyed."""
+        """Plan the inverse of `real_to_complex`; it destroys its input."""
         return self._plan("plan_guru64_dft_c2r", length, rows, strides, data, (_ESTIMATE | _DESTROY_INPUT,))
 
     def complex(
         self, length: int, rows: int, strides: tuple[int, int, int, int], data: tuple[int, int], *, back: bool
     ) -> int:
-        """Between complex rows; the input is kept. One kind of plans: what FFTW has found for one kind it takes for
-        parts of another, so that plans of two kinds would depend on what was planned before."""
+        """Plan transforms between complex rows that keep their input.
+
+        There is only one kind of these plans: FFTW reuses parts of earlier plans, so plans of two kinds would depend on
+        what was planned before.
+        """
         direction = _BACKWARD if back else _FORWARD
         return self._plan("plan_guru64_dft", length, rows, strides, data, (direction, _ESTIMATE))
 
     def destroy(self, plans: Iterable[int]) -> None:
-        """Let plans go, in whatever thread their holder was collected: another one may be making some."""
+        """Destroy plans, in any thread."""
         with _PLANNER:
             for plan in plans:
                 self._destroy(plan)
@@ -113,27 +122,45 @@ class Library:
 
 @cache
 def library(dtype: np.dtype[Any]) -> Library:
-    """The functions for float64 or float32.
+    """FFTW's functions for float64 or float32.
 
     Raises
     ------
-    ImportError : pyfftw has loaded no such library, or one that cannot be seen from outside.
+    ImportError : pyfftw is not installed, or its library cannot be loaded.
     """
     return Library(dtype)
 
 
 def _handles() -> Iterator[Any]:
-    """Where FFTW's functions may be found: through pyfftw's extension, or (Windows) in the libraries beside it."""
-    extension = Path(pyfftw.pyfftw.__file__)
-    yield ctypes.CDLL(str(extension))
-    for folder in (extension.parent, extension.parent.with_name("pyfftw.libs")):
-        for file in sorted(folder.glob("*fftw3*.dll")):
-            yield ctypes.CDLL(str(file))
+    """Libraries with FFTW's functions: pyfftw's extension module, or (Windows) the libraries beside it."""
+    spec = find_spec("pyfftw")
+    for name in [] if spec is None else spec.submodule_search_locations or []:
+        folder = Path(name)
+        extensions = [file for suffix in EXTENSION_SUFFIXES for file in folder.glob(f"pyfftw*{suffix}")]
+        libraries = [file for place in (folder, folder.with_name("pyfftw.libs")) for file in place.glob("*fftw3*.dll")]
+        for file in (*sorted(extensions), *sorted(libraries)):
+            with suppress(OSError):
+                yield ctypes.CDLL(str(file))
+
+
+def aligned_empty(shape: tuple[int, ...], dtype: DTypeLike) -> NDArray[Any]:
+    """Return an uninitialised contiguous array that begins at a multiple of `ALIGNMENT`."""
+    size = math.prod(shape) * np.dtype(dtype).itemsize
+    memory = np.empty(size + ALIGNMENT, np.uint8)
+    begin = -memory.ctypes.data % ALIGNMENT
+    return memory[begin : begin + size].view(dtype).reshape(shape)
+
+
+def aligned_zeros(shape: tuple[int, ...], dtype: DTypeLike) -> NDArray[Any]:
+    """Return `aligned_empty` filled with zeros."""
+    array = aligned_empty(shape, dtype)
+    array[...] = 0
+    return array
 
 
 @intrinsic
 def execute(typing: Any, function: Any, plan: Any, source: Any, target: Any) -> Any:
-    """Call one of `executors` in a compiled loop, all four given as addresses."""
+    """Execute a plan in a compiled loop; the function (one of `executors`), plan and arrays are given as addresses."""
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         pointer = ir.IntType(8).as_pointer()

@@ -1,4 +1,4 @@
-"""Spectra that others are multiplied by: sums of kernels, stored as a quarter."""
+"""Multipliers of spectra: sums of even and odd kernels, stored as a quarter of their values."""
 
 from __future__ import annotations
 
@@ -18,9 +18,12 @@ ComplexArray = NDArray[Any]
 
 @dataclass(frozen=True)
 class Multiplier:
-    """A spectrum `real + i imaginary`, each part given on non-negative wavenumbers with its parity along x.
+    """Spectrum `real + i imaginary`, each part on non-negative wavenumbers with its parity along x.
 
-    `real`, `imaginary` : (py // 2 + 1, px // 2 + 1) or None for zero. At px - k the part is its parity times that at k.
+    Attributes
+    ----------
+    real, imaginary : (py // 2 + 1, px // 2 + 1), or None for zero.
+    real_parity, imaginary_parity : the part at wavenumber px - k is its parity times the part at k.
     """
 
     real: FloatArray | None = None
@@ -34,7 +37,7 @@ class Multiplier:
         return sum(part.nbytes for part in (self.real, self.imaginary) if part is not None)
 
     def factor(self, dtype: np.dtype[Any]) -> Factor:
-        """The parts in a precision as the compiled passes take them; kept."""
+        """Return the parts in a precision, as arguments of the compiled passes; cached."""
         try:
             return self._factors[dtype.char]
         except KeyError:
@@ -55,7 +58,7 @@ class Multiplier:
         return {}
 
     def astype(self, dtype: DTypeLike) -> Multiplier:
-        """The same in another precision."""
+        """Return the multiplier in another precision."""
         real, imaginary = (
             None if part is None else part.astype(dtype, copy=False) for part in (self.real, self.imaginary)
         )
@@ -63,7 +66,7 @@ class Multiplier:
 
 
 def multiplier(parts: list[tuple[FloatArray, tuple[int, int], float]]) -> Multiplier:
-    """Sum of kernels `(spectrum from kernel_spectrum, parity, factor)` as one multiplier.
+    """Add kernels `(spectrum from kernel_spectrum, parity, factor)` to one multiplier.
 
     Raises
     ------
@@ -75,7 +78,7 @@ def multiplier(parts: list[tuple[FloatArray, tuple[int, int], float]]) -> Multip
     for spectrum, (along_x, along_y), factor in parts:
         odd = (along_x == -1) + (along_y == -1)
         sign = -factor if odd == 2 else factor
-        term = spectrum if sign == 1 else sign * spectrum  # large: taken as it is where it may be
+        term = spectrum if sign == 1 else sign * spectrum  # large: no copy if it can be avoided
         previous = imaginary if odd == 1 else real
         if previous is not None and parities[odd % 2] != along_x:
             raise InputError("multiplier: parts of different parity along x cannot share one quarter array")
@@ -89,6 +92,6 @@ def multiplier(parts: list[tuple[FloatArray, tuple[int, int], float]]) -> Multip
 
 
 def unit_factor(dtype: np.dtype[Any]) -> Factor:
-    """The multiplier that is one everywhere."""
+    """Return the multiplier that is one everywhere."""
     nothing = np.empty((0, 0), dtype)
     return Factor(nothing, nothing, ONE, 0)

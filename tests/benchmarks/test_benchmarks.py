@@ -4,6 +4,7 @@ import dataclasses
 import math
 
 import numpy as np
+import pyfftw
 import pytest
 
 import bem.benchmarks.measure
@@ -19,7 +20,6 @@ from bem.benchmarks.work_precision import measure_kinds
 from bem.cli import main
 from bem.grid import Grid
 from bem.transforms import PaddedTransform
-from bem.transforms.fftw import pyfftw
 
 pytestmark = pytest.mark.internal
 

@@ -1,7 +1,8 @@
 """Mean temperature of the oil along a line film, and of the surfaces, from the heat made in it.
 
-On cells along the film, heat q1 and q2 goes into both bodies, which are moving half-spaces (`bem.heat.operators`); the oil
-carries on the rest. Heat that is made evenly across the film makes a parabola between the walls:
+On cells along the film, heat q1 and q2 goes into both bodies, which are moving half-spaces
+(`bem.heat.operators`), the rest of what is made is carried on by the oil. Heat made evenly across the film makes a
+parabola between the walls:
 
     made = q1 + q2 + C dT/dx,    T = (T1 + T2)/2 + (q1 + q2) h/(12 k),    q1 - q2 = 2 k (T2 - T1)/h,
 
