@@ -1,4 +1,4 @@
-"""How results show themselves at a prompt and in a notebook: figures in full, arrays as shape and range."""
+"""Text and HTML representation of results at a prompt and in a notebook: numbers in full, arrays as shape and range."""
 
 from __future__ import annotations
 
@@ -12,13 +12,13 @@ _Class = TypeVar("_Class", bound=type)
 
 
 def readable(cls: _Class) -> _Class:
-    """Class decorator for dataclasses: a `__repr__` without array dumps and a table for notebooks."""
+    """Give a dataclass a `__repr__` without array contents, and a table for notebooks."""
     cls.__repr__ = _text  # type: ignore[assignment]
     return tabled(cls)
 
 
 def tabled(cls: _Class) -> _Class:
-    """Class decorator for dataclasses whose own `__repr__` is short already: a table for notebooks."""
+    """Give a dataclass with a short `__repr__` of its own a table for notebooks."""
     cls._repr_html_ = _table  # type: ignore[attr-defined]
     return cls
 
@@ -39,14 +39,14 @@ def _shown(value: Any) -> list[tuple[str, Any]]:
 
 
 def _in_short(value: Any) -> list[tuple[str, str]]:
-    """Names and values in a line each; a status says beside itself where notes put the result outside the model."""
+    """Return names and values as texts; the status names the notes that put the result outside its model."""
     beyond = outside(note for note in getattr(value, "notes", ()) if isinstance(note, str))
     said = f" ({OUTSIDE}{'; '.join(beyond)})" if beyond else ""
     return [(name, _short(item) + (said if name == "status" else "")) for name, item in _shown(value)]
 
 
 def _short(value: Any) -> str:
-    """A value in a line: arrays as shape and range, results inside results by name."""
+    """Return a value in one line: arrays as shape and range, nested results by name."""
     if hasattr(value, "dtype") and hasattr(value, "shape") and value.shape:
         size = "x".join(map(str, value.shape))
         if value.size and value.dtype.kind in "fiu":

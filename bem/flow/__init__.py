@@ -1,11 +1,21 @@
-"""Flow factors: how the roughness of a patch, as deformed in its contact, changes the flow of a film through it.
+"""Flow factors of rough surfaces in contact (Patir & Cheng 1978, 1979), by homogenisation of Reynolds' equation.
 
-`percolation` labels the fluid, `multigrid` solves networks of resistances, `cell_problem` is Reynolds' equation on the
-patch, `inverse_gap` the mean of one over the gap beside contact, `curve` interpolates between separations, `factors`
-brings contact and flow together.
+For each separation of the mean planes:
 
-Sees grids, bodies and dry contact, no film. Verified in tests/flow against grooved surfaces, perturbation theory,
-Reynolds' equation on many patches and Patir and Cheng's curves (`bem.reference_solutions.rough_flow`).
+1. `factors` presses the periodic patch together by a dry contact solve at a given approach, or cuts off the heights of
+   rigid bodies; what is left is the gap.
+2. `percolation` labels the pieces of fluid and finds those that reach around the patch along x or y (union-find with
+   offsets). Only they carry a mean flow. Cost: a few passes over the cells.
+3. `cell_problem` discretises Reynolds' equation with finite volumes, the cubed gap averaged harmonically on each link,
+   and solves the cell problems of homogenisation: two of pressure flow, one of shear (Bayada & Faure 1989).
+4. `multigrid` solves each network by conjugate gradients, preconditioned by aggregation multigrid with a K-cycle (Notay
+   2010). Cost: 10 to 30 iterations, nearly independent of size and of conductances that span 1e12.
+5. `inverse_gap` integrates one over the gap in the cells beside contact in closed form, for the mean shear stress.
+6. `factors` assembles the flow factors; the error bar compares with cells twice as large. `curve` interpolates a factor
+   over separation, for films.
+
+The package knows grids, bodies and dry contact, no film. Verified in tests/flow against grooved surfaces, perturbation
+theory, Reynolds' equation on many patches and Patir and Cheng's curves (`bem.reference_solutions.rough_flow`).
 """
 
 from bem.flow.cell_problem import CellFlow, cell_flow

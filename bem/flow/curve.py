@@ -1,4 +1,4 @@
-"""A flow factor as a function of separation, from its values at some."""
+"""A flow factor interpolated over separation, with its asymptotes beyond the table."""
 
 from __future__ import annotations
 
@@ -13,19 +13,19 @@ from bem.numerics.monotone import MonotoneCubic
 
 @dataclass(frozen=True, eq=False)
 class Curve:
-    """Monotone between the values given, and their theory's limits beyond them.
+    """Monotone interpolation of a table, continued by power laws on both sides.
 
-    Piecewise cubic in the logarithms (Fritsch and Carlson's slopes), so that a rise or fall of the table is one of the
-    curve. Where the first values are zero, straight from the last zero to the next value. Beyond the last separation
-    the factor less its limit falls with `decay`, as the second order of perturbation theory has it; before the first
-    one it rises with `growth` if it is a number, else goes on with its slope, or stays if it would fall from infinity.
+    Between the values the curve is a monotone piecewise cubic in the logarithms (Fritsch and Carlson). Where the first
+    values are zero it is linear from the last zero to the next value.
 
     Attributes
     ----------
     separation : (n,) rising [m].
     value : (n,) >= 0.
-    limit : the value of endless separation.
-    decay, growth : see above.
+    limit : value at infinite separation.
+    decay : exponent with which value less limit falls beyond the last separation (second-order perturbation theory).
+    growth : exponent with which the value rises below the first separation; None continues the slope of the first
+        value, or the value itself if the slope is negative.
     """
 
     separation: FloatArray
@@ -36,7 +36,7 @@ class Curve:
 
     @cached_property
     def _first(self) -> int:
-        """The first value from which on all are positive."""
+        """Index of the first value from which on all values are positive."""
         zeros = np.flatnonzero(self.value <= 0)
         return 0 if zeros.size == 0 else int(zeros[-1]) + 1
 
@@ -46,7 +46,7 @@ class Curve:
         return MonotoneCubic(x, y) if len(x) > 1 else None
 
     def __call__(self, separation: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """The factor and its derivative with the separation [1/m], both of the shape of `separation` (> 0) [m]."""
+        """Return the factor and its derivative [1/m], both of the shape of `separation` (> 0) [m]."""
         h = np.asarray(separation, dtype=np.float64)
         value, slope = np.zeros(h.shape), np.zeros(h.shape)
         first, last = self._first, len(self.value) - 1

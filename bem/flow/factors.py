@@ -1,4 +1,4 @@
-"""Flow factors of a patch of rough surface, deformed in its contact, over the separation of the mean planes.
+"""Flow factors of a patch of rough surface in deformed contact, over the separation of the mean planes.
 
 Patir and Cheng's averaged flow (Journal of Lubrication Technology 100 (1978) 12; 101 (1979) 220), for speeds U1, U2 of
 the walls along x, a separation d and the rms height s of both surfaces together,
@@ -6,17 +6,17 @@ the walls along x, a separation d and the rms height s of both surfaces together
     q_x = -phi_x d^3 / (12 mu) dp/dx + (U1 + U2)/2 hbar + (U1 - U2)/2 s phi_s,
     tau = mu (U2 - U1)/d (phi_f + phi_fs) + phi_fp d/2 dp/dx      on the smooth wall 2, where wall 1 is rough,
 
-hbar being the mean gap. They found the factors by flow simulation on small patches with sealed sides; here they are the
-means of the cell problem (`bem.flow.cell_problem`), which needs no sides:
+hbar being the mean gap. Patir and Cheng computed the factors by flow simulation on small patches with sealed sides;
+here they are the means of the periodic cell problem (`bem.flow.cell_problem`):
 
     phi_x = K_xx/d^3,   s phi_s = hbar - M_xx,   phi_f = d <1/h>,   phi_fs = 3 d <h dchi_s/dx>,   phi_fp = M_xx/d.
 
-All roughness is taken to be on wall 1. Roughness on both enters phi_s and phi_fs by the difference of the shares
-of variance, (s1^2 - s2^2)/s^2, as in the 1979 paper: exact to second order in s/d, an approximation in contact.
+All roughness is taken to be on wall 1. Roughness on both walls enters phi_s and phi_fs by the difference of the
+variances, (s1^2 - s2^2)/s^2, as in the 1979 paper: exact to second order in s/d, an approximation in contact.
 
-tau is on the smooth wall, where it is also the friction force by equilibrium; on the rough wall the pressure on its
-slopes carries the rest. <1/h> grows without bound as contact opens; it and phi_fs leave out gaps below
-s/100, Patir and Cheng's own cut, between the centres of cells, too (`bem.flow.inverse_gap`).
+tau acts on the smooth wall, where by equilibrium it is also the friction force; on the rough wall the pressure on the
+slopes carries the difference. <1/h> is singular beside contact; it and phi_fs leave out gaps below s/100 as Patir and
+Cheng do, also between the centres of cells (`bem.flow.inverse_gap`).
 """
 
 from __future__ import annotations
@@ -39,10 +39,10 @@ from bem.materials import Body
 from bem.representation import readable
 
 LEAST_GAP = 1e-4
-"""Gaps below this share of the rms height count as closed: less than an atom on any engineering surface; what they
-would let through is 1e-12 of what the rms height does."""
+"""Gap over rms height below which a cell is closed: less than an atom on any engineering surface; its flow would be
+1e-12 of the flow through a gap of the rms height."""
 LEAST_SHEAR_GAP = 1e-2
-"""Gaps below this share of the rms height have no part in the mean shear stress of the fluid."""
+"""Gap over rms height below which the fluid does not enter the mean shear stress."""
 
 
 @readable
@@ -55,7 +55,7 @@ class FlowFactors:
     separations : [m], rising: distance of the mean planes of the undeformed surfaces, less what the bodies as a whole
         approach (a doubly periodic patch has no other deflection of its mean).
     pressure_x, pressure_y : phi_x and phi_y: pressure flow over that between smooth walls at the separation; exactly 0
-        where fluid does not hang together across the patch.
+        where the fluid does not percolate.
     pressure_xy : pressure flow along x for a gradient along y (and the reverse), in the same measure: of skewed lays.
     shear_x : phi_s, of roughness on wall 1 alone; see the module for both.
     friction_sliding, friction_shear, friction_pressure : phi_f, phi_fs and phi_fp of the stress on the smooth wall.
@@ -63,17 +63,17 @@ class FlowFactors:
     contact_area_fraction : of the patch.
     mean_gap_scatter : [m], by how much the mean gap over cells scatters with where heights that are cut off lie between
         their centres, as a standard deviation; 0 of bodies that deform.
-    flows_through_x, flows_through_y : whether fluid hangs together from patch to patch.
-    pressure_x_error, pressure_y_error, shear_x_error : what cells twice as large say, over 3 (second order); NaN where
-        not asked for.
+    flows_through_x, flows_through_y : whether the fluid percolates along the axis.
+    pressure_x_error, pressure_y_error, shear_x_error : difference to cells twice as large, over 3 (second order); NaN
+        if not asked for.
     residual : the largest of the contact's and the flow's.
     iterations : of the flow's conjugate gradients.
     statuses : outcome at each separation.
     status : the worst of them.
     rms_height : s [m].
-    notes : sentences on what should not be believed.
+    notes : sentences on the limits of the results.
     wall_share : (s1^2 - s2^2)/s^2, for films that use the table: 1 is all roughness on wall 1, -1 on wall 2.
-    coarser : all factors on cells twice as large, by name; None where not asked for, or not to be had.
+    coarser : all factors on cells twice as large, by name; None if not asked for, or if the grid has no such cells.
     """
 
     separations: FloatArray
@@ -133,7 +133,7 @@ def flow_factors(
     errors: bool = False,
     callback: Callable[[int], object] | None = None,
 ) -> FlowFactors:
-    """Flow factors of a patch of rough surface at given separations of the mean planes.
+    """Compute the flow factors of a patch of rough surface at given separations of the mean planes.
 
     At each separation d the bodies are pressed together until their mean planes are d apart, elastically or capped at
     the hardness; the flow's cell problem is solved in the gap that is left.
@@ -194,7 +194,7 @@ def flow_factors(
 
 
 TABLE_RATIOS = (0.2, 0.35, 0.5, 0.75, 1.0, 1.5, 2.0, 3.0, 4.5, 7.0)
-"""Separations of the table for films, over the rms height: to where perturbation theory goes on."""
+"""Separations over rms height of the table for films; beyond the last one perturbation theory holds."""
 
 
 def factors_for_films(
@@ -206,7 +206,7 @@ def factors_for_films(
     hardness: float | None = None,
     tolerance: float = 1e-6,
 ) -> FlowFactors:
-    """The table that a film between two rough surfaces (nx, ny) [m] needs, wall 1 being the lower one.
+    """Return the table of a film between two rough surfaces (nx, ny) [m]; wall 1 is the lower one.
 
     Raises
     ------
@@ -230,7 +230,17 @@ def factors_for_films(
 
 @dataclass(frozen=True, eq=False)
 class _Patch:
-    """Heights (nx, ny) [m] with zero mean, and how they are deformed; `rms` [m] is that of the patch first given."""
+    """A rough patch and its contact.
+
+    Attributes
+    ----------
+    heights : (nx, ny) [m], zero mean.
+    grid : periodic along both axes.
+    operator : displacement operator; None for rigid bodies with heights cut off.
+    hardness : cap on the contact pressure [Pa], or None.
+    tolerance : of contact and flow.
+    rms : rms height [m] of the patch on its original grid.
+    """
 
     heights: FloatArray
     grid: Grid
@@ -254,18 +264,18 @@ class _Patch:
         return cls(heights, periodic, operator, hardness, tolerance, rms)
 
     def coarsened(self, bodies: Body | tuple[Body, Body] | None) -> _Patch | None:
-        """Every second cell along each axis that has more than one; None where their number is odd."""
+        """Return the patch on every second cell along each axis; None if the number of cells is odd or below 8."""
         steps = tuple(2 if n > 1 else 1 for n in self.grid.shape)
         if any(n % step or 1 < n < 8 for n, step in zip(self.grid.shape, steps, strict=True)):
             return None
         heights = np.ascontiguousarray(self.heights[:: steps[0], :: steps[1]])
         (dx, dy), (nx, ny) = self.grid.spacing, heights.shape
         grid = Grid((nx, ny), (steps[0] * dx, steps[1] * dy))
-        # no new mean: the planes are those of the surface, however it is sampled
+        # the mean is not removed again: the mean planes are those of the original surface
         return _Patch.of(heights, grid, bodies, self.hardness, self.tolerance, self.rms)
 
     def row(self, separation: float) -> tuple[dict[str, float], Status]:
-        """All factors at one separation [m], by name, and the worst status."""
+        """Return all factors at one separation [m], by name, and the worst status."""
         gap, area, residual, status = self.deformed(separation)
         # of order one, so that nothing depends on the unit
         gap, least = gap / separation, LEAST_SHEAR_GAP * self.rms / separation
@@ -277,7 +287,7 @@ class _Patch:
         return named, status if status is not Status.CONVERGED else flow.status
 
     def _inverse(self, gap: FloatArray, separation: float, least: float) -> InverseGap:
-        """Of the gap (nx, ny) over the separation, where it is at least so much."""
+        """Return the inverse of the gap (nx, ny) over the separation where it is at least `least`."""
         if self.rms == 0:
             return InverseGap(np.ones(gap.shape), np.full(gap.shape, np.nan))
         if self.operator is None:
@@ -285,8 +295,11 @@ class _Patch:
         return inverse_gap(gap, least, self.grid.spacing)
 
     def _scatter(self, separation: float) -> float:
-        """Of the mean of max(separation - heights, 0) over cells [m]. The middle of a cell with a kink of slope a per
-        cell, u from it, misses its mean by a (u^2/2 - 1/24): with u drawn from -1/2 to 1/2, a/sqrt(720)."""
+        """Return the standard deviation [m] of the mean gap over the position of the cut within cells.
+
+        In a cell with a kink of slope a per cell, at distance u from the centre, the centre's value differs from the
+        cell's mean by a (u^2/2 - 1/24); with u uniform from -1/2 to 1/2 its standard deviation is a/sqrt(720).
+        """
         opening, squares = separation - self.heights, []
         for axis in (0, 1):
             beside = np.roll(opening, -1, axis)
@@ -294,7 +307,7 @@ class _Patch:
         return math.sqrt(max(squares) / 720) / opening.size
 
     def deformed(self, separation: float) -> tuple[FloatArray, float, float, Status]:
-        """The gap (nx, ny) [m], zero in contact; contact area over the patch; the contact's residual and status."""
+        """Return gap (nx, ny) [m], zero in contact, contact area fraction, and the contact's residual and status."""
         if self.operator is None:
             gap = np.maximum(separation - self.heights, 0.0)
             area, residual, status = float((gap == 0).mean()), 0.0, Status.CONVERGED
@@ -331,7 +344,7 @@ def _checked(
     hardness: float | None,
     bodies: Body | tuple[Body, Body] | None,
 ) -> tuple[FloatArray, FloatArray]:
-    """Heights without their mean, separations in rising order."""
+    """Check the arguments; return the heights without their mean and the separations in rising order."""
     if not isinstance(grid, Grid):
         raise InputError(f"flow_factors: grid {grid!r} must be a Grid")
     messages: list[str] = []

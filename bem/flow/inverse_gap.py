@@ -1,18 +1,17 @@
-"""The mean of one over the gap in every cell of a patch that is partly in contact.
+"""Mean of one over the gap in every cell of a patch that is partly in contact.
 
-Its sum over the centres of cells is exact to all orders where the gap is smooth, but of half an order next to contact:
-beside elastic contact the gap h rises with the power 3/2 of the distance (Johnson, *Contact Mechanics*, section 5.1),
-beside heights that are cut off with the first, so that 1/h grows there to the least gap that counts, and a single
-centre that happens to lie near the edge says as much as hundreds. The measure g = h^(2/3), or h, is smooth: it is taken
-linear across a cell where it changes by more than a part of itself, and 1/h integrated in closed form over the cell's
-part with enough gap. With Psi'' = 1/h(g) above the least g and 0 below, and 2a, 2b the changes of g across the cell
-along x and y, the mean of 1/h is
+The midpoint rule is exact to all orders where the gap is smooth, but of order one half beside contact: there the gap h
+rises with the power 3/2 of the distance for elastic bodies (Johnson, *Contact Mechanics*, section 5.1) and with the
+first power for heights that are cut off, so 1/h is singular and a single centre near the edge dominates the sum. The
+measure g = h^(2/3), or h, is smooth. It is taken linear across a cell in which it changes much, and 1/h is integrated
+in closed form over the part of the cell with h above the smallest gap that counts. With Psi'' = 1/h(g) above the
+smallest g and 0 below, and 2a, 2b the changes of g across the cell along x and y, the mean of 1/h is
 
     (Psi(g+a+b) - Psi(g+a-b) - Psi(g-a+b) + Psi(g-a-b)) / (4 a b).
 
-Inside contact g is that of the open cells beside, gone on with in a straight line. On random patches of 4 to 12 cells
-to the shortest wave that is 0.2 to 0.8 % from four times the cells where centres are 2 to 5 %
-(`reports/experiments/flow_error_bars.py`). Ours. Verified in tests/flow/test_inverse_gap.py against closed forms.
+Inside contact g is extrapolated linearly from the open cells beside. On random patches with 4 to 12 cells in the
+shortest wavelength the error is 0.2 to 0.8 %, of the midpoint rule 2 to 5 % (`reports/experiments/flow_error_bars.py`).
+The method is this project's own. Verified in tests/flow/test_inverse_gap.py against closed forms.
 """
 
 from __future__ import annotations
@@ -25,31 +24,39 @@ from numpy.typing import NDArray
 from bem.grid import FloatArray
 
 _SMOOTH = 0.1
-"""A cell across half of which g changes by a smaller part of itself counts with its centre: no edge is near."""
+"""Relative change of g across half a cell below which the midpoint rule is used: no edge is near."""
 _THINNEST = 1e-2
-"""The smaller of a and b, over the larger: at less the mean differs from that at none by 1e-5, and digits get lost."""
+"""Smallest ratio of a and b: below it the mean changes by less than 1e-5, and the differences cancel."""
 
 
 @dataclass(frozen=True, eq=False)
 class InverseGap:
-    """Of every cell of a patch (nx, ny): `means`, of 1/gap where there is enough gap, 0 elsewhere; `normal_x`, beside
-    contact the square of the x component of the normal of its edge, not-a-number elsewhere."""
+    """Inverse gap of every cell of a patch.
+
+    Attributes
+    ----------
+    means : (nx, ny), mean of 1/gap over the part of the cell with enough gap, over the whole cell.
+    normal_x : (nx, ny), square of the x component of the normal of the contact's edge in open cells beside contact;
+        not-a-number elsewhere.
+    """
 
     means: FloatArray
     normal_x: FloatArray
 
 
 def inverse_gap(gap: FloatArray, least: float, spacing: tuple[float, float] = (1.0, 1.0)) -> InverseGap:
-    """Of a periodic patch with the gap (nx, ny), >= 0 and 0 in contact, which is elastic; of gaps less than `least` > 0
-    there is no inverse."""
+    """Return the inverse of the gap (nx, ny) >= 0 of elastic bodies, zero in contact, on a periodic patch.
+
+    Gaps below `least` > 0 do not count.
+    """
     free = gap > 0
-    measure, known = _gone_on(np.where(free, gap, 0.0) ** (2 / 3), free)
+    measure, known = _extrapolate(np.where(free, gap, 0.0) ** (2 / 3), free)
     means = _means(measure, known, free, least ** (2 / 3), 1.5)
     return InverseGap(means, _normal_x(measure, free, free, spacing))
 
 
 def inverse_opening(opening: FloatArray, least: float, spacing: tuple[float, float] = (1.0, 1.0)) -> InverseGap:
-    """The same of bodies that are not deformed but cut off, from separation less height (nx, ny), of either sign."""
+    """Return the inverse gap of rigid bodies with heights cut off, from separation less height (nx, ny)."""
     everywhere = np.ones(opening.shape, dtype=np.bool_)
     means = _means(opening, everywhere, everywhere, least, 1.0)
     return InverseGap(means, _normal_x(opening, everywhere, opening > 0, spacing))
@@ -58,8 +65,7 @@ def inverse_opening(opening: FloatArray, least: float, spacing: tuple[float, flo
 def _normal_x(
     g: FloatArray, known: NDArray[np.bool_], free: NDArray[np.bool_], spacing: tuple[float, float]
 ) -> FloatArray:
-    """From the slopes of the measure between cells where it is known, in free cells beside others,
-    along axes or across a corner."""
+    """Return the square of the normal's x component from the slopes of the measure, in open cells beside contact."""
     near, squares = ~free, []
     for axis in (0, 1):
         near = near | np.roll(near, 1, axis) | np.roll(near, -1, axis)
@@ -71,8 +77,11 @@ def _normal_x(
     return np.where(near & free & (slope > 0), squares[0] / np.where(slope > 0, slope, 1.0), np.nan)
 
 
-def _gone_on(measure: FloatArray, free: NDArray[np.bool_]) -> tuple[FloatArray, NDArray[np.bool_]]:
-    """The measure in closed cells from two open ones beside them in a row, at most 0; and where it is known."""
+def _extrapolate(measure: FloatArray, free: NDArray[np.bool_]) -> tuple[FloatArray, NDArray[np.bool_]]:
+    """Extrapolate the measure linearly from two open cells in a row into closed cells, to at most 0.
+
+    Returns the measure and the cells in which it is known.
+    """
     total, count = np.zeros(measure.shape), np.zeros(measure.shape)
     for axis in (0, 1):
         for way in (-1, 1):
@@ -84,7 +93,7 @@ def _gone_on(measure: FloatArray, free: NDArray[np.bool_]) -> tuple[FloatArray, 
 
 
 def _means(g: FloatArray, known: NDArray[np.bool_], free: NDArray[np.bool_], least: float, power: float) -> FloatArray:
-    """Of 1/g^power where g is at least `least`; g is linear in cells where it changes much, and `known` there."""
+    """Return the means of 1/g^power over the part of each cell where g is at least `least`."""
     changes, bend, inside = [], np.zeros(g.shape), free.copy()
     for axis in (0, 1):
         behind, ahead = np.roll(g, 1, axis), np.roll(g, -1, axis)
@@ -99,14 +108,14 @@ def _means(g: FloatArray, known: NDArray[np.bool_], free: NDArray[np.bool_], lea
     means = np.zeros(g.shape)
     means[centred] = g[centred] ** -power
     cut = known & ~smooth & (a > 0)
-    # the cell's mean and not its centre, where all around is open: what contact bends is the edge itself
+    # the cell's mean instead of its centre, unless a neighbour is closed
     middle = g[cut] + np.where(inside[cut], bend[cut] / 24, 0.0)
     means[cut] = _over_cells(middle, a[cut], b[cut], least, power)
     return means
 
 
 def _over_cells(g: FloatArray, a: FloatArray, b: FloatArray, least: float, power: float) -> FloatArray:
-    """Means over cells, in closed form."""
+    """Return the means over cells across which g is linear, in closed form."""
     b = np.maximum(b, _THINNEST * a)
     corners = (_twice_integrated(g + way, least, power) for way in (a + b, a - b, b - a, -a - b))
     first, second, third, fourth = corners
@@ -114,7 +123,7 @@ def _over_cells(g: FloatArray, a: FloatArray, b: FloatArray, least: float, power
 
 
 def _twice_integrated(g: FloatArray, least: float, power: float) -> FloatArray:
-    """Psi: its second derivative is g^-power from `least` on, itself and its slope 0 there."""
+    """Psi: its second derivative is g^-power above `least`, where it and its slope are 0."""
     ratio = np.maximum(g / least, 1.0)
     if power == 1.0:
         return np.asarray(least * (ratio * np.log(ratio) - ratio + 1))

@@ -1,11 +1,11 @@
-"""Flow through a network of resistances: conjugate gradients preconditioned by multigrid on aggregates.
+"""Flow through a network of conductances: conjugate gradients preconditioned by aggregation multigrid.
 
-The network's matrix is a Laplacian whose conductances span 1e12 and more (they are cubes of gaps), on whatever cells
-are open. Nodes are joined in pairs along their strongest link, twice a level, so that coarse nodes follow the channels
-and never join across what hardly conducts; the levels are passed through in a K-cycle (two steps of conjugate gradients
-on every level), which makes the number of iterations nearly independent of size and contrast: after Notay, Electronic
-Transactions on Numerical Analysis 37 (2010) 123 (pairs of pairs), and Notay and Vassilevski, Numerical Linear Algebra
-with Applications 15 (2008) 473 (K-cycle). Sums run in order: the same bits on every machine.
+The matrix is the Laplacian of the network. Its conductances span 1e12 and more, because they are cubes of gaps.
+Aggregates are pairs of pairs along the strongest links, so coarse nodes follow the channels and never join across a
+weak link (Notay, Electronic Transactions on Numerical Analysis 37 (2010) 123). A K-cycle takes two steps of conjugate
+gradients on every level, which makes the number of iterations nearly independent of size and contrast (Notay and
+Vassilevski, Numerical Linear Algebra with Applications 15 (2008) 473). The smoother is Gauss-Seidel; the coarsest level
+is solved by star-to-mesh elimination, which adds positive numbers only.
 """
 
 from __future__ import annotations
@@ -23,23 +23,30 @@ from bem.grid import FloatArray
 Index = NDArray[np.int32]
 
 COARSEST = 120
-"""Nodes up to which a level is solved at once."""
+"""Largest number of nodes that is solved by elimination."""
 STRONG = 0.1
-"""Share of the lighter node's weight from which on a link joins nodes."""
+"""Smallest conductance of a link that joins two nodes, over the smaller diagonal of the two."""
 ENOUGH = 0.25
-"""Reduction of a coarse level's residual in one step that makes a second one unnecessary."""
+"""Relative residual of a coarse level after one step below which the second step is left out."""
 _CHECKS = 4
-"""Times that the true residual may be found too large where the updated one is not."""
+"""Largest number of times that the recomputed residual may be too large although the updated residual is not."""
 _AIM = 0.5
-"""Share of the leak allowed that the updated residual must reach: it drifts from the true one by rounding."""
+"""Goal of the updated residual over the allowed residual; the updated residual drifts by round-off."""
 SMALLEST_SHRINKAGE = 0.9
-"""A level with more than this share of the nodes above it is not worth having."""
+"""Largest ratio of the nodes of a level to those of the finer level for which the level is kept."""
 
 
 @dataclass(frozen=True, eq=False)
 class Network:
-    """Nodes and conductances, rows compressed: links of node i are `neighbour[start[i]:start[i + 1]]`, each link stands
-    at both its ends; `diagonal` is the sum of a node's conductances."""
+    """Graph Laplacian in compressed rows; each link is stored at both its ends.
+
+    Attributes
+    ----------
+    start : (nodes + 1,); the links of node i are entries `start[i]` to `start[i + 1]`.
+    neighbour : node at the other end of each link.
+    conductance : of each link.
+    diagonal : (nodes,), sum of a node's conductances.
+    """
 
     start: Index
     neighbour: Index
@@ -48,12 +55,12 @@ class Network:
 
     @property
     def nodes(self) -> int:
-        """Their number."""
+        """Number of nodes."""
         return len(self.diagonal)
 
     @classmethod
     def of_links(cls, nodes: int, first: Index, second: Index, conductance: FloatArray) -> Network:
-        """From a list of links, each once; several between the same nodes add up, those of a node with itself go."""
+        """Build a network from a list of links; parallel links add up, and links of a node with itself are dropped."""
         kept = (first != second) & (conductance > 0)
         a, b, value = first[kept], second[kept], conductance[kept]
         both = (np.concatenate([value, value]), (np.concatenate([a, b]), np.concatenate([b, a])))
@@ -63,11 +70,11 @@ class Network:
         return cls(start, neighbour, matrix.data, _row_sums(start, matrix.data))
 
     def leak(self, potential: FloatArray, source: FloatArray) -> FloatArray:
-        """source - (matrix x potential), one value for each node."""
+        """Return the residual, source less matrix times potential, (nodes,)."""
         return np.asarray(_leak(self.start, self.neighbour, self.conductance, self.diagonal, potential, source))
 
     def joined(self, group: Index, groups: int) -> Network:
-        """The network of groups of nodes (-1: of none)."""
+        """Return the network of the aggregates; `group` is the aggregate of each node, -1 for none."""
         row = np.repeat(np.arange(self.nodes), np.diff(self.start))
         once = row < self.neighbour
         a, b = group[row[once]], group[self.neighbour[once]]
@@ -77,7 +84,7 @@ class Network:
 
 @dataclass(frozen=True, eq=False)
 class _Level:
-    """A network, and where its nodes go on the next coarser one."""
+    """A network, and the aggregate of each of its nodes on the next coarser level."""
 
     network: Network
     group: Index
@@ -85,7 +92,7 @@ class _Level:
 
 @dataclass(frozen=True, eq=False)
 class Hierarchy:
-    """Coarser and coarser networks; the coarsest is solved by elimination, `factors` and `pivots`."""
+    """Multigrid hierarchy; the coarsest network is solved by elimination with `factors` and `pivots`."""
 
     levels: tuple[_Level, ...]
     coarsest: Network
@@ -94,7 +101,7 @@ class Hierarchy:
 
     @classmethod
     def of(cls, network: Network) -> Hierarchy:
-        """Build it."""
+        """Build the hierarchy of a network."""
         levels: list[_Level] = []
         while network.nodes > COARSEST:
             group, groups = _aggregates(network)
@@ -105,7 +112,7 @@ class Hierarchy:
         return cls(tuple(levels), network, *_eliminated(network))
 
     def apply(self, residual: FloatArray, depth: int = 0) -> FloatArray:
-        """One cycle from a level on: smoothing, coarser level, smoothing."""
+        """Apply one cycle from a level on: pre-smoothing, coarse-grid correction, post-smoothing."""
         if depth == len(self.levels):
             return np.asarray(_substituted(self.factors, self.pivots, residual))
         level = self.levels[depth]
@@ -120,7 +127,7 @@ class Hierarchy:
         return found
 
     def _solve(self, right: FloatArray, depth: int) -> FloatArray:
-        """At most two steps of conjugate gradients on a level, each preconditioned by one cycle."""
+        """Take at most two steps of conjugate gradients on a level, each preconditioned by one cycle (K-cycle)."""
         if depth == len(self.levels):
             return self.apply(right, depth)
         network = self.levels[depth].network
@@ -145,18 +152,18 @@ class Hierarchy:
 def solve(
     network: Network, source: FloatArray, allowed: Callable[[FloatArray], float], most: int
 ) -> tuple[FloatArray, int]:
-    """Potentials under given sources, which sum to zero over every connected part of the network.
+    """Solve for the potentials under sources that sum to zero over every connected part of the network.
 
     Parameters
     ----------
     network : the nodes and links.
-    source : (nodes,) into each.
-    allowed : from a potential to the sum over nodes of what they may lack or have too much.
+    source : (nodes,), flow into each node.
+    allowed : bound on the 1-norm of the residual, as a function of the potentials.
     most : iterations at most.
 
     Returns
     -------
-    potentials (up to a constant in every part), and the number of iterations.
+    Potentials (up to a constant in every part), and the number of iterations.
     """
     hierarchy = Hierarchy.of(network)
     nothing = np.zeros(network.nodes)
@@ -166,11 +173,11 @@ def solve(
         if float(np.abs(rest).sum()) <= _AIM * allowed(potential):
             rest = network.leak(potential, source)
             checks += 1
-            # what is left after several rounds is the potentials' last digit
+            # after several checks the residual is the round-off of the potentials
             if checks == _CHECKS or float(np.abs(rest).sum()) <= allowed(potential):
                 return potential, iteration
         step = hierarchy.apply(rest)
-        # flexible: a K-cycle is not quite the same at every step
+        # flexible conjugate gradients: a K-cycle is not a linear map
         step -= _dot(step, image) / energy * direction
         direction, image = step, -network.leak(step, nothing)
         energy = _dot(direction, image)
@@ -183,11 +190,10 @@ def solve(
 
 
 def _aggregates(network: Network) -> tuple[Index, int]:
-    """Groups of about four nodes: pairs of pairs.
+    """Return aggregates of about four nodes, pairs of pairs, and their number.
 
-    What moves inside a group must be seen by the smoother, whose measure is the nodes' diagonal: pairs are held to the
-    sum of the diagonals they are made of. A dead end behind a throat so stays a node of its own until a level on which
-    it has no other link.
+    Links are weighed against the sum of the diagonals of the original nodes, because the smoother must reduce the error
+    inside an aggregate. A dead end behind a throat so stays a node of its own until it has no other link.
     """
     first, pairs = _pairs(network.start, network.neighbour, network.conductance, network.diagonal)
     joined = network.joined(first, pairs)
@@ -197,8 +203,10 @@ def _aggregates(network: Network) -> tuple[Index, int]:
 
 
 def _eliminated(network: Network) -> tuple[FloatArray, FloatArray]:
-    """Node after node, each by links between its neighbours in its place: only sums of positive numbers, so that weak
-    links between strong ones lose no digit. Nodes that are left without a link keep a potential of zero."""
+    """Eliminate node after node, replacing each star by a mesh of links between its neighbours.
+
+    All terms are positive, so weak links between strong ones lose no digit. A node without a link has potential zero.
+    """
     conductance = np.zeros((network.nodes, network.nodes))
     row = np.repeat(np.arange(network.nodes), np.diff(network.start))
     conductance[row, network.neighbour] = network.conductance
@@ -275,7 +283,7 @@ def _leak(start, neighbour, conductance, diagonal, potential, source):
 
 @compiled
 def _relax(start, neighbour, conductance, diagonal, potential, source, forward):
-    """Gauss-Seidel: cell after cell its own balance is met, from the first to the last or the other way."""
+    """Apply one Gauss-Seidel sweep, forward or backward."""
     last = len(diagonal) - 1
     for j in range(last + 1):
         i = j if forward else last - j
@@ -288,7 +296,7 @@ def _relax(start, neighbour, conductance, diagonal, potential, source, forward):
 
 @compiled
 def _restricted(start, neighbour, conductance, diagonal, potential, source, group, groups):
-    """What is left of the source, summed over groups."""
+    """Return the residual summed over aggregates."""
     out = np.zeros(groups)
     for i in range(len(diagonal)):
         if group[i] >= 0:
@@ -308,8 +316,11 @@ def _prolong(potential, coarse, group):
 
 @compiled
 def _pairs(start, neighbour, conductance, weight):
-    """Each node with the free neighbour it is tied to most; one whose strong neighbours are all taken joins the
-    strongest of them (dead ends would else stay behind on every level); nodes without a link belong to none (-1)."""
+    """Pair each node with its free neighbour of the strongest link, and return the pair of each node and their number.
+
+    A node whose strong neighbours are all paired joins the strongest of these pairs: dead ends would otherwise stay
+    behind on every level. A node without a link belongs to no pair (-1).
+    """
     nodes = len(weight)
     group = np.full(nodes, -2, np.int32)
     paired = np.zeros(nodes, np.bool_)
@@ -334,7 +345,7 @@ def _pairs(start, neighbour, conductance, weight):
         best, partner = 0.0, -1
         for k in range(start[i], start[i + 1]):
             value, j = conductance[k], neighbour[k]
-            # round a pair only, like rays: chains would grow slack
+            # joins pairs only: chains of single nodes would make long aggregates
             if paired[j] and value > best and value >= STRONG * weight[i]:
                 best, partner = value, j
         if partner >= 0:

@@ -1,9 +1,9 @@
-"""Which open cells of a periodic patch hang together, and which of these pieces reach round it.
+"""Connected pieces of the open cells of a periodic patch, and the pieces that percolate.
 
-A piece of open cells carries a mean flow along x only if a path inside it leads from a cell to the same cell of the
-next patch along x. Labels come from a forest of cells with their offsets to the root in cells (union-find, as for the
-winding of percolating clusters: Machta, Choi, Lucke, Schweizer and Chayes, Physical Review E 54 (1996) 1332): a link
-between two cells of one tree whose offsets do not agree closes a path round the patch.
+A piece of open cells carries a mean flow along x only if it percolates: a path inside it leads from a cell to the same
+cell of the next period along x. Pieces are labelled by union-find in a forest of cells with their offsets from the root
+(Machta, Choi, Lucke, Schweizer and Chayes, Physical Review E 54 (1996) 1332): a link between two cells of one tree
+whose offsets disagree closes a path around the patch.
 """
 
 from __future__ import annotations
@@ -18,12 +18,12 @@ from bem.compiled import compiled
 
 @dataclass(frozen=True, eq=False)
 class Pieces:
-    """Pieces of open cells of a periodic patch, cells being joined through their sides.
+    """Pieces of open cells of a periodic patch, connected through the sides of cells.
 
     Attributes
     ----------
-    label : (nx, ny), number of the piece a cell is in; -1 where it is closed.
-    around_x, around_y : one for each piece, whether a path in it leads round the patch along x or along y.
+    label : (nx, ny), number of the cell's piece; -1 where the cell is closed.
+    around_x, around_y : for each piece, whether it percolates along x or along y.
     """
 
     label: NDArray[np.int64]
@@ -31,13 +31,13 @@ class Pieces:
     around_y: NDArray[np.bool_]
 
     def around(self, axis: int) -> NDArray[np.bool_]:
-        """The cells (nx, ny) of pieces that reach round the patch along the axis."""
+        """Return the cells (nx, ny) of the pieces that percolate along the axis."""
         reach = self.around_x if axis == 0 else self.around_y
         return np.append(reach, False)[self.label]
 
 
 def open_pieces(is_open: NDArray[np.bool_]) -> Pieces:
-    """The pieces of the open cells (nx, ny) of a patch that repeats along both axes."""
+    """Label the open cells (nx, ny) of a patch that is periodic along both axes."""
     nx, ny = is_open.shape
     parent, _, wound = _forest(np.ascontiguousarray(is_open))
     roots = parent.reshape(nx, ny)
@@ -49,7 +49,7 @@ def open_pieces(is_open: NDArray[np.bool_]) -> Pieces:
 
 @compiled
 def _root(parent, offset, cell):
-    """The root of the tree, the path to it made short; `offset` [cells] is of a cell from its parent."""
+    """Return the root of the cell's tree and compress the path to it; `offset` [cells] is from a cell's parent."""
     root, x, y = cell, 0, 0
     while parent[root] != root:
         x += offset[root, 0]
@@ -67,7 +67,7 @@ def _root(parent, offset, cell):
 
 @compiled
 def _forest(is_open):
-    """Root of each cell, offsets [cells] from it, and whether the tree of a root winds along x and along y."""
+    """Return the root of each cell, offsets [cells] from it, and whether the tree of a root winds along x and y."""
     nx, ny = is_open.shape
     parent = np.arange(nx * ny)
     offset = np.zeros((nx * ny, 2), np.int64)

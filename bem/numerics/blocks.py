@@ -1,4 +1,4 @@
-"""Large fields block by block: means as numpy forms them of the whole, without a second field in memory, and rows.
+"""Sums and means of large fields block by block, without a second field in memory, and blocks of rows.
 
 Knows only arrays. Verified in tests/numerics/test_blocks.py.
 """
@@ -15,14 +15,16 @@ from numpy.typing import NDArray
 FloatArray = NDArray[np.float64]
 
 BLOCK = 1 << 18
-"""Entries of a block: 2 MB in double, far more than calls cost."""
+"""Entries of a block: 2 MB in double precision, so that the cost of a call is negligible."""
 _ALIGNED = 8
-"""numpy halves what it adds up pairwise at multiples of so many entries."""
+"""numpy's pairwise summation halves an array at a multiple of this number of entries."""
 
 
 def total(field: FloatArray, of: Callable[[FloatArray], FloatArray] | None = None) -> float:
-    """The sum of a field, or of a function of each of its entries; the bits of `of(field).sum()` where the field is
-    contiguous, whose halves numpy adds in the same way (Higham, SIAM J. Sci. Comput. 14 (1993) 783: pairwise)."""
+    """Return the sum of a field, or of a function of its entries, by pairwise summation.
+
+    The bits are those of `of(field).sum()` for a contiguous field (Higham, SIAM J. Sci. Comput. 14 (1993) 783).
+    """
     return _part(field.reshape(-1), of)
 
 
@@ -34,26 +36,26 @@ def _part(flat: FloatArray, of: Callable[[FloatArray], FloatArray] | None) -> fl
 
 
 def mean(field: FloatArray, of: Callable[[FloatArray], FloatArray] | None = None) -> float:
-    """The mean of a field, or of a function of each of its entries; see `total`."""
+    """Return the mean of a field, or of a function of its entries; see `total`."""
     return total(field, of) / field.size
 
 
 def deviation(field: FloatArray) -> float:
-    """The standard deviation of a field, with the bits of `field.std()`."""
+    """Return the standard deviation of a field, with the bits of `field.std()`."""
     middle = mean(field)
     return math.sqrt(mean(field, lambda block: np.square(block - middle)))
 
 
 def row_blocks(shape: tuple[int, ...], least: int = 1) -> Iterator[tuple[int, int]]:
-    """First and last row (exclusive) of blocks of whole rows, each of about `BLOCK` entries and of `least` rows."""
+    """Yield the first and last row (exclusive) of blocks of about `BLOCK` entries and at least `least` rows."""
     rows = max(least, BLOCK // max(1, math.prod(shape[1:])))
     for first in range(0, shape[0], rows):
         yield first, min(shape[0], first + rows)
 
 
 def around(field: NDArray[Any], axis: int, first: int, last: int, reach: int) -> NDArray[Any]:
-    """Rows from one to another, and along one axis so many cells more on both sides, wrapping: a copy. That axis comes
-    first."""
+    """Return a copy of the rows from `first` to before `last` with `reach` periodic neighbours along `axis`, which
+    becomes the first axis."""
     if axis == 0:
         return field[np.arange(first - reach, last + reach) % field.shape[0]]
     columns = np.arange(-reach, field.shape[1] + reach) % field.shape[1]

@@ -1,6 +1,6 @@
-"""Values that are kept between uses, within a bound on memory; the least recently used give way first.
+"""Cache with a bound on memory and eviction of the least recently used values.
 
-Knows nothing of what is kept but its size. Verified in tests/test_convolution.py, tests/test_transforms.py and
+Knows of a value only its size. Verified in tests/test_convolution.py, tests/test_transforms.py and
 tests/frugality/test_allocations.py.
 """
 
@@ -17,11 +17,11 @@ from bem.errors import InputError
 from bem.threads import ForkSafeLock
 
 DEFAULT_LIMIT = 1 << 29
-"""Bytes that a store may hold where nobody says otherwise."""
+"""Default bound on the memory of a cache [bytes]."""
 
 
 class Sized(Protocol):
-    """What can be kept."""
+    """A value that can be cached."""
 
     @property
     def nbytes(self) -> int:
@@ -32,7 +32,13 @@ _Value = TypeVar("_Value", bound=Sized)
 
 
 class KeptValues:
-    """Values by what decides them; `least` of them stay however large they are."""
+    """Cache of values by key.
+
+    Parameters
+    ----------
+    limit : bound on the memory [bytes].
+    least : number of values that stay however large they are.
+    """
 
     def __init__(self, limit: int = DEFAULT_LIMIT, *, least: int = 0) -> None:
         self.limit = limit
@@ -41,14 +47,14 @@ class KeptValues:
         self.lock = ForkSafeLock()
 
     def of(self, key: Hashable, make: Callable[[], _Value]) -> _Value:
-        """The value of a key, made where there is none; of two threads that make one, both get the first."""
+        """Return the value of a key, made if it is missing; two threads that make it both get the first one."""
         with self.lock:
             if key in self.kept:
                 self.kept.move_to_end(key)
                 found: _Value = self.kept[key]
                 return found
         made = make()
-        if self.least == 0 and made.nbytes > self.limit:  # it would drive out all others and go itself
+        if self.least == 0 and made.nbytes > self.limit:  # it would evict all others and itself
             return made
         with self.lock:
             value = self.kept.setdefault(key, made)
@@ -62,13 +68,13 @@ class KeptValues:
         return sum([value.nbytes for value in self.kept.values()])
 
     def resize(self, limit: int) -> None:
-        """Another limit [bytes]."""
+        """Set the limit [bytes] and evict what exceeds it."""
         with self.lock:
             self.limit = limit
             self._trim()
 
     def clear(self) -> None:
-        """Keep nothing of what there is."""
+        """Evict all values."""
         with self.lock:
             self.kept.clear()
 
@@ -78,22 +84,21 @@ class KeptValues:
 
 
 _FREED = 31 << 20
-"""Bytes of one array, freed at once, after which the C library keeps twice as much of what is freed; it heeds none of
-32 MiB and above."""
+"""Size of an array that raises glibc's thresholds when it is freed [bytes]; glibc ignores arrays from 32 MiB on."""
 
 
 def keep_freed_memory() -> None:
-    """Let what is freed stay with the process for the next of its kind, up to 62 MiB.
+    """Raise glibc's mmap and trim thresholds so that freed arrays up to 62 MiB are reused.
 
-    Else whether each solve of a loop fetches its fields from the system anew, page by page, hangs on what happens to
-    lie behind them: contacts of 256 x 256 cells met with none or 556 page faults, a tenth of their time. The C library
-    (glibc) sets this by the largest array that it saw freed, so one is made, of which no page is touched.
+    Otherwise each solve in a loop may get its arrays from the system anew, page by page: up to a tenth of the time of a
+    contact of 256 x 256 cells. glibc raises the thresholds to the largest array that it has seen freed; no page of the
+    array made here is touched.
     """
     np.empty(_FREED, np.uint8)
 
 
 def bytes_of(name: str, limit: object) -> int:
-    """A limit in bytes that a user gives to the function `name`.
+    """Check a limit in bytes that a user gives to the function `name`.
 
     Raises
     ------

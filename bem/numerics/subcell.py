@@ -1,10 +1,10 @@
-"""What a smooth field does between the centres of cells: its highest value, and the area where it is above a level.
+"""Maximum of a smooth field between the centres of cells, and the area where the field exceeds a level.
 
-The highest value is that of a paraboloid through a centre and its eight neighbours, of fourth order in the cell where
-the field is smooth; along the depth that of a cubic. The area is summed over cells: in each the level is a straight
-line, from the gradient at the centre and the field's mean over the cell, f + (dx^2 f_xx + dy^2 f_yy) / 24, which is
-what the curvature of field and line makes of it; a paraboloid's area is met to 0.4 % at two cells to the radius, where
-a count of centres scatters by 8 %. Verified in tests/numerics/test_subcell.py.
+The maximum is that of a paraboloid through a centre and its eight neighbours, of fourth order in the cell where the
+field is smooth; along the depth that of a cubic. The area is summed over cells. In each cell the contour is a straight
+line, from the gradient at the centre and the field's mean over the cell, f + (dx^2 f_xx + dy^2 f_yy) / 24. The area of
+a paraboloid is right to 0.4 % at two cells to the radius, where a count of centres scatters by 8 %. Verified in
+tests/numerics/test_subcell.py.
 """
 
 from __future__ import annotations
@@ -15,13 +15,13 @@ from bem.compiled import compiled
 from bem.grid import FloatArray, Grid
 
 _FLAT = 1e-9
-"""A curvature below this share of the field across a cell is none, as across the axis of a cylinder."""
+"""Second difference over the field below which the curvature is zero, as along the axis of a cylinder."""
 _FARTHEST = 1.0
-"""How far from the highest centre a paraboloid's top may lie [cells] for it to be believed."""
+"""Largest distance of a paraboloid's maximum from the highest centre [cells]."""
 
 
 def around(field: FloatArray, grid: Grid, place: tuple[int, int]) -> FloatArray | None:
-    """A cell and its neighbours, (3, 3); None at a free edge. Along an axis of fewer than three cells all are alike."""
+    """Return a cell and its neighbours, (3, 3); None at a free edge. An axis of fewer than three cells is constant."""
     i, j = place
     if 0 < i < grid.shape[0] - 1 and 0 < j < grid.shape[1] - 1:
         return field[i - 1 : i + 2, j - 1 : j + 2].astype(np.float64)
@@ -35,9 +35,11 @@ def around(field: FloatArray, grid: Grid, place: tuple[int, int]) -> FloatArray 
 
 
 def top(patch: FloatArray) -> float | None:
-    """The highest value of the paraboloid through (3, 3) values with the middle one exact; None where it has no top
-    within a cell of the middle."""
-    # numbers of Python: of nine values numpy's calls take longer than what they do
+    """Return the maximum of the paraboloid through (3, 3) values that is exact in the middle.
+
+    None if the paraboloid has no maximum within a cell of the middle.
+    """
+    # Python's numbers: numpy's calls take longer than nine operations
     (a, below, b), (left, middle, right), (c, above, d) = patch.tolist()
     slope = np.array([0.5 * (above - below), 0.5 * (right - left)])
     twist = 0.25 * (d - c - b + a)
@@ -54,8 +56,10 @@ def top(patch: FloatArray) -> float | None:
 
 
 def highest_along(depths: FloatArray, values: FloatArray) -> tuple[float, float]:
-    """The highest value of the cubic through the highest of some values and its neighbours (two on the higher side),
-    and where it is; those of the values themselves where the highest is the first or the last. Three values or more."""
+    """Return the maximum of the cubic through the highest of three or more values and its neighbours, and its depth.
+
+    The cubic takes two neighbours on the higher side. If the first or last value is the highest, it is returned.
+    """
     k, last = int(np.argmax(values)), len(values) - 1
     if k in (0, last):
         return float(values[k]), float(depths[k])
@@ -73,13 +77,13 @@ def highest_along(depths: FloatArray, values: FloatArray) -> tuple[float, float]
 
 
 def area_above(field: FloatArray, level: float, grid: Grid) -> float:
-    """Area where a smooth field (nx, ny) is above a level [m^2], of second order and better."""
+    """Return the area where a smooth field (nx, ny) exceeds a level [m^2], of second order or better."""
     return float(_area_above(np.ascontiguousarray(field), level, grid.periodic)) * grid.cell_area
 
 
 @compiled
 def _area_above(field, level, periodic):
-    """In cells."""
+    """Return the area in cells."""
     nx, ny = field.shape
     total = 0.0
     for i in range(nx):
@@ -101,8 +105,11 @@ def _area_above(field, level, periodic):
 
 @compiled
 def _share_above(mean, along, across):
-    """The share of a unit cell where mean + along x + across y is positive, x and y from its middle (the area of a
-    square cut by a line, as of volumes of fluid: Scardovelli and Zaleski, J. Comp. Phys. 164 (2000) 228)."""
+    """Return the fraction of a unit cell where mean + along x + across y is positive, x and y from its centre.
+
+    It is the area of a square cut by a line, as in volume-of-fluid methods (Scardovelli and Zaleski, J. Comp. Phys. 164
+    (2000) 228).
+    """
     small, large = min(along, across), max(along, across)
     reach = small + large
     height = mean + reach / 2
