@@ -2,21 +2,9 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from enum import StrEnum
-
-OUTSIDE = "outside the model: "
-"""How a note begins whose results are solved, but are not what they are called: what holds up to its first semicolon
-stands beside status and figures wherever these are shown."""
-UNRESOLVED_SPIKE = "the pressure spike is narrower than the mesh resolves"
-"""Begins the note on a film whose pressure spike is as high as its mesh makes it; figures then clip the spike."""
-
-
-def outside(notes: Iterable[str]) -> tuple[str, ...]:
-    """What such notes say up to their first semicolon, each once, with what it is said of before it."""
-    parted = (note.partition(OUTSIDE) for note in notes)  # cases are parted by semicolons, too
-    return tuple(dict.fromkeys(of + said.split(";")[0] for of, found, said in parted if found))
 
 
 class Status(StrEnum):

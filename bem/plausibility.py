@@ -13,6 +13,9 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
+from bem.notes import Note, as_note
+from bem.notes.general import VALUE_UNUSUAL, VALUE_UNUSUAL_TYPICAL
+
 ATOM = 2e-10
 """Distance of neighbouring atoms in a metal [m]."""
 ABSOLUTE_ZERO = -273.15
@@ -62,8 +65,8 @@ class UsualRange:
             return self.low <= value <= self.high
         return value == 0 or self.low <= abs(value) <= self.high
 
-    def note(self, key: str, value: float) -> str | None:
-        """A sentence on a value outside the range, None inside.
+    def note(self, key: str, value: float) -> Note | None:
+        """Return a note on a value outside the range, None inside.
 
         Parameters
         ----------
@@ -73,9 +76,15 @@ class UsualRange:
         if self.contains(value):
             return None
         ends = f"{with_unit(self.low, self.unit)} to {with_unit(self.high, self.unit)}"
-        hints = [text for text in (self.about, self._likely_unit(value)) if text]
-        said = f"{key}: {self.quantity} {with_unit(value, self.unit)} is outside the usual {ends}"
-        return f"{said}; {'; '.join(hints)}" if hints else f"{said}; check it"
+        likely = self._likely_unit(value) or "check it"
+        return (VALUE_UNUSUAL if self.about == "" else VALUE_UNUSUAL_TYPICAL)(
+            key,
+            quantity=self.quantity,
+            value=with_unit(value, self.unit),
+            usual=ends,
+            typical=self.about,
+            check=likely[0].upper() + likely[1:],
+        )
 
     def _likely_unit(self, value: float) -> str:
         """The unit that makes the same number usual."""
@@ -242,7 +251,7 @@ def range_of_key(path: str, unit: str | None = None) -> UsualRange | None:
     return BY_NAME["speed of rotation"] if unit == "rad/s" else None
 
 
-def notes_on(values: Iterable[tuple[str, UsualRange, float]]) -> list[str]:
+def notes_on(values: Iterable[tuple[str, UsualRange, float]]) -> list[Note]:
     """Notes on (key, range, value), of the entries of a list only the one farthest outside at either end."""
     farthest: dict[tuple[str, bool], tuple[str, UsualRange, float]] = {}
     for key, usual, value in values:
@@ -256,7 +265,7 @@ def notes_on(values: Iterable[tuple[str, UsualRange, float]]) -> list[str]:
     return [note for key, usual, value in farthest.values() if (note := usual.note(key, value)) is not None]
 
 
-def notes_on_arguments(arguments: Mapping[str, tuple[str, Any]]) -> tuple[str, ...]:
+def notes_on_arguments(arguments: Mapping[str, tuple[str, Any]]) -> tuple[Note, ...]:
     """Notes on arguments of a Python entry point.
 
     Parameters
@@ -318,11 +327,11 @@ def material_arguments(key: str, material: Any) -> dict[str, tuple[str, Any]]:
     }
 
 
-def with_argument_notes(results: Sequence[Any], said: tuple[str, ...]) -> list[Any]:
+def with_argument_notes(results: Sequence[Any], said: tuple[Note, ...]) -> list[Any]:
     """Results over time, frozen dataclasses, each with the notes on its entry point's arguments before its own."""
     return [replace(one, notes=said + one.notes) for one in results] if said else list(results)
 
 
-def without_argument_notes(notes: Iterable[str]) -> tuple[str, ...]:
+def without_argument_notes(notes: Iterable[str]) -> tuple[Note, ...]:
     """Notes without those on arguments, for callers that check their own input."""
-    return tuple(note for note in notes if not note.startswith(ARGUMENT))
+    return tuple(note for note in map(as_note, notes) if not note.where.startswith(ARGUMENT))

@@ -6,7 +6,7 @@ import dataclasses
 from html import escape
 from typing import Any, TypeVar
 
-from bem.errors import OUTSIDE, outside
+from bem.notes import OUTSIDE, outside
 
 _Class = TypeVar("_Class", bound=type)
 

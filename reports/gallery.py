@@ -17,6 +17,7 @@ from typing import Any
 
 from bem.cli._terminal import Terminal
 from bem.errors import BemError
+from bem.notes import of_summary
 from bem.results import FinishedRun
 from bem.results.read import damaged_files
 from bem.runs import plan_scene, run_scene
@@ -193,8 +194,8 @@ def _about(name: str, scene: dict[str, Any], run: FinishedRun | str) -> str:
 
     headline = [key for key in get_kind(scene["kind"]).headline if run.summary.get(key) is not None]
     body += table(("figure", "value"), [spelled(key, run.summary[key]) for key in headline])
-    for note in run.summary.get("notes", ()):
-        body += text(f"Note: {note}")
+    for note in of_summary(run.summary):
+        body += text(f"Note: {note['text']}")
     pictures = sorted((run.path / "figures").glob("*.png"), key=lambda item: _rank(scene["kind"], item.stem))
     for picture in pictures[:4]:
         data = base64.b64encode(picture.read_bytes()).decode()

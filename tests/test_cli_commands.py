@@ -74,7 +74,7 @@ def test_run_report_plot_and_the_same_bits_again(small):
     assert done.returncode == 0, done.stderr
     notes = done.stderr.splitlines()
     assert notes, "93 % of this contact is at the cap"
-    assert all(line.startswith("bem: note: ") for line in notes), "piped: no progress, no warnings of libraries"
+    assert all(line.startswith("bem: caution: ") for line in notes), "piped: no progress, no warnings of libraries"
     assert "contact area fraction" in done.stdout
     assert "out/report.html" in done.stdout
     before = (small / "out" / "results.nc").read_bytes()
@@ -133,7 +133,7 @@ def test_a_disk_that_fills_is_exit_code_4_one_message_nothing_half_written(small
         [sys.executable, "-c", code], cwd=small, capture_output=True, text=True, timeout=300, check=False
     )
     assert done.returncode == 4, done.stderr
-    assert len([line for line in done.stderr.splitlines() if not line.startswith("bem: note: ")]) == 1
+    assert len([line for line in done.stderr.splitlines() if not line.startswith("bem: caution: ")]) == 1
     assert "results.nc: cannot be written" in done.stderr
     assert sorted(os.listdir(small / "out")) == ["checkpoint.bin", "scene.toml"]
     rest = bem("run", "small.toml", "--out", "out", "--resume", "--no-figures", cwd=small)

@@ -25,7 +25,8 @@ from bem import (
     solve_point_film,
 )
 from bem.elements.element import load_element
-from bem.errors import OUTSIDE, Status, outside
+from bem.errors import Status
+from bem.notes import OUTSIDE, outside
 from bem.plausibility import ARGUMENT, BY_KEY, ELECTRON_VOLT, RANGES, notes_on, notes_on_arguments, range_of_key
 from bem.runs import plan_scene, run_scene
 from bem.scenes import library
@@ -51,9 +52,8 @@ def test_each_range_fires_outside_and_not_inside(usual, share, beyond):
     assert usual.note("key", inside) is None
     for value in (usual.low / beyond, usual.high * beyond):
         note = usual.note("table.key", value)
-        assert note.startswith("table.key: ")
-        assert usual.quantity in note
-        assert "usual" in note
+        assert note.where == "table.key"
+        assert note.values["quantity"] == usual.quantity
 
 
 def test_a_key_has_one_range_and_a_quantity_one_entry():
@@ -225,7 +225,7 @@ def test_a_run_says_it_once(tmp_path):
     ball |= {"rolling": {"mean_speed": "1 mm/s"}}
     assert any(note.startswith("oil.viscosity") for note in scene_warnings(examine(plan_scene(ball)[0])))
     notes = run_scene(ball, tmp_path / "run", figures=False).summary["notes"]
-    assert sum("viscosity" in note and "usual" in note for note in notes) == 1
+    assert sum("viscosity" in note["text"] and note["code"].startswith("value-unusual") for note in notes) == 1
 
 
 def test_a_friction_beyond_any_bound_is_outside_the_model():
@@ -252,4 +252,4 @@ def test_values_of_the_key_over_are_told(tmp_path):
     assert [note.partition(":")[0] for note in fired(library()["hertz-sphere"] | {"over": over})] == ["shape.radius"]
     small = library()["hertz-sphere"] | {"grid": {"shape": 16, "lengths": "400 um"}, "over": over}
     notes = run_scene(small, tmp_path / "run", figures=False).summary["notes"]
-    assert sum(note.startswith("shape.radius: ") and "usual" in note for note in notes) == 1
+    assert sum(note["where"] == "shape.radius" and note["code"].startswith("value-unusual") for note in notes) == 1

@@ -9,6 +9,8 @@ from typing import Any
 import numpy as np
 
 from bem.grid import FloatArray
+from bem.notes import Note
+from bem.notes.accuracy import NoBar, no_error_bar
 
 GRID, DEPTHS, POINTS, STEPS, RESIDUAL = "grid", "depths", "film points", "time steps", "residual"
 REUSE, INLET, PRESSING = "reused contacts", "inlet", "pressing steps"
@@ -32,7 +34,7 @@ class ErrorBars:
     """
 
     values: Mapping[str, Any] = field(default_factory=dict)
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
     parts: Mapping[str, Mapping[str, Any]] = field(default_factory=dict)
 
     def __or__(self, other: ErrorBars) -> ErrorBars:
@@ -43,16 +45,16 @@ class ErrorBars:
         return ErrorBars({**self.values, **other.values}, self.notes + other.notes, parts)
 
     @classmethod
-    def together(cls, parts: Mapping[str, Mapping[str, Any]], notes: tuple[str, ...] = ()) -> ErrorBars:
+    def together(cls, parts: Mapping[str, Mapping[str, Any]], notes: tuple[Note, ...] = ()) -> ErrorBars:
         """The sum of parts: errors of different origins may all be of one sign. A part leaves out figures that it is
         not of."""
         names = dict.fromkeys(name for part in parts.values() for name in part)
         return cls({name: sum(part.get(name, 0.0) for part in parts.values()) for name in names}, notes, parts)
 
-    def without(self, name: str, why: str) -> ErrorBars:
-        """The bars but for one figure that has none, for a reason."""
+    def without(self, name: str, reason: NoBar) -> ErrorBars:
+        """Return the bars but for one figure that has none, for a reason."""
         parts = {origin: {n: v for n, v in part.items() if n != name} for origin, part in self.parts.items()}
-        return ErrorBars({**self.values, name: None}, (*self.notes, why), parts)
+        return ErrorBars({**self.values, name: None}, (*self.notes, no_error_bar([name], reason)), parts)
 
     def renamed(self, names: Mapping[str, str], change: Callable[[Any], Any] = lambda error: error) -> ErrorBars:
         """Those bars that have a new name, under it and changed; without the notes."""
@@ -63,9 +65,10 @@ class ErrorBars:
         return ErrorBars(new(self.values), (), {origin: new(part) for origin, part in self.parts.items()})
 
     @classmethod
-    def unknown(cls, names: Iterable[str], why: str) -> ErrorBars:
-        """No bars, for a reason."""
-        return cls(dict.fromkeys(names), (why,))
+    def unknown(cls, names: Iterable[str], reason: NoBar, **values: Any) -> ErrorBars:
+        """Return no bars, for a reason; `values` : of its sentence."""
+        missing = dict.fromkeys(names)
+        return cls(missing, (no_error_bar(missing, reason, **values),))
 
 
 def table(

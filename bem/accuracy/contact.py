@@ -23,6 +23,7 @@ from bem.contact.regions import count_spots
 from bem.convolution import DisplacementOperator
 from bem.errors import InfeasibleError, Status
 from bem.grid import FloatArray, Grid
+from bem.notes.accuracy import NoBar
 from bem.numerics import blocks
 from bem.numerics.subcell import around, top
 
@@ -60,18 +61,9 @@ _BENT = 1 / 3
 were 0.34 (scatter over the place of the centre 0.2 to 0.3) in 200 contacts 3 to 9 cells wide: balls, ellipses, lines,
 coated, cells up to three times as long as wide."""
 
-_FREE_EDGE = "no error bars: the contact reaches a free edge of the grid, where bodies end and pressures have no limit"
-_FEW = (
-    "no error bars: the contact is one or two cells wide, and its pressure, area and approach are the cells', not the "
-    "bodies'; take a finer grid"
-)
 _FEWEST_ACROSS = 3
 """Cells. Under a ball on fewer the highest pressure was 5 to 99 % low, with bars from a thousandth of the error on: the
 grid of twice the cell has the same one or four cells in contact. On three and four bars are near the error."""
-_COARSE = "no error bars: the grid is too small to be compared with one of twice the cell"
-_UNSOLVED = "no error bars: the contact on the grid of twice the cell did not converge"
-_IMPOSSIBLE = "no error bars: what is prescribed cannot be met on the grid of twice the cell"
-_SHARP = "the highest pressure has no error bar: the contact has sharp edges or ridges, where the pressure has no limit"
 
 
 @dataclass(frozen=True)
@@ -105,7 +97,7 @@ class Coarser:
 
     grid: Grid | None
     solution: ContactSolution | None
-    why: str = ""
+    why: NoBar = NoBar.COARSER_UNSOLVED
     nested: bool = False
 
 
@@ -130,12 +122,12 @@ def _is_narrow(case: ContactCase) -> bool:
 def solve_coarser(case: ContactCase, max_iterations: int = 2000) -> Coarser:
     """Solve the case on the grid of twice the cell, from its own pressure."""
     if free_edges_reached(case.grid.periodic, case.solution.pressure):
-        return Coarser(None, None, _FREE_EDGE)
+        return Coarser(None, None, NoBar.FREE_EDGE)
     if _is_narrow(case):
-        return Coarser(None, None, _FEW)
+        return Coarser(None, None, NoBar.FEW_CELLS_WIDE)
     operator = case.operator.coarsened()
     if operator is None:
-        return Coarser(None, None, _COARSE)
+        return Coarser(None, None, NoBar.TOO_SMALL)
     grid = operator.grid
     gap = sample(case.undeformed, grid.shape, grid.periodic)
     if case.from_touch:
@@ -158,11 +150,11 @@ def solve_coarser(case: ContactCase, max_iterations: int = 2000) -> Coarser:
                 max_iterations=max_iterations,
             )
         except InfeasibleError:  # an approach in full contact, a mean gap that other cells do not have
-            return Coarser(None, None, _IMPOSSIBLE)
+            return Coarser(None, None, NoBar.IMPOSSIBLE)
         if solution.status is Status.CONVERGED:
             return Coarser(grid, solution)
         start = None
-    return Coarser(None, None, _UNSOLVED)
+    return Coarser(None, None, NoBar.COARSER_UNSOLVED)
 
 
 def figures_of(solution: ContactSolution, area: float) -> dict[str, float]:
@@ -223,7 +215,7 @@ def contact_bars(case: ContactCase, coarser: Coarser) -> ErrorBars:
     if fine["plastic_area_fraction"] > grid["plastic_area_fraction"]:  # some of it is at the hardness, beyond doubt
         grid["max_pressure"] = 0.0
     bars = ErrorBars.together({GRID: grid | dict.fromkeys(given, 0.0), RESIDUAL: algebraic})
-    return bars.without("max_pressure", _SHARP) if sharp and case.hardness is None else bars
+    return bars.without("max_pressure", NoBar.SHARP_PRESSURE) if sharp and case.hardness is None else bars
 
 
 def _overlap_bar(case: ContactCase, coarser: Coarser, known: Mapping[str, bool], approach: float) -> float:

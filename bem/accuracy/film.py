@@ -22,6 +22,7 @@ from bem.arguments import named
 from bem.errors import Status
 from bem.lubrication import FilmSolution, Lubricant, solve_line_film
 from bem.lubrication.validity import Case, spike_unresolved
+from bem.notes.accuracy import NoBar
 
 FEWEST = 100
 """Points below which no film is solved."""
@@ -61,9 +62,6 @@ _SHARP, _SPIKE = 0.02, 0.5
 top may be: 0.2 to 0.6 in those that half the points did not tell."""
 _ALGEBRAIC = 10.0
 """Relative change of a figure over the residual of the equations, relative to the film."""
-
-_UNSOLVED = "no error bars of the film: on another mesh it did not converge"
-SPIKE = "the highest pressure of the film has no error bar: its spike is as high as the mesh is fine"
 
 
 @dataclass(frozen=True)
@@ -116,7 +114,7 @@ def film_bars(case: FilmCase, other: OtherFilm) -> ErrorBars:
     """Bars of the figures of a film."""
     found = film_figures(case.solution)
     if other.solution.status is not Status.CONVERGED:
-        return ErrorBars.unknown(found, _UNSOLVED)
+        return ErrorBars.unknown(found, NoBar.COARSER_UNSOLVED)
     there = film_figures(other.solution)
     # what the difference would be to half the points, by order two
     halved = TWICE if other.ratio > 1 else 3 / (1 / other.ratio**2 - 1)
@@ -132,7 +130,7 @@ def film_bars(case: FilmCase, other: OtherFilm) -> ErrorBars:
     residual["load"] += abs(case.solution.load - case.load)
     bars = ErrorBars.together({POINTS: points, RESIDUAL: residual})
     no_limit = spike_is_unresolved(case) or spike_is_unresolved(replace(case, solution=other.solution))
-    return bars.without("maximum_pressure", SPIKE) if no_limit else bars
+    return bars.without("maximum_pressure", NoBar.SPIKE) if no_limit else bars
 
 
 def spike_is_unresolved(case: FilmCase) -> bool:

@@ -17,6 +17,7 @@ from bem.accuracy.bars import GRID, RESIDUAL, ErrorBars, Rule
 from bem.accuracy.contact import surface_is_resolved
 from bem.flow import FlowFactors
 from bem.grid import FloatArray, Grid
+from bem.notes.accuracy import NoBar
 
 _SMOOTH = {"pressure_x": 1.0, "pressure_y": 1.0, "friction_sliding": 1.0, "friction_pressure": 1.0}
 """What factors are between smooth walls; others are 0."""
@@ -41,13 +42,12 @@ _SCATTER = 3.2
 """On the scatter of a mean gap: the largest of 25 errors was 3.1 times it, the median one 0.9."""
 _RESIDUAL = 10.0
 """Relative change of a factor over the residual."""
-_NONE = "no error bars: they need even numbers of cells, eight at least"
 
 
 def flow_bars(found: FlowFactors, heights: FloatArray, grid: Grid) -> ErrorBars:
     """Bars of factors found with `errors`, an entry for each separation; heights (nx, ny) [m] on the grid."""
     if found.coarser is None:
-        return ErrorBars.unknown(RULES, _NONE)
+        return ErrorBars.unknown(RULES, NoBar.EVEN_CELLS, fewest=8)
     resolved = surface_is_resolved(heights, grid)
     touching = found.contact_area_fraction * heights.size
     few = dict.fromkeys(RULES, np.zeros(touching.shape, dtype=bool))

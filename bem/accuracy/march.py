@@ -30,6 +30,7 @@ from bem.lubrication import (
     march_point_film,
 )
 from bem.materials import Body
+from bem.notes.accuracy import NoBar
 
 FIGURES = ("thinnest_film", "film_at_end", "largest_shear_force")
 FEWEST = 101
@@ -43,8 +44,6 @@ _APART = 1.5
 thinnest film differed by little, of which order two made a bar of 0.3 % where the error was 16 %."""
 _TOLERANCE = 1e-7
 """Largest residual of a step, relative to the film and the load."""
-_UNSOLVED = "no error bars: the march with fewer points and longer steps did not converge"
-_FEW = "no error bars: a march of fewer than four steps"
 
 
 @dataclass(frozen=True, eq=False)
@@ -125,7 +124,7 @@ def point_march_bars(case: PointMarchCase) -> ErrorBars:
     """Bars of the figures of a march; two marches more, on half the cells."""
     found = point_march_figures(case.films)
     if len(case.times) < 5:
-        return ErrorBars.unknown(tuple(found), _FEW)
+        return ErrorBars.unknown(tuple(found), NoBar.SHORT_MARCH)
     nx, ny = case.cells
     halved = min(nx, ny) >= 2 * FEWEST_CELLS
     other = (nx // 2, ny // 2) if halved else (2 * nx, 2 * ny)
@@ -136,7 +135,7 @@ def point_march_bars(case: PointMarchCase) -> ErrorBars:
 def march_bars(case: MarchCase) -> ErrorBars:
     """Bars of the figures of a march; two marches more."""
     if len(case.times) < 5:
-        return ErrorBars.unknown(FIGURES, _FEW)
+        return ErrorBars.unknown(FIGURES, NoBar.SHORT_MARCH)
     fewer = max(FEWEST, case.points // 2 + 1)
     other = fewer if case.points >= _APART * fewer else 2 * case.points - 1
     marches = case.again(other), case.again(min(other, case.points), 2)
@@ -155,7 +154,7 @@ def _together(
     than the first of them the films' own cells are."""
     found, mesh, steps = (figures(one) for one in (films, *marches))
     if {one[-1].status for one in (*marches, films)} != {Status.CONVERGED}:
-        return ErrorBars.unknown(tuple(found), _UNSOLVED)
+        return ErrorBars.unknown(tuple(found), NoBar.COARSER_UNSOLVED)
     from_here = mesh if finer > 1 else found
     # the difference to half the points, by order two
     halved = 3 / abs(finer**2 - 1)

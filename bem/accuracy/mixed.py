@@ -28,26 +28,12 @@ from bem.friction.films import films_of
 from bem.friction.forces import friction_forces, lambda_ratio, unrubbed
 from bem.friction.setup import FEWEST_CELLS, MixedSetup
 from bem.grid import FloatArray, Grid
+from bem.notes.accuracy import NoBar
 
 BALANCE = "balance"
 """The origin of what the imbalance of loads and the contact's tolerance leave."""
 ORIGINS = (GRID, POINTS, BALANCE)
 _FEWEST_CELLS = 16
-_BOUNDARY = (
-    "in boundary lubrication the minimum film has no error bar: it is that of the largest load that the film can be "
-    "left with"
-)
-_FEW_SUMMITS = (
-    "no error bars: uncoupled asperities have other summits on a grid of twice the cell; their figures converge only "
-    "where the shortest waves have some nine cells"
-)
-_CONTINUED = (
-    "films thinner than their cells can show have no error bar of their minimum, nor of the lambda ratio made of it: "
-    "from a third to twenty times the solved one was found"
-)
-_UNSOLVED = "no error bars: load sharing on the grid of twice the cell did not converge"
-_REPEATED = "no error bars: not known yet of a cell that repeats; compare with one of half the spacing"
-_COARSE = "no error bars: the grid is too small to be compared with one of twice the cell"
 _LOADS = Rule(0.67, 0.67, edge=0.005, rough_edge=0.005)
 """At the edge as the load of a contact at a given gap (`bem.accuracy.contact`), as the balance asks for it: with
 less, loads fell short in surfaces of 4 to 8 cells to a wave whose difference passed zero."""
@@ -113,7 +99,7 @@ class CoarserShares:
     contact: Shares | None
     both: Shares | None
     ratio: float = 0.5
-    why: str = ""
+    why: NoBar = NoBar.COARSER_UNSOLVED
 
 
 def mixed_figures(solution: MixedSolution) -> dict[str, float]:
@@ -138,16 +124,16 @@ def solve_coarser_mixed(case: MixedCase) -> CoarserShares:
     many where half are too few)."""
     grid = case.setup.grid
     if case.setup.repeated_cell:
-        return CoarserShares(None, None, why=_REPEATED)
+        return CoarserShares(None, None, why=NoBar.REPEATED_CELL)
     if max(grid.shape) < _FEWEST_CELLS:
-        return CoarserShares(None, None, why=_COARSE)
+        return CoarserShares(None, None, why=NoBar.TOO_SMALL)
     points = case.setup.film_resolution
     fewest = FEWEST if case.setup.radii is None else FEWEST_CELLS
     other = points // 2 if points >= 2 * fewest else 2 * points
     contact = _shares(case, points)
     both = _shares(case, other, heat_mesh=0.5)
     if {contact.status, both.status} != {Status.CONVERGED}:
-        return CoarserShares(None, None, why=_UNSOLVED)
+        return CoarserShares(None, None, why=NoBar.COARSER_UNSOLVED)
     return CoarserShares(contact, both, other / points)
 
 
@@ -160,7 +146,7 @@ def mixed_bars(case: MixedCase, coarser: CoarserShares) -> ErrorBars:
     one, two = coarser.contact.figures, coarser.both.figures
     resolved, uncoupled = surface_is_resolved(case.height, case.setup.grid), case.setup.contact_model == "uncoupled"
     if uncoupled and not resolved and not case.solution.full_film:
-        return ErrorBars.unknown(found, _FEW_SUMMITS)
+        return ErrorBars.unknown(found, NoBar.OTHER_SUMMITS)
     summits = _SUMMITS if uncoupled else 1.0
     share = _share_at_edge(case.solution)
     resolved = resolved and share < 4 / SPOT
@@ -194,11 +180,11 @@ def mixed_bars(case: MixedCase, coarser: CoarserShares) -> ErrorBars:
                 part[name] = max(part[name], missed * found[name])
     bars = ErrorBars.together(parts)
     if case.setup.load > coarser.contact.solved_load:
-        bars = bars.without("lambda_ratio", _CONTINUED)
+        bars = bars.without("lambda_ratio", NoBar.SCALED_FILM)
     if case.solution.regime is Regime.BOUNDARY:
-        return bars.without("minimum_film", _BOUNDARY)
+        return bars.without("minimum_film", NoBar.LEAST_FILM)
     continued = found["film_load"] > coarser.contact.solved_load
-    return bars.without("minimum_film", _CONTINUED) if continued else bars
+    return bars.without("minimum_film", NoBar.SCALED_FILM) if continued else bars
 
 
 def _of_continuing(load: float, solved: float, other: float) -> float:

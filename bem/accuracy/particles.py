@@ -23,6 +23,7 @@ from scipy import stats
 
 from bem.accuracy.bars import GRID, ErrorBars
 from bem.grid import FloatArray
+from bem.notes.accuracy import BARS_OF_LARGE_PARTICLES, NoBar, no_error_bar
 from bem.particles import particle_statistics, particles_from_height_map
 from bem.particles.particle import Particle
 
@@ -39,12 +40,6 @@ _SKEWED, _JUDGED = 1.5, 8
 """Logarithms of sizes pass as normal where their skewness is within so many times the root of 6 / count (its standard
 error), and with so many of them: fewer do not say. Of samples of log-normal sizes 92 to 95 % were covered then, where
 these were 86 to 90 %; of gamma's, Weibull's and uniform ones as many as before or more."""
-_FEW = "no error bars: fewer than two particles"
-_LARGER = (
-    "large particles are more frequent than in a log-normal distribution: error bars of means weighted with area and "
-    "volume, of the spread and of the mean volume may be too small (of such samples half to two thirds were covered)"
-)
-_UNKNOWN = "no error bar of {names}: {count} particles leave more than {most:.0f} times the figure open"
 _MOST = 3.0
 """Times its figure: a bar beyond says only that the sample does not tell."""
 
@@ -77,7 +72,7 @@ def particle_bars(
     """
     figures = map_figures(found)
     if len(found) < 2:
-        return ErrorBars.unknown(figures, _FEW)
+        return ErrorBars.unknown(figures, NoBar.FEW_PARTICLES)
     # as large a piece has a quarter of the pixels
     fewest = max(1, round(choices.get("smallest_columns", 1) / 4))
     coarse = {**choices, "smallest_columns": fewest}
@@ -91,11 +86,11 @@ def particle_bars(
     scatter = _scatter(found, figures)
     larger = _Logarithms.of(np.array([p.equivalent_radius for p in found])).large_ones_are_frequent
     parts = {GRID: {name: pixels[name] for name in scatter}, SAMPLE: scatter}
-    bars = ErrorBars.together(parts, (_LARGER,) if larger else ())
+    bars = ErrorBars.together(parts, (BARS_OF_LARGE_PARTICLES(),) if larger else ())
     beyond = [name for name, bar in bars.values.items() if bar > _MOST * abs(figures[name])]
     if not beyond:
         return bars
-    why = _UNKNOWN.format(names=", ".join(beyond).replace("_", " "), count=len(found), most=_MOST)
+    why = no_error_bar(beyond, NoBar.SCATTERED_PARTICLES, count=len(found), most=_MOST)
     kept = {name: {n: bar for n, bar in part.items() if n not in beyond} for name, part in parts.items()}
     return ErrorBars({**bars.values, **dict.fromkeys(beyond)}, (*bars.notes, why), kept)
 

@@ -27,6 +27,7 @@ from bem.lubrication.point.kept import narrow_error, order_missed, rectangle_err
 from bem.lubrication.point.validity import inlet_shear
 from bem.lubrication.supply import Supply
 from bem.materials import Body
+from bem.notes.accuracy import NoBar
 from bem.plausibility import without_argument_notes
 
 FEWEST = 32
@@ -47,12 +48,10 @@ _LEAST = ("minimum_thickness", "lambda_ratio")
 """In a constriction, which may be narrower than cells: differences then show no order, and how steep it is tells."""
 _ALGEBRAIC = 10.0
 """Relative change of a figure over the residual of the equations."""
-SPIKE = "the central pressure has no error bar: the spike before the outlet lies there, as high as the cells are fine"
 _STEEP, _HIGH = 0.5, 0.5
 """The spike is at the centre where pressure falls by that share to one of the cells around it, and is more than that
 share of the highest: of 30 random films three, whose central pressures were 44 to 120 % off; steep ones below were not
 (by 7 % at most, within their bars)."""
-_UNSOLVED = "no error bars of the film: on half as many cells it did not converge"
 
 
 @dataclass(frozen=True)
@@ -113,7 +112,7 @@ def point_bars(case: PointCase, film: PointFilmSolution) -> ErrorBars:
     nx, ny = case.cells
     other = case.on((nx // 2, ny // 2) if halved else (2 * nx, 2 * ny))
     if other.status is not Status.CONVERGED:
-        return ErrorBars.unknown(figures, _UNSOLVED)
+        return ErrorBars.unknown(figures, NoBar.COARSER_UNSOLVED)
     there = figures | point_figures(case, other)  # nearly flooded, one grid may have no meniscus
     share = 1.0 if halved else TWICE
     films = ("central_thickness", "minimum_thickness")
@@ -136,4 +135,4 @@ def point_bars(case: PointCase, film: PointFilmSolution) -> ErrorBars:
         residual[name] = _ALGEBRAIC * film.residual * abs(value)
     bars = ErrorBars.together({GRID: grid, INLET: inlet, RESIDUAL: residual})
     spiked = spike_at_centre(film.x, film.y, film.pressure)
-    return bars.without("central_pressure", SPIKE) if spiked else bars
+    return bars.without("central_pressure", NoBar.SPIKE_AT_CENTRE) if spiked else bars

@@ -28,15 +28,11 @@ from bem.lubrication import Lubricant, RoughPointFilm, solve_rough_point_film
 from bem.lubrication.point.linear import BoolArray
 from bem.lubrication.point.moving import Heights
 from bem.materials import Body
+from bem.notes import Note
+from bem.notes.accuracy import BARS_OF_HALF_CELLS, NoBar
+from bem.notes.scenes import RIM_NARROW
 from bem.reference_solutions.hertz import PointContact, ellipse_contact
 
-COUNTED = (
-    "error bars of films of rough bodies are of half as many cells a side, where bumps show no order: on random balls "
-    "that no factor was chosen on they covered about nine errors in ten"
-)
-UNSOLVED = "no error bars of the film: on half as many cells a side no film was found"
-FEW = f"no error bars of the film: half as many cells a side are fewer than {FEWEST}"
-CENTRE = "film and pressure at the centre have no error bar: they are of one place among bumps a few cells long"
 FACTORS = {"minimum_thickness": 3.5, "mean_thickness": 3.0, "contact_load_share": 1.5, "contact_area_share": 1.5}
 """On the difference."""
 STEEP = 5.0
@@ -138,15 +134,15 @@ def rough_point_bars(case: RoughPointCase, film: RoughPointFilm, hertz_area: flo
     missing = ("central_thickness", "central_pressure")
     nx, ny = film.thickness.shape
     if min(nx, ny) < 2 * FEWEST:
-        return ErrorBars.unknown((*figures, *missing), FEW)
+        return ErrorBars.unknown((*figures, *missing), NoBar.TOO_SMALL)
     other = case.on((nx // 2, ny // 2))
     if other.status is not Status.CONVERGED:
-        return ErrorBars.unknown((*figures, *missing), UNSOLVED)
+        return ErrorBars.unknown((*figures, *missing), NoBar.COARSER_UNSOLVED)
     there = rough_point_figures(case, other, hertz_area)
     grid = _grid(case, film, figures, there, hertz_area)
     residual = {name: _ALGEBRAIC * film.residual * abs(value) for name, value in figures.items()}
-    bars = ErrorBars.together({GRID: grid, RESIDUAL: residual}, notes=(COUNTED,))
-    return bars | ErrorBars.unknown(missing, CENTRE)
+    bars = ErrorBars.together({GRID: grid, RESIDUAL: residual}, notes=(BARS_OF_HALF_CELLS(),))
+    return bars | ErrorBars.unknown(missing, NoBar.ONE_PLACE_AMONG_BUMPS)
 
 
 def _dry(case: RoughPointCase) -> PointContact:
@@ -176,7 +172,7 @@ def at_rim(case: RoughPointCase, film: RoughPointFilm) -> float:
     return float(bears[outer].sum() / max(float(bears.sum()), 1e-300))
 
 
-def narrow_notes(case: RoughPointCase, film: RoughPointFilm) -> list[str]:
+def narrow_notes(case: RoughPointCase, film: RoughPointFilm) -> list[Note]:
     """What a reader must know of a share in contact that lies in constrictions as narrow as a cell."""
     if film.status is not Status.CONVERGED or not 0 < film.contact_share < SMALL:
         return []
@@ -189,8 +185,4 @@ def narrow_notes(case: RoughPointCase, film: RoughPointFilm) -> list[str]:
         max(n, math.ceil(n * NARROW * step / width))
         for n, step, width in zip(film.pressure.shape, steps, widths, strict=True)
     )
-    return [
-        "surfaces touch at the rim of the contact, beside which the gap opens to the film within "
-        f"{cells:.2g} cells: films there come out too thin, so their share of the load is a bound from above; take "
-        f"{' x '.join(str(n) for n in wanted)} cells or more"
-    ]
+    return [RIM_NARROW(cells=cells, wanted=" x ".join(str(n) for n in wanted))]

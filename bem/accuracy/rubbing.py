@@ -20,6 +20,7 @@ from bem.errors import Status
 from bem.grid import FloatArray, Grid
 from bem.heat import TemperatureSolution, flash_temperature
 from bem.materials import Body
+from bem.notes.accuracy import NoBar
 
 _TEMPERATURE = Rule(0.7, 1.0, edge=0.005, rough_edge=0.01)
 RULES: dict[str, Rule] = {
@@ -32,7 +33,6 @@ RULES: dict[str, Rule] = {
 _OF_CONTACT = {name: name for name in ("contact_area_fraction", "mean_contact_pressure", "load")}
 _RESIDUAL = 10.0
 """Relative change of a rise over the residuals."""
-_UNSOLVED = "no error bars: the temperature on the grid of twice the cell did not converge"
 
 
 @dataclass(frozen=True)
@@ -85,7 +85,7 @@ def rubbing_bars(
     bars = contact_bars(pressed, coarser)
     there = case.temperature(coarser.grid, coarser.solution)
     if there.status is not Status.CONVERGED:
-        return ErrorBars.unknown(figures, _UNSOLVED)
+        return ErrorBars.unknown(figures, NoBar.COARSER_UNSOLVED)
     heat = case.figures(coarser.grid, coarser.solution, there)
     resolved, edge = is_resolved(pressed), share_at_edge(pressed)
     # temperatures count from the bulk that is nearest to them

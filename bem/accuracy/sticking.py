@@ -66,8 +66,6 @@ _ROUND_OFF = 1e-9
 _ALGEBRAIC = 10.0
 """Relative change of a figure over the residuals."""
 
-UNSOLVED = "no error bars of stick and slip: on the grid of twice the cell they did not converge"
-
 
 def sticking_bars(
     rules: Mapping[str, Rule],

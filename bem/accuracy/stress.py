@@ -10,6 +10,7 @@ from bem.accuracy.bars import DEPTHS, GRID, PRESSING, PRESSING_FACTOR, ErrorBars
 from bem.accuracy.contact import Coarser, ContactCase, is_resolved, share_at_edge, touches_sharply
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
+from bem.notes.accuracy import NoBar
 from bem.stress import StressBelow, stress_below, von_mises_planes
 from bem.stress.below import yield_stresses
 
@@ -38,20 +39,6 @@ _STEEPER = 2.0
 
 _FAR = 0.8
 """Of the yield stress: where none is higher nothing yields on any grid."""
-
-_CAPPED = (
-    "the highest von Mises stress has no error bar: it lies less than a cell below the surface of a capped contact, "
-    "where it has no limit"
-)
-_SHARP = (
-    "the highest von Mises stress has no error bar: it lies less than a cell below the surface of a contact with sharp "
-    "edges or ridges, where it has no limit"
-)
-_SHALLOWEST = (
-    "the highest von Mises stress has no error bar: it lies at the shallowest depth; begin outputs.depths nearer the "
-    "surface"
-)
-_DEEPEST = "the highest von Mises stress has no error bar: it lies at the deepest depth; take deeper outputs.depths"
 
 
 def stress_bars(
@@ -108,14 +95,14 @@ def _of_stress(
     depths, highest = below.depths, below.highest
     k, few = int(np.argmax(highest)), len(depths) < 3  # one or two depths are where stresses are wanted, not a search
     if k == len(depths) - 1 and not few:
-        return ErrorBars.unknown(NAMES, _DEEPEST)
+        return ErrorBars.unknown(NAMES, NoBar.DEEPEST_DEPTH)
     near = depths[k] < np.sqrt(case.grid.cell_area)
     if case.hardness is not None and near and (case.solution.pressure >= case.hardness).any():
-        return ErrorBars.unknown(NAMES, _CAPPED)
+        return ErrorBars.unknown(NAMES, NoBar.STRESS_OF_CAPPED)
     if near and touches_sharply(case):
-        return ErrorBars.unknown(NAMES, _SHARP)
+        return ErrorBars.unknown(NAMES, NoBar.STRESS_OF_SHARP)
     if k == 0 and depths[0] > 0 and not few:
-        return ErrorBars.unknown(NAMES, _SHALLOWEST)
+        return ErrorBars.unknown(NAMES, NoBar.SHALLOWEST_DEPTH)
     kept = depths[sorted({*range(k % 2, len(depths), 2), max(k - 1, 0), min(k + 1, len(depths) - 1)})]
     there = _highest_below(coarser.solution.pressure, coarser.grid, body, kept, rubbed)
     resolved, edge = is_resolved(case), share_at_edge(case)

@@ -15,7 +15,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from bem.accuracy.bars import POINTS, RESIDUAL, ErrorBars
-from bem.accuracy.film import FEWEST, SPIKE, FilmCase, spike_is_unresolved
+from bem.accuracy.film import FEWEST, FilmCase, spike_is_unresolved
 from bem.arguments import named
 from bem.errors import Status
 from bem.lubrication import (
@@ -29,6 +29,7 @@ from bem.lubrication import (
 )
 from bem.lubrication.supply import Supply
 from bem.materials import Body
+from bem.notes.accuracy import NoBar
 from bem.plausibility import without_argument_notes
 from bem.reference_solutions.starved_inlet import inlet_length
 
@@ -44,7 +45,6 @@ COLUMNS, LAYERS = 160, 16
 """Of the full heat along the film, on up to 960 points, and across it."""
 _ALGEBRAIC = 10.0
 """Relative change of a figure over the residual of the equations, relative to the film."""
-_UNSOLVED = "no error bars of traction: on half the points the film did not converge"
 _BARE = ("energy_imbalance", "inlet_factor", "highest_film_temperature", "hottest_oil")
 """Rounding, a formula that no mesh changes, and what stands at a spike of pressure in pure rolling."""
 _TEMPERATURES = ("film_temperature", "lower_temperature", "upper_temperature")
@@ -162,7 +162,7 @@ def traction_bars(case: TractionCase, found: Found) -> ErrorBars:
     film = film_of(found)
     other = case.on(case.points // 2 if case.points >= 2 * FEWEST else 2 * case.points, coarseness=2, initial=found)
     if other.status is not Status.CONVERGED:
-        return ErrorBars.unknown(figures, _UNSOLVED)
+        return ErrorBars.unknown(figures, NoBar.COARSER_UNSOLVED)
     there = figures | traction_figures(case, other)  # nearly flooded, one mesh may have no meniscus
     changed = max(abs(there[name] / figures[name] - 1) for name in ("minimum_thickness", "central_thickness"))
     missed = found.inlet_missed if isinstance(found, ThermalFilm) else 0.0
@@ -181,5 +181,5 @@ def traction_bars(case: TractionCase, found: Found) -> ErrorBars:
     of_film = FilmCase(film, case.load, case.radius, case.contact_modulus, case.speeds, case.lubricant, case.points)
     coarser = replace(of_film, solution=film_of(other))
     if any(spike_is_unresolved(one) for one in (of_film, coarser)):
-        return bars.without("maximum_pressure", SPIKE)
+        return bars.without("maximum_pressure", NoBar.SPIKE)
     return bars

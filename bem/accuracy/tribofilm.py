@@ -21,6 +21,7 @@ from bem.accuracy.mixed import half_grid
 from bem.contact.nested_iteration import sample
 from bem.errors import ConvergenceError, InfeasibleError
 from bem.grid import FloatArray
+from bem.notes.accuracy import NoBar
 from bem.tribofilm import (
     ContactSample,
     FilmContact,
@@ -52,8 +53,6 @@ _STEPS = 1.0
 _TABLE = 2e-3
 """Tolerance of reused contacts here where the film has none."""
 _FEWEST = 8
-_SMALL = "no error bars: the grid is too small to be compared with one of twice the cell"
-_UNSOLVED = "no error bars: under the contact on the grid of twice the cell no film could be grown"
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,12 +90,12 @@ def history_figures(
 def tribofilm_bars(case: TribofilmCase, found: Mapping[str, float | None]) -> ErrorBars:
     """Bars of the figures `found` of a film."""
     if min(n for n in case.contact.grid.shape if n > 1) < _FEWEST:
-        return ErrorBars.unknown(FIGURES, _SMALL)
+        return ErrorBars.unknown(FIGURES, NoBar.TOO_SMALL)
     coarse = _coarser(case)
     try:
         there, other, origin, share, pressure = (_mean if case.reuse_tolerance is not None else _local)(coarse)
     except (ConvergenceError, InfeasibleError):
-        return ErrorBars.unknown(FIGURES, _UNSOLVED)
+        return ErrorBars.unknown(FIGURES, NoBar.COARSER_UNSOLVED)
     grid, further = {}, {}
     missing: dict[str, float | None] = {}
     count = _COUNT * _at_edge(pressure) / 2  # of cells half as wide

@@ -18,6 +18,7 @@ from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from bem.accuracy.bars import GRID, ErrorBars
+from bem.notes.accuracy import NoBar
 
 FEWEST = 24
 """Cells along an axis, and twice as many as the coarser loop has."""
@@ -75,15 +76,6 @@ _WEARS = ("Sq_final", "worn_volume_per_cycle", "worn_depth")
 """Figures that say how much differently the coarser loop wears."""
 FROM_START = ("friction_initial", "contact_load_initial", "Sq_initial")
 """Figures before anything wore."""
-_MIXED_NOTHING = (
-    "run-in figures have no error bars: surfaces touch, and nothing wears on the grid of twice the cell, or here; "
-    "whether anything does on finer cells is not known"
-)
-_ODD = (
-    f"no error bars from a coarser loop: it needs even numbers of cells, {FEWEST} at least (or, along y, surfaces that "
-    "do not change), and contacts that converge on the grid of twice the cell"
-)
-_NOTHING = "no error bars from a coarser loop: nothing wears on the grid of twice the cell, or here"
 
 
 def wear_bars(
@@ -101,9 +93,9 @@ def wear_bars(
 
 def _wear_bars(found: Mapping[str, Any], coarser: Mapping[str, Any] | None) -> ErrorBars:
     if coarser is None:
-        return ErrorBars.unknown(RULES, _ODD)
+        return ErrorBars.unknown(RULES, NoBar.EVEN_CELLS_OF_LOOP, fewest=FEWEST)
     if not (found["worn_volume_per_cycle"] > 0 and coarser["worn_volume_per_cycle"] > 0):
-        return ErrorBars.unknown(RULES, _NOTHING)
+        return ErrorBars.unknown(RULES, NoBar.NOTHING_WEARS)
     bars, area = _bars(found, coarser, RULES), found["contact_area_fraction"]
     if area > 0:
         bars["mean_contact_pressure"] = found["mean_contact_pressure"] / area * bars["contact_area_fraction"]
@@ -121,7 +113,7 @@ def running_in_bars(
     coarser loop with twice the points of its film, which it has as many of as `found` where half are too few; with
     `full_heat` the coarser loop has half its columns and layers."""
     if coarser is None:
-        return ErrorBars.unknown(MIXED_RULES, _ODD)
+        return ErrorBars.unknown(MIXED_RULES, NoBar.EVEN_CELLS_OF_LOOP, fewest=FEWEST)
     of_loop = _of_film(found, _of_passing(found, coarser, _bars(found, coarser, MIXED_RULES)))
     if finer_film is not None:
         of_loop = {name: bar + _FILM_TWICE * abs(coarser[name] - finer_film[name]) for name, bar in of_loop.items()}
@@ -136,7 +128,7 @@ def running_in_bars(
     if all(wear) or not any(contact):
         return bars
     known = ErrorBars.together({GRID: {name: bars.values[name] for name in FROM_START}})
-    return ErrorBars.unknown([name for name in MIXED_RULES if name not in FROM_START], _MIXED_NOTHING) | known
+    return ErrorBars.unknown([name for name in MIXED_RULES if name not in FROM_START], NoBar.NOTHING_WEARS) | known
 
 
 def _of_passing(found: Mapping[str, float], coarser: Mapping[str, float], bars: dict[str, float]) -> dict[str, float]:

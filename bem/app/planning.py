@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from bem.errors import BemError
+from bem.notes.scenes import MEMORY_SHORT
 
 Rows = Sequence[Sequence[str]]
 
@@ -48,5 +49,5 @@ def shown_plan(table: Mapping[str, Any]) -> ShownPlan:
     tables.append(("precision of fields and transforms", plan.precision_rows))
     takes = f"about {show_seconds(plan.seconds(rate))} and {show_bytes(plan.memory)}"
     if plan.memory > available_memory():
-        warnings = [f"it needs {show_bytes(plan.memory)}, more than is free now: it will be refused", *warnings]
+        warnings = [MEMORY_SHORT(needed=show_bytes(plan.memory)), *warnings]
     return ShownPlan((), tuple((title, rows) for title, rows in tables if rows), tuple(warnings), takes)

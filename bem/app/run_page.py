@@ -15,7 +15,8 @@ from bem.app import pictures, solids
 from bem.app.downloads import WHAT
 from bem.app.layout import badge, page, rows, say
 from bem.app.workspace import RunState, Workspace
-from bem.errors import OUTSIDE, BemError
+from bem.errors import BemError
+from bem.notes import OUTSIDE, Level, of_summary
 from bem.plots.cases import case_shown
 from bem.plots.labels import in_celsius
 from bem.plots.report import with_error
@@ -193,8 +194,13 @@ class RunPage:
                 link = ui.link(what, f"/download/{path.name}/{what}").classes("text-body2")
                 link.tooltip(words).props["data-download"] = what
         _figures(found)
-        for text in found.summary["notes"]:
-            ui.label(f"note: {text}").classes("text-body2").style("color: #9a5b00")
+        notes = of_summary(found.summary)
+        for note in (one for one in notes if one["level"] != Level.INFO):
+            ui.label(note["text"]).classes("text-body2").style("color: #9a5b00")
+        if remarks := [note for note in notes if note["level"] == Level.INFO]:
+            with ui.expansion(f"{len(remarks)} remark{'s' if len(remarks) > 1 else ''}").classes("w-full"):
+                for note in remarks:
+                    ui.label(note["text"]).classes("text-body2")
         _over(found)
         Maps(found)
         _solids(found)

@@ -13,6 +13,7 @@ from typing import Any
 
 from bem.app.workspace import ASKED, OWN, PROGRESS
 from bem.errors import BemError
+from bem.notes import Level, Note
 from bem.results.atomic import write_text
 
 _EVERY = 0.3  # seconds between two writings of the progress
@@ -34,8 +35,11 @@ class Told:
 
     def note(self, text: str) -> None:
         """See `Watcher`."""
-        if text not in self._state["notes"]:
-            self._state["notes"].append(text)
+        if isinstance(text, Note) and text.level is Level.INFO:
+            return
+        shown = text.line if isinstance(text, Note) else text
+        if shown not in self._state["notes"]:
+            self._state["notes"].append(shown)
             self._write()
 
     def end(self, state: str, message: str = "") -> None:

@@ -12,6 +12,8 @@ from numpy.typing import NDArray
 from bem.campaigns.cases import REPETITION, Campaign, Case, campaign_of
 from bem.campaigns.refine import told_in_summary
 from bem.errors import Status
+from bem.notes import Note
+from bem.notes.accuracy import BARS_OF_SCATTER, NoBar, no_error_bar
 from bem.scenes.axes import Axis
 from bem.scenes.common import SceneModel
 from bem.scenes.context import Outcome, Variable
@@ -139,7 +141,7 @@ def _something(value: Any) -> bool:
     return value is not None and bool(np.nan_to_num(np.asarray(value, dtype=np.float64)).any())
 
 
-def words_of_bars(campaign: Campaign, records: Sequence[Record | None]) -> list[str]:
+def words_of_bars(campaign: Campaign, records: Sequence[Record | None]) -> list[Note]:
     """What a reader of error bars must know: which figures have none and why, and which bars are scatter alone; of what
     is nothing everywhere, as the sizes of no pieces, no word."""
     record = campaign.kind.record
@@ -152,15 +154,12 @@ def words_of_bars(campaign: Campaign, records: Sequence[Record | None]) -> list[
     for name, why in _never_barred(campaign).items():
         if name in told and any(_something(getattr(one, name)) for one in records if one is not None):
             reasons.setdefault(why, []).append(told[name])
-    found = [f"no error bar for {', '.join(names)}: {why}" for why, names in reasons.items()]
+    found = [no_error_bar(names, NoBar.OF_KIND, why=why) for why, names in reasons.items()]
     repeated = next((len(axis) for axis in campaign.axes if axis.name == REPETITION), 1)
     if record.scatters and repeated > 1:
         judged = [told[name] for name in record.scatters if name in told and name in _barred(records)]
         but = f" (but for {', '.join(judged)})" if judged else ""
-        found.append(
-            f"errors{but} are the scatter over {repeated} repetitions alone (standard error of the mean): what cells, "
-            "depths and tolerances leave open is not in them"
-        )
+        found.append(BARS_OF_SCATTER(repetitions=repeated, but=but))
     return found
 
 

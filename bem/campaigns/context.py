@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, Protocol
 
 from bem.campaigns.cases import Case
+from bem.notes import Note, as_note, unpacked
 from bem.scenes.context import derive_seed
 
 if TYPE_CHECKING:
@@ -24,7 +25,7 @@ class Watcher(Protocol):
         """`done` of `total` steps are finished."""
 
     def note(self, text: str) -> None:
-        """Something the reader must know."""
+        """Show a `bem.notes.Note` on the results, or a message on how the work goes, which is a plain text."""
 
     # It may also have `numbers(summary, headline)`, which a run calls before it draws pictures of them.
 
@@ -61,7 +62,7 @@ class CaseContext:
         self._open: dict[str, float] = {}
         self.resumed = state is not None
         state = dict(state or {})
-        self.notes: list[str] = list(state.pop("_notes", ()))
+        self.notes: list[Note] = [unpacked(one) for one in state.pop("_notes", ())]
         self.seconds: dict[str, float] = dict(state.pop("_seconds", {}))
         state.pop("_wall_time_s", None)
         self._state = state if self.resumed else None
@@ -77,9 +78,10 @@ class CaseContext:
 
     def note(self, text: str) -> None:
         """See `bem.scenes.Context`."""
-        if text not in self.notes:
-            self.notes.append(text)
-            self._watcher.note(text)
+        note = as_note(text)
+        if note not in self.notes:
+            self.notes.append(note)
+            self._watcher.note(note)
 
     @contextmanager
     def timer(self, stage: str) -> Iterator[None]:
@@ -110,7 +112,8 @@ class CaseContext:
         for stage, start in self._open.items():
             seconds[stage] = seconds.get(stage, 0.0) + now - start
         wall_time = time.time() - self._epoch
-        save_checkpoint(self._file, {**state, "_notes": self.notes, "_seconds": seconds, "_wall_time_s": wall_time})
+        notes = [note.packed() for note in self.notes]
+        save_checkpoint(self._file, {**state, "_notes": notes, "_seconds": seconds, "_wall_time_s": wall_time})
 
     def saved(self) -> dict[str, Any] | None:
         """See `bem.scenes.Context`."""

@@ -9,7 +9,7 @@ from __future__ import annotations
 
 import dataclasses
 import time
-from collections.abc import Mapping, Sequence
+from collections.abc import Hashable, Mapping, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -20,6 +20,8 @@ from bem.campaigns.context import CaseContext, Silent, Watcher
 from bem.campaigns.jobs import Staff, hand_out, words_of
 from bem.campaigns.refine import solve_case, words_of_levels
 from bem.errors import BemError, ConvergenceError, InputError, ResultsError, Status, interrupts_as_they_are
+from bem.notes import Note, as_note, unpacked
+from bem.notes.merge import identity, merge
 from bem.results.checkpoint import load_checkpoint, save_checkpoint
 from bem.results.directory import CASES, CHECKPOINT
 from bem.scenes.context import Outcome
@@ -37,7 +39,7 @@ class Result:
     """What came of a case: its record, packed, or what went wrong."""
 
     record: dict[str, Any] | None
-    notes: list[str] = field(default_factory=list)
+    notes: list[Note] = field(default_factory=list)
     seconds: dict[str, float] = field(default_factory=dict)
     error: str = ""
     status: Status = Status.CONVERGED
@@ -87,7 +89,7 @@ class CaseJob:
         return Result(None, error=why, status=Status.STALLED, exception=ConvergenceError)
 
 
-def _failed(error: BemError | MemoryError, notes: list[str], seconds: dict[str, float]) -> Result:
+def _failed(error: BemError | MemoryError, notes: list[Note], seconds: dict[str, float]) -> Result:
     kind = ConvergenceError if isinstance(error, MemoryError) else type(error)
     status = Status.INFEASIBLE if isinstance(error, InputError) else Status.STALLED
     return Result(None, notes, seconds, words_of(error), status, kind)
@@ -99,7 +101,7 @@ class Computed:
     clock time [s] at which it would have begun had it not been interrupted."""
 
     outcome: Outcome
-    notes: list[str]
+    notes: list[Note]
     seconds: dict[str, float]
     epoch: float
 
@@ -137,7 +139,7 @@ def compute(
     missing = []
     for case, state in zip(campaign.cases, states, strict=True):
         if state is not None and _RECORD in state:
-            results[case.index] = Result(state[_RECORD], state["_notes"], state["_seconds"])
+            results[case.index] = Result(state[_RECORD], [unpacked(one) for one in state["_notes"]], state["_seconds"])
             board.over(case.index)
         else:
             missing.append(case)
@@ -152,7 +154,8 @@ def compute(
     for index, result in hand_out(jobs, staff, board.watching, board.note):
         file = files[index]
         if file is not None and len(files) > 1 and result.record is not None:
-            about = {"_notes": result.notes, "_seconds": result.seconds, "_wall_time_s": time.time() - epoch}
+            notes = [note.packed() for note in result.notes]
+            about = {"_notes": notes, "_seconds": result.seconds, "_wall_time_s": time.time() - epoch}
             save_checkpoint(file, {_RECORD: result.record, **about})
         if result.error and len(files) > 1:
             board.watching(index).note(f"failed: {result.error}")
@@ -187,26 +190,26 @@ def _together(campaign: Campaign, results: Sequence[Result], board: Board, epoch
         for stage, spent in result.seconds.items():
             seconds[stage] = seconds.get(stage, 0.0) + spent
     notes = notes_of([(case.label, result.notes) for case, result in zip(campaign.cases, results, strict=True)])
-    for text in (*words_of_bars(campaign, records), *words_of_levels(campaign, records)):
-        notes.append(text)
-        board.note(text)
+    for note in map(as_note, (*words_of_bars(campaign, records), *words_of_levels(campaign, records))):
+        notes.append(note)
+        board.note(note)
     return Computed(collect(campaign, given), notes, seconds, epoch)
 
 
-def notes_of(by_case: Sequence[tuple[str, Sequence[str]]], named: int = 3) -> list[str]:
-    """The notes of all cases, each once: as it is where all have it, else with the cases it applies to."""
-    places: dict[str, list[str]] = {}
-    for label, notes in by_case:
-        for note in notes:
-            places.setdefault(note, []).append(label)
-    found = []
-    for note, labels in places.items():
-        if len(labels) == len(by_case):
-            found.append(note)
-        else:
-            more = f" and {len(labels) - named} more" if len(labels) > named else ""
-            found.append(f"{'; '.join(labels[:named])}{more}: {note}")
-    return found
+def notes_of(by_case: Sequence[tuple[str, Sequence[str]]], named: int = 3) -> list[Note]:
+    """Return the notes of all cases, each once, with the cases it applies to where these are not all of them.
+
+    Parameters
+    ----------
+    by_case : label and notes of each case.
+    named : cases that are named at most.
+    """
+
+    def labels(indices: list[int]) -> str:
+        more = f" and {len(indices) - named} more" if len(indices) > named else ""
+        return "; ".join(by_case[index][0] for index in indices[:named]) + more
+
+    return merge([notes for _, notes in by_case], labels)
 
 
 class Board:
@@ -218,7 +221,7 @@ class Board:
         self._steps: dict[str, dict[int, int]] = {}
         self._totals: dict[str, int] = {}
         self._finished: set[int] = set()
-        self._said: set[str] = set()
+        self._said: set[Hashable] = set()
 
     def watching(self, index: int) -> Watcher:
         """The watcher of one case."""
@@ -243,10 +246,13 @@ class Board:
         self._show(what, figures)
 
     def remark(self, index: int, text: str) -> None:
-        """One case has something to say; what another said already is not repeated."""
-        if text not in self._said:
-            self._said.add(text)
-            self._watcher.note(f"{self._cases[index].label}: {text}")
+        """Show a note of one case with its label, unless another case has shown it with other numbers."""
+        said: Hashable = identity(text) if isinstance(text, Note) else text
+        if said in self._said:
+            return
+        self._said.add(said)
+        label = self._cases[index].label
+        self._watcher.note(text.at(label) if isinstance(text, Note) else f"{label}: {text}")
 
     def _show(self, what: str, figures: Mapping[str, float]) -> None:
         total = self._totals[what]

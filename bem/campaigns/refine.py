@@ -21,6 +21,8 @@ from numpy.typing import NDArray
 
 from bem.campaigns.cases import Campaign
 from bem.errors import Status
+from bem.notes import Note, as_note, unpacked
+from bem.notes.accuracy import ACCURACY_LEFT_OUT, ACCURACY_REACHED, named
 from bem.scenes.asked import ALL, ANY, figures_of_chance, relative_error, shortfall, wanted
 from bem.scenes.common import SceneModel
 from bem.scenes.context import Context
@@ -236,25 +238,22 @@ def told_in_summary(campaign: Campaign, records: Sequence[Record | None]) -> dic
     return {"accuracy": {"asked": campaign.scene.accuracy, "met": met, "cases": cases}, "seconds_by_level": seconds}
 
 
-def words_of_levels(campaign: Campaign, records: Sequence[Record | None]) -> list[str]:
+def words_of_levels(campaign: Campaign, records: Sequence[Record | None]) -> list[Note]:
     """How the accuracy was reached, and what was left out of it."""
     found = [record.refinement for record in records if record is not None and record.refinement.get("levels")]
     if not found:
         return []
-    return [*_reached(campaign, found), *_left_to_chance(campaign)]
+    return [*(ACCURACY_REACHED(reached=text) for text in _reached(campaign, found)), *_left_to_chance(campaign)]
 
 
-def _left_to_chance(campaign: Campaign) -> list[str]:
+def _left_to_chance(campaign: Campaign) -> list[Note]:
     """What of the headline figures all did not mean, and why."""
     asked, kind = campaign.base.accuracy, campaign.kind
     if isinstance(asked, Mapping) and asked.get(ALL, ANY) == ANY:
         return []
     left = figures_of_chance(kind.record, kind.headline)
     by_reason = {why: [name for name in left if left[name] == why] for why in left.values()}
-    return [
-        f"the accuracy is not asked of {', '.join(' '.join(name.split('_')) for name in names)}: {why}"
-        for why, names in by_reason.items()
-    ]
+    return [ACCURACY_LEFT_OUT(figures=named(names), why=why) for why, names in by_reason.items()]
 
 
 def _reached(campaign: Campaign, found: Sequence[Mapping[str, Any]]) -> list[str]:
@@ -333,7 +332,7 @@ class _LevelContext:
         self.kept: dict[str, Any] | None = self._inner
         self.seconds_before = 0.0 if inner is None else float(inner["seconds"])
         self._start = time.perf_counter()
-        self._notes: list[str] = list((self._inner or {}).get("_notes", ()))
+        self._notes: list[Note] = [unpacked(one) for one in (self._inner or {}).get("_notes", ())]
         self.resumed = self._inner is not None
 
     def seed(self, purpose: str, *indices: int) -> int:
@@ -347,13 +346,14 @@ class _LevelContext:
 
     def note(self, text: str) -> None:
         """See `bem.scenes.Context`."""
-        if text not in self._notes:
-            self._notes.append(text)
+        note = as_note(text)
+        if note not in self._notes:
+            self._notes.append(note)
 
     def tell(self) -> None:
         """The level is the last: its notes are those of the case."""
-        for text in self._notes:
-            self._outer.note(text)
+        for note in self._notes:
+            self._outer.note(note)
 
     def timer(self, stage: str) -> AbstractContextManager[None]:
         """See `bem.scenes.Context`."""
@@ -365,7 +365,7 @@ class _LevelContext:
 
     def save(self, state: Mapping[str, Any]) -> None:
         """See `bem.scenes.Context`."""
-        self.kept = {**state, "_notes": list(self._notes)}
+        self.kept = {**state, "_notes": [note.packed() for note in self._notes]}
         spent = self.seconds_before + time.perf_counter() - self._start
         self._outer.save(_state(self._levels, self.kept, self._coarser, spent))
 

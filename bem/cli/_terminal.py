@@ -5,7 +5,7 @@ from __future__ import annotations
 import re
 import sys
 import time
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -14,6 +14,8 @@ from typing import Any
 import typer
 
 from bem.cli._streams import results_saved
+from bem.notes import OUTSIDE, Level, Note, as_note, of_summary
+from bem.notes.merge import identity
 
 _FIRST_SHOWN_AFTER = 1.0  # seconds; shorter work needs no bar
 
@@ -26,6 +28,8 @@ class Terminal:
         self._bars: Any = None
         self._tasks: dict[str, Any] = {}
         self._started: dict[str, float] = {}
+        self._noted: set[Hashable] = set()
+        self._held: list[Note] = []
         self.printed = False
 
     def __enter__(self) -> Terminal:
@@ -35,6 +39,9 @@ class Terminal:
         if self._bars is not None:
             self._bars.stop()
             self._bars = None
+        held, self._held = self._held, []
+        for note in held:
+            self.say(f"{OUTSIDE}{note.line}")
 
     def progress(self, done: int, total: int, what: str, figures: Mapping[str, float]) -> None:
         """See `bem.runs.Watcher`."""
@@ -53,11 +60,24 @@ class Terminal:
         self._bars.update(self._tasks[what], completed=done, total=total, beside=beside)
 
     def note(self, text: str) -> None:
-        """See `bem.runs.Watcher`."""
-        self.say(f"note: {text}")
+        """See `bem.runs.Watcher`: cautions at once and each once, remarks not at all.
+
+        Notes that put the result outside the model stand in the table of numbers (`numbers`), or at the end without it.
+        """
+        if not isinstance(text, Note):
+            self.say(f"note: {text}")
+            return
+        if text.level is Level.INFO or identity(text) in self._noted:
+            return
+        self._noted.add(identity(text))
+        if text.level is Level.OUTSIDE_MODEL:
+            self._held.append(text)
+        else:
+            self.say(f"caution: {text.line}")
 
     def numbers(self, summary: Mapping[str, Any], headline: Sequence[str]) -> None:
         """See `bem.runs.Watcher`: the numbers at once, pictures take longer."""
+        self._held.clear()
         self.__exit__()
         print_numbers(summary, headline)
         sys.stdout.flush()
@@ -252,13 +272,21 @@ def _print_ruled(console: Any, columns: Sequence[Column], title: str) -> None:
 
 
 def show_warnings(warnings: Sequence[str]) -> None:
-    """Sentences one below the other, wrapped and coloured on a terminal, a line each when piped."""
-    if not warnings:
+    """Print notes one below the other, wrapped and coloured on a terminal, a line each when piped.
+
+    Of cautions and of notes outside the model headline and action are shown, of remarks the number.
+    """
+    notes = [as_note(text) for text in warnings]
+    begins = {Level.OUTSIDE_MODEL: OUTSIDE, Level.CAUTION: ""}
+    lines = [begins[one.level] + one.line for one in notes if one.level in begins]
+    remarks = sum(one.level is Level.INFO for one in notes)
+    counts = [(len(lines), "warning"), (remarks, "remark")]
+    head = ", ".join(f"{count} {word}{'s' if count > 1 else ''}" for count, word in counts if count)
+    if not head:
         return
-    head = f"{len(warnings)} warning{'s' if len(warnings) > 1 else ''}"
     if not sys.stdout.isatty():
         print(head)
-        for text in warnings:
+        for text in lines:
             print(f"  {text}")
         return
     from rich.console import Console
@@ -267,7 +295,7 @@ def show_warnings(warnings: Sequence[str]) -> None:
 
     console = Console()
     console.print(Text(head, style="bold yellow"))
-    for text in warnings:
+    for text in lines:
         console.print(Padding(Text(f"- {text}"), (0, 0, 0, 2)))
 
 
@@ -280,6 +308,8 @@ def print_numbers(summary: Mapping[str, Any], headline: Sequence[str]) -> None:
     rows = [with_error(name, summary) for name in known if not is_list(summary[name])]
     rows.append(("status", summary["status"]))
     rows += [("outside the model", text) for text in summary.get("outside_model", ())]
+    if remarks := sum(note["level"] == Level.INFO for note in of_summary(summary)):
+        rows.append(("remarks", f"{remarks}, in the report and in summary.json"))
     rows.append(("time", f"{summary['wall_time_s']:.1f} s"))
     table(("figure", "value"), rows, title=f"{summary['scene']} ({summary['kind']})")
     print_lists(summary, known)

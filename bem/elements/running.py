@@ -8,13 +8,14 @@ point of body i sees all of W in the time that it takes to cross at u_i.
 from __future__ import annotations
 
 import math
-from collections import Counter
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 from bem.elements.contact import ElementContact
 from bem.elements.element import Element
 from bem.errors import InputError, Status
+from bem.notes import Note
+from bem.notes.merge import merge
 from bem.particles import particle_number
 from bem.scenes.load import load_scene
 
@@ -41,7 +42,7 @@ class Running:
     power: float
     oil: float | None
     surface: float | None
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
 
     @property
     def converged(self) -> bool:
@@ -132,10 +133,10 @@ def columns(element: Element, runs: Sequence[Running]) -> dict[str, list[float]]
     return films | {f"wear_per_pass_{body} [m]": [number(both[body - 1]) for both in worn] for body in (1, 2)}
 
 
-def notes(runs: Sequence[Running]) -> tuple[str, ...]:
-    """What the films say of their limits, each once and of how many places."""
-    said = Counter(text for one in runs if one.converged for text in dict.fromkeys(one.notes))
-    return tuple(f"at {count} of {len(runs)} places: {text}" for text, count in said.items())
+def notes(runs: Sequence[Running]) -> tuple[Note, ...]:
+    """Return the notes of the films that converged, each once, with the number of places it applies to."""
+    of_runs = [one.notes if one.converged else () for one in runs]
+    return tuple(merge(of_runs, lambda at: f"at {len(at)} of {len(runs)} places"))
 
 
 def summary(element: Element, solved: Sequence[Running]) -> tuple[tuple[str, str], ...]:

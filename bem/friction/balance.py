@@ -30,6 +30,8 @@ from bem.friction.film import Film, PatchFilm
 from bem.friction.rough_contact import Pressed, RoughContact
 from bem.grid import FloatArray
 from bem.lubrication.validity import THINNEST_FILM
+from bem.notes import Note
+from bem.notes.friction import BOUNDARY_LUBRICATION, FILM_MODEL_ENDS, NO_FILM
 
 MAX_TRIALS = 60
 ONE_LOAD = 0.1
@@ -54,14 +56,6 @@ _LEAST_BEGUN = 1e-6
 """Share of the load left to the surfaces where a search begins."""
 _SAME = 1e-9
 """Logarithms of loads that are one and the same."""
-
-
-NO_FILM_NOTE = (
-    "boundary lubrication: the film's model ends under a load at which the film is thinner than "
-    f"{1e9 * THINNEST_FILM:g} nm, a few molecules, and yet thicker than the surfaces leave open; it is taken for none, "
-    "and the contact was solved under all the load (friction jumps at the speed from which such films are found)"
-)
-"""What to say where the film's share of the load is none by that rule, and not by a balance."""
 
 
 class Regime(StrEnum):
@@ -116,7 +110,7 @@ class Balance:
     contacts: int
     convolutions: float
     status: Status
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
     oil_imbalance: float = 0.0
     refinement: float = 0.0
     film_neglected: bool = False
@@ -385,11 +379,12 @@ def _certified(
     if contact is not None and regime is Regime.MIXED:
         oil_imbalance, held = contact.opening / rough.oil(film) - 1, _holds_oil(trial, rough, tolerance)
     if regime is Regime.BOUNDARY:
-        notes.append(NO_FILM_NOTE if short else boundary_note(film.load / load))
+        left = BOUNDARY_LUBRICATION(share=float(film.load / load))
+        notes.append(NO_FILM(limit=THINNEST_FILM) if short else left)
         if contact is not None:
             film = film.left_in(contact.opening, rough.oil(film))
     elif short:
-        notes.append(_short_note(film.load))
+        notes.append(FILM_MODEL_ENDS(load=float(film.load)))
     status = Status.CONVERGED
     if film.status is not Status.CONVERGED:
         status = film.status
@@ -410,20 +405,4 @@ def _certified(
         notes=tuple(notes),
         oil_imbalance=oil_imbalance,
         film_neglected=short and regime is Regime.BOUNDARY,
-    )
-
-
-def _short_note(film_load: float) -> str:
-    """What to say where the film's model ends before the balance."""
-    return (
-        f"the film's model ends at a load of {film_load:.3g} N (at this speed and viscosity), and the film is thicker "
-        "there than the surfaces leave open under the rest; raise speed or viscosity, or lower the load"
-    )
-
-
-def boundary_note(share: float) -> str:
-    """What to say of the boundary end, the film being left with a share of the load."""
-    return (
-        f"boundary lubrication: the film is left with less than {share:.1g} of the load, so the contact was solved "
-        "under all the rest"
     )

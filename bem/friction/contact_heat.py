@@ -25,10 +25,11 @@ from bem.heat.bodies import conductors_of
 from bem.heat.partition import TemperatureSolution
 from bem.heat.steady import surface_temperature
 from bem.lubrication.with_heat import FilmHeat
+from bem.notes import Note, as_note
+from bem.notes.lubrication import BODY_AT_REST
 
 TOLERANCE = 1e-6
 """Difference of both surfaces over the rise; and of the coefficient of friction."""
-AT_REST = "a body at rest is taken as cool at a distance of the cylinder's radius"
 _HALF = 0.5
 
 
@@ -46,7 +47,7 @@ class ContactHeat:
     law: BoundaryFriction
     coefficient: float
     status: Status
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
 
 
 def contact_heat(film: PatchFilm, contact: Pressed, setup: MixedSetup, speeds: tuple[float, float]) -> ContactHeat:
@@ -89,7 +90,8 @@ def contact_heat(film: PatchFilm, contact: Pressed, setup: MixedSetup, speeds: t
         law=law,
         coefficient=coefficient,
         status=found.status,
-        notes=found.notes + ((AT_REST,) if moving != speeds and 0 in speeds else ()),
+        notes=tuple(map(as_note, found.notes))
+        + ((BODY_AT_REST(distance="the cylinder's radius"),) if moving != speeds and 0 in speeds else ()),
     )
 
 

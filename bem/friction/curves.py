@@ -15,6 +15,7 @@ from numpy.typing import ArrayLike
 from bem.errors import Status
 from bem.friction.oil_beside import OilBeside
 from bem.friction.oil_volume import OilVolume
+from bem.notes import Note
 
 if TYPE_CHECKING:
     from bem.friction.solution import MixedSolution
@@ -52,7 +53,7 @@ class CurvePoint:
     flash_temperature: float = math.nan
     oil_on_contact: float = 0.0
     oil_volume: OilVolume = OilVolume.PATCH
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
 
     @property
     def oil(self) -> OilBeside:
@@ -67,7 +68,7 @@ class CurvePoint:
         )
 
     @classmethod
-    def of(cls, solution: MixedSolution, notes: tuple[str, ...] = ()) -> CurvePoint:
+    def of(cls, solution: MixedSolution, notes: tuple[Note, ...] = ()) -> CurvePoint:
         """Those of a solution, and what is noted of it."""
         area = 0.0 if solution.contact is None else solution.contact.contact_area
         starved = solution.film.starvation
@@ -111,7 +112,7 @@ class Curve:
     shown: MixedSolution | None = None
     last: MixedSolution | None = None
 
-    def then(self, solution: MixedSolution, notes: tuple[str, ...] = ()) -> Curve:
+    def then(self, solution: MixedSolution, notes: tuple[Note, ...] = ()) -> Curve:
         """With one speed more, of which that is noted; shown is where film and contact share most evenly, or the first
         of full films."""
         shown = solution if self.shown is None or _evenness(solution) < _evenness(self.shown) else self.shown

@@ -23,6 +23,7 @@ from bem.lubrication.line_starts import on_mesh_of
 from bem.lubrication.steady import line_film
 from bem.lubrication.validity import THINNEST_FILM
 from bem.lubrication.with_heat import film_with_heat
+from bem.notes import Note
 
 BALANCE_POINTS = 400
 """Film nodes while the balance is looked for; the last evaluations use the number asked for."""
@@ -58,7 +59,7 @@ class PatchFilm:
     shear_force: float
     minimum_thickness: float
     status: Status = Status.CONVERGED
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
     solution: FilmSolution | PointFilmSolution | None = None
     smooth_gap: FloatArray | None = None
     plateau: float | None = None

@@ -14,7 +14,6 @@ from dataclasses import dataclass
 import numpy as np
 
 from bem.convolution import couples
-from bem.errors import OUTSIDE
 from bem.friction.boundary import filled_part
 from bem.friction.contact_heat import ContactHeat, contact_heat
 from bem.friction.film import PatchFilm
@@ -23,6 +22,8 @@ from bem.friction.setup import MixedSetup
 from bem.friction.solution import sliding_sign
 from bem.grid import FloatArray
 from bem.materials import Body
+from bem.notes import Note
+from bem.notes.friction import COUPLING_DIFFERS, FILM_WITHOUT_LAYERS, FRICTION_UNPHYSICAL, WHOLE_FILM_BEYOND_MODEL
 
 LARGEST_FRICTION = 1.0
 """Coefficient of friction that neither a boundary layer nor an oil under pressure reaches."""
@@ -82,49 +83,37 @@ def lambda_ratio(whole: PatchFilm, height: FloatArray) -> float:
 
 def validity_notes(
     friction: float, forces: Forces, film: PatchFilm, whole: PatchFilm, setup: MixedSetup
-) -> tuple[str, ...]:
-    """What to say of friction that is not to be believed, and of a film under the whole load that is not to be had."""
+) -> tuple[Note, ...]:
+    """Return notes on an unphysical friction, on a film under the whole load beyond its model, and on coatings."""
     notes = []
     if friction > max(LARGEST_FRICTION, 1.01 * forces.coefficient):
         stressed = float(np.abs(film.shear_stress).max()) > float(film.pressure.max())
-        notes.append(
-            f"{OUTSIDE}friction {friction:.3g} is above any physical bound (about {LARGEST_FRICTION:g}): "
-            + (
-                "the oil carries more shear stress than pressure; give it a shear law with a limit"
-                if stressed
-                else "so small a load does not hold surfaces together against the drag of the oil"
-            )
-        )
+        reason = "shear" if stressed else "drag"
+        notes.append(FRICTION_UNPHYSICAL(friction=float(friction), limit=LARGEST_FRICTION, reason=reason))
     if whole.load < setup.load * (1 - 1e-12):
-        notes.append(
-            f"a film under the whole load is outside its model, which ends at {whole.load:.3g} N at this speed and "
-            "viscosity: lambda_ratio is that of this load, an upper bound"
-        )
+        notes.append(WHOLE_FILM_BEYOND_MODEL(load=float(whole.load)))
     return (*notes, *coating_notes(setup))
 
 
-def coating_notes(setup: MixedSetup) -> tuple[str, ...]:
-    """What to say of coated bodies, whose layers only the rough contact feels."""
+def coating_notes(setup: MixedSetup) -> tuple[Note, ...]:
+    """Return a note on coated bodies, whose layers only the rough contact feels."""
     bodies = (setup.bodies,) if isinstance(setup.bodies, Body) else setup.bodies
     thickest = max((body.interfaces[-1] for body in bodies if body.layers), default=0.0)
     if thickest == 0:
         return ()
-    return (
-        "the film is that between uncoated bodies: only the rough contact feels the layers, as thick as "
-        f"{thickest / setup.smooth.half_axes(setup.load)[0]:.2g} of the contact's half-width",
-    )
+    return (FILM_WITHOUT_LAYERS(ratio=float(thickest / setup.smooth.half_axes(setup.load)[0])),)
 
 
-def coupling_notes(forces: Forces, traction: float, setup: MixedSetup) -> tuple[str, ...]:
-    """What to say where the normal gap felt another boundary friction than the contact has: `traction` over pressure
-    and the mean coefficient differ by more than a tenth, and bodies elastically different couple them."""
+def coupling_notes(forces: Forces, traction: float, setup: MixedSetup) -> tuple[Note, ...]:
+    """Return a note where the normal gap felt another boundary friction than the contact has.
+
+    `traction` over pressure and the mean coefficient differ by more than a tenth, and elastically different bodies
+    couple them.
+    """
     used, found = abs(traction), forces.coefficient
     if setup.boundary_law.constant is not None or used == 0 or found == 0 or abs(used - found) <= 0.1 * found:
         return ()
     bodies = (setup.bodies,) if isinstance(setup.bodies, Body) else setup.bodies
     if not couples(bodies):
         return ()
-    return (
-        f"boundary friction couples into the normal gap as {used:.3g}, its value at the pressure of a rough contact by "
-        f"itself; the mean of this contact is {found:.3g}",
-    )
+    return (COUPLING_DIFFERS(used=float(used), found=float(found)),)

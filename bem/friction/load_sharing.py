@@ -38,6 +38,7 @@ from bem.lubrication.line_kept import without_equations
 from bem.lubrication.rough_walls import WallFactors
 from bem.lubrication.supply import Supply
 from bem.materials import Body
+from bem.notes import Note
 from bem.plausibility import body_arguments, lubricant_arguments, notes_on_arguments
 
 LARGEST_ERROR = 0.01
@@ -168,7 +169,7 @@ def solve_mixed(
     return dataclasses.replace(found, notes=_notes_on_arguments(setup, found.speeds) + found.notes)
 
 
-def _notes_on_arguments(setup: MixedSetup, speeds: tuple[float, float]) -> tuple[str, ...]:
+def _notes_on_arguments(setup: MixedSetup, speeds: tuple[float, float]) -> tuple[Note, ...]:
     """Notes on arguments of `solve_mixed` outside their usual ranges."""
     radii = (setup.radius,) if setup.radii is None else tuple(setup.radii)
     arguments = {

@@ -8,9 +8,17 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass
+from typing import Any
 
-from bem.errors import OUTSIDE
 from bem.friction.oil_volume import OilVolume
+from bem.notes import Note
+from bem.notes.friction import (
+    OIL_BESIDE_DECIDES,
+    OIL_BESIDE_FOLLOWS,
+    OIL_BESIDE_UNKNOWN,
+    OIL_IN_HERTZ_DECIDES,
+    OIL_IN_HERTZ_FOLLOWS,
+)
 
 LOAD_CHANGES = 0.1
 """Change of the surfaces' share of the load, relative to it, from which a note says so."""
@@ -76,57 +84,27 @@ class OilBeside:
         return max(shares, friction / abs(self.friction) if self.friction else 0.0)
 
 
-def oil_notes(oils: Sequence[OilBeside]) -> tuple[str, ...]:
-    """What to say of results, at one speed or several, for which that oil matters; nothing if it does for none."""
+def oil_notes(oils: Sequence[OilBeside]) -> tuple[Note, ...]:
+    """Return notes on results, at one speed or several, for which that oil matters; none if it does for none."""
     following = [oil for oil in oils if oil.matters]
     if not following:
         return ()
     known = [oil for oil in following if oil.known]
-    if all(oil.counted is OilVolume.HERTZ for oil in following):
-        said = _hertz_note(known)
-        if len(known) < len(following):
-            said += "; how far is not known" + (f" of {len(following) - len(known)}" if known else "")
-        return (said,)
-    most = f"{100 * max(oil.share for oil in following):.3g} %"
-    if any(oil.decides for oil in known):
-        oil, where = _worst(known)
-        said = (
-            f"{OUTSIDE}the surfaces have {100 * oil.contact_share:.3g} % of the load at a friction of "
-            f"{oil.friction:.3g}, but {100 * oil.loaded_contact_share:.3g} % at {oil.loaded_friction:.3g} with the oil "
-            f"counted where the film carries{where}; {most} of it lies beside Hertz' contact, which decides the load "
-            "sharing by the length of the patch: take oil_volume loaded"
-        )
-    else:
-        said = (
-            "load share and friction follow where the oil is counted, and so the length of the patch, on which "
-            f"{most} of it lies beside Hertz' contact"
-        )
-        if known:
-            oil, where = _worst(known)
-            said += (
-                "; counted where the film carries (oil_volume loaded) the surfaces have "
-                f"{100 * oil.loaded_contact_share:.3g} % of the load, here {100 * oil.contact_share:.3g} %, and "
-                f"friction is {oil.loaded_friction:.3g}, here {oil.friction:.3g}{where}"
-            )
+    notes = []
+    if known:
+        oil = max(known, key=lambda one: one.change)
+        values: dict[str, Any] = {
+            "contact_share": float(oil.contact_share),
+            "friction": float(oil.friction),
+            "loaded_contact_share": float(oil.loaded_contact_share),
+            "loaded_friction": float(oil.loaded_friction),
+            "most": ", where that differs most" if len(known) > 1 else "",
+        }
+        if all(one.counted is OilVolume.HERTZ for one in following):
+            notes.append((OIL_IN_HERTZ_DECIDES if oil.decides else OIL_IN_HERTZ_FOLLOWS)(**values))
+        else:
+            share = float(max(one.share for one in following))
+            notes.append((OIL_BESIDE_DECIDES if oil.decides else OIL_BESIDE_FOLLOWS)(share=share, **values))
     if len(known) < len(following):
-        said += "; how far is not known" + (f" of {len(following) - len(known)}" if known else "")
-    return (said,)
-
-
-def _hertz_note(known: Sequence[OilBeside]) -> str:
-    """Return the note on results whose oil was counted over the nominal Hertz contact."""
-    said = "load share and friction depend on the area where oil is counted, here the nominal Hertz contact"
-    if not known:
-        return said
-    oil, where = _worst(known)
-    return (
-        f"{OUTSIDE if oil.decides else ''}{said}: the surfaces have {100 * oil.contact_share:.3g} % of the load at a "
-        f"friction of {oil.friction:.3g}; with oil_volume loaded they have {100 * oil.loaded_contact_share:.3g} % at "
-        f"{oil.loaded_friction:.3g}{where}"
-    )
-
-
-def _worst(known: Sequence[OilBeside]) -> tuple[OilBeside, str]:
-    """Where it changes most, and that it is so where there are others."""
-    oil = max(known, key=lambda one: one.change)
-    return oil, ", where that differs most" if len(known) > 1 else ""
+        notes.append(OIL_BESIDE_UNKNOWN(count=len(following) - len(known)))
+    return tuple(notes)

@@ -14,18 +14,26 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 
+from bem.notes import Level, Note
+from bem.notes.friction import OIL_ON_CONTACT
+
 MATTERS = 0.05
-"""Of friction, from which a note says so."""
+"""Fraction of friction from which a note says so."""
+DECIDES = 0.2
+"""Fraction of friction from which the note is a caution."""
 
 
-def covered_notes(points: Sequence[tuple[float, float]]) -> tuple[str, ...]:
-    """What to say of results, at one speed or several: (friction, what the film's own shear stress on cells in contact
-    would add to it); nothing where it adds little at all of them."""
+def covered_notes(points: Sequence[tuple[float, float]]) -> tuple[Note, ...]:
+    """Return a note on the speed at which oil on cells in contact would add most friction; none where it adds little.
+
+    Parameters
+    ----------
+    points : (friction, friction that the film's own shear stress on cells in contact would add) at each speed.
+    """
     following = [(friction, more) for friction, more in points if abs(more) > MATTERS * abs(friction)]
     if not following:
         return ()
     friction, more = max(following, key=lambda one: abs(one[1] / one[0]) if one[0] else math.inf)
-    return (
-        "oil on cells in contact carries load and adds no friction; with the film's shear stress on them it would be "
-        f"{friction + more:.3g}, here {friction:.3g}" + (", where that differs most" if len(following) > 1 else ""),
-    )
+    most = ", where that differs most" if len(following) > 1 else ""
+    level = Level.CAUTION if abs(more) > DECIDES * abs(friction) else None
+    return (OIL_ON_CONTACT(level=level, with_oil=float(friction + more), friction=float(friction), most=most),)

@@ -25,6 +25,7 @@ from bem.lubrication.point.solve import MOES_LOADS
 from bem.lubrication.point.validity import but_unknown
 from bem.lubrication.supply import OilLayer
 from bem.lubrication.validity import THINNEST_FILM
+from bem.notes.friction import POINT_FILM_LAYER, POINT_FILM_THIN
 from bem.numerics.cache import KeptValues
 from bem.plausibility import without_argument_notes
 from bem.reference_solutions.hertz import ellipse_contact
@@ -48,16 +49,8 @@ _HEAVIER = tuple(2.0**k for k in range(11))
 """The same of films whose flooded ones are `DEEP` layers thick: heavier ones are found."""
 DEEP = 30.0
 _DECADES = 12.0
-THIN_NOTE = (
-    "the film is thinner than its cells can show: taken is that of a smaller load, its pressure going on as Hertz' and "
-    "its thickness by the fit of Nijenbanning, Venner and Moes, its minimum not to be trusted (its oil was found up to "
-    "12 % too much at 2.5 times that load, up to 40 % at 6 times); more cells of the film put that off"
-)
-LAYER_NOTE = (
-    "under so light a load no film of so thin a layer was found: taken is that of a larger load, its pressure going on "
-    "as Hertz', its film as thick as the layer leaves it"
-)
-FACTORS_NOTE = "flow factors go on there as at that smaller load, where the film is thicker"
+_FACTORS = "; flow factors are those at that load"
+"""Words of the notes on scaled films with flow factors."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -223,7 +216,7 @@ def thin_film(
     dry = ellipse_contact(radii=contact.radii, contact_modulus=contact.film_modulus(solved), load=solved)
     opening = contact.parabola(film.x, film.y) + dry.displacement(film.x[:, None], film.y[None, :]) - dry.approach
     opening = np.maximum(opening, 0.0)
-    least, note = thinner * film.minimum_thickness, LAYER_NOTE if solved > load else THIN_NOTE
+    least, kind = thinner * film.minimum_thickness, POINT_FILM_LAYER if solved > load else POINT_FILM_THIN
     made = replace(
         film,
         x=stretch * film.x,
@@ -235,7 +228,7 @@ def thin_film(
         central_thickness_error=None,
         minimum_thickness_error=None,
         load=film.load * (load / solved),
-        notes=(*film.notes, note if contact.flow_factors == "off" else f"{note}; {FACTORS_NOTE}"),
+        notes=(*film.notes, kind(factors="" if contact.flow_factors == "off" else _FACTORS)),
     )
     forces, rolling = made.forces()
     return replace(made, shear_force=forces, rolling_force=rolling)

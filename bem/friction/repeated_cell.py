@@ -27,6 +27,8 @@ from bem.friction.film import PatchFilm
 from bem.friction.rough_contact import OfPatch, Pressed, SpreadContact
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray, Grid
+from bem.notes import Note
+from bem.notes.friction import CELL_BEYOND_TABLE, CELL_LONG
 
 LEAST, MOST, STEPS = 1e-4, 4.0, 28
 """Mean pressures of the cells that are tabulated: from and to that many times Hertz' mean, in so many equal ratios."""
@@ -155,17 +157,14 @@ class RepeatedCell(OfPatch):
         inside = 1 - (grid.x[:, None] / a) ** 2 - (grid.y[None, :] / b) ** 2
         return np.sqrt(np.maximum(inside, 1e-4)) * 1.5 * self.setup.smooth.mean_pressure(load)
 
-    def _notes(self, pressure: FloatArray) -> tuple[str, ...]:
-        """What to say of cells that are long against the contact, and of pressures beyond the table."""
+    def _notes(self, pressure: FloatArray) -> tuple[Note, ...]:
+        """Return notes on cells that are long against the contact, and on pressures beyond the table."""
         notes = []
         across = min(self.setup.smooth.half_axes(self.setup.load)) / max(self.setup.grid.lengths)
         if across < FEWEST_CELLS_ACROSS:
-            notes.append(
-                f"the cell that repeats goes {across:.2g} times into the contact's half-axis: its roughness is not "
-                "short against the contact; take a shorter one, or a patch that holds the contact"
-            )
+            notes.append(CELL_LONG(across=float(across), fewest=FEWEST_CELLS_ACROSS))
         if float(pressure.max()) > float(self._pressures[-1]) * 1.01:
-            notes.append("the surfaces' mean pressure is higher at places than cells were solved for")
+            notes.append(CELL_BEYOND_TABLE(pressure=float(pressure.max()), limit=float(self._pressures[-1])))
         return tuple(notes)
 
 

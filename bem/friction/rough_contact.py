@@ -35,6 +35,7 @@ from bem.friction.film import PatchFilm, middle_line
 from bem.friction.oil_volume import OilVolume
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray, Grid
+from bem.notes import Note
 from bem.plausibility import without_argument_notes
 from bem.representation import readable
 
@@ -78,7 +79,7 @@ class Pressed:
     solution: ContactSolution | AsperityContact | SpreadContact
     separation: FloatArray
     covered: FloatArray
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
     opening_error: float = 0.0
     cells: CellLaw | None = None
 

@@ -16,6 +16,7 @@ from bem.friction.film import PatchFilm, middle_line
 from bem.friction.oil_beside import OilBeside
 from bem.grid import FloatArray, Grid
 from bem.lubrication import FilmSolution, PointFilmSolution
+from bem.notes import Note
 from bem.representation import readable
 
 if TYPE_CHECKING:
@@ -102,7 +103,7 @@ class MixedSolution:
     contact_temperature: float | None = None
     flash_temperature: float | None = None
     oil_on_contact: float = 0.0
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
 
     @property
     def full_film(self) -> bool:

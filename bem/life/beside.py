@@ -15,6 +15,8 @@ from bem.life.fatigue import RollingFatigue, pitted_share
 from bem.life.march import LifeState
 from bem.life.pieces import PieceSizes, carried_away
 from bem.life.surfaces import LifeCase
+from bem.notes import Note
+from bem.notes.wear import LIFE_WITHOUT_PIECES, MICROPITTING_ASSUMPTIONS
 from bem.wear.setup import LOWER
 
 FIGURES = (
@@ -65,18 +67,13 @@ class Beside:
         self.last = now
         return now
 
-    def notes(self) -> tuple[str, ...]:
-        """What the reader must know."""
+    def notes(self) -> tuple[Note, ...]:
+        """Return notes on particles and micropitting."""
         notes = []
         if self.sizes is not None and not (self.pieces[:, 1] > 0).any():
-            notes.append("particles: the criterion finds no piece in any pass that was looked at")
+            notes.append(LIFE_WITHOUT_PIECES())
         if self.fatigue is not None:
-            given = 1e-6 * self.fatigue.limit.residual
-            notes.append(
-                "micropitting: one cycle of stress a pass, sampled in the positions; pits stay in the surface, cracks "
-                f"do not grow, and the residual stress is the {given:g} MPa given, not that of first passes; at most "
-                "and at least bracket jumps and what meets in a pass, not cells"
-            )
+            notes.append(MICROPITTING_ASSUMPTIONS(residual=float(self.fatigue.limit.residual)))
         return tuple(notes)
 
     def figures(self, cycle: FloatArray, end: LifeState) -> dict[str, Any]:

@@ -24,6 +24,7 @@ from bem.life.march import LifeState
 from bem.life.passes import Pass, Passing
 from bem.life.sampling import missed_ratio, missed_roughness
 from bem.life.surfaces import LifeCase, round_of
+from bem.notes.accuracy import NoBar
 
 JUMPS, POSITIONS = "cycle jumps", "positions"
 """The origins of errors of a life, beside `GRID` and `POINTS`."""
@@ -74,10 +75,6 @@ _MINIMUM_FILM = 0.6
 """On what half the points change of it."""
 _HEIGHTS = {"Sq_final": 0.75, "upper_Sq_final": 1.0}
 """Factors on what `missed_roughness` tells."""
-_NONE = (
-    "no error bars: a life on the grid of twice the cell needs even numbers of cells, 24 at least (or, along y, "
-    "surfaces that do not change), and contacts that converge there"
-)
 
 
 def fewer_positions(positions: int) -> int:
@@ -122,7 +119,7 @@ def life_bars(end: LifeState, other: OtherLives | None) -> ErrorBars:
     """Bars of a life from its end, and from other lives where these could be had."""
     found = life_figures(end)
     if other is None:
-        return ErrorBars.unknown(found, _NONE)
+        return ErrorBars.unknown(found, NoBar.EVEN_CELLS_OF_LOOP, fewest=24)
     one = life_figures(other.coarser)
     cells = {name: abs(found[name] - one[name]) for name in found}
     return ErrorBars.together(

@@ -24,6 +24,7 @@ from bem.friction.rough_contact import CoupledContact
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
+from bem.notes import Note
 
 
 @dataclass(frozen=True)
@@ -150,7 +151,7 @@ class MixedPasses:
 
     def __init__(self, setup: MixedSetup, table: FilmTable) -> None:
         self.setup, self.table = setup, table
-        self.film_notes: tuple[str, ...] = ()
+        self.film_notes: tuple[Note, ...] = ()
         self._whole: PatchFilm | None = None
 
     def __call__(self, heights: FloatArray, start: PassStart, compliance: float) -> Pass:

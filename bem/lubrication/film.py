@@ -12,6 +12,7 @@ from bem.grid import FloatArray
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.shear_profile import middle_stress
 from bem.lubrication.supply import Starvation
+from bem.notes import Note
 from bem.numerics.monotone import MonotoneCubic
 from bem.representation import readable
 
@@ -84,7 +85,7 @@ class FilmSolution:
     time: float | None = None
     volume_imbalance: float | None = None
     film_fraction: FloatArray | None = None
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
     starvation: Starvation | None = None
     mean_temperature: float | None = None
     maximum_temperature: float | None = None

@@ -23,6 +23,7 @@ from bem.lubrication.shear_profile import middle_stress
 from bem.lubrication.steady import lowest_film
 from bem.lubrication.time_steps import Derivative, Reached
 from bem.lubrication.validity import Case, notes_on, why_no_line_film
+from bem.notes.lubrication import FIRST_FILM_LOAD
 
 SETTLING = (0.3, 0.03, 1e-3)
 """Times that a first film is given to settle on the march's mesh where its steady film is not found, in the time that
@@ -147,7 +148,7 @@ def given_start(march: March, film: Film, time: float) -> tuple[Reached[Film], F
     solution = solution_at(march, film, time)
     missed = solution.load / march.operation.load(time) - 1
     if solution.load > 0 and abs(missed) > march.tolerance:
-        note = f"the first film is the one given: on this mesh it carries the load {100 * missed:+.2g} %"
+        note = FIRST_FILM_LOAD(origin="the one given", missed=100 * missed)
         solution = replace(solution, notes=(*solution.notes, note))
     return Reached(time, film), solution
 

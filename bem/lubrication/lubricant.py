@@ -17,6 +17,7 @@ from bem.lubrication.viscosity import ViscosityLaw
 
 if TYPE_CHECKING:
     from bem.lubrication.oils import Oil
+    from bem.notes import Note
 
 _LARGEST_LOGARITHM = 600.0
 FILM_RHEOLOGIES = ("newtonian", "shear_law")
@@ -156,8 +157,8 @@ class Lubricant:
         return find_oil(name, viscosity_index=viscosity_index, base=base).at(temperature, **laws)
 
     @property
-    def notes(self) -> tuple[str, ...]:
-        """What to say of the oil at its temperature: figures extrapolated, flash point, too thick to flow."""
+    def notes(self) -> tuple[Note, ...]:
+        """Notes on the oil at its temperature: figures extrapolated, flash point, too thick to flow."""
         return () if self.oil is None or self.temperature is None else self.oil.notes(self.temperature)
 
     @property

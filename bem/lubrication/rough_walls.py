@@ -19,6 +19,8 @@ import numpy as np
 
 from bem.errors import InputError
 from bem.grid import FloatArray
+from bem.notes import Note
+from bem.notes.lubrication import FACTORS_CONTACT, FACTORS_EXTRAPOLATED
 
 Curve = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
 LEAST_FACTOR = 1e-4
@@ -142,19 +144,13 @@ def walls_of(factors: WallFactors | str, film: float, speeds: Sequence[float]) -
     return RoughWalls.of(factors, film, speeds)
 
 
-def notes_on_factors(factors: WallFactors | str, thinnest: float) -> tuple[str, ...]:
-    """What a film (its thinnest place [m]) asks of a table of factors that the table does not hold."""
+def notes_on_factors(factors: WallFactors | str, thinnest: float) -> tuple[Note, ...]:
+    """Return a note where a film needs factors that its table does not hold; `thinnest` : its thinnest place [m]."""
     if isinstance(factors, str):
         return ()
     if float(factors.pressure_x_curve(np.array([thinnest]))[0][0]) <= LEAST_FACTOR:
-        return (
-            f"contact bars pressure flow where the film is thinnest, {1e9 * thinnest:.3g} nm: a film so thin does not "
-            f"carry this load between these walls, and its thickness is that of a least flow factor, {LEAST_FACTOR:g}",
-        )
+        return (FACTORS_CONTACT(thinnest=float(thinnest), least=LEAST_FACTOR),)
     least = float(np.min(factors.separations))
     if thinnest >= least:
         return ()
-    return (
-        f"the film, {1e9 * thinnest:.3g} nm at its thinnest, is thinner than the smallest separation of the flow "
-        f"factors, {1e9 * least:.3g} nm: they are extrapolated there",
-    )
+    return (FACTORS_EXTRAPOLATED(thinnest=float(thinnest), least=least),)

@@ -16,6 +16,7 @@ from bem.lubrication.steady import line_film
 from bem.lubrication.supply import Supply, checked_supply
 from bem.lubrication.with_heat import FilmHeat, film_with_heat
 from bem.materials import Body
+from bem.notes import Note
 from bem.plausibility import body_arguments, lubricant_arguments, notes_on_arguments
 
 
@@ -103,8 +104,10 @@ def solve_line_film(
     return replace(film, notes=said + film.notes)
 
 
-def _notes_on_arguments(case: LineCase, bodies: Sequence[Body] | None, bulk: Sequence[float] | None) -> tuple[str, ...]:
-    """Notes on arguments of `solve_line_film` outside their usual ranges; InputError of those that are none."""
+def _notes_on_arguments(
+    case: LineCase, bodies: Sequence[Body] | None, bulk: Sequence[float] | None
+) -> tuple[Note, ...]:
+    """Notes on arguments outside their usual ranges; InputError of those that are none."""
     case.scaled()
     arguments = {
         "load": ("load per unit length", case.load),

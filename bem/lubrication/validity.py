@@ -1,7 +1,6 @@
-"""Where a film's model is outside its validity: one list of small checks, each a sentence or nothing.
+"""Where a film's model is outside its validity: one list of small checks, each of which returns a note or None.
 
-To add one, write a function of a `Case` and enter it in `CHECKS`. The sentences hold no figures of the case, so that a
-curve of many films says each of them once.
+To add one, write a function of a `Case`, enter it in `CHECKS` and its kind of note in `bem.notes.lubrication`.
 """
 
 from __future__ import annotations
@@ -14,11 +13,25 @@ from functools import cached_property
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.errors import OUTSIDE, UNRESOLVED_SPIKE, InputError
+from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.lubrication.inlet_heating import hertz_over_modulus, inlet_heating_factor
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.shear import LimitedShear
+from bem.notes import Level, Note
+from bem.notes.lubrication import (
+    FILM_HEATING,
+    FILM_MOLECULAR,
+    FILM_NOT_FOUND,
+    FILM_SLIPS,
+    FILM_SPIKE,
+    FILM_THICK,
+    INLET_HEATING,
+    SHEAR_BEYOND_MEASURED,
+    SHEAR_LIMITED,
+    VISCOSITY_EXTRAPOLATED,
+    VISCOSITY_GLASS,
+)
 
 LARGEST_SHEAR_COEFFICIENT = 0.12
 """Largest limiting shear stress over pressure that was measured; Hoglund and Jacobson (1986), Bair (2007)."""
@@ -32,13 +45,6 @@ changed by 2 % to 30 %, and by less than 1 % where the neighbour had more."""
 LEAST_INLET_FACTOR = 0.9
 LARGEST_HEATING = 10.0
 """[K]: a mineral oil then has lost a third of its viscosity."""
-HEATING_NOTES = (
-    "shear heating in the inlet would make the film more than 10 % thinner than this isothermal model says "
-    "(Gupta et al. 1992, for a mineral oil)",
-    f"sliding would heat the oil in the contact by more than {LARGEST_HEATING:g} K (steel, mineral oil): this "
-    "isothermal model then gives too much friction",
-)
-"""What isothermal films say of heat."""
 LARGEST_MATERIAL = 200.0
 """Moes' L up to which a film is looked for: eight times that of the stiffest oils under hard bodies at speed."""
 GLASS = 1e12
@@ -63,8 +69,8 @@ class Case:
 
     position, pressure, thickness : (n,) [m], [Pa], [m]. speeds : of flat and cylinder [m/s]. lubricant : the oil.
     radius : [m]. contact_modulus : [Pa], infinite for rigid bodies. reduction : by a supply, of the film.
-    hot_stress : of a film with heat, mu (u1 - u2)/h at its temperatures (n,) [Pa]. not_found : why there is none, of
-    the last iterate of a film that was not found.
+    hot_stress : of a film with heat, mu (u1 - u2)/h at its temperatures (n,) [Pa]. not_found : of the last iterate of a
+    film that was not found, the note that says why; None of a film that was found.
     """
 
     position: FloatArray
@@ -76,7 +82,7 @@ class Case:
     contact_modulus: float
     reduction: float = 1.0
     hot_stress: FloatArray | None = None
-    not_found: str | None = None
+    not_found: Note | None = None
 
     @cached_property
     def newtonian_stress(self) -> FloatArray:
@@ -97,49 +103,38 @@ class Case:
         return float(np.trapezoid(values, self.position))
 
 
-def film_not_found(case: Case) -> str | None:
-    """There is no film, and the others say what they say of the last iterate."""
+def film_not_found(case: Case) -> Note | None:
+    """Return the note on a film that was not found; the other checks then see its last iterate."""
     return case.not_found
 
 
-def why_not_found(oil: Lubricant, hertz: float, said: str, otherwise: str) -> str:
-    """Why there is no film, and what to do: `said` and what the oil and Hertz' pressure [Pa] show, infinite for rigid
-    bodies, else `otherwise`."""
+def why_not_found(oil: Lubricant, hertz: float, otherwise: Note) -> Note:
+    """Return why no film was found, by oil and Hertz' pressure [Pa], infinite for rigid bodies; else `otherwise`."""
     if math.isinf(hertz) and oil.log_viscosity_ratio(np.zeros(1))[1][0] > 0:
-        return (
-            f"{said}between rigid bodies an oil that pressure thickens carries any load at some gap, in a spike that "
-            'gets narrower with every cell; give contact_modulus, or viscosity_law = "isoviscous"'
-        )
+        return FILM_NOT_FOUND(reason="rigid-spike")
     if math.isfinite(hertz) and oil.viscosity_at(np.array([hertz]))[0] > GLASS:
-        return (
-            f"{said}under Hertz' pressure, {hertz / 1e9:.3g} GPa, the viscosity law gives more than {GLASS:g} Pa s, a "
-            "glass; check pressure_viscosity and load, more cells do not help"
-        )
-    return said + otherwise
+        return FILM_NOT_FOUND(reason="glass", hertz=float(hertz), glass=GLASS)
+    return otherwise
 
 
-def why_no_line_film(oil: Lubricant, load: float, radius: float, contact_modulus: float) -> str:
-    """The same of a line contact, its load per unit length [N/m], radius [m] and modulus [Pa]."""
+def why_no_line_film(oil: Lubricant, load: float, radius: float, contact_modulus: float) -> Note:
+    """Return why no line film was found, its load per unit length [N/m], radius [m] and modulus [Pa]."""
     hertz = math.inf
     if math.isfinite(contact_modulus):
         hertz = contact_modulus * hertz_over_modulus(load, radius, contact_modulus)
-    return why_not_found(
-        oil, hertz, "no film was found: ", "pressure or film is too steep for the mesh; take more points"
-    )
+    return why_not_found(oil, hertz, FILM_NOT_FOUND(reason="line"))
 
 
-def shear_beyond_measurements(case: Case) -> str | None:
+def shear_beyond_measurements(case: Case) -> Note | None:
     """The shear stress is larger than any oil was seen to carry."""
     if (case.sliding_stress <= LARGEST_AMBIENT_STRENGTH + LARGEST_SHEAR_COEFFICIENT * case.pressure).all():
         return None
-    return (
-        f'the shear stress in the oil (shear_law "{case.lubricant.shear_law.name}") exceeds '
-        f"{LARGEST_AMBIENT_STRENGTH / 1e6:g} MPa + {LARGEST_SHEAR_COEFFICIENT:g} p, more than any oil was measured to "
-        'carry: the friction is not to be believed (shear_law "limited" cuts it)'
+    return SHEAR_BEYOND_MEASURED(
+        law=case.lubricant.shear_law.name, strength=LARGEST_AMBIENT_STRENGTH, slope=LARGEST_SHEAR_COEFFICIENT
     )
 
 
-def shear_at_the_limit(case: Case) -> str | None:
+def shear_at_the_limit(case: Case) -> Note | None:
     """The friction is the limit's."""
     cut = case.sliding_stress < case.lubricant.shear_stress(case.newtonian_stress)
     if _load_share(case, cut) < LOAD_AT_THE_LIMIT:
@@ -150,23 +145,16 @@ def shear_at_the_limit(case: Case) -> str | None:
         if isinstance(law, LimitedShear)
         else ""
     )
-    return (
-        f"the oil is at its limiting shear stress{limit} in much of the contact: the film's friction rests on that "
-        "limit (the coefficient of oils is 0.04 to 0.12)"
-    )
+    return SHEAR_LIMITED(limit=limit)
 
 
-def film_slips(case: Case) -> str | None:
+def film_slips(case: Case) -> Note | None:
     """Where the oil slips is not known, and the film depends on it."""
     if not case.lubricant.shears_film or abs(case.speeds[0] - case.speeds[1]) <= abs(sum(case.speeds)) / 2:
         return None
     if shear_at_the_limit(case) is None:
         return None
-    return (
-        "the oil slips at its limiting shear stress in much of the contact, at a slide-to-roll ratio above 1: the film "
-        "then depends on the wall at which it does (bem.lubrication.shear_profile), by a tenth to a third of its "
-        "thickness"
-    )
+    return FILM_SLIPS()
 
 
 def _load_share(case: Case, where: NDArray[np.bool_]) -> float:
@@ -174,7 +162,7 @@ def _load_share(case: Case, where: NDArray[np.bool_]) -> float:
     return float(case.integral(np.where(where, case.pressure, 0.0)) / max(case.integral(case.pressure), 1e-300))
 
 
-def viscosity_beyond_range(case: Case) -> str | None:
+def viscosity_beyond_range(case: Case) -> Note | None:
     """The viscosity law is used at pressures that it was not made for: of elastic bodies under a share of the load that
     is more than a spike's, which holds up to 5 % of it at many times Hertz' pressure, as high as the mesh makes it."""
     oil, largest = case.lubricant, case.lubricant.viscosity_law.largest_pressure
@@ -183,21 +171,13 @@ def viscosity_beyond_range(case: Case) -> str | None:
     if spike or not beyond.any():
         highest = case.pressure[~beyond].max(initial=0.0)
         return _glass(oil) if case.not_found is None and oil.viscosity_at(np.array([highest]))[0] > GLASS else None
-    said = (
-        f'the pressure exceeds {largest / 1e9:g} GPa, up to which viscosity_law "{oil.viscosity_law.name}" describes '
-        "oils: viscosities in the middle of the contact are extrapolated"
-    )
-    if math.isinf(case.contact_modulus):
-        return f"{said} (between rigid bodies the film forms there, under pressures that flatten real ones)"
-    return f"{said} (the film forms in the inlet, where pressures are lower)"
+    reason = "rigid" if math.isinf(case.contact_modulus) else "elastic"
+    level = Level.CAUTION if reason == "rigid" else None
+    return VISCOSITY_EXTRAPOLATED(level=level, reason=reason, limit=float(largest), law=oil.viscosity_law.name)
 
 
-def _glass(oil: Lubricant) -> str:
-    return (
-        f'viscosity_law "{oil.viscosity_law.name}" makes this oil more viscous than {GLASS:g} Pa s within the contact, '
-        "which liquids are as glasses: they then flow by their limiting shear stress alone; check pressure_viscosity "
-        "(oils have 5 to 40 1/GPa)"
-    )
+def _glass(oil: Lubricant) -> Note:
+    return VISCOSITY_GLASS(law=oil.viscosity_law.name, glass=GLASS)
 
 
 def check_oil(lubricant: Lubricant, unit: float) -> None:
@@ -216,20 +196,18 @@ def check_oil(lubricant: Lubricant, unit: float) -> None:
         )
 
 
-def spike_unresolved(case: Case) -> str | None:
+def spike_unresolved(case: Case) -> Note | None:
     """The height of the pressure spike is the mesh's."""
     p = case.pressure
     inner = p[1:-1]
     peaks = (inner > p[:-2]) & (inner >= p[2:]) & (inner > 0.2 * p.max(initial=0.0))
     if not (np.minimum(p[:-2], p[2:])[peaks] < SHARP_SPIKE * inner[peaks]).any():
         return None
-    remedy = (
-        ' (density_law "dowson_higginson" blunts it)' if case.lubricant.density_law.name == "incompressible" else ""
-    )
-    return f"{UNRESOLVED_SPIKE}: its height is not to be used{remedy}"
+    incompressible = case.lubricant.density_law.name == "incompressible"
+    return FILM_SPIKE(remedy=', or take density_law = "dowson_higginson"' if incompressible else "")
 
 
-def inlet_heating(case: Case) -> str | None:
+def inlet_heating(case: Case) -> Note | None:
     """Shear in the inlet heats the oil, and the film is thinner for it.
 
     By the factor of `bem.lubrication.inlet_heating`, for a mineral oil. A film that is starved by more than that is
@@ -238,10 +216,12 @@ def inlet_heating(case: Case) -> str | None:
     load = max(case.integral(case.pressure), 0.0)
     hertz = hertz_over_modulus(load, case.radius, case.contact_modulus)
     heating = inlet_heating_factor(case.lubricant.viscosity, OIL_SOFTENING, OIL_CONDUCTIVITY, case.speeds, hertz)
-    return HEATING_NOTES[0] if heating.factor < LEAST_INLET_FACTOR * case.reduction else None
+    if heating.factor >= LEAST_INLET_FACTOR * case.reduction:
+        return None
+    return INLET_HEATING(factor=1 / heating.factor)
 
 
-def film_heating(case: Case) -> str | None:
+def film_heating(case: Case) -> Note | None:
     """Sliding heats film and surfaces, and the oil in the contact is not at the temperature given.
 
     Two estimates added: q/8 h/k across the film, for heat q made evenly and led away through both surfaces (Crook,
@@ -260,29 +240,24 @@ def film_heating(case: Case) -> str | None:
     flash = 2 * heat * math.sqrt(length / math.pi) / (STEEL_EFFUSIVITY * root)
     if film + flash <= LARGEST_HEATING:
         return None
-    return HEATING_NOTES[1]
+    return FILM_HEATING(limit=LARGEST_HEATING, rise=film + flash)
 
 
-def molecular_film(case: Case) -> str | None:
+def molecular_film(case: Case) -> Note | None:
     """The film is a few molecules thick."""
     if case.thickness.min() >= THINNEST_FILM:
         return None
-    return (
-        f"the film is thinner than {1e9 * THINNEST_FILM:g} nm, a few molecules: Reynolds' equation does not hold there"
-    )
+    return FILM_MOLECULAR(limit=THINNEST_FILM)
 
 
-def film_thick_for_radius(case: Case) -> str | None:
+def film_thick_for_radius(case: Case) -> Note | None:
     """The film is too thick for a parabola and for Reynolds' equation: slopes in the inlet are near one."""
     if case.not_found is not None or not case.thickness.min() > LARGEST_FILM * case.radius:
         return None
-    return (
-        f"{OUTSIDE}the film is thicker than {100 * LARGEST_FILM:g} % of the radius, and Reynolds' equation needs small "
-        "slopes; check viscosity, speed and load, and their units"
-    )
+    return FILM_THICK(limit=LARGEST_FILM)
 
 
-CHECKS: list[Callable[[Case], str | None]] = [
+CHECKS: list[Callable[[Case], Note | None]] = [
     film_not_found,
     film_thick_for_radius,
     shear_beyond_measurements,
@@ -296,6 +271,6 @@ CHECKS: list[Callable[[Case], str | None]] = [
 ]
 
 
-def notes_on(case: Case) -> tuple[str, ...]:
-    """What a reader of the film must know, a sentence each, in the order of the checks."""
+def notes_on(case: Case) -> tuple[Note, ...]:
+    """Return the notes on a film, in the order of the checks."""
     return case.lubricant.notes + tuple(note for check in CHECKS if (note := check(case)) is not None)

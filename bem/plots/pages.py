@@ -20,6 +20,8 @@ from pathlib import Path
 from typing import Any
 
 from bem.errors import ResultsError
+from bem.notes import Note
+from bem.notes.general import FIGURE_MISSING
 from bem.plots.draw import draw_all, draw_for_nobody, load_what_draws
 from bem.plots.figures import all_figures
 from bem.plots.report import write_report
@@ -56,23 +58,27 @@ class Pages:
     processes: int | None
 
 
-def make(pages: Pages, arrays: Arrays) -> list[str]:
+def make(pages: Pages, arrays: Arrays) -> list[Note]:
     """Draw and write them from the run's arrays; what could not be drawn, as notes, which the report shows too.
 
     Raises
     ------
     ResultsError : files cannot be written.
     """
-    failed: list[str] = []
+    failed: list[Note] = []
 
     def failure(name: str, error: Exception) -> None:
-        failed.append(f"figure {name} could not be drawn: {error!r}")
+        failed.append(FIGURE_MISSING(figure=name, error=repr(error)))
 
     run = FinishedRun(pages.path, pages.scene, pages.summary)
     run.__dict__["arrays"] = arrays  # no need to look whether the file is sound
     drawn = draw_all(run, pages.names, figures_folder(pages.path), pages.formats, failure, pages.processes)
     took = time.time() - pages.epoch
-    shown = {**pages.summary, "wall_time_s": took, "notes": [*pages.summary["notes"], *failed]}
+    shown = {
+        **pages.summary,
+        "wall_time_s": took,
+        "notes": [*pages.summary["notes"], *(note.as_dict() for note in failed)],
+    }
     write_report(FinishedRun(pages.path, pages.scene, shown), drawn, pages.headline)
     return failed
 
@@ -90,7 +96,7 @@ class _Order:
 class _Answer:
     """Notes of `make`, or why its files cannot be written."""
 
-    notes: list[str]
+    notes: list[Note]
     error: str = ""
 
 
@@ -108,7 +114,7 @@ class Ahead:
             return
         self._busy = taken(self._orders, pickle.dumps(_Order(pages, described(arrays), arrays.attrs)))
 
-    def result(self) -> list[str] | None:
+    def result(self) -> list[Note] | None:
         """What `make` gives, None where the copy did not make them, and is gone; raises as it does."""
         if self._copy is None or not self._busy:
             return None

@@ -12,6 +12,7 @@ from importlib import resources
 from pathlib import Path
 from typing import Any
 
+from bem.notes import Level, of_summary
 from bem.plots.draw import Drawn
 from bem.plots.labels import prefix
 from bem.plots.tables import (
@@ -40,7 +41,7 @@ def write_report(run: Any, drawn: Sequence[Drawn], headline: Sequence[str]) -> P
         autoescape=True, trim_blocks=True, lstrip_blocks=True, undefined=jinja2.StrictUndefined
     )
     template = environment.from_string((resources.files("bem.plots") / "templates" / "report.html").read_text("utf-8"))
-    summary = run.summary
+    summary, notes = run.summary, of_summary(run.summary)
     first = [name for name in headline if summary.get(name) is not None]
     rest = [name for name in summary if name not in first and name not in ABOUT_THE_RUN and not is_error(name, summary)]
     rest = [name for name in rest if not is_second_name(name, summary)]
@@ -50,6 +51,8 @@ def write_report(run: Any, drawn: Sequence[Drawn], headline: Sequence[str]) -> P
         scene=run.scene,
         converged=summary["status"] == "converged",
         beyond=summary.get("outside_model", ()),
+        notes=notes,
+        remarks=[note for note in notes if note["level"] == Level.INFO],
         headline=summary_rows(summary, [name for name in first if not is_list(summary[name])]),
         headline_tables=[*figure_tables(summary, first), *accuracy_tables(summary)],
         figures=summary_rows(summary, [name for name in rest if not is_list(summary[name])]),

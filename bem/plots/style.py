@@ -12,7 +12,8 @@ import numpy as np
 from cycler import cycler
 from numpy.typing import NDArray
 
-from bem.errors import OUTSIDE, UNRESOLVED_SPIKE
+from bem.notes import OUTSIDE, of_summary
+from bem.notes.lubrication import FILM_SPIKE
 from bem.plots.backend import load_matplotlib
 from bem.plots.labels import FEWEST_CELLS, LONE, beyond_ends, label, largest_of, prefix, uniform_value
 
@@ -268,12 +269,12 @@ def mark_spike(axes: Axes, x: NDArray[np.float64], pressure: NDArray[np.float64]
 
 
 def has_unresolved_spike(summary: Mapping[str, Any], case: str = "") -> bool:
-    """Whether a note of the run says that the mesh does not resolve the pressure spike.
+    """Return True if a note of the run says that the mesh does not resolve the pressure spike.
 
-    case : key and value of the case drawn, as notes begin with them; notes on other cases do not count.
+    case : key and value of the case drawn, as the places of notes name it; notes on other cases do not count.
     """
-    before = [note.partition(UNRESOLVED_SPIKE)[0] for note in summary.get("notes", ()) if UNRESOLVED_SPIKE in note]
-    return any(not words or " more" in words or (case and case in words) for words in before)
+    places = [note["where"] for note in of_summary(summary) if note["code"] == FILM_SPIKE.code]
+    return any(not place or " more" in place or (case and case in place) for place in places)
 
 
 def name_case(figure: Any, words: str) -> None:

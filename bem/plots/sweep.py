@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 from matplotlib.ticker import MaxNLocator
 
-from bem.errors import OUTSIDE
+from bem.notes import OUTSIDE
 from bem.plots.labels import in_celsius, key_words, largest_of
 from bem.plots.style import label, logarithmic_axis, prefix, said_above, style
 from bem.plots.tables import name_and_unit

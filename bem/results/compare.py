@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from bem.errors import OUTSIDE
+from bem.notes import OUTSIDE
 from bem.results.differing import leaves
 from bem.results.directory import SCENE
 from bem.results.read import FinishedRun

@@ -113,16 +113,23 @@ def _wrong_form(summary: Any) -> str:
         ("status", str, "text"),
         ("where", str, "text"),
         ("wall_time_s", int | float, "a number"),
-        ("notes", list, "a list of texts"),
+        ("notes", list, "a list of notes"),
         ("seconds_by_stage", dict, "a table of numbers"),
     ):
         if not isinstance(summary.get(key), kind) or isinstance(summary[key], bool):
             return f"{key} is missing" if key not in summary else f"{key} is not {words}"
-    if not all(isinstance(note, str) for note in summary["notes"]):
-        return "notes is not a list of texts"
+    if not all(isinstance(note, str) or _is_note(note) for note in summary["notes"]):
+        return "notes is not a list of notes"
     if not all(isinstance(value, int | float) for value in summary["seconds_by_stage"].values()):
         return "seconds_by_stage is not a table of numbers"
     return ""
+
+
+def _is_note(entry: Any) -> bool:
+    """Return True for a table with the texts of a note; older summaries have plain texts."""
+    return isinstance(entry, dict) and all(
+        isinstance(entry.get(key), str) for key in ("code", "level", "text", "where")
+    )
 
 
 def damaged_files(folder: Path) -> list[str]:

@@ -13,7 +13,8 @@ import bem
 from bem.campaigns import Computed, campaign_of, compute, plan
 from bem.campaigns.context import Silent, Watcher
 from bem.campaigns.jobs import Staff
-from bem.errors import OUTSIDE, ConvergenceError, InputError, Status, outside
+from bem.errors import ConvergenceError, InputError, Status
+from bem.notes import Level, Note, outside
 from bem.results.arrays import LEFT_OUT, stacks_of_maps, to_arrays
 from bem.results.directory import RESULTS, RunDirectory, plain
 from bem.results.read import FinishedRun, check_data, open_run
@@ -152,8 +153,8 @@ def run_planned(
         facts = examine(campaign.base)
         notes = scene_warnings(facts)
         notes += [text for text in notes_over(scene) if text not in notes]
-        for text in notes:
-            watcher.note(text)
+        for note in notes:
+            watcher.note(note)
         computed = compute(
             campaign,
             directory.path,
@@ -170,19 +171,20 @@ def run_planned(
             ) from error
         directory.discard()
         raise
-    computed.notes[:0] = [text for text in notes if text not in computed.notes]
-    for text in outcome_warnings(facts, computed.outcome):
-        computed.notes.append(text)
-        watcher.note(text)
-    computed.notes.sort(key=lambda text: OUTSIDE not in text)  # what decides how to read the others
+    computed.notes[:0] = [note for note in notes if note not in computed.notes]
+    for note in outcome_warnings(facts, computed.outcome):
+        computed.notes.append(note)
+        watcher.note(note)
+    computed.notes.sort(key=lambda note: list(Level).index(note.level))  # the most serious ones first
     left_out = [] if fields else stacks_of_maps(computed.outcome.variables)
     return _write(directory, scene, computed, formats, watcher, staff.workers, ahead, left_out)
 
 
-def _told(notes: list[str]) -> dict[str, list[str]]:
-    """Notes, and in short what of the results is outside its model, where any is."""
+def _stored(notes: list[Note]) -> dict[str, Any]:
+    """Return notes as the summary holds them, and the headlines of those that put results outside the model, if any."""
     beyond = list(outside(notes))
-    return {"notes": notes, "outside_model": beyond} if beyond else {"notes": notes}
+    found: dict[str, Any] = {"notes": [note.as_dict() for note in notes]}
+    return {**found, "outside_model": beyond} if beyond else found
 
 
 def _write(
@@ -216,7 +218,7 @@ def _write(
         "where": outcome.where,
         **plain(outcome.summary),
         **({"over": {key: outcome.variables[key].units for key in scene.over}} if scene.over else {}),
-        **_told(computed.notes),
+        **_stored(computed.notes),
         "seconds_by_stage": seconds,
     }
     kind = get_kind(scene.kind)
@@ -241,9 +243,9 @@ def _write(
             missing = None if ahead is None else ahead.result()
             if missing is None:
                 missing = make(pages, arrays)
-        for text in missing:
-            computed.notes.append(text)
-            watcher.note(text)
+        for note in missing:
+            summary["notes"].append(note.as_dict())
+            watcher.note(note)
     summary["wall_time_s"] = time.time() - computed.epoch
     directory.finish(summary)
     return summary

@@ -17,7 +17,9 @@ from bem.campaigns import campaign_of
 from bem.campaigns.cases import axes_of_keys
 from bem.campaigns.context import Silent, Watcher
 from bem.campaigns.jobs import Staff, hand_out
-from bem.errors import OUTSIDE, InputError, ResultsError
+from bem.errors import InputError, ResultsError
+from bem.notes import Level, of_summary
+from bem.notes.note import PLAIN
 from bem.plots.draw import load_what_draws
 from bem.plots.tables import summary_of_points
 from bem.results import RunDirectory
@@ -31,7 +33,6 @@ from bem.runs.table import dataset_variables, table_text
 from bem.scenes import get_kind
 from bem.scenes.asked import Asked, with_accuracy
 from bem.scenes.axes import Axis
-from bem.scenes.checks.words import without_numbers
 from bem.scenes.common import SceneModel
 from bem.scenes.context import Variable
 from bem.scenes.load import (
@@ -184,20 +185,26 @@ def run_sweep(
 
 
 def _tell_notes(summaries: Sequence[Mapping[str, Any] | None], labels: Sequence[str], watcher: Watcher) -> None:
-    """What the points' summaries say of their validity, each once: first what is outside the model, then the most
-    frequent. Notes that differ in figures alone are one, in the words of the first, at the point of that label."""
-    told: dict[str, dict[str, set[int]]] = {}  # by what is said: in which words, of which points
+    """Tell the notes of the points' summaries, those of one code and place once: the most serious ones first, then the
+    most frequent. Remarks are counted. Where the texts differ, the text of the first point is shown with its label."""
+    told: dict[tuple[str, ...], dict[str, set[int]]] = {}  # points by text, by what is said
+    levels: dict[tuple[str, ...], str] = {}
     for point, summary in enumerate(summaries):
-        for text in (summary or {}).get("notes") or ():
-            told.setdefault(without_numbers(text), {}).setdefault(text, set()).add(point)
-    number = {said: len(set().union(*by_words.values())) for said, by_words in told.items()}
-    in_order = sorted(told, key=lambda said: (OUTSIDE not in said, -number[said]))
-    for said in in_order[:_MOST_NOTES]:
+        for note in of_summary(summary or {}):
+            said = (note["code"], note["text"] if note["code"] == PLAIN else note["where"])
+            told.setdefault(said, {}).setdefault(note["text"], set()).add(point)
+            levels[said] = note["level"]
+    number = {said: len(set().union(*by_text.values())) for said, by_text in told.items()}
+    shown = [said for said in told if levels[said] != Level.INFO]
+    shown.sort(key=lambda said: (list(Level).index(Level(levels[said])), -number[said]))
+    for said in shown[:_MOST_NOTES]:
         text, points = next(iter(told[said].items()))
         of = f" (figures of {labels[min(points)]})" if len(told[said]) > 1 else ""
         watcher.note(f"{number[said]} of {len(summaries)} points{of}: {text}")
-    if len(told) > _MOST_NOTES:
-        watcher.note(f"and {len(told) - _MOST_NOTES} more, in the summary.json of points")
+    if (more := len(shown) - _MOST_NOTES) > 0:
+        watcher.note(f"and {more} more, in the summary.json of points")
+    if remarks := len(told) - len(shown):
+        watcher.note(f"{remarks} remark{'s' if remarks > 1 else ''} in the summary.json of points")
 
 
 def _plan_points(

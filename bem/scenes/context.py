@@ -14,6 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.errors import Status
+from bem.notes import Note, as_note
+from bem.notes.merge import merge
 from bem.numerics.blocks import row_blocks
 from bem.plausibility import without_argument_notes
 
@@ -62,8 +64,8 @@ class Bars(Protocol):
         """Errors by the names of their figures; None where there is none."""
 
     @property
-    def notes(self) -> tuple[str, ...]:
-        """Why not."""
+    def notes(self) -> tuple[Note, ...]:
+        """Notes on figures without error bars."""
 
     @property
     def parts(self) -> Mapping[str, Mapping[str, Any]]:
@@ -117,22 +119,17 @@ class Outcome:
 
 
 def tell(context: Context, notes: Iterable[str], about: str = "") -> None:
-    """Note each with what it is about before it, but for notes on arguments, of which scenes say it by their keys."""
+    """Note each, with the place `about`; not those on arguments, of which scenes say it by their keys."""
     for note in without_argument_notes(notes):
-        context.note(f"{about}{note}")
+        context.note(note.at(about) if about else note)
 
 
-def notes_over(name: str, unit: str, values: Sequence[float], notes: Sequence[Iterable[str]]) -> list[str]:
-    """The notes of results at several values, each once: as it is where all have it, else with its values before it,
-    neighbours as a range."""
-    places: dict[str, list[int]] = {}
-    for index, own in enumerate(notes):
-        for note in dict.fromkeys(own):
-            places.setdefault(note, []).append(index)
-    return [
-        note if len(at) == len(values) else f"{name}{'s' if len(at) > 1 else ''} {_ranges(values, at)} {unit}: {note}"
-        for note, at in places.items()
-    ]
+def notes_over(name: str, unit: str, values: Sequence[float], notes: Sequence[Iterable[str]]) -> list[Note]:
+    """Return the notes of results at several values, each once, with its values where these are not all of them.
+
+    Neighbouring values are named as a range.
+    """
+    return merge(notes, lambda at: f"{name}{'s' if len(at) > 1 else ''} {_ranges(values, at)} {unit}")
 
 
 def _ranges(values: Sequence[float], at: Sequence[int]) -> str:
@@ -191,7 +188,7 @@ class PlainContext:
 
     scene_seed: int = 0
     resumed: bool = False
-    notes: list[str] = field(default_factory=list)
+    notes: list[Note] = field(default_factory=list)
     seconds: dict[str, float] = field(default_factory=dict)
     state: dict[str, Any] | None = None
 
@@ -204,8 +201,9 @@ class PlainContext:
 
     def note(self, text: str) -> None:
         """See `Context`."""
-        if text not in self.notes:
-            self.notes.append(text)
+        note = as_note(text)
+        if note not in self.notes:
+            self.notes.append(note)
 
     @contextmanager
     def timer(self, stage: str) -> Iterator[None]:

@@ -20,6 +20,7 @@ from bem.friction.setup import FILM_CELLS
 from bem.grid import Grid
 from bem.lubrication.supply import InletDistance, inside_hertz
 from bem.materials import Body
+from bem.notes import Note
 from bem.scenes import build
 from bem.scenes.axes import Axis, changed
 from bem.scenes.common import (
@@ -378,6 +379,6 @@ def in_words_of_the_scene() -> Iterator[None]:
         raise InputError([m.replace("position: ", "film: the film grid ", 1) for m in error.messages]) from None
 
 
-def notes_of_balance(notes: Iterable[str], of_film: Collection[str]) -> tuple[str, ...]:
-    """What a balance says, its film's notes named as such."""
-    return tuple(f"film: {note}" if note in of_film else note for note in notes)
+def notes_of_balance(notes: Iterable[Note], of_film: Collection[Note]) -> tuple[Note, ...]:
+    """Return the notes of a balance, those of its film with that place."""
+    return tuple(note.at("film") if note in of_film else note for note in notes)

@@ -9,12 +9,21 @@ import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
+from bem.notes import Note
+from bem.notes.scenes import (
+    MAP_CONTINUED,
+    MAP_FILLED,
+    MAP_MIRRORED,
+    MAP_RESAMPLED,
+    MAP_SPACING_GIVEN,
+    MAP_SPIKES,
+)
 from bem.numerics.cache import KeptValues
 from bem.scenes.common import MeasuredSurface
 from bem.scenes.paths import checksum_of
@@ -60,7 +69,7 @@ class MapOnGrid:
     """A measured surface on a grid: heights [m], read-only where they are kept, and what had to be done to it."""
 
     heights: FloatArray
-    notes: tuple[str, ...]
+    notes: tuple[Note, ...]
 
     @property
     def nbytes(self) -> int:
@@ -74,7 +83,7 @@ def map_on(surface: MeasuredSurface, grid: Grid) -> MapOnGrid:
     kept = bool(content) and 8 * grid.cells <= KEPT.limit
 
     def make() -> MapOnGrid:
-        notes: list[str] = []
+        notes: list[Note] = []
         heights = fitted(surface, read_map(surface), grid, notes.append)
         heights.flags.writeable = not kept
         return MapOnGrid(heights, tuple(notes))
@@ -90,7 +99,7 @@ def map_size(surface: MeasuredSurface) -> tuple[tuple[int, int], tuple[float, fl
     return (nx * (1 + (surface.mirror in ("x", "both"))), ny * (1 + (surface.mirror in ("y", "both")))), found.spacing
 
 
-def fitted(surface: MeasuredSurface, found: Surface, grid: Grid, note: Callable[[str], None]) -> FloatArray:
+def fitted(surface: MeasuredSurface, found: Surface, grid: Grid, note: Callable[[Note], None]) -> FloatArray:
     """A measured surface, as `read_map` gives it, on the grid; what had to be done to it is noted."""
     from bem.scenes.checks.words import times
     from bem.surfaces import (
@@ -106,13 +115,13 @@ def fitted(surface: MeasuredSurface, found: Surface, grid: Grid, note: Callable[
     name = Path(surface.path).name
     missing = int(found.metadata.get("missing_points", 0) or 0)
     if missing:
-        note(f"{name}: {missing} points were missing and are filled from their neighbours")
+        note(MAP_FILLED(name, missing=missing))
     if told := found.metadata.get("spacing_in_file"):
         own, other = (f"{1e6 * side[0]:.4g} x {1e6 * side[1]:.4g} um" for side in (found.spacing, told))
-        note(f"{name}: points are taken as {own} apart, where the file says {other}")
+        note(MAP_SPACING_GIVEN(name, own=own, other=other))
     spikes = int(found.metadata.get("spikes", 0) or 0)
     if spikes:
-        note(f"{name}: {spikes} spikes were taken out and are filled from their neighbours")
+        note(MAP_SPIKES(name, spikes=spikes))
     if surface.low_pass is not None:
         found = low_pass(found, surface.low_pass)
     if surface.high_pass is not None:
@@ -126,24 +135,24 @@ def fitted(surface: MeasuredSurface, found: Surface, grid: Grid, note: Callable[
     if not same:
         centre = (0.0, 0.0) if surface.crop is not None else surface.centre
         resampled = _resampled(found, part, centre, name)
-        note(
-            f"{name}: {found.shape[0]} x {found.shape[1]} points at {times(found.spacing, 'm')} taken as "
-            f"{part.shape[0]} x {part.shape[1]} cells at {times(part.spacing, 'm')}"
-        )
+        sizes: dict[str, Any] = {
+            "points": f"{found.shape[0]} x {found.shape[1]}",
+            "spacing": times(found.spacing, "m"),
+            "cells": f"{part.shape[0]} x {part.shape[1]}",
+            "cell": times(part.spacing, "m"),
+        }
+        note(MAP_RESAMPLED(name, **sizes))
         found = resampled.replace(detrend(resampled.heights, part.spacing, surface.detrend))
     if any(axes):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", MirrorWarning)
             found = mirror_to_periodic(found, axes=axes)
-        note(f"{name}: made periodic by mirroring; the surface is symmetric about its seams")
+        note(MAP_MIRRORED(name))
     open_x, open_y = (wraps and not mirrored for wraps, mirrored in zip(grid.periodic, axes, strict=True))
     if open_x or open_y:
         found = close_seams(found, axes=(open_x, open_y))
         along = " and ".join(axis for axis, is_open in zip("xy", (open_x, open_y), strict=True) if is_open)
-        note(
-            f"{name}: continued periodically along {along}; the step where its ends meet is spread out (Moisan 2011), "
-            f"which changes the heights by {1e9 * found.metadata['seams_closed']:.3g} nm rms"
-        )
+        note(MAP_CONTINUED(name, along=along, change=float(found.metadata["seams_closed"])))
     if surface.rms_height is not None:
         found = scale_to_rms(found, surface.rms_height)
     return np.ascontiguousarray(found.heights - found.heights.mean())

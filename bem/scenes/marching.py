@@ -60,7 +60,7 @@ class Marched:
         """Of a case on its mesh (points or cells), told; `bars` of its films, where they are `wanted`."""
         with context.timer("film"):
             films = _films(case, mesh, context)
-        tell(context, dict.fromkeys(note for film in films for note in film.notes), "film: ")
+        tell(context, dict.fromkeys(note for film in films for note in film.notes), "film")
         last, over = films[-1], columns(films, ("time", "minimum_thickness", "central_thickness"))
         time, minimum = over["time"], over["minimum_thickness"]
         figures = {

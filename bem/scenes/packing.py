@@ -12,6 +12,9 @@ from collections.abc import Mapping, Sequence
 from enum import Enum
 from typing import TYPE_CHECKING, Any
 
+from bem.notes import Note
+from bem.notes import unpacked as unpacked_note
+
 if TYPE_CHECKING:
     from bem.scenes.context import Context
 
@@ -40,6 +43,8 @@ def packed(value: Any, given: Sequence[Any] = ()) -> Any:
     for number, known in enumerate(given):
         if value is known:
             return {"given": number}
+    if isinstance(value, Note):
+        return {"note": value.packed()}
     if isinstance(value, Enum):
         return {"member": _name(type(value)), "value": value.value}
     if dataclasses.is_dataclass(value) and not isinstance(value, type):
@@ -63,6 +68,8 @@ def unpacked(value: Any, given: Sequence[Any] = ()) -> Any:
         return value
     if "given" in value:
         return given[value["given"]]
+    if "note" in value:
+        return unpacked_note(value["note"])
     if "tuple" in value:
         return tuple(unpacked(item, given) for item in value["tuple"])
     if "member" in value:

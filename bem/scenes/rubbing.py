@@ -21,11 +21,6 @@ _TRANSFORMS = 3 * 6.0 * 22
 """Of a cycle: three steps as those of kind partial-slip."""
 _RUBBING_CYCLE = 0.015
 """Processor time of the slip solver besides its transforms in one cycle [s]."""
-FRICTION_SLIDES = (
-    "the bodies slide at the speeds given, and friction and film are those of gross sliding; partial slip is in the "
-    "stresses below the surface and in what wears"
-)
-"""Note of kind running-in."""
 FIRST_ORDER = "of first order in the cell at the edges of contact and stick; compare with the grid of twice the cell"
 """Why figures of a loop have no error bar."""
 _told = partial(Figure, optional=True, headline=True, no_bar=FIRST_ORDER)

@@ -12,6 +12,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 import numpy as np
 
 from bem.grid import FloatArray, Grid
+from bem.notes.accuracy import NoBar
+from bem.notes.scenes import PRESSURE_WITHOUT_FRICTION
 from bem.scenes import build, plans
 from bem.scenes.context import Context, tell
 from bem.scenes.planner import Plan, Step, padded_points
@@ -129,7 +131,7 @@ class Found:
 def bars(scene: StressedScene, site: Site, found: Found, again: Callable[[Site], Coarse]) -> ErrorBars:
     """Error bars of figures that have rules, of contact and stresses, from what `again` finds on the coarser grid."""
     from bem.accuracy import ContactCase, ErrorBars, contact_bars, solve_coarser, stress_bars
-    from bem.accuracy.sticking import UNSOLVED, sticking_bars
+    from bem.accuracy.sticking import sticking_bars
 
     given = scene.contact.prescribed(site.grid.area)
     operator = build.operator_of(scene, site.grid, 0.0)
@@ -142,7 +144,7 @@ def bars(scene: StressedScene, site: Site, found: Found, again: Callable[[Site],
     case, coarser = replace(case, solution=found.contact), replace(coarser, solution=there.contact)
     of_contact = contact_bars(case, coarser).renamed({name: name for name in ("load", "contact_area_fraction")})
     if not there.converged:
-        return ErrorBars.unknown(found.figures, UNSOLVED) | of_contact
+        return ErrorBars.unknown(found.figures, NoBar.COARSER_UNSOLVED) | of_contact
     own = sticking_bars(
         found.rules, case, found.figures, there.figures, found.residual, there.fewer, found.given, found.limit
     )
@@ -168,10 +170,7 @@ def coupled(scene: StressedScene) -> bool:
 def tell_coupled(scene: StressedScene, context: Context) -> None:
     """A note that it is not followed, where it does."""
     if coupled(scene):
-        context.note(
-            "the bodies differ in elasticity, so that tractions change the pressure: the pressure is that of the "
-            "contact without friction"
-        )
+        context.note(PRESSURE_WITHOUT_FRICTION())
 
 
 def plan_around(scene: PushedScene | RolledScene, steps: Callable[[Grid, float], Iterable[Step]], again: float) -> Plan:

@@ -21,6 +21,7 @@ from bem.errors import ConvergenceError, InputError, Status
 from bem.grid import FloatArray, Grid
 from bem.heat.steady import flash_temperature
 from bem.materials import Body, Layer, Material
+from bem.notes import Note
 from bem.plausibility import material_arguments, notes_on_arguments
 from bem.tribofilm.growth import GrowthLaw
 from bem.tribofilm.properties import FilmProperty
@@ -98,7 +99,7 @@ class ContactSample:
         return replace(self, growth_map=np.zeros((0, 0)), pressure=np.zeros((0, 0)))
 
 
-def notes_on_growth(contact: FilmContact, wear_coefficient: float, initial_thickness: float) -> tuple[str, ...]:
+def notes_on_growth(contact: FilmContact, wear_coefficient: float, initial_thickness: float) -> tuple[Note, ...]:
     """Notes on arguments of `grow_tribofilm` and `grow_local_film` outside their usual ranges."""
     arguments: dict[str, tuple[str, Any]] = {
         "wear_coefficient": ("wear coefficient of a tribofilm", wear_coefficient),

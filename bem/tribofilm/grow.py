@@ -10,6 +10,7 @@ import numpy as np
 
 from bem.errors import InputError
 from bem.grid import FloatArray
+from bem.notes import Note
 from bem.representation import tabled
 from bem.tribofilm.balance import FilmBalance
 from bem.tribofilm.contact_growth import (
@@ -40,7 +41,7 @@ class TribofilmGrowth:
     contacts: tuple[ContactSample, ...]
     film_map: FloatArray
     steady: float
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
 
     @property
     def contacts_solved(self) -> int:

@@ -20,6 +20,7 @@ from numpy.typing import NDArray
 
 from bem.errors import ConvergenceError
 from bem.grid import FloatArray
+from bem.notes import Note
 from bem.tribofilm.balance import FilmBalance, checked_times
 from bem.tribofilm.contact_growth import ContactSample, FilmContact, notes_on_growth, solve_film_contact
 from bem.tribofilm.evolution import FilmHistory
@@ -49,7 +50,7 @@ class LocalFilm:
     samples: tuple[ContactSample, ...]
     rejected: int
     balance: FilmBalance
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
     steady_thickness: None = None
 
     @property

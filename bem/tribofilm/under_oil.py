@@ -24,11 +24,6 @@ if TYPE_CHECKING:
     from bem.lubrication import Lubricant
     from bem.tribofilm.contact_growth import FilmContact
 
-NOTE = (
-    "oil and surfaces share the load as before any tribofilm grew: how its thickness and softness change the share is "
-    "left out"
-)
-
 
 def under_oil(
     contact: FilmContact, height: FloatArray, radii: Sequence[float], lubricant: Lubricant, film_cells: int

@@ -18,7 +18,7 @@ from numpy.typing import NDArray
 
 from bem.contact import ContactSolution
 from bem.errors import InputError, Status
-from bem.friction.balance import NEGLIGIBLE, NO_FILM_NOTE, Balance, BalanceStart, Regime, boundary_note, share_load
+from bem.friction.balance import NEGLIGIBLE, Balance, BalanceStart, Regime, share_load
 from bem.friction.choose_contact import rough_contact
 from bem.friction.film import Film, PatchFilm, middle_line
 from bem.friction.film_table import FilmTable
@@ -31,7 +31,11 @@ from bem.friction.oil_volume import OilVolume
 from bem.friction.rough_contact import CoupledContact, RoughContact, boundary_traction
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray
+from bem.lubrication.validity import THINNEST_FILM
 from bem.materials import Body
+from bem.notes import Note
+from bem.notes.friction import BOUNDARY_LUBRICATION, NO_FILM
+from bem.notes.wear import OIL_WITH_PARTICLES_UNKNOWN
 from bem.wear.cycle import ContactOutcome, rows_of_contact
 from bem.wear.state import pack_table, unpack_table
 from bem.wear.third_bodies import ThirdBodies
@@ -63,12 +67,10 @@ Temperatures are those of the surfaces in contact, mean by pressure and highest;
 REGIMES = tuple(Regime)
 _TAKEN_FOR_NONE = len(REGIMES)
 """Index of boundary lubrication by rule: where the film's model ends and the film is too thin to count."""
+LAST_CYCLE = "last cycle"
+"""Place of notes on the last cycle."""
 FEW = 0.01
 """Share of the load on particles up to which the oil beside the contact is judged without them."""
-_OIL_UNKNOWN = (
-    "how far the load sharing hangs on the oil beside Hertz' contact is not known with particles that bear load: "
-    'compare sharing.oil_volume = "loaded"'
-)
 
 
 @dataclass(frozen=True)
@@ -94,7 +96,7 @@ class LastCycle:
     balance: Balance
     heights: FloatArray
     forces: Forces
-    coupling: tuple[str, ...]
+    coupling: tuple[Note, ...]
     borne: float
 
 
@@ -229,29 +231,30 @@ class MixedContact:
         return middle_line(film.thickness) if contact is None else contact.separation
 
     @property
-    def film_notes(self) -> tuple[str, ...]:
-        """What the last cycle's film says of its model."""
+    def film_notes(self) -> tuple[Note, ...]:
+        """Notes of the last cycle's film on its model."""
         return () if self.last is None else self.last.balance.film.notes
 
     @property
-    def notes(self) -> tuple[str, ...]:
-        """What to say of the cycles so far: those in boundary lubrication, and models outside their validity."""
+    def notes(self) -> tuple[Note, ...]:
+        """Notes on the cycles so far: those in boundary lubrication, and models outside their validity."""
         last, notes = self.last, []
         if last is None:
             return ()
-        left = boundary_note(NEGLIGIBLE * self.setup.tolerance)
-        for regime, said in ((REGIMES.index(Regime.BOUNDARY), left), (_TAKEN_FOR_NONE, NO_FILM_NOTE)):
+        left = BOUNDARY_LUBRICATION(share=NEGLIGIBLE * self.setup.tolerance)
+        none = NO_FILM(limit=THINNEST_FILM)
+        for regime, note in ((REGIMES.index(Regime.BOUNDARY), left), (_TAKEN_FOR_NONE, none)):
             if number := int(np.sum(self.rows["regime"] == regime)):
-                notes.append(f"{number} of {len(self.rows)} cycles: {said}")
+                notes.append(note.at(f"{number} of {len(self.rows)} cycles"))
         friction = float(self.rows["friction"].max())
         notes += [*self.film_notes, *validity_notes(friction, last.forces, last.balance.film, self._whole, self.setup)]
         oil = self.oil()
-        hanging = () if oil is None else tuple(f"last cycle: {note}" for note in oil_notes([oil]))
+        hanging = () if oil is None else tuple(note.at(LAST_CYCLE) for note in oil_notes([oil]))
         if last.borne > FEW and self.setup.counted is not OilVolume.LOADED:
-            hanging = (_OIL_UNKNOWN,)
+            hanging = (OIL_WITH_PARTICLES_UNKNOWN(),)
         covered = covered_notes([(float(self.rows["friction"][-1]), last.forces.covered / self.setup.load)])
         shape = self._follower.notes(self.worn, len(self.rows)) if self.film_shape == "worn" else ()
-        return (*notes, *last.coupling, *hanging, *(f"last cycle: {note}" for note in covered), *shape)
+        return (*notes, *last.coupling, *hanging, *(note.at(LAST_CYCLE) for note in covered), *shape)
 
     def oil(self) -> OilBeside | None:
         """How far the last cycle's load sharing hangs on the oil beside Hertz' contact; one more balance."""

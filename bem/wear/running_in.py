@@ -20,6 +20,8 @@ from numpy.typing import NDArray
 from bem.errors import ConvergenceError, InputError, Status
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
+from bem.notes import Note
+from bem.notes.wear import THIRD_BODIES_FULL
 from bem.plausibility import body_arguments, notes_on_arguments
 from bem.representation import tabled
 from bem.wear.criterion import Detachment, LocalWear
@@ -78,7 +80,7 @@ class RunningIn:
     state: RunningInState
     status: Status
     wearing: tuple[int, ...] = (LOWER,)
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
     step_error: float | None = None
     moving: int = LOWER
 
@@ -190,7 +192,7 @@ def run_in(
     )
 
 
-def _notes_on_arguments(setup: WearSetup) -> tuple[str, ...]:
+def _notes_on_arguments(setup: WearSetup) -> tuple[Note, ...]:
     """Notes on arguments of `run_in` outside their usual ranges."""
     arguments: dict[str, tuple[str, Any]] = {
         "load": ("load", setup.load),
@@ -264,17 +266,12 @@ def _there_now(particles: ThirdBodies, state: RunningInState, grid: Grid) -> Thi
     return replace(particles, number_per_area=number)
 
 
-def _crowded(particles: ThirdBodies | None, state: RunningInState) -> tuple[str, ...]:
-    """What to say of particles as many as there is room for."""
+def _crowded(particles: ThirdBodies | None, state: RunningInState) -> tuple[Note, ...]:
+    """Return a note where particles cover the area."""
     if particles is None or particles.shed == 0:
         return ()
     full = int((state.cycles["third_bodies_per_area"] >= particles.most_per_area * (1 - 1e-9)).sum())
-    if not full:
-        return ()
-    return (
-        f"third bodies cover the area once in {full} of {len(state.cycles)} cycles, and no more are counted: fewer "
-        "stay (shed), or more leave",
-    )
+    return (THIRD_BODIES_FULL(full=full, cycles=len(state.cycles)),) if full else ()
 
 
 def advance(state: RunningInState, setup: WearSetup, model: WearModel, contact_step: ContactStep) -> RunningInState:

@@ -13,6 +13,7 @@ from numpy.typing import NDArray
 
 from bem.errors import Status
 from bem.grid import FloatArray
+from bem.notes import unpacked
 from bem.wear.setup import LOWER, UPPER
 from bem.wear.traction import Rubbing
 
@@ -121,12 +122,14 @@ def unpack_state(packed: dict[str, Any]) -> RunningInState:
 
 def pack_rubbing(rubbing: Rubbing) -> dict[str, Any]:
     """What friction did in a cycle, as plain arrays, numbers and words."""
-    return {**vars(rubbing), "status": rubbing.status.value, "notes": list(rubbing.notes)}
+    return {**vars(rubbing), "status": rubbing.status.value, "notes": [note.packed() for note in rubbing.notes]}
 
 
 def unpack_rubbing(packed: dict[str, Any]) -> Rubbing:
     """What was packed."""
-    return Rubbing(**{**packed, "status": Status(packed["status"]), "notes": tuple(packed["notes"])})
+    return Rubbing(
+        **{**packed, "status": Status(packed["status"]), "notes": tuple(unpacked(one) for one in packed["notes"])}
+    )
 
 
 def pack_table(table: NDArray[np.void]) -> dict[str, NDArray[Any]]:

@@ -18,7 +18,7 @@ from typing import Any
 
 import numpy as np
 
-from bem.errors import OUTSIDE, InputError
+from bem.errors import InputError
 from bem.friction.balance import Balance, Regime
 from bem.friction.film import Film, PatchFilm, middle_line
 from bem.friction.film_table import FilmTable
@@ -27,6 +27,15 @@ from bem.friction.smooth import LineContact
 from bem.friction.worn_film import SearchedWornFilms, ShapeChange, ShapeSolver, WornFilms, neighbours
 from bem.grid import FloatArray
 from bem.lubrication.line_shaped import ShapedStart
+from bem.notes import Note
+from bem.notes.wear import (
+    FILM_HAS_WORN_SHAPE,
+    FILM_KEEPS_SHAPE,
+    WORN_FILM_AT_OTHER_LOAD,
+    WORN_FILM_NOT_FOUND,
+    WORN_SHAPE_REACHES_END,
+    WORN_SHAPE_WITHOUT_HEAT,
+)
 
 FILM_SHAPES = ("worn", "unworn")
 """Macroscopic shapes that the film of a wear loop may have."""
@@ -148,34 +157,26 @@ class ShapeFollower:
             )
         return worn
 
-    def notes(self, worn: WornShape, cycles: int) -> tuple[str, ...]:
+    def notes(self, worn: WornShape, cycles: int) -> tuple[Note, ...]:
         """Return the notes on the worn shape after a number of cycles."""
         if self.solver is None:
             if worn.behind <= RESOLUTION:
                 return ()
-            why = "the film of a ball" if self.setup.radii is not None else "a film with a limited supply of oil"
-            return (
-                f"{why} keeps the unworn shape: what wear took off the standing body is off the film's gap by "
-                f"{100 * worn.behind:.2g} % and counts as roughness alone",
-            )
+            film = "the film of a ball" if self.setup.radii is not None else "a film with a limited supply of oil"
+            return (FILM_KEEPS_SHAPE(film=film, behind=worn.behind),)
         notes = []
         if worn.shape is not None:
-            notes.append(_followed_note(worn))
+            notes.append(FILM_HAS_WORN_SHAPE(depth=float(np.ptp(worn.shape)), shapes=worn.updates))
         if worn.shape is not None and self.setup.thermal != "off":
-            notes.append("the worn shape changes the film as it changes one without heat")
-        if worn.shape is not None and (end := _end_note(worn.shape)):
-            notes.append(end)
+            notes.append(WORN_SHAPE_WITHOUT_HEAT())
+        if worn.shape is not None:
+            end, deepest = _end_and_deepest(worn.shape)
+            if end > END_SHARE * deepest:
+                notes.append(WORN_SHAPE_REACHES_END(depth=end))
         if worn.kept:
-            notes.append(
-                f"{OUTSIDE}in {worn.kept} of {cycles} cycles no film of the worn shape was found, and the film kept an "
-                f"earlier shape; at the end the worn depth is off the film's gap by {100 * worn.behind:.2g} %. Compare "
-                'sharing.film_shape = "unworn"'
-            )
+            notes.append(WORN_FILM_NOT_FOUND(kept=worn.kept, cycles=cycles, behind=worn.behind))
         if worn.clamped:
-            notes.append(
-                f"{OUTSIDE}in {worn.clamped} of {cycles} cycles the worn shape changed the film as at another film "
-                "load, since no film was found at its own"
-            )
+            notes.append(WORN_FILM_AT_OTHER_LOAD(clamped=worn.clamped, cycles=cycles))
         return tuple(notes)
 
     def _behind(self, depth: FloatArray, worn: WornShape, film: PatchFilm) -> float:
@@ -233,22 +234,9 @@ END_SHARE = 0.1
 """Worn depth at the end of the patch, relative to the deepest, from which a note says so."""
 
 
-def _followed_note(worn: WornShape) -> str:
-    assert worn.shape is not None
-    return (
-        f"the film has the worn shape of the standing body, {1e9 * float(np.ptp(worn.shape)):.3g} nm deep "
-        f'(sharing.film_shape = "worn"); it was solved for {worn.updates} shapes'
-    )
-
-
-def _end_note(shape: FloatArray) -> str:
-    end, deepest = max(abs(float(shape[0])), abs(float(shape[-1]))), float(np.abs(shape).max())
-    if end <= END_SHARE * deepest:
-        return ""
-    return (
-        f"the worn shape reaches the ends of the patch, {1e9 * end:.3g} nm deep there, and the film takes it as going "
-        "on beyond them: make the grid longer along x"
-    )
+def _end_and_deepest(shape: FloatArray) -> tuple[float, float]:
+    """Return the depths of a worn shape at the ends of the patch and at its deepest place [m]."""
+    return max(abs(float(shape[0])), abs(float(shape[-1]))), float(np.abs(shape).max())
 
 
 def pack_worn(worn: WornShape) -> dict[str, Any]:

@@ -8,6 +8,8 @@ import pytest
 from error_bar_ratios import ratios_of
 
 from bem.accuracy import TribofilmCase, particle_bars, tribofilm_bars
+from bem.notes import has_code
+from bem.notes.accuracy import BARS_OF_LARGE_PARTICLES
 from bem.particles import particles_from_height_map
 from reports.experiments import flow_error_bars, particle_error_bars, rubbing_error_bars, tribofilm_error_bars
 
@@ -68,7 +70,7 @@ def test_more_particles_have_a_smaller_scatter_and_smaller_pixels_a_smaller_erro
     one = particles_from_height_map(np.pad(np.full((4, 4), 1e-7), 6), (pixel, pixel), **seen)
     none = particle_bars(one, np.zeros((16, 16)), (pixel, pixel), seen)
     assert set(none.values.values()) == {None}
-    assert "fewer than two" in none.notes[0]
+    assert none.notes[0].values["reason"] == "few-particles"
 
 
 def test_particles_whose_large_ones_are_more_frequent_than_log_normal_say_so():
@@ -78,7 +80,7 @@ def test_particles_whose_large_ones_are_more_frequent_than_log_normal_say_so():
     for sizes in (3 + np.minimum(3 * rng.pareto(1.2, 40), 30), 5 * np.exp(0.3 * rng.standard_normal(40))):
         heights = particle_error_bars.plate(rng, 320, 1, sizes)
         found = particles_from_height_map(heights, (pixel, pixel), **seen)
-        told.append(any("more frequent" in note for note in particle_bars(found, heights, (pixel, pixel), seen).notes))
+        told.append(has_code(particle_bars(found, heights, (pixel, pixel), seen).notes, BARS_OF_LARGE_PARTICLES))
     assert told == [True, False]
 
 
@@ -90,5 +92,5 @@ def test_a_bar_of_several_times_its_figure_is_a_reason_instead():
     bars = particle_bars(found, heights, (pixel, pixel), seen)
     assert bars.values["volume"] is None
     assert "volume" not in bars.parts["sample"]
-    assert any("9 particles" in note and "volume" in note for note in bars.notes)
+    assert any(note.values.get("count") == 9 and "volume" in note.values["figures"] for note in bars.notes)
     assert bars.values["count"] > 0

@@ -60,7 +60,7 @@ def test_the_coarser_loop_has_half_of_all_and_slides_as_far():
 def test_odd_grids_and_loops_that_wear_nothing_have_none_and_say_so(tmp_path):
     done = run_scene(SCENE, tmp_path / "run", settings=[*ASKED, "domain.cells=[40, 39]"], figures=False).summary
     assert done["Sq_final_nm_error"] is None
-    assert any("it needs even numbers of cells" in note for note in done["notes"])
+    assert any("even numbers of cells" in note["text"] for note in done["notes"])
     nothing = dict.fromkeys(RULES, 0.0)
     assert set(wear_bars(nothing, nothing).values.values()) == {None}
 
@@ -113,7 +113,8 @@ def test_the_plan_and_the_notes_know_of_it(tmp_path):
     assert not steps["error bars"].skipped
     assert {step.name: step for step in plan_scene(SCENE)[1].steps}["error bars"].skipped
     few = ["cycles.count=4", "cycles.settled=2", "repetitions=2"]
-    notes = " ".join(run_scene(SCENE, tmp_path / "run", settings=[*ASKED, *few], figures=False).summary["notes"])
+    summary = run_scene(SCENE, tmp_path / "run", settings=[*ASKED, *few], figures=False).summary
+    notes = " ".join(note["text"] for note in summary["notes"])
     assert "(but for" in notes
     assert "Sq final" in notes
 

@@ -19,7 +19,9 @@ from small_scenes import CONTACT as SCENE
 from small_scenes import PATCH
 
 from bem.campaigns.jobs import processes
-from bem.errors import OUTSIDE, InputError, ResultsError
+from bem.errors import InputError, ResultsError
+from bem.notes import OUTSIDE
+from bem.notes.lubrication import FILM_MOLECULAR, FILM_SPIKE, FILM_THICK, SHEAR_LIMITED
 from bem.plots.draw import figure_kind
 from bem.results import RunDirectory, open_run
 from bem.results.dataset import read_dataset
@@ -27,7 +29,6 @@ from bem.runs import run_sweep
 from bem.runs.point import Done, Point, store
 from bem.runs.scene import run_planned
 from bem.runs.sweep import _tell_notes
-from bem.scenes.checks.words import without_numbers
 
 OVER = ["contact.mean_pressure=log:20 MPa:80 MPa:3", "seed=1:2"]
 
@@ -526,25 +527,21 @@ def test_what_is_outside_the_model_is_among_the_notes_of_a_sweep_that_are_told()
 
 
 @pytest.mark.internal
-def test_notes_that_differ_in_figures_alone_are_told_once_with_those_of_the_first_point():
+def test_notes_of_one_code_are_told_once_with_those_of_the_first_point():
     """A sweep of 27 points told twenty times that its particles were as large as the grid, and cut off the rest."""
-    points = [
-        {"notes": [f"largest {10 * i + 9.5:g} um, {i} % on a grid of {i}e-05 m", "same 2 GPa"]} for i in range(30)
-    ]
-    points[3]["notes"] += ["1 GPa at load 2 N", "1 GPa at load 20 mN"]  # of two cases of one point
-    points[7]["notes"].append(f"{OUTSIDE}7 of it")
+    molecular = [{"notes": [FILM_MOLECULAR(limit=1e-9 * (i + 1)).as_dict(), "same 2 GPa"]} for i in range(30)]
+    points = [*molecular]
+    points[3]["notes"] += [FILM_SPIKE(where, remedy="").as_dict() for where in ("load 2 N", "load 20 mN")]
+    points[5]["notes"].append(SHEAR_LIMITED(limit="").as_dict())
+    points[7]["notes"].append(FILM_THICK(limit=0.02).as_dict())
     points[1] = None
     _tell_notes(points, [f"a = {i}" for i in range(30)], told := Telling())
-    assert told.notes == [
-        f"1 of 30 points: {OUTSIDE}7 of it",
-        "29 of 30 points (figures of a = 0): largest 9.5 um, 0 % on a grid of 0e-05 m",
-        "29 of 30 points: same 2 GPa",
-        "1 of 30 points (figures of a = 3): 1 GPa at load 2 N",
+    assert [text.partition(": ")[0] for text in told.notes[:3]] == [
+        "1 of 30 points",
+        "29 of 30 points (figures of a = 0)",
+        "29 of 30 points",
     ]
-
-
-@pytest.mark.internal
-def test_names_with_digits_and_units_that_differ_keep_notes_apart():
-    assert without_numbers("S235 at 3 GPa") != without_numbers("S355 at 3 GPa")
-    assert without_numbers("12 m of it") != without_numbers("12 s of it")
-    assert without_numbers("12 um, -1e-09 Pa") == without_numbers("0.3 nm, 4.5 MPa")
+    assert OUTSIDE in told.notes[0]
+    assert FILM_MOLECULAR(limit=1e-9) in told.notes[1]
+    assert [text.split(": ")[1] for text in told.notes[3:5]] == ["load 2 N", "load 20 mN"]
+    assert told.notes[5:] == ["1 remark in the summary.json of points"]

@@ -27,6 +27,9 @@ from bem.friction.films import films_of
 from bem.friction.point_film import SolvedPointFilm, sampled_point, solved_point_film, thin_film
 from bem.friction.setup import MixedSetup
 from bem.friction.smooth import PointContact
+from bem.notes import has_code
+from bem.notes.friction import FILM_WITHOUT_LAYERS, POINT_FILM_THIN
+from bem.notes.lubrication import FILM_MOLECULAR
 from bem.reference_solutions.hertz import ellipse_contact
 
 MODULUS = 210e9 / 2 / (1 - 0.3**2)
@@ -65,7 +68,7 @@ def test_without_oil_it_is_the_dry_ball():
     dry = solve_contact(gap, displacement_operator(GRID, (Body(STEEL), Body(STEEL))), load=20.0)
     # the film has a ten-thousandth of the load, and is thinner than a molecule
     assert found.film_load < 3e-4 * 20.0
-    assert any("few molecules" in note for note in found.notes)
+    assert has_code(found.notes, FILM_MOLECULAR)
     assert found.contact_area == pytest.approx(dry.contact_area, rel=1e-3)
     assert np.abs(found.contact_pressure - dry.pressure).max() < 1e-3 * dry.pressure.max()
     assert found.friction == pytest.approx(0.12, rel=1e-3)
@@ -209,7 +212,7 @@ def test_thin_film_goes_on_from_a_solved_one(counted):
     assert -made.shear_force[0, 0] == pytest.approx(-whole.shear_force[0, 0], rel=0.03)
     cell = np.diff(made.x)[0] * np.diff(made.y)[0]
     assert made.pressure.sum() * cell == pytest.approx(20.0, rel=0.01)  # the far inlet carries the rest
-    assert any("thinner than its cells" in note for note in made.notes)
+    assert has_code(made.notes, POINT_FILM_THIN)
 
 
 def test_a_film_that_its_cells_cannot_show_is_no_boundary_lubrication():
@@ -226,4 +229,5 @@ def test_a_coated_ball_says_that_its_film_is_the_uncoated_ones():
     layer = Layer(Material("DLC", youngs_modulus=150e9, poissons_ratio=0.25), 2e-6)
     coated = BALL | {"bodies": (Body(STEEL, layer=layer), Body(STEEL))}
     found = solve_mixed(**coated, height=rough(), speeds=(0.5, 0.5))
-    assert [note for note in found.notes if "uncoated bodies" in note and "as thick as 0.018 of" in note]
+    (note,) = [note for note in found.notes if note.code == FILM_WITHOUT_LAYERS.code]
+    assert note.values["ratio"] == pytest.approx(0.018, abs=5e-4)

@@ -6,13 +6,14 @@ from mixed_case import mixed_case
 
 from bem import Lubricant, solve_mixed
 from bem.friction.oil_on_contact import MATTERS, covered_notes
+from bem.notes import Level
+from bem.notes.friction import OIL_ON_CONTACT
 
 CASE = mixed_case(100, 0.9e-6, 4e-6, lubricant=Lubricant(0.36, pressure_viscosity=25e-9), boundary_friction=0.15)
-SAID = "oil on cells in contact"
 
 
 def said(point):
-    return [note for note in point.notes if SAID in note]
+    return [note for note in point.notes if note.code == OIL_ON_CONTACT.code]
 
 
 @pytest.mark.internal
@@ -40,8 +41,10 @@ def test_nothing_is_left_out_of_a_full_film():
 def test_the_note_names_the_worst_of_many_speeds_and_is_silent_where_little_changes():
     assert covered_notes([(0.1, 0.004), (0.05, -0.002), (0.0, 0.0)]) == ()
     (one,) = covered_notes([(0.1, 0.01), (0.1, 0.004)])
-    assert "would be 0.11, here 0.1" in one
-    assert "most" not in one
+    assert (one.values["with_oil"], one.values["friction"]) == pytest.approx((0.11, 0.1))
+    assert not one.values["most"]
     (many,) = covered_notes([(0.1, 0.01), (0.05, 0.02)])
-    assert "would be 0.07, here 0.05, where that differs most" in many
+    assert (many.values["with_oil"], many.values["friction"]) == pytest.approx((0.07, 0.05))
+    assert many.values["most"]
+    assert (one.level, many.level) == (Level.INFO, Level.CAUTION)
     assert covered_notes([(0.0, 0.01)])

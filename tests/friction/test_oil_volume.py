@@ -11,9 +11,8 @@ from mixed_case import BALL, rough_patch
 
 from bem import Body, Grid, InputError, Lubricant, Material, Status, generate_surface, solve_mixed, stribeck_curve
 from bem.benchmarks.lubricated_cases import mixed_case
-from bem.errors import outside
 from bem.friction import load_sharing, oil_sensitivity
-from bem.friction.balance import NO_FILM_NOTE, BalanceStart, Regime, share_load
+from bem.friction.balance import BalanceStart, Regime, share_load
 from bem.friction.choose_contact import rough_contact
 from bem.friction.falling_zero import _parabola, falling_zero
 from bem.friction.film import PatchFilm
@@ -21,6 +20,16 @@ from bem.friction.oil_beside import OilBeside, oil_notes
 from bem.friction.oil_volume import OilVolume, mean_where_counted
 from bem.friction.setup import MixedSetup
 from bem.friction.smooth import LineContact, PointContact
+from bem.notes import Level, has_code, outside
+from bem.notes.friction import (
+    BOUNDARY_LUBRICATION,
+    FILM_MODEL_ENDS,
+    NO_FILM,
+    OIL_BESIDE_DECIDES,
+    OIL_BESIDE_FOLLOWS,
+    OIL_BESIDE_UNKNOWN,
+    OIL_IN_HERTZ_FOLLOWS,
+)
 from bem.wear.mixed import MixedContact, film_table
 
 STEEL = Body(Material("steel", youngs_modulus=207e9, poissons_ratio=0.3))
@@ -83,9 +92,10 @@ def test_one_volume_of_oil_follows_the_patch_and_says_so():
     loaded = solve_mixed(**bearing(112, oil_volume=OilVolume.LOADED), speeds=(1e-4, 0.0))
     for point in points:
         assert point.oil.matters
-        (note,) = (note for note in point.notes if "length of the patch" in note)
-        assert f"{100 * point.oil.share:.3g} % of it lies beside Hertz' contact" in note
-        assert outside([note])[0].startswith(f"the surfaces have {100 * shares[points.index(point)]:.3g} % of the load")
+        (note,) = (note for note in point.notes if note.code == OIL_BESIDE_DECIDES.code)
+        assert note.level is Level.OUTSIDE_MODEL
+        assert note.values["share"] == point.oil.share
+        assert note.values["contact_share"] == shares[points.index(point)]
         # its balance is to 1e-3 of the oil and to contacts of 1e-5 of the gap
         assert point.oil.loaded_contact_share == pytest.approx(loaded.contact_load / loaded.load, abs=0.01)
         assert point.oil.loaded_friction == pytest.approx(loaded.friction, rel=0.01)
@@ -160,11 +170,11 @@ def test_wear_cycles_take_it_too():
     assert outcome.status is Status.CONVERGED
     # a table of films is good to 1e-4 of the thickness
     assert step.rows["contact_load"][0] == pytest.approx(point.contact_load, rel=2e-3)
-    assert not any("length of the patch" in note for note in step.notes)
+    assert not has_code(step.notes, OIL_BESIDE_DECIDES, OIL_BESIDE_FOLLOWS)
     patch = MixedContact(setup_of(bearing(64)), (0.01, 0.0))
     patch(case["height"], None)
-    (note,) = (note for note in patch.notes if "length of the patch" in note)
-    assert note.startswith("last cycle: ")
+    (note,) = (note for note in patch.notes if has_code([note], OIL_BESIDE_DECIDES, OIL_BESIDE_FOLLOWS))
+    assert note.where == "last cycle"
 
 
 @pytest.mark.internal
@@ -226,8 +236,7 @@ def test_where_the_films_model_ends_before_the_oil_fits_it_is_infeasible(counted
     balance = share_load(film, rough, load, 1e-4, film.under(0.1 * load, 0, None), BalanceStart(0.05 * load))
     assert balance.status is Status.INFEASIBLE
     assert balance.oil_imbalance < -1e-3  # of the contact and the film that are returned
-    (said,) = (note for note in balance.notes if "model ends at a load" in note)
-    assert "thicker there than the surfaces leave open" in said
+    assert has_code(balance.notes, FILM_MODEL_ENDS)
 
 
 @pytest.mark.internal
@@ -240,8 +249,8 @@ def test_a_film_taken_for_none_is_told_apart_from_one_that_is_left_with_none(thi
     balance = share_load(film, rough, load, 1e-4, film.under(0.1 * load, 0, None), BalanceStart(0.05 * load))
     assert balance.status is Status.CONVERGED
     assert balance.regime is Regime.BOUNDARY
-    assert (NO_FILM_NOTE in balance.notes) == by_rule == balance.film_neglected
-    assert any("the film is left with less than" in note for note in balance.notes) != by_rule
+    assert has_code(balance.notes, NO_FILM) == by_rule == balance.film_neglected
+    assert has_code(balance.notes, BOUNDARY_LUBRICATION) != by_rule
 
 
 @pytest.mark.internal
@@ -410,18 +419,18 @@ def test_what_is_said_of_one_result_and_of_a_curve():
     assert [oil.matters for oil in (alike, load, friction, small, unknown)] == [False, True, True, False, True]
     assert oil_notes([alike, small]) == ()
     (note,) = oil_notes([alike, friction, load])
-    assert "80 % of it" in note
-    assert "56 % of the load, here 50 %" in note
-    assert note.endswith("where that differs most")
-    assert "not known of 1" in oil_notes([load, unknown])[0]
-    assert oil_notes([unknown])[0].endswith("how far is not known")
+    assert (note.code, note.level) == (OIL_BESIDE_FOLLOWS.code, Level.INFO)
+    assert (note.values["share"], note.values["loaded_contact_share"]) == (0.8, 0.56)
+    assert "where that differs most" in note
+    assert [one.code for one in oil_notes([load, unknown])] == [OIL_BESIDE_FOLLOWS.code, OIL_BESIDE_UNKNOWN.code]
+    assert [one.code for one in oil_notes([unknown])] == [OIL_BESIDE_UNKNOWN.code]
     decided = OilBeside(0.99, 0.24, 0.085, 0.99, 0.119)
     assert [oil.decides for oil in (alike, load, unknown, decided)] == [False, False, False, True]
     rubbed = OilBeside(0.98, 0.0375, 0.0634, 0.1366, 0.0403)  # share by less than a tenth, friction by a third
     assert rubbed.decides
-    (short,) = outside(oil_notes([decided, rubbed]))  # what changes most: 75 % of the load
-    assert "24 % of the load" in short
-    assert "3.75 % of the load" in outside(oil_notes([rubbed, load]))[0]
+    (short,) = oil_notes([decided, rubbed])  # what changes most: 75 % of the load
+    assert (short.level, short.values["contact_share"]) == (Level.OUTSIDE_MODEL, 0.24)
+    assert oil_notes([rubbed, load])[0].values["contact_share"] == 0.0375
     assert not OilBeside(0.9, 0.0, 0.0, 0.0, 0.0).decides
     assert outside(oil_notes([alike, load])) == ()
     (short,) = outside(oil_notes([load, decided, unknown]))
@@ -510,11 +519,10 @@ def test_a_ball_counts_the_oil_over_its_hertz_circle():
 def test_the_note_on_the_hertz_area_names_it_and_compares_with_loaded():
     follows = OilBeside(0.7, 0.5, 0.1, 0.5, 0.102, counted=OilVolume.HERTZ)
     (note,) = oil_notes([follows])
-    assert "Hertz" in note
-    assert "length of the patch" not in note
-    assert "0.102" in note
+    assert note.code == OIL_IN_HERTZ_FOLLOWS.code
+    assert note.values["loaded_friction"] == 0.102
     assert outside([note]) == ()
     decided = dataclasses.replace(follows, loaded_contact_share=0.99)
     assert outside(oil_notes([decided, follows]))
     unknown = OilBeside(0.7, 0.5, 0.1, counted=OilVolume.HERTZ)
-    assert oil_notes([unknown])[0].endswith("how far is not known")
+    assert [one.code for one in oil_notes([unknown])] == [OIL_BESIDE_UNKNOWN.code]

@@ -17,6 +17,8 @@ from bem import (
 )
 from bem.flow import FlowFactors
 from bem.lubrication.rough_walls import RoughWalls
+from bem.notes import has_code
+from bem.notes.lubrication import FACTORS_CONTACT, FACTORS_EXTRAPOLATED
 
 CASE = {"load": 5e4, "radius": 0.01, "contact_modulus": 1.1e11, "points": 400, "tolerance": 1e-9}
 
@@ -81,7 +83,7 @@ def test_a_table_of_factors_in_a_film(table):
     assert found.minimum_thickness != plain.minimum_thickness
     assert found.load == pytest.approx(CASE["load"], rel=1e-8)
     thin = film(speeds=(0.02, 0.01), factors=table)
-    assert any("flow factors" in note for note in thin.notes) == (thin.minimum_thickness < table.separations[0])
+    assert has_code(thin.notes, FACTORS_EXTRAPOLATED) == (thin.minimum_thickness < table.separations[0])
     assert isinstance(table, FlowFactors)
     # what drives pressure is the change of h + k s phi_s along the film; phi_s falls as h grows, so roughness on the
     # faster wall (k > 0) takes from it and on the slower one adds
@@ -113,8 +115,8 @@ def test_a_film_below_percolation_says_so(table):
     shut = replace(table, pressure_x=np.where(table.separations < 3e-7, 0.0, table.pressure_x))
     thin = film(speeds=(0.02, 0.01), factors=shut)
     assert thin.minimum_thickness < 3e-7
-    assert any("bars pressure flow" in note for note in thin.notes)
-    assert not any("bars pressure flow" in note for note in film(speeds=(20.0, 10.0), factors=shut).notes)
+    assert has_code(thin.notes, FACTORS_CONTACT)
+    assert not has_code(film(speeds=(20.0, 10.0), factors=shut).notes, FACTORS_CONTACT)
 
 
 def test_what_is_no_table():
@@ -131,4 +133,4 @@ def test_notes_on_the_table_stay_with_heat():
     hot = Lubricant.of("ISO VG 68", temperature=333.15)
     asked = CASE | {"points": 150, "speeds": (1.0, 0.9), "lubricant": hot, "flow_factors": Far(1.0)}
     for heat in ({}, {"thermal": "lumped", "bodies": (STEEL, STEEL)}):
-        assert any("smallest separation" in note for note in solve_line_film(**asked, **heat).notes)
+        assert has_code(solve_line_film(**asked, **heat).notes, FACTORS_EXTRAPOLATED)

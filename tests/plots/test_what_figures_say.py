@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from bem.errors import UNRESOLVED_SPIKE
+from bem.notes.lubrication import FILM_SPIKE
 from bem.plots import draw as drawing
 from bem.plots.cases import case_shown, case_words
 from bem.plots.figures import all_figures
@@ -133,11 +133,15 @@ def test_a_pressure_without_a_spike_is_left_as_it_is():
     assert not axes.texts
 
 
+def spike(where):
+    return FILM_SPIKE(where, remedy="").as_dict()
+
+
 def test_a_spike_of_another_case_is_not_this_ones():
-    notes = {"notes": [f"{RATIO} 0.01; {RATIO} 0.02: {UNRESOLVED_SPIKE}: its height is not to be used"]}
+    notes = {"notes": [spike(f"{RATIO} 0.01; {RATIO} 0.02")]}
     assert has_unresolved_spike(notes, f"{RATIO} 0.01")
     assert not has_unresolved_spike(notes, f"{RATIO} 0.5")
-    assert has_unresolved_spike({"notes": [f"{UNRESOLVED_SPIKE}: so"]}, f"{RATIO} 0.5")
+    assert has_unresolved_spike({"notes": [spike("")]}, f"{RATIO} 0.5")
     assert not has_unresolved_spike({"notes": ["another"]})
 
 
@@ -159,7 +163,7 @@ def traction_run(cases, notes=()):
 
 
 def test_the_first_films_spike_is_clipped_where_its_own_note_says_so(tmp_path, monkeypatch):
-    for note, clipped in ((f"{UNRESOLVED_SPIKE}: x", True), (f"{RATIO} 0.02: {UNRESOLVED_SPIKE}: x", False)):
+    for note, clipped in ((spike(""), True), (spike(f"{RATIO} 0.02"), False)):
         figure = drawn_figure(traction_run(4, [note]), "rolling-film", tmp_path, monkeypatch)
         assert (figure.axes[0].get_ylim()[1] < 2) == clipped
         assert "slide-to-roll ratio 0" in figure.get_suptitle()

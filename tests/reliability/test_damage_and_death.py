@@ -155,6 +155,7 @@ def test_a_file_that_was_put_there_is_named(plain):
         (lambda summary: [summary], "not a table"),
         (lambda summary: summary | {"notes": "one"}, "notes is not a list"),
         (lambda summary: summary | {"notes": [1]}, "notes is not a list"),
+        (lambda summary: summary | {"notes": [{"text": "one"}]}, "notes is not a list"),
         (lambda summary: summary | {"seconds_by_stage": {"contact": "long"}}, "seconds_by_stage is not"),
         (lambda summary: summary | {"wall_time_s": True}, "wall_time_s is not a number"),
         (lambda summary: {key: value for key, value in summary.items() if key != "status"}, "status is missing"),

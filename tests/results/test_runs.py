@@ -13,6 +13,7 @@ from small_scenes import CONTACT
 from bem.campaigns.cases import Case
 from bem.campaigns.context import CaseContext, Silent
 from bem.errors import ConvergenceError, InputError, ResultsError, Status
+from bem.notes import as_note
 from bem.results import open_run
 from bem.results.checkpoint import load_checkpoint
 from bem.results.read import damaged_files
@@ -148,7 +149,7 @@ def test_interrupted_and_resumed_ends_in_the_same_bits(tmp_path, counting, stop)
     run_scene({"kind": "contact"}, tmp_path / "cut", resume=True)
     assert counting.started == [0, 0, stop]
     assert everything(tmp_path / "whole") == everything(tmp_path / "cut")
-    assert open_run(tmp_path / "cut").summary["notes"] == ["cycle one is over"]
+    assert open_run(tmp_path / "cut").summary["notes"] == [as_note("cycle one is over").as_dict()]
     assert not (tmp_path / "cut" / "checkpoint.bin").exists()
 
 
@@ -258,7 +259,7 @@ def test_a_figure_that_refuses_costs_no_results(tmp_path, monkeypatch):
     broken = dataclasses.replace(all_figures()["pressure-map"], draw=refuse)
     monkeypatch.setattr("bem.plots.draw.all_figures", lambda: all_figures() | {"pressure-map": broken})
     run = run_scene(SCENE, tmp_path / "run")
-    assert any("pressure-map could not be drawn" in note and "no such curve" in note for note in run.summary["notes"])
+    assert any("pressure-map" in one["text"] and "no such curve" in one["text"] for one in run.summary["notes"])
     assert damaged_files(run.path) == []
 
 

@@ -7,11 +7,10 @@ import pytest
 from small_scenes import oiled_ball
 
 from bem import Grid, InputError, generate_surface, load_scene, solve_rough_point_film
-from bem.accuracy.rough_point import COUNTED
 from bem.lubrication import MeasuredHeights
 from bem.lubrication.point.rough_film import LEAST_FILM
 from bem.runs import plan_scene, run_scene
-from bem.scenes.tables.touching import REMEDY, SET_BY_LEAST, TouchingScene
+from bem.scenes.tables.touching import REMEDY, TouchingScene
 
 WAVES = {"hurst": 0.8, "rolloff_wavelength": 100e-6, "cutoff_wavelength": 60e-6}
 BUMPS = {"kind": "generated", "rms_height": "40 nm", "seed": 5} | WAVES
@@ -89,16 +88,16 @@ def test_the_lower_body_may_be_the_rough_one(tmp_path):
 def test_what_bounds_the_figures_is_said(tmp_path):
     thin = scene(contact={"boundary_friction": 0.1, "least_film": "50 nm"})
     notes = run_scene(thin, tmp_path / "thin", figures=False).summary["notes"]
-    assert SET_BY_LEAST in notes
-    assert COUNTED in notes
+    assert any(note["code"] == "least-film-decides" for note in notes)
+    assert any(note["code"] == "error-bars-of-half-cells" for note in notes)
     short = scene(patch={"shape": 32, "lengths": "150 um"}, outputs={"errors": False})
     notes = run_scene(short, tmp_path / "short", figures=False).summary["notes"]
-    assert any("does not cover" in note for note in notes)
+    assert any(note["code"] == "patch-smaller-than-hertz" for note in notes)
     coarse = scene(film={"cells": 32}, outputs={"errors": False})
     notes = run_scene(coarse, tmp_path / "coarse", figures=False).summary["notes"]
-    assert any("shortest wave" in note for note in notes)
+    assert any(note["code"] == "film-cells-per-wave" for note in notes)
     # of the film, whether bars are asked for or not
-    assert any("bound from above" in note for note in notes)
+    assert any(note["code"] == "rim-narrow" for note in notes)
 
 
 @pytest.mark.internal
@@ -111,7 +110,7 @@ def test_a_film_that_is_not_found_is_not_converged_and_says_what_to_do(tmp_path,
     assert run.summary["status"] == "stalled"
     assert REMEDY in run.summary["where"]
     assert "contact_load_share_error" not in run.summary
-    assert any("figures are of the least wrong" in note for note in run.summary["notes"])
+    assert any(note["code"] == "rough-film-not-found" for note in run.summary["notes"])
 
 
 def test_oil_comes_at_any_angle(tmp_path):

@@ -128,7 +128,7 @@ def test_points_of_a_sweep_share_measured_maps(made, tmp_path):
     found = run_sweep(scene, over, tmp_path / "s", workers=1)
     assert (found.computed, made) == (3, {"read": 1, "fitted": 1, "described": 1})
     notes = [open_run(point).summary["notes"] for point in (tmp_path / "s" / "points").iterdir()]
-    assert all(any("taken as 16 x 16 cells" in text for text in of) for of in notes)
+    assert all(any("taken as 16 x 16 cells" in note["text"] for note in of) for of in notes)
     alone = maps.fitted(measured(path), bem.surfaces.read_surface(path), found_grid(found), lambda text: None)
     for point in (tmp_path / "s" / "points").iterdir():
         np.testing.assert_array_equal(open_run(point).arrays["lower_height"].values, alone)

@@ -9,6 +9,7 @@ from test_cycle import ARGUMENTS, GRID, SOFT, setup, surfaces
 from wear_loops import goes_on
 
 from bem import Body, Grid, InputError, Material, contact_modulus, run_in
+from bem.notes.wear import LOOP_ALL_SLIPS, LOOP_PRESSED_AT_ONCE
 from bem.reference_solutions.partial_slip import PushedBall
 from bem.stress import subsurface_stress
 from bem.wear import WearModel, dry_contact, pack_state, unpack_state, wear_cycle, yielded_pieces
@@ -16,7 +17,6 @@ from bem.wear.criterion import Archard, AveragedVonMises, EnergyWear
 from bem.wear.loads import SurfaceLoad
 from bem.wear.setup import LOWER, UPPER
 from bem.wear.traction import OscillatingForce, OscillatingShift
-from bem.wear.traction.oscillating import ALL_SLIPS, AT_ONCE
 
 pytestmark = pytest.mark.internal
 
@@ -137,10 +137,10 @@ def test_a_stopped_run_in_partial_slip_goes_on_to_the_same_bits(criterion):
 
 def test_what_should_not_be_believed_is_said():
     near, _ = worn_ball(OscillatingForce(share=0.9999), cells=32)
-    assert near.notes == (ALL_SLIPS,)
+    assert near.notes == (LOOP_ALL_SLIPS(),)
     brass = Body(Material("brass", youngs_modulus=88e9, poissons_ratio=0.3))
     unlike, _ = worn_ball(OscillatingForce(share=0.6), cells=32, bodies=(Body(STEEL), brass))
-    assert unlike.notes == (AT_ONCE,)
+    assert unlike.notes == (LOOP_PRESSED_AT_ONCE(),)
 
 
 def test_what_does_not_go_together_is_refused():

@@ -6,12 +6,13 @@ import numpy as np
 import pytest
 
 from bem import CATALOGUE, Body, Grid, InputError, Lubricant, Status, generate_surface
-from bem.errors import OUTSIDE
 from bem.friction.setup import MixedSetup
 from bem.friction.worn_film import extended
 from bem.lubrication.line_case import LineCase
 from bem.lubrication.line_shaped import ShapedContact
 from bem.lubrication.steady import line_film
+from bem.notes import Level, has_code
+from bem.notes.wear import FILM_KEEPS_SHAPE, WORN_FILM_NOT_FOUND
 from bem.wear import WearModel, run_in
 from bem.wear.mixed import LastCycle, MixedContact, pack_balance, unpack_balance
 from bem.wear.worn_shape import smoothed
@@ -171,16 +172,16 @@ def test_where_no_film_is_found_the_last_shape_stays(monkeypatch):
     assert np.array_equal(step.worn.shape, shape)
     assert step.worn.kept > 0
     assert step.worn.updates > 0
-    (note,) = [note for note in step.notes if "earlier shape" in note]
-    assert note.startswith(OUTSIDE)
-    assert f"{step.worn.kept} of 20 cycles" in note
+    (note,) = [note for note in step.notes if note.code == WORN_FILM_NOT_FOUND.code]
+    assert note.level is Level.OUTSIDE_MODEL
+    assert (note.values["kept"], note.values["cycles"]) == (step.worn.kept, 20)
 
 
 def test_a_limited_supply_keeps_the_unworn_film():
     step = contact_of(supply=1e-6)
     loop(step, 8)
     assert step.worn.shape is None
-    assert any("keeps the unworn shape" in note for note in step.notes)
+    assert has_code(step.notes, FILM_KEEPS_SHAPE)
 
 
 def test_an_unknown_shape_is_refused():

@@ -9,6 +9,13 @@ from bem.arguments import is_finite
 from bem.errors import InputError
 from bem.lubrication.oils.over_temperature import CELSIUS, OverTemperature
 from bem.lubrication.oils.pressure import PressureViscosity
+from bem.notes import Note
+from bem.notes.lubrication import (
+    OIL_ABOVE_FLASH_POINT,
+    OIL_ABOVE_SERVICE_LIMIT,
+    OIL_TOO_THICK,
+    OIL_VISCOSITY_EXTRAPOLATED,
+)
 
 if TYPE_CHECKING:
     from bem.lubrication.lubricant import Lubricant
@@ -113,24 +120,23 @@ class Oil:
             self.viscosity.walther_slope(temperature),
         )
 
-    def notes(self, temperature: float) -> tuple[str, ...]:
-        """What to say of the oil at a temperature [K]: extrapolated viscosities, flash point, service limit."""
+    def notes(self, temperature: float) -> tuple[Note, ...]:
+        """Return notes on the oil at a temperature [K]: extrapolated properties, flash point, service limit."""
         law, found = self.viscosity, []
         mu = self.dynamic_viscosity(temperature)
         if not law.lowest - EXTRAPOLATED <= temperature <= law.highest + EXTRAPOLATED:
-            found.append(
-                f"its viscosity at {_celsius(temperature)} is extrapolated from {_celsius(law.lowest)} to "
-                f"{_celsius(law.highest)}"
-            )
+            low, high = law.lowest - CELSIUS, law.highest - CELSIUS
+            found.append(OIL_VISCOSITY_EXTRAPOLATED(self.name, temperature=temperature - CELSIUS, low=low, high=high))
         if mu > FLOWS:
-            found.append(f"it is too thick to flow to a contact: more than {FLOWS:g} Pa s (SAE J306)")
+            found.append(OIL_TOO_THICK(self.name, viscosity=mu, limit=FLOWS))
         if self.flash_point is not None and temperature > self.flash_point:
-            found.append(f"it is above its flash point, {_celsius(self.flash_point)}")
+            found.append(OIL_ABOVE_FLASH_POINT(self.name, flash_point=self.flash_point - CELSIUS))
         if self.largest_service is not None and temperature > self.largest_service:
-            found.append(f"it does not last above {_celsius(self.largest_service)}: its water evaporates")
+            found.append(OIL_ABOVE_SERVICE_LIMIT(self.name, limit=self.largest_service - CELSIUS))
         if self.pressure_viscosity is not None:
-            found.append(self.pressure_viscosity.note(mu, self.density(temperature), temperature) or "")
-        return tuple(f"{self.name}: {text}" for text in found if text)
+            note = self.pressure_viscosity.note(mu, self.density(temperature), temperature)
+            found += [] if note is None else [note.at(self.name)]
+        return tuple(found)
 
     def at(self, temperature: float, **laws: Any) -> Lubricant:
         """The lubricant that it is at a temperature [K].

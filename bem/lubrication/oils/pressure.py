@@ -5,6 +5,9 @@ from __future__ import annotations
 import math
 from dataclasses import dataclass
 
+from bem.notes import Note
+from bem.notes.lubrication import OIL_ALPHA_EXTRAPOLATED
+
 GPA = 1e-9
 """One 1/GPa in 1/Pa."""
 _REACH = 2.0
@@ -46,8 +49,8 @@ class PressureViscosity:
             return GPA * max(self.logarithm[0] + self.logarithm[1] * math.log10(value), 0.0)
         return float(GPA * self.factor * value**self.exponent * walther_slope**self.slope_exponent)
 
-    def note(self, dynamic: float, density: float, temperature: float) -> str | None:
-        """What to say of a state [Pa s, kg/m^3, K] that the correlation was not made for."""
+    def note(self, dynamic: float, density: float, temperature: float) -> Note | None:
+        """Return a note on a state [Pa s, kg/m^3, K] that the correlation was not made for, else None."""
         value = self._argument(dynamic, density)
         unit = "mPa s" if self.dynamic else "mm^2/s"
         (thin, thick), (cold, hot) = self.viscosity, self.temperature
@@ -55,7 +58,5 @@ class PressureViscosity:
         outside = cold < hot and not cold - 10.0 <= temperature <= hot + 10.0
         if thin / _REACH <= value <= _REACH * thick and not outside:
             return None
-        return (
-            f'its pressure-viscosity coefficient is extrapolated: the correlation "{self.name}" was made from '
-            f"{thin:g} to {thick:g} {unit}" + (f" at {cold - 273.15:.0f} to {hot - 273.15:.0f} degC" if outside else "")
-        )
+        at = f" at {cold - 273.15:.0f} to {hot - 273.15:.0f} degC" if outside else ""
+        return OIL_ALPHA_EXTRAPOLATED(correlation=self.name, thin=thin, thick=thick, unit=unit, at=at)

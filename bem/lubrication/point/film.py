@@ -12,6 +12,7 @@ from bem.errors import Status
 from bem.grid import FloatArray
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.supply import Starvation
+from bem.notes import Note
 from bem.representation import readable
 
 if TYPE_CHECKING:
@@ -90,7 +91,7 @@ class PointFilmSolution:
     maximum_temperature: float | None = None
     middle_stress: FloatArray | None = None
     starvation: Starvation | None = None
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
     state: KeptPoint | None = field(default=None, repr=False, compare=False)
 
     @property

@@ -30,6 +30,8 @@ from bem.lubrication.point.touching_newton import TouchingBalance, TouchingOutco
 from bem.lubrication.point.touching_start import reached
 from bem.lubrication.point.validity import coarse_heights
 from bem.materials import Body
+from bem.notes import Note
+from bem.notes.lubrication import CONTACT_SHARE_ERROR_UNKNOWN, OIL_CREATED, ROUGH_FILM_NOT_FOUND
 from bem.representation import readable
 from bem.threads import one_blas_thread
 
@@ -108,7 +110,7 @@ class RoughPointFilm:
     status: Status
     speeds: Speeds
     lubricant: Lubricant
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
 
     @property
     def contact_pressure(self) -> FloatArray:
@@ -197,8 +199,7 @@ def solve_rough_point_film(
         if coarse.status is Status.CONVERGED:
             found = replace(found, contact_share_error=abs(found.contact_share - coarse.contact_share))
         else:
-            note = "the error of the contact's share is unknown: on half as many cells there is no film"
-            found = replace(found, notes=(*found.notes, note))
+            found = replace(found, notes=(*found.notes, CONTACT_SHARE_ERROR_UNKNOWN()))
     return found
 
 
@@ -321,18 +322,12 @@ def _judged(level: Level, state: TouchingState, least: float, tolerance: float) 
     return _Judged(shown.film, touching, of, complementarity, residual, right)
 
 
-def _notes(judged: _Judged, created: float) -> tuple[str, ...]:
+def _notes(judged: _Judged, created: float) -> tuple[Note, ...]:
     notes = []
     if not judged.right:
-        notes.append(
-            f"no film was found: figures are of the least wrong of all tried (residual {judged.residual:.1g}), "
-            "and may be far off; take more cells a wavelength, a higher speed or a lower surface"
-        )
+        notes.append(ROUGH_FILM_NOT_FOUND(residual=judged.residual))
     if created > CREATED:
-        notes.append(
-            f"oil comes from nowhere, {created:.2g} times what goes through the contact: behind summits it ruptures "
-            "and forms again, of which Swift and Stieber's condition keeps no account; the oil carries too much"
-        )
+        notes.append(OIL_CREATED(created=created))
     return tuple(notes)
 
 

@@ -29,6 +29,7 @@ from bem.lubrication.time_steps import (
     start_messages,
 )
 from bem.materials import Body
+from bem.notes import Note
 from bem.plausibility import body_arguments, lubricant_arguments, notes_on_arguments, with_argument_notes
 from bem.threads import one_blas_thread
 
@@ -142,7 +143,7 @@ def march_point_film(
     return with_argument_notes(films, _notes_on_arguments(case))
 
 
-def _notes_on_arguments(case: MarchCase) -> tuple[str, ...]:
+def _notes_on_arguments(case: MarchCase) -> tuple[Note, ...]:
     """Notes on arguments of `march_point_film` outside their usual ranges at any of its times."""
     schedule = case.schedule
     pairs = [vectors(pair) for pair in schedule.speeds]

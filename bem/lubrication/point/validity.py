@@ -19,6 +19,20 @@ from bem.lubrication.point.kept import rise_beside_lowest
 from bem.lubrication.point.levels import Level
 from bem.lubrication.point.scales import PointScales, point_scales
 from bem.lubrication.point.setting import Setting
+from bem.notes import Note, without
+from bem.notes.lubrication import (
+    BODIES_NOT_RIGID,
+    CELLS_LARGE_FOR_FILM,
+    CONSTRICTION_NARROW,
+    FILM_ERROR_UNKNOWN,
+    FILM_HEATING,
+    FILM_NOT_FOUND,
+    FILM_UNCERTAIN,
+    HEIGHTS_COARSE,
+    INLET_FRICTION,
+    INLET_HEATING,
+    INLET_TOO_SHORT,
+)
 
 if TYPE_CHECKING:
     from bem.lubrication.point.film import PointFilmSolution
@@ -43,11 +57,9 @@ FEWEST_ACROSS = 2.0
 """Cells to the half of a contact and the film around it, below which figures follow the cells."""
 FEWEST_CELLS = 8.0
 """To a wave of heights, below which films and shares of the load follow the cells."""
-UNKNOWN = "the error of the film is unknown: "
-"""How notes begin that say so, and of which cells to see it."""
 
 
-def coarse_heights(heights: FloatArray) -> tuple[str, ...]:
+def coarse_heights(heights: FloatArray) -> tuple[Note, ...]:
     """A note on heights (nx, ny) of any unit that change too much from cell to cell: their rms change over their rms is
     that of waves of n cells, 2 sin(pi/n)."""
     rms = float(np.std(heights))
@@ -57,11 +69,7 @@ def coarse_heights(heights: FloatArray) -> tuple[str, ...]:
     cells = math.pi / math.asin(min(change / 2, 1.0))
     if cells >= FEWEST_CELLS:
         return ()
-    return (
-        f"heights change from cell to cell by {change:.1f} of their rms, as waves of {cells:.2g} cells do: they are "
-        "taken at the centres of cells, not averaged over them, and what is found follows the cells; take "
-        f"{FEWEST_CELLS:g} cells to a wave, or filter the surface",
-    )
+    return (HEIGHTS_COARSE(change=change, cells=cells, fewest=FEWEST_CELLS),)
 
 
 @dataclass(frozen=True)
@@ -80,15 +88,17 @@ class PointCase(validity.Case):
         return float(values.sum()) * self.cell
 
 
-def inlet_heating(case: PointCase) -> str | None:
+def inlet_heating(case: PointCase) -> Note | None:
     """Shear in the inlet heats the oil; by the factor of line contacts, for a mineral oil."""
     heating = inlet_heating_factor(
         case.lubricant.viscosity, validity.OIL_SOFTENING, validity.OIL_CONDUCTIVITY, case.speeds, case.hertz_ratio
     )
-    return validity.HEATING_NOTES[0] if heating.factor < validity.LEAST_INLET_FACTOR * case.reduction else None
+    if heating.factor >= validity.LEAST_INLET_FACTOR * case.reduction:
+        return None
+    return INLET_HEATING(factor=1 / heating.factor)
 
 
-def bodies_not_rigid(case: PointCase) -> str | None:
+def bodies_not_rigid(case: PointCase) -> Note | None:
     """Bodies taken as rigid would flatten under this pressure, were they of steel: by the deflection of a half-space
     where it is highest, integral p/(pi E* r), cells as points but for that one (Johnson 1985, eq. 3.19)."""
     if math.isfinite(case.contact_modulus) or case.not_found is not None or not case.pressure.any():
@@ -100,15 +110,17 @@ def bodies_not_rigid(case: PointCase) -> str | None:
     if flattened <= RIGID_BOUND * case.thickness[i, j]:
         return None
     load, material = case.moes
-    return (
-        f"bodies are not rigid: under {case.pressure.max() / 1e9:.2g} GPa those of steel (E* {STEEL / 1e9:g} GPa, "
-        f"Moes' M {load:.2g} and L {material:.2g}) would flatten by {flattened / case.thickness[i, j]:.2g} times the "
-        f"film, and the rigid regime ends where they do by {RIGID_BOUND:g}: this is no film of real bodies; give "
-        "contact_modulus"
+    return BODIES_NOT_RIGID(
+        pressure=float(case.pressure.max()),
+        modulus=STEEL,
+        moes_load=load,
+        moes_material=material,
+        flattened=float(flattened / case.thickness[i, j]),
+        limit=RIGID_BOUND,
     )
 
 
-def film_heating(case: PointCase) -> str | None:
+def film_heating(case: PointCase) -> Note | None:
     """Sliding heats film and surfaces: as `validity.film_heating`, with the mean over the loaded area and its length
     along the flow."""
     loaded = case.pressure > 0.05 * case.pressure.max(initial=0.0)
@@ -119,10 +131,12 @@ def film_heating(case: PointCase) -> str | None:
     heat = float(case.sliding_stress[loaded].mean()) * slide
     film = heat * float(np.median(case.thickness[loaded])) / (8 * validity.OIL_CONDUCTIVITY)
     flash = 2 * heat * math.sqrt(case.length / math.pi) / (validity.STEEL_EFFUSIVITY * root)
-    return validity.HEATING_NOTES[1] if film + flash > validity.LARGEST_HEATING else None
+    if film + flash <= validity.LARGEST_HEATING:
+        return None
+    return FILM_HEATING(limit=validity.LARGEST_HEATING, rise=film + flash)
 
 
-CHECKS: list[Callable[[PointCase], str | None]] = [
+CHECKS: list[Callable[[PointCase], Note | None]] = [
     validity.film_not_found,
     validity.film_thick_for_radius,
     bodies_not_rigid,
@@ -135,8 +149,8 @@ CHECKS: list[Callable[[PointCase], str | None]] = [
 ]
 
 
-def notes_on_point(film: PointFilmSolution, setting: Setting, level: Level, contact_modulus: float) -> tuple[str, ...]:
-    """What a reader of the film must know, a sentence each."""
+def notes_on_point(film: PointFilmSolution, setting: Setting, level: Level, contact_modulus: float) -> tuple[Note, ...]:
+    """Return the notes on a film."""
     (first, second), frame, scales = film.speeds, setting.frame, setting.scales
     total = math.hypot(first[0] + second[0], first[1] + second[1])
     slide = math.hypot(first[0] - second[0], first[1] - second[1])
@@ -162,9 +176,9 @@ def notes_on_point(film: PointFilmSolution, setting: Setting, level: Level, cont
     return notes + _on_grid(film, frame.inner(film.thickness), setting, level)
 
 
-def but_unknown(notes: Iterable[str]) -> tuple[str, ...]:
-    """Notes without those on an unknown error, for results that have errors of their own, from other grids."""
-    return tuple(note for note in notes if not note.startswith(UNKNOWN))
+def but_unknown(notes: Iterable[Note]) -> tuple[Note, ...]:
+    """Return the notes without those on an unknown error, for results with error bars from other grids."""
+    return without(notes, FILM_ERROR_UNKNOWN)
 
 
 def inlet_shear(film: PointFilmSolution, setting: Setting) -> float:
@@ -187,38 +201,29 @@ def _moes_of_steel(film: PointFilmSolution, scales: PointScales) -> tuple[float,
     return steel.load, float(film.lubricant.log_viscosity_ratio(np.zeros(1))[1][0]) * steel.pressure
 
 
-def _not_found(film: PointFilmSolution, setting: Setting) -> str:
-    """Why there is no film, and what to do."""
-    nx, ny = film.pressure.shape
+def _not_found(film: PointFilmSolution, setting: Setting) -> Note:
+    """Return why no film was found, and what to do."""
     hertz = 0.0 if setting.hertz is None else setting.hertz.maximum_pressure * setting.scales.pressure
-    return validity.why_not_found(
-        film.lubricant,
-        math.inf if setting.scales.rigid else hertz,
-        f"no film was found on {nx} x {ny} cells: ",
-        _other_cells(film),
-    )
+    return validity.why_not_found(film.lubricant, math.inf if setting.scales.rigid else hertz, _other_cells(film))
 
 
-def _other_cells(film: PointFilmSolution) -> str:
-    """On which a film that is not found may be."""
+def _other_cells(film: PointFilmSolution) -> Note:
+    """Return the note that names cells on which a film may be found."""
     nx, ny = film.pressure.shape
     sides = tuple(float(np.ptp(one)) * n / (n - 1) for one, n in ((film.x, nx), (film.y, ny)))
     longer = sides[0] / nx / (sides[1] / ny)
-    if not 1 / LONGEST_CELL < longer < LONGEST_CELL:
-        cell = math.sqrt(sides[0] * sides[1] / (nx * ny)) / MORE_CELLS
-        first, second = (min(max(2 * round(side / cell / 2), 32), 2048) for side in sides)
-        far, near = ("x", "y") if longer > 1 else ("y", "x")
-        return (
-            f"they are {max(longer, 1 / longer):.2g} times as long along {far} as along {near}; about square "
-            f"ones, {first} x {second}, may find it"
-        )
-    return (
-        "heavy loads of thin oils and narrow ellipses along the flow have constrictions of a few cells there; "
-        "take twice as many"
+    if 1 / LONGEST_CELL < longer < LONGEST_CELL:
+        return FILM_NOT_FOUND(reason="narrow", nx=nx, ny=ny)
+    cell = math.sqrt(sides[0] * sides[1] / (nx * ny)) / MORE_CELLS
+    first, second = (min(max(2 * round(side / cell / 2), 32), 2048) for side in sides)
+    far, near = ("x", "y") if longer > 1 else ("y", "x")
+    ratio = max(longer, 1 / longer)
+    return FILM_NOT_FOUND(
+        reason="elongated", nx=nx, ny=ny, longer=ratio, far=far, near=near, first=first, second=second
     )
 
 
-def _unresolved(film: PointFilmSolution, setting: Setting, level: Level) -> list[str]:
+def _unresolved(film: PointFilmSolution, setting: Setting, level: Level) -> list[Note]:
     """Of a contact smaller than the cells, as of a ball that falls from far above onto a grid that holds its first
     film. Rigid bodies have the film alone: the gap is twice its lowest sqrt(2 R h) from the centre."""
     scales, frame = setting.scales, setting.frame
@@ -235,48 +240,34 @@ def _unresolved(film: PointFilmSolution, setting: Setting, level: Level) -> list
         return []
     length = " x ".join(f"{step * scales.length:.2g}" for step in frame.pair(level.spacing))
     size = " x ".join(f"{room * scales.length:.2g}" for room in frame.pair(rooms))
-    return [
-        f"cells of {length} m are too large for the contact and the film around it, {size} m from the centre: film and "
-        "pressure follow the cells; give a smaller extent, or take more cells"
-    ]
+    return [CELLS_LARGE_FOR_FILM(cell=length, size=size)]
 
 
-def _on_grid(film: PointFilmSolution, thickness: FloatArray, setting: Setting, level: Level) -> tuple[str, ...]:
-    """What the grid does to it."""
+def _on_grid(film: PointFilmSolution, thickness: FloatArray, setting: Setting, level: Level) -> tuple[Note, ...]:
+    """Return the notes on what the grid does to a film."""
     notes = []
     begins = float(thickness[0].min())
     if setting.problem.drag[1] > 0.1:
         begins = min(begins, float(thickness[:, 0].min()))
     entrained = any(setting.problem.drag)
     if entrained and begins < SHORTEST_INLET * film.central_thickness:
-        notes.append(
-            f"the grid does not reach the inlet: it begins where the gap is less than {SHORTEST_INLET:g} central "
-            "films; upstream of it the pressure of rigid bodies is taken, and the film is too thick or too thin"
-        )
+        notes.append(INLET_TOO_SHORT(limit=SHORTEST_INLET))
     notes += _unresolved(film, setting, level)
     if film.status is Status.CONVERGED and rise_beside_lowest(thickness) > STEEPEST:
-        notes.append(
-            "the constriction is narrower than the cells: beside the lowest one the film is more than "
-            f"{STEEPEST:g} times as thick, and its minimum may be off by tenths; take twice as many"
-        )
+        notes.append(CONSTRICTION_NARROW(limit=STEEPEST))
     added = inlet_shear(film, setting)
     if added > LARGEST_ERROR * film.friction * film.load:
-        notes.append(
-            "friction depends on how far the inlet is full of oil: on the grid it is; twice as far would add "
-            f"{added / film.load:.2g} to the friction coefficient of {film.friction:.2g}"
-        )
+        notes.append(INLET_FRICTION(added=added / film.load, friction=float(film.friction)))
     errors = (
         (film.central_thickness_error, film.central_thickness),
         (film.minimum_thickness_error, film.minimum_thickness),
     )
     if any(error is not None and error > LARGEST_ERROR * value for error, value in errors):
-        notes.append(
-            f"the grid is coarse: films are uncertain by more than {100 * LARGEST_ERROR:g} % (see their errors)"
-        )
+        notes.append(FILM_UNCERTAIN(limit=LARGEST_ERROR))
     unknown = film.time is None and film.status is Status.CONVERGED and errors[0][0] is None
     if unknown and len(shapes_up_to(level.shape)) > 1:
-        notes.append(f"{UNKNOWN}on half as many cells there is none; take twice as many to see it")
+        notes.append(FILM_ERROR_UNKNOWN(reason="no-film"))
     elif unknown:
         nx, ny = (max(n, 2 * COARSEST) for n in film.pressure.shape)
-        notes.append(f"{UNKNOWN}half as many cells are too few to compare with; take {nx} x {ny} to see it")
+        notes.append(FILM_ERROR_UNKNOWN(reason="few-cells", nx=nx, ny=ny))
     return tuple(notes)

@@ -32,6 +32,8 @@ from bem.lubrication.thermal.field import LEAST_RISE, carried
 from bem.lubrication.thermal.layers import Oil, expansion_of
 from bem.lubrication.thermal.notes import notes_of_film, notes_of_heat
 from bem.materials import Body
+from bem.notes import Note
+from bem.notes.lubrication import EXPANSION_UNKNOWN, FULL_HEAT_NOT_FOUND
 from bem.representation import readable
 from bem.threads import one_blas_thread
 
@@ -40,18 +42,6 @@ LAYERS = 16
 ENERGY_TOLERANCE = 1e-6
 """Of the power of the friction that is not found again in the bodies and the oil, and of surfaces that are not as warm
 as their heat makes them, over the largest rise."""
-UNKNOWN_EXPANSION = (
-    "the oil's expansion with temperature is not known (an oil of the catalogue has it): compression does not heat it, "
-    "and its density does not fall with temperature"
-)
-NOT_FOLLOWED = (
-    "no film was found that carries the load with the heat it makes: the last one that was is shown without its "
-    "temperatures, friction and heat, which are not known"
-)
-BLUNTED_BY = (
-    " (the pressure spike of an incompressible oil has no limit, and its heat changes with it: density_law "
-    '"dowson_higginson" blunts it)'
-)
 
 
 @readable
@@ -105,7 +95,7 @@ class FullThermalFilm(HeatedFilm):
     rounds: int
     iterations: int
     status: Status
-    notes: tuple[str, ...]
+    notes: tuple[Note, ...]
 
     @property
     def film_temperature(self) -> FloatArray:
@@ -244,7 +234,7 @@ def _result(found: Heated, cold: FilmSolution, tolerance: float, reversed_: bool
     couette, taken, power = known * couette, known * taken, known * power
     notes = notes_of_heat(lubricant, known * float(field.temperature.max()), film.speeds)
     if expansion_of(lubricant) is None:
-        notes += (UNKNOWN_EXPANSION,)
+        notes += (EXPANSION_UNKNOWN(),)
     return FullThermalFilm(
         film=without_equations(film),
         isothermal=without_equations(cold),
@@ -271,6 +261,8 @@ def _result(found: Heated, cold: FilmSolution, tolerance: float, reversed_: bool
     )
 
 
-def _not_followed(lubricant: Lubricant) -> str:
-    """With what will help where it is known: a spike without limit makes heat that no round settles."""
-    return NOT_FOLLOWED + (BLUNTED_BY if lubricant.density_law.name == "incompressible" else "")
+def _not_followed(lubricant: Lubricant) -> Note:
+    """Return the note on a film that was not found, with a remedy for a pressure spike without limit."""
+    incompressible = lubricant.density_law.name == "incompressible"
+    blunter = 'Take density_law = "dowson_higginson": it blunts the pressure spike, whose heat has no limit.'
+    return FULL_HEAT_NOT_FOUND(remedy=blunter if incompressible else "")

@@ -38,10 +38,12 @@ from bem.lubrication.supply import Supply
 from bem.lubrication.thermal.conductors import moving_bodies
 from bem.lubrication.thermal.energy import Channel, Temperatures, film_temperatures
 from bem.lubrication.thermal.hot_viscosity import HotViscosity
-from bem.lubrication.thermal.notes import HEAT_NOT_FOUND, heat_limits, notes_of_film, notes_of_heat
+from bem.lubrication.thermal.notes import heat_limits, notes_of_film, notes_of_heat
 from bem.lubrication.thermal.strip import Strip, cell_edges, derivative_of, strip_of, summed
 from bem.lubrication.viscosity import ViscosityLaw
 from bem.materials import Body
+from bem.notes import Note
+from bem.notes.lubrication import HEAT_NOT_FOUND
 from bem.reference_solutions.line_film import moes_central
 from bem.threads import one_blas_thread
 
@@ -106,7 +108,7 @@ class ThermalFilm(HeatedFilm):
     films: int
     iterations: int
     status: Status
-    notes: tuple[str, ...]
+    notes: tuple[Note, ...]
 
     def as_film(self) -> FilmSolution:
         """The film with its friction and temperatures, as `solve_line_film` gives it."""
@@ -392,7 +394,8 @@ def _result(
     right = found.residual <= 1e-6 and thinned.missed <= FACTOR_TOLERANCE
     status = film.status if film.status is not Status.CONVERGED or right else Status.STALLED
     order = slice(None, None, -1) if kept.reversed else slice(None)
-    known, lost = (1.0, ()) if status is Status.CONVERGED else (math.nan, (HEAT_NOT_FOUND,))
+    lost: tuple[Note, ...]
+    known, lost = (1.0, ()) if status is Status.CONVERGED else (math.nan, (HEAT_NOT_FOUND(),))
     hottest = known * max(float(found.oil.max()), float(found.surfaces.max()))
     couette, power = known * couette, known * power
     return ThermalFilm(
@@ -421,7 +424,7 @@ def _result(
     )
 
 
-def _limits(found: ThermalFilm, lubricant: Lubricant) -> tuple[str, ...]:
-    """Where what was left out was seen to matter."""
+def _limits(found: ThermalFilm, lubricant: Lubricant) -> tuple[Note, ...]:
+    """Return notes where lumped heat was seen to be inaccurate."""
     rise = found.mean_film_temperature - float(lubricant.temperature or 0.0)
     return heat_limits(found.inlet, found.film.speeds, rise)

@@ -26,9 +26,10 @@ from bem.lubrication.thermal.conductors import moving_bodies
 from bem.lubrication.thermal.energy import Channel, film_temperatures
 from bem.lubrication.thermal.hot_viscosity import HotViscosity
 from bem.lubrication.thermal.lumped import FACTOR_TOLERANCE, MOST_FILMS, thinned_oil
-from bem.lubrication.thermal.notes import HEAT_NOT_FOUND, LARGEST_RISE, heat_limits, notes_of_heat
-from bem.lubrication.validity import HEATING_NOTES
+from bem.lubrication.thermal.notes import LARGEST_RISE, heat_limits, notes_of_heat
 from bem.materials import Body
+from bem.notes import without
+from bem.notes.lubrication import FILM_HEATING, HEAT_NOT_FOUND, HEAT_SPREADS, INLET_HEATING
 
 LEAST_PRESSURE = 1e-3
 """Of the largest, on a line of cells that has temperatures."""
@@ -40,10 +41,6 @@ LARGEST_SPREAD = 0.5
 """How far heat spreads in a body while it crosses the contact, over the half-axis across, up to which surfaces were
 within 10 % as warm as `surface_temperature` has them under the same heat: 5 % too warm at 0.3, 12 % at 0.54, 22 % at
 0.76 (balls), 18 % at 0.68, 42 % at 1.2 and 66 % at 1.4 (Rx/Ry 10); bodies at rest 10 % too cool to 21 % too warm."""
-SPREADS = (
-    "heat that spreads in the bodies across the flow, which lumped heat leaves out, cools them: their rise was found a "
-    "tenth to a quarter too large under balls, two thirds under an ellipse 4.5 times as long along the flow as across"
-)
 HALF_AXIS = "the contact's half-axis across the flow"
 
 
@@ -121,7 +118,7 @@ def with_heat(
     hottest = max(float(heat.temperature.max()), float(heat.surfaces.max()))
     mean = float((weights * heat.temperature).sum())
     rise = mean - float(lubricant.temperature or 0.0)
-    notes = tuple(note for note in film.notes if note not in HEATING_NOTES)
+    notes = without(film.notes, INLET_HEATING, FILM_HEATING)
     right = heat.residual <= RESIDUAL and missed <= FACTOR_TOLERANCE
     status = film.status if film.status is not Status.CONVERGED or right else Status.STALLED
     known = 1.0 if status is Status.CONVERGED else math.nan  # as of a line
@@ -135,9 +132,9 @@ def with_heat(
         notes=(
             *notes,
             *heat_limits(inlet, (first, second), rise),
-            *((SPREADS,) if rise > LARGEST_RISE and _spread(conductors, half_axes) > LARGEST_SPREAD else ()),
+            *((HEAT_SPREADS(),) if rise > LARGEST_RISE and _spread(conductors, half_axes) > LARGEST_SPREAD else ()),
             *notes_of_heat(lubricant, known * hottest, (first, second), HALF_AXIS),
-            *(() if status is Status.CONVERGED else (HEAT_NOT_FOUND,)),
+            *(() if status is Status.CONVERGED else (HEAT_NOT_FOUND(),)),
         ),
     )
     forces, rolling = made.forces()

@@ -9,7 +9,8 @@ import numpy as np
 from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 
-from bem.errors import UNRESOLVED_SPIKE
+from bem.notes import of_summary
+from bem.notes.lubrication import FILM_SPIKE
 from bem.plots.cases import Array, axes_of, case_words, first_case, grouped, label_of
 from bem.plots.figures import FigureKind
 from bem.plots.over import COLOURS, axis_of, lines_over
@@ -65,7 +66,7 @@ def _temperatures(run: Any, figure: Figure) -> None:
     axes.set_ylabel("temperature (°C)")
     axes.legend()
     said = [f"{len(shown)} of {len(cases)} cases"] if len(shown) < len(cases) else []
-    if any(UNRESOLVED_SPIKE in note for note in run.summary.get("notes", ())):
+    if any(note["code"] == FILM_SPIKE.code for note in of_summary(run.summary)):
         said.append("temperature at an unresolved pressure spike follows the mesh")
     axes.set_title("; ".join(said), fontsize=8.5)
 

@@ -26,6 +26,8 @@ from collections.abc import Callable, Iterator, Mapping
 from typing import Any
 
 from bem.errors import InputError
+from bem.notes import Note, as_note
+from bem.notes.general import CHECK_FAILED
 from bem.scenes.checks import contact, cycles, materials, mesh, operation, outcome, plausible, surfaces
 from bem.scenes.checks.facts import Case, Facts, examine
 from bem.scenes.checks.refusals import refusals
@@ -37,7 +39,7 @@ _ORDER = [module.__name__ for module in (plausible, materials, operation, surfac
 """Units first: the others follow from them."""
 
 
-def scene_warnings(facts: Facts) -> list[str]:
+def scene_warnings(facts: Facts) -> list[Note]:
     """What can be warned of before any work.
 
     Raises
@@ -49,24 +51,24 @@ def scene_warnings(facts: Facts) -> list[str]:
     return _sentences(SCENE_CHECKS, facts)
 
 
-def outcome_warnings(facts: Facts, result: Outcome) -> list[str]:
+def outcome_warnings(facts: Facts, result: Outcome) -> list[Note]:
     """What the results give reason to warn of."""
     return _sentences(OUTCOME_CHECKS, facts, result) if facts.cases else []
 
 
-def _sentences(checks: Mapping[str, Callable[..., Iterator[str]]], *subject: Any) -> list[str]:
-    found: list[str] = []
+def _sentences(checks: Mapping[str, Callable[..., Iterator[str]]], *subject: Any) -> list[Note]:
+    found: list[Note] = []
     in_order = sorted(
         checks.items(),
         key=lambda item: _ORDER.index(item[1].__module__) if item[1].__module__ in _ORDER else len(_ORDER),
     )
     for name, check in in_order:
         try:
-            found += check(*subject)
+            found += map(as_note, check(*subject))
         except InputError:  # such as a measured map that is smaller than the grid: refused before any work
             raise
         except Exception as error:  # advice must not cost anybody a run; the tests see to it that none of these is met
-            found.append(f"the check {name} could not be made: {error!r}")
+            found.append(CHECK_FAILED(check=name, error=repr(error)))
     return list(dict.fromkeys(found))
 
 

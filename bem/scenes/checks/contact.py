@@ -5,17 +5,29 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from bem.notes import Note
+from bem.notes.checks import (
+    BODY_REPEATS,
+    CONTACT_WIDE,
+    CYLINDER_NARROW,
+    GRID_SMALLER_THAN_HERTZ,
+    LOAD_NEAR_HARDNESS,
+    PATCH_IS_PUNCH,
+    PATCH_SINKS,
+    PRESSURE_ABOVE_HARDNESS,
+    WAVE_DOES_NOT_FIT,
+    YIELD_BELOW_SURFACE,
+)
 from bem.scenes.checks.facts import Case, Facts, worst
 from bem.scenes.checks.hertz import LARGEST_SLOPE
 from bem.scenes.checks.registry import scene_check
-from bem.scenes.checks.words import percent, si
 
 _CAPPED_BY_ITS_FILM = "tribofilm"
 """The kind whose contact is capped by a hardness that its cases do not say, where that follows a law."""
 
 
 @scene_check
-def contact_large_for_its_radius(facts: Facts) -> Iterator[str]:
+def contact_large_for_its_radius(facts: Facts) -> Iterator[Note]:
     """Half-spaces and parabolas need a << R (Johnson 1985, section 4.1).
 
     At a/R the surface meets the contact's edge at that slope: a parabola misses a sphere by (a/R)^2 / 4 and cosines by
@@ -24,15 +36,11 @@ def contact_large_for_its_radius(facts: Facts) -> Iterator[str]:
     found = worst((case.smooth.ratio, case) for case in facts.cases if case.smooth is not None)
     if found is not None and found[0] > LARGEST_SLOPE:
         ratio, case = found
-        yield (
-            f"contact radius {ratio:.2g} of the body's{case.at}: half-spaces and small strains hold below about 0.2; "
-            f"strains are of order {percent(0.2 * ratio)}: expect errors of several per cent, or use finite elements "
-            "with large deformations"
-        )
+        yield CONTACT_WIDE(case.label, ratio=ratio, strain=0.2 * ratio)
 
 
 @scene_check
-def hertz_pressure_above_hardness(facts: Facts) -> Iterator[str]:
+def hertz_pressure_above_hardness(facts: Facts) -> Iterator[Note]:
     """An elastic contact has no limit; a real one flows. Only where no cap is set."""
     values = (
         (case.smooth.maximum_pressure / case.softest, case)
@@ -45,14 +53,12 @@ def hertz_pressure_above_hardness(facts: Facts) -> Iterator[str]:
         assert case.smooth is not None
         capped = {"contact": 'behaviour = "capped"', "friction": 'sharing.models = ["capped"]'}.get(facts.scene.kind)
         how = "take a smaller load" if capped is None else f"take {capped} or a smaller load"
-        yield (
-            f"Hertz pressure {si(case.smooth.maximum_pressure, 'Pa')} is {ratio:.2g} times the softer "
-            f"hardness{case.at}, and the contact is elastic: a real one would flow; {how}"
-        )
+        pressure = case.smooth.maximum_pressure
+        yield PRESSURE_ABOVE_HARDNESS(case.label, pressure=pressure, ratio=ratio, action=how)
 
 
 @scene_check
-def yield_below_the_surface(facts: Facts) -> Iterator[str]:
+def yield_below_the_surface(facts: Facts) -> Iterator[Note]:
     """A sphere yields below its surface from p0 = 1.60 Y, a cylinder from 1.79 Y; von Mises, nu = 0.3.
 
     Only where the pressure stays below the hardness, so that one sentence says it.
@@ -68,11 +74,7 @@ def yield_below_the_surface(facts: Facts) -> Iterator[str]:
         ratio, case = found
         assert case.smooth is not None
         pressure = case.smooth.maximum_pressure
-        yield (
-            f"Hertz pressure {si(pressure, 'Pa')} is {ratio:.3g} times that at which the softer body begins to yield "
-            f"below its surface, {si(pressure / ratio, 'Pa')}{case.at}: elastic stresses there are too high, and the "
-            "first loadings leave residual stresses; lower the load or allow for it"
-        )
+        yield YIELD_BELOW_SURFACE(case.label, pressure=pressure, ratio=ratio, onset=pressure / ratio)
 
 
 def _elastic(facts: Facts) -> Iterator[Case]:
@@ -81,20 +83,17 @@ def _elastic(facts: Facts) -> Iterator[Case]:
 
 
 @scene_check
-def mean_pressure_near_hardness(facts: Facts) -> Iterator[str]:
+def mean_pressure_near_hardness(facts: Facts) -> Iterator[Note]:
     """With half the hardness over the whole grid, half of it touches at the cap; what flows has nowhere to go."""
     limits = ((case.mean_pressure or 0.0, case.cap or case.softest, case) for case in facts.cases)
     found = worst((pressure / limit, case) for pressure, limit, case in limits if limit)
     if found is not None and found[0] > 0.5:
         ratio, case = found
-        yield (
-            f"the load is {ratio:.2g} of hardness x area of the grid{case.at}: most of it would be at the hardness; "
-            "take a smaller load or a larger grid"
-        )
+        yield LOAD_NEAR_HARDNESS(case.label, ratio=ratio)
 
 
 @scene_check
-def grid_smaller_than_hertz(facts: Facts) -> Iterator[str]:
+def grid_smaller_than_hertz(facts: Facts) -> Iterator[Note]:
     """A free grid must hold the contact; a tenth beyond Hertz' edge is where the gap opens to see it end."""
     if facts.of_kind("asperities"):
         return
@@ -105,10 +104,8 @@ def grid_smaller_than_hertz(facts: Facts) -> Iterator[str]:
         assert case.smooth is not None
         assert case.grid is not None
         size = 2 * case.smooth.semi_axes[axis]
-        yield (
-            f"grid: {si(case.grid.lengths[axis], 'm')} along {'xy'[axis]} for a Hertz contact of "
-            f"{si(size, 'm')}{case.at}: the contact would reach the grid's edge and end there; take "
-            f"{si(1.5 * size, 'm')} or more"
+        yield GRID_SMALLER_THAN_HERTZ(
+            case.place("grid"), length=case.grid.lengths[axis], axis="xy"[axis], size=size, wanted=1.5 * size
         )
 
 
@@ -126,7 +123,7 @@ def _free_axes(case: Case) -> list[int]:
 
 
 @scene_check
-def flat_patch_with_free_edges(facts: Facts) -> Iterator[str]:
+def flat_patch_with_free_edges(facts: Facts) -> Iterator[Note]:
     """A flat on a free grid is a punch as large as the grid: pressures rise without bound towards its edges.
 
     Johnson (1985), section 2.8.
@@ -134,15 +131,12 @@ def flat_patch_with_free_edges(facts: Facts) -> Iterator[str]:
     for case in facts.cases:
         free = [name for name, wraps in zip("xy", case.grid.periodic, strict=True) if not wraps] if case.grid else []
         if case.shape == "flat" and free and case.load is not None:
-            yield (
-                f"grid: nominally flat and free along {' and '.join(free)}: the patch is a punch of its own, with the "
-                "highest pressures along its edges; grid.periodic = true makes it part of a larger contact"
-            )
+            yield PATCH_IS_PUNCH(case.place("grid"), axes=" and ".join(free))
             return
 
 
 @scene_check
-def curved_body_repeats(facts: Facts) -> Iterator[str]:
+def curved_body_repeats(facts: Facts) -> Iterator[Note]:
     """On a periodic axis a sphere is a row of spheres, each carried by what its neighbours push down.
 
     The neighbours' displacement relative to the contact's own is about a / L times four (the lattice sum of 1/r); 0.1
@@ -158,14 +152,11 @@ def curved_body_repeats(facts: Facts) -> Iterator[str]:
             size, length = case.smooth.semi_axes[axis], case.grid.lengths[axis]
             if case.grid.periodic[axis] and math.isfinite(size):
                 near = f", {length / size:.2g} contact radii apart" if length < 5 * size else ""
-                yield (
-                    f"grid: periodic along {name}, so the {case.shape} repeats every {si(length, 'm')}{near}{case.at}; "
-                    "for one body make that axis free"
-                )
+                yield BODY_REPEATS(case.place("grid"), axis=name, shape=case.shape, length=length, near=near)
 
 
 @scene_check
-def patch_sinks_at_given_separation(facts: Facts) -> Iterator[str]:
+def patch_sinks_at_given_separation(facts: Facts) -> Iterator[Note]:
     """At a given separation of the undeformed planes the half-space sinks in by an amount that follows the patch."""
     if not getattr(facts.scene, "at_film_separation", False):
         return
@@ -175,30 +166,23 @@ def patch_sinks_at_given_separation(facts: Facts) -> Iterator[str]:
     for case in facts.cases:
         if case.grid is not None and case.load is not None:
             sunk = sinking_compliance(case.grid) * case.load / (case.grid.area * scene.modulus)
-            yield (
-                f"sharing.separation: the half-space sinks in by up to {si(sunk, 'm')} under the mean pressure of the "
-                f"patch{case.at}; loads at a given separation depend on the patch's length, "
-                f"{si(case.grid.lengths[0], 'm')}"
-            )
+            yield PATCH_SINKS(case.place("sharing.separation"), sunk=sunk, length=case.grid.lengths[0])
             return
 
 
 @scene_check
-def wave_does_not_fit_the_period(facts: Facts) -> Iterator[str]:
+def wave_does_not_fit_the_period(facts: Facts) -> Iterator[Note]:
     """A sinusoid that does not close over a periodic grid has a step at the seam, with the highest pressures in it."""
     for case in facts.cases:
         if case.wavelength is None or case.grid is None or not case.grid.periodic[0]:
             continue
         waves = case.grid.lengths[0] / case.wavelength
         if abs(waves - round(waves)) > 1e-6 * waves or round(waves) == 0:
-            yield (
-                f"shape.wavelength: {waves:.4g} waves on a periodic grid of {si(case.grid.lengths[0], 'm')} leave a "
-                "kink at the seam; take a whole number of waves"
-            )
+            yield WAVE_DOES_NOT_FIT(case.place("shape.wavelength"), waves=waves, length=case.grid.lengths[0])
 
 
 @scene_check
-def cylinder_too_narrow_for_a_line(facts: Facts) -> Iterator[str]:
+def cylinder_too_narrow_for_a_line(facts: Facts) -> Iterator[Note]:
     """Plane strain needs an axis much longer than the contact is wide; its ends take a share of about 2a / width."""
     found = worst(
         (2 * case.smooth.semi_axes[0] / case.width, case)
@@ -207,7 +191,4 @@ def cylinder_too_narrow_for_a_line(facts: Facts) -> Iterator[str]:
     )
     if found is not None and found[0] > 0.2:
         share, case = found
-        yield (
-            f"the cylinder is {1 / share:.2g} times as wide as its contact is long{case.at}: a line contact in plane "
-            "strain is no model of it below about five; check width, or take an ellipsoid in kind contact"
-        )
+        yield CYLINDER_NARROW(case.label, ratio=1 / share)

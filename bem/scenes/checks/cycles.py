@@ -11,8 +11,21 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from bem.errors import OUTSIDE
 from bem.grid import FloatArray, Grid
+from bem.notes import Level, Note
+from bem.notes.checks import (
+    BOTH_BODIES_WEAR,
+    LOOP_WITHOUT_BARS,
+    NO_PARTICLES_BY_PRESSURE,
+    NO_WEAR_RATE,
+    NOT_SETTLED,
+    PARTICLES_OF_UNWORN,
+    SPOTS_SMALL,
+    SURFACE_ROUGHENED,
+    WEAR_STEPS_LONG,
+    WEAR_STEPS_OVERSHOOT,
+    WORN_STEEP,
+)
 from bem.scenes.checks.facts import Facts
 from bem.scenes.checks.hertz import LARGEST_SLOPE, STEEP
 from bem.scenes.checks.outcome import at_the_cap
@@ -31,7 +44,7 @@ _SERIES = {
 
 
 @outcome_check
-def rougher_by_its_own_pieces(facts: Facts, outcome: Outcome) -> Iterator[str]:
+def rougher_by_its_own_pieces(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """Running-in takes summits off. Pieces deeper than the roughness leave holes instead, and friction, film and pieces
     of later cycles are of those: two surfaces of 112 and 55 nm ended at 907, 630 and 469 nm on cells of 1, 0.5 and 0.25
     um (scene `running-in-stribeck` after 40 cycles at 0.01 m/s), so that it is the criterion's, and the cell's."""
@@ -47,12 +60,8 @@ def rougher_by_its_own_pieces(facts: Facts, outcome: Outcome) -> Iterator[str]:
     if cells:
         follows.append(f"{cells}, are at the hardness, {si(cap, 'Pa')}")
     so = f": so {joined(follows)}" if follows else ""
-    yield (
-        f"{OUTSIDE}the worn surface grew rough{_of(len(grown), len(before))} instead of running in, from Sq "
-        f"{si(1e-9 * b, 'm')} to {si(1e-9 * a, 'm')}, so that friction, film and particles at the end are of holes "
-        f"that the criterion and the cell made; both surfaces together had {si(1e-9 * both, 'm')}, and pieces{holes} "
-        f"deeper than that leave holes{so}; compare a finer grid, take fewer cycles, or a criterion that wears by "
-        "pressure (archard)"
+    yield SURFACE_ROUGHENED(
+        of=_of(len(grown), len(before)), before=1e-9 * b, after=1e-9 * a, both=1e-9 * both, holes=holes, so=so
     )
 
 
@@ -62,7 +71,7 @@ Rabinowicz 1995)."""
 
 
 @outcome_check
-def no_wear_rate_of_a_metal(facts: Facts, outcome: Outcome) -> Iterator[str]:
+def no_wear_rate_of_a_metal(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """Under a criterion of pieces all that yields leaves at once, in every cycle, where a real surface takes many
     passes: volumes by load and distance are then thousands of times those of any metal."""
     rates = numbers(outcome.summary.get("criterion_wear_rate_mm3_Nm"))
@@ -70,22 +79,15 @@ def no_wear_rate_of_a_metal(facts: Facts, outcome: Outcome) -> Iterator[str]:
         return
     beyond = [rate for rate in rates if rate > 10 * _SEVERE]
     if beyond:
-        yield (
-            f"criterion_wear_rate up to {max(beyond):.2g} mm3/(N m){_of(len(beyond), len(rates))} is not a wear rate: "
-            f"metals have 1e-9 to {_SEVERE:g}; take volumes from a measured rate ([archard], or the criterion archard)"
-        )
+        yield NO_WEAR_RATE(rate=max(beyond), of=_of(len(beyond), len(rates)), severe=_SEVERE)
 
 
 @outcome_check
-def drifting_at_the_last_cycle(facts: Facts, outcome: Outcome) -> Iterator[str]:
+def drifting_at_the_last_cycle(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """Figures of a loop that has not settled are those of its number of cycles; rule: `bem.wear.outcome.drift`."""
     told = [] if roughened(facts, outcome).grown else _drifting(facts, outcome)  # a surface full of holes says it there
     if told:
-        yield (
-            f"not settled: {joined(told)}, the mean of the last cycles (25, or half of all) against that of as many "
-            "before them; what is told of the end is that of this number of cycles: take more cycles.count, or read "
-            "the curves over cycles"
-        )
+        yield NOT_SETTLED(drifting=joined(told))
 
 
 def _drifting(facts: Facts, outcome: Outcome) -> list[str]:
@@ -123,7 +125,7 @@ _MANY = 1.1
 
 
 @outcome_check
-def least_area_of_worn_surfaces(facts: Facts, outcome: Outcome) -> Iterator[str]:
+def least_area_of_worn_surfaces(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """Holes have walls, and spots beside them a cell or two: the edge of contact is then not known."""
     caps, maps = {case.cap for case in facts.cases}, outcome.variables.get("pressure")
     areas = numbers(outcome.summary.get("contact_area_fraction"))
@@ -136,15 +138,11 @@ def least_area_of_worn_surfaces(facts: Facts, outcome: Outcome) -> Iterator[str]
     counted = [float((plane > 0).mean()) for plane in planes]
     many = [c / low for area, low, c in zip(areas, least, counted, strict=True) if area <= _MANY * low < c]
     if many:
-        yield (
-            "spots of contact are too small for these cells: the contact area lies between the least that carries the "
-            f"load at the hardness{_of(len(many), len(areas))} and the cells in contact, {max(many):.2f} times as many "
-            "in the last cycle; take a finer grid"
-        )
+        yield SPOTS_SMALL(of=_of(len(many), len(areas)), times=max(many))
 
 
 @outcome_check
-def worn_beyond_small_slopes(facts: Facts, outcome: Outcome) -> Iterator[str]:
+def worn_beyond_small_slopes(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """A scar of half-width a on a radius R is a^2 / 2R deep, and at its edge the bodies meet at the slope a / R, as in
     a contact that was pressed so wide: half-spaces and parabolas need a << R (Johnson 1985, section 4.1).
 
@@ -166,12 +164,13 @@ def worn_beyond_small_slopes(facts: Facts, outcome: Outcome) -> Iterator[str]:
     # of a contact too wide before any wear it is said there
     if largest <= (STEEP if unworn > LARGEST_SLOPE else LARGEST_SLOPE):
         return
-    yield (
-        f"{OUTSIDE if largest > STEEP else ''}the bodies are worn {si(max(depths), 'm')} deep at a radius of "
-        f"{si(radius, 'm')}{_of(sum(slope > LARGEST_SLOPE for slope in slopes), len(slopes))}: the scar's edge has a "
-        f"slope of {largest:.2g}, where half-spaces and parabolas hold below about {LARGEST_SLOPE:g}, and pressure, "
-        "depth and width of the scar are not those of such bodies; take less wear (a shorter wear.criterion.distance, "
-        "fewer cycles.count), or the volume by load and distance alone"
+    yield WORN_STEEP(
+        level=Level.OUTSIDE_MODEL if largest > STEEP else None,
+        depth=max(depths),
+        radius=radius,
+        of=_of(sum(slope > LARGEST_SLOPE for slope in slopes), len(slopes)),
+        slope=largest,
+        limit=LARGEST_SLOPE,
     )
 
 
@@ -200,7 +199,7 @@ def _planes(outcome: Outcome, name: str) -> list[FloatArray]:
 
 
 @outcome_check
-def particles_and_heights_of_one_of_two(facts: Facts, outcome: Outcome) -> Iterator[str]:
+def particles_and_heights_of_one_of_two(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """Sizes and numbers are those of one body; volumes, and what they are divided by, of all that wear."""
     wearing = next((case.wearing_bodies for case in facts.cases if case.wear is not None), ())
     if not facts.of_kind("wear", "running-in") or not wearing:
@@ -210,26 +209,23 @@ def particles_and_heights_of_one_of_two(facts: Facts, outcome: Outcome) -> Itera
     if worn is None or not worn.values.sum() > 0:  # that nothing comes off is said by itself
         return
     if pieces and named not in wearing:
-        yield (
-            f"particles are asked for of the {BODIES[named]} body (sizes.particles_of), and only the "
-            f"{BODIES[wearing[0]]} one wears: sizes and numbers, 0, are no result"
-        )
+        yield PARTICLES_OF_UNWORN(asked=BODIES[named], worn=BODIES[wearing[0]])
     if len(wearing) < 2:
         return
-    told = f"both bodies wear: heights, Sq and worn depth are those of the {BODIES[wearing[0]]} one, volumes of both"
     if not pieces:
-        yield told
+        yield BOTH_BODIES_WEAR(first=BODIES[wearing[0]], particles="")
         return
     listed = outcome.variables.get("particle_volume")
     share = "" if listed is None else f", {percent(float(listed.values.sum() / worn.values.sum()))} of the volume"
-    yield (
-        f"{told}; particles, their sizes and numbers are those of the {BODIES[named]} body{share}, and "
+    particles = (
+        f"; particles, their sizes and numbers are those of the {BODIES[named]} body{share}, and "
         f'sizes.particles_of = "{BODIES[1 - named]}" tells those of the other'
     )
+    yield BOTH_BODIES_WEAR(first=BODIES[wearing[0]], particles=particles)
 
 
 @outcome_check
-def steps_of_wear_in_oil_that_overshoot(facts: Facts, outcome: Outcome) -> Iterator[str]:
+def steps_of_wear_in_oil_that_overshoot(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """Under a film a step wears by the pressure of its start. Where that takes off more than twice what bodies
     give way by, what alternates from cell to cell grows from step to step, as in any explicit step: a gear's
     rough flanks kept Sq to four digits at 1.5 times, and at 10 times lost whole contacts in one step."""
@@ -250,12 +246,7 @@ def steps_of_wear_in_oil_that_overshoot(facts: Facts, outcome: Outcome) -> Itera
         )
         most = cell_to_cell_compliance(grid, pair)
         if give > 2 * most:
-            yield (
-                f"{OUTSIDE}the wear law's steps overshoot{case.at}: a cycle takes {give:.3g} m/Pa off, more than twice "
-                f"the {most:.3g} m/Pa by which the bodies give way from cell to cell, so that depths, roughness and "
-                f"contact are those of the steps; take {0.99 * most / give:.2g} times the wear.criterion.distance, in "
-                "more cycles.count"
-            )
+            yield WEAR_STEPS_OVERSHOOT(case.label, give=give, most=most, share=0.99 * most / give)
             return
 
 
@@ -264,7 +255,7 @@ _STEPS = 0.1
 
 
 @outcome_check
-def long_steps_of_wear_by_pressure(facts: Facts, outcome: Outcome) -> Iterator[str]:
+def long_steps_of_wear_by_pressure(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """Bars are those of the cells: the same distances stand in the loop on the coarser ones. What a law that wears by
     pressure leaves open over its distance is `bem.wear.halved.step_error`; and it makes no particles."""
     if not facts.of_kind("wear", "running-in") or with_pieces(facts):
@@ -273,24 +264,17 @@ def long_steps_of_wear_by_pressure(facts: Facts, outcome: Outcome) -> Iterator[s
     long = [(step, depth) for step, depth in zip(steps, depths, strict=False) if step > _STEPS * depth > 0]
     if long:
         step, depth = max(long, key=lambda pair: pair[0] / pair[1])
-        yield (
-            f"the wear law's steps leave up to {si(1e-9 * step, 'm')} open of a mean depth of {si(1e-9 * depth, 'm')}"
-            f"{_of(len(long), len(steps))}, which no error bar counts: take a shorter wear.criterion.distance, and as "
-            "many more cycles.count"
-        )
+        yield WEAR_STEPS_LONG(step=1e-9 * step, depth=1e-9 * depth, of=_of(len(long), len(steps)))
     if facts.of_kind("running-in"):
-        yield "a law that wears by pressure makes no particles: their sizes and numbers, 0, are no result"
+        yield NO_PARTICLES_BY_PRESSURE()
 
 
 @outcome_check
-def loop_without_error_bars(facts: Facts, outcome: Outcome) -> Iterator[str]:
+def loop_without_error_bars(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """One loop on one grid says nothing of its errors: no finer cells, no other surfaces to compare it with."""
     told = outcome.summary
     if facts.of_kind("wear", "running-in") and "Sq_final_nm" in told and "Sq_final_nm_error" not in told:
-        yield (
-            "no error bars of a single loop: with cycles.coarser_grid = true it is made once more on the grid of twice "
-            "the cell, which tells what cells leave open; repetitions tell how figures scatter with the surface"
-        )
+        yield LOOP_WITHOUT_BARS()
 
 
 def _of(number: int, all_: int) -> str:

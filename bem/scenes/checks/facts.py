@@ -69,6 +69,10 @@ class Case:
         """For the end of a sentence: " (10 N)", or nothing."""
         return f" ({self.label})" if self.label else ""
 
+    def place(self, key: str = "") -> str:
+        """Return the place of a note on this contact: a key of the scene, and the contact's label."""
+        return ", ".join(part for part in (key, self.label) if part)
+
     @property
     def mean_pressure(self) -> float | None:
         """Load over the grid's area [Pa]."""

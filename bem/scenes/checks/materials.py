@@ -4,10 +4,19 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
+from bem.notes import Note
+from bem.notes.checks import (
+    CAP_OF_STIFFER,
+    FATIGUE_CONSTANTS,
+    HARDNESS_UNLIKELY,
+    LAYER_INCOMPRESSIBLE,
+    TENSILE_CAP,
+    VISCOELASTIC,
+    YIELD_UNLIKELY,
+)
 from bem.plausibility import BY_NAME
 from bem.scenes.checks.facts import Case, Facts
 from bem.scenes.checks.registry import scene_check
-from bem.scenes.checks.words import si
 
 _SOFTEST = BY_NAME["Young's modulus"].low
 _POLYMER = 5e9
@@ -15,7 +24,7 @@ _STEELS = (180e9, 230e9)
 
 
 @scene_check
-def viscoelastic_material(facts: Facts) -> Iterator[str]:
+def viscoelastic_material(facts: Facts) -> Iterator[Note]:
     """Below some 5 GPa a solid is a polymer or rubber: its modulus depends on rate, temperature and time under load.
 
     Creep and frequency change E of polymers near room temperature by 2 to 10 times; J. D. Ferry, Viscoelastic
@@ -23,15 +32,11 @@ def viscoelastic_material(facts: Facts) -> Iterator[str]:
     """
     for key, material in facts.materials.items():
         if _SOFTEST <= material.youngs_modulus < _POLYMER:
-            yield (
-                f"{key}: E = {si(material.youngs_modulus, 'Pa')} is that of a polymer or rubber, which creeps and "
-                "relaxes; the solids here have no time dependence: take the modulus at the rate and temperature of "
-                "the contact, and run a second one to see how much it matters"
-            )
+            yield VISCOELASTIC(key, modulus=material.youngs_modulus)
 
 
 @scene_check
-def fatigue_constants_of_another_material(facts: Facts) -> Iterator[str]:
+def fatigue_constants_of_another_material(facts: Facts) -> Iterator[Note]:
     """Ductility and exponent of low-cycle fatigue are by default those of unalloyed and low-alloy steels (Baumel and
     Seeger 1990)."""
     worn = [(case, case.wear.criterion) for case in facts.cases if case.wear is not None]
@@ -48,15 +53,12 @@ def fatigue_constants_of_another_material(facts: Facts) -> Iterator[str]:
             continue
         other = [m for m in case.wearing if not _STEELS[0] < m.youngs_modulus < _STEELS[1]]
         if other:
-            yield (
-                f"wear.criterion low_cycle_fatigue: ductility and exponent are those of unalloyed and low-alloy "
-                f"steels, and {other[0].name}, E = {si(other[0].youngs_modulus, 'Pa')}, is none{case.at}; give its own"
-            )
+            yield FATIGUE_CONSTANTS(case.label, material=other[0].name, modulus=other[0].youngs_modulus)
             return
 
 
 @scene_check
-def incompressible_layer(facts: Facts) -> Iterator[str]:
+def incompressible_layer(facts: Facts) -> Iterator[Note]:
     """A bonded layer gives way by shear alone as nu goes to 0.5: it is as stiff as E (1-nu) / ((1+nu)(1-2nu)) says.
 
     Confined modulus; Johnson (1985), section 5.8. From 0.48 to 0.49 it doubles, from 0.49 to 0.499 it grows tenfold, so
@@ -66,14 +68,11 @@ def incompressible_layer(facts: Facts) -> Iterator[str]:
         nu = material.poissons_ratio
         if "layer" in key and nu >= 0.48:
             confined = (1 - nu) / ((1 + nu) * (1 - 2 * nu))
-            yield (
-                f"{key}: Poisson's ratio {nu:g} makes the bonded layer {confined:.0f} times as stiff in compression as "
-                "its modulus; the result hangs on the last digit: measure it, or bracket it with two runs"
-            )
+            yield LAYER_INCOMPRESSIBLE(key, ratio=nu, stiffer=confined)
 
 
 @scene_check
-def hardness_against_modulus(facts: Facts) -> Iterator[str]:
+def hardness_against_modulus(facts: Facts) -> Iterator[Note]:
     """H/E lies between 5e-4 (annealed metals) and 0.2 (2.8 times the shear limit of a perfect solid, about E / 15).
 
     Tabor (1951), Hardness of Metals; the limit of a perfect crystal: Kelly, Strong Solids (1966).
@@ -83,32 +82,27 @@ def hardness_against_modulus(facts: Facts) -> Iterator[str]:
             continue
         ratio = material.hardness / material.youngs_modulus
         if not 5e-4 <= ratio <= 0.2:
-            word = "below that of annealed metals" if ratio < 5e-4 else "above that of a perfect solid"
-            yield (
-                f"{key}: hardness {si(material.hardness, 'Pa')} is {ratio:.2g} of Young's modulus, {word} (5e-4 to "
-                "0.2); check both units"
+            yield HARDNESS_UNLIKELY(
+                key, reason="low" if ratio < 5e-4 else "high", hardness=material.hardness, share=ratio
             )
 
 
 @scene_check
-def softer_body_without_hardness(facts: Facts) -> Iterator[str]:
+def softer_body_without_hardness(facts: Facts) -> Iterator[Note]:
     """The hardness of a stiff body caps no contact with a compliant one that gives way long before."""
-    told: dict[str, str] = {}
+    told: dict[str, Note] = {}
     for case in facts.cases:
         if case.upper is None or case.cap is None or case.cap != case.softest:
             continue
         for name, body, other in (("lower", case.lower, case.upper), ("upper", case.upper, case.lower)):
             own, stiff = body.surface_material, other.surface_material
             if own.indentation_hardness is None and own.youngs_modulus < stiff.youngs_modulus:
-                told[name] = (
-                    f"{name}.material: {own.name} has neither hardness nor yield stress, so that contact is capped at "
-                    f"the {si(case.cap, 'Pa')} of {stiff.name}, which is the stiffer; give {own.name} a hardness"
-                )
+                told[name] = CAP_OF_STIFFER(f"{name}.material", material=own.name, cap=case.cap, stiff=stiff.name)
     yield from told.values()
 
 
 @scene_check
-def yield_against_hardness(facts: Facts) -> Iterator[str]:
+def yield_against_hardness(facts: Facts) -> Iterator[Note]:
     """Hardness over yield stress is 2.6 to 3 for metals and 1.5 to 2 for glass and polymers.
 
     Tabor (1951); Johnson (1985), section 6.3: it falls with E / yield stress towards 1.1, where yield only begins.
@@ -120,10 +114,7 @@ def yield_against_hardness(facts: Facts) -> Iterator[str]:
             continue
         ratio = material.hardness / material.yield_stress
         if not 1.95 <= ratio <= 4.0:
-            yield (
-                f"{key}: yield stress {si(material.yield_stress, 'Pa')} is hardness / {ratio:.2g}; metals have "
-                "hardness / 2.6 to / 3, brittle solids down to / 1.5: leave it out for / 2.8, or check both"
-            )
+            yield YIELD_UNLIKELY(key, stress=material.yield_stress, ratio=ratio)
 
 
 def _by_tension(case: Case) -> bool:
@@ -132,13 +123,9 @@ def _by_tension(case: Case) -> bool:
 
 
 @scene_check
-def tensile_strength_as_a_cap(facts: Facts) -> Iterator[str]:
+def tensile_strength_as_a_cap(facts: Facts) -> Iterator[Note]:
     """A brittle solid bears many times its tensile strength in compression; 2.8 times it is no hardness."""
     told = {m.name: m for case in facts.cases if _by_tension(case) for m in case.wearing if m.hardness is None}
     for name, material in told.items():
         if material.yield_stress is not None and material.indentation_hardness is not None:
-            yield (
-                f"wear.criterion maximum_tension takes the yield stress of {name}, {si(material.yield_stress, 'Pa')}, "
-                f"as its tensile strength, and without a hardness the pressure is capped at 2.8 times that, "
-                f"{si(material.indentation_hardness, 'Pa')}: give it a hardness"
-            )
+            yield TENSILE_CAP(material=name, stress=material.yield_stress, cap=material.indentation_hardness)

@@ -7,6 +7,23 @@ import math
 from collections.abc import Iterator, Sequence
 
 from bem.materials import Body
+from bem.notes import Note
+from bem.notes.checks import (
+    CELLS_ACROSS_CONTACT,
+    CELLS_PER_CORRELATION_LENGTH,
+    CELLS_PER_WAVE,
+    CRITERION_UNRESOLVED,
+    DEPTHS_COARSER_THAN_CELLS,
+    DEPTHS_IN_LAYER_FEW,
+    DEPTHS_MISS_STRESS,
+    LAYER_OF_ONE_DEPTH,
+    LAYER_THICK,
+    LAYER_THIN,
+    NOTHING_SLIDES,
+    PATCH_SHORT,
+    SLIDES_DIFFER,
+    WAVES_OF_TWO_CELLS,
+)
 from bem.scenes.checks.facts import Case, Facts, worst
 from bem.scenes.checks.registry import scene_check
 from bem.scenes.checks.surfaces_of import RoughSurface
@@ -19,7 +36,7 @@ _LENGTHS_PER_GRID = 6
 
 
 @scene_check
-def few_cells_across_the_contact(facts: Facts) -> Iterator[str]:
+def few_cells_across_the_contact(facts: Facts) -> Iterator[Note]:
     """With 8 cells across, the largest pressure is met within 1.5 % and the area within 13 %; with 4, within 4 % and 5
     % by luck of the sampling. Measured against Hertz' sphere, centred on a cell and on a corner."""
     values = (
@@ -31,14 +48,13 @@ def few_cells_across_the_contact(facts: Facts) -> Iterator[str]:
     if found is not None and 1 / found[0] < _CELLS_ACROSS:
         across, case = 1 / found[0], found[1]
         assert case.smooth is not None
-        yield (
-            f"grid: {across:.2g} cells across the Hertz contact{case.at}; take {_CELLS_ACROSS} or more (pressure "
-            f"within 1.5 %, area within 13 %), 40 for maps: spacing {si(min(case.smooth.semi_axes) / 10, 'm')} gives 20"
+        yield CELLS_ACROSS_CONTACT(
+            case.place("grid"), across=across, fewest=_CELLS_ACROSS, spacing=min(case.smooth.semi_axes) / 10
         )
 
 
 @scene_check
-def few_cells_per_wave(facts: Facts) -> Iterator[str]:
+def few_cells_per_wave(facts: Facts) -> Iterator[Note]:
     """A crest sampled with n cells a wave is met within 1 - cos(pi / n): 50 % with 3 cells, 29 % with 4, 8 % with 8.
 
     Below 3 cells every contact spot is one cell. Contact areas settle from 8 on (Yastrebov, Anciaux & Molinari, Phys.
@@ -47,21 +63,21 @@ def few_cells_per_wave(facts: Facts) -> Iterator[str]:
     for _, case, surface in facts.worst_surfaces(lambda s: max(s.grid.spacing) / (s.shortest_wave or 1.0)):
         spacing = max(surface.grid.spacing)
         if getattr(surface.table, "hurst", None) is not None and surface.shortest_wave is None:
-            yield (
-                f"{surface.body}.surface: without cutoff_wavelength its waves go down to two cells, "
-                f"{si(2 * spacing, 'm')}, so slope, contact area and pressures change with every mesh{case.at}; give "
-                "cutoff_wavelength, 4 to 8 cells or more"
-            )
+            yield WAVES_OF_TWO_CELLS(case.place(f"{surface.body}.surface"), wave=2 * spacing)
         elif surface.shortest_wave is not None and surface.shortest_wave / spacing < _CELLS_PER_WAVE:
-            yield (
-                f"grid: {surface.shortest_wave / spacing:.2g} cells to the shortest wave of the {surface.body} surface "
-                f"({si(surface.shortest_wave, 'm')}){case.at}: contact spots come down to single cells; take a spacing "
-                f"of {si(surface.shortest_wave / 8, 'm')}, or {si(surface.shortest_wave / 4, 'm')} for averages"
+            wave = surface.shortest_wave
+            yield CELLS_PER_WAVE(
+                case.place("grid"),
+                cells=wave / spacing,
+                body=surface.body,
+                wave=wave,
+                spacing=wave / 8,
+                average=wave / 4,
             )
 
 
 @scene_check
-def few_cells_per_correlation_length(facts: Facts) -> Iterator[str]:
+def few_cells_per_correlation_length(facts: Facts) -> Iterator[Note]:
     """Between samples further apart than a third of the correlation length a surface is noise: its slope on the grid is
     that of the grid, and asperities are single cells."""
 
@@ -72,15 +88,13 @@ def few_cells_per_correlation_length(facts: Facts) -> Iterator[str]:
         cells, length = 1 / inverse, surface.correlation_lengths[of_lengths(surface).index(inverse)]
         wave = surface.shortest_wave
         if cells < _CELLS_PER_WAVE and (wave is None or wave >= _CELLS_PER_WAVE * max(surface.grid.spacing)):
-            yield (
-                f"grid: the correlation length of the {surface.body} surface, {si(length, 'm')}, "
-                f"is {cells:.2g} cells{case.at}: asperities are hardly resolved; take a spacing of "
-                f"{si(length / 6, 'm')} or less"
+            yield CELLS_PER_CORRELATION_LENGTH(
+                case.place("grid"), body=surface.body, length=length, cells=cells, spacing=length / 6
             )
 
 
 @scene_check
-def patch_of_few_correlation_lengths(facts: Facts) -> Iterator[str]:
+def patch_of_few_correlation_lengths(facts: Facts) -> Iterator[Note]:
     """A patch of L x L holds (L / l)^2 independent pieces of roughness; its means scatter by l / L.
 
     A single wave over the patch, which is form and not roughness, has L / l = 5.3. Repetitions with surfaces of their
@@ -93,20 +107,17 @@ def patch_of_few_correlation_lengths(facts: Facts) -> Iterator[str]:
         length = surface.correlation_length
         unknown = math.isnan(length) and min(surface.grid.shape) > 8
         if unknown or min(surface.grid.lengths) < _LENGTHS_PER_GRID * length:
-            found = (
-                "its autocorrelation does not fall to 1/e within half of it"
-                if unknown
-                else f"it is {min(surface.grid.lengths) / length:.2g} correlation lengths long"
-            )
-            yield (
-                f"grid: short for the {surface.body} surface{case.at}: {found}, so a handful of summits decides; take "
-                "a larger patch or several repetitions, or remove form with detrend or high_pass"
+            yield PATCH_SHORT(
+                case.place("grid"),
+                reason="unknown" if unknown else "few",
+                body=surface.body,
+                lengths=math.nan if unknown else min(surface.grid.lengths) / length,
             )
             return
 
 
 @scene_check
-def layer_against_the_mesh(facts: Facts) -> Iterator[str]:
+def layer_against_the_mesh(facts: Facts) -> Iterator[Note]:
     """A layer thinner than half a cell deforms within the cell alone; one much thicker than the grid is a
     half-space."""
     seen = set()
@@ -117,21 +128,14 @@ def layer_against_the_mesh(facts: Facts) -> Iterator[str]:
             thickness, spacing = body.layer.thickness, max(case.grid.spacing)
             if thickness < 0.5 * spacing and (name, "thin") not in seen:
                 seen.add((name, "thin"))
-                yield (
-                    f"{name}.layer: {si(thickness, 'm')} thick on cells of {si(spacing, 'm')}{case.at}: its bending "
-                    "and stresses are not resolved, only its compliance; take cells of its thickness, or leave it out"
-                )
+                yield LAYER_THIN(case.place(f"{name}.layer"), thickness=thickness, cell=spacing)
             if thickness > 2 * max(case.grid.lengths) and not all(case.grid.periodic) and (name, "thick") not in seen:
                 seen.add((name, "thick"))
-                yield (
-                    f"{name}.layer: {si(thickness, 'm')} thick over a grid of "
-                    f"{si(max(case.grid.lengths), 'm')}{case.at}: the substrate is hardly felt; make the layer the "
-                    "body's material, which is faster"
-                )
+                yield LAYER_THICK(case.place(f"{name}.layer"), thickness=thickness, length=max(case.grid.lengths))
 
 
 @scene_check
-def depths_miss_the_largest_stress(facts: Facts) -> Iterator[str]:
+def depths_miss_the_largest_stress(facts: Facts) -> Iterator[Note]:
     """Von Mises stress is largest 0.48 a below a sphere, 0.70 a below a cylinder; 0.2 a off costs 4 to 7 % of it.
 
     From friction 0.3 on it is largest at the surface (Hamilton 1983; Smith & Liu 1953). One depth alone is meant.
@@ -145,10 +149,7 @@ def depths_miss_the_largest_stress(facts: Facts) -> Iterator[str]:
         at = 0.0 if case.friction >= 0.3 else at
         nearest = min(case.depths, key=lambda depth: abs(depth - at))
         if abs(nearest - at) > 0.2 * size and not rough:
-            yield (
-                f"outputs.depths: the largest von Mises stress lies {si(at, 'm')} below the surface, the nearest depth "
-                f"is {si(nearest, 'm')}: it is missed; take depths every {si(0.1 * size, 'm')} there"
-            )
+            yield DEPTHS_MISS_STRESS(case.label, at=at, nearest=nearest, step=0.1 * size)
 
 
 _FEWEST_DEPTHS = 3
@@ -159,7 +160,7 @@ _NEAR_INTERFACE = 0.25
 
 
 @scene_check
-def few_depths_in_a_layer(facts: Facts) -> Iterator[str]:
+def few_depths_in_a_layer(facts: Facts) -> Iterator[Note]:
     """Stresses along the surface jump at an interface, and a thin layer lies between two depths of a graded list: the
     largest stress of a coating was reported 50 % wrong from a single depth in its interlayer."""
     for case in facts.cases:
@@ -183,11 +184,7 @@ def few_depths_in_a_layer(facts: Facts) -> Iterator[str]:
         if missed:
             found.append(f"no depths lie close on both sides of the interface at {joined(missed)}")
         if found:
-            yield (
-                f"outputs.depths: {joined(found)} of the {name} body: the largest stresses there may be missed; set "
-                f"outputs.depths with {_FEWEST_DEPTHS} or more in every layer and one just above and just below every "
-                "interface"
-            )
+            yield DEPTHS_IN_LAYER_FEW(case.label, found=joined(found), body=name, fewest=_FEWEST_DEPTHS)
             return
 
 
@@ -211,19 +208,17 @@ def _depth_steps(facts: Facts) -> Iterator[tuple[float, Case]]:
 
 
 @scene_check
-def depths_coarser_than_cells(facts: Facts) -> Iterator[str]:
+def depths_coarser_than_cells(facts: Facts) -> Iterator[Note]:
     """Pieces that leave are made of voxels: twice as deep as wide, their thickness is the mesh's."""
     found = worst((step / min(case.grid.spacing), case) for step, case in _depth_steps(facts) if case.grid is not None)
     if found is not None and found[0] > 2:
         ratio, case = found
-        yield (
-            f"depths.spacing is {ratio:.2g} cells{case.at}: the thickness of particles follows it; take the cell, "
-            f"{si(min(case.grid.spacing if case.grid else (0.0,)), 'm')}, or less"
-        )
+        cell = min(case.grid.spacing if case.grid else (0.0,))
+        yield DEPTHS_COARSER_THAN_CELLS(case.label, ratio=ratio, cell=cell)
 
 
 @scene_check
-def few_cells_per_length_of_the_criterion(facts: Facts) -> Iterator[str]:
+def few_cells_per_length_of_the_criterion(facts: Facts) -> Iterator[Note]:
     """Below three cells sizes follow the mesh under any criterion (the guide's chapter on wear criteria)."""
     for case in facts.cases:
         law = None if case.wear is None else case.wear.criterion
@@ -234,37 +229,32 @@ def few_cells_per_length_of_the_criterion(facts: Facts) -> Iterator[str]:
             from bem.wear.criterion.base import FEWEST_CELLS
 
             cells = min(coarse) / max(case.grid.spacing)
-            yield (
-                f"wear.criterion {law.name}: its length, {si(min(coarse), 'm')}, is {cells:.2g} cells{case.at}: sizes "
-                f"follow the mesh; take cells of {si(min(coarse) / FEWEST_CELLS, 'm')} or less"
+            yield CRITERION_UNRESOLVED(
+                case.label, law=law.name, length=min(coarse), cells=cells, cell=min(coarse) / FEWEST_CELLS
             )
 
 
 @scene_check
-def layer_of_one_depth(facts: Facts) -> Iterator[str]:
+def layer_of_one_depth(facts: Facts) -> Iterator[Note]:
     """A film that wears needs more than one voxel through its thickness."""
     for step, case in _depth_steps(facts):
         for name, body in case.bodies.items():
             if body.layer is not None and step > body.layer.thickness:
-                yield (
-                    f"depths.spacing {si(step, 'm')} is more than the {name} layer's "
-                    f"thickness, {si(body.layer.thickness, 'm')}{case.at}: its particles are one depth thick; take a "
-                    "third of it"
-                )
+                yield LAYER_OF_ONE_DEPTH(case.label, step=step, body=name, thickness=body.layer.thickness)
                 return
 
 
 @scene_check
-def nothing_slides(facts: Facts) -> Iterator[str]:
+def nothing_slides(facts: Facts) -> Iterator[Note]:
     """Wear cycles between which the surfaces stay where they are meet the same asperities each time."""
     if not (facts.of_kind("wear", "running-in") and facts.cases and all(case.slide == 0 for case in facts.cases)):
         return
     if facts.scene.wear.criterion.needs_strength:  # local wear has a distance of its own
-        yield "wear.shift = 0: the surfaces do not slide on, every cycle meets the same asperities; take 1 or more"
+        yield NOTHING_SLIDES()
 
 
 @scene_check
-def slides_differ(facts: Facts) -> Iterator[str]:
+def slides_differ(facts: Facts) -> Iterator[Note]:
     """Variants of the mesh are alike only if they slide as far in a cycle: shift x cell must stay the same."""
     by_load: dict[float | None, list[Case]] = {}
     for case in facts.cases:
@@ -275,10 +265,8 @@ def slides_differ(facts: Facts) -> Iterator[str]:
         meshes = {case.grid.spacing for case in cases if case.grid is not None}
         shortest, longest = min(cases, key=_slide), max(cases, key=_slide)
         if len(meshes) > 1 and _slide(longest) > 1.02 * _slide(shortest):
-            yield (
-                f"variants slide {si(_slide(shortest), 'm')}{shortest.at} to {si(_slide(longest), 'm')}{longest.at} in "
-                "a cycle: meshes are compared at different sliding; take shifts in proportion to the cells"
-            )
+            ends = [f"{si(_slide(one), 'm')}{one.at}" for one in (shortest, longest)]
+            yield SLIDES_DIFFER(shortest=ends[0], longest=ends[1])
             return
 
 

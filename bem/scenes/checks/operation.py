@@ -5,21 +5,24 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
+from bem.notes import Note
+from bem.notes.checks import (
+    GROWTH_WITHOUT_BARRIER,
+)
 from bem.plausibility import ELECTRON_VOLT
 from bem.scenes.checks.facts import Facts
 from bem.scenes.checks.registry import scene_check
-from bem.scenes.checks.words import si
 
 
 @scene_check
-def oil_outside_its_range(facts: Facts) -> Iterator[str]:
+def oil_outside_its_range(facts: Facts) -> Iterator[Note]:
     """Viscosities extrapolated, an oil above its flash point or too thick to flow."""
     oil = getattr(facts.scene, "oil", None)
     yield from () if oil is None else oil.build().notes
 
 
 @scene_check
-def growth_without_a_barrier(facts: Facts) -> Iterator[str]:
+def growth_without_a_barrier(facts: Facts) -> Iterator[Note]:
     """Where friction x pressure x activation volume reaches the barrier, growth runs at its prefactor whatever the
     heat."""
     if not facts.of_kind("tribofilm"):
@@ -29,10 +32,10 @@ def growth_without_a_barrier(facts: Facts) -> Iterator[str]:
         pressure = case.cap if case.cap is not None else (case.smooth.maximum_pressure if case.smooth else 0.0)
         lowered = case.friction * pressure * film.activation_volume
         if lowered > film.activation_energy and math.isfinite(lowered):
-            yield (
-                f"film: shear stress {si(case.friction * pressure, 'Pa')} x activation volume is "
-                f"{lowered / ELECTRON_VOLT:.2g} eV, above the barrier of "
-                f"{film.activation_energy / ELECTRON_VOLT:.2g} eV{case.at}: growth runs at its prefactor, without "
-                "temperature; check activation_volume and its unit"
+            yield GROWTH_WITHOUT_BARRIER(
+                case.place("film"),
+                stress=case.friction * pressure,
+                lowered=lowered / ELECTRON_VOLT,
+                barrier=film.activation_energy / ELECTRON_VOLT,
             )
             return

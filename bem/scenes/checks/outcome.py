@@ -8,8 +8,24 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.errors import OUTSIDE
 from bem.grid import Grid
+from bem.notes import Level, Note
+from bem.notes.checks import (
+    CAP_WITHIN_ERROR,
+    CAPPED_NEARLY_FULL,
+    CONTACT_AT_CAP,
+    CONTACT_AT_EDGE,
+    ELASTIC_ABOVE_HARDNESS,
+    NOTHING_CAME_OFF,
+    PARTICLES_AS_LARGE_AS_GRID,
+    PARTICLES_CUT,
+    PARTICLES_OF_ONE_CELL,
+    PARTICLES_SMALL,
+    PRESSURE_AT_SEAM,
+    STRAIN_LARGE,
+    STRESS_ABOVE_YIELD,
+    STRESS_AT_DEEPEST_DEPTH,
+)
 from bem.scenes.checks.contact import hertz_pressure_above_hardness, yield_below_the_surface
 from bem.scenes.checks.facts import Case, Facts
 from bem.scenes.checks.registry import outcome_check
@@ -44,7 +60,7 @@ def _capped(facts: Facts, outcome: Outcome) -> Case | None:
 
 
 @outcome_check
-def contact_at_free_edges(facts: Facts, outcome: Outcome) -> Iterator[str]:
+def contact_at_free_edges(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """A contact that reaches a free edge of its grid ends there because the grid does.
 
     Of kind `contact` the solver says so itself; here it is read off the maps that the other kinds keep.
@@ -66,16 +82,12 @@ def contact_at_free_edges(facts: Facts, outcome: Outcome) -> Iterator[str]:
             touched = [name for name, share in shares.items() if share > _AT_EDGE]
             if touched:
                 share = max(shares.values())
-                yield (
-                    f"the contact reaches the free edge of the grid along {joined(touched)}: the outermost "
-                    f"cells carry {percent(share)} of the load, and the contact ends where the grid does; take a "
-                    "larger grid, or a periodic one for a part of a larger contact"
-                )
+                yield CONTACT_AT_EDGE(axes=joined(touched), share=share)
                 return
 
 
 @outcome_check
-def highest_pressure_at_a_seam(facts: Facts, outcome: Outcome) -> Iterator[str]:
+def highest_pressure_at_a_seam(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """A mirrored map is symmetric about its seams: a slope there becomes a ridge that no instrument has seen."""
     for case in facts.cases[:1]:
         mirrors = {getattr(table, "mirror", "none") for table in case.surfaces.values()}
@@ -85,11 +97,7 @@ def highest_pressure_at_a_seam(facts: Facts, outcome: Outcome) -> Iterator[str]:
             place = np.unravel_index(int(plane.argmax()), plane.shape)
             beside = ["xy"[axis] for axis in axes if _from_seam(int(place[axis]), plane.shape[axis]) == 0]
             if beside and plane.max() > 0:
-                yield (
-                    f"the highest pressure lies on a seam of a mirrored surface (along {joined(beside)}): it is the "
-                    "mirror's, and so are the stress and the particles below it; leave mirror out, and the seams are "
-                    "closed without ridges"
-                )
+                yield PRESSURE_AT_SEAM(axes=joined(beside))
 
 
 def _from_seam(index: int, cells: int) -> int:
@@ -99,7 +107,7 @@ def _from_seam(index: int, cells: int) -> int:
 
 
 @outcome_check
-def elastic_pressure_above_hardness(facts: Facts, outcome: Outcome) -> Iterator[str]:
+def elastic_pressure_above_hardness(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """Elastic summits carry any pressure; real ones flow at the hardness of the softer body. Where that is most of the
     load, the contact is not one that these bodies have."""
     case, maps = facts.cases[0], _pressures(outcome)
@@ -109,16 +117,13 @@ def elastic_pressure_above_hardness(facts: Facts, outcome: Outcome) -> Iterator[
     highest, share = float(plane.max()), _share_above(plane, hardness)
     beyond = share > _MOST
     if highest > hardness and (beyond or not list(hertz_pressure_above_hardness(facts))):
-        flow = "these bodies" if beyond else "real summits"
+        level = Level.OUTSIDE_MODEL if beyond else None
         how = 'behaviour = "capped"' if facts.of_kind("contact") else "a smaller load"
-        yield (
-            f"{OUTSIDE if beyond else ''}elastic pressures reach {si(highest, 'Pa')}, {highest / hardness:.2g} times "
-            f"the softer hardness, and {percent(share)} of the load is carried above it: {flow} would flow; take {how}"
-        )
+        yield ELASTIC_ABOVE_HARDNESS(level=level, pressure=highest, ratio=highest / hardness, share=share, action=how)
 
 
 @outcome_check
-def pressure_beyond_linear_elasticity(facts: Facts, outcome: Outcome) -> Iterator[str]:
+def pressure_beyond_linear_elasticity(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """Strain under a contact is about p (1 - nu^2) / E of each body: 0.2 of the contact modulus is no small strain."""
     case, maps = facts.cases[0], _pressures(outcome)
     if not facts.of_kind(*_DRY) or not maps:
@@ -129,12 +134,8 @@ def pressure_beyond_linear_elasticity(facts: Facts, outcome: Outcome) -> Iterato
     plane, limit = maps[-1][-1], 0.2 * modulus
     highest, share = float(plane.max()), _share_above(plane, limit)
     if highest > limit and (share > _MOST or not (case.smooth is not None and case.smooth.ratio > 0.2)):
-        yield (
-            f"{OUTSIDE if share > _MOST else ''}pressures reach {si(highest, 'Pa')}, {highest / modulus:.2g} times the "
-            f"contact modulus, and {percent(share)} of the load is carried above 0.2 of it: strains are of that order, "
-            "where linear elasticity ends at about 0.1; check units, smooth the surface, or cap the pressure at a "
-            "hardness"
-        )
+        level = Level.OUTSIDE_MODEL if share > _MOST else None
+        yield STRAIN_LARGE(level=level, pressure=highest, ratio=highest / modulus, share=share)
 
 
 def _share_above(pressure: NDArray[np.float64], limit: float) -> float:
@@ -144,12 +145,11 @@ def _share_above(pressure: NDArray[np.float64], limit: float) -> float:
 
 
 @outcome_check
-def contact_at_the_cap(facts: Facts, outcome: Outcome) -> Iterator[str]:
+def contact_at_the_cap(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """Where the pressure is the cap, it is an input and no result; said from a tenth of the contact on."""
     cells, cap = at_the_cap(facts, outcome)
     if cells and not roughened(facts, outcome).grown:  # which says it too
-        put_in = "there the pressure is what was put in, and nothing hardens"
-        yield f"{cells}, are at the hardness, {si(cap, 'Pa')}: {put_in}"
+        yield CONTACT_AT_CAP(cells=cells, cap=cap)
 
 
 def at_the_cap(facts: Facts, outcome: Outcome) -> tuple[str, float]:
@@ -169,7 +169,7 @@ def at_the_cap(facts: Facts, outcome: Outcome) -> tuple[str, float]:
 
 
 @outcome_check
-def cap_within_the_error_of_the_pressure(facts: Facts, outcome: Outcome) -> Iterator[str]:
+def cap_within_the_error_of_the_pressure(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """Two grids on which nothing reaches the hardness give its area no error, which finer cells may have."""
     case, told = _capped(facts, outcome), outcome.summary
     plastic = numbers(told.get("plastic_area_fraction"))
@@ -177,14 +177,11 @@ def cap_within_the_error_of_the_pressure(facts: Facts, outcome: Outcome) -> Iter
     if case is None or case.cap is None or not len(plastic) == len(highest) == len(errors):
         return
     if any(p == 0 and h < case.cap < h + e for p, h, e in zip(plastic, highest, errors, strict=True)):
-        yield (
-            f"nothing is at the hardness here, {si(case.cap, 'Pa')}, but it lies within the error of the highest "
-            "pressure: on finer cells a part may be"
-        )
+        yield CAP_WITHIN_ERROR(cap=case.cap)
 
 
 @outcome_check
-def capped_contact_nearly_full(facts: Facts, outcome: Outcome) -> Iterator[str]:
+def capped_contact_nearly_full(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """Flow at a constant pressure needs room beside the spots; real roughness persists beyond half contact (Johnson
     13.4)."""
     fraction = outcome.summary.get("contact_area_fraction")
@@ -192,10 +189,7 @@ def capped_contact_nearly_full(facts: Facts, outcome: Outcome) -> Iterator[str]:
         return
     largest = max(numbers(fraction), default=0.0)
     if largest > _CONTACT and all(case.cap for case in facts.cases) and _anything_at_the_cap(facts, outcome):
-        yield (
-            f"{percent(largest)} of the patch is in contact under a capped pressure: above about half the valleys "
-            "resist, which a cap leaves out; take a smaller load or a larger patch"
-        )
+        yield CAPPED_NEARLY_FULL(share=largest)
 
 
 def _anything_at_the_cap(facts: Facts, outcome: Outcome) -> bool:
@@ -211,32 +205,26 @@ def _anything_at_the_cap(facts: Facts, outcome: Outcome) -> bool:
 
 
 @outcome_check
-def largest_stress_at_the_deepest_depth(facts: Facts, outcome: Outcome) -> Iterator[str]:
+def largest_stress_at_the_deepest_depth(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """A largest stress in the last row of depths is not the largest."""
     depth = outcome.variables.get("depth")
     found = outcome.summary.get("max_von_mises_depth_m")
     if depth is not None and found is not None and len(depth.values) > 1 and found >= float(depth.values[-1]):
-        yield (
-            f"the largest von Mises stress lies in the deepest depth, {si(found, 'm')}: it may grow further down; take "
-            "deeper outputs.depths"
-        )
+        yield STRESS_AT_DEEPEST_DEPTH(depth=found)
 
 
 @outcome_check
-def elastic_stress_above_yield(facts: Facts, outcome: Outcome) -> Iterator[str]:
+def elastic_stress_above_yield(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """Without a cap stresses are elastic throughout; where they exceed the yield stress they are too high."""
     volume, highest = outcome.summary.get("yielded_volume_m3"), outcome.summary.get("max_von_mises_Pa")
     if not volume or highest is None or facts.cases[0].cap is not None:
         return
     if not (list(yield_below_the_surface(facts)) or list(hertz_pressure_above_hardness(facts))):
-        yield (
-            f"von Mises stresses reach {si(highest, 'Pa')}, above the yield stress, in {volume * 1e18:.3g} um^3: they "
-            "are elastic, and too high there; lower the load, or read them as where yield begins"
-        )
+        yield STRESS_ABOVE_YIELD(stress=highest, volume=volume * 1e18)
 
 
 @outcome_check
-def particles_of_one_cell(facts: Facts, outcome: Outcome) -> Iterator[str]:
+def particles_of_one_cell(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """A particle cannot be smaller than a cell: where most are one, their mean size is the mesh's."""
     if "particle_length" in outcome.variables:
         yield from _counted(facts, outcome)
@@ -248,14 +236,10 @@ def particles_of_one_cell(facts: Facts, outcome: Outcome) -> Iterator[str]:
     # two cells as deep as wide have an equivalent radius of 0.78 of a cell
     small = [value for value in numbers(radius) if 0 < value < 0.78 * cell]
     if small:
-        yield (
-            f"the mean particle, by number, is smaller than two cells of {si(1e-9 * cell, 'm')} in {len(small)} of "
-            f"{len(numbers(radius))} runs (radius {si(1e-9 * min(small), 'm')}): most are one cell, and their size is "
-            "the mesh's; take a finer grid, or the mean by volume"
-        )
+        yield PARTICLES_SMALL(cell=1e-9 * cell, few=len(small), all=len(numbers(radius)), radius=1e-9 * min(small))
 
 
-def _counted(facts: Facts, outcome: Outcome) -> Iterator[str]:
+def _counted(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     length, width, volume = (outcome.variables[f"particle_{name}"].values for name in ("length", "width", "volume"))
     grids = _grids_of_particles(facts, outcome)
     if not grids:
@@ -264,11 +248,8 @@ def _counted(facts: Facts, outcome: Outcome) -> Iterator[str]:
     one = (length < 1.5 * spacings.max(axis=1)) & (width < 1.5 * spacings.min(axis=1))
     if one.mean() > 0.5:
         cell = min((grid.spacing for grid in grids), key=math.prod)
-        yield (
-            f"{percent(float(one.mean()))} of the particles, with {percent(float(volume[one].sum() / volume.sum()))} "
-            f"of their volume, are one cell wide ({times(cell, 'm')}): their number and means by number are "
-            "the mesh's; take a finer grid, or means by volume where their share is small"
-        )
+        share = float(volume[one].sum() / volume.sum())
+        yield PARTICLES_OF_ONE_CELL(share=float(one.mean()), volume=share, cell=times(cell, "m"))
 
 
 def _grids_of_particles(facts: Facts, outcome: Outcome) -> list[Grid]:
@@ -285,7 +266,7 @@ def _grids_of_particles(facts: Facts, outcome: Outcome) -> list[Grid]:
 
 
 @outcome_check
-def particles_as_large_as_the_grid(facts: Facts, outcome: Outcome) -> Iterator[str]:
+def particles_as_large_as_the_grid(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """A piece that fills the slice says nothing of its size."""
     grids = _grids_of_particles(facts, outcome)
     if not grids:
@@ -295,14 +276,11 @@ def particles_as_large_as_the_grid(facts: Facts, outcome: Outcome) -> Iterator[s
         zip(lengths, (min(grid.lengths) for grid in grids), strict=True), key=lambda pair: pair[0] / pair[1]
     )
     if largest > _WIDE * side:
-        yield (
-            f"the largest particle is {si(largest, 'm')} long on a grid of {si(side, 'm')}: the grid decides its size; "
-            "take a larger one, or read it as wear of the whole surface"
-        )
+        yield PARTICLES_AS_LARGE_AS_GRID(largest=float(largest), side=side)
 
 
 @outcome_check
-def nothing_comes_off(facts: Facts, outcome: Outcome) -> Iterator[str]:
+def nothing_comes_off(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """No particles in the settled cycles of a case: what they would have to be."""
     if not facts.of_kind("wear", "running-in"):
         return
@@ -314,7 +292,7 @@ def nothing_comes_off(facts: Facts, outcome: Outcome) -> Iterator[str]:
     for number, case, stress in zip(counts, facts.cases, stresses, strict=True):
         if number == 0 and case.wear is not None and case.wear.criterion.needs_strength:
             takes = _what_it_takes(case) or _how_far(case, float(stress))
-            yield f"nothing came off by the criterion {case.wear.criterion.name}{case.at}{takes}"
+            yield NOTHING_CAME_OFF(case.label, law=case.wear.criterion.name, takes=takes)
 
 
 def _how_far(case: Case, stress: float) -> str:
@@ -324,19 +302,19 @@ def _how_far(case: Case, stress: float) -> str:
         return ""
     strength = min(strengths)
     if stress > strength:
-        return "; in the last cycle nothing that exceeds the yield stress reaches the surface"
+        return "In the last cycle nothing that exceeds the yield stress reaches the surface."
     down = f" down to {si(case.depths[-1], 'm')}" if case.depths else ""
     said = (
-        f"; the largest stress of a cell{down} in the last cycle is {si(stress, 'Pa')}, and {si(strength, 'Pa')} is "
-        "what takes it off"
+        f"The largest stress of a cell{down} in the last cycle is {si(stress, 'Pa')}, and {si(strength, 'Pa')} is "
+        "what takes it off."
     )
     if case.wear is None or case.wear.criterion.name != "maximum_tension":
         return said
     return said + (
-        ": under pressure alone a line contact has no tension and a round one (1 - 2 nu)/3 of its highest pressure at "
+        " Under pressure alone a line contact has no tension and a round one (1 - 2 nu)/3 of its highest pressure at "
         "the edge, friction f adds 2 f of it behind a line contact and pi (4 + nu)/8 f behind a round one, and a thin "
         "layer has both in the ratio of its modulus to the substrate's; these are peaks as steep as a root, of which "
-        "cells see 0.75 where the contact is 20 to 30 of them wide and 0.9 on 100"
+        "cells see 0.75 where the contact is 20 to 30 of them wide and 0.9 on 100."
     )
 
 
@@ -348,16 +326,16 @@ def _what_it_takes(case: Case) -> str:
     law = case.wear.criterion
     if isinstance(law, Junction):
         size = min(law.critical_size(material) for material in case.wearing)
-        return f"; a junction must be {si(size, 'm')} wide, d* of its surface_energy and strength_ratio"
+        return f"A junction must be {si(size, 'm')} wide, d* of its surface_energy and strength_ratio."
     if isinstance(law, Sphere):
-        return f"; a piece must hold a sphere of {si(law.diameter, 'm')}"
+        return f"A piece must hold a sphere of {si(law.diameter, 'm')}."
     if isinstance(law, LowCycleFatigue):
-        return "; voxels still have life left: take more cycles.count or passes"
+        return "Voxels still have life left: take more cycles.count or passes."
     return ""
 
 
 @outcome_check
-def particles_cut_by_the_depths(facts: Facts, outcome: Outcome) -> Iterator[str]:
+def particles_cut_by_the_depths(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """A piece that reaches the last depth goes on below it."""
     cut, number = outcome.summary.get("truncated_particles"), outcome.summary.get("particles_per_cycle")
     if cut is None or number is None or not facts.of_kind("wear", "running-in"):
@@ -367,8 +345,5 @@ def particles_cut_by_the_depths(facts: Facts, outcome: Outcome) -> Iterator[str]
     if shares and max(shares) > 0.02:
         coated = any("layer" in key for key in facts.materials)
         held = any(case.wear is not None and case.wear.within_layer for case in facts.cases)
-        yield (
-            f"{percent(max(shares))} of the settled particles reach the deepest depth and go on below it: their volume "
-            "is too small; take more or wider depths"
-            + (", unless they end at the interface, where wear.within_layer ends them" if coated and held else "")
-        )
+        ends = "unless they end at the interface, where wear.within_layer ends them"
+        yield PARTICLES_CUT(share=max(shares), unless=f", {ends}" if coated and held else "")

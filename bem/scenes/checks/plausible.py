@@ -10,6 +10,7 @@ from collections.abc import Iterator
 from functools import lru_cache
 from typing import Annotated, Any, get_args, get_origin
 
+from bem.notes import Note
 from bem.plausibility import BY_NAME, UsualRange, notes_on, range_of_key
 from bem.scenes.checks.facts import Facts
 from bem.scenes.checks.registry import scene_check
@@ -24,7 +25,7 @@ Values = Iterator[tuple[str, UsualRange, float]]
 
 
 @scene_check
-def outside_usual_range(facts: Facts) -> Iterator[str]:
+def outside_usual_range(facts: Facts) -> Iterator[Note]:
     """A value outside its usual range is most often one in another unit."""
     values = [*values_over(facts.scene), *_derived(facts)]
     seen: set[str] = set()
@@ -34,7 +35,7 @@ def outside_usual_range(facts: Facts) -> Iterator[str]:
             yield note
 
 
-def notes_over(scene: SceneModel) -> list[str]:
+def notes_over(scene: SceneModel) -> list[Note]:
     """Notes on the values of a scene, those of its key `over` included."""
     return notes_on(values_over(scene))
 
@@ -45,7 +46,7 @@ def values_over(scene: SceneModel) -> Values:
         yield from values_of(own)
 
 
-def notes_on_table(table: Table) -> list[str]:
+def notes_on_table(table: Table) -> list[Note]:
     """Notes on the values of any table, such as that of a machine element."""
     return notes_on(values_of(table))
 

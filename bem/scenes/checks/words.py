@@ -3,12 +3,10 @@
 from __future__ import annotations
 
 import math
-import re
 from typing import Any
 
 import numpy as np
 
-_NUMBER = re.compile(r"(?<![\w.])[-+]?\d+(\.\d+)?(e[-+]?\d+)?( [GMkmun]?(m|N|Pa|%)(?![\w/]))?")
 _PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "u"), (1e-9, "n"))
 
 
@@ -45,9 +43,3 @@ def numbers(value: Any) -> list[float]:
     if isinstance(value, list | tuple):
         return [number for item in value for number in numbers(item)]
     return [float(value)] if isinstance(value, int | float | np.number) and np.isfinite(value) else []
-
-
-def without_numbers(text: str) -> str:
-    """A sentence with a sign in place of its numbers, those with prefixes with them: that two of them share where they
-    say the same of different figures."""
-    return _NUMBER.sub("#", text)

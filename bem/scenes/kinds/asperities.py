@@ -13,6 +13,7 @@ import numpy as np
 
 from bem.errors import InputError, Status
 from bem.grid import FloatArray, Grid
+from bem.notes.accuracy import NoBar
 from bem.scenes import build, plans
 from bem.scenes.axes import Axis, listed
 from bem.scenes.common import BodyScene, OutputsScene, SceneModel, UpperBodyScene
@@ -138,8 +139,7 @@ def _bars(scene: AsperitiesScene, grid: Grid, found: ArrayLoads) -> ErrorBars:
     except InputError:
         coarser = None
     if coarser is None or coarser.status is not Status.CONVERGED:
-        why = "no error bars: the array was not solved on the grid of twice the cell"
-        return ErrorBars.unknown(_SHARES.values(), why)
+        return ErrorBars.unknown(_SHARES.values(), NoBar.COARSER_UNSOLVED)
     bars = asperity_bars(found, coarser, scene.array.radius, grid.spacing[0])
     shares = bars.renamed(_SHARES, lambda bar: float(bar[-1] / found.alone[-1]))
     return bars.renamed({"mean_plane": "asperity_load", "from_flat": "asperity_load_window"}) | shares

@@ -12,9 +12,10 @@ from numpy.typing import NDArray
 
 from bem.errors import Status
 from bem.grid import FloatArray, Grid
+from bem.notes import Note
+from bem.notes.scenes import BODIES_APART
 from bem.numerics.blocks import deviation
 from bem.scenes import build, plans
-from bem.scenes.checks.words import si
 from bem.scenes.context import Context, error_bars, release, set_aside, tell
 from bem.scenes.kind import Kind
 from bem.scenes.packing import keep, kept, kept_coarser
@@ -188,16 +189,14 @@ def _solve(
     return solved
 
 
-def _standing_off(solution: ContactSolution) -> tuple[str, ...]:
+def _standing_off(solution: ContactSolution) -> tuple[Note, ...]:
     """What is said of bodies that do not touch, so that figures of zero are not taken for those of a contact."""
     if solution.pressure.any() or solution.status is not Status.CONVERGED or solution.approach >= 0:
         return ()
     from bem.accuracy.contact import mean_opening
 
-    return (
-        f"the bodies do not touch: they stand {si(-solution.approach, 'm')} off; take a larger approach, a smaller "
-        f"mean gap (they touch at {si(mean_opening(solution.gap) + solution.approach, 'm')}) or a load",
-    )
+    touching = mean_opening(solution.gap) + solution.approach
+    return (BODIES_APART(apart=float(-solution.approach), touching=float(touching)),)
 
 
 def _begin(context: Context, grid: Grid) -> FloatArray | None:

@@ -16,6 +16,8 @@ import numpy as np
 from bem.accuracy.bars import POINTS, ErrorBars, table
 from bem.errors import Status
 from bem.grid import FloatArray, Grid
+from bem.notes import Note
+from bem.notes.scenes import FLOW_FACTORS_UNSOLVED
 from bem.scenes import build, film_plans, plans
 from bem.scenes.axes import Axis, listed, over_last, variants
 from bem.scenes.common import OutputsScene, Repetitions
@@ -199,7 +201,7 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
     return _record(grid, curve, height, errors, left_out)
 
 
-def _notes(solution: MixedSolution) -> tuple[str, ...]:
+def _notes(solution: MixedSolution) -> tuple[Note, ...]:
     """What is noted of one speed; what the oil says is told of all of them together."""
     from bem.friction.oil_beside import oil_notes
     from bem.friction.oil_on_contact import covered_notes
@@ -229,9 +231,9 @@ def _flow_factors(
 
     with context.timer("flow factors"):
         table = factors_for_films(lower, upper, grid, scene.bodies, hardness=scene.cap)
-    tell(context, table.notes, "flow factors: ")
+    tell(context, table.notes, "flow factors")
     if table.status is not Status.CONVERGED:
-        context.note(f"flow factors: {table.status.message}, residual {float(table.residual.max()):.2g}")
+        context.note(FLOW_FACTORS_UNSOLVED(message=table.status.message, residual=float(table.residual.max())))
     return table
 
 

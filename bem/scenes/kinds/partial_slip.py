@@ -12,6 +12,7 @@ import numpy as np
 
 from bem.errors import InfeasibleError, Status
 from bem.grid import FloatArray, Grid
+from bem.notes.scenes import PRESSING_AT_ONCE, PRESSING_IN_STEPS
 from bem.scenes import build, sticking
 from bem.scenes.context import Context, error_bars
 from bem.scenes.kind import Kind
@@ -155,13 +156,7 @@ def _tell(scene: PartialSlipScene, steps: int, context: Context) -> None:
         return
     if not answers(scene):
         sticking.tell_coupled(scene, context)
-    context.note(
-        f"pressure alone makes bodies that differ slip: the load comes in {steps} steps, and what sticks is known "
-        f"to about 1/{steps} of it; take twice push.pressing_steps to see"
-        if steps > 1
-        else "the whole load comes at once, while surfaces that differ slip as it grows: far too little sticks; "
-        f"leave push.pressing_steps out ({PRESSING_STEPS}) or raise it"
-    )
+    context.note(PRESSING_IN_STEPS(steps=steps) if steps > 1 else PRESSING_AT_ONCE(usual=PRESSING_STEPS))
 
 
 def _bars(

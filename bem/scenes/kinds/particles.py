@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import numpy as np
 
 from bem.grid import FloatArray, Grid
+from bem.notes.scenes import MAP_SYNTHETIC
 from bem.scenes import plans
 from bem.scenes.common import MeasuredSurface, OutputsScene, SceneModel, one_of
 from bem.scenes.context import Context, error_bars
@@ -64,7 +65,7 @@ def _map(scene: ParticlesScene, context: Context) -> tuple[FloatArray, tuple[flo
         from bem.particles import synthetic_afm_map
 
         made = synthetic_afm_map(seed=context.seed("map"), **scene.synthetic.model_dump())
-        context.note("the map is synthetic: it has the sizes of the source's figures built in and confirms no model")
+        context.note(MAP_SYNTHETIC())
         return made.heights, made.spacing
     from bem.surfaces import read_surface
 

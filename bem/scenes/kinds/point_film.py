@@ -13,6 +13,7 @@ from pydantic import model_validator
 from bem.accuracy.bars import GRID
 from bem.errors import Status
 from bem.grid import FloatArray, Grid
+from bem.notes.scenes import FILM_THINNER_THAN_ROUGHNESS, LEAST_FILM_DECIDES
 from bem.reference_solutions.hertz import ellipse_contact
 from bem.scenes import build, plans
 from bem.scenes.axes import changed
@@ -26,7 +27,7 @@ from bem.scenes.resolutions import Resolution
 from bem.scenes.tables.ball import BallRollingScene, BallScene, FilmCellsScene
 from bem.scenes.tables.passing import PatchScene
 from bem.scenes.tables.supply import SupplyScene, build_supply, check_layer
-from bem.scenes.tables.touching import REMEDY, SET_BY_LEAST, TouchingScene, check_touching, rough_body, rough_notes
+from bem.scenes.tables.touching import REMEDY, TouchingScene, check_touching, rough_body, rough_notes
 
 if TYPE_CHECKING:
     from bem.accuracy.point import PointCase
@@ -99,10 +100,6 @@ _SPIKE = "the pressure spike before the outlet is narrower than the cells, and i
 _GIVEN = partial(Figure, unjudged=True)
 _of_supply = partial(Figure, optional=True)
 _of_rough = partial(Figure, optional=True)
-_ROUGH = (
-    "the film is thinner than the roughness (lambda below 1): asperities touch, which this smooth contact leaves out; "
-    "use kind friction (mixed lubrication)"
-)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -175,7 +172,7 @@ def run(scene: PointFilmScene, context: Context) -> PointFilmRecord:
     assert film.state is not None
     tell(context, but_unknown(film.notes))  # bars are of grids of their own, and say where they are unknown
     if scene.roughness is not None and film.minimum_thickness < scene.roughness:
-        context.note(_ROUGH)
+        context.note(FILM_THINNER_THAN_ROUGHNESS())
     wanted = scene.outputs.errors and film.status is Status.CONVERGED
     return filled(
         PointFilmRecord,
@@ -241,7 +238,7 @@ def _rough(scene: PointFilmScene, context: Context) -> PointFilmRecord:
     given = _given(case, film, setting)
     tell(context, [*film.notes, *rough_notes(scene, grid, dry.semi_axes, film), *narrow_notes(case, film)])
     if given["formula_central"] < case.least_film:
-        context.note(SET_BY_LEAST)
+        context.note(LEAST_FILM_DECIDES())
     area = math.pi * dry.semi_axes[0] * dry.semi_axes[1]
     wanted = scene.outputs.errors and film.status is Status.CONVERGED
     middle = {name: float(given[f"{field}_along"][_SHOWN.searchsorted(-1e-9)]) for name, field in _CENTRAL}

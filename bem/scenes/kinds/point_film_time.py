@@ -11,6 +11,7 @@ import numpy as np
 from pydantic import model_validator
 
 from bem.grid import FloatArray
+from bem.notes.scenes import WAVE_STEPS_FEW
 from bem.scenes import build, plans
 from bem.scenes.common import BodyScene, OutputsScene, SceneModel, problem
 from bem.scenes.context import Context
@@ -156,9 +157,7 @@ def run(scene: PointFilmTimeScene, context: Context) -> PointFilmTimeRecord:
         initial_thickness=scene.march.initial_thickness,
     )
     if (steps := _steps_a_wave(scene)) < _FEW_STEPS:
-        context.note(
-            f"{steps:.0f} steps a wave: steps damp waves, by 5 % over a wavelength with 20 steps a wave, by 1 % with 32"
-        )
+        context.note(WAVE_STEPS_FEW(steps=steps))
     wanted = scene.outputs.errors
     march = Marched.of(case, case.cells, context, wanted, lambda films: point_march_bars(case.done(films)))
     return _record(scene, march)

@@ -15,6 +15,7 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 import numpy as np
 
 from bem.grid import FloatArray
+from bem.notes.scenes import GROSS_SLIDING_ASSUMED
 from bem.scenes import build, film_plans, pieces, plans, wearing
 from bem.scenes.axes import Axis, changed, over_last, with_keys
 from bem.scenes.common import PositivePressure, Repetitions
@@ -25,7 +26,6 @@ from bem.scenes.packing import packed, unpacked
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import LAMBDA_MIXED, LAMBDA_WHOLE, Figure, GridRecord, Series, filled, without_bars
 from bem.scenes.resolutions import CELLS, of_loop
-from bem.scenes.rubbing import FRICTION_SLIDES
 from bem.scenes.tables.sharing import TEMPERATURES, OneLoadScene, RunningInCycles, WearingSharing
 from bem.scenes.tables.wear_model import WearScenePart
 from bem.scenes.third_bodies import tell_of_third_bodies
@@ -278,7 +278,7 @@ def wear_down(
     tell_of_third_bodies(context, found.third_body_load_share)
     tell(context, notes_of_balance(step.notes, step.film_notes))
     if not scene.wear.traction.slides:
-        context.note(FRICTION_SLIDES)
+        context.note(GROSS_SLIDING_ASSUMED())
     return found
 
 

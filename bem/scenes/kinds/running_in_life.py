@@ -15,6 +15,7 @@ import numpy as np
 from pydantic import model_validator
 
 from bem.grid import FloatArray
+from bem.notes.wear import LIFE_DISTANCE_DIFFERS, LIFE_FRAME, LIFE_MEANS
 from bem.scenes import build, film_plans, lives, plans
 from bem.scenes.axes import Axis
 from bem.scenes.common import Repetitions, problem
@@ -138,7 +139,7 @@ def plan(scene: RunningInLifeScene) -> Plan:
     )
 
 
-_JUMPS_ALONE = "hold what the cycle jumps leave open alone: life.coarser_lives is false"
+_JUMPS_ALONE = "what the cycle jumps leave open alone, since life.coarser_lives is false"
 _over, _shown = partial(Series, ("cycle",)), partial(grid_map, of="first")
 _step = partial(Series, ("step",), rows=True)
 _PITS = "it follows the stresses of single cells, the positions that sample a pass, and the surfaces drawn"
@@ -272,20 +273,16 @@ _FRAMES = {
 def _tell(scene: RunningInLifeScene, context: Context, setup: MixedSetup, contact: MixedPasses) -> None:
     """What the reader must know."""
     wear, (speeds,) = scene.wear, scene.speeds.build()
-    context.note(f'wear.passes = "{wear.passes}": {_FRAMES[wear.passes]}')
-    context.note(
-        f"figures over a life are means over {wear.positions} positions that pair each other's roughness; error bars "
-        + ("hold cycle jumps, positions, cells and points of the films" if scene.life.coarser_lives else _JUMPS_ALONE)
-    )
+    context.note(LIFE_FRAME(passes=wear.passes, frame=_FRAMES[wear.passes]))
+    hold = "cycle jumps, positions, cells and points of the films" if scene.life.coarser_lives else _JUMPS_ALONE
+    context.note(LIFE_MEANS(positions=wear.positions, hold=hold))
     mean, slide = 0.5 * abs(sum(speeds)), abs(speeds[0] - speeds[1])
     passing = wear.passes == "both" and mean > 0
-    slid = setup.grid.lengths[0] * slide / mean if passing else wear.distance
+    length = setup.grid.lengths[0]
+    slid = length * slide / mean if passing else wear.distance
     if passing and slid > 0 and abs(wear.distance / slid - 1) > 0.05:
-        context.note(
-            f"wear.law.distance {wear.distance:.3g} m is not what these speeds make a place slide while the "
-            f"{setup.grid.lengths[0]:.3g} m of the patch pass, {slid:.3g} m"
-        )
-    tell(context, contact.film_notes, "film: ")
+        context.note(LIFE_DISTANCE_DIFFERS(given=wear.distance, slid=slid, length=length))
+    tell(context, contact.film_notes, "film")
 
 
 def _record(scene: RunningInLifeScene, setup: MixedSetup, end: LifeState, beside: Beside) -> RunningInLifeRecord:

@@ -14,6 +14,7 @@ from pydantic import model_validator
 from bem.accuracy.bars import POINTS
 from bem.errors import Status
 from bem.grid import FloatArray
+from bem.notes.scenes import FILM_THINNER_THAN_ROUGHNESS
 from bem.scenes import build, plans
 from bem.scenes.axes import Axis
 from bem.scenes.common import BodyScene, OutputsScene, PositiveLength, SceneModel, check_smooth
@@ -131,10 +132,6 @@ _along = partial(Series, ("x",))
 _HOTTEST = "in pure rolling it stands at the spike of pressure and follows the mesh"
 _FORMULA = "it is a formula's"
 _ALGEBRA = "it closes by construction, to rounding"
-_ROUGH = (
-    "the film is thinner than the roughness (lambda below 1): asperities touch, which this smooth contact leaves out; "
-    "use kind friction (mixed lubrication)"
-)
 _of_supply, _hot = partial(Figure, optional=True), partial(Figure, "C", part_of=("film_rise",))
 
 
@@ -192,7 +189,7 @@ def run(scene: TractionScene, context: Context) -> TractionRecord:
     film = film_of(found)
     tell(context, found.notes)
     if scene.roughness is not None and film.minimum_thickness < scene.roughness:
-        context.note(_ROUGH)
+        context.note(FILM_THINNER_THAN_ROUGHNESS())
     part = "film" if film.status is not Status.CONVERGED else "heat"
     wanted = scene.outputs.errors and found.status is Status.CONVERGED
     return filled(

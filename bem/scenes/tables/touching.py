@@ -10,6 +10,8 @@ from typing import TYPE_CHECKING, Annotated, Any
 from pydantic import Field
 
 from bem.grid import Grid
+from bem.notes import Note
+from bem.notes.scenes import FILM_CELLS_PER_WAVE, PATCH_SMALLER_THAN_HERTZ
 from bem.scenes.common import PositiveLength, Table, problem
 from bem.scenes.units import Ratio
 
@@ -20,10 +22,6 @@ if TYPE_CHECKING:
 FEWEST_CELLS = 8.0
 """A wavelength: shares of the load in contact change by tenths on fewer."""
 REMEDY = "take finer film.cells, a higher rolling.mean_speed, or a surface that is lower or longer in its waves"
-SET_BY_LEAST = (
-    "between smooth bodies the film would be thinner than contact.least_film: how much surfaces carry is then set by "
-    "that length, not by the oil"
-)
 
 
 class TouchingScene(Table):
@@ -76,7 +74,7 @@ def check_touching(scene: Any) -> None:
         )
 
 
-def rough_notes(scene: Any, grid: Grid, semi_axes: tuple[float, float], film: RoughPointFilm) -> list[str]:
+def rough_notes(scene: Any, grid: Grid, semi_axes: tuple[float, float], film: RoughPointFilm) -> list[Note]:
     """What a reader must know of a patch over Hertz' contact, of these half-axes [m], and of the film's cells on it."""
     from bem.lubrication import MeasuredHeights
 
@@ -88,16 +86,10 @@ def rough_notes(scene: Any, grid: Grid, semi_axes: tuple[float, float], film: Ro
         for at, half, length in zip(scene.patch.at, semi_axes, grid.lengths, strict=True)
     ]
     if any(ends):
-        notes.append(
-            f"the patch does not cover Hertz' contact: it fades over {100 * fading:g} % of its sides, and around it "
-            "the body is smooth; take a longer patch"
-        )
+        notes.append(PATCH_SMALLER_THAN_HERTZ(fading=fading))
     surface = getattr(scene, rough_body(scene) or "lower").surface
     shortest = getattr(surface, "cutoff_wavelength", None)
     cell = max(film.x[1] - film.x[0], film.y[1] - film.y[0])
     if shortest is not None and shortest < FEWEST_CELLS * cell:
-        notes.append(
-            f"about {shortest / cell:.2g} cells of the film to the shortest wave of the surface: shares of the load in "
-            f"contact change by tenths below {FEWEST_CELLS:g}"
-        )
+        notes.append(FILM_CELLS_PER_WAVE(cells=float(shortest / cell), fewest=FEWEST_CELLS))
     return notes

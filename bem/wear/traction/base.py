@@ -12,6 +12,7 @@ from typing import TYPE_CHECKING, ClassVar
 from bem.errors import InputError, Status
 from bem.grid import FloatArray
 from bem.laws import Law
+from bem.notes import Note
 
 if TYPE_CHECKING:
     from bem.wear.criterion import Detachment
@@ -36,7 +37,7 @@ class Rubbing:
     energy: float
     residual: float = 0.0
     status: Status = Status.CONVERGED
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
 
 
 @dataclass(frozen=True)

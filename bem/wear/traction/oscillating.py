@@ -11,6 +11,7 @@ import numpy as np
 from bem.errors import Status
 from bem.grid import FloatArray
 from bem.laws import parameter, register
+from bem.notes.wear import LOOP_ALL_SLIPS, LOOP_PRESSED_AT_ONCE
 from bem.wear.criterion import Detachment, LocalWear
 from bem.wear.traction.base import Rubbing, TractionLaw
 
@@ -20,17 +21,6 @@ if TYPE_CHECKING:
 
 TOLERANCE = 1e-6
 """Of the displacements, as `solve_partial_slip` takes it: far below what the cells leave open."""
-
-AT_ONCE = (
-    "the bodies differ in elasticity, so that pressure alone makes them slip: each cycle's pressure comes at once, and "
-    "what sticks in the loop is less sure than of bodies alike; tractions change no pressure"
-)
-"""Note on bodies that differ."""
-ALL_SLIPS = (
-    "the force is less than friction x load, and yet every cell slips: what sticks is narrower than a cell, and how "
-    "far the surfaces slide hangs on cells alone; take a smaller share, or smaller cells"
-)
-"""Note on a force too near to its limit."""
 
 
 @dataclass(frozen=True, kw_only=True)
@@ -106,7 +96,7 @@ def _loop(pressure: FloatArray, steps: list[TangentialSolution]) -> Rubbing:
         energy=back.dissipated_energy + forth.dissipated_energy,
         residual=max(step.residual for step in steps),
         status=failed[0] if failed else Status.CONVERGED,
-        notes=(AT_ONCE,) if steps[0].notes else (),
+        notes=(LOOP_PRESSED_AT_ONCE(),) if steps[0].notes else (),
     )
 
 
@@ -123,7 +113,7 @@ class OscillatingForce(Oscillating):
         return {"force": self.share * limit}
 
     def _told(self, rubbing: Rubbing) -> Rubbing:
-        return rubbing if rubbing.stick_share > 0 else replace(rubbing, notes=(*rubbing.notes, ALL_SLIPS))
+        return rubbing if rubbing.stick_share > 0 else replace(rubbing, notes=(*rubbing.notes, LOOP_ALL_SLIPS()))
 
 
 @register

@@ -1,0 +1,137 @@
+"""Notes on error bars and on an accuracy that was asked for."""
+
+from collections.abc import Iterable
+from enum import StrEnum
+from typing import Any
+
+from bem.notes.note import Level, Note, define
+
+CAUTION, INFO = Level.CAUTION, Level.INFO
+_NAMED = 3
+"""Figures that a note names at most."""
+
+
+class NoBar(StrEnum):
+    """Why figures have no error bar."""
+
+    COARSER_UNSOLVED = "coarser-unsolved"
+    TOO_SMALL = "too-small"
+    FREE_EDGE = "free-edge"
+    FEW_CELLS_WIDE = "few-cells-wide"
+    IMPOSSIBLE = "impossible"
+    SHARP_PRESSURE = "sharp-pressure"
+    EVEN_CELLS = "even-cells"
+    EVEN_CELLS_OF_LOOP = "even-cells-of-loop"
+    SHORT_MARCH = "short-march"
+    SPIKE = "spike"
+    SPIKE_AT_CENTRE = "spike-at-centre"
+    ONE_PLACE_AMONG_BUMPS = "one-place-among-bumps"
+    STRESS_OF_CAPPED = "stress-of-capped"
+    STRESS_OF_SHARP = "stress-of-sharp"
+    SHALLOWEST_DEPTH = "shallowest-depth"
+    DEEPEST_DEPTH = "deepest-depth"
+    NOTHING_WEARS = "nothing-wears"
+    LEAST_FILM = "least-film"
+    OTHER_SUMMITS = "other-summits"
+    SCALED_FILM = "scaled-film"
+    REPEATED_CELL = "repeated-cell"
+    FEW_PARTICLES = "few-particles"
+    SCATTERED_PARTICLES = "scattered-particles"
+    OF_KIND = "of-kind"
+
+
+NO_ERROR_BAR = define(
+    "no-error-bar",
+    INFO,
+    "no error bars of {figures}.",
+    reasons={
+        NoBar.COARSER_UNSOLVED: "The coarser solution to compare with did not converge.",
+        NoBar.TOO_SMALL: "The grid is too small to be compared with one of twice the cell; take more cells.",
+        NoBar.FREE_EDGE: "The contact reaches a free edge of the grid, where bodies end and pressures have no limit.",
+        NoBar.FEW_CELLS_WIDE: (
+            "The contact is one or two cells wide, and its figures follow the cells; take a finer grid."
+        ),
+        NoBar.IMPOSSIBLE: "What is prescribed cannot be met on the grid of twice the cell.",
+        NoBar.SHARP_PRESSURE: "The contact has sharp edges or ridges, where the pressure has no limit.",
+        NoBar.EVEN_CELLS: "Error bars need even numbers of cells, {fewest} at least.",
+        NoBar.EVEN_CELLS_OF_LOOP: (
+            "A coarser run needs even numbers of cells, {fewest} at least (or, along y, surfaces that do not "
+            "change), and contacts that converge on the grid of twice the cell."
+        ),
+        NoBar.SHORT_MARCH: "Error bars need four time steps or more.",
+        NoBar.SPIKE: "The pressure spike is as high as the mesh is fine.",
+        NoBar.SPIKE_AT_CENTRE: (
+            "The pressure spike before the outlet lies at the centre, and its height follows the cells."
+        ),
+        NoBar.ONE_PLACE_AMONG_BUMPS: "They are values at one place among bumps a few cells long.",
+        NoBar.STRESS_OF_CAPPED: (
+            "The highest stress lies less than a cell below the surface of a capped contact, where it has no limit."
+        ),
+        NoBar.STRESS_OF_SHARP: (
+            "The highest stress lies less than a cell below sharp edges or ridges, where it has no limit."
+        ),
+        NoBar.SHALLOWEST_DEPTH: (
+            "The highest stress lies at the shallowest depth; begin outputs.depths nearer the surface."
+        ),
+        NoBar.DEEPEST_DEPTH: "The highest stress lies at the deepest depth; take deeper outputs.depths.",
+        NoBar.NOTHING_WEARS: (
+            "Nothing wears on the grid of twice the cell, or here; whether anything does on finer cells is not known."
+        ),
+        NoBar.LEAST_FILM: (
+            "In boundary lubrication the film is that of the largest load that a film can be left with."
+        ),
+        NoBar.OTHER_SUMMITS: (
+            "Uncoupled asperities have other summits on a grid of twice the cell; figures converge where the "
+            "shortest waves have some nine cells."
+        ),
+        NoBar.SCALED_FILM: (
+            "The film is thinner than its cells can show; scaled minima were a third to twenty times the solved one."
+        ),
+        NoBar.REPEATED_CELL: "The error of a cell that repeats is not known; compare with half the spacing.",
+        NoBar.FEW_PARTICLES: "There are fewer than two particles.",
+        NoBar.SCATTERED_PARTICLES: "{count} particles leave more than {most:.0f} times the figure open.",
+        NoBar.OF_KIND: "{why}.",
+    },
+)
+BARS_OF_HALF_CELLS = define(
+    "error-bars-of-half-cells",
+    INFO,
+    "error bars of rough films come from half as many cells.",
+    "Bumps show no order of convergence there; on random balls the bars covered about nine errors in ten.",
+)
+BARS_OF_LARGE_PARTICLES = define(
+    "error-bars-of-large-particles",
+    INFO,
+    "error bars of weighted particle means may be too small.",
+    "Large particles are more frequent than in a log-normal distribution; of such samples half to two "
+    "thirds were covered.",
+)
+BARS_OF_SCATTER = define(
+    "error-bars-of-scatter",
+    INFO,
+    "errors are the scatter over {repetitions} repetitions alone.",
+    "They are standard errors of the mean{but}; errors of cells, depths and tolerances are not in them.",
+)
+ACCURACY_REACHED = define(
+    "accuracy-reached",
+    INFO,
+    "{reached}.",
+)
+ACCURACY_LEFT_OUT = define(
+    "accuracy-left-out",
+    INFO,
+    "the accuracy is not asked of {figures}.",
+    "{why}.",
+)
+
+
+def no_error_bar(names: Iterable[str], reason: NoBar, **values: Any) -> Note:
+    """Return the note on figures without error bars; names as of a record's fields."""
+    return NO_ERROR_BAR(figures=named(names), reason=reason, **values)
+
+
+def named(names: Iterable[str]) -> str:
+    """Return the names of figures in words, the first few of many."""
+    words = [" ".join(name.split("_")) for name in dict.fromkeys(names)]
+    more = f" and {len(words) - _NAMED + 1} more" if len(words) > _NAMED else ""
+    return ", ".join(words if not more else words[: _NAMED - 1]) + more

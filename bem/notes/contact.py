@@ -1,0 +1,1 @@
+"""Notes on dry contacts, partial slip, flow factors and surface temperatures."""

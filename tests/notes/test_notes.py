@@ -1,0 +1,85 @@
+"""Notes as data: what a note is, how notes of several results are one, and that the catalogue's texts can be filled."""
+
+import json
+import pickle
+import string
+
+import pytest
+
+from bem.notes import OUTSIDE, Level, Note, Span, as_note, has_code, of_summary, outside, unpacked, without
+from bem.notes.catalogue import known_kinds
+from bem.notes.friction import FRICTION_UNPHYSICAL
+from bem.notes.lubrication import FACTORS_EXTRAPOLATED, FILM_MOLECULAR, FILM_NOT_FOUND, OIL_CREATED
+from bem.notes.merge import merge
+
+pytestmark = pytest.mark.internal
+
+
+def example(template):
+    """Values that fill a template: numbers with a format, else words."""
+    fields = [(name, spec) for _, name, spec, _ in string.Formatter().parse(template) if name]
+    return {name: 1.5 if spec else "x" for name, spec in fields}
+
+
+@pytest.mark.parametrize("kind", known_kinds().values(), ids=known_kinds())
+def test_every_kind_of_the_catalogue_says_what_is_wrong_in_a_line(kind):
+    for reason, sentence in (kind.reasons or {"": kind.sentence}).items():
+        values = example(kind.headline) | example(sentence) | example(kind.action) | {"reason": reason}
+        note = kind("there", **values)
+        assert note.startswith("there: ")
+        assert "{" not in note
+        assert note.line.startswith("there: ")
+        assert (note.code, note.level, note.where) == (kind.code, kind.level, "there")
+
+
+def test_a_note_is_a_string_with_numbers_in_their_units():
+    note = FACTORS_EXTRAPOLATED("film", thinnest=45e-9, least=1e-7)
+    assert isinstance(note, str)
+    assert "45 nm" in note
+    assert "100 nm" in note
+    assert json.loads(json.dumps([note])) == [str(note)]
+
+
+def test_what_is_outside_the_model_says_so_first():
+    note = FRICTION_UNPHYSICAL("speed 1 m/s", friction=3.2, limit=1.0, reason="drag")
+    assert note.startswith(f"speed 1 m/s: {OUTSIDE}friction 3.2")
+    assert outside([note, note, FILM_MOLECULAR(limit=2e-9)]) == (note.headline,)
+    assert note.headline.startswith("speed 1 m/s: friction 3.2 is above any physical bound")
+
+
+def test_a_note_is_the_same_after_a_checkpoint_and_another_process():
+    note = FILM_NOT_FOUND("load 2 N", reason="glass", hertz=Span(2e9, 3e9), glass=1e12)
+    for again in (pickle.loads(pickle.dumps(note)), unpacked(json.loads(json.dumps(note.packed())))):
+        assert again == note
+        assert (again.code, again.level, again.where, again.values) == (note.code, note.level, note.where, note.values)
+        assert isinstance(again.values["hertz"], Span)
+
+
+def test_a_summary_of_before_has_texts_and_one_of_now_tables():
+    note = OIL_CREATED(created=0.5)
+    found = of_summary({"notes": ["as it was", f"film: {OUTSIDE}half of it", note.as_dict()]})
+    assert [entry["level"] for entry in found] == ["caution", "outside_model", "caution"]
+    assert found[1]["where"] == "film"
+    assert found[2] == {"code": OIL_CREATED.code, "level": "caution", "text": str(note), "where": ""}
+
+
+def test_notes_of_several_results_are_one_with_places_and_the_range_of_their_numbers():
+    thin, thinner = OIL_CREATED(created=0.5), OIL_CREATED(created=0.7)
+    (merged,) = merge([[thin], [thinner], []], lambda at: f"of {at}")
+    assert (merged.where, merged.values["created"]) == ("of [0, 1]", Span(0.5, 0.7))
+    assert "0.5 to 0.7 times" in merged
+    (everywhere,) = merge([[thin], [thin]], lambda at: "unused")
+    assert everywhere == thin
+    reasons = [FILM_NOT_FOUND(reason="line"), FILM_NOT_FOUND(reason="rigid-spike")]
+    assert len(merge([[reasons[0]], [reasons[1]]], str)) == 2
+    assert [str(note) for note in merge([["a"], ["a", "b"]], lambda at: f"case {at[0]}")] == ["a", "case 1: b"]
+
+
+def test_code_tells_notes_apart_whatever_their_words():
+    notes = (OIL_CREATED(created=0.5), FILM_MOLECULAR("x", limit=2e-9))
+    assert has_code(notes, FILM_MOLECULAR)
+    assert without(notes, FILM_MOLECULAR) == notes[:1]
+    assert not has_code([str(note) for note in notes], FILM_MOLECULAR)
+    assert as_note(notes[0]) is notes[0]
+    plain = as_note("what a law of yours says")
+    assert (type(plain), plain.level, str(plain)) == (Note, Level.CAUTION, "what a law of yours says")
