@@ -243,7 +243,7 @@ def words_of_levels(campaign: Campaign, records: Sequence[Record | None]) -> lis
     found = [record.refinement for record in records if record is not None and record.refinement.get("levels")]
     if not found:
         return []
-    return [*(ACCURACY_REACHED(reached=text) for text in _reached(campaign, found)), *_left_to_chance(campaign)]
+    return [_reached(campaign, found), *_left_to_chance(campaign)]
 
 
 def _left_to_chance(campaign: Campaign) -> list[Note]:
@@ -256,23 +256,23 @@ def _left_to_chance(campaign: Campaign) -> list[Note]:
     return [ACCURACY_LEFT_OUT(figures=named(names), why=why) for why, names in by_reason.items()]
 
 
-def _reached(campaign: Campaign, found: Sequence[Mapping[str, Any]]) -> list[str]:
-    """One sentence on how."""
+def _reached(campaign: Campaign, found: Sequence[Mapping[str, Any]]) -> Note:
+    """Return the note on how the accuracy was reached."""
     if len(campaign.cases) == 1:
         (only,) = found
         *_, last = only["levels"]
         steps = "; ".join(f"{level['resolution']}: {_of_asked(level['worst'])}" for level in only["levels"])
-        worst = _worst(campaign.kind.record, last)
-        return [
-            f"accuracy asked for, {_asked_words(only['asked'])}: {'met' if only['met'] else 'not met'} on "
-            f"{last['resolution']}{worst}; largest error over what is asked, level by level: {steps}"
-        ]
+        return ACCURACY_REACHED(
+            asked=_asked_words(only["asked"]),
+            met=f"{'met' if only['met'] else 'not met'} on {last['resolution']}{_worst(campaign.kind.record, last)}",
+            steps=f"Largest error over what is asked, level by level: {steps}.",
+        )
     met = sum(item["met"] for item in found)
     finest = dict.fromkeys(item["levels"][-1]["resolution"] for item in found)
     on = " and ".join(finest) if len(finest) <= 2 else f"{len(finest)} choices such as {next(iter(finest))}"
     several = {_asked_words(item["asked"]) for item in found}
     asked = several.pop() if len(several) == 1 else "as each case asks"
-    return [f"accuracy asked for, {asked}: met in {met} of {len(campaign.cases)} cases, on {on}"]
+    return ACCURACY_REACHED(asked=asked, met=f"met in {met} of {len(campaign.cases)} cases, on {on}", steps="")
 
 
 def _worst(record: type[Record], level: Mapping[str, Any]) -> str:

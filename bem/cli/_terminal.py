@@ -271,19 +271,25 @@ def _print_ruled(console: Any, columns: Sequence[Column], title: str) -> None:
     console.print(shown)
 
 
-def show_warnings(warnings: Sequence[str]) -> None:
+def show_warnings(warnings: Sequence[str], *, remarks: str = "") -> None:
     """Print notes one below the other, wrapped and coloured on a terminal, a line each when piped.
 
     Of cautions and of notes outside the model headline and action are shown, of remarks the number.
+
+    Parameters
+    ----------
+    warnings : the notes.
+    remarks : where remarks can be read, added to their number.
     """
     notes = [as_note(text) for text in warnings]
     begins = {Level.OUTSIDE_MODEL: OUTSIDE, Level.CAUTION: ""}
     lines = [begins[one.level] + one.line for one in notes if one.level in begins]
-    remarks = sum(one.level is Level.INFO for one in notes)
-    counts = [(len(lines), "warning"), (remarks, "remark")]
+    counts = [(len(lines), "warning"), (len(notes) - len(lines), "remark")]
     head = ", ".join(f"{count} {word}{'s' if count > 1 else ''}" for count, word in counts if count)
     if not head:
         return
+    if len(notes) > len(lines) and remarks:
+        head += f" ({remarks})"
     if not sys.stdout.isatty():
         print(head)
         for text in lines:
@@ -297,6 +303,13 @@ def show_warnings(warnings: Sequence[str]) -> None:
     console.print(Text(head, style="bold yellow"))
     for text in lines:
         console.print(Padding(Text(f"- {text}"), (0, 0, 0, 2)))
+
+
+def show_remarks(notes: Sequence[str]) -> None:
+    """Print the whole text of the remarks among notes, a line each."""
+    for note in map(as_note, notes):
+        if note.level is Level.INFO:
+            print(f"  {note}")
 
 
 def print_numbers(summary: Mapping[str, Any], headline: Sequence[str]) -> None:

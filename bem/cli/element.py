@@ -39,6 +39,7 @@ def element(
     cases: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Rows of keys to change, .csv with units: a line for each.")
     ] = None,
+    remarks: Annotated[bool, typer.Option("--remarks", help="Show remarks on what is left out, too.")] = False,
 ) -> None:
     """Show the contacts of a machine element: load, radii, speeds, Hertz contact, film; the worst one, and where
     half-space and line film do not carry.
@@ -52,7 +53,7 @@ def element(
       bem element bearing.toml --cases loads.csv --table worst.csv
     """
     from bem.cli._quantity import new_file
-    from bem.cli._terminal import print_written, show_warnings
+    from bem.cli._terminal import print_written, show_remarks, show_warnings
     from bem.elements.element import load_element
     from bem.errors import InputError
     from bem.results.atomic import write_text
@@ -77,7 +78,9 @@ def element(
     if made is not None:
         scene_from_table(made)
     _show(found, chosen)
-    show_warnings(found.notes())
+    show_warnings(found.notes(), remarks="--remarks shows them")
+    if remarks:
+        show_remarks(found.notes())
     more = _running(found) if running else {}
     if path is not None and rows is not None:
         write_text(path, rows)

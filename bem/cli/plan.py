@@ -39,7 +39,7 @@ def register(app: typer.Typer) -> None:
         )
         _show_contacts(facts)
         _show_steps(planned)
-        show_warnings(warnings)
+        show_warnings(warnings, remarks="in the report of the run")
         if is_cold():
             typer.echo(
                 f"not compiled yet: the first run takes about {SECONDS:.0f} s longer (`bem warm-up` does it now)"

@@ -19,6 +19,8 @@ from bem.contact.problem import Request, Units
 from bem.contact.solution import ContactSolution
 from bem.errors import Status
 from bem.grid import Grid
+from bem.notes import Note
+from bem.notes.contact import CONTACT_REACHES_EDGE, CONTACT_SPOTS_SMALL, MEAN_GAP_IMPOSSIBLE, MEAN_GAP_NOT_FOUND
 
 FloatArray = NDArray[np.float64]
 
@@ -113,7 +115,7 @@ spots are one or two cells wide and the area is uncertain by more than a tenth."
 
 def _regions(
     request: Request, pressure: FloatArray, deformed: FloatArray, load: float, *, capped: bool
-) -> tuple[Region, Region, tuple[str, ...]]:
+) -> tuple[Region, Region, tuple[Note, ...]]:
     """Return the contact, its part at the cap, and a note where the cells do not determine the area.
 
     capped : True if a cell is at the cap.
@@ -122,13 +124,9 @@ def _regions(
     modulus = operator.modulus_at(0.5 * math.pi / math.sqrt(grid.cell_area))
     contact = contact_region(pressure, deformed, request.gap, grid, modulus, cap=cap, compliance=operator.compliance)
     least = load / cap  # the pressure is nowhere above the cap
-    doubt: tuple[str, ...] = ()
+    doubt: tuple[Note, ...] = ()
     if contact.elastic_edge_area < _SHORT * least and contact.counted_area > _MANY * least:
-        doubt = (
-            "spots of contact are too small for these cells: the contact area lies between the least that carries the "
-            f"load at the hardness and the cells in contact, {contact.counted_area / least:.2f} times as many; take a "
-            "finer grid",
-        )
+        doubt = (CONTACT_SPOTS_SMALL(times=contact.counted_area / least),)
     if not capped:
         return contact, Region(0.0, 0.0, 0.0, 0.0, 0.0), doubt
     plastic = plastic_region(pressure, deformed, request.gap, cap, grid, modulus)
@@ -148,31 +146,22 @@ def free_edges_reached(periodic: tuple[bool, bool], pressure: FloatArray) -> tup
     return tuple(axis for axis in free if (np.take(pressure, (0, -1), axis) > 0).any())
 
 
-def _notes(grid: Grid, pressure: FloatArray) -> tuple[str, ...]:
+def _notes(grid: Grid, pressure: FloatArray) -> tuple[Note, ...]:
     """Return a note if the contact reaches a free edge of the grid."""
     reached = " and ".join("xy"[axis] for axis in free_edges_reached(grid.periodic, pressure))
     if not reached:
         return ()
-    return (
-        f"the contact reaches the edge of the grid along {reached}, where the bodies end for this solver: "
-        f"if they do not, make the grid longer or periodic along {reached}",
-    )
+    return (CONTACT_REACHES_EDGE(axes=reached),)
 
 
-def _why(request: Request, units: Units, result: GridResult, status: Status, opening: float) -> tuple[str, ...]:
+def _why(request: Request, units: Units, result: GridResult, status: Status, opening: float) -> tuple[Note, ...]:
     """Return a note if the prescribed mean gap was not found; `opening` is the mean gap of this contact [m]."""
     if request.mean_gap is None:
         return ()
     if result.least_mean_gap is not None:
-        return (
-            f"no approach gives a mean gap of {request.mean_gap:.4g} m: the bodies cannot be pressed flat, and "
-            f"{result.least_mean_gap * units.length:.4g} m is a lower bound on every mean gap",
-        )
+        return (MEAN_GAP_IMPOSSIBLE(asked=request.mean_gap, least=result.least_mean_gap * units.length),)
     if result.least_found is None and status is not Status.STALLED:
         return ()
     least = None if result.least_found is None else result.least_found * units.length
     has = f"{opening:.4g} m" if least is None else f"the least that was found, {least:.4g} m"
-    return (
-        f"a mean gap of {request.mean_gap:.4g} m was not found, nor proved not to exist: this contact has {has}. Ask "
-        "for more, or give a load",
-    )
+    return (MEAN_GAP_NOT_FOUND(asked=request.mean_gap, found=has),)

@@ -18,6 +18,8 @@ from numpy.typing import NDArray
 
 from bem.contact.nested_iteration import sample
 from bem.errors import InputError
+from bem.notes import Note
+from bem.notes.contact import MEAN_GAP_AMBIGUOUS
 
 if TYPE_CHECKING:
     from bem.contact.solution import ContactSolution
@@ -51,7 +53,7 @@ class Trial:
 
 def note_on_several_answers(
     gap: FloatArray, operator: DisplacementOperator, found: ContactSolution, mean_gap: float, hardness: float | None
-) -> tuple[str, ...]:
+) -> tuple[Note, ...]:
     """Return a note if contacts under other loads have the prescribed mean gap as well.
 
     Parameters
@@ -70,11 +72,7 @@ def note_on_several_answers(
         return ()
     first, last = others[0]
     place = "a larger load" if first >= found.load else "a smaller load" if last <= found.load else "a load nearby"
-    return (
-        f"the prescribed mean gap has several answers: the one found carries {found.load:.3g} N, and another lies "
-        f"between {first:.3g} and {last:.3g} N, {place}: the layer stands off beside the contact; "
-        "prescribe a load to choose",
-    )
+    return (MEAN_GAP_AMBIGUOUS(load=found.load, first=first, last=last, place=place),)
 
 
 def _may_stand_off(operator: DisplacementOperator) -> bool:

@@ -8,6 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.errors import Status
+from bem.notes import Note
 from bem.representation import readable
 
 FloatArray = NDArray[np.float64]
@@ -58,7 +59,7 @@ class ContactSolution:
     convolutions: float
     residual: float
     status: Status
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
 
 
 OPEN, ELASTIC, CAPPED = 0, 1, 2

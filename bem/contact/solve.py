@@ -23,6 +23,7 @@ from bem.contact.solution import ContactSolution
 from bem.convolution import DisplacementOperator
 from bem.errors import Status
 from bem.materials import Body
+from bem.notes import Note
 from bem.plausibility import body_arguments, notes_on_arguments
 from bem.threads import one_blas_thread
 
@@ -120,14 +121,14 @@ def solve_contact(
     return replace(solution, notes=notes + solution.notes) if notes else solution
 
 
-def _notes_on_arguments(operator: DisplacementOperator, load: float | None, hardness: float | None) -> tuple[str, ...]:
+def _notes_on_arguments(operator: DisplacementOperator, load: float | None, hardness: float | None) -> tuple[Note, ...]:
     """Return notes on arguments of `solve_contact` outside their usual ranges."""
     own = notes_on_arguments({"load": ("load", load), "hardness": ("hardness", hardness)})
     return own + _notes_on_operator(operator.bodies, operator.grid.spacing)
 
 
 @lru_cache(maxsize=64)
-def _notes_on_operator(bodies: tuple[Body, ...], spacing: tuple[float, float]) -> tuple[str, ...]:
+def _notes_on_operator(bodies: tuple[Body, ...], spacing: tuple[float, float]) -> tuple[Note, ...]:
     """Return notes on the bodies and the cell size [m] of an operator, cached for loops over contacts."""
     return notes_on_arguments({"grid.spacing": ("cell of the grid", spacing)} | body_arguments(bodies))
 

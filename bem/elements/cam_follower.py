@@ -16,6 +16,8 @@ from pydantic import Field, model_validator
 
 from bem.elements.contact import ElementContact
 from bem.elements.model import Contacts, ElementModel
+from bem.notes import Note
+from bem.notes.elements import ENTRAINMENT_TURNS, FOLLOWER_LEAVES, FOLLOWER_PASSED_OFTEN, FOLLOWER_STILL
 from bem.scenes.common import PositiveLength, problem
 from bem.scenes.units import Angle, Dimension, Force, RotationSpeed
 
@@ -87,23 +89,13 @@ class CamModel(ElementModel):
         turns, pressed = self.speed / (2 * math.pi), self.half_angle / math.pi * len(found) / self.points
         return Contacts(tuple(found), "angle", "rad", self._notes(found, lost), pressed, (turns, None))
 
-    def _notes(self, found: list[ElementContact], lost: int) -> tuple[str, ...]:
-        said = []
+    def _notes(self, found: list[ElementContact], lost: int) -> tuple[Note, ...]:
+        notes = []
         if lost:
-            said.append(
-                f"the follower leaves the cam at {lost} of {self.points} angles: spring and preload do not hold it at "
-                "this speed; those are left out"
-            )
+            notes.append(FOLLOWER_LEAVES(lost=lost, all=self.points))
         turns = [b.name for a, b in pairwise(found) if (a.mean_speed > 0) != (b.mean_speed > 0)]
         if turns:
-            said.append(
-                f"entrainment turns round at {', '.join(turns)}: nothing is entrained there and the film lives on by "
-                "squeeze, which steady scenes do not have (kind film follows a film in time)"
-            )
+            notes.append(ENTRAINMENT_TURNS(angles=", ".join(turns)))
         if self.specific_wear_rate:
-            said.append(
-                "the contact wanders to and fro on the follower, whose places are passed more than once in a turn and "
-                "slowly where it turns round: depths per pass have no limit there, wear by hour of it is not known"
-            )
-        said.append("the follower does not turn, and both bodies are as long as the cam is wide, without edges")
-        return tuple(said)
+            notes.append(FOLLOWER_PASSED_OFTEN())
+        return (*notes, FOLLOWER_STILL())

@@ -25,6 +25,9 @@ from bem.elements.rolling_bearing import BearingModel
 from bem.elements.rough_scenes import BOUNDARY_FRICTION, mixed_scene, rubbing_scene
 from bem.errors import InputError
 from bem.materials import Body, Material, contact_modulus
+from bem.notes import Note
+from bem.notes.elements import CONFORMING as CONFORMING_CONTACTS
+from bem.notes.elements import FILM_THIN, NO_HEAT, YIELDS
 from bem.scenes.checks.hertz import smooth_contact
 from bem.scenes.checks.plausible import notes_on_table
 from bem.scenes.template import without_description
@@ -180,36 +183,24 @@ class Element:
         marks = {"marks": dict(self.found.marks)} if self.found.marks else {}
         return rest | about | {"roller": width, "along": columns | marks}
 
-    def notes(self) -> tuple[str, ...]:
-        """What the reader must know: of the element, and where half-space and line film do not carry."""
-        said = [*notes_on_table(self.model), *self.found.notes]
+    def notes(self) -> tuple[Note, ...]:
+        """Return the notes on the element, and on places where half-space and line film do not carry."""
+        notes = [*notes_on_table(self.model), *self.found.notes]
         conforming = [one.name for one in self.found.contacts if one.conforming(self.modulus)]
         if conforming:
-            said.append(
-                f"the contact reaches over {CONFORMING:g} of a body's radius at {len(conforming)} places "
-                f"({conforming[0]}, ...): there the gap of conforming bodies is up to 7 % and more over the parabola "
-                "of Hertz and of scenes, on a half-space that such bodies are not"
-            )
+            notes.append(CONFORMING_CONTACTS(places=len(conforming), first=conforming[0], limit=CONFORMING))
         if (soft := self._yielding()) is not None:
-            said.append(soft)
+            notes.append(soft)
         cold = [one.name for one in self._bodies() if not one.thermal_diffusivity]
         if self.model.oil is not None and cold:
-            said.append(
-                f"films have no heat, here or in scenes: {' and '.join(dict.fromkeys(cold))} without "
-                "thermal_conductivity, heat_capacity and density"
-            )
+            notes.append(NO_HEAT(bodies=" and ".join(dict.fromkeys(cold))))
         ratios = self.columns().get("film_over_roughness", [])
-        touching = sum(ratio < 1 for ratio in ratios)
-        if touching:
-            said.append(
-                f"at {touching} of {len(ratios)} places the film is thinner than the roughness is high (rms): surfaces "
-                "touch there, which films here and in kind traction leave out; --kind friction shares the load between "
-                "film and surfaces"
-            )
-        return tuple(said)
+        if touching := sum(ratio < 1 for ratio in ratios):
+            notes.append(FILM_THIN(places=touching, all=len(ratios)))
+        return tuple(notes)
 
-    def _yielding(self) -> str | None:
-        """Where Hertz' pressure is beyond what the softer material carries elastically."""
+    def _yielding(self) -> Note | None:
+        """Return a note where Hertz' pressure is beyond what the softer material carries elastically."""
         bodies = [Body(one) for one in self._bodies()]
         found = []
         for one in self.found.contacts:
@@ -222,11 +213,8 @@ class Element:
         if not found:
             return None
         ratio, onset, one = max(found, key=lambda each: each[0])
-        return (
-            f"at {len(found)} of {len(self.found.contacts)} places the softer body yields below its surface: Hertz' "
-            f"pressure is {ratio:.3g} times that at which it begins, {onset / 1e9:.3g} GPa, at {one.name}; contacts "
-            "here and in scenes are elastic"
-        )
+        everywhere = len(self.found.contacts)
+        return YIELDS(places=len(found), all=everywhere, ratio=ratio, onset=onset, place=one.name)
 
     def _bodies(self) -> tuple[Material, Material]:
         return self.model.first.build(), self.model.second.build()

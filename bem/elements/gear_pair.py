@@ -25,6 +25,8 @@ from bem.elements.contact import ElementContact
 from bem.elements.model import Contacts, ElementModel
 from bem.errors import InputError
 from bem.grid import FloatArray
+from bem.notes import Note
+from bem.notes.elements import GEAR_EDGES, GEAR_HELIX, GEAR_PATH, GEAR_STEADY
 from bem.scenes.common import PositiveLength, problem
 from bem.scenes.units import Angle, Dimension, Ratio, RotationSpeed
 
@@ -206,24 +208,25 @@ def _turns(omega: tuple[float, float]) -> tuple[float, float]:
     return omega[0] / (2 * math.pi), omega[1] / (2 * math.pi)
 
 
-def _notes(model: GearModel, path: Path) -> tuple[str, ...]:
+def _notes(model: GearModel, path: Path) -> tuple[Note, ...]:
     marks = path.marks
-    said = [
-        f"on the path {', '.join(f'{name} {1e3 * place:.4g} mm' for name, place in marks.items())} from C"
-        + ("" if "B" in marks else "; helical teeth have no points B and D of single contact"),
-        f"contact ratio {path.contact_ratio:.4g}, working pressure angle {math.degrees(path.working_angle):.4g} deg, "
-        f"centre distance {1e3 * path.centre_distance:.6g} mm",
-        "at A and E a tip's edge touches: its pressure is higher than that of the flanks' curvature, which a "
-        "half-space under smooth bodies does not carry; tip relief, bending of teeth and dynamic load are left out",
-        "a scene takes each place as steady: teeth pass the path in "
-        f"{1e3 * (path.end - path.start) / (model.speed * path.base_radii[0]):.3g} ms",
-    ]
+    about = GEAR_PATH(
+        marks=", ".join(f"{name} {1e3 * place:.4g} mm" for name, place in marks.items()),
+        helical="" if "B" in marks else "; helical teeth have no points B and D of single contact",
+        ratio=path.contact_ratio,
+        angle=math.degrees(path.working_angle),
+        centre=1e3 * path.centre_distance,
+    )
+    passing = 1e3 * (path.end - path.start) / (model.speed * path.base_radii[0])
+    notes = [about, GEAR_EDGES(), GEAR_STEADY(time=passing)]
     if path.base_helix:
         lengths = path.lines(path.base_pitch * np.arange(_ACROSS) / _ACROSS)
-        said[2:2] = [
-            f"helix {math.degrees(path.base_helix):.4g} deg on the base circles, overlap ratio "
-            f"{path.overlap / path.base_pitch:.4g}: the load lies evenly on lines of contact {lengths.min():.4g} to "
-            f"{lengths.max():.4g} faces long together, a place's is the mean over the face, and where they are "
-            f"shortest {path.contact_ratio / lengths.min() - 1:.2g} above that; a tooth's stiffer ends are left out"
-        ]
-    return tuple(said)
+        helix = GEAR_HELIX(
+            helix=math.degrees(path.base_helix),
+            overlap=path.overlap / path.base_pitch,
+            shortest=float(lengths.min()),
+            longest=float(lengths.max()),
+            above=float(path.contact_ratio / lengths.min() - 1),
+        )
+        notes.insert(1, helix)
+    return tuple(notes)

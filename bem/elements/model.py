@@ -10,6 +10,7 @@ from typing import Annotated
 from pydantic import Field
 
 from bem.elements.contact import ElementContact
+from bem.notes import Note
 from bem.scenes.common import MaterialScene, PositiveLength, Table
 from bem.scenes.oil import OilScene
 from bem.scenes.units import Ratio, Volume, WearCoefficient
@@ -28,7 +29,7 @@ class Contacts:
     contacts: tuple[ElementContact, ...]
     along: str
     along_unit: str
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
     at_once: float = 1.0
     passes: tuple[float | None, float | None] = (None, None)
     marks: Mapping[str, float] = field(default_factory=dict)

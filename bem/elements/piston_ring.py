@@ -18,6 +18,8 @@ from pydantic import Field, model_validator
 from bem.elements.contact import ElementContact
 from bem.elements.model import Contacts, ElementModel
 from bem.materials import contact_modulus
+from bem.notes import Note
+from bem.notes.elements import RING_AT_EDGE, RING_EXIT, RING_FULL, RING_LIFTED, RING_SQUEEZE
 from bem.reference_solutions.line_film import InletFilm
 from bem.scenes.common import PositiveLength, Table, problem
 from bem.scenes.tables.along import columns_or_file
@@ -123,39 +125,22 @@ class PistonRingModel(ElementModel):
             )  # fmt: skip
         return Contacts(tuple(found), "angle", "rad", self._notes(found, lost), 1.0, (None, None))
 
-    def _notes(self, found: list[ElementContact], lost: int) -> tuple[str, ...]:
-        said = []
+    def _notes(self, found: list[ElementContact], lost: int) -> tuple[Note, ...]:
+        notes = []
         if lost:
-            said.append(
-                f"gas lifts the ring at {lost} of {self.points} angles: the pressure below exceeds that above by "
-                "more than tension holds; those are left out"
-            )
+            notes.append(RING_LIFTED(lost=lost, all=self.points))
         modulus = contact_modulus(self.first.build(), self.second.build())
         wide = [one for one in found if one.half_width(modulus) >= min(one.inlet, self.height - one.inlet)]
         if wide:
-            said.append(
-                f"at {len(wide)} of {self.points} angles, such as {wide[0].name}, Hertz' contact reaches an edge of "
-                "the face: neither it nor a film of it is that of a parabola there"
-            )
+            notes.append(RING_AT_EDGE(places=len(wide), all=self.points, first=wide[0].name))
         films = [] if self.oil is None else [self._film(one) for one in found]
         sinking = [one for one, film in zip(found, films, strict=False) if self._lags(one, film.minimum_thickness)]
         if sinking:
-            said.append(
-                f"at {len(sinking)} of {self.points} angles, such as {sinking[0].name}, the speed changes faster than "
-                "the film sinks under its load: it lives from squeeze there, thicker than the steady one that is given "
-                "while the speed falls and thinner while it rises; scenes of kind film march in time, of a flooded face"
-            )
+            notes.append(RING_SQUEEZE(places=len(sinking), all=self.points, first=sinking[0].name))
         beyond = [one for one, film in zip(found, films, strict=False) if film.exit_position > self.height - one.inlet]
         if beyond:
-            said.append(
-                f"at {len(beyond)} of {self.points} angles, such as {beyond[0].name}, a rigid film ends behind the "
-                "trailing edge of the face: with that edge it carries less and is thinner than given"
-            )
-        said.append(
-            "the face is full of oil to its leading edge, where the film begins; less oil on the liner, gas pressure "
-            "at the film's ends, the ring's gap, tilt and a bore that is not round are left out"
-        )
-        return tuple(said)
+            notes.append(RING_EXIT(places=len(beyond), all=self.points, first=beyond[0].name))
+        return (*notes, RING_FULL())
 
     def _film(self, one: ElementContact) -> InletFilm:
         assert self.oil is not None

@@ -18,6 +18,8 @@ from pydantic import Field, model_validator
 from bem.elements.contact import ElementContact
 from bem.elements.model import Contacts, ElementModel
 from bem.materials import contact_modulus
+from bem.notes import Note
+from bem.notes.elements import BALLS_ROLL, BEARING_LOADS, CENTRIFUGAL, ROLLERS_EVEN
 from bem.reference_solutions.hertz import ellipse_contact
 from bem.scenes.common import PositiveLength, problem
 from bem.scenes.units import Force, Length, Ratio, RotationSpeed
@@ -160,22 +162,12 @@ def _centrifugal(model: BearingModel) -> float:
     return density * volume * 0.5 * model.pitch * cage**2
 
 
-def _notes(model: BearingModel, shared: Sequence[float], pressed_out: float) -> tuple[str, ...]:
+def _notes(model: BearingModel, shared: Sequence[float], pressed_out: float) -> tuple[Note, ...]:
     highest = max(shared)
-    said = [
-        f"{sum(q > 0 for q in shared)} of {model.count} elements carry; the most loaded one {highest:.4g} N, "
-        f"{highest * model.count / model.radial_load:.3g} times radial load over number of elements"
-    ]
+    ratio = highest * model.count / model.radial_load
+    carrying = sum(q > 0 for q in shared)
+    notes = [BEARING_LOADS(carrying=carrying, all=model.count, highest=highest, ratio=ratio)]
     if pressed_out > 0.05 * highest:
-        said.append(
-            f"centrifugal force presses each element outwards with {pressed_out:.3g} N: it is in the loads of the "
-            "outer ring, not in how the radial load is shared"
-        )
-    if model.rolling == "ball":
-        said.append(
-            "spin and differential slip of balls in their grooves are left out: both surfaces roll at one speed; the "
-            "line film of a scene takes the middle of the ellipse and no oil that leaves sideways"
-        )
-    else:
-        said.append("edges of rollers, crowning and skew are left out: the load is even along the length")
-    return tuple(said)
+        notes.append(CENTRIFUGAL(force=pressed_out))
+    notes.append(BALLS_ROLL() if model.rolling == "ball" else ROLLERS_EVEN())
+    return tuple(notes)

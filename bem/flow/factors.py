@@ -36,6 +36,8 @@ from bem.flow.curve import Curve
 from bem.flow.inverse_gap import InverseGap, inverse_gap, inverse_opening
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
+from bem.notes import Note
+from bem.notes.contact import FLOW_BARRED, PATCH_REPEATS
 from bem.representation import readable
 
 LEAST_GAP = 1e-4
@@ -97,7 +99,7 @@ class FlowFactors:
     statuses: tuple[Status, ...]
     rms_height: float
     wall_share: float = 1.0
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
     coarser: Mapping[str, FloatArray] | None = None
 
     @property
@@ -161,7 +163,7 @@ def flow_factors(
     checked, apart = _checked(heights, grid, separations, hardness, bodies)
     notes = []
     if not all(grid.periodic):
-        notes.append("the patch is taken to repeat along both axes; the grid did not say so, and seams may have steps")
+        notes.append(PATCH_REPEATS())
     rms = float(np.sqrt(np.mean(checked**2)))
     patch = _Patch.of(checked, grid, bodies, hardness, tolerance, rms)
     rows = []
@@ -181,7 +183,7 @@ def flow_factors(
             columns[f"{name}_error"] = np.abs(columns[name] - other[name]) / 3
     shut = [f"{1e9 * d:.4g} nm" for d, row in zip(apart, rows, strict=True) if row[0]["pressure_x"] == 0]
     if shut:
-        notes.append(f"contact bars all flow along x at separations of {', '.join(shut)}: the pressure factor is zero")
+        notes.append(FLOW_BARRED(separations=shut))
     return FlowFactors(
         wall_share=float(wall_share),
         separations=apart,

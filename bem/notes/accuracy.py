@@ -7,8 +7,6 @@ from typing import Any
 from bem.notes.note import Level, Note, define
 
 CAUTION, INFO = Level.CAUTION, Level.INFO
-_NAMED = 3
-"""Figures that a note names at most."""
 
 
 class NoBar(StrEnum):
@@ -43,7 +41,7 @@ class NoBar(StrEnum):
 NO_ERROR_BAR = define(
     "no-error-bar",
     INFO,
-    "no error bars of {figures}.",
+    "no error bars of {figures:few}.",
     reasons={
         NoBar.COARSER_UNSOLVED: "The coarser solution to compare with did not converge.",
         NoBar.TOO_SMALL: "The grid is too small to be compared with one of twice the cell; take more cells.",
@@ -115,12 +113,13 @@ BARS_OF_SCATTER = define(
 ACCURACY_REACHED = define(
     "accuracy-reached",
     INFO,
-    "{reached}.",
+    "the accuracy asked for, {asked}, is {met}.",
+    "{steps}",
 )
 ACCURACY_LEFT_OUT = define(
     "accuracy-left-out",
     INFO,
-    "the accuracy is not asked of {figures}.",
+    "the accuracy is not asked of {figures:few}.",
     "{why}.",
 )
 
@@ -130,8 +129,6 @@ def no_error_bar(names: Iterable[str], reason: NoBar, **values: Any) -> Note:
     return NO_ERROR_BAR(figures=named(names), reason=reason, **values)
 
 
-def named(names: Iterable[str]) -> str:
-    """Return the names of figures in words, the first few of many."""
-    words = [" ".join(name.split("_")) for name in dict.fromkeys(names)]
-    more = f" and {len(words) - _NAMED + 1} more" if len(words) > _NAMED else ""
-    return ", ".join(words if not more else words[: _NAMED - 1]) + more
+def named(names: Iterable[str]) -> list[str]:
+    """Return the names of figures in words."""
+    return [" ".join(name.split("_")) for name in dict.fromkeys(names)]

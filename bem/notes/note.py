@@ -38,15 +38,24 @@ class Span(NamedTuple):
     high: float
 
 
+_FEW = 3
+"""Words of a long list that are shown, the number of the others included."""
+
+
 class _Formatter(string.Formatter):
-    """Format specifications `si UNIT` (prefixes from nano to giga) and `%` (a share of one), for numbers and spans."""
+    """Format specifications beside Python's, for values, spans and lists.
+
+    `si UNIT` : prefixes from nano to giga. `%` : a share of one. `few` : the first words of a long list.
+    """
 
     def format_field(self, value: Any, format_spec: str) -> str:
         if isinstance(value, Span):
             low, high = (self.format_field(end, format_spec) for end in value)
             return low if low == high else f"{low} to {high}"
         if isinstance(value, list | tuple):
-            return joined([self.format_field(item, format_spec) for item in value])
+            if format_spec == "few" and len(value) > _FEW:
+                return f"{', '.join(value[: _FEW - 1])} and {len(value) - _FEW + 1} more"
+            return joined([self.format_field(item, "" if format_spec == "few" else format_spec) for item in value])
         if format_spec.startswith("si "):
             return si(float(value), format_spec.removeprefix("si "))
         if format_spec == "%":

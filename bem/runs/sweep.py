@@ -187,8 +187,8 @@ def run_sweep(
 def _tell_notes(summaries: Sequence[Mapping[str, Any] | None], labels: Sequence[str], watcher: Watcher) -> None:
     """Tell the notes of the points' summaries, those of one code and place once: the most serious ones first, then the
     most frequent. Remarks are counted. Where the texts differ, the text of the first point is shown with its label."""
-    told: dict[tuple[str, ...], dict[str, set[int]]] = {}  # points by text, by what is said
-    levels: dict[tuple[str, ...], str] = {}
+    told: dict[tuple[str, str], dict[str, set[int]]] = {}  # points by text, by what is said
+    levels: dict[tuple[str, str], str] = {}
     for point, summary in enumerate(summaries):
         for note in of_summary(summary or {}):
             said = (note["code"], note["text"] if note["code"] == PLAIN else note["where"])

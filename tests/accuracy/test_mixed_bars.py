@@ -15,6 +15,7 @@ from bem.friction.balance import Regime
 from bem.friction.films import films_of
 from bem.friction.load_sharing import solve_setup
 from bem.friction.setup import MixedSetup
+from bem.notes.accuracy import NoBar
 from reports.experiments.mixed_error_bars import EXPERIMENT
 
 
@@ -112,7 +113,7 @@ def test_bars_of_a_ball_hold_how_far_its_film_goes_on():
     bars, there = mixed_bars(case, solve_coarser_mixed(case)), mixed_figures(solve_setup(fine, height, speeds))
     found = mixed_figures(case.solution)
     # nor has a run without bars any of temperatures that it has not
-    assert dict(mixed_bars(case, CoarserShares(None, None, why="none")).values) == dict.fromkeys(found)
+    assert dict(mixed_bars(case, CoarserShares(None, None, why=NoBar.REPEATED_CELL)).values) == dict.fromkeys(found)
     assert bars.parts["film points"]["friction"] > abs(found["friction"] - there["friction"])
     for name in ("minimum_film", "lambda_ratio"):
         assert found[name] == pytest.approx(there[name], rel=0.2)

@@ -90,7 +90,7 @@ def test_contact_in_constrictions_narrower_than_a_cell_is_said():
     assert note.code == "rim-narrow"
     assert at_rim(case, coarse) > 0.7
     # on as many cells as it says the opening has one of them, and a fortieth fewer do not
-    wanted = (int(n) for n in re.search(r"take (\d+) x (\d+) cells", note).groups())
+    wanted = (int(n) for n in note.values["wanted"].split(" x "))
     for n, at, width in zip(wanted, (coarse.x, coarse.y), opening(case, coarse.mean_thickness), strict=True):
         assert 1 <= width / ((at[1] - at[0]) * 48 / n) < 1 + 1 / 40
     assert narrow_notes(case, fine) == []

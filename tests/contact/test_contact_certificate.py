@@ -167,6 +167,6 @@ def test_a_contact_at_the_edge_of_a_free_axis_is_noted():
         op = operator((12, 10), (1.0, 1.0), periodic)
         everywhere = solve_contact(np.zeros((12, 10)), op, load=1.0)
         notes = without_argument_notes(everywhere.notes)  # cells of a metre
-        assert [note.split("along ")[1].split(",")[0] for note in notes] == axes
+        assert [note.values["axes"] for note in notes] == axes
         ball = op.grid.x[:, None] ** 2 + op.grid.y[None, :] ** 2
         assert without_argument_notes(solve_contact(ball, op, load=1e-2).notes) == ()

@@ -42,9 +42,9 @@ def test_mean_gaps_below_the_least_are_infeasible_and_those_above_are_reached(pe
     assert 0.1 * gap.std() < least < gap.mean() - gap.min()
     below = solve_contact(gap, operator, mean_gap=0.97 * least, tolerance=1e-6)
     assert below.status == Status.INFEASIBLE
-    (why,) = [note for note in below.notes if "no approach" in note]
+    (why,) = [note for note in below.notes if note.code == "mean-gap-impossible"]
     # a bound, and a near one: the search ends at the first that is above what was asked for
-    assert 0.97 * least < float(why.split("and ")[1].split(" m")[0]) <= least * (1 + 1e-3)  # four digits are printed
+    assert 0.97 * least < why.values["least"] <= least * (1 + 1e-3)
     assert np.maximum(below.gap, 0).mean() >= least * (1 - 1e-6)
     above = solve_contact(gap, operator, mean_gap=1.03 * least, tolerance=1e-6)
     assert above.status == Status.CONVERGED
@@ -112,9 +112,10 @@ def test_where_tangents_of_contacts_meet_again_the_least_mean_gap_that_was_found
     gap -= gap.min()
     solution = solve_contact(gap, operator, mean_gap=0.01 * gap.mean(), tolerance=1e-6)
     assert solution.status == Status.STALLED  # nothing is proved
-    (why,) = [note for note in solution.notes if "nor proved" in note]
+    (why,) = [note for note in solution.notes if note.code == "mean-gap-not-found"]
     opening = gap + operator(solution.pressure) - solution.approach
-    assert float(why.split("found, ")[2].split(" m")[0]) == pytest.approx(np.maximum(opening, 0).mean(), rel=1e-3)
+    found = float(why.values["found"].removeprefix("the least that was found, ").removesuffix(" m"))
+    assert found == pytest.approx(np.maximum(opening, 0).mean(), rel=1e-3)
     assert np.abs(opening[solution.pressure > 0]).max() <= 1e-6 * gap.std()  # what is returned is a contact
     assert opening.min() >= -1e-6 * gap.std()
     assert least_mean_gap(operator, gap) <= np.maximum(opening, 0).mean()

@@ -92,7 +92,7 @@ def test_what_conforms_is_said_to():
         "groove": 0.505, "radial_load": "30 kN", "speed": "3000 rpm", "first": "steel-52100", "second": "steel-52100",
     }  # fmt: skip
     found = load_element(table)
-    assert any("over 0.3 of a body's radius" in note for note in found.notes())
+    assert any(note.code == "element-conforming" for note in found.notes())
     ball, groove = 0.5 * 11.9e-3, 0.505 * 11.9e-3
     edge = CONFORMING * ball
     gap = [r - math.sqrt(r**2 - edge**2) - edge**2 / (2 * r) for r in (ball, groove)]
@@ -114,9 +114,11 @@ def test_the_command_writes_scene_and_table(tmp_path):
         )
 
     assert bem("new", "gear", "gears.toml").returncode == 0
-    done = bem("element", "gears.toml", "--table", "all.csv", "--path", "path.csv", "--scene", "worst.toml")
+    done = bem(
+        "element", "gears.toml", "--remarks", "--table", "all.csv", "--path", "path.csv", "--scene", "worst.toml"
+    )
     assert done.returncode == 0, done.stderr
-    assert "contact ratio 1.43" in done.stdout
+    assert "Contact ratio 1.43" in done.stdout
     assert load_scene(tmp_path / "worst.toml").kind == "traction"
     assert (tmp_path / "path.csv").read_text().count("\n") == 42
     assert bem("element", "gears.toml", "--scene", "flank.toml", "--at", "path").returncode == 0

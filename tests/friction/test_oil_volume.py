@@ -433,7 +433,8 @@ def test_what_is_said_of_one_result_and_of_a_curve():
     assert oil_notes([rubbed, load])[0].values["contact_share"] == 0.0375
     assert not OilBeside(0.9, 0.0, 0.0, 0.0, 0.0).decides
     assert outside(oil_notes([alike, load])) == ()
-    (short,) = outside(oil_notes([load, decided, unknown]))
+    short = oil_notes([load, decided, unknown])[0]
+    assert outside([short]) == (short.headline,)
     assert "24 % of the load at a friction of 0.085, but 99 % at 0.119" in short
 
 

@@ -49,7 +49,7 @@ def test_a_heavily_loaded_roller_has_the_friction_of_oils(speed, law):
     # traction of mineral oils at such pressures: 0.03 to 0.08, and at most the coefficient with the ambient strength
     # over the mean pressure, 0.94 GPa, on top; the roller's rolling friction is below 0.001
     assert 0.02 < film.shear_force / film.load < 0.08 + 5e6 / 0.94e9 + 1e-3
-    assert about(film, "up to which viscosity_law")
+    assert about(film, VISCOSITY_EXTRAPOLATED)
 
 
 def test_a_spike_alone_is_not_the_middle_of_the_contact():
@@ -60,9 +60,9 @@ def test_a_spike_alone_is_not_the_middle_of_the_contact():
     film = solve_line_film(**light, speeds=(3.0, 3.0), lubricant=oil)
     assert film.pressure.max() > 1e9
     assert film.status == "converged"
-    assert not about(film, "up to which viscosity_law")
+    assert not about(film, VISCOSITY_EXTRAPOLATED)
     above = ROLLER | {"load": math.pi * 10e-3 * 1.03e9**2 / MODULUS}
-    assert about(solve_line_film(**above, speeds=(3.0, 3.0), lubricant=oil), "up to which viscosity_law")
+    assert about(solve_line_film(**above, speeds=(3.0, 3.0), lubricant=oil), VISCOSITY_EXTRAPOLATED)
 
 
 @pytest.mark.internal
@@ -85,8 +85,8 @@ def test_a_spike_beyond_the_law_does_not_hide_a_glass():
 def test_a_newtonian_oil_by_name_says_that_it_is_none():
     film = roller(3.0, shear_law="newtonian")
     assert film.shear_force / film.load > 1e3
-    assert about(film, "not to be believed")
-    assert not about(roller(3.0), "not to be believed")
+    assert about(film, SHEAR_BEYOND_MEASURED)
+    assert not about(roller(3.0), SHEAR_BEYOND_MEASURED)
 
 
 @pytest.mark.parametrize("speed", np.geomspace(0.001, 0.4, 5))
@@ -149,7 +149,7 @@ def test_reversed_and_in_time_the_same_limit_holds():
     assert 0.03 < steady.shear_force / load < 0.1
     # 301 nodes of a fixed mesh
     assert marched.shear_force == pytest.approx(steady.shear_force, rel=2e-2)
-    assert about(marched, "limiting shear stress")
+    assert about(marched, SHEAR_LIMITED)
 
 
 @pytest.mark.parametrize(

@@ -18,7 +18,7 @@ pytestmark = pytest.mark.internal
 def example(template):
     """Values that fill a template: numbers with a format, else words."""
     fields = [(name, spec) for _, name, spec, _ in string.Formatter().parse(template) if name]
-    return {name: 1.5 if spec else "x" for name, spec in fields}
+    return {name: ["x"] * 5 if spec == "few" else 1.5 if spec else "x" for name, spec in fields}
 
 
 @pytest.mark.parametrize("kind", known_kinds().values(), ids=known_kinds())
