@@ -46,7 +46,7 @@ def _loop(function: Any, inline: Literal["never", "always"]) -> Any:
 
     loop = njit(nogil=True, error_model="numpy", fastmath=False, inline=inline)(function)
     folder = cache_folder()
-    if folder is not None:
+    if folder is not None and hasattr(loop, "enable_caching"):  # not with NUMBA_DISABLE_JIT
         settings = vars(config)
         before = settings["CACHE_DIR"]
         settings["CACHE_DIR"] = str(folder / f"{function.__module__}-{_source_hash(function.__module__)}")
