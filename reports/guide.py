@@ -10,6 +10,8 @@ from typing import Any
 
 from bem.errors import InputError
 from bem.laws import FAMILIES, Law, laws_of
+from bem.notes import Level, NoteKind
+from bem.notes.catalogue import PARTS
 from bem.scenes import get_kind, kind_names, library
 from bem.scenes.laws import LawKey
 from bem.scenes.template import about_field, default_text, scene_template
@@ -53,8 +55,43 @@ def build() -> Page:
             lumped_heat.chapter(),
             *contributing(),
             *kinds(),
+            notes(),
         ],
     )
+
+
+def notes() -> Section:
+    """Return the list of all notes on results, from the catalogue of `bem.notes`."""
+    rows = []
+    for part in PARTS:
+        kinds_of_part = [kind for kind in vars(part).values() if isinstance(kind, NoteKind)]
+        for kind in kinds_of_part:
+            said = kind.sentence or " ".join(kind.reasons.values())
+            words = " ".join(_blank(text) for text in (kind.headline, said, kind.action) if text)
+            link = f'<a id="{kind.anchor}"></a>'
+            rows.append((kind.code, _LEVELS[kind.level], words, link))
+    head = "<thead><tr><th>code</th><th>level</th><th>note</th></tr></thead>"
+    body = "".join(
+        f"<tr><td>{link}<code>{code}</code></td><td>{level}</td><td>{html.escape(words)}</td></tr>"
+        for code, level, words, link in rows
+    )
+    lead = (
+        "Every note of a run has a code, a level and the case it applies to, in `notes` of summary.json. The terminal "
+        "shows notes outside the model and cautions, a line each; remarks are folded into the report. Results in "
+        "Python have them as `notes`: each prints as its text and has `code`, `level`, `values` and `where`. Numbers "
+        "stand as dots here."
+    )
+    return Section(
+        "Notes on results", text(lead) + f'<div class="wide"><table>{head}<tbody>{body}</tbody></table></div>'
+    )
+
+
+_LEVELS = {Level.OUTSIDE_MODEL: "outside the model", Level.CAUTION: "caution", Level.INFO: "remark"}
+
+
+def _blank(template: str) -> str:
+    """Return a template with dots for its values."""
+    return re.sub(r"\{[^}]*\}", "...", template)
 
 
 def using() -> list[Section]:

@@ -87,6 +87,20 @@ PRESSURE_WITHOUT_FRICTION = define(
     "the pressure is that of the contact without friction.",
     "The bodies differ in elasticity, so that tractions would change the pressure.",
 )
+JOINT_CLOSED = define(
+    "joint-closed",
+    INFO,
+    "the contact is full, and the joint has no stiffness of its own.",
+    "Every cell carries load on a doubly periodic grid: no gap is left to give way, and the bodies' own "
+    "elasticity is not part of the joint.",
+)
+STIFFNESS_UNSOLVED = define(
+    "normal-stiffness-unsolved",
+    CAUTION,
+    "A contact for the normal stiffness did not converge.",
+    "{message}; the residual is {residual:.1e}.",
+    "Take a larger tolerance, or more iterations.",
+)
 THIRD_BODIES_BEAR_LOAD = define(
     "third-bodies-bear-load",
     CAUTION,

@@ -5,11 +5,14 @@ To add one, write into the file of its subject (before a run: `plausible.py`, wh
 `cycles.py`; or a new file, named in `_ORDER`)
 
     @scene_check
-    def friction_above_one(facts: Facts) -> Iterator[str]:
+    def friction_above_one(facts: Facts) -> Iterator[Note]:
         \"\"\"Why it matters, from where the limit is.\"\"\"
         for case in facts.cases:
             if case.friction > 1:
-                yield f"friction {case.friction:g}: what is wrong, how much; what to do"
+                yield FRICTION_HIGH(case.label, friction=case.friction)
+
+The kind of note, with headline, sentence and action, stands in `bem.notes.checks`; a check from outside the package may
+yield a plain text, which is shown as a caution.
 
 `facts.scene` is the resolved scene, `facts.cases` its contacts in one form for all kinds, `facts.surfaces` what became
 of the rough surfaces, `facts.materials` the materials by key. A check of the results takes the `Outcome` besides.

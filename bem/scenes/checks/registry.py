@@ -20,7 +20,7 @@ OUTCOME_CHECKS: dict[str, OutcomeCheck] = {}
 
 
 def scene_check(check: SceneCheck) -> SceneCheck:
-    """Add a check of the scene; it yields sentences that say what, how much, and what to do."""
+    """Add a check of the scene; it yields notes that say what, how much, and what to do."""
     return _add(SCENE_CHECKS, check)
 
 

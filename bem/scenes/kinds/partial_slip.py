@@ -12,7 +12,8 @@ import numpy as np
 
 from bem.errors import InfeasibleError, Status
 from bem.grid import FloatArray, Grid
-from bem.notes.scenes import PRESSING_AT_ONCE, PRESSING_IN_STEPS
+from bem.notes import Note
+from bem.notes.scenes import JOINT_CLOSED, PRESSING_AT_ONCE, PRESSING_IN_STEPS, STIFFNESS_UNSOLVED
 from bem.scenes import build, sticking
 from bem.scenes.context import Context, error_bars
 from bem.scenes.kind import Kind
@@ -194,15 +195,8 @@ _PROBE = 1e-3
 """Of the approach from first touch, or of the range of gaps: how far the bodies are moved for the normal stiffness."""
 
 
-_CLOSED = (
-    "no stiffness of the joint: every cell carries load on a doubly periodic grid, no gap is left to give way, and the "
-    "bodies' own elasticity is not part of it"
-)
-"""Note on full contact."""
-
-
 def _stiffness(
-    scene: PartialSlipScene, site: Site, note: Callable[[str], None] = lambda text: None
+    scene: PartialSlipScene, site: Site, note: Callable[[Note], None] = lambda note: None
 ) -> dict[str, float]:
     """Of the contact as a whole [N/m]: load over approach, by its difference, and force over shift where all sticks."""
     from bem.contact import solve_contact
@@ -212,7 +206,7 @@ def _stiffness(
     if not contact.load > 0:
         return {"normal_stiffness": 0.0, "tangential_stiffness": 0.0}
     if all(site.grid.periodic) and contact.pressure.min() > 0:
-        note(_CLOSED)
+        note(JOINT_CLOSED())
         return {}
     asked = scene.contact.accuracy() | {"hardness": scene.contact.hardness, "initial_pressure": contact.pressure}
     operator = build.operator_of(scene, site.grid, 0.0)
@@ -224,7 +218,7 @@ def _stiffness(
         near.append(contact)
     for found in near:
         if found.status is not Status.CONVERGED:
-            note(f"normal stiffness: {found.status.message}, residual {found.residual:.1e}")
+            note(STIFFNESS_UNSOLVED(message=found.status.message, residual=found.residual))
     stuck = tangential_stiffness(contact, site.grid, build.bodies_of(scene), tolerance=scene.push.tolerance)
     return {
         "normal_stiffness": (near[1].load - near[0].load) / (near[1].approach - near[0].approach),
