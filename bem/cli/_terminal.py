@@ -67,9 +67,10 @@ class Terminal:
         if not isinstance(text, Note):
             self.say(f"note: {text}")
             return
-        if text.level is Level.INFO or identity(text) in self._noted:
+        keys = {identity(text), (text.code, text.texts)}
+        if text.level is Level.INFO or keys & self._noted:
             return
-        self._noted.add(identity(text))
+        self._noted |= keys
         if text.level is Level.OUTSIDE_MODEL:
             self._held.append(text)
         else:

@@ -171,7 +171,9 @@ def run_planned(
             ) from error
         directory.discard()
         raise
-    computed.notes[:0] = [note for note in notes if note not in computed.notes]
+    # a note of a case that the scene's own check has made already, at another place, is left out
+    made = {(note.code, note.texts) for note in notes}
+    computed.notes[:] = [*notes, *(note for note in computed.notes if (note.code, note.texts) not in made)]
     for note in outcome_warnings(facts, computed.outcome):
         computed.notes.append(note)
         watcher.note(note)
