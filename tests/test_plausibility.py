@@ -237,13 +237,13 @@ def test_a_friction_beyond_any_bound_is_outside_the_model():
     thick = Lubricant(1.0, pressure_viscosity=20e-9)
     found = solve_mixed(**case | {"load": 0.01}, speeds=(1.0, 0.0), lubricant=thick)
     assert found.friction > 1
-    assert any("friction" in said for said in outside(found.notes))
+    assert any("Friction" in said for said in outside(found.notes))
     status = next(line for line in repr(found).splitlines() if "status=" in line)
     assert "outside the model" in status
-    assert "friction" in status
+    assert "Friction" in status
     usual = solve_mixed(**case, speeds=(0.2, 0.0), lubricant=Lubricant(0.08, pressure_viscosity=20e-9))
     assert usual.friction < 1
-    assert not any("friction" in said and "bound" in said for said in outside(usual.notes))
+    assert not any("Friction" in said and "bound" in said for said in outside(usual.notes))
     assert not told(usual)
 
 

@@ -41,7 +41,7 @@ class NoBar(StrEnum):
 NO_ERROR_BAR = define(
     "no-error-bar",
     INFO,
-    "no error bars of {figures:few}.",
+    "No error bars of {figures:few}.",
     reasons={
         NoBar.COARSER_UNSOLVED: "The coarser solution to compare with did not converge.",
         NoBar.TOO_SMALL: "The grid is too small to be compared with one of twice the cell; take more cells.",
@@ -94,32 +94,32 @@ NO_ERROR_BAR = define(
 BARS_OF_HALF_CELLS = define(
     "error-bars-of-half-cells",
     INFO,
-    "error bars of rough films come from half as many cells.",
+    "Error bars of rough films come from half as many cells.",
     "Bumps show no order of convergence there; on random balls the bars covered about nine errors in ten.",
 )
 BARS_OF_LARGE_PARTICLES = define(
     "error-bars-of-large-particles",
     INFO,
-    "error bars of weighted particle means may be too small.",
+    "Error bars of weighted particle means may be too small.",
     "Large particles are more frequent than in a log-normal distribution; of such samples half to two "
     "thirds were covered.",
 )
 BARS_OF_SCATTER = define(
     "error-bars-of-scatter",
     INFO,
-    "errors are the scatter over {repetitions} repetitions alone.",
+    "Errors are the scatter over {repetitions} repetitions alone.",
     "They are standard errors of the mean{but}; errors of cells, depths and tolerances are not in them.",
 )
 ACCURACY_REACHED = define(
     "accuracy-reached",
     INFO,
-    "the accuracy asked for, {asked}, is {met}.",
+    "The accuracy asked for, {asked}, is {met}.",
     "{steps}",
 )
 ACCURACY_LEFT_OUT = define(
     "accuracy-left-out",
     INFO,
-    "the accuracy is not asked of {figures:few}.",
+    "The accuracy is not asked of {figures:few}.",
     "{why}.",
 )
 

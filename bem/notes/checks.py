@@ -173,7 +173,7 @@ BODY_REPEATS = define(
 PATCH_SINKS = define(
     "patch-sinks",
     INFO,
-    "loads at a given separation depend on the patch's length.",
+    "Loads at a given separation depend on the patch's length.",
     "The half-space sinks in by up to {sunk:si m} under the mean pressure of the patch, {length:si m} long.",
 )
 WAVE_DOES_NOT_FIT = define(
@@ -333,13 +333,13 @@ STRAIN_LARGE = define(
 CONTACT_AT_CAP = define(
     "contact-at-cap",
     INFO,
-    "pressures at the cap are an input, not a result.",
+    "Pressures at the cap are an input, not a result.",
     "{cells} are at the hardness, {cap:si Pa}; nothing hardens there.",
 )
 CAP_WITHIN_ERROR = define(
     "cap-within-error",
     INFO,
-    "on finer cells a part of the contact may be at the hardness.",
+    "On finer cells a part of the contact may be at the hardness.",
     "Nothing is at the hardness here, {cap:si Pa}, but it lies within the error of the highest pressure.",
 )
 CAPPED_NEARLY_FULL = define(
@@ -376,7 +376,7 @@ SPOTS_SMALL = define(
 SURFACE_ROUGHENED = define(
     "surface-roughened",
     OUTSIDE_MODEL,
-    "the worn surface grew rough instead of running in.",
+    "The worn surface grew rough instead of running in.",
     "Sq went from {before:si m} to {after:si m}{of}: friction, film and particles at the end are of holes that "
     "the criterion and the cell made. Both surfaces together had {both:si m}, and pieces{holes} deeper than"
     " that leave holes{so}.",
@@ -416,13 +416,13 @@ PARTICLES_OF_UNWORN = define(
 BOTH_BODIES_WEAR = define(
     "both-bodies-wear",
     INFO,
-    "heights and sizes are of one body, volumes of both.",
+    "Heights and sizes are of one body, volumes of both.",
     "Heights, Sq and worn depth are those of the {first} one, volumes of both{particles}.",
 )
 WEAR_STEPS_OVERSHOOT = define(
     "wear-steps-overshoot",
     OUTSIDE_MODEL,
-    "the wear law's steps overshoot.",
+    "The wear law's steps overshoot.",
     "A cycle takes {give:.3g} m/Pa off, more than twice the {most:.3g} m/Pa by which the bodies give way "
     "from cell to cell: depths, roughness and contact are those of the steps.",
     "Take {share:.2g} times the wear.criterion.distance, in more cycles.count.",
@@ -437,13 +437,13 @@ WEAR_STEPS_LONG = define(
 NO_PARTICLES_BY_PRESSURE = define(
     "no-particles-by-pressure",
     INFO,
-    "a law that wears by pressure makes no particles.",
+    "A law that wears by pressure makes no particles.",
     "Their sizes and numbers, 0, are no result.",
 )
 LOOP_WITHOUT_BARS = define(
     "loop-without-error-bars",
     INFO,
-    "a single loop has no error bars.",
+    "A single loop has no error bars.",
     "With cycles.coarser_grid = true it is made once more on the grid of twice the cell, which shows the "
     "error of the cells; repetitions show how figures scatter with the surface.",
 )
@@ -472,7 +472,7 @@ PARTICLES_AS_LARGE_AS_GRID = define(
 NOTHING_CAME_OFF = define(
     "nothing-came-off",
     CAUTION,
-    "nothing came off by the criterion {law}.",
+    "Nothing came off by the criterion {law}.",
     "{takes}",
 )
 PARTICLES_CUT = define(

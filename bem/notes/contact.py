@@ -7,7 +7,7 @@ CAUTION, INFO = Level.CAUTION, Level.INFO
 CONTACT_REACHES_EDGE = define(
     "contact-reaches-edge",
     CAUTION,
-    "the contact reaches the edge of the grid along {axes}.",
+    "The contact reaches the edge of the grid along {axes}.",
     "For this solver the bodies end there.",
     "If they do not, make the grid longer or periodic along {axes}.",
 )
@@ -22,14 +22,14 @@ CONTACT_SPOTS_SMALL = define(
 MEAN_GAP_IMPOSSIBLE = define(
     "mean-gap-impossible",
     CAUTION,
-    "no approach gives a mean gap of {asked:.4g} m.",
+    "No approach gives a mean gap of {asked:.4g} m.",
     "The bodies cannot be pressed flat, and {least:.4g} m is a lower bound on every mean gap.",
     "Ask for a larger mean gap, or give a load.",
 )
 MEAN_GAP_NOT_FOUND = define(
     "mean-gap-not-found",
     CAUTION,
-    "a mean gap of {asked:.4g} m was not found.",
+    "A mean gap of {asked:.4g} m was not found.",
     "It is not proved not to exist; this contact has {found}.",
     "Ask for a larger mean gap, or give a load.",
 )
@@ -44,7 +44,7 @@ MEAN_GAP_AMBIGUOUS = define(
 PATCH_REPEATS = define(
     "flow-patch-repeats",
     INFO,
-    "the patch is taken to repeat along both axes.",
+    "The patch is taken to repeat along both axes.",
     "The grid did not say so, and seams may have steps.",
 )
 FLOW_BARRED = define(

@@ -23,7 +23,7 @@ YIELDS = define(
 NO_HEAT = define(
     "element-without-heat",
     INFO,
-    "films have no heat, here or in scenes.",
+    "Films have no heat, here or in scenes.",
     "{bodies} without thermal_conductivity, heat_capacity and density.",
 )
 FILM_THIN = define(
@@ -42,32 +42,32 @@ BEARING_LOADS = define(
 CENTRIFUGAL = define(
     "bearing-centrifugal",
     INFO,
-    "centrifugal force presses each element outwards.",
+    "Centrifugal force presses each element outwards.",
     "Its {force:.3g} N is in the loads of the outer ring, not in how the radial load is shared.",
 )
 BALLS_ROLL = define(
     "bearing-balls-roll",
     INFO,
-    "spin and differential slip of balls are left out.",
+    "Spin and differential slip of balls are left out.",
     "Both surfaces roll at one speed; the line film of a scene takes the middle of the ellipse and no oil "
     "that leaves sideways.",
 )
 ROLLERS_EVEN = define(
     "bearing-rollers-even",
     INFO,
-    "edges of rollers, crowning and skew are left out.",
+    "Edges of rollers, crowning and skew are left out.",
     "The load is even along the length.",
 )
 GEAR_PATH = define(
     "gear-path",
     INFO,
-    "on the path {marks} from C{helical}.",
+    "On the path {marks} from C{helical}.",
     "Contact ratio {ratio:.4g}, working pressure angle {angle:.4g} deg, centre distance {centre:.6g} mm.",
 )
 GEAR_HELIX = define(
     "gear-helix",
     INFO,
-    "helix {helix:.4g} deg on the base circles, overlap ratio {overlap:.4g}.",
+    "Helix {helix:.4g} deg on the base circles, overlap ratio {overlap:.4g}.",
     "The load lies evenly on lines of contact {shortest:.4g} to {longest:.4g} faces long together; a "
     "place's load is the mean over the face, and {above:.2g} more where they are shortest. Stiffer tooth "
     "ends are left out.",
@@ -75,14 +75,14 @@ GEAR_HELIX = define(
 GEAR_EDGES = define(
     "gear-edges",
     INFO,
-    "at A and E a tip's edge touches.",
+    "At A and E a tip's edge touches.",
     "Its pressure is higher than that of the flanks' curvature; tip relief, bending of teeth and dynamic "
     "load are left out.",
 )
 GEAR_STEADY = define(
     "gear-steady",
     INFO,
-    "a scene takes each place as steady.",
+    "A scene takes each place as steady.",
     "Teeth pass the path in {time:.3g} ms.",
 )
 RING_LIFTED = define(
@@ -102,7 +102,7 @@ RING_AT_EDGE = define(
 RING_SQUEEZE = define(
     "ring-squeeze",
     INFO,
-    "at dead centres the film lives from squeeze.",
+    "At dead centres the film lives from squeeze.",
     "At {places} of {all} angles, such as {first}, the speed changes faster than the film sinks under its "
     "load: it is thicker than the steady one while the speed falls and thinner while it rises; scenes of "
     "kind film march in time.",
@@ -118,7 +118,7 @@ RING_EXIT = define(
 RING_FULL = define(
     "ring-face-full",
     INFO,
-    "the face is full of oil to its leading edge.",
+    "The face is full of oil to its leading edge.",
     "Less oil on the liner, gas pressure at the film's ends, the ring's gap, tilt and a bore that is not "
     "round are left out.",
 )
@@ -132,20 +132,20 @@ FOLLOWER_LEAVES = define(
 ENTRAINMENT_TURNS = define(
     "entrainment-turns",
     INFO,
-    "entrainment turns round at {angles}.",
+    "Entrainment turns round at {angles}.",
     "Nothing is entrained there and the film lives on by squeeze, which steady scenes do not have; kind "
     "film follows a film in time.",
 )
 FOLLOWER_PASSED_OFTEN = define(
     "follower-passed-often",
     INFO,
-    "places of the follower are passed more than once in a turn.",
+    "Places of the follower are passed more than once in a turn.",
     "The contact wanders to and fro, slowly where it turns round: depths per pass have no limit there, and "
     "wear by hour is not known.",
 )
 FOLLOWER_STILL = define(
     "follower-still",
     INFO,
-    "the follower does not turn.",
+    "The follower does not turn.",
     "Both bodies are as long as the cam is wide, without edges.",
 )

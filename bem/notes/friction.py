@@ -7,7 +7,7 @@ OUTSIDE_MODEL, CAUTION, INFO = Level.OUTSIDE_MODEL, Level.CAUTION, Level.INFO
 FRICTION_UNPHYSICAL = define(
     "friction-unphysical",
     OUTSIDE_MODEL,
-    "friction {friction:.3g} is above any physical bound, about {limit:g}.",
+    "Friction {friction:.3g} is above any physical bound, about {limit:g}.",
     reasons={
         "shear": "The oil carries more shear stress than pressure: give it a shear law with a limit.",
         "drag": "So small a load does not hold surfaces together against the drag of the oil: raise the load.",
@@ -35,13 +35,13 @@ COUPLING_DIFFERS = define(
 OIL_ON_CONTACT = define(
     "oil-on-contact",
     INFO,
-    "oil on cells in contact adds no friction here.",
+    "Oil on cells in contact adds no friction here.",
     "With the film's shear stress on them friction would be {with_oil:.3g}, here {friction:.3g}{most}.",
 )
 OIL_BESIDE_DECIDES = define(
     "oil-beside-decides",
     OUTSIDE_MODEL,
-    "the length of the patch decides the load sharing.",
+    "The length of the patch decides the load sharing.",
     "{share:%} of the oil lies beside Hertz' contact: the surfaces have {contact_share:%} of the load at a "
     "friction of {friction:.3g}, but {loaded_contact_share:%} at {loaded_friction:.3g} with the oil counted"
     " where the film carries{most}.",
@@ -50,7 +50,7 @@ OIL_BESIDE_DECIDES = define(
 OIL_BESIDE_FOLLOWS = define(
     "oil-beside-follows",
     INFO,
-    "load share and friction depend on where oil is counted.",
+    "Load share and friction depend on where oil is counted.",
     "{share:%} of the oil lies beside Hertz' contact: the surfaces have {contact_share:%} of the load at a "
     "friction of {friction:.3g}, and {loaded_contact_share:%} at {loaded_friction:.3g} with the oil counted"
     " where the film carries{most}.",
@@ -58,13 +58,13 @@ OIL_BESIDE_FOLLOWS = define(
 OIL_BESIDE_UNKNOWN = define(
     "oil-beside-unknown",
     INFO,
-    "how far results depend on the counted oil is unknown.",
+    "How far results depend on the counted oil is unknown.",
     "{count} of the balances with the oil counted where the film carries was not met.",
 )
 OIL_IN_HERTZ_DECIDES = define(
     "oil-in-hertz-decides",
     OUTSIDE_MODEL,
-    "the area where oil is counted decides the load sharing.",
+    "The area where oil is counted decides the load sharing.",
     "Counted over the nominal Hertz contact the surfaces have {contact_share:%} of the load at a friction "
     "of {friction:.3g}; with oil_volume loaded they have {loaded_contact_share:%} at "
     "{loaded_friction:.3g}{most}.",
@@ -73,7 +73,7 @@ OIL_IN_HERTZ_DECIDES = define(
 OIL_IN_HERTZ_FOLLOWS = define(
     "oil-in-hertz-follows",
     INFO,
-    "load share and friction depend on where oil is counted.",
+    "Load share and friction depend on where oil is counted.",
     "Counted over the nominal Hertz contact the surfaces have {contact_share:%} of the load at a friction "
     "of {friction:.3g}; with oil_volume loaded they have {loaded_contact_share:%} at "
     "{loaded_friction:.3g}{most}.",
@@ -81,13 +81,13 @@ OIL_IN_HERTZ_FOLLOWS = define(
 BOUNDARY_LUBRICATION = define(
     "boundary-lubrication",
     INFO,
-    "boundary lubrication: the surfaces carry the load.",
+    "Boundary lubrication: the surfaces carry the load.",
     "The film is left with less than {share:.1g} of the load.",
 )
 NO_FILM = define(
     "no-film",
     INFO,
-    "boundary lubrication: the film would be too thin for its model.",
+    "Boundary lubrication: the film would be too thin for its model.",
     "At the end of the film's range it is thinner than {limit:si m}, and yet thicker than the surfaces "
     "leave open; it is taken for none, so friction jumps at the speed from which such films are found.",
 )

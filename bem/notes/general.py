@@ -26,7 +26,7 @@ CHECK_FAILED = define(
 FIGURE_MISSING = define(
     "figure-missing",
     Level.CAUTION,
-    "figure {figure} could not be drawn.",
+    "Figure {figure} could not be drawn.",
     "It ended with {error}.",
     "Report it; the results are complete without it.",
 )

@@ -44,7 +44,7 @@ OIL_ALPHA_EXTRAPOLATED = define(
 FILM_NOT_FOUND = define(
     "film-not-found",
     CAUTION,
-    "no film was found; the figures are of the last iterate.",
+    "No film was found; the figures are of the last iterate.",
     reasons={
         "rigid-spike": (
             "Between rigid bodies an oil that pressure thickens carries any load at some gap, in a spike that "
@@ -68,7 +68,7 @@ FILM_NOT_FOUND = define(
 FILM_THICK = define(
     "film-thick",
     OUTSIDE_MODEL,
-    "the film is thicker than {limit:%} of the radius.",
+    "The film is thicker than {limit:%} of the radius.",
     "Reynolds' equation needs small slopes.",
     "Check viscosity, speed and load, and their units.",
 )
@@ -160,20 +160,20 @@ FACTORS_EXTRAPOLATED = define(
 FIRST_FILM_LOAD = define(
     "first-film-load",
     INFO,
-    "the first film misses the load.",
+    "The first film misses the load.",
     "It is {origin} and carries the load {missed:+.2g} %.",
 )
 FIRST_SURFACES_UNDEFORMED = define(
     "first-surfaces-undeformed",
     INFO,
-    "surfaces in the contact at first lie undeformed in its film.",
+    "Surfaces in the contact at first lie undeformed in its film.",
 )
 
 # Films of point contacts, on their cells
 BODIES_NOT_RIGID = define(
     "bodies-not-rigid",
     CAUTION,
-    "bodies are not rigid under this pressure.",
+    "Bodies are not rigid under this pressure.",
     "Under {pressure:si Pa} bodies of steel (E* {modulus:si Pa}, Moes' M {moes_load:.2g} and L "
     "{moes_material:.2g}) would flatten by {flattened:.2g} film thicknesses; the rigid regime ends at "
     "{limit:g}.",
@@ -203,7 +203,7 @@ CONSTRICTION_NARROW = define(
 INLET_FRICTION = define(
     "inlet-friction",
     INFO,
-    "friction depends on how far the inlet is filled with oil.",
+    "Friction depends on how far the inlet is filled with oil.",
     "Oil up to twice the distance would add {added:.2g} to the friction coefficient of {friction:.2g}.",
 )
 FILM_UNCERTAIN = define(
@@ -232,14 +232,14 @@ HEIGHTS_COARSE = define(
 ROUGH_FILM_NOT_FOUND = define(
     "rough-film-not-found",
     CAUTION,
-    "no film was found; the figures are of the best iterate.",
+    "No film was found; the figures are of the best iterate.",
     "Its residual is {residual:.1g}.",
     "Take more cells a wavelength, a higher speed or a lower surface.",
 )
 OIL_CREATED = define(
     "oil-created",
     CAUTION,
-    "oil is not conserved where ruptured films form again.",
+    "Oil is not conserved where ruptured films form again.",
     "Oil that appears there is {created:.2g} times the flow through the contact, and the oil carries too much load.",
     "Take waves that are longer or lower.",
 )
@@ -254,28 +254,28 @@ CONTACT_SHARE_ERROR_UNKNOWN = define(
 HEAT_NOT_FOUND = define(
     "heat-not-found",
     CAUTION,
-    "no temperatures were found that fit the friction heat.",
+    "No temperatures were found that fit the friction heat.",
     "The film is shown without temperatures, friction and heat.",
     "Give the oil a shear law with a limiting stress.",
 )
 FULL_HEAT_NOT_FOUND = define(
     "full-heat-not-found",
     CAUTION,
-    "no film was found that carries the load with its heat.",
+    "No film was found that carries the load with its heat.",
     "The last film that was found is shown without its temperatures, friction and heat.",
     "{remedy}",
 )
 INLET_FORMULA_EXTRAPOLATED = define(
     "inlet-formula-extrapolated",
     CAUTION,
-    "the formula of inlet heating is extrapolated.",
+    "The formula of inlet heating is extrapolated.",
     "Gupta et al. (1992) did not cover so much load and speed: the film thickness is an estimate.",
     'Set thermal = "full" on a line contact.',
 )
 INLET_FAST = define(
     "inlet-fast",
     CAUTION,
-    "the inlet heats the oil beyond what lumped heat describes.",
+    "The inlet heats the oil beyond what lumped heat describes.",
     "The thermal loading mu0 beta u^2/k is {loading:.2g}; above {limit:g} films were up to a third too "
     "thin, and friction was 10 to 60 % off.",
     'Set thermal = "full" on a line contact.',
@@ -283,47 +283,47 @@ INLET_FAST = define(
 SLOW_SURFACE_WARMS = define(
     "slow-surface-warms-inlet",
     CAUTION,
-    "lumped heat leaves out that the slower surface warms the inlet.",
+    "Lumped heat leaves out that the slower surface warms the inlet.",
     "At a slide-to-roll ratio of 2 flooded films were 1.2 to 2.8 times as thick as with full heat.",
     'Set thermal = "full" on a line contact.',
 )
 HEAT_SPREADS = define(
     "heat-spreads-across",
     INFO,
-    "heat that spreads across the flow is left out.",
+    "Heat that spreads across the flow is left out.",
     "The temperature rise was a tenth to a quarter too large under balls, and two thirds under an ellipse "
     "4.5 times as long along the flow as across.",
 )
 OIL_CRACKS = define(
     "oil-cracks",
     CAUTION,
-    "oil or surfaces exceed {limit:.4g} degC, where oils crack.",
+    "Oil or surfaces exceed {limit:.4g} degC, where oils crack.",
     "Viscosities there are extrapolated.",
     "Lower load, speed or sliding.",
 )
 OIL_BOILS = define(
     "oil-boils",
     CAUTION,
-    "the fluid is above its boiling point in the contact.",
+    "The fluid is above its boiling point in the contact.",
     "{oil} is taken as a liquid there.",
     "Lower load, speed or sliding.",
 )
 OIL_HOT_EXTRAPOLATED = define(
     "oil-hot-extrapolated",
     INFO,
-    "the oil is hotter in the contact than its viscosity is known.",
+    "The oil is hotter in the contact than its viscosity is known.",
     "{oil} is more than {beyond:g} K above {highest:.6g} degC, and its viscosity is extrapolated.",
 )
 BODY_AT_REST = define(
     "body-at-rest-cooled",
     INFO,
-    "a body at rest is taken as cool at a distance.",
+    "A body at rest is taken as cool at a distance.",
     "The distance is {distance}.",
 )
 EXPANSION_UNKNOWN = define(
     "oil-expansion-unknown",
     INFO,
-    "the oil's thermal expansion is not known.",
+    "The oil's thermal expansion is not known.",
     "Compression does not heat the oil, and its density does not fall with temperature.",
     "Take an oil of the catalogue.",
 )

@@ -14,7 +14,7 @@ MEMORY_SHORT = define(
 GROSS_SLIDING_ASSUMED = define(
     "gross-sliding-assumed",
     INFO,
-    "friction and film are those of gross sliding.",
+    "Friction and film are those of gross sliding.",
     "The bodies slide at the speeds given; partial slip is in the stresses below the surface and in what wears.",
 )
 FILM_THINNER_THAN_ROUGHNESS = define(
@@ -70,7 +70,7 @@ WAVE_STEPS_FEW = define(
 PRESSING_IN_STEPS = define(
     "pressing-in-steps",
     INFO,
-    "pressure alone makes bodies that differ slip.",
+    "Pressure alone makes bodies that differ slip.",
     "The load comes in {steps} steps, and the stick area is known to about 1/{steps}; take twice "
     "push.pressing_steps to see.",
 )
@@ -84,13 +84,13 @@ PRESSING_AT_ONCE = define(
 PRESSURE_WITHOUT_FRICTION = define(
     "pressure-without-friction",
     INFO,
-    "the pressure is that of the contact without friction.",
+    "The pressure is that of the contact without friction.",
     "The bodies differ in elasticity, so that tractions would change the pressure.",
 )
 JOINT_CLOSED = define(
     "joint-closed",
     INFO,
-    "the contact is full, and the joint has no stiffness of its own.",
+    "The contact is full, and the joint has no stiffness of its own.",
     "Every cell carries load on a doubly periodic grid: no gap is left to give way, and the bodies' own "
     "elasticity is not part of the joint.",
 )
@@ -112,7 +112,7 @@ THIRD_BODIES_BEAR_LOAD = define(
 MAP_SYNTHETIC = define(
     "map-synthetic",
     INFO,
-    "the height map is synthetic.",
+    "The height map is synthetic.",
     "It has the sizes of the source's figures built in and confirms no model.",
 )
 FLOW_FACTORS_UNSOLVED = define(
@@ -125,7 +125,7 @@ FLOW_FACTORS_UNSOLVED = define(
 TRIBOFILM_SHARES_AS_BEFORE = define(
     "tribofilm-shares-as-before",
     INFO,
-    "oil and surfaces share the load as without a tribofilm.",
+    "Oil and surfaces share the load as without a tribofilm.",
     "How its thickness and softness change the share is left out.",
 )
 
@@ -138,7 +138,7 @@ MAP_FILLED = define(
 MAP_SPACING_GIVEN = define(
     "map-spacing-given",
     INFO,
-    "points are taken as {own} apart.",
+    "Points are taken as {own} apart.",
     "The file says {other}.",
 )
 MAP_SPIKES = define(
@@ -154,12 +154,12 @@ MAP_RESAMPLED = define(
 MAP_MIRRORED = define(
     "map-mirrored",
     INFO,
-    "made periodic by mirroring.",
+    "Made periodic by mirroring.",
     "The surface is symmetric about its seams.",
 )
 MAP_CONTINUED = define(
     "map-continued",
     INFO,
-    "continued periodically along {along}.",
+    "Continued periodically along {along}.",
     "The step where its ends meet is spread out (Moisan 2011), which changes the heights by {change:si m} rms.",
 )

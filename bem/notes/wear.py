@@ -7,7 +7,7 @@ OUTSIDE_MODEL, CAUTION, INFO = Level.OUTSIDE_MODEL, Level.CAUTION, Level.INFO
 OIL_WITH_PARTICLES_UNKNOWN = define(
     "oil-with-particles-unknown",
     INFO,
-    "how far the load sharing depends on the counted oil is unknown.",
+    "How far the load sharing depends on the counted oil is unknown.",
     "Particles bear load, and the balance with the oil counted where the film carries is one without particles.",
     'Compare sharing.oil_volume = "loaded".',
 )
@@ -21,13 +21,13 @@ FILM_KEEPS_SHAPE = define(
 FILM_HAS_WORN_SHAPE = define(
     "film-has-worn-shape",
     INFO,
-    "the film has the worn shape of the standing body.",
+    "The film has the worn shape of the standing body.",
     'The shape is {depth:si m} deep (sharing.film_shape = "worn"), and films were solved for {shapes} shapes.',
 )
 WORN_SHAPE_WITHOUT_HEAT = define(
     "worn-shape-without-heat",
     INFO,
-    "the worn shape changes the film as it changes an isothermal film.",
+    "The worn shape changes the film as it changes an isothermal film.",
 )
 WORN_SHAPE_REACHES_END = define(
     "worn-shape-reaches-end",
@@ -39,14 +39,14 @@ WORN_SHAPE_REACHES_END = define(
 WORN_FILM_NOT_FOUND = define(
     "worn-film-not-found",
     OUTSIDE_MODEL,
-    "in {kept} of {cycles} cycles the worn shape had no film.",
+    "In {kept} of {cycles} cycles the worn shape had no film.",
     "The film kept an earlier shape; at the end the worn depth is off the film's gap by {behind:%}.",
     'Compare sharing.film_shape = "unworn".',
 )
 WORN_FILM_AT_OTHER_LOAD = define(
     "worn-film-at-other-load",
     OUTSIDE_MODEL,
-    "in {clamped} of {cycles} cycles wear changed the film inaccurately.",
+    "In {clamped} of {cycles} cycles wear changed the film inaccurately.",
     "No film of the worn shape was found at its own load, and the change at another film load was taken.",
     'Compare sharing.film_shape = "unworn".',
 )
@@ -60,7 +60,7 @@ THIRD_BODIES_FULL = define(
 LOOP_PRESSED_AT_ONCE = define(
     "loop-pressed-at-once",
     INFO,
-    "the bodies differ in elasticity, and each cycle's pressure comes at once.",
+    "The bodies differ in elasticity, and each cycle's pressure comes at once.",
     "Pressure alone then makes surfaces slip, so the stick area of the loop is less certain than of like "
     "bodies; tractions change no pressure.",
 )
@@ -74,12 +74,12 @@ LOOP_ALL_SLIPS = define(
 LIFE_WITHOUT_PIECES = define(
     "life-without-pieces",
     INFO,
-    "particles: the criterion finds no piece in any pass.",
+    "Particles: the criterion finds no piece in any pass.",
 )
 MICROPITTING_ASSUMPTIONS = define(
     "micropitting-assumptions",
     INFO,
-    "micropitting: pits stay in the surface, and cracks do not grow.",
+    "Micropitting: pits stay in the surface, and cracks do not grow.",
     "Each pass counts one stress cycle, sampled in the positions; the residual stress is {residual:si Pa} "
     "as given, not that of the first passes. The bounds at most and at least cover cycle jumps and "
     "positions, not cells.",
@@ -93,7 +93,7 @@ LIFE_FRAME = define(
 LIFE_MEANS = define(
     "life-means",
     INFO,
-    "figures over a life are means over {positions} positions.",
+    "Figures over a life are means over {positions} positions.",
     "The positions pair each other's roughness; error bars hold {hold}.",
 )
 LIFE_DISTANCE_DIFFERS = define(

@@ -278,7 +278,7 @@ def test_load_of_helical_gears():
     # without lean they are the lines of spur gears, one or two
     nearly = path_of_contact(made(helix_angle="1e-4 deg").model)
     assert set(np.round(nearly.lines(nearly.start + nearly.base_pitch * np.array([0.3, 0.9])), 3)) == {1.0, 2.0}
-    assert "helix 11.2" in " ".join(element.notes())
+    assert "Helix 11.2" in " ".join(element.notes())
 
 
 @pytest.mark.internal

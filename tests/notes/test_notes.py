@@ -42,9 +42,9 @@ def test_a_note_is_a_string_with_numbers_in_their_units():
 
 def test_what_is_outside_the_model_says_so_first():
     note = FRICTION_UNPHYSICAL("speed 1 m/s", friction=3.2, limit=1.0, reason="drag")
-    assert note.startswith(f"speed 1 m/s: {OUTSIDE}friction 3.2")
+    assert note.startswith(f"speed 1 m/s: {OUTSIDE}Friction 3.2")
     assert outside([note, note, FILM_MOLECULAR(limit=2e-9)]) == (note.headline,)
-    assert note.headline.startswith("speed 1 m/s: friction 3.2 is above any physical bound")
+    assert note.headline.startswith("speed 1 m/s: Friction 3.2 is above any physical bound")
 
 
 def test_a_note_is_the_same_after_a_checkpoint_and_another_process():

@@ -115,7 +115,7 @@ print([note["text"] for note in run(sys.argv[1] + "/one").summary["notes"]])
     full, bad, notes = told(code, tmp_path).splitlines()
     assert full == "figures: cannot be made (disk full)"
     assert bad == "bad scene"
-    assert "figure pressure-map could not be drawn. It ended with ZeroDivisionError('no')." in notes
+    assert "Figure pressure-map could not be drawn. It ended with ZeroDivisionError('no')." in notes
     assert "pressure-map could not be drawn" in (tmp_path / "one" / "report.html").read_text()
     assert not (tmp_path / "bad").exists()
 

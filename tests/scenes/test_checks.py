@@ -532,7 +532,7 @@ OUTCOMES = {
     ),
     "nothing_comes_off": (
         "wear-steel-steel",
-        (wear_outcome([], particles_per_cycle=[2.0, 0.0, 1.0]), "5 N: nothing came off by the criterion von_mises"),
+        (wear_outcome([], particles_per_cycle=[2.0, 0.0, 1.0]), "5 N: Nothing came off by the criterion von_mises"),
         wear_outcome([CELL], particles_per_cycle=[2.0, 0.1, 1.0]),
     ),
     "worn_beyond_small_slopes": (
@@ -581,7 +581,7 @@ OUTCOMES = {
     ),
     "loop_without_error_bars": (
         "running-in-stribeck",
-        (Outcome({"Sq_final_nm": [90.0]}, {}), "a single loop has no error bars"),
+        (Outcome({"Sq_final_nm": [90.0]}, {}), "A single loop has no error bars"),
         Outcome({"Sq_final_nm": [90.0], "Sq_final_nm_error": [None]}, {}),
     ),
     "particles_cut_by_the_depths": (
@@ -704,7 +704,7 @@ def test_the_variant_of_which_nothing_comes_off_is_named():
 @pytest.mark.internal
 def test_running_in_tells_too_where_nothing_comes_off():
     facts, check = facts_of("running-in-stribeck"), OUTCOME_CHECKS["nothing_comes_off"]
-    assert "nothing came off" in " ".join(check(facts, Outcome({"particles_per_cycle": [0.0] * len(facts.cases)}, {})))
+    assert "Nothing came off" in " ".join(check(facts, Outcome({"particles_per_cycle": [0.0] * len(facts.cases)}, {})))
 
 
 @pytest.mark.internal
@@ -792,7 +792,7 @@ def test_a_run_notes_what_was_warned_of_before_and_after(tmp_path):
     assert sorted(note["text"] for note in run.summary["notes"]) == sorted(watcher.notes)
     text = " ".join(watcher.notes)
     assert "for a Hertz contact of 216 um" in text
-    assert text.count("the contact reaches the edge of the grid along x and y,") == text.count("reaches the edge") == 1
+    assert text.count("The contact reaches the edge of the grid along x and y.") == text.count("reaches the edge") == 1
     assert "reaches the edge of the grid along x and y" in (tmp_path / "out" / "report.html").read_text()
 
 
