@@ -10,6 +10,7 @@ from bem import Body, Grid, InputError, Layer, Material, subsurface_stress, von_
 from bem.kernels.coefficients import stress_coefficients
 from bem.kernels.loads import STRESS_PARITY, Load
 from bem.kernels.spectral import stress_response
+from bem.numerics.cache import KeptValues
 from bem.reference_solutions.hamilton import sphere_stress
 from bem.reference_solutions.mcewen import cylinder_stress
 from bem.stress import (
@@ -17,8 +18,6 @@ from bem.stress import (
     von_mises_limit,
     von_mises_planes,
 )
-from bem.stress.packed import pack
-from bem.stress.spectra import MOST_FAMILIES, SweepCache
 from bem.threads import set_threads
 from bem.transforms import COUNT as TRANSFORMS
 
@@ -183,34 +182,6 @@ def test_memory_of_spectra_is_bounded_and_a_long_sweep_keeps_what_fits():
 
 
 @pytest.mark.internal
-@pytest.mark.parametrize("periodic", ALL_PERIODIC[:3])
-def test_zz_under_traction_is_xz_under_pressure(periodic):
-    grid = Grid((14, 9), (1.2, 1.0), periodic=periodic)
-    for depth in (0.0, 0.3, 4.0, 40.0):
-        pressed, drawn = (stress_coefficients(grid, BODY, depth, load) for load in Load)
-        # the same formula by two ways through the images: their round-off
-        np.testing.assert_allclose(drawn[2], pressed[4], rtol=0, atol=1e-15)
-
-
-@pytest.mark.internal
-def test_packed_numbers_are_as_near_as_they_say_and_stay():
-    rng = np.random.default_rng(17)
-    values = rng.standard_normal((9, 31)) * 10.0 ** rng.integers(-200, 200, (9, 1))
-    values[0] = 0.0
-    values[1] = [1.0, -1.0, *np.nextafter([1.0, -1.0, 2.0], 0.0), *np.zeros(26)]
-    values[2, 5] = 0.0
-    once = pack(values).unpack(np.empty_like(values))
-    largest = np.abs(values).max(axis=1, keepdims=True)
-    assert (np.abs(once - values) <= 2.0**-47 * largest).all()
-    assert np.abs(once - values)[3:].max() > 0  # it does lose something: the check can fail
-    assert (once[values == 0] == 0).all()
-    np.testing.assert_array_equal(pack(once).unpack(np.empty_like(values)), once)
-    # 6 bytes a number and a step a row
-    assert pack(values).nbytes == 6 * values.size + 8 * 9
-    assert not pack(np.full((1, 3), 5e-324)).unpack(np.ones((1, 3))).any()
-
-
-@pytest.mark.internal
 def test_bits_do_not_depend_on_threads_cache_or_output_array():
     grid = Grid((150, 40), (1e-6, 1e-6), periodic=(False, True))
     pressure = np.random.default_rng(4).random(grid.shape)
@@ -358,40 +329,22 @@ def test_bad_input_is_refused_with_every_mistake_named():
 
 
 @pytest.mark.internal
-@pytest.mark.parametrize("friction", [0.0, 0.3])
-def test_packed_spectra_give_the_stresses_of_whole_ones(monkeypatch, friction):
-    layered = Body(BODY.material, layer=Layer(Material("skin", youngs_modulus=70e9, poissons_ratio=0.2), 1.0))
-    rng = np.random.default_rng(18)
-    for periodic, body in ((ALL_PERIODIC[0], BODY), (ALL_PERIODIC[1], BODY), (ALL_PERIODIC[1], layered)):
-        grid = Grid((13, 10), (1.0, 1.0), periodic=periodic)
-        pressure = rng.random(grid.shape)
-        found = []
-        for worth in (1 << 16, 1):
-            monkeypatch.setattr("bem.stress.spectra._WORTH_PACKING", worth)
-            room.set_stress_memory(0)
-            room.set_stress_memory(1 << 29)
-            both = subsurface_stress(pressure, grid, body, [0.0, 0.7, 3.0], friction=friction)
-            np.testing.assert_array_equal(  # kept or computed anew
-                subsurface_stress(pressure, grid, body, [0.0, 0.7, 3.0], friction=friction), both
-            )
-            found.append((both, room.stress_memory()))
-        # 2^-47 of the largest number of a row of the spectrum, which is of order one, times sums of 130 pressures
-        np.testing.assert_allclose(found[1][0], found[0][0], rtol=0, atol=1e-12)
-        assert np.abs(found[1][0] - found[0][0]).max() > 0  # they are packed: the check can fail
-        assert found[1][1] < 0.85 * found[0][1]
-    room.set_stress_memory(0)
-    room.set_stress_memory(1 << 29)
+def test_a_cache_of_sweeps_keeps_the_first_values_of_a_sweep_that_does_not_fit():
+    """Least recently used values would each be evicted just before their next use."""
 
+    def misses(cache, keys, sweep):
+        made = []
+        for key in keys:
+            cache.of(key, lambda key=key: made.append(key) or np.zeros(4), sweep)  # 32 bytes each
+        return made
 
-@pytest.mark.internal
-def test_names_of_bodies_are_few_and_never_given_twice():
-    """They were kept for every material of a session."""
-    cache = SweepCache(1 << 20)
-    used = cache.family("in use")
-    names = []
-    for body in range(3 * MOST_FAMILIES):
-        names.append(cache.family(body))
-        assert cache.family("in use") == used
-    assert len({used, *names}) == 1 + len(names)
-    assert len(cache.families) == MOST_FAMILIES
-    assert cache.family(0) not in {used, *names}
+    cache = KeptValues(3 * 32)
+    assert misses(cache, range(5), cache.begin_sweep()) == [0, 1, 2, 3, 4]
+    assert misses(cache, range(5), cache.begin_sweep()) == [3, 4]
+    assert cache.nbytes == 3 * 32
+    assert misses(cache, [7, 8], cache.begin_sweep()) == [7, 8]  # the sweep before used all that is held
+    assert misses(cache, [7, 8], cache.begin_sweep()) == [7, 8]
+    assert misses(cache, [7, 8], cache.begin_sweep()) == []  # what two sweeps did not use has given way
+    least_recent = KeptValues(3 * 32)
+    assert misses(least_recent, range(5), None) == [0, 1, 2, 3, 4]
+    assert misses(least_recent, range(5), None) == [0, 1, 2, 3, 4]

@@ -12,7 +12,7 @@ from bem.grid import FloatArray, Grid
 from bem.materials import Body
 from bem.notes.accuracy import NoBar
 from bem.stress import StressBelow, stress_below, von_mises_planes
-from bem.stress.below import yield_stresses
+from bem.stress.stress_summary import yield_stresses
 
 NAMES = ("max_von_mises", "max_von_mises_depth")
 _VON_MISES = Rule(0.33, 0.67, edge=0.008, rough_edge=0.025)

@@ -162,7 +162,7 @@ def watched() -> Iterator[dict[str, float]]:
 
     Counters stand around the functions only here, so that a timed solve does not pay for them.
     """
-    import bem.stress.sweeps
+    import bem.stress.fields
     from bem.contact import coarse_correction, pcg, reductions, sparse_inverse
     from bem.transforms import PaddedTransform
     from bem.wear import yielding
@@ -198,7 +198,7 @@ def watched() -> Iterator[dict[str, float]]:
         (sparse_inverse.SparseInverseOnCells, "spread", "preconditioner"),
         (sparse_inverse.SparseInverseOnCells, "collect", "preconditioner"),
         (coarse_correction.CoarseCorrectionOnCells, "apply", "preconditioner"),
-        (bem.stress.sweeps, "_recombine", "elementwise"),
+        (bem.stress.fields, "_recombine", "elementwise"),
         (yielding, "segment", "pieces"),
     ]
     kept = [(owner, name, getattr(owner, name)) for owner, name, _ in targets]

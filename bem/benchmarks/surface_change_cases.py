@@ -30,7 +30,6 @@ def stress_of_sphere(cells: float, *, mises_only: bool = False, warm: bool = Fal
     # from 0.1 radii down: at the surface the staircase of the loaded cells is what one sees, not the kernel
     depths = np.linspace(0.1, 2.0, max(2, n // 4))
     function = von_mises_field if mises_only else subsurface_stress
-    unpacked = len(depths) * 12 * 8.0 * (n + 1) ** 2  # pressure and traction, six real parts each
 
     def solve() -> FloatArray:
         return function(pressure, grid, UNIT, depths, friction=0.3)
@@ -50,7 +49,7 @@ def stress_of_sphere(cells: float, *, mises_only: bool = False, warm: bool = Fal
         module.COUNT.reset()
         return Outcome(
             {"stress_error": float(np.abs(plane - wanted).max())},
-            {"depths": float(len(depths)), "spectra_MB": stress_memory() / 1e6, "unpacked_MB": unpacked / 1e6},
+            {"depths": float(len(depths)), "spectra_MB": stress_memory() / 1e6},
         )
 
     return Timed(solve, judge, None if warm else forget, cells=float(n * n * len(depths)))

@@ -20,8 +20,6 @@ SEARCHED_IN_SINGLE = (
     "pressure, gap and residual in double; transforms of the search for a better pressure in single: no accuracy lost"
 )
 """What is said of contacts: tests/frugality/test_plans.py compares them with those searched in double."""
-PACKED_SPECTRA = "double; large spectra are kept in 48 bits: 1e-15 of the largest pressure"
-"""What is said of stresses on grids with a free axis: `bem.stress.packed`."""
 _START = 0.8  # seconds until libraries and compiled loops are loaded
 
 

@@ -16,7 +16,6 @@ from bem.numerics.cache import DEFAULT_LIMIT
 from bem.scenes import build
 from bem.scenes.context import LARGE
 from bem.scenes.planner import (
-    PACKED_SPECTRA,
     SEARCHED_IN_SINGLE,
     Step,
     convolution_memory,
@@ -190,7 +189,6 @@ def stresses(grid: Grid, body: Body | None, name: str, depths: int, *, fields: i
         memory=held + spectra + 8 * 8.0 * points,
         kept=held + spectra,
         seconds=0.1,
-        precision="" if periodic else PACKED_SPECTRA,
     )
 
 

@@ -21,7 +21,7 @@ from bem.grid import FloatArray, Grid
 from bem.scenes import plans
 from bem.scenes.common import PositiveLength, Table, problem
 from bem.scenes.context import Context, PlainContext, tell
-from bem.scenes.planner import PACKED_SPECTRA, Step, padded_points, stress_kernel_seconds
+from bem.scenes.planner import Step, padded_points, stress_kernel_seconds
 from bem.scenes.records import Figure, Series
 from bem.scenes.rubbing import RubbedRecord, rubbed, rubbing_step
 from bem.scenes.tables.film_defect import film_defect
@@ -115,7 +115,6 @@ def cycle_steps(
             points=transformed * _ROWS,
             seconds=stress_kernel_seconds(grid.cells, deepest),
             memory=8.0 * (points / 4 * 12 * deepest + grid.cells * (deepest + 8)),
-            precision="" if all(grid.periodic) else PACKED_SPECTRA,
         ),
         Step("pieces", "runs of yielded voxels along depth", seconds=0.006 * cycles, memory=8.0 * grid.cells * 8)
         if scene.wear.criterion.needs_strength

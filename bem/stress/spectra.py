@@ -1,23 +1,21 @@
-"""Kernels of a stress request: checked, their spectra made once and kept in bounded memory.
+"""Spectra of the stress kernels at a depth, computed once and cached.
 
-Spectra are quarter arrays of reals, for
+The spectra are those of
 
     t = xx + yy + zz,   d = xx - yy,   e = zz - (xx + yy)/2,   yz,   xz,   xy
 
-of which von Mises, sqrt(3/4 d^2 + e^2 + 3 (yz^2 + xz^2 + xy^2)), needs the last five.
+because von Mises stress, sqrt(3/4 d^2 + e^2 + 3 (yz^2 + xz^2 + xy^2)), needs only the last five.
 
-Memory: a quarter array holds (px/2 + 1)(py/2 + 1) numbers (p: padded lengths); with traction there are twelve a depth.
-Large ones are packed into six bytes a number, and one of the twelve follows from two others: 4.4 MB a depth for 256 x
-256 free cells instead of 6.3 MB. They are bounded by `set_stress_memory`. Where a sweep through the depths does not
-fit, the first ones are kept and the rest is computed anew every time: the best there is for a repeated sweep.
+Every kernel is even or odd along each axis, so a spectrum is a real or an imaginary quarter array of
+(px/2 + 1)(py/2 + 1) numbers, where px, py are the padded lengths. A depth has six quarter arrays under pressure alone
+and twelve with traction: 6.3 MB for 256 x 256 free cells. `set_stress_memory` bounds the cache; where a sweep over the
+depths does not fit, the first depths stay and the others are computed again in every sweep.
 """
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Any
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -29,108 +27,30 @@ from bem.grid import FloatArray, Grid
 from bem.kernels.coefficients import STRESS_PARITY, Load, stress_coefficients
 from bem.kernels.spectral import stress_response
 from bem.materials import Body
-from bem.numerics.cache import DEFAULT_LIMIT, bytes_of
-from bem.stress.packed import Packed, pack
+from bem.numerics.cache import KeptValues, bytes_of
 from bem.threads import ForkSafeLock
 from bem.transforms import Multiplier, kernel_spectrum, multiplier, narrowed_lengths, padded_shape
 
 
 @dataclass
 class StressCount:
-    """What was computed since the last reset: depths whose spectra, and depths whose bound tables, were made."""
+    """Number of depths whose spectra, and of depths whose tables of the bound, were computed since the last reset."""
 
     spectra: int = 0
     bounds: int = 0
 
     def reset(self) -> None:
-        """Back to zero."""
+        """Set all counts to zero."""
         self.spectra = self.bounds = 0
 
 
 COUNT = StressCount()
-"""Kernels evaluated by this process; what the cache served is not counted."""
+"""Kernels computed by this process; values from the cache are not counted."""
 
+_COUNTING = ForkSafeLock()
 
-@dataclass
-class _Kept:
-    value: Any
-    nbytes: int
-    sweep: int
-
-
-MOST_FAMILIES = 256
-"""Bodies on grids that a store tells apart at a time: a session of sweeps over materials would name more and more."""
-
-
-class SweepCache:
-    """Bounded store for values that are asked for in repeated sweeps.
-
-    What the last two sweeps did not use gives way; what the present one used does not. Dropping the least recently
-    used would, in a sweep a little too long for the memory, drop each value just before it is needed again.
-    """
-
-    def __init__(self, limit: int) -> None:
-        self.limit = limit
-        self.kept: dict[Any, _Kept] = {}
-        self.used = 0
-        self.sweep = 0
-        self.families: dict[Any, int] = {}
-        self.named = 0
-        self.lock = ForkSafeLock()
-
-    def begin(self) -> int:
-        """Number of a new sweep."""
-        with self.lock:
-            self.sweep += 1
-            return self.sweep
-
-    def family(self, key: Any) -> int:
-        """A number for what the keys of a sweep have in common: hashed once, not for each depth. One that has not been
-        asked for in a long time gets a new one; what is kept under the old one gives way as what is not used does."""
-        with self.lock:
-            number = self.families.pop(key, self.named)
-            self.named = max(self.named, number + 1)
-            self.families[key] = number  # the latest last
-            if len(self.families) > MOST_FAMILIES:
-                del self.families[next(iter(self.families))]
-            return number
-
-    def get(self, key: Any, sweep: int) -> Any:
-        """What is kept under a key, from now on in use by this sweep; None if nothing."""
-        with self.lock:
-            found = self.kept.get(key)
-            if found is None:
-                return None
-            found.sweep = sweep
-            return found.value
-
-    def put(self, key: Any, value: Any, nbytes: int, sweep: int) -> None:
-        """Keep a value if there is room for it."""
-        with self.lock:
-            if key in self.kept:
-                return
-            self._evict(self.limit - nbytes, sweep - 1)
-            if self.used + nbytes <= self.limit:
-                self.kept[key] = _Kept(value, nbytes, sweep)
-                self.used += nbytes
-
-    def resize(self, limit: int) -> None:
-        """Another limit [bytes]."""
-        with self.lock:
-            self.limit = limit
-            self._evict(limit, self.sweep + 1)
-
-    def _evict(self, target: int, before: int) -> None:
-        """Drop values last used before a sweep, oldest first, until `target` bytes are held."""
-        if self.used <= target:
-            return
-        for key in sorted((k for k, v in self.kept.items() if v.sweep < before), key=lambda k: self.kept[k].sweep):
-            self.used -= self.kept.pop(key).nbytes
-            if self.used <= target:
-                return
-
-
-SPECTRA = SweepCache(DEFAULT_LIMIT)
+SPECTRA = KeptValues()
+"""Cache of `StressSpectra` by grid, elastic ratios, loads and depth."""
 
 
 def set_stress_memory(limit: int) -> None:
@@ -145,11 +65,11 @@ def set_stress_memory(limit: int) -> None:
 
 def stress_memory() -> int:
     """Memory held by cached stress spectra [bytes]."""
-    return SPECTRA.used
+    return SPECTRA.nbytes
 
 
-def elastic(body: Body) -> tuple[float, ...]:
-    """What of a body decides its stresses: Poisson's ratios, moduli over the half-space's, depths of interfaces."""
+def elastic_ratios(body: Body) -> tuple[float, ...]:
+    """Properties that determine stress: Poisson's ratios, moduli over the half-space's, depths of interfaces [m]."""
     ratios = (solid.youngs_modulus / body.material.youngs_modulus for solid in body.media[:-1])
     return (*(solid.poissons_ratio for solid in body.media), *ratios, *body.interfaces)
 
@@ -157,11 +77,11 @@ def elastic(body: Body) -> tuple[float, ...]:
 def check_request(
     name: str, grid: object, body: object, depths: ArrayLike, friction: object
 ) -> tuple[tuple[float, ...], float]:
-    """Depths and friction of a request as numbers.
+    """Return depths and friction of a request as numbers.
 
     Raises
     ------
-    InputError : any of them is not what its name says.
+    InputError : a grid, body, depth or friction coefficient that is not valid; all mistakes are listed.
     """
     messages = []
     if not isinstance(grid, Grid):
@@ -181,13 +101,16 @@ def check_request(
 
 
 def padded_lengths(grid: Grid) -> tuple[int, int]:
-    """Lengths of the transforms."""
+    """Lengths of the transforms along x and y."""
     return padded_shape(grid.shape, grid.periodic)
 
 
 def column_lengths(grid: Grid, body: Body) -> tuple[int, ...] | None:
-    """Lengths of the transforms along x for each wavenumber along y, where they may be shorter: the waves of a periodic
-    y under a homogeneous body (those of layers may fall more slowly along a free x)."""
+    """Lengths of the transforms along a free x for each wavenumber along a periodic y; None where all are equal.
+
+    Below a homogeneous body the kernel of a wave along y decays exponentially along x, so short waves need less
+    padding. Kernels of layers may decay more slowly.
+    """
     if grid.periodic != (False, True) or not body.homogeneous:
         return None
     decay = 2 * math.pi * grid.spacing[0] / (grid.shape[1] * grid.spacing[1])
@@ -195,77 +118,39 @@ def column_lengths(grid: Grid, body: Body) -> tuple[int, ...] | None:
 
 
 Loads = tuple[tuple[Load, float], ...]
-"""The loads that act, each with its factor of one field."""
+"""Loads proportional to one surface field, each with its factor."""
 
 TRACTION: Loads = ((Load.TANGENTIAL, 1.0),)
 """A traction along +x alone."""
 
 
-def loads(friction: float) -> Loads:
-    """A pressure, and friction x pressure along +x."""
+def pressure_and_friction(friction: float) -> Loads:
+    """A pressure, and the traction friction x pressure along +x."""
     return ((Load.NORMAL, 1.0), *(((Load.TANGENTIAL, friction),) if friction != 0 else ()))
 
 
 @dataclass(frozen=True, eq=False)
-class Factors:
-    """Spectra of t, d, e, yz, xz, xy at a depth, as they are kept.
+class StressSpectra:
+    """Spectra of the kernels of t, d, e, yz, xz, xy at one depth.
 
-    parts : real and imaginary part of each, quarter arrays or `Packed`; None for zero.
-    columns : of each, how many wavenumbers along y count; the coefficients of all others are less than the rounding of
-        the largest. Below the surface they fall exponentially on a periodic axis: half of them are left 20 cells down.
-    traction : f where the imaginary part of e is left out: in a homogeneous body zz under traction is xz under pressure
-        (-z V_xz both), so that part is f (3/2 xz - t/2) of what is kept; None where it is kept.
+    multipliers : spectrum of each component.
+    columns : number of wavenumbers along y of each component that count. Below the surface coefficients fall
+        exponentially on a periodic axis: 20 cells down half of the wavenumbers are left. Coefficients of the others are
+        below the rounding error of the largest.
     """
 
-    parts: tuple[tuple[FloatArray | Packed | None, FloatArray | Packed | None], ...]
-    parities: tuple[tuple[int, int], ...]
+    multipliers: tuple[Multiplier, ...]
     columns: tuple[int, ...]
-    traction: float | None
 
     @property
     def nbytes(self) -> int:
-        """Memory of the arrays."""
-        return sum(part.nbytes for pair in self.parts for part in pair if part is not None)
-
-    def multiplier(self, component: int, workspace: FloatArray) -> Multiplier:
-        """The spectrum of one of t, d, e, yz, xz, xy, in `workspace` (3, rows, columns) where it has to be unpacked;
-        kept where it has not."""
-        found = self._whole.get(component)
-        if found is not None:
-            return found
-        real, imaginary = (
-            part.unpack(workspace[index]) if isinstance(part, Packed) else part
-            for index, part in enumerate(self.parts[component])
-        )
-        if component == _E and self.traction is not None:
-            xz, trace = self.parts[_XZ][1], self.parts[_T][1]
-            assert isinstance(xz, Packed)
-            assert isinstance(trace, Packed)
-            imaginary = xz.unpack(workspace[1])
-            _join_traction(imaginary, trace.unpack(workspace[2]), 1.5 * self.traction)
-        result = Multiplier(real, imaginary, *self.parities[component])
-        if not any(isinstance(part, Packed) for part in self.parts[component]) and self.traction is None:
-            self._whole[component] = result
-        return result
-
-    @cached_property
-    def _whole(self) -> dict[int, Multiplier]:
-        return {}
-
-
-_T, _E, _XZ = 0, 2, 4
-
-
-@compiled
-def _join_traction(xz, trace, factor):
-    for i in range(xz.shape[0]):
-        for j in range(xz.shape[1]):
-            xz[i, j] = factor * xz[i, j] - 0.5 * trace[i, j]
+        """Memory [bytes]."""
+        return sum(one.nbytes for one in self.multipliers)
 
 
 @compiled
 def _combine(stress):
-    """In place from (xx, yy, zz, ...) to (t, d, e, ...)."""
+    """Replace (xx, yy, zz, ...) by (t, d, e, ...) in place."""
     for i in range(stress.shape[1]):
         for j in range(stress.shape[2]):
             xx, yy, zz = stress[0, i, j], stress[1, i, j], stress[2, i, j]
@@ -274,63 +159,37 @@ def _combine(stress):
             stress[2, i, j] = zz - 0.5 * (xx + yy)
 
 
-def packs(grid: Grid) -> bool:
-    """Whether spectra are packed: arrays so large that memory counts for more than the 3 % of time it takes.
-
-    Not on doubly periodic grids: their spectra fall exponentially with the wavenumber, and are exact however small.
-    """
-    padded = padded_lengths(grid)
-    return not all(grid.periodic) and (padded[0] // 2 + 1) * (padded[1] // 2 + 1) >= _WORTH_PACKING
-
-
-_WORTH_PACKING = 1 << 16
-
-
-def factors_of(grid: Grid, body: Body, depth: float, acting: Loads) -> Factors:
-    """Spectra of t, d, e, yz, xz, xy at a depth, computed now."""
-    with SPECTRA.lock:
+def compute_spectra(grid: Grid, body: Body, depth: float, acting: Loads) -> StressSpectra:
+    """Compute the spectra at a depth [m] under the loads that act."""
+    with _COUNTING:
         COUNT.spectra += 1
     padded, lengths = padded_lengths(grid), column_lengths(grid, body)
-    wraps, packed = all(grid.periodic), packs(grid)
-    shared = packed and body.homogeneous and len(acting) == 2
+    doubly_periodic = all(grid.periodic)
     parts: list[list[tuple[FloatArray, tuple[int, int], float]]] = [[] for _ in range(6)]
     for load, factor in acting:
-        kernels = stress_response(grid, body, depth, load) if wraps else stress_coefficients(grid, body, depth, load)
+        response = stress_response if doubly_periodic else stress_coefficients
+        kernels = response(grid, body, depth, load)
         _combine(kernels)
         for component, parity in enumerate(STRESS_PARITY[load]):
-            if wraps:
+            if doubly_periodic:
                 # `multiplier` takes i^2 = -1 for a kernel odd along both axes; the response has it already
                 sign = -1.0 if parity == (-1, -1) else 1.0
                 quarter = np.ascontiguousarray(kernels[component][: padded[0] // 2 + 1].T) * sign
-            elif shared and load is Load.TANGENTIAL and component == _E:
-                continue
             else:
                 quarter = kernel_spectrum(kernels[component], padded, parity, lengths)
             parts[component].append((quarter, parity, factor))
-    whole = [multiplier(part) for part in parts]
-
-    def kept(values: FloatArray | None) -> FloatArray | Packed | None:
-        return pack(values) if packed and values is not None else values
-
-    columns = [_columns_of(m) for m in whole]
-    if shared:
-        columns[_E] = max(columns[_E], columns[_XZ], columns[_T])
-    return Factors(
-        tuple((kept(m.real), kept(m.imaginary)) for m in whole),
-        tuple((m.real_parity, m.imaginary_parity) for m in whole),
-        tuple(columns),
-        acting[1][1] if shared else None,
-    )
+    multipliers = tuple(multiplier(part) for part in parts)
+    return StressSpectra(multipliers, tuple(_significant_columns(one) for one in multipliers))
 
 
-def _columns_of(spectrum: Multiplier) -> int:
-    """How many wavenumbers along y, from zero on, have a coefficient that is not lost beside the largest."""
+def _significant_columns(spectrum: Multiplier) -> int:
+    """Number of wavenumbers along y, from zero on, up to the last with a coefficient above rounding error."""
     parts = [np.abs(part).max(axis=1) for part in (spectrum.real, spectrum.imaginary) if part is not None]
     if not parts:
         return 0
-    highest = np.max(parts, axis=0)
-    return int(np.flatnonzero(highest >= _LOST * highest.max())[-1]) + 1
+    largest = np.max(parts, axis=0)
+    return int(np.flatnonzero(largest >= _SIGNIFICANT * largest.max())[-1]) + 1
 
 
-_LOST = 2.0**-53
-"""Half of a double's last digit: sums of what is less differ by what the transforms themselves round off."""
+_SIGNIFICANT = 2.0**-53
+"""Coefficients below this fraction of the largest are dropped: half of a double's last digit."""

@@ -186,7 +186,7 @@ def piece_stress(
     load: FloatArray | Sequence[SurfaceLoad], setup: WearSetup, model: WearChoices, body: int
 ) -> YieldedStress:
     """As `yielded_stress`, where pieces can be: rows that none reaches are zero if von Mises stress of one load is
-    asked for, of which pieces from the surface down leave, found on the way (`bem.stress.reach`).
+    asked for, of which pieces from the surface down leave, found on the way (`bem.stress.connected_regions`).
 
     Between depths, yield needs a depth next to it that yields: so a piece is followed from depth to depth and row to
     row. The monotone cubic in an interval needs values two depths from the end that yields.

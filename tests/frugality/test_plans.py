@@ -14,7 +14,7 @@ from bem.errors import InputError, Status
 from bem.runs import plan_scene
 from bem.scenes import build, library
 from bem.scenes.kind import kind_names
-from bem.scenes.planner import PACKED_SPECTRA, SEARCHED_IN_SINGLE
+from bem.scenes.planner import SEARCHED_IN_SINGLE
 from bem.scenes.plans import CONVOLUTION, convolutions, stiffest
 from bem.surfaces import generate_surface
 from bem.transforms import COUNT
@@ -38,8 +38,8 @@ def test_every_kind_has_a_built_in_scene_and_something_to_skip():
 @pytest.mark.internal
 def test_the_plan_names_precision_where_the_scene_asks_for_it():
     _, free = plan_scene("hertz-sphere")
-    assert free.precisions == {"contact": SEARCHED_IN_SINGLE, "stresses below": PACKED_SPECTRA}
-    assert [name for name, _ in free.precision_rows] == ["contact", "stresses below", "all else"]
+    assert free.precisions == {"contact": SEARCHED_IN_SINGLE}
+    assert [name for name, _ in free.precision_rows] == ["contact", "all else"]
     _, film = plan_scene("film-ball")
     assert not film.precisions
     assert film.precision_rows == [("all", "double")]

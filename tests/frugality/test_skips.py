@@ -10,8 +10,8 @@ from mixed_case import STEEL, mixed_case
 import bem.convolution as convolution
 import bem.kernels.coefficients as coefficients
 import bem.stress as stress
+import bem.stress.fields as stress_fields
 import bem.stress.spectra as stress_spectra
-import bem.stress.sweeps as stress_sweeps
 import bem.transforms as transforms
 from bem import (
     Body,
@@ -313,7 +313,7 @@ def test_waves_that_do_not_reach_a_depth_are_not_transformed(monkeypatch):
         return zip(*found, strict=True)
 
     columns, found = columns_and_stress()
-    monkeypatch.setattr(stress_spectra, "_LOST", 0.0)
+    monkeypatch.setattr(stress_spectra, "_SIGNIFICANT", 0.0)
     set_stress_memory(0)
     set_stress_memory(1 << 29)
     every, expected = columns_and_stress()
@@ -346,7 +346,7 @@ def test_waves_along_a_periodic_axis_are_padded_by_their_reach_alone(monkeypatch
 
     found, numbers = stresses(SOFT)
     layered, under_layers = stresses(coated)
-    for room in (stress_spectra, stress_sweeps):
+    for room in (stress_spectra, stress_fields):
         monkeypatch.setattr(room, "column_lengths", lambda grid, body: None)
     whole, most = stresses(SOFT)
     assert numbers < {0.3: 0.64, 1.0: 0.75}[stretch] * most

@@ -47,11 +47,8 @@ FIRST_RUN_COMPILES = {
     ("bem.kernels.subsurface", "_many"),
     ("bem.lubrication.point.rough_loops", "_barred"),
     ("bem.lubrication.point.rough_loops", "rough_flows"),
-    ("bem.stress.packed", "_pack"),
-    ("bem.stress.packed", "_unpack"),
-    ("bem.stress.reach", "_clear"),
-    ("bem.stress.spectra", "_join_traction"),
-    ("bem.stress.sweeps", "_add_square"),
+    ("bem.stress.connected_regions", "_clear"),
+    ("bem.stress.fields", "_add_square"),
     ("bem.tangential.operator", "_multiply_normal"),
     ("bem.tangential.operator", "_multiply_pressure"),
 }

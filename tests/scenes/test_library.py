@@ -13,7 +13,7 @@ from bem.scenes import dump_scene, kind_names, library, load_scene, units
 from bem.scenes.checks import SCENE_CHECKS, examine
 from bem.scenes.form import library_scene
 from bem.scenes.load import read_table, table_text
-from bem.scenes.planner import PACKED_SPECTRA, SEARCHED_IN_SINGLE
+from bem.scenes.planner import SEARCHED_IN_SINGLE
 
 NAMES = sorted(library())
 NEEDS_FILES = {name for name in NAMES if '"path"' in json.dumps(library()[name])}
@@ -116,5 +116,5 @@ def check_precisions(plan):
         if not step.skipped and step.name != "partial slip":  # whose pressure may follow the tractions, or not
             searches = "contact" in step.name or step.name == "pressing in steps"
             assert (step.precision == SEARCHED_IN_SINGLE) == searches, step.name
-        assert step.precision in ("", SEARCHED_IN_SINGLE, PACKED_SPECTRA)
+        assert step.precision in ("", SEARCHED_IN_SINGLE)
         assert (step.name in plan.precisions) == (bool(step.precision) and not step.skipped)

@@ -6,7 +6,7 @@ import pytest
 from bem import Body, Grid, Layer, Material, displacement_operator, solve_contact
 from bem.reference_solutions.hertz import sphere_contact
 from bem.stress import stress_below, subsurface_stress, von_mises_field
-from bem.stress.below import yield_stresses
+from bem.stress.stress_summary import yield_stresses
 
 GRID = Grid((16, 8), (1e-6, 1e-6), periodic=(True, True))
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3, yield_stress=1e9)

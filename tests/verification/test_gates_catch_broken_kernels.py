@@ -16,7 +16,7 @@ import pytest
 from bem import convolution
 from bem.kernels import layered_hankel
 from bem.kernels.loads import Load
-from bem.stress import bound, spectra
+from bem.stress import spectra, von_mises_bound
 from bem.verification import registry
 
 pytestmark = pytest.mark.internal
@@ -26,9 +26,8 @@ def forget():
     """Spectra of healthy kernels must not serve a broken one, nor the other way round."""
     convolution._SPECTRA.clear()
     layered_hankel._kept.cache_clear()
-    for cache in (spectra.SPECTRA, bound._TABLES):
-        cache.kept.clear()
-        cache.used = 0
+    for cache in (spectra.SPECTRA, von_mises_bound._TABLES):
+        cache.clear()
 
 
 @pytest.fixture(autouse=True)

@@ -1,8 +1,9 @@
-"""What von Mises stress can at most reach at a depth, which allows to skip it."""
+"""Upper bound on von Mises stress at a depth, without any transform: depths that cannot yield are skipped."""
 
 from __future__ import annotations
 
 import math
+from functools import partial
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -12,18 +13,20 @@ from bem.grid import FloatArray, Grid
 from bem.kernels.coefficients import STRESS_PARITY, stress_coefficients
 from bem.kernels.spectral import stress_response
 from bem.materials import Body
-from bem.stress.spectra import COUNT, SweepCache, check_request, elastic, loads
+from bem.numerics.cache import KeptValues
+from bem.stress.spectra import COUNT, check_request, elastic_ratios, pressure_and_friction
 
-_TABLES = SweepCache(1 << 27)
+_TABLES = KeptValues(1 << 27)
+"""Cache of the sums over a kernel above the thresholds."""
 
 
 def von_mises_limit(
     pressure: ArrayLike, grid: Grid, body: Body, depths: ArrayLike, *, friction: float = 0.0
 ) -> FloatArray:
-    """What von Mises stress can at most reach at each depth, from the largest pressure and the sum of pressures alone.
+    """Return an upper bound on von Mises stress at each depth from the largest pressure and the sum of pressures.
 
-    Costs next to nothing once its table (one pass over the kernel of a depth) is made; two to three times the true
-    maximum of a rough contact. A nearer bound, from sums over tiles, was dearer than the stress itself.
+    A depth needs one pass over its kernel, whose table is cached; the bound itself then costs a few operations. It is
+    two to three times the maximum of a rough contact.
 
     Proof. Each of d, e, yz, xz, xy at a point is the sum over the cells j of p_j k_j (traction included in k). For
     p >= 0 it lies between minus the sum of p_j k_j^- and the sum of p_j k_j^+, where k^+ and k^- are the positive and
@@ -48,16 +51,10 @@ def von_mises_limit(
     magnitude = np.abs(field) if either_sign else field
     largest, total = float(magnitude.max()), float(magnitude.sum())
     limit = np.empty(len(places))
-    sweep = _TABLES.begin()
+    sweep = _TABLES.begin_sweep()
     for index, depth in enumerate(places):
-        key = (grid, elastic(body), depth, coefficient, "limit")
-        above: FloatArray | None = _TABLES.get(key, sweep)
-        if above is None:
-            COUNT.bounds += 1
-            kernels = _kernel_values(grid, body, depth, coefficient)
-            above = np.zeros((_PARTS, _LEVELS + 1))
-            _sums_above(kernels[0], kernels[1], grid.periodic[0], grid.periodic[1], above)
-            _TABLES.put(key, above, above.nbytes, sweep)
+        key = (grid, elastic_ratios(body), depth, coefficient)
+        above = _TABLES.of(key, partial(_table, grid, body, depth, coefficient), sweep)
         parts = (largest * above + total * _THRESHOLDS).min(axis=1).reshape(5, 2)
         reach = parts.sum(axis=1) if either_sign else parts.max(axis=1)
         # the last factor covers the round-off of sums over all cells
@@ -65,16 +62,28 @@ def von_mises_limit(
     return limit
 
 
-_PARTS = 10  # positive and negative parts of d, e, yz, xz, xy
+def _table(grid: Grid, body: Body, depth: float, friction: float) -> FloatArray:
+    """Compute the sums over the kernel of a depth above each threshold, (parts, levels + 1)."""
+    COUNT.bounds += 1
+    normal, tangential = _kernel_values(grid, body, depth, friction)
+    above = np.zeros((_PARTS, _LEVELS + 1))
+    _sums_above(normal, tangential, grid.periodic[0], grid.periodic[1], above)
+    return above
+
+
+_PARTS = 10
+"""Positive and negative parts of d, e, yz, xz, xy."""
 _LEVELS = 48
-_HIGHEST = 4  # thresholds 2^4, 2^3, ... and 0: coefficients of a cell are at most of order one
+"""Number of thresholds above 0."""
+_HIGHEST = 4
+"""Exponent of the highest threshold; coefficients of a cell are of order one."""
 _THRESHOLDS: FloatArray = np.append(2.0 ** (_HIGHEST - np.arange(_LEVELS)), 0.0)
 
 
 def _kernel_values(grid: Grid, body: Body, depth: float, friction: float) -> FloatArray:
-    """Six stresses of a cell under pressure and under traction, (2, 6, nx, ny), at offsets from zero on."""
+    """Compute six stresses of a cell under pressure and under traction at non-negative offsets, (2, 6, nx, ny)."""
     kernels = np.zeros((2, 6, *grid.shape))
-    for load, factor in loads(friction):
+    for load, factor in pressure_and_friction(friction):
         if all(grid.periodic):
             import scipy.fft
 
@@ -89,7 +98,7 @@ def _kernel_values(grid: Grid, body: Body, depth: float, friction: float) -> Flo
 
 @compiled
 def _sums_above(normal, tangential, wraps_x, wraps_y, above):
-    """Sum of max(k - t, 0) over all offsets of a grid, for the thresholds t of `_THRESHOLDS`, (parts, levels + 1)."""
+    """Sum max(k - t, 0) over all offsets of a grid for the thresholds t of `_THRESHOLDS`, into (parts, levels + 1)."""
     count, levels = above.shape
     _, nx, ny = normal.shape
     sums = np.zeros((count, levels))
@@ -116,7 +125,7 @@ def _sums_above(normal, tangential, wraps_x, wraps_y, above):
 
 @compiled
 def _signed_parts(normal, tangential, i, j, out):
-    """Parts of the kernel (see _PARTS) at offset (i, j), by the parities of both loads."""
+    """Write the parts of the kernel (see _PARTS) at offset (i, j), by the parities of both loads."""
     k = abs(i)
     m = abs(j)
     sx = -1.0 if i < 0 else 1.0

@@ -1,16 +1,10 @@
-"""Stresses below one contact, and what is asked of them: the highest von Mises stress, where it is, what yields.
+"""Figures of the stress below one contact: maximum von Mises stress, its depth, yielded area and volume.
 
-The highest stress lies between points and depths (`bem.numerics.subcell`), and what yields ends between them, unless
-the highest stress lies within a cell of the surface, where a pressure that is constant on cells, or ends, leaves no
-smooth stress: then it is that of a point. Along the depth nothing is looked for across an interface of layers, where
-stresses jump.
+The maximum is interpolated between points and depths (`bem.numerics.subcell`), and so is the boundary of the yielded
+region. Two exceptions: within one cell of the surface the stress below constant cell pressures is not smooth, so the
+maximum of the points is taken; and no interpolation crosses an interface of layers, where stresses jump.
 
-A pressure that is bilinear between cells would leave less in the half cell next to the surface, more below it, and as
-much at the edge of contact, where errors are largest: cells stay. An eighth of a cell below Hertz' contact of 8 cells
-in radius the largest error of the von Mises stress, against Hamilton's, is 4.5 % of the largest pressure with cells and
-4.0 % with a bilinear pressure.
-
-Knows `stress.sweeps` and bodies' yield stresses. Verified in tests/stress/test_stress_below.py.
+Knows `stress.fields` and the yield stresses of bodies. Verified in tests/stress/test_stress_below.py.
 """
 
 from __future__ import annotations
@@ -26,27 +20,31 @@ from numpy.typing import ArrayLike
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
 from bem.numerics.subcell import area_above, around, highest_along, top
-from bem.stress.sweeps import subsurface_stress, von_mises, von_mises_planes
+from bem.stress.fields import subsurface_stress, von_mises, von_mises_planes
 
-_REACH = 2
-"""Depths on either side of the highest one that are looked at."""
-_PARTS = 4
-"""Of an interval between two depths, where what yields is looked for."""
-_NEARLY = 0.9
-"""Of the yield stress, at either end of an interval: less is not looked into."""
+_DEPTHS_BESIDE = 2
+"""Depths on either side of the depth of the maximum that the interpolation uses."""
+_SUBINTERVALS = 4
+"""Subintervals between two depths in the integral of the yielded area."""
+_NEARLY_YIELDED = 0.9
+"""Intervals whose two ends are below this fraction of the yield stress add no yielded volume."""
 
 
 @dataclass(frozen=True, eq=False)
 class StressBelow:
     """Stresses of a body at depths below its surface.
 
-    depths : (nz,) [m]. von_mises : (nz, nx, ny) [Pa]. stress : (6, nz, nx, ny) [Pa], or None where not asked for.
-    highest : (nz,) highest von Mises stress at the points of each depth [Pa].
-    yielded_area, counted_yielded_area : (nz,) [m^2] beyond the yield stress of the material there, and that of whole
-        cells; None where no depth has a yield stress.
-    max_von_mises, max_von_mises_depth : the highest von Mises stress between points and depths [Pa], and where [m].
-    yielded_volume, counted_yielded_volume : beyond the yield stress between the first and the last depth [m^3], and
-        that of whole cells by the trapezoidal rule; None where no depth has a yield stress.
+    depths : (nz,) [m].
+    von_mises : (nz, nx, ny) [Pa].
+    stress : (6, nz, nx, ny) [Pa], or None where the components were not requested.
+    highest : (nz,) maximum von Mises stress of the points of each depth [Pa].
+    yielded_area : (nz,) area above the yield stress of the material at each depth, with a boundary between points
+        [m^2]; None where no depth has a yield stress.
+    counted_yielded_area : the same area in whole cells (nz,) [m^2].
+    max_von_mises, max_von_mises_depth : maximum von Mises stress between points and depths [Pa], and its depth [m].
+    yielded_volume : integral of the yielded area from the first to the last depth [m^3]; None where no depth has a
+        yield stress.
+    counted_yielded_volume : integral of the counted area by the trapezoidal rule [m^3].
     """
 
     depths: FloatArray
@@ -61,12 +59,12 @@ class StressBelow:
 
     @property
     def max_von_mises_of_points(self) -> float:
-        """The highest von Mises stress of all points [Pa]."""
+        """Maximum von Mises stress of all points [Pa]."""
         return float(self.highest.max())
 
     @property
     def counted_yielded_volume(self) -> float | None:
-        """As above [m^3]."""
+        """Integral of the counted area by the trapezoidal rule [m^3]."""
         counted = self.counted_yielded_area
         return None if counted is None else float(np.trapezoid(counted, self.depths))
 
@@ -83,18 +81,18 @@ def stress_below(
     out: FloatArray | None = None,
     after: Callable[[int], None] | None = None,
 ) -> StressBelow:
-    """Von Mises stress plane by plane, and the six components where asked for; see `subsurface_stress`.
+    """Compute von Mises stress plane by plane, the six components on request, and their figures.
 
     Parameters
     ----------
     pressure : (nx, ny) on the grid [Pa].
-    grid, body : where, and whose stresses.
+    grid, body : grid of the pressure, and the body below it.
     depths : (nz,) [m], rising.
-    friction : of the traction along +x.
-    traction : (2, nx, ny) [Pa] instead.
-    components : whether the six are kept.
-    out : (nz, nx, ny) for von Mises, made if not given.
-    after : called with the number of planes that are done, after each.
+    friction : coefficient of the traction friction x pressure along +x.
+    traction : (2, nx, ny) [Pa], instead of friction x pressure.
+    components : True to keep the six components.
+    out : (nz, nx, ny) for von Mises stress; a new array if None.
+    after : called after each plane with the number of planes that are complete.
     """
     places = np.asarray(depths, dtype=np.float64)
     field = np.empty((len(places), *grid.shape)) if out is None else out
@@ -130,22 +128,22 @@ def stress_below(
 
 
 def _highest(field: FloatArray, depths: FloatArray, highest: FloatArray, grid: Grid, body: Body) -> tuple[float, float]:
-    """The highest von Mises stress between points and depths [Pa], and its depth [m]."""
+    """Return the maximum von Mises stress between points and depths [Pa], and its depth [m]."""
     k = int(np.argmax(highest))
-    raw = float(highest[k]), float(depths[k])
+    of_points = float(highest[k]), float(depths[k])
     if depths[k] < math.sqrt(grid.cell_area):
-        return raw
+        return of_points
     ix, iy = np.unravel_index(int(np.argmax(field[k])), grid.shape)
     place = int(ix), int(iy)
     own = _top(field[k], grid, place)
     if own is None:
-        return raw
-    first = max(k - _REACH, 0)
-    near = depths[first : k + _REACH + 1]
-    tops = np.array([_top(plane, grid, place) for plane in field[first : k + _REACH + 1]], dtype=np.float64)
+        return of_points
+    first = max(k - _DEPTHS_BESIDE, 0)
+    near = depths[first : k + _DEPTHS_BESIDE + 1]
+    tops = np.array([_top(plane, grid, place) for plane in field[first : k + _DEPTHS_BESIDE + 1]], dtype=np.float64)
     beside = slice(max(k - first - 1, 0), k - first + 2)
     if np.isnan(tops[beside]).any() or _crosses(body, near[beside][0], near[beside][-1]):
-        return own, raw[1]
+        return own, of_points[1]
     return highest_along(near[~np.isnan(tops)], tops[~np.isnan(tops)])
 
 
@@ -167,15 +165,17 @@ def _volume(
     grid: Grid,
     body: Body,
 ) -> float:
-    """Integral of the areas that yield over depth [m^3], by the trapezoidal rule over parts of the intervals, in which
-    von Mises stress is a cubic of the depth: a line in the first cell's depth, and areas themselves in an interval with
-    an interface."""
+    """Integrate the yielded area over depth [m^3].
+
+    The trapezoidal rule runs over subintervals, between which von Mises stress is a cubic polynomial of the depth. It
+    is linear within one cell of the surface. An interval with an interface has no subintervals.
+    """
     scratch, volume, cell = np.empty(grid.shape), 0.0, math.sqrt(grid.cell_area)
     for k in range(len(depths) - 1):
-        if max(highest[k] / limits[k], highest[k + 1] / limits[k + 1]) < _NEARLY:
+        if max(highest[k] / limits[k], highest[k + 1] / limits[k + 1]) < _NEARLY_YIELDED:
             continue
         step, inner = float(depths[k + 1] - depths[k]), 0.0
-        parts = 1 if _crosses(body, depths[k], depths[k + 1]) else _PARTS
+        parts = 1 if _crosses(body, depths[k], depths[k + 1]) else _SUBINTERVALS
         own = [m for m in range(k - 1, k + 3) if 0 <= m < len(depths) and limits[m] == limits[k]]
         if depths[k] < cell or _crosses(body, depths[own[0]], depths[own[-1]]):
             own = [k, k + 1]
@@ -187,7 +187,7 @@ def _volume(
 
 
 def _weights(nodes: FloatArray, place: float) -> FloatArray:
-    """Lagrange's of values at the nodes for that at a place."""
+    """Return the Lagrange weights of the values at the nodes for the value at a place."""
     return np.array([np.prod([(place - b) / (a - b) for b in nodes if b != a]) for a in nodes])
 
 
@@ -198,6 +198,6 @@ def _blend(field: FloatArray, own: list[int], weights: FloatArray, out: FloatArr
 
 
 def yield_stresses(body: Body, depths: FloatArray) -> FloatArray:
-    """The yield stress of the material at each depth [Pa]; infinite where none is known."""
+    """Return the yield stress of the material at each depth (nz,) [Pa]; infinite where none is known."""
     here = (body.material_at(depth) for depth in depths.tolist())
     return np.array([np.inf if material.yield_stress is None else material.yield_stress for material in here])

@@ -130,7 +130,7 @@ def test_a_pressure_that_is_no_number_is_refused_as_whole_planes_of_it_are():
 
 
 @pytest.mark.internal
-def test_packed_spectra_and_several_threads_give_the_same():
+def test_several_threads_give_the_same():
     grid = Grid((256, 256), (CELL, CELL))
     pressure = np.zeros(grid.shape)
     pressure[100:140, 100:140] = rough_pressure((40, 40), 1)
