@@ -101,9 +101,3 @@ print("sound")
 @pytest.mark.fem
 def test_radial_return_and_its_tangent() -> None:
     assert fem("-c", RETURN).strip().endswith("sound")
-
-
-@pytest.mark.fem
-@pytest.mark.slow
-def test_stored_indentation_reproduces() -> None:
-    fem("-m", "fem_reference", CASE, "--check", str(STORED / f"{CASE}.json"), timeout=900)

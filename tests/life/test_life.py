@@ -54,9 +54,9 @@ def test_volume_is_that_of_archard_s_law_and_that_of_the_heights():
     assert end.cycles == 300.0
     for body, (rate, before) in enumerate(zip((2e-17, 1e-17), (lower, upper), strict=True)):
         # load, distance and cycles are exact; the contact meets its load to 1e-9
-        assert end.surfaces.volume[body] == pytest.approx(rate * PRESSURE * GRID.area * DISTANCE * 300, rel=1e-8)
+        assert end.surfaces.volume[body] == pytest.approx(rate * PRESSURE * GRID.area * DISTANCE * 300, rel=1e-8, abs=0)
         lost = (before - end.surfaces.heights[body]).sum() * GRID.cell_area
-        assert lost == pytest.approx(end.surfaces.volume[body], rel=1e-9)
+        assert lost == pytest.approx(end.surfaces.volume[body], rel=1e-9, abs=0)
     assert end.over("lower_rms")[-1] < end.over("lower_rms")[0]
 
 
@@ -87,8 +87,8 @@ def test_bars_hold_what_much_shorter_jumps_change():
     fine = run_life(case(300.0, tolerance=0.05), lower, upper)
     bars = bars_of_jumps(coarse, {**columns, "depth": "lower_depth", "other": "upper_depth"})
     # half of the upper body's wear rate is half of its error
-    assert bars["depth"] == pytest.approx(2 * bars["other"], rel=1e-6)
-    assert bars["depth"] + bars["other"] == pytest.approx(coarse.over("depth_error")[-1], rel=1e-12)
+    assert bars["depth"] == pytest.approx(2 * bars["other"], rel=1e-6, abs=0)
+    assert bars["depth"] + bars["other"] == pytest.approx(coarse.over("depth_error")[-1], rel=1e-12, abs=0)
     # under load control the depth is exact, and nothing else is left to scale a bar by: the surface's own error
     missed = abs(coarse.over("lower_rms")[-1] - fine.over("lower_rms")[-1])
     assert missed < 0.05 * (fine.over("lower_rms")[0] - fine.over("lower_rms")[-1])
@@ -101,7 +101,7 @@ def test_bars_add_up_what_jumps_positions_cells_and_films_leave_open():
     rounds = two_rounds(one, end)
     same = life_bars(end, OtherLives(one.passing, end, end, rounds, rounds))
     # nothing differs: what jumps leave open, and what the positions scatter
-    assert same.values["wear_volume"] == pytest.approx(end.over("depth_error")[-1] * GRID.area, rel=1e-9)
+    assert same.values["wear_volume"] == pytest.approx(end.over("depth_error")[-1] * GRID.area, rel=1e-9, abs=0)
     share = [found.area_share for found in end.passes]
     scatter = 0.75 * np.std(share, ddof=1) / 2
     assert same.parts[POSITIONS]["contact_area_fraction"] == pytest.approx(scatter, rel=1e-12)
@@ -115,7 +115,7 @@ def test_bars_add_up_what_jumps_positions_cells_and_films_leave_open():
     # heights need no other positions
     assert apart[POSITIONS]["Sq_final"] == same.parts[POSITIONS]["Sq_final"] > 0
     # a tenth less of the load in contact is a tenth less of what wears
-    assert apart["film points"]["worn_depth"] == pytest.approx(0.1 * end.over("lower_depth")[-1], rel=1e-9)
+    assert apart["film points"]["worn_depth"] == pytest.approx(0.1 * end.over("lower_depth")[-1], rel=1e-9, abs=0)
     assert fewer_positions(8) == 4
     assert fewer_positions(1) == 2
     assert set(life_bars(end, None).values.values()) == {None}
@@ -139,7 +139,7 @@ def test_a_film_alone_meets_its_closed_form_and_hides_the_substrate():
     growth = float(law.growth.rate(np.array(0.1 * PRESSURE), 360.0))
     steady = growth / 2.0
     # pressure is uniform: h = g/alpha (1 - exp(-alpha t)), integrated exactly by every step
-    assert end.surfaces.film == pytest.approx(np.full(GRID.shape, steady * -np.expm1(-2.0 * 5.0)), rel=1e-6)
+    assert end.surfaces.film == pytest.approx(np.full(GRID.shape, steady * -np.expm1(-2.0 * 5.0)), rel=1e-6, abs=0)
     worn = case(
         5000.0, film=film(balance=FilmBalance(0.0, 0.0, 1e9, 50e-9)), positions=2, rates=(1e-18, 0.0), distance=1e-6
     )

@@ -26,7 +26,7 @@ def filled(thickness, distance):
 
 def test_the_gap_is_as_wide_as_the_film_there():
     thickness = 1e-10  # the next term of the gap is of the order of distance over half-width
-    assert gap(inlet_length(HALF_WIDTH, RADIUS, thickness)) == pytest.approx(thickness, rel=1e-3)
+    assert gap(inlet_length(HALF_WIDTH, RADIUS, thickness)) == pytest.approx(thickness, rel=1e-3, abs=0)
 
 
 @pytest.mark.parametrize("length", [0.05, 1.0, 6.0])

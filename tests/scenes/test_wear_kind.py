@@ -66,7 +66,7 @@ def test_summary_has_its_figures_and_the_balance_holds(scene_file):
     worn = outcome.variables["height_before"].values - outcome.variables["height_after"].values
     volume = outcome.variables["particle_volume"].values
     cell = outcome.summary["cell_nm"] ** 2 * 1e-18
-    assert volume.sum() == pytest.approx(worn.sum() * cell, rel=1e-10)  # round-off of sums of a thousand heights
+    assert volume.sum() == pytest.approx(worn.sum() * cell, rel=1e-10, abs=0)  # round-off of sums of a thousand heights
     assert outcome.variables["radius"].values.shape == (1, 1, 1, 12)  # load, variant, repetition, cycle
 
 
@@ -113,8 +113,8 @@ def test_the_plan_says_what_is_skipped(scene_file):
 
 
 @pytest.mark.slow
-def test_killed_ten_times_it_ends_in_the_same_bits(scene_file, tmp_path):
-    path = scene_file(count="3000", settled="20")  # some ten seconds: long enough to be killed in
+def test_killed_several_times_it_ends_in_the_same_bits(scene_file, tmp_path):
+    path = scene_file(count="1500", settled="20")  # some five seconds: long enough to be killed in
     bem = [sys.executable, "-m", "bem", "run", str(path)]
     whole, torn = tmp_path / "whole", tmp_path / "torn"
     subprocess.run([*bem, "--out", str(whole)], check=True, capture_output=True, timeout=300)
@@ -125,7 +125,7 @@ def test_killed_ten_times_it_ends_in_the_same_bits(scene_file, tmp_path):
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
         try:
             # some in the middle of start-up, some in the cycles, some while files are written
-            process.wait(timeout=float(random.uniform(0.5, 3.0)) if kills < 10 else 300)
+            process.wait(timeout=float(random.uniform(0.5, 3.0)) if kills < 5 else 300)
         except subprocess.TimeoutExpired:
             process.kill()
             process.wait()
@@ -136,7 +136,7 @@ def test_killed_ten_times_it_ends_in_the_same_bits(scene_file, tmp_path):
             process.stderr.close()
         assert process.returncode == 0, (attempt, message)
         break
-    assert kills >= 3  # a fast machine may finish before the tenth
+    assert kills >= 3  # a fast machine may finish before the fifth
     import xarray
 
     with xarray.open_dataset(whole / "results.nc") as a, xarray.open_dataset(torn / "results.nc") as b:
@@ -254,7 +254,7 @@ def test_what_is_listed_where_both_bodies_wear_says_of_which_it_is(scene_file):
         assert "worn depth are those of the lower one, volumes of both" in note
         assert f"are those of the {name} body, {percent(share)} of the volume" in note
     volumes = [outcome.variables["particle_volume"].values.sum() for outcome in found.values()]
-    assert sum(volumes) == pytest.approx(found["lower"].variables["volume"].values.sum(), rel=1e-12)
+    assert sum(volumes) == pytest.approx(found["lower"].variables["volume"].values.sum(), rel=1e-12, abs=0)
     assert "0 lower, 1 upper" in found["lower"].variables["particle_body"].description
 
 

@@ -107,7 +107,7 @@ def test_a_groove_is_a_parabola_as_deep_as_it_is():
     rows = [row for row in z if np.count_nonzero(np.diff(np.sign(row))) == 4]
     assert rows
     for row in rows[:10]:
-        assert -row.sum() * (x[1] - x[0]) == pytest.approx(2 * 2 / 3 * 1e-6 * 2e-5 * math.sqrt(2), rel=1e-3)
+        assert -row.sum() * (x[1] - x[0]) == pytest.approx(2 * 2 / 3 * 1e-6 * 2e-5 * math.sqrt(2), rel=1e-3, abs=0)
 
 
 @pytest.mark.parametrize(
