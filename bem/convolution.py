@@ -38,7 +38,7 @@ from bem.transforms import (
     padded_shape,
     transform_of,
 )
-from bem.transforms.loops import Factor, Room, Scratch
+from bem.transforms.loops import Factor, Scratch, TransformPlan
 
 FloatArray = NDArray[np.float64]
 
@@ -218,10 +218,10 @@ class ScaledConvolution:
         self.count.weighted += self.weight
         return self.transform.convolve_cells(cells, values, self.multiplier, out)
 
-    def compiled(self) -> tuple[Room, Scratch, Factor]:
+    def compiled(self) -> tuple[TransformPlan, Scratch, Factor]:
         """What `transforms.loops.convolve` takes; the caller holds the transform's lock while it runs."""
         factor = self.multiplier.factor(self.transform.dtype)
-        return self.transform.room_for(factor), self.transform.ready(1), factor
+        return self.transform.plan_for(factor), self.transform.ready(1), factor
 
     def counted(self, applications: int) -> None:
         """Add applications that a compiled loop made by itself, with `transforms.loops.convolve`."""

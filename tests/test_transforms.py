@@ -175,8 +175,8 @@ def check_columns_in_pairs(shape, padded, dtype):
         cells, some.reshape(-1)[cells].astype(np.float64), factor, transform.empty_field()
     )
     assert np.abs(listed - transform.convolve(some, factor)).max() <= ROUND_OFF[dtype] * np.abs(field).max()
-    assert (transform.room_for(factor.factor(transform.dtype)) is not transform.room) == (padded[1] % 2 == 0)
-    assert transform.room_for(odd.factor(transform.dtype)) is transform.room
+    assert (transform.plan_for(factor.factor(transform.dtype)) is not transform.plan) == (padded[1] % 2 == 0)
+    assert transform.plan_for(odd.factor(transform.dtype)) is transform.plan
 
 
 @pytest.mark.internal
@@ -193,7 +193,7 @@ def test_plans_are_destroyed_while_no_other_thread_can_make_one(monkeypatch):
     monkeypatch.setattr(fftw, "_destroy", watched)
     transform = transforms.PaddedTransform((8, 6), (16, 12))
     transform.forward(np.ones((8, 6)))
-    number = transform.room.row_plans.size
+    number = transform.plan.row_plans.size
     del transform
     gc.collect()
     assert len(found) > number  # those of columns besides
@@ -424,7 +424,7 @@ def test_both_precisions_take_turns_in_one_buffer():
     shape, padded = (48, 131), (96, 270)
     double, single = transforms.transform_of(shape, padded), transforms.transform_of(shape, padded, np.float32)
     assert single is transforms.transform_of(shape, padded, np.float32)
-    assert np.shares_memory(double.room.half, single.room.half)
+    assert np.shares_memory(double.plan.row_spectra, single.plan.row_spectra)
     assert double.nbytes > 0
     assert single.nbytes == 0
     alone = transforms.PaddedTransform(shape, padded, np.float32)

@@ -85,7 +85,7 @@ def reached_stress(
         _transform_along_x(load, request.depths[index], squares, stress[index])
         passes += 1
         rows = requested[index], computed[index], exceeding
-        done, beside = _follow_rows(transform.room, transform.singles, squares, stress[index], limit, wraps, *rows)
+        done, beside = _follow_rows(transform.plan, transform.singles, squares, stress[index], limit, wraps, *rows)
         COUNT.rows += done * _TERMS
         for other in range(max(index - reach, 0), min(index + reach + 1, number)):
             requested[other] |= beside

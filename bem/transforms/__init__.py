@@ -9,8 +9,8 @@ A two-dimensional real transform is two passes of one-dimensional transforms. A 
    to the array of row spectra, so that columns are contiguous (`loops.rows_forward`).
 4. Along x: columns are transformed, multiplied and transformed back in blocks that stay in cache
    (`loops.columns_through`). For an even kernel the real rows are packed as complex rows of half the length, and
-   columns go in pairs (`pairs`): FFTW has vector instructions for complex rows only. Cost: 0.7 of real rows in single
-   precision, 0.8 to 0.9 in double.
+   columns go in pairs (`packed_real_fft`): FFTW has vector instructions for complex rows only. Cost: 0.7 of real rows
+   in single precision, 0.8 to 0.9 in double.
 5. Back along y: only the wanted rows (`loops.rows_back`).
 
 A convolution is one call of compiled code on one thread; threads share the blocks of each pass, never one transform.

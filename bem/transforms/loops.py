@@ -1,7 +1,7 @@
-"""The compiled passes of a padded transform over blocks of rows or columns, transforms included.
+"""Compiled passes of a padded transform over blocks of rows or columns, with their one-dimensional transforms.
 
-A whole convolution is one call (`convolve`), so that a small grid does not wait for Python, and another compiled loop
-may call it. Threads share the blocks of each pass; what a block does never depends on who does it.
+A whole convolution is one call of compiled code (`convolve`), which other compiled loops may call. Threads share the
+blocks of each pass; the result of a block does not depend on the thread.
 """
 
 from __future__ import annotations
@@ -13,46 +13,54 @@ from numpy.typing import NDArray
 
 from bem.compiled import compiled
 from bem.transforms.addresses import LINE, fetch, numbers
-from bem.transforms.pairs import pairs_through
+from bem.transforms.packed_real_fft import packed_columns_through
 from bem.transforms.plans import ALIGNMENT, execute
 
 BEGINS, GOES_ON, ENDS = range(3)
-"""What a field does to a sum of squares."""
+"""Role of a field in a sum of squares: first term, middle term, last term with the square root."""
 
 ONE = 2
-"""In place of the real part's parity: the multiplier is one."""
+"""Value of `Factor.real_parity` for the multiplier that is one everywhere."""
 
 
-class Room(NamedTuple):
-    """What all threads share: lengths, blocks, plans, and the half-way array (py // 2 + 1, stride).
+class TransformPlan(NamedTuple):
+    """Lengths, blocks, FFTW plans and the array of row spectra, shared by all threads.
 
-    `executors` : addresses of FFTW's functions, real to complex, complex, complex to real. `row_plans` : (2, 2),
-    addresses for rows forward and back; for a whole block and for the last one. `columns` : (blocks + 1,), where blocks
-    of columns begin. `column_plans` : (2, blocks), addresses for columns forward and back. `lengths`, `scales` :
-    (blocks,), of the columns' transforms, and one over what a field's transforms multiply it by. `fits` : rows of a
-    field are rows of scratch. `whole` : columns are not padded, so they need no copy either. `turns` : (2, pairs),
-    sines and cosines where columns go in pairs (`pairs`), none where they do not; a block is then of so many pairs, a
-    plan of one column, and rows are complex ones half as long.
+    Attributes
+    ----------
+    nx, ny : shape of the field.
+    row_block : rows in a block.
+    spectra : wavenumbers along y.
+    aligned_rows : whether rows of a field are contiguous and aligned like those of scratch, so that no copy is needed.
+    unpadded_columns : whether columns are not padded, so that no copy is needed.
+    executors : addresses of FFTW's functions: real to complex, complex, complex to real.
+    row_plans : (2, 2), plans of rows forward and back, for a whole block and for the last block.
+    columns : (blocks + 1,), first column of each block.
+    column_plans : (2, blocks), plans of columns forward and back.
+    lengths, scales : (blocks,), length of the columns' transforms, and the scale of the inverse transform.
+    row_spectra : (py // 2 + 1, stride), the rows' spectra, transposed, between both passes.
+    twiddles : (2, pairs), sines and cosines for packed rows (`packed_real_fft`), empty otherwise. With packed rows a
+        block is of pairs of columns, column plans are of one column, and rows are complex of half the length.
     """
 
     nx: int
     ny: int
     row_block: int
     spectra: int
-    fits: bool
-    whole: bool
+    aligned_rows: bool
+    unpadded_columns: bool
     executors: NDArray[Any]
     row_plans: NDArray[Any]
     columns: NDArray[Any]
     column_plans: NDArray[Any]
     lengths: NDArray[Any]
     scales: NDArray[Any]
-    half: NDArray[Any]
-    turns: NDArray[Any]
+    row_spectra: NDArray[Any]
+    twiddles: NDArray[Any]
 
 
 class Scratch(NamedTuple):
-    """One thread's: blocks of rows in (zero beyond the field) and out, of their spectra, and of columns likewise."""
+    """Buffers of one thread: blocks of rows in (zero beyond the field) and out, of their spectra, and of columns."""
 
     rows: NDArray[Any]
     rows_out: NDArray[Any]
@@ -90,7 +98,7 @@ class Squares(NamedTuple):
 
 
 class Factor(NamedTuple):
-    """A multiplier's parts; parity 0 says that a part is zero, `ONE` that it is one, and its array is empty."""
+    """Parts of a multiplier; parity 0 means that the part is zero, `ONE` that it is one, and its array is empty."""
 
     real: NDArray[Any]
     imaginary: NDArray[Any]
@@ -99,35 +107,37 @@ class Factor(NamedTuple):
 
 
 @compiled
-def convolve(room, scratch, factor, values, out):
-    """A field padded, transformed, times the factor and back, by one thread; `out` may be `values`."""
-    row_blocks = -(-room.nx // room.row_block)
-    rows_forward(room, scratch, values, 0, row_blocks)
-    columns_through(room, scratch, factor, 0, room.lengths.size)
-    rows_back(room, scratch, out, 0, row_blocks)
+def convolve(plan, scratch, factor, values, out):
+    """Pad a field, transform it, multiply by the factor and transform back, on one thread; `out` may be `values`."""
+    row_blocks = -(-plan.nx // plan.row_block)
+    rows_forward(plan, scratch, values, 0, row_blocks)
+    columns_through(plan, scratch, factor, 0, plan.lengths.size)
+    rows_back(plan, scratch, out, 0, row_blocks)
 
 
 @compiled
-def convolve_cells(room, scratch, factor, cells, values, out):
-    """The same of a field that is zero but on some cells (`rows_forward_of_cells`)."""
-    row_blocks = -(-room.nx // room.row_block)
-    rows_forward_of_cells(room, scratch, cells, values, 0, row_blocks)
-    columns_through(room, scratch, factor, 0, room.lengths.size)
-    rows_back(room, scratch, out, 0, row_blocks)
+def convolve_cells(plan, scratch, factor, cells, values, out):
+    """Convolve a field that is zero except on some cells (see `rows_forward_of_cells`)."""
+    row_blocks = -(-plan.nx // plan.row_block)
+    rows_forward_of_cells(plan, scratch, cells, values, 0, row_blocks)
+    columns_through(plan, scratch, factor, 0, plan.lengths.size)
+    rows_back(plan, scratch, out, 0, row_blocks)
 
 
 @compiled
-def rows_forward_of_cells(room, scratch, cells, values, first, last):
-    """`rows_forward` of a field with these values on `cells` (flat indices, ascending), zero elsewhere: it is nowhere
-    but in scratch, and blocks of rows without a cell are not transformed."""
-    half, rows, ny = room.half, scratch.rows, room.ny
+def rows_forward_of_cells(plan, scratch, cells, values, first, last):
+    """Transform blocks of rows of a field with these values on `cells` (flat indices, ascending) and zero elsewhere.
+
+    The field itself is not stored, and blocks of rows without a cell are not transformed.
+    """
+    half, rows, ny = plan.row_spectra, scratch.rows, plan.ny
     for block in range(first, last):
-        start = block * room.row_block
-        count = min(room.nx, start + room.row_block) - start
+        start = block * plan.row_block
+        count = min(plan.nx, start + plan.row_block) - start
         begin = first_from(cells, start * ny, 0, cells.size)
         end = first_from(cells, (start + count) * ny, begin, cells.size)
         if begin == end:
-            for j in range(room.spectra):
+            for j in range(plan.spectra):
                 half[j, start : start + count] = 0
             continue
         rows[:count, :ny] = 0
@@ -137,13 +147,12 @@ def rows_forward_of_cells(room, scratch, cells, values, first, last):
                 i += 1
                 stop += ny
             rows[i, cells[k] - stop + ny] = values[k]
-        _rows_out(room, scratch, rows.ctypes.data, start, count)
+        _rows_out(plan, scratch, rows.ctypes.data, start, count)
 
 
 @compiled
 def first_from(cells, value, low, high):
-    """The number of the first of the cells from `low` to before `high`, which ascend, that is no lower than a value;
-    numpy's search would bring linear algebra into a run."""
+    """Return the index of the first of the ascending cells `low` to before `high` that is at least `value`."""
     while low < high:
         middle = (low + high) >> 1
         if cells[middle] < value:
@@ -154,30 +163,32 @@ def first_from(cells, value, low, high):
 
 
 @compiled
-def _rows_out(room, scratch, source, start, count):
-    """A block of rows at an address, transformed along y and written transposed, in whole cache lines: FFTW's own
-    scattered writes take a third longer."""
-    plan = room.row_plans[0, 0 if count == room.row_block else 1]
-    execute(room.executors[0], plan, source, scratch.rows_spectrum.ctypes.data)
-    _transpose(scratch.rows_spectrum, room.half, start, count, room.spectra)
+def _rows_out(plan, scratch, source, start, count):
+    """Transform a block of rows at an address along y and write it transposed, in whole cache lines.
+
+    FFTW's own strided writes take a third longer.
+    """
+    fftw_plan = plan.row_plans[0, 0 if count == plan.row_block else 1]
+    execute(plan.executors[0], fftw_plan, source, scratch.rows_spectrum.ctypes.data)
+    _transpose(scratch.rows_spectrum, plan.row_spectra, start, count, plan.spectra)
 
 
 @compiled
-def rows_forward(room, scratch, values, first, last):
-    """Blocks of rows of a contiguous field, transformed along y and written transposed."""
-    direct = room.fits and values.ctypes.data % ALIGNMENT == 0
+def rows_forward(plan, scratch, values, first, last):
+    """Transform blocks of rows of a contiguous field along y and write them transposed."""
+    direct = plan.aligned_rows and values.ctypes.data % ALIGNMENT == 0
     rows = scratch.rows
     for block in range(first, last):
-        start = block * room.row_block
-        count = min(room.nx, start + room.row_block) - start
+        start = block * plan.row_block
+        count = min(plan.nx, start + plan.row_block) - start
         if direct:
             source = values[start:].ctypes.data
         else:
             for i in range(count):
-                for j in range(room.ny):
+                for j in range(plan.ny):
                     rows[i, j] = values[start + i, j]
             source = rows.ctypes.data
-        _rows_out(room, scratch, source, start, count)
+        _rows_out(plan, scratch, source, start, count)
 
 
 @compiled
@@ -189,91 +200,91 @@ def _transpose(spectra, half, start, rows, length):
 
 
 @compiled
-def rows_back(room, scratch, out, first, last):
-    """Blocks of rows of a contiguous field from their transposed spectra, which are destroyed."""
-    direct = room.fits and out.ctypes.data % ALIGNMENT == 0
+def rows_back(plan, scratch, out, first, last):
+    """Transform blocks of rows of a contiguous field back along y; their row spectra are destroyed."""
+    direct = plan.aligned_rows and out.ctypes.data % ALIGNMENT == 0
     rows = scratch.rows_out
     for block in range(first, last):
-        start = block * room.row_block
-        count = min(room.nx, start + room.row_block) - start
-        plan = room.row_plans[1, 0 if count == room.row_block else 1]
-        source = room.half[0, start:].ctypes.data
+        start = block * plan.row_block
+        count = min(plan.nx, start + plan.row_block) - start
+        fftw_plan = plan.row_plans[1, 0 if count == plan.row_block else 1]
+        source = plan.row_spectra[0, start:].ctypes.data
         if direct:
-            execute(room.executors[2], plan, source, out[start:].ctypes.data)
+            execute(plan.executors[2], fftw_plan, source, out[start:].ctypes.data)
             continue
-        execute(room.executors[2], plan, source, rows.ctypes.data)
+        execute(plan.executors[2], fftw_plan, source, rows.ctypes.data)
         for i in range(count):
-            for j in range(room.ny):
+            for j in range(plan.ny):
                 out[start + i, j] = rows[i, j]
 
 
 @compiled
-def rows_back_squared(room, scratch, weight, stage, out, first, last):
-    """The same, of which the squares times a weight begin a sum in `out`, go on with it, or end it with its root."""
+def rows_back_squared(plan, scratch, weight, stage, out, first, last):
+    """Transform blocks of rows back along y and add their weighted squares to the sum in `out` (see `stage`)."""
     rows = scratch.rows_out
     for block in range(first, last):
-        start = block * room.row_block
-        count = min(room.nx, start + room.row_block) - start
-        plan = room.row_plans[1, 0 if count == room.row_block else 1]
-        execute(room.executors[2], plan, room.half[0, start:].ctypes.data, rows.ctypes.data)
+        start = block * plan.row_block
+        count = min(plan.nx, start + plan.row_block) - start
+        fftw_plan = plan.row_plans[1, 0 if count == plan.row_block else 1]
+        execute(plan.executors[2], fftw_plan, plan.row_spectra[0, start:].ctypes.data, rows.ctypes.data)
         for i in range(count):
             if stage == BEGINS:
-                for j in range(room.ny):
+                for j in range(plan.ny):
                     out[start + i, j] = weight * rows[i, j] * rows[i, j]
             elif stage == ENDS:
-                for j in range(room.ny):
+                for j in range(plan.ny):
                     out[start + i, j] = np.sqrt(out[start + i, j] + weight * rows[i, j] * rows[i, j])
             else:
-                for j in range(room.ny):
+                for j in range(plan.ny):
                     out[start + i, j] += weight * rows[i, j] * rows[i, j]
 
 
 @compiled
-def inverse_squared(room, scratch, factor, spectrum, blocks, weight, stage, out):
-    """A spectrum times the factor, back by one thread, squares added as `rows_back_squared` does."""
-    columns_in(room, scratch, factor, spectrum, 0, blocks)
-    room.half[room.columns[blocks] :] = 0
-    rows_back_squared(room, scratch, weight, stage, out, 0, -(-room.nx // room.row_block))
+def inverse_squared(plan, scratch, factor, spectrum, blocks, weight, stage, out):
+    """Multiply a spectrum by the factor, transform it back on one thread, and add squares (`rows_back_squared`)."""
+    columns_in(plan, scratch, factor, spectrum, 0, blocks)
+    plan.row_spectra[plan.columns[blocks] :] = 0
+    rows_back_squared(plan, scratch, weight, stage, out, 0, -(-plan.nx // plan.row_block))
 
 
 @compiled
-def columns_through(room, scratch, factor, first, last):
-    """Blocks of columns: along x, times the factor, and back."""
-    if room.turns.size:
-        pairs_through(room, scratch, factor.real, room.columns[first], room.columns[last])
+def columns_through(plan, scratch, factor, first, last):
+    """Transform blocks of columns along x, multiply by the factor, and transform back."""
+    if plan.twiddles.size:
+        packed_columns_through(plan, scratch, factor.real, plan.columns[first], plan.columns[last])
         return
     for block in range(first, last):
-        _columns_forward(room, scratch, block)
-        multiply(room, factor, scratch.columns_out, scratch.columns, block, 0)
-        _columns_back(room, scratch, block)
+        _columns_forward(plan, scratch, block)
+        multiply(plan, factor, scratch.columns_out, scratch.columns, block, 0)
+        _columns_back(plan, scratch, block)
 
 
 @compiled
-def columns_out(room, scratch, spectrum, first, last):
-    """Blocks of columns into a spectrum."""
+def columns_out(plan, scratch, spectrum, first, last):
+    """Transform blocks of columns along x into a spectrum."""
     for block in range(first, last):
-        start = room.columns[block]
-        _columns_forward(room, scratch, block)
-        for i in range(room.columns[block + 1] - start):
-            for j in range(room.lengths[block]):
+        start = plan.columns[block]
+        _columns_forward(plan, scratch, block)
+        for i in range(plan.columns[block + 1] - start):
+            for j in range(plan.lengths[block]):
                 spectrum[start + i, j] = scratch.columns_out[i, j]
 
 
 @compiled
-def columns_in(room, scratch, factor, spectrum, first, last):
-    """Blocks of columns from a spectrum times the factor."""
+def columns_in(plan, scratch, factor, spectrum, first, last):
+    """Multiply blocks of columns of a spectrum by the factor and transform them back along x."""
     for block in range(first, last):
-        multiply(room, factor, spectrum, scratch.columns, block, room.columns[block])
-        _columns_back(room, scratch, block)
+        multiply(plan, factor, spectrum, scratch.columns, block, plan.columns[block])
+        _columns_back(plan, scratch, block)
 
 
 @compiled
-def terms_back(room, singles, scratch, factors, spectrum, squares, terms, share, out):
+def terms_back(plan, singles, scratch, factors, spectrum, squares, terms, share, out):
     """The terms (first, last) of a spectrum times `factors` along x, into half-way arrays of their own, and along y in
     the groups that are begun, while they are near. share : this thread's number, and of how many."""
     given, source, done = spectrum.ctypes.data, scratch.columns[0].ctypes.data, scratch.columns_out[0]
     result, (stride, itemsize), line = done.ctypes.data, spectrum.strides, squares.halves.shape[2]
-    columns, lengths, scales, executor = singles.columns, singles.lengths, singles.scales, room.executors[1]
+    columns, lengths, scales, executor = singles.columns, singles.lengths, singles.scales, plan.executors[1]
     for term in range(terms[0], terms[1]):
         half, count, rows = squares.halves[term], squares.columns[term], rows_of(factors[term])
         begin, end = half.ctypes.data, (share[0] + 1) * count // share[1]
@@ -286,70 +297,70 @@ def terms_back(room, singles, scratch, factors, spectrum, squares, terms, share,
                 execute(executor, columns[number], source, begin + number * line * itemsize)
                 continue
             execute(executor, columns[number], source, result)
-            for j in range(room.nx):
+            for j in range(plan.nx):
                 half[number, j] = done[j]
         if share[0] == 0:
             half[count:] = 0
         for group in range(squares.begun.size):
             if squares.begun[group]:
-                term_of_group(room, singles, squares, term, group, out)
+                term_of_group(plan, singles, squares, term, group, out)
 
 
 @compiled
-def term_of_group(room, singles, squares, term, group, out):
+def term_of_group(plan, singles, squares, term, group, out):
     """Rows of a group from a half-way array, destroyed there, added as `rows_back_squared` does."""
     start = group * GROUP
-    count = min(room.nx, start + GROUP) - start
+    count = min(plan.nx, start + GROUP) - start
     rows, weight, last = squares.rows, squares.weights[term], squares.weights.size - 1
-    plan = singles.rows[0 if count == GROUP else 1]
-    execute(room.executors[2], plan, squares.halves[term, 0, start:].ctypes.data, rows.ctypes.data)
+    fftw_plan = singles.rows[0 if count == GROUP else 1]
+    execute(plan.executors[2], fftw_plan, squares.halves[term, 0, start:].ctypes.data, rows.ctypes.data)
     for i in range(count):
         if term == 0:
-            for j in range(room.ny):
+            for j in range(plan.ny):
                 out[start + i, j] = weight * rows[i, j] * rows[i, j]
         elif term == last:
-            for j in range(room.ny):
+            for j in range(plan.ny):
                 out[start + i, j] = np.sqrt(out[start + i, j] + weight * rows[i, j] * rows[i, j])
         else:
-            for j in range(room.ny):
+            for j in range(plan.ny):
                 out[start + i, j] += weight * rows[i, j] * rows[i, j]
 
 
 @compiled
-def _columns_forward(room, scratch, block):
-    """From the half-way array to `columns_out`."""
-    start, plan = room.columns[block], room.column_plans[0, block]
-    if room.whole:
-        source = room.half[start:].ctypes.data
+def _columns_forward(plan, scratch, block):
+    """Transform a block of columns of the row spectra along x into `columns_out`."""
+    start, fftw_plan = plan.columns[block], plan.column_plans[0, block]
+    if plan.unpadded_columns:
+        source = plan.row_spectra[start:].ctypes.data
     else:
         columns = scratch.columns
-        for i in range(room.columns[block + 1] - start):
-            for j in range(room.nx):
-                columns[i, j] = room.half[start + i, j]
-            for j in range(room.nx, room.lengths[block]):
+        for i in range(plan.columns[block + 1] - start):
+            for j in range(plan.nx):
+                columns[i, j] = plan.row_spectra[start + i, j]
+            for j in range(plan.nx, plan.lengths[block]):
                 columns[i, j] = 0
         source = columns.ctypes.data
-    execute(room.executors[1], plan, source, scratch.columns_out.ctypes.data)
+    execute(plan.executors[1], fftw_plan, source, scratch.columns_out.ctypes.data)
 
 
 @compiled
-def _columns_back(room, scratch, block):
-    """From `columns` to the half-way array."""
-    start, plan = room.columns[block], room.column_plans[1, block]
-    if room.whole:
-        execute(room.executors[1], plan, scratch.columns.ctypes.data, room.half[start:].ctypes.data)
+def _columns_back(plan, scratch, block):
+    """Transform a block of `columns` back along x into the row spectra."""
+    start, fftw_plan = plan.columns[block], plan.column_plans[1, block]
+    if plan.unpadded_columns:
+        execute(plan.executors[1], fftw_plan, scratch.columns.ctypes.data, plan.row_spectra[start:].ctypes.data)
         return
-    execute(room.executors[1], plan, scratch.columns.ctypes.data, scratch.columns_out.ctypes.data)
-    for i in range(room.columns[block + 1] - start):
-        for j in range(room.nx):
-            room.half[start + i, j] = scratch.columns_out[i, j]
+    execute(plan.executors[1], fftw_plan, scratch.columns.ctypes.data, scratch.columns_out.ctypes.data)
+    for i in range(plan.columns[block + 1] - start):
+        for j in range(plan.nx):
+            plan.row_spectra[start + i, j] = scratch.columns_out[i, j]
 
 
 @compiled
-def multiply(room, factor, given, target, block, offset):
-    """A block of columns times the factor and the inverse transform's own scale; they begin in `given` at `offset`."""
-    start, count, rows = room.columns[block], room.columns[block + 1] - room.columns[block], rows_of(factor)
-    source, result, scale, length = given.ctypes.data, target.ctypes.data, room.scales[block], room.lengths[block]
+def multiply(plan, factor, given, target, block, offset):
+    """Multiply a block of columns, from `offset` on in `given`, by the factor and the inverse transform's scale."""
+    start, count, rows = plan.columns[block], plan.columns[block + 1] - plan.columns[block], rows_of(factor)
+    source, result, scale, length = given.ctypes.data, target.ctypes.data, plan.scales[block], plan.lengths[block]
     for i in range(count):
         own = source + (offset + i) * given.strides[0], result + i * target.strides[0]
         multiply_column(rows, start + i, own[0], own[1], scale, length)
@@ -357,7 +368,7 @@ def multiply(room, factor, given, target, block, offset):
 
 @compiled
 def rows_of(factor):
-    """A factor as `multiply_column` takes it: where its parts begin, bytes from row to row of each, parities."""
+    """Return the addresses of a factor's parts, bytes from row to row, and parities, for `multiply_column`."""
     real, imaginary = factor.real, factor.imaginary
     begins, strides = (real.ctypes.data, imaginary.ctypes.data), (real.strides[0], imaginary.strides[0])
     return begins, strides, (factor.real_parity, factor.imaginary_parity)
@@ -376,9 +387,9 @@ def _fetch_rows(rows, number, size):
 
 @compiled
 def multiply_column(rows, number, given, target, scale, length):
-    """The column of a number times a factor (`rows_of` it) and a scale; `given`, `target` : addresses.
+    """Multiply the column `number` by a factor (given by `rows_of`) and a scale; `given`, `target` are addresses.
 
-    As real numbers, two for each: a third less time than a loop of complex ones, same bits.
+    The loop runs over real numbers, two for each complex number: a third less time than complex arithmetic.
     """
     begins, strides, parities = rows
     real, imaginary = numbers(begins[0] + number * strides[0], scale), numbers(begins[1] + number * strides[1], scale)

@@ -1,4 +1,4 @@
-"""The two passes of a padded transform: rows along y, then columns along x, in blocks that stay in cache."""
+"""Padded real transforms and convolutions: a pass of rows along y and a pass of columns along x, in cached blocks."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ from numpy.typing import DTypeLike, NDArray
 from bem.threads import ForkSafeLock, share, threads_for
 from bem.transforms import loops
 from bem.transforms.count import COUNT
-from bem.transforms.loops import GROUP, Factor, Room, Scratch, Singles, Squares
+from bem.transforms.loops import GROUP, Factor, Scratch, Singles, Squares, TransformPlan
 from bem.transforms.plans import ALIGNMENT, aligned_empty, aligned_zeros, library
 from bem.transforms.products import Multiplier, unit_factor
 
@@ -24,7 +24,7 @@ ComplexArray = NDArray[Any]
 
 _BLOCK_BYTES = 1 << 18
 _PIECES = 2
-"""Of a pass for each thread: who begins late is to do less."""
+"""Pieces of a pass per thread, so that a thread that begins late does less."""
 _COUNTING = ForkSafeLock()
 COMPLEX: dict[np.dtype[Any], np.dtype[Any]] = {
     np.dtype(np.float64): np.dtype(np.complex128),
@@ -34,7 +34,7 @@ COMPLEX: dict[np.dtype[Any], np.dtype[Any]] = {
 
 
 def _stride(length: int, itemsize: int) -> int:
-    """Row length in memory: whole cache lines, and not a multiple of 2 kB (rows would share cache sets)."""
+    """Return the row length in memory: whole cache lines, not a multiple of 2 kB (rows would share cache sets)."""
     line = ALIGNMENT // itemsize
     stride = -(-length // line) * line
     if stride * itemsize % 2048 == 0 and stride > line:
@@ -43,13 +43,13 @@ def _stride(length: int, itemsize: int) -> int:
 
 
 def _block(rows: int, row_bytes: int, granule: int) -> int:
-    """Rows in a block: about a quarter of a megabyte, in whole cache lines of the transposed array."""
+    """Return the rows in a block: about a quarter of a megabyte, in whole cache lines of the transposed array."""
     wanted = max(1, _BLOCK_BYTES // max(1, row_bytes))
     return min(rows, max(granule, wanted // granule * granule))
 
 
 def _blocks_of_columns(lengths: Sequence[int], largest: int) -> NDArray[np.int64]:
-    """Where blocks of columns begin, and where the last one ends: none larger than that, each of one length."""
+    """Return the edges of blocks of columns: at most `largest` columns each, all of one length."""
     edges = [0]
     for end in [*(k for k in range(1, len(lengths)) if lengths[k] != lengths[k - 1]), len(lengths)]:
         edges += [*range(edges[-1] + largest, end, largest), end]
@@ -59,7 +59,7 @@ def _blocks_of_columns(lengths: Sequence[int], largest: int) -> NDArray[np.int64
 class PaddedTransform:
     """Transforms of fields of one shape, padded with zeros to another, in one precision. Get it from `transform_of`.
 
-    beside : the same transform in double precision, of which this is the `single`: the two take turns in its buffer.
+    beside : the double-precision transform whose `single` this is; both share one buffer.
     lengths : of the transforms along x, for each wavenumber along y, where not all are padded alike (`narrow`). Of a
         spectrum's row (px,) only the first so many numbers mean something then, and of a multiplier's half of them.
     """
@@ -100,75 +100,75 @@ class PaddedTransform:
         self.nbytes = int(half.nbytes) if beside is None else 0
         """Memory of buffers, those of `single` included."""
         self._beside, self.lengths = beside, lengths
-        self.room = Room(
+        self.plan = TransformPlan(
             nx=shape[0],
             ny=shape[1],
             row_block=self._row_block,
             spectra=self.spectrum_shape[0],
-            fits=padded[1] == shape[1] == self._real_stride,
-            whole=padded[0] == shape[0],
+            aligned_rows=padded[1] == shape[1] == self._real_stride,
+            unpadded_columns=padded[0] == shape[0],
             executors=library(self.dtype).executors(),
             row_plans=np.zeros((2, 2), np.int64),
             columns=columns,
             column_plans=np.zeros((2, self._column_blocks), np.int64),
             lengths=block_lengths,
             scales=(1.0 / (block_lengths * padded[1])).astype(self.dtype),
-            half=half,
-            turns=np.empty((2, 0), self.dtype),
+            row_spectra=half,
+            twiddles=np.empty((2, 0), self.dtype),
         )
-        self._paired = self._room_of_pairs() if lengths is None and padded[1] % 2 == 0 else None
+        self._packed_plan = self._plan_of_packed_rows() if lengths is None and padded[1] % 2 == 0 else None
 
     @cached_property
     def single(self) -> PaddedTransform:
-        """The same transform in single precision; no buffer more than this one's."""
+        """The transform in single precision; it shares this transform's buffer."""
         return PaddedTransform(self.shape, self.padded, np.float32, self.lengths, self)
 
     def _half_way(self, beside: PaddedTransform | None) -> ComplexArray:
-        """The array between rows and columns: its own, or the memory of another's, which is larger."""
+        """Return the array of row spectra: a new one, or the memory of the double-precision transform's."""
         shape = (self.spectrum_shape[0], self._half_stride)
         if beside is None:
             return aligned_empty(shape, self.complex_dtype)
-        return beside.room.half.reshape(-1).view(self.complex_dtype)[: shape[0] * shape[1]].reshape(shape)
+        return beside.plan.row_spectra.reshape(-1).view(self.complex_dtype)[: shape[0] * shape[1]].reshape(shape)
 
-    def _room_of_pairs(self) -> Room:
-        """The same room for convolutions with even kernels: rows are complex ones half as long, columns go in pairs."""
+    def _plan_of_packed_rows(self) -> TransformPlan:
+        """Return the plan for even kernels: rows are complex of half the length, columns go in pairs."""
         waves = self.padded[1] // 2
         number, most = waves // 2 + 1, max(1, self._column_block // 2)
         columns = np.array([*range(0, number, most), number], np.int64)
         angles = math.pi / waves * np.arange(number)
-        turns = np.array([np.sin(angles), np.cos(angles)])
-        blocks, complex_to_complex = len(columns) - 1, self.room.executors[1]
-        return self.room._replace(
+        twiddles = np.array([np.sin(angles), np.cos(angles)])
+        blocks, complex_to_complex = len(columns) - 1, self.plan.executors[1]
+        return self.plan._replace(
             spectra=waves,
             executors=np.array([complex_to_complex] * 3),
             row_plans=np.zeros((2, 2), np.int64),
             columns=columns,
             column_plans=np.zeros((2, 1), np.int64),
             lengths=np.full(blocks, self.padded[0], np.int64),
-            scales=np.full(blocks, self.room.scales[0]),
-            turns=turns.astype(self.dtype),
+            scales=np.full(blocks, self.plan.scales[0]),
+            twiddles=twiddles.astype(self.dtype),
         )
 
-    def room_for(self, factor: Factor) -> Room:
-        """What `loops.convolve` and `loops.convolve_cells` take, by the parity of the multiplier."""
+    def plan_for(self, factor: Factor) -> TransformPlan:
+        """Return the plan that `loops.convolve` and `loops.convolve_cells` take, by the parity of the multiplier."""
         even = factor.real_parity == 1 and factor.imaginary_parity == 0
-        return self.room if self._paired is None or not even else self._paired
+        return self.plan if self._packed_plan is None or not even else self._packed_plan
 
     def empty_spectrum(self) -> ComplexArray:
-        """An uninitialised array for a spectrum, aligned and strided so that no copy is needed."""
+        """Return an uninitialised spectrum, aligned and strided so that no copy is needed."""
         full = aligned_empty((self.spectrum_shape[0], self._spectrum_stride), self.complex_dtype)
         return full[:, : self.padded[0]]
 
     def zeros_field(self) -> FloatArray:
-        """A contiguous field of zeros, aligned so that rows of whole cache lines need no copy."""
+        """Return a contiguous field of zeros, aligned so that rows of whole cache lines need no copy."""
         return aligned_zeros(self.shape, self.dtype)
 
     def empty_field(self) -> FloatArray:
-        """The same with values that mean nothing, for results."""
+        """Return an uninitialised field, aligned like `zeros_field`."""
         return aligned_empty(self.shape, self.dtype)
 
     def forward(self, values: FloatArray, out: ComplexArray | None = None) -> ComplexArray:
-        """Spectrum (py // 2 + 1, px) of a field (nx, ny) padded with zeros."""
+        """Return the spectrum (py // 2 + 1, px) of a field (nx, ny) padded with zeros."""
         out = self.empty_spectrum() if out is None else out
         with self.lock:
             self.ready(threads_for(self.entries))
@@ -185,7 +185,7 @@ class PaddedTransform:
         *,
         columns: int | None = None,
     ) -> FloatArray:
-        """The first (nx, ny) of the field whose spectrum is `spectrum` times `factor`; `spectrum` is kept.
+        """Return the first (nx, ny) of the field whose spectrum is `spectrum` times `factor`; `spectrum` is kept.
 
         columns : how many wavenumbers along y count, from zero on; the others' columns are left out, by whole blocks.
         """
@@ -197,7 +197,7 @@ class PaddedTransform:
             wanted = self.spectrum_shape[0] if columns is None else columns
             blocks = bisect_left(self._ends, wanted)
             self._each(loops.columns_in, blocks, parts, spectrum)
-            self.room.half[self._ends[blocks] :] = 0
+            self.plan.row_spectra[self._ends[blocks] :] = 0
             self._each(loops.rows_back, self._row_blocks, plain)
         self._count(inverse=1, blocks=blocks)
         if plain is not out:
@@ -221,15 +221,15 @@ class PaddedTransform:
             scratch = self.ready(threads)
             blocks = bisect_left(self._ends, self.spectrum_shape[0] if columns is None else columns)
             if threads == 1:
-                loops.inverse_squared(self.room, scratch, parts, spectrum, blocks, weight, stage, out)
+                loops.inverse_squared(self.plan, scratch, parts, spectrum, blocks, weight, stage, out)
             else:
                 self._each(loops.columns_in, blocks, parts, spectrum)
-                self.room.half[self._ends[blocks] :] = 0
+                self.plan.row_spectra[self._ends[blocks] :] = 0
                 self._each(loops.rows_back_squared, self._row_blocks, weight, stage, out)
         self._count(inverse=1, blocks=blocks)
 
     def empty_squares(self, weights: FloatArray) -> Squares:
-        """Room for the root of a sum of squares of so many fields, of which no group is begun."""
+        """TransformPlan for the root of a sum of squares of so many fields, of which no group is begun."""
         shape = (len(weights), self.spectrum_shape[0], self._half_stride)
         halves = aligned_empty(shape, self.complex_dtype)
         rows = aligned_empty((GROUP, self._real_stride), self.dtype)
@@ -252,7 +252,7 @@ class PaddedTransform:
             self.ready(threads)
 
             def work(number: int, block: int) -> None:
-                loops.terms_back(self.room, singles, self._scratch[number], *own, (block, threads), out)
+                loops.terms_back(self.plan, singles, self._scratch[number], *own, (block, threads), out)
 
             if threads == 1:
                 work(0, 0)
@@ -268,39 +268,39 @@ class PaddedTransform:
         """Plans for the way back in small portions, made when they are first asked for."""
         with self.lock:
             scratch, fftw = self.ready(1), library(self.dtype)
-            each = np.diff(self.room.columns)
-            lengths, stride = np.repeat(self.room.lengths, each), self._spectrum_stride
+            each = np.diff(self.plan.columns)
+            lengths, stride = np.repeat(self.plan.lengths, each), self._spectrum_stride
             data = (scratch.columns.ctypes.data, scratch.columns_out.ctypes.data)
             made = {
                 length: fftw.complex(length, 1, (1, 1, stride, stride), data, back=True)
                 for length in set(lengths.tolist())
             }
             across = (self._half_stride, 1, 1, self._real_stride)
-            data = (self.room.half.ctypes.data, self.empty_squares(np.ones(1)).rows.ctypes.data)
+            data = (self.plan.row_spectra.ctypes.data, self.empty_squares(np.ones(1)).rows.ctypes.data)
             rows = [
                 fftw.complex_to_real(self.padded[1], count, across, data)
                 for count in (min(GROUP, self.shape[0]), self.shape[0] % GROUP or GROUP)
             ]
             weakref.finalize(self, fftw.destroy, [*made.values(), *rows])
             plans = np.array([made[length] for length in lengths.tolist()], np.int64)
-            scales, numbers = np.repeat(self.room.scales, each), np.append(0, np.cumsum(lengths))
+            scales, numbers = np.repeat(self.plan.scales, each), np.append(0, np.cumsum(lengths))
             return Singles(plans, lengths, scales, numbers, np.array(rows, np.int64))
 
     def convolve(self, values: FloatArray, factor: Multiplier, out: FloatArray | None = None) -> FloatArray:
-        """Forward, times `factor`, and back, without ever storing a whole padded spectrum. `out` may be `values`."""
+        """Convolve a field without storing a whole padded spectrum; `out` may be `values`."""
         out = np.empty(self.shape, self.dtype) if out is None else out
         values = self._plain(values)
         plain = out if self._is_plain(out) else np.empty(self.shape, self.dtype)
         parts = factor.factor(self.dtype)
-        threads, room = threads_for(self.entries), self.room_for(parts)
+        threads, plan = threads_for(self.entries), self.plan_for(parts)
         with self.lock:
             scratch = self.ready(threads)
             if threads == 1:
-                loops.convolve(room, scratch, parts, values, plain)
+                loops.convolve(plan, scratch, parts, values, plain)
             else:
-                self._each(loops.rows_forward, self._row_blocks, values, room=room)
-                self._each(loops.columns_through, room.lengths.size, parts, room=room)
-                self._each(loops.rows_back, self._row_blocks, plain, room=room)
+                self._each(loops.rows_forward, self._row_blocks, values, plan=plan)
+                self._each(loops.columns_through, plan.lengths.size, parts, plan=plan)
+                self._each(loops.rows_back, self._row_blocks, plain, plan=plan)
         self.counted(1)
         if plain is not out:
             out[...] = plain
@@ -309,18 +309,20 @@ class PaddedTransform:
     def convolve_cells(
         self, cells: NDArray[np.int64], values: FloatArray, factor: Multiplier, out: FloatArray
     ) -> FloatArray:
-        """`convolve` of a field with these values on some cells (flat indices, ascending), zero elsewhere, into a
-        contiguous field of this precision."""
+        """Convolve a field with these values on some cells (flat indices, ascending) and zero elsewhere.
+
+        `out` is a contiguous field of this precision.
+        """
         parts, threads = factor.factor(self.dtype), threads_for(self.entries)
-        room = self.room_for(parts)
+        plan = self.plan_for(parts)
         with self.lock:
             scratch = self.ready(threads)
             if threads == 1:
-                loops.convolve_cells(room, scratch, parts, cells, values, out)
+                loops.convolve_cells(plan, scratch, parts, cells, values, out)
             else:
-                self._each(loops.rows_forward_of_cells, self._row_blocks, cells, values, room=room)
-                self._each(loops.columns_through, room.lengths.size, parts, room=room)
-                self._each(loops.rows_back, self._row_blocks, out, room=room)
+                self._each(loops.rows_forward_of_cells, self._row_blocks, cells, values, plan=plan)
+                self._each(loops.columns_through, plan.lengths.size, parts, plan=plan)
+                self._each(loops.rows_back, self._row_blocks, out, plan=plan)
         self.counted(1)
         return out
 
@@ -329,7 +331,7 @@ class PaddedTransform:
         self._count(forward=convolutions, inverse=convolutions, blocks=self._column_blocks)
 
     def ready(self, threads: int) -> Scratch:
-        """Plans, and scratch for every thread; returns the first one's. The caller holds `lock`."""
+        """Prepare plans, and scratch for every thread; return the first thread's. The caller holds `lock`."""
         if self._prepared < threads:
             self._prepare(threads)
         return self._scratch[0]
@@ -355,48 +357,48 @@ class PaddedTransform:
     def _plan(self, scratch: Scratch) -> None:
         """Plans for whole blocks of rows, for the last one, and for each kind of blocks of columns; they go when this
         transform does."""
-        fftw, room = library(self.dtype), self.room
-        half, columns = room.half.ctypes.data, scratch.columns.ctypes.data
+        fftw, plan = library(self.dtype), self.plan
+        half, columns = plan.row_spectra.ctypes.data, scratch.columns.ctypes.data
         rows_in, rows_out = scratch.rows.ctypes.data, scratch.rows_out.ctypes.data
         real, spectra, stride = self._real_stride, scratch.rows_spectrum.shape[1], self._half_stride
         for last in range(2):
             rows = self.shape[0] - (self._row_blocks - 1) * self._row_block if last else self._row_block
             out = scratch.rows_spectrum.ctypes.data
-            room.row_plans[0, last] = fftw.real_to_complex(self.padded[1], rows, (1, 1, real, spectra), (rows_in, out))
-            room.row_plans[1, last] = fftw.complex_to_real(self.padded[1], rows, (stride, 1, 1, real), (half, rows_out))
+            plan.row_plans[0, last] = fftw.real_to_complex(self.padded[1], rows, (1, 1, real, spectra), (rows_in, out))
+            plan.row_plans[1, last] = fftw.complex_to_real(self.padded[1], rows, (stride, 1, 1, real), (half, rows_out))
         # from one array into another: plans made without timing are a quarter faster so than in place
         along = (1, 1, self._spectrum_stride, self._spectrum_stride)
         done = (columns, scratch.columns_out.ctypes.data)
         made: dict[tuple[int, int], list[int]] = {}
-        for block, own in enumerate(zip(room.lengths.tolist(), np.diff(room.columns).tolist(), strict=True)):
+        for block, own in enumerate(zip(plan.lengths.tolist(), np.diff(plan.columns).tolist(), strict=True)):
             if own not in made:
                 made[own] = [fftw.complex(*own, along, done, back=back) for back in (False, True)]
-            room.column_plans[:, block] = made[own]
-        plans = [*room.row_plans.ravel().tolist(), *(plan for pair in made.values() for plan in pair)]
-        if self._paired is not None:
-            plans += self._plan_pairs(self._paired, scratch)
+            plan.column_plans[:, block] = made[own]
+        plans = [*plan.row_plans.ravel().tolist(), *(fftw_plan for pair in made.values() for fftw_plan in pair)]
+        if self._packed_plan is not None:
+            plans += self._plan_pairs(self._packed_plan, scratch)
         weakref.finalize(self, fftw.destroy, plans)
 
-    def _plan_pairs(self, room: Room, scratch: Scratch) -> list[int]:
-        """Plans for rows that are complex ones half as long, and for one column."""
-        fftw, half, columns = library(self.dtype), room.half.ctypes.data, scratch.columns.ctypes.data
+    def _plan_pairs(self, plan: TransformPlan, scratch: Scratch) -> list[int]:
+        """Make plans for complex rows of half the length, and for one column."""
+        fftw, half, columns = library(self.dtype), plan.row_spectra.ctypes.data, scratch.columns.ctypes.data
         rows_in, rows_out, spectra = (
             array.ctypes.data for array in (scratch.rows, scratch.rows_out, scratch.rows_spectrum)
         )
         row, stride, across = self._real_stride // 2, self._half_stride, scratch.rows_spectrum.shape[1]
         for last in range(2):
             rows = self.shape[0] - (self._row_blocks - 1) * self._row_block if last else self._row_block
-            room.row_plans[0, last] = fftw.complex(
-                room.spectra, rows, (1, 1, row, across), (rows_in, spectra), back=False
+            plan.row_plans[0, last] = fftw.complex(
+                plan.spectra, rows, (1, 1, row, across), (rows_in, spectra), back=False
             )
-            room.row_plans[1, last] = fftw.complex(room.spectra, rows, (stride, 1, 1, row), (half, rows_out), back=True)
+            plan.row_plans[1, last] = fftw.complex(plan.spectra, rows, (stride, 1, 1, row), (half, rows_out), back=True)
         along, done = (1, 1, self._spectrum_stride, self._spectrum_stride), (columns, scratch.columns_out.ctypes.data)
-        room.column_plans[:, 0] = [fftw.complex(self.padded[0], 1, along, done, back=back) for back in (False, True)]
-        return [*room.row_plans.ravel().tolist(), *room.column_plans.ravel().tolist()]
+        plan.column_plans[:, 0] = [fftw.complex(self.padded[0], 1, along, done, back=back) for back in (False, True)]
+        return [*plan.row_plans.ravel().tolist(), *plan.column_plans.ravel().tolist()]
 
-    def _each(self, loop: Any, blocks: int, *arguments: Any, room: Room | None = None) -> None:
-        """A compiled pass over blocks that the threads share, some in a call: a call takes time of the interpreter."""
-        own, threads = self.room if room is None else room, threads_for(self.entries)
+    def _each(self, loop: Any, blocks: int, *arguments: Any, plan: TransformPlan | None = None) -> None:
+        """Run a compiled pass over blocks shared by threads, several blocks a call to spare calls of Python."""
+        own, threads = self.plan if plan is None else plan, threads_for(self.entries)
         pieces = min(blocks, _PIECES * threads)
         if pieces <= 1 or threads == 1:
             loop(own, self._scratch[0], *arguments, 0, blocks)
@@ -411,7 +413,7 @@ class PaddedTransform:
         return values.dtype == self.dtype and values.flags.c_contiguous and values.flags.writeable
 
     def _plain(self, values: FloatArray) -> FloatArray:
-        """Contiguous and in this precision, as the compiled passes take it."""
+        """Return the field contiguous and in this precision."""
         return values if self._is_plain(values) else np.array(values, self.dtype, order="C")
 
     def _count(self, *, blocks: int, forward: int = 0, inverse: int = 0) -> None:

@@ -26,11 +26,11 @@ from pathlib import Path
 from typing import Any
 
 import numpy as np
+import pyfftw
 import scipy.fft
 
 from bem.threads import set_threads
 from bem.transforms import transform_of
-from bem.transforms.fftw import pyfftw
 from bem.transforms.products import Multiplier
 
 RESULT = Path(__file__).resolve().parents[1] / "results" / "slab_transforms.json"

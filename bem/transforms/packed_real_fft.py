@@ -1,16 +1,16 @@
-"""Columns of a convolution with an even kernel, two at a time: real rows transformed as complex ones half as long.
+"""Convolution with an even kernel by packed real transforms: real rows as complex rows of half the length.
 
-Two numbers of a real row that follow one another are taken as one complex number. With Z the spectrum of that complex
-field, m waves along y where the real one has 2 m, and K the kernel's real and even multiplier, the spectrum of the
-result, packed likewise, is, with s, d = (K[k, l] +- K[m - k, l]) / 2 and t = pi k / m,
+Two consecutive numbers of a real row are one complex number. With Z the spectrum of this complex field, m waves along y
+where the real one has 2 m, and K the kernel's real and even multiplier, the spectrum of the result, packed likewise,
+is, with s, d = (K[k, l] +- K[m - k, l]) / 2 and t = pi k / m,
 
     Z'[k, l] = (s - d sin t) Z[k, l] + i d cos t conj(Z[m - k, -l]).
 
-The real field's spectrum is X[k] = E + O, conj(X[m - k]) = E - O with Z[k] = E + i exp(i t) O; it is made of Z,
-multiplied and packed again in this one step. FFTW has vector instructions for complex rows only: a convolution takes
-0.7 of the time of one with real rows in single precision, 0.8 to 0.9 in double (128 to 2048 cells a side).
+The real field's spectrum is X[k] = E + O, conj(X[m - k]) = E - O with Z[k] = E + i exp(i t) O. Unpacking, product and
+packing are one step. FFTW has vector instructions for complex rows only: a convolution takes 0.7 of the time of one
+with real rows in single precision, 0.8 to 0.9 in double (128 to 2048 cells a side).
 
-Knows a room's plans and scratch (`loops`). Verified in tests/test_transforms.py against transforms of real rows.
+Knows a plan and scratch (`loops`). Verified in tests/test_transforms.py against transforms of real rows.
 """
 
 from __future__ import annotations
@@ -21,11 +21,11 @@ from bem.transforms.plans import execute
 
 
 @compiled
-def pairs_through(room, scratch, kernel, first, last):
-    """The pairs of columns k and m - k from a first to before a last k: along x, times the kernel, and back."""
-    waves, half, whole, nx, length = room.spectra, room.half, room.whole, room.nx, room.lengths[0]
-    sines, cosines, scale = room.turns[0], room.turns[1], room.scales[0]
-    there, back = (room.executors[1], room.column_plans[0, 0]), (room.executors[1], room.column_plans[1, 0])
+def packed_columns_through(plan, scratch, kernel, first, last):
+    """Transform the pairs of columns k and m - k (first <= k < last) along x, multiply, and transform back."""
+    waves, half, whole, nx, length = plan.spectra, plan.row_spectra, plan.unpadded_columns, plan.nx, plan.lengths[0]
+    sines, cosines, scale = plan.twiddles[0], plan.twiddles[1], plan.scales[0]
+    there, back = (plan.executors[1], plan.column_plans[0, 0]), (plan.executors[1], plan.column_plans[1, 0])
     given, done = scratch.columns, scratch.columns_out
     begin, line, rows, row = half.ctypes.data, half.strides[0], kernel.ctypes.data, kernel.strides[0]
     spectra, results = done.ctypes.data, given.ctypes.data
@@ -58,8 +58,16 @@ def pairs_through(room, scratch, kernel, first, last):
 
 @compiled
 def _multiply_pair(rows, here, there, length, turn, scale):
-    """Columns k and m - k times the kernel. rows : addresses of its two rows. here, there : those of the columns, given
-    and result (of one column where it is its own partner). turn : sine and cosine. scale : half of the factor."""
+    """Multiply columns k and m - k by the kernel.
+
+    Parameters
+    ----------
+    rows : addresses of the kernel's two rows.
+    here, there : addresses of each column and its result; equal where a column is its own partner.
+    length : of the columns.
+    turn : sine and cosine.
+    scale : half the scale of the inverse transform.
+    """
     first, second = numbers(rows[0], scale), numbers(rows[1], scale)
     one, other = numbers(here[0], scale), numbers(there[0], scale)
     own, partner = numbers(here[1], scale), numbers(there[1], scale)
@@ -74,7 +82,7 @@ def _multiply_pair(rows, here, there, length, turn, scale):
 
 @compiled
 def _multiply_at(first, second, arrays, j, i, turn):
-    """Wave j of column k and its partner, i of the other, times the kernel's values at both."""
+    """Multiply wave j of column k and its partner i of column m - k by the kernel's values at both."""
     (one, other, own, partner), (sine, cosine, scale) = arrays, turn
     s, d = (first + second) * scale, (first - second) * scale
     p, q, r = s - d * sine, s + d * sine, d * cosine
