@@ -38,7 +38,7 @@ def functions():
 @pytest.mark.internal
 @pytest.mark.parametrize("decorator", sorted(DECORATORS))
 def test_a_decorator_says_all_that_a_caller_would_hand_on(decorator, tmp_path, monkeypatch):
-    monkeypatch.setattr("numba.config.CACHE_DIR", str(tmp_path))
+    monkeypatch.setenv("NUMBA_CACHE_DIR", str(tmp_path))
     loop = getattr(compiled, decorator)(_ratio)
     options = loop.targetoptions
     assert options["fastmath"] is False
