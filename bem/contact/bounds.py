@@ -23,7 +23,7 @@ from numpy.typing import NDArray
 from bem.compiled import compiled
 from bem.contact import reductions
 from bem.contact.reductions import CAPPED
-from bem.contact.sparse_inverse import HEAD, TAIL, SparseInverseOnCells
+from bem.contact.sparse_inverse import NEIGHBOURS, SparseInverseOnCells
 
 FloatArray = NDArray[np.float64]
 Indices = NDArray[np.int64]
@@ -36,8 +36,6 @@ _LARGEST_CHANGE = 0.5
 
 _TENSION_ITERATIONS = 2
 """CG iterations of the tension elimination; the matrix is close to its diagonal."""
-
-_ONE, _TWO, _THREE, _FIVE = np.uint64(1), np.uint64(2), np.uint64(3), np.uint64(5)
 
 
 @dataclass
@@ -150,7 +148,7 @@ def eliminate_tension(inverse: SparseInverseOnCells, pressure: FloatArray) -> No
     A, where B is the inverse of the kernel on F + A. The sparse inverse G^T G stands for B; long wavelengths are left
     to the next outer iteration. Neighbours that become negative join A once.
     """
-    _eliminate_tension(inverse.rows, inverse.irregular, pressure, _TENSION_ITERATIONS)
+    _eliminate_tension(inverse.rows, pressure, _TENSION_ITERATIONS)
 
 
 @compiled
@@ -317,7 +315,7 @@ def redistribute_clipped_load(cells, values, cap, shape, side):
 
 
 @compiled
-def _eliminate_tension(rows, irregular, pressure, iterations):
+def _eliminate_tension(rows, pressure, iterations):
     tensile = np.empty(pressure.size, np.uint8)
     count = 0
     for k in range(tensile.size):
@@ -327,26 +325,26 @@ def _eliminate_tension(rows, irregular, pressure, iterations):
         return
     fields = np.zeros(pressure.size), np.zeros(pressure.size), np.zeros(pressure.size)
     correction = fields[2]
-    _correct_neighbours(rows, irregular, tensile, count, pressure, iterations, fields)
+    _correct_neighbours(rows, tensile, count, pressure, iterations, fields)
     added = 0
     for k in range(tensile.size):
         below = (pressure[k] < correction[k]) & (tensile[k] == 0)
         tensile[k] |= below
         added += below
     if added:
-        _correct_neighbours(rows, irregular, tensile, count + added, pressure, iterations, fields)
+        _correct_neighbours(rows, tensile, count + added, pressure, iterations, fields)
     for k in range(pressure.size):
         pressure[k] = 0.0 if tensile[k] else pressure[k] - correction[k]
 
 
 @compiled
-def _correct_neighbours(rows, irregular, tensile, count, pressure, iterations, fields):
+def _correct_neighbours(rows, tensile, count, pressure, iterations, fields):
     """Improve B y towards the pressures of the `count` tensile cells by conjugate gradients.
 
     fields : a direction of y and the response to it (both zero before and after), and B y (updated).
     """
     field, response, correction = fields
-    listed = _rows_reaching(rows, irregular, tensile)
+    listed = _rows_reaching(rows, tensile)
     cells, residual = np.empty(count, np.int64), np.empty(count)
     a, squares = 0, 0.0
     for k in range(tensile.size):
@@ -360,7 +358,7 @@ def _correct_neighbours(rows, irregular, tensile, count, pressure, iterations, f
             break
         for a in range(count):
             field[cells[a]] = direction[a]
-        _add_response(rows, irregular, listed, field, response)
+        _add_response(rows, listed, field, response)
         curvature = 0.0
         for a in range(count):
             curvature += direction[a] * response[cells[a]]
@@ -378,57 +376,29 @@ def _correct_neighbours(rows, irregular, tensile, count, pressure, iterations, f
 
 
 @compiled
-def _rows_reaching(rows, irregular, marked):
-    """Return the packed and the irregular rows of G that may couple to a marked cell."""
-    upper, lower = rows.upper, rows.lower
-    before = np.empty(marked.size + 1, np.int32)  # number of marked cells before each cell
-    before[0] = 0
+def _rows_reaching(rows, marked):
+    """Return the numbers of the rows of G that couple to a marked cell."""
+    columns = rows.columns.reshape(-1)
+    listed, count = np.empty(marked.size, np.int32), 0
     for k in range(marked.size):
-        before[k + 1] = before[k] + marked[k]
-    packed, count = np.empty(marked.size, np.int32), 0
-    for k in range(HEAD, marked.size - TAIL):
-        up, low, own = np.uint64(upper[k]), np.uint64(lower[k]), np.uint64(k)
-        reached = before[up + _THREE] - before[up] + before[low + _FIVE] - before[low]
-        packed[count] = k
-        reached += before[own + _ONE] - before[own - _TWO]
-        count += reached > 0
-    others, count_irregular = np.empty(irregular.cells.size, np.int32), 0
-    for q in range(others.size):
-        reached = marked[irregular.cells[q]] != 0
-        for a in range(irregular.columns.shape[1]):
-            reached |= marked[irregular.columns[q, a]] != 0
-        others[count_irregular] = q
-        count_irregular += reached
-    return packed[:count], others[:count_irregular]
+        reached, first = marked[k], np.uint64(k) * np.uint64(NEIGHBOURS)
+        for a in range(NEIGHBOURS):
+            reached |= marked[np.uint64(columns[first + np.uint64(a)])]
+        listed[count] = k
+        count += reached
+    return listed[:count]
 
 
 @compiled
-def _add_response(rows, irregular, listed, field, response):
+def _add_response(rows, listed, field, response):
     """Add G^T G field to `response`, over the listed rows."""
-    upper, lower, pattern, table = rows
-    for r in range(listed[0].size):
-        k = listed[0][r]
-        row, up, low, own = np.uint64(pattern[k]), np.uint64(upper[k]), np.uint64(lower[k]), np.uint64(k)
-        s = table[row, 10] * field[own]
-        for a in range(3):
-            s += table[row, a] * field[up + np.uint64(a)]
-        for a in range(5):
-            s += table[row, 3 + a] * field[low + np.uint64(a)]
-        s += table[row, 8] * field[own - _TWO] + table[row, 9] * field[own - _ONE]
-        for a in range(3):
-            response[up + np.uint64(a)] += table[row, a] * s
-        for a in range(5):
-            response[low + np.uint64(a)] += table[row, 3 + a] * s
-        response[own - _TWO] += table[row, 8] * s
-        response[own - _ONE] += table[row, 9] * s
-        response[own] += table[row, 10] * s
-    cells, columns, pattern, table = irregular
-    m = columns.shape[1]
-    for r in range(listed[1].size):
-        q = listed[1][r]
-        s = table[pattern[q], m] * field[cells[q]]
-        for a in range(m):
-            s += table[pattern[q], a] * field[columns[q, a]]
-        for a in range(m):
-            response[columns[q, a]] += table[pattern[q], a] * s
-        response[cells[q]] += table[pattern[q], m] * s
+    columns, pattern, table = rows
+    for r in range(listed.size):
+        k = np.uint64(listed[r])
+        row = np.uint64(pattern[k])
+        s = table[row, NEIGHBOURS] * field[k]
+        for a in range(NEIGHBOURS):
+            s += table[row, a] * field[np.uint64(columns[k, a])]
+        for a in range(NEIGHBOURS):
+            response[np.uint64(columns[k, a])] += table[row, a] * s
+        response[k] += table[row, NEIGHBOURS] * s

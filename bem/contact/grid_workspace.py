@@ -17,7 +17,7 @@ from bem.contact import reductions
 from bem.contact.bounds import Iterate, merge
 from bem.contact.coarse_correction import CoarseCorrection, Preconditioner, coarse_correction
 from bem.contact.reductions import CAPPED, CONTACT, NO_PRESSURE, Survey
-from bem.contact.sparse_inverse import SparseInverse, SparseInverseOnCells, connect, sparse_inverse
+from bem.contact.sparse_inverse import REACH, SparseInverse, SparseInverseOnCells, SparseRows, connect, sparse_inverse
 from bem.convolution import DisplacementOperator
 
 FloatArray = NDArray[np.float64]
@@ -122,7 +122,6 @@ class SolverParameters:
     clipping : largest residual, in responses of a cell to the pressure out of bounds, that ends CG.
     iterations_per_round : limit of CG iterations in an outer iteration.
     final : fraction of the tolerance that ends CG.
-    squared_radius : of the stencil of the sparse inverse.
     rounds : limit of outer iterations.
     patience : outer iterations without progress before the energy guard is set.
     stall : outer iterations without progress before the solver gives up.
@@ -133,7 +132,6 @@ class SolverParameters:
     clipping: float = 0.3
     iterations_per_round: int = 80
     final: float = 0.8
-    squared_radius: int = 5
     rounds: int = 100
     patience: int = 8
     stall: int = 60
@@ -275,13 +273,8 @@ class GridWorkspace:
     def sparse_inverse(self) -> SparseInverse:
         """Return the sparse inverse of this grid; the coarse correction is prepared with it."""
         if self.sparse is None:
-            reach = 2 * math.isqrt(self.parameters.squared_radius)
-            self.sparse = sparse_inverse(
-                self.operator.grid.shape,
-                self.operator.grid.periodic,
-                self.operator.near_field(reach),
-                self.parameters.squared_radius,
-            )
+            grid = self.operator.grid
+            self.sparse = sparse_inverse(grid.shape, grid.periodic, self.operator.near_field(2 * REACH))
             self.coarse = coarse_correction(self.operator, self.sparse.near_response)
         return self.sparse
 
@@ -294,7 +287,7 @@ class GridWorkspace:
         """
         sparse, capped = self.sparse_inverse(), iterate.capped
         known = sparse.patterns
-        merged, rows, irregular, unsolved, rise, total = _activate(
+        merged, columns, pattern, unsolved, rise, total = _activate(
             (iterate.cells, iterate.values),
             violating,
             (self.state, self.cap),
@@ -304,9 +297,9 @@ class GridWorkspace:
             (self.rise.cells, self.rise.pressure, self.rise.total),
             with_rise,
         )
-        known.solve(rows[2], unsolved=unsolved)
+        known.solve(pattern, unsolved=unsolved)
         cells, values, gap, mean_gap = merged
-        near = sparse.of_rows(rows, irregular)
+        near = SparseInverseOnCells(SparseRows(columns, pattern, known.table))
         self.near = cells, near
         if capped.size:
             self.state[violating] = CONTACT
@@ -357,11 +350,11 @@ def _activate(old, violating, states, surface, grid, known, rise, with_rise):
     """Merge the cells, connect the rows of the sparse inverse and carry the rise pressures; see `activate`."""
     merged = merge(old, violating, states[0], states[1], surface)
     cells = merged[0]
-    rows, irregular, unsolved = connect(cells, grid, known[0], known[1])
+    columns, pattern, unsolved = connect(cells, grid, known[0], known[1])
     carried, total = np.empty(cells.size if with_rise else 0), 0.0
     if with_rise:
         total = carry(rise[0], rise[1], rise[2], cells, carried)
-    return merged, rows, irregular, unsolved, carried, total
+    return merged, columns, pattern, unsolved, carried, total
 
 
 @compiled

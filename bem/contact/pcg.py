@@ -105,7 +105,7 @@ def close_gap(
     lock = single.transform.lock
     with lock, lock if coarse is None else coarse.coarse.convolution.transform.lock:
         far = None if coarse is None else (coarse.coarse.mapping, coarse.compiled())
-        near = active.near.rows, active.near.irregular
+        near = active.near.rows
         engine = single.compiled()
         while _iterate(
             state,
@@ -165,7 +165,7 @@ def _start(state, cells, vectors, near, far, mean):
     state[_SQUARES] = state[_FIRST_SQUARES] = sum_of_squares(residual)
     if far is not None:
         mapping, ((blocks, weights), (root, inverse_root), _, _) = far
-        write_row_sums(near[0], weights)
+        write_row_sums(near, weights)
         assign_cells(cells, mapping, weights, blocks, root, inverse_root)
     state[_FIRST] = 0
 
@@ -174,15 +174,14 @@ def _start(state, cells, vectors, near, far, mean):
 def _turn(state, vectors, near, far, rise, criteria, cap):
     """Write the next direction; return True if the iteration ends without its convolution."""
     pressure, residual, previous, direction, preconditioned, response, values, shifted = vectors
-    rows, irregular = near
     given, coefficient = residual, 0.0
     if shifted.size:
         subtract_mean(residual, rise[0], rise[1], shifted)
         given, coefficient = shifted, 1 / rise[1]
-    apply_factor(rows, irregular, given, values)
+    apply_factor(near, given, values)
     if far is not None:
         state[_COARSE] += correct(values, far[1])
-    total = apply_transpose(rows, irregular, values, preconditioned)
+    total = apply_transpose(near, values, preconditioned)
     full, change = constrain(preconditioned, rise[0], coefficient * total, residual, previous)
     beta = max(0.0, change / state[_LAST])
     outside, largest = extrapolate(pressure, preconditioned, direction, beta, state[_LENGTH], cap, residual, response)

@@ -8,14 +8,13 @@ normal contact (`bem.contact.coarse_correction`) for the kernel of that directio
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bem.contact.coarse_correction import CoarseCorrection, Preconditioner, coarse_correction
-from bem.contact.sparse_inverse import SQUARED_RADIUS, SparseInverse, sparse_inverse
+from bem.contact.sparse_inverse import REACH, SparseInverse, sparse_inverse
 from bem.convolution import DisplacementOperator
 from bem.grid import FloatArray
 from bem.tangential.operator import TangentialOperator
@@ -32,7 +31,7 @@ class _DirectionalInverse:
     @classmethod
     def of(cls, operator: DisplacementOperator) -> _DirectionalInverse:
         """Prepare the inverse of an operator from `TangentialOperator.along`."""
-        near_field = operator.near_field(2 * math.isqrt(SQUARED_RADIUS))
+        near_field = operator.near_field(2 * REACH)
         near = sparse_inverse(operator.grid.shape, operator.grid.periodic, near_field)
         return cls(operator.unit, near, coarse_correction(operator, near.near_response))
 
