@@ -283,9 +283,9 @@ def _write_crossings(first, last, links, starts, field, blurred, where, law, cro
         beyond = wrapped_index(i + 1, nx, wraps_x) * ny
         behind = wrapped_index(i + 2, nx, wraps_x) * ny
         for axis in range(2):
-            (places, runs), found = links[axis], crossings[axis]
+            (columns, runs), fractions = links[axis], crossings[axis]
             for link in range(starts[i, axis], starts[i + 1, axis]):
-                j, later = places[link], places[min(link + _PREFETCH, starts[i + 1, axis] - 1)]
+                j, later = columns[link], columns[min(link + _PREFETCH, starts[i + 1, axis] - 1)]
                 for address in addresses:
                     fetch(address + 8 * (here + later))
                     if axis == 0:
@@ -294,30 +294,45 @@ def _write_crossings(first, last, links, starts, field, blurred, where, law, cro
                     fetch(addresses[2] + 8 * (behind + later))
                 left, right = wrapped_index(j - 1, ny, wraps_y), wrapped_index(j + 1, ny, wraps_y)
                 if axis == 0:
-                    a, b, c, d = before + j, here + j, beyond + j, behind + j
-                    e, f, g, h = here + left, here + right, beyond + left, beyond + right
+                    previous, first_cell, second_cell, following = before + j, here + j, beyond + j, behind + j
+                    first_left, first_right = here + left, here + right
+                    second_left, second_right = beyond + left, beyond + right
                 else:
-                    a, b, c, d = here + left, here + j, here + right, here + wrapped_index(j + 2, ny, wraps_y)
-                    e, f, g, h = before + j, beyond + j, before + right, beyond + right
-                lower = inside[b] != 0
-                back, ahead = runs[link, 0], runs[link, 1]
-                strength_inside, opening_outside, cells = strength[b], opening[c], (back, ahead)
+                    previous, first_cell, second_cell = here + left, here + j, here + right
+                    following = here + wrapped_index(j + 2, ny, wraps_y)
+                    first_left, first_right = before + j, beyond + j
+                    second_left, second_right = before + right, beyond + right
+                lower = inside[first_cell] != 0
+                run_before, run_after = runs[link, 0], runs[link, 1]
+                strength_inside, opening_outside = strength[first_cell], opening[second_cell]
+                run_lengths = run_before, run_after
                 if not lower:
-                    strength_inside, opening_outside, cells = strength[c], opening[b], (ahead, back)
+                    strength_inside, opening_outside = strength[second_cell], opening[first_cell]
+                    run_lengths = run_after, run_before
                 if hardness > 0.0:
                     strength_inside = hardness - strength_inside if strength_inside > 0.0 else strength_inside
                     opening_outside = -opening_outside
-                jump = abs(shape[c] - shape[b])
-                if strength_inside <= 0.0 or jump > _STEP * max(abs(shape[b] - shape[a]), abs(shape[d] - shape[c])):
-                    found[link] = 0.5
+                jump = abs(shape[second_cell] - shape[first_cell])
+                slope_before = abs(shape[first_cell] - shape[previous])
+                slope_after = abs(shape[following] - shape[second_cell])
+                if strength_inside <= 0.0 or jump > _STEP * max(slope_before, slope_after):
+                    fractions[link] = 0.5
                     continue
-                along = np.int64(blurred[d]) + blurred[c] - blurred[b] - blurred[a]
-                across = np.int64(blurred[f]) + blurred[h] - blurred[e] - blurred[g]
+                along = np.int64(blurred[following]) + blurred[second_cell] - blurred[first_cell] - blurred[previous]
+                across = np.int64(blurred[first_right]) + blurred[second_right]
+                across -= np.int64(blurred[first_left]) + blurred[second_left]
                 normal = along / spacing[axis], across / spacing[1 - axis]
                 crossing = _crossing(
-                    strength_inside, opening_outside, cells, normal, spacing[axis], (factor, give), constants, ends
+                    strength_inside,
+                    opening_outside,
+                    run_lengths,
+                    normal,
+                    spacing[axis],
+                    (factor, give),
+                    constants,
+                    ends,
                 )
-                found[link] = crossing if lower else 1 - crossing
+                fractions[link] = crossing if lower else 1 - crossing
 
 
 @compiled

@@ -341,7 +341,7 @@ def _restore_region_loads(pressure, fine, width, rows, columns, cap):
         for j in range(pressure.shape[1]):
             if pressure[i, j] != 0:
                 region[columns.coarse[j]] += pressure[i, j]
-    cell = rows.length * columns.length
+    cell_fraction = rows.length * columns.length
     i = 0
     for n in range(cells.size):
         while cells[n] >= (i + 1) * width:
@@ -349,23 +349,24 @@ def _restore_region_loads(pressure, fine, width, rows, columns, cap):
         j = cells[n] - i * width
         a, b, s = rows.first[i], rows.second[i], rows.share[i]
         c, d, t = columns.first[j], columns.second[j], columns.share[j]
-        p = values[n] * cell
+        p = values[n] * cell_fraction
         if a == b and c == d:  # nearly always
-            left = missing[a, c] - (1 - s) * (1 - t) * p
-            missing[a, c] = left - (1 - s) * t * p - s * (1 - t) * p - s * t * p
+            rest = missing[a, c] - (1 - s) * (1 - t) * p
+            missing[a, c] = rest - (1 - s) * t * p - s * (1 - t) * p - s * t * p
         else:
             missing[a, c] -= (1 - s) * (1 - t) * p
             missing[a, d] -= (1 - s) * t * p
             missing[b, c] -= s * (1 - t) * p
             missing[b, d] -= s * t * p
         inside[a, c] += p if values[n] < cap else -np.inf
+    factor = np.empty(missing.shape)
     for i in range(rows.number):
         for j in range(columns.number):
             change = missing[i, j] / inside[i, j] if inside[i, j] > 0 else 0.0
-            missing[i, j] = 1 + max(-_LARGEST_CHANGE, min(_LARGEST_CHANGE, change))
+            factor[i, j] = 1 + max(-_LARGEST_CHANGE, min(_LARGEST_CHANGE, change))
     i = 0
     for n in range(cells.size):
         while cells[n] >= (i + 1) * width:
             i += 1
         j = cells[n] - i * width
-        values[n] = min(values[n] * missing[rows.first[i], columns.first[j]], cap)
+        values[n] = min(values[n] * factor[rows.first[i], columns.first[j]], cap)
