@@ -173,4 +173,4 @@ def test_a_pressure_on_a_mirror_seam_is_said_to_be_one(tmp_path):
         "outputs": {"errors": False},
     }
     done = run_scene(table, tmp_path / "run", figures=False)
-    assert [note for note in done.summary["notes"] if "lies on a seam" in note]
+    assert [note for note in done.summary["notes"] if note["code"] == "pressure-at-seam"]

@@ -250,7 +250,7 @@ def test_what_is_listed_where_both_bodies_wear_says_of_which_it_is(scene_file):
         assert outcome.summary["particles_of"] == name
         assert set(values["particle_body"]) == {("lower", "upper").index(name)}
         share = values["particle_volume"].sum() / values["volume"].sum()
-        (note,) = [text for text in outcome_warnings(examine(scene), outcome) if "both bodies wear" in text]
+        (note,) = [one for one in outcome_warnings(examine(scene), outcome) if one.code == "both-bodies-wear"]
         assert "worn depth are those of the lower one, volumes of both" in note
         assert f"are those of the {name} body, {percent(share)} of the volume" in note
     volumes = [outcome.variables["particle_volume"].values.sum() for outcome in found.values()]
