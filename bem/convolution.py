@@ -1,11 +1,20 @@
-"""Normal surface displacement from pressure: one operator for free and periodic axes, coated bodies and friction.
+"""Displacement operator: normal surface displacement of one body or a pair under pressure, as a convolution.
 
-Every kernel is even or odd along each axis, so its spectrum is stored as a quarter array of reals; the kernel of the
-traction `friction x pressure` is added to the one of the pressure, and a convolution costs one transform each way.
-Spectra are shared between operators and bounded in memory.
+One operator serves free and periodic axes, homogeneous and layered bodies, and friction:
 
-Inside, an operator works in units of its own: the kernel divided by `unit`, a power of two [m/Pa], is of order one, so
-that single precision cannot overflow and no digit changes with the system of units.
+1. `displacement_operator` checks the arguments.
+2. The kernel is the sum of both bodies' influence coefficients (`bem.kernels`), padded with zeros along free axes. A
+   doubly periodic grid has the response to harmonic loads instead; its mean displacement is zero. Homogeneous bodies
+   have proportional kernels, so one is computed.
+3. The traction friction x pressure adds the kernel of the tangential load, lower body minus upper, where traction
+   changes the normal gap (Dundurs' beta is not zero).
+4. Every kernel is even or odd along each axis: its spectrum is a quarter array of reals. Spectra are cached by grid and
+   elastic constants, within a limit on memory, and shared by all operators.
+5. The spectrum is divided by `unit`, a power of two [m/Pa], so that it is of order one: single precision cannot
+   overflow, and results have the same digits in every system of units.
+6. An application costs one transform forward and one back (`bem.transforms`), in double or single precision.
+7. `coarsened`, `near_field`, `smooth_part` and `scaled_inverse` give the contact solver coarser grids and parts for
+   its preconditioners.
 """
 
 from __future__ import annotations
@@ -47,8 +56,10 @@ _SAME = 1e-14
 
 
 class ConvolutionCount(threading.local):
-    """Applications of an operator, and the same weighed by cells with its coarser versions included; of each thread its
-    own, so that contacts solved side by side on one operator are told theirs."""
+    """Number of applications of an operator, and the same weighted by cells with coarser grids included.
+
+    Each thread has its own counts, so that contacts solved concurrently on one operator do not share them.
+    """
 
     applications: int = 0
     weighted: float = 0.0
@@ -58,20 +69,20 @@ class ConvolutionCount(threading.local):
 
     @staticmethod
     def share(of: float) -> float:
-        """A weight in whole 2^-32: sums of these are exact to two million, whatever was counted before them."""
+        """Round a weight to a multiple of 2^-32, so that sums up to two million are exact in any order."""
         return round(of * 2.0**32) / 2.0**32
 
 
 @dataclass
 class KernelCount:
-    """How many kernels were evaluated in this process, by load; for tests and reports."""
+    """Number of kernels evaluated in this process, by load; for tests and reports."""
 
     normal: int = 0
     tangential: int = 0
     in_plane: int = 0
 
     def reset(self) -> None:
-        """Back to zero."""
+        """Set all counts to zero."""
         self.normal = self.tangential = self.in_plane = 0
 
 
@@ -117,12 +128,12 @@ _Kept = TypeVar("_Kept", bound=Sized)
 
 
 def shared(key: tuple[Any, ...], make: Callable[[], _Kept]) -> _Kept:
-    """Spectra by what decides them, made where the cache has them no more."""
+    """Return the spectra of a key from the cache, computed where it does not have them."""
     return _SPECTRA.of(key, make)
 
 
 def elastic(body: Body) -> tuple[float, ...]:
-    """What of a body decides its elastic response."""
+    """Properties that determine the elastic response: moduli and Poisson's ratios of all media, interface depths."""
     return (*(value for solid in body.media for value in _moduli(solid)), *body.interfaces)
 
 
@@ -136,7 +147,7 @@ def _coupling(body: Body) -> float:
 
 
 def couples(bodies: tuple[Body, ...]) -> bool:
-    """Whether traction changes the normal gap: Dundurs' beta is not zero, or layered bodies differ."""
+    """Return True if traction changes the normal gap: Dundurs' beta is not zero, or layered bodies differ."""
     if not all(body.homogeneous for body in bodies):
         return len(bodies) == 1 or elastic(bodies[0]) != elastic(bodies[1])
     total = sum((-1) ** i * _coupling(body) for i, body in enumerate(bodies))
@@ -144,7 +155,7 @@ def couples(bodies: tuple[Body, ...]) -> bool:
 
 
 def _kernel(grid: Grid, bodies: tuple[Body, ...], load: Load) -> FloatArray:
-    """Spectrum of the kernel of both bodies: the sum for pressure, lower minus upper for traction."""
+    """Compute the spectrum of the kernel of both bodies: the sum for pressure, lower minus upper for traction."""
     signs = (1.0, 1.0) if load is Load.NORMAL else (1.0, -1.0)
     if all(body.homogeneous for body in bodies):
         # every homogeneous half-space has the same kernel up to a factor: one is enough
@@ -181,7 +192,7 @@ def _spectra(grid: Grid, bodies: tuple[Body, ...], friction: float, compliance: 
     def make() -> Spectra:
         even = _kernel(grid, bodies, Load.NORMAL)
         if compliance > 0:
-            # every wave gives way alike; the mean of a doubly periodic grid is no displacement
+            # the local compliance is the same for every wave; the mean of a doubly periodic grid is no displacement
             even = np.where(even == 0, 0.0, even + compliance) if all(grid.periodic) else even + compliance
         largest = float(np.abs(even).max())
         unit = 2.0 ** round(math.log2(largest)) if largest > 0 else 1.0
@@ -194,7 +205,7 @@ def _spectra(grid: Grid, bodies: tuple[Body, ...], friction: float, compliance: 
 
 @dataclass(frozen=True)
 class ScaledConvolution:
-    """The operator without its unit, in one precision; `apply` writes into preallocated arrays."""
+    """The operator divided by its unit, in one precision; `apply` writes into preallocated arrays."""
 
     transform: PaddedTransform
     multiplier: Multiplier
@@ -219,7 +230,7 @@ class ScaledConvolution:
         return self.transform.convolve_cells(cells, values, self.multiplier, out)
 
     def compiled(self) -> tuple[TransformPlan, Scratch, Factor]:
-        """What `transforms.loops.convolve` takes; the caller holds the transform's lock while it runs."""
+        """Arguments of `transforms.loops.convolve`; the caller holds the transform's lock while it runs."""
         factor = self.multiplier.factor(self.transform.dtype)
         return self.transform.plan_for(factor), self.transform.ready(1), factor
 
@@ -265,7 +276,7 @@ class DisplacementOperator:
         return 1 / sum(1 / body.surface_material.plane_strain_modulus for body in self.bodies)
 
     def modulus_at(self, wavenumber: float) -> float:
-        """E* [Pa] that a harmonic pressure of that wavenumber [rad/m] sees: of the layers for short waves."""
+        """Effective contact modulus E* [Pa] under a harmonic pressure of a wavenumber [rad/m]."""
         if wavenumber not in self._moduli:
             response = sum(
                 float(layered.surface_response(wavenumber, 0.0, body, tangential=False)) for body in self.bodies
@@ -279,17 +290,17 @@ class DisplacementOperator:
 
     @property
     def symmetric(self) -> bool:
-        """Whether friction does not couple into normal displacement."""
+        """True if friction does not couple into normal displacement."""
         return self._spectra.odd is None
 
     @cached_property
     def frictionless(self) -> DisplacementOperator:
-        """The same bodies without the coupling of friction; counts on this operator's account."""
+        """Operator of the same bodies without the coupling of friction; it shares this operator's count."""
         return DisplacementOperator(self.grid, self.bodies, 0.0, self.count, self.weight, compliance=self.compliance)
 
     @property
     def mean_free(self) -> bool:
-        """Whether a uniform pressure gives no displacement (doubly periodic grids)."""
+        """True if a uniform pressure gives no displacement (doubly periodic grids)."""
         return all(self.grid.periodic)
 
     @property
@@ -309,7 +320,7 @@ class DisplacementOperator:
         return ScaledConvolution(transform, self._multipliers[key], self.count, self.weight)
 
     def scaled_inverse(self, dtype: DTypeLike = np.float64) -> ScaledConvolution:
-        """The inverse on a doubly periodic grid, with what friction couples; the mean is dropped."""
+        """The inverse on a doubly periodic grid, the coupling of friction included; the mean is dropped."""
         key = (np.dtype(dtype).char, "inverse")
         if key not in self._multipliers:
             even, odd = self._spectra.even, self._spectra.odd
@@ -415,7 +426,8 @@ def displacement_operator(
     bodies : one Body, or (lower, upper).
     friction : f, the traction on the lower body is f x pressure along +x, on the upper one along -x. It is
         computed only where it changes the normal gap (Dundurs' beta not zero).
-    compliance : what each place gives way besides, by its own pressure [m/Pa]: a soft thin film, wear in a step.
+    compliance : additional local displacement per unit pressure at the same point [m/Pa]: a soft thin film, or wear in
+        a step.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""What every rectangle kernel needs: Gauss rules chosen by distance, and logarithms that do not cancel.
+"""Gauss rules chosen by distance, and logarithms without cancellation, for all kernels of a rectangle.
 
 A cell seen from a distance is integrated by Gauss points of the point-force solution: closed forms are second
 differences over the corners and lose (distance / cell)^2 of their digits. A rule of n points on a cell of half side a
@@ -26,10 +26,10 @@ for _n in range(1, MAX_POINTS + 1):
 
 @compiled
 def points_needed(ratio: float) -> int:
-    """Gauss points per side at `ratio` = distance / half side >= NEAR.
+    """Return the number of Gauss points per side at `ratio` = distance / half side >= NEAR.
 
-    Errors are near 1e-16 of the point force's stress, and 1e-13 of what is left of it straight below the cell, where
-    under traction everything vanishes by symmetry but a part (a / z)^2 smaller.
+    The error is near 1e-16 of the stress of the point force. Straight below a cell under traction, where symmetry
+    leaves only a part (a / z)^2 smaller, it is near 1e-13 of that part.
     """
     if ratio >= 1000.0:
         return 3
@@ -42,9 +42,9 @@ def points_needed(ratio: float) -> int:
 
 @compiled
 def log_ratio(upper: float, lower: float, across: float) -> float:
-    """ln[(upper + R(upper)) / (lower + R(lower))] with R(t) = sqrt(t^2 + across^2), upper > lower, no cancellation.
+    """Return ln[(upper + R(upper)) / (lower + R(lower))] with R(t) = sqrt(t^2 + across^2), upper > lower.
 
-    It is the integral of dt / R from lower to upper.
+    It is the integral of dt / R from lower to upper, evaluated without cancellation.
     """
     r_upper = np.sqrt(upper * upper + across * across)
     r_lower = np.sqrt(lower * lower + across * across)
@@ -59,7 +59,7 @@ def log_ratio(upper: float, lower: float, across: float) -> float:
 
 @compiled
 def powers(x: float, y: float, z: float) -> tuple[float, float, float, float, float]:
-    """R, 1/R, 1/R^3, s = 1/(R + z) and (2 R + z) s^2 / R^3: what point-force solutions are made of."""
+    """Return the terms of point-force solutions: R, 1/R, 1/R^3, s = 1/(R + z) and (2 R + z) s^2 / R^3."""
     r = np.sqrt(x * x + y * y + z * z)
     inv = 1.0 / r
     inv3 = inv * inv * inv
@@ -69,19 +69,19 @@ def powers(x: float, y: float, z: float) -> tuple[float, float, float, float, fl
 
 @compiled
 def angle(u: float, v: float, z: float, r: float) -> float:
-    """arctan(u v / (z r)); on z = 0 its limit from inside the body, 0 on an edge (the mean of both sides)."""
+    """Return arctan(u v / (z r)); on z = 0 its limit from inside the body, 0 on an edge (the mean of both sides)."""
     return np.arctan2(u * v, z * r) if z > 0.0 else 0.5 * np.pi * np.sign(u) * np.sign(v)
 
 
 @compiled
 def chi_xx(u: float, v: float, z: float, r: float) -> float:
-    """arctan(v/u) - arctan(z v / (u r)) as one angle: the corner form of d2/du2 of the integral of ln(R + z)."""
+    """Return arctan(v/u) - arctan(z v / (u r)) as one angle: the corner form of d2/du2 of the integral of ln(R + z)."""
     return np.arctan2(u * v * (u * u + v * v) / (r + z), u * u * r + z * v * v) if r > 0.0 else 0.0
 
 
 @compiled
 def rule(x: float, y: float, z: float, a: float, b: float) -> int:
-    """How to integrate over |x'| < a, |y'| < b seen from (x, y, z): n > 0 Gauss points a side, 0 corners, -1 cut it."""
+    """Select the rule for |x'| < a, |y'| < b seen from (x, y, z): n > 0 Gauss points a side, 0 corner sums, -1 cut."""
     long = max(a, b)
     short = min(a, b)
     ratio = np.sqrt(x * x + y * y + z * z) / long
@@ -95,7 +95,7 @@ def rule(x: float, y: float, z: float, a: float, b: float) -> int:
 
 @compiled
 def cut(x: float, y: float, z: float, a: float, b: float) -> FloatArray:
-    """Pieces (k, 4) of a long rectangle, each (centre x, centre y, half side, half side) with a rule of its own.
+    """Cut a long rectangle into pieces (k, 4): centre x, centre y, half side, half side, each with its own rule.
 
     Halving the long side ends after about log2(a / b) levels; pieces far from the point stay long.
     """

@@ -1,4 +1,4 @@
-"""Influence coefficients on a grid: one door to all kernels, chosen by the grid's periodicity and the body.
+"""Influence coefficients on a grid: selects the kernel by the grid's periodicity and the body.
 
 A coefficient belongs to an offset of (i dx, j dy) between a loaded cell and the centre of another one. Free axes are
 bare; along a periodic axis the images of the loaded cell are summed. Doubly periodic grids have no coefficients: their
@@ -82,7 +82,7 @@ def stress_coefficients(grid: Grid, body: Body, depth: float, load: Load) -> Flo
     _refuse_doubly_periodic(grid)
     if not (np.isfinite(depth) and depth >= 0):
         raise InputError(f"depth: {depth!r} must be finite and not negative [m]")
-    if body.medium_at(depth) > 0:  # below the outermost layer what layers add is the whole
+    if body.medium_at(depth) > 0:  # below the outermost layer the remainder is the whole
         whole: FloatArray = _layered(grid).stress_remainder(grid, body, float(depth), load)
         return whole
     nu = body.surface_material.poissons_ratio
@@ -96,7 +96,7 @@ def stress_coefficients(grid: Grid, body: Body, depth: float, load: Load) -> Flo
 
 
 def _layered(grid: Grid) -> Any:
-    """What layers add; imported only when there are any."""
+    """Return the module with the remainder of layers; imported only for layered bodies."""
     return importlib.import_module("bem.kernels.layered_semi" if any(grid.periodic) else "bem.kernels.layered_cells")
 
 

@@ -15,7 +15,7 @@ units of 2 G q. In the sums and differences p = u + w, n = u - w, P = tau + sigm
 
 So the impedances (tau, sigma) = Z (u, w) of the two kinds, Zd = -diag(1/kappa, 1) and Zu = diag(1, 1/kappa) in (p, n),
 differ by the same number in both. From the half-space, whose impedance is Zd, the impedance Z of what lies below is
-carried up through layer after layer: through one of q h >= 1 by what its lower interface reflects,
+carried up through layer after layer: through one of q h >= 1 by the reflection at its lower interface,
 R = (Zu - Z)^-1 (Z - Zd), which comes back on top as R' = P^T R P with P = exp(-q h) [[1, 0], [-2 q h / kappa, 1]];
 through a thinner one by exp(-M q h), because there the waves of different moduli cancel. Then displacements are
 carried down from the load. Only decaying exponentials occur and nothing overflows. With one layer the closed form of
@@ -35,45 +35,21 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bem.errors import InputError
-from bem.kernels import layer_waves
-from bem.kernels.layer_waves import (
-    ACROSS_ET,
-    ACROSS_TZ,
-    ACROSS_U,
-    NORMAL_EE,
-    NORMAL_SIGMA,
-    NORMAL_TAU,
-    NORMAL_TT,
-    NORMAL_U,
-    NORMAL_W,
-    ROWS,
-    TANGENTIAL_EE,
-    TANGENTIAL_SIGMA,
-    TANGENTIAL_TAU,
-    TANGENTIAL_TT,
-    TANGENTIAL_U,
-    TANGENTIAL_W,
-)
+from bem.kernels import layer_waves as waves
 from bem.kernels.loads import Load
 from bem.materials import Body
-
-__all__ = [
-    "ACROSS_ET", "ACROSS_TZ", "ACROSS_U", "NORMAL_EE", "NORMAL_SIGMA", "NORMAL_TAU", "NORMAL_TT", "NORMAL_U",
-    "NORMAL_W", "ROWS", "TANGENTIAL_EE", "TANGENTIAL_SIGMA", "TANGENTIAL_TAU", "TANGENTIAL_TT", "TANGENTIAL_U",
-    "TANGENTIAL_W", "Features", "features", "in_plane_response", "stress_response", "surface_response",
-    "wave_functions",
-]  # fmt: skip
 
 FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
 class Features:
-    """What an integral over a response has to resolve.
+    """Scales that an integral over a response has to resolve.
 
     Attributes
     ----------
-    remainder : whether the response is that less the half-space of the outermost material's, as it is at depths there.
+    remainder : True if the response is that of the body less that of a half-space of the outermost material, as at
+        depths in the outermost layer.
     decay : d, it falls like exp(-q d) [m].
     smallest : wavenumber below which it is smooth [1/m].
     angle : no pole lies within this angle of the real axis of q [rad].
@@ -86,7 +62,7 @@ class Features:
 
 
 def features(body: Body, depth: float) -> Features:
-    """Features of the response of a layered body at a depth [m].
+    """Return the features of the response of a layered body at a depth [m].
 
     A stiff layer varies the response down to q = G_below / (G h), the stretch that it shares with the softest medium
     below it. Poles: 52 degrees from the real axis or more for every ratio of moduli with one layer (a stiff plate on a
@@ -106,7 +82,7 @@ def features(body: Body, depth: float) -> Features:
 
 
 def _media(body: Body) -> FloatArray:
-    """Thickness, modulus over the outermost one's, kappa: (layers + 1, 3)."""
+    """Return thickness, modulus over the outermost one's, and kappa of each medium: (layers + 1, 3)."""
     thicknesses = [*(layer.thickness for layer in body.layers), 0.0]
     first = body.surface_material.shear_modulus
     return np.array(
@@ -120,7 +96,7 @@ def _media(body: Body) -> FloatArray:
 def wave_functions(
     wavenumber: NDArray, body: Body, depth: float, *, remainder: bool = False, load: Load | None = None
 ) -> NDArray:
-    """Response of a body to unit tractions exp(i k.x) on its surface, in the frame of the wavevector.
+    """Compute the response of a body to unit tractions exp(i k.x) on its surface, in the frame of the wavevector.
 
     Parameters
     ----------
@@ -149,16 +125,16 @@ def wave_functions(
         )
     above = depth - (body.interfaces[medium - 1] if medium else 0.0)
     q = np.ascontiguousarray(wavenumber).ravel()
-    out = np.zeros((ROWS, q.size), dtype=q.dtype)
+    out = np.zeros((waves.ROWS, q.size), dtype=q.dtype)
     pressed, sheared = load is not Load.TANGENTIAL, load is not Load.NORMAL
-    layer_waves.fill(q, float(above), medium, _media(body), remainder, pressed, sheared, out)
+    waves.fill(q, float(above), medium, _media(body), remainder, pressed, sheared, out)
     return out
 
 
 def surface_response(
     kx: ArrayLike, ky: ArrayLike, body: Body, *, tangential: bool, remainder: bool = False
 ) -> FloatArray:
-    """Normal surface displacement [m/Pa] under a unit traction exp(i k.x): pressure, or a traction along +x.
+    """Compute normal surface displacement [m/Pa] under a unit traction exp(i k.x): pressure, or traction along +x.
 
     kx and ky [rad/m] broadcast. Under pressure the spectrum is the result; under a tangential traction it is i times
     the result (odd in kx). Zero where k = 0: there is no limit. `remainder` as in `wave_functions`.
@@ -168,21 +144,21 @@ def surface_response(
     with np.errstate(divide="ignore", invalid="ignore"):
         scale = np.where(q > 0, 0.5 / (body.surface_material.shear_modulus * q), 0.0)
     if tangential:
-        return scale * cosine * functions[TANGENTIAL_W].reshape(q.shape)
-    return scale * functions[NORMAL_W].reshape(q.shape)
+        return scale * cosine * functions[waves.TANGENTIAL_W].reshape(q.shape)
+    return scale * functions[waves.NORMAL_W].reshape(q.shape)
 
 
 def in_plane_response(kx: ArrayLike, ky: ArrayLike, body: Body, *, remainder: bool = False) -> FloatArray:
-    """In-plane surface displacements [m/Pa] under unit tractions exp(i k.x): (3, ...), real.
+    """Compute in-plane surface displacements [m/Pa] under unit tractions exp(i k.x): (3, ...), real.
 
     ux under traction along x, uy under traction along y, and of one under the other. kx and ky [rad/m] broadcast. Zero
     where k = 0: there is no limit. `remainder` as in `wave_functions`.
     """
     cosine, sine, q = _directions(kx, ky)
-    functions = wave_functions(q, body, 0.0, remainder=remainder, load=Load.TANGENTIAL).reshape(ROWS, *q.shape)
+    functions = wave_functions(q, body, 0.0, remainder=remainder, load=Load.TANGENTIAL).reshape(waves.ROWS, *q.shape)
     with np.errstate(divide="ignore", invalid="ignore"):
         scale = np.where(q > 0, 0.5 / (body.surface_material.shear_modulus * q), 0.0)
-    along, across = -scale * functions[TANGENTIAL_U], scale * functions[ACROSS_U]
+    along, across = -scale * functions[waves.TANGENTIAL_U], scale * functions[waves.ACROSS_U]
     return np.stack(
         [
             cosine**2 * along + sine**2 * across,
@@ -195,18 +171,23 @@ def in_plane_response(kx: ArrayLike, ky: ArrayLike, body: Body, *, remainder: bo
 def stress_response(
     kx: ArrayLike, ky: ArrayLike, body: Body, depth: float, *, tangential: bool, remainder: bool = False
 ) -> FloatArray:
-    """Six stresses at `depth` under a unit traction exp(i k.x): pressure, or a traction along +x.
+    """Compute six stresses at `depth` under a unit traction exp(i k.x): pressure, or a traction along +x.
 
     kx and ky [rad/m] broadcast; -> (6, ...) in the order xx yy zz yz xz xy, real. The spectrum is the result where the
     stress is even under (x, y) -> (-x, -y), and i times the result where it is odd: yz and xz under pressure, the other
     four under traction. At k = 0: the laterally constrained uniform state. `remainder` as in `wave_functions`.
     """
     cosine, sine, q = _directions(kx, ky)
-    f = wave_functions(q, body, depth, remainder=remainder, load=_load(tangential)).reshape(ROWS, *q.shape)
+    f = wave_functions(q, body, depth, remainder=remainder, load=_load(tangential)).reshape(waves.ROWS, *q.shape)
     stress = np.empty((6, *q.shape))
     if tangential:
-        tau, sigma, ee, tt = f[TANGENTIAL_TAU], f[TANGENTIAL_SIGMA], f[TANGENTIAL_EE], f[TANGENTIAL_TT]
-        across, below = f[ACROSS_ET], f[ACROSS_TZ]
+        tau, sigma, ee, tt = (
+            f[waves.TANGENTIAL_TAU],
+            f[waves.TANGENTIAL_SIGMA],
+            f[waves.TANGENTIAL_EE],
+            f[waves.TANGENTIAL_TT],
+        )
+        across, below = f[waves.ACROSS_ET], f[waves.ACROSS_TZ]
         stress[0] = cosine * (cosine**2 * ee + sine**2 * (tt + 2 * across))
         stress[1] = cosine * (sine**2 * (ee - 2 * across) + cosine**2 * tt)
         stress[2] = cosine * sigma
@@ -215,7 +196,7 @@ def stress_response(
         stress[5] = sine * (cosine**2 * (ee - tt) - (cosine**2 - sine**2) * across)
         uniform = (0.0, 0.0, 0.0, 0.0, -1.0, 0.0)
     else:
-        tau, sigma, ee, tt = f[NORMAL_TAU], f[NORMAL_SIGMA], f[NORMAL_EE], f[NORMAL_TT]
+        tau, sigma, ee, tt = f[waves.NORMAL_TAU], f[waves.NORMAL_SIGMA], f[waves.NORMAL_EE], f[waves.NORMAL_TT]
         stress[0] = cosine**2 * ee + sine**2 * tt
         stress[1] = sine**2 * ee + cosine**2 * tt
         stress[2] = sigma
@@ -236,7 +217,7 @@ def _load(tangential: bool) -> Load:
 
 
 def _directions(kx: ArrayLike, ky: ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Cosine and sine of the wavevector's direction (1, 0 where k = 0) and its length."""
+    """Return cosine and sine of the wavevector's direction (1, 0 where k = 0) and its length."""
     kx, ky = np.broadcast_arrays(np.asarray(kx, dtype=np.float64), np.asarray(ky, dtype=np.float64))
     q = np.hypot(kx, ky)
     divisor = np.where(q > 0, q, 1.0)

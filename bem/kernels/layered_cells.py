@@ -1,4 +1,4 @@
-"""Integrals of radial tables over the cells of a grid: what a layer adds to the influence coefficients.
+"""Remainder of the influence coefficients of a layered body: integrals of radial tables over the cells of a grid.
 
 A unit load at the origin of a layered body gives, with S_n the Hankel transforms of `layered_hankel` and phi the angle
 from x to the point,
@@ -60,7 +60,7 @@ STRESS = {Load.NORMAL: STRESS_NORMAL, Load.TANGENTIAL: STRESS_TANGENTIAL}
 
 @compiled
 def _along(x: float, y: float, r: float) -> tuple[float, float]:
-    """Cosine and sine of the angle from x; what is multiplied by them vanishes at the origin."""
+    """Return cosine and sine of the angle from x; their factors vanish at the origin."""
     r = max(r, 1e-300)
     return x / r, y / r
 
@@ -203,7 +203,7 @@ def _add_block(
 
 @compiled
 def _rule_for(reach: float, ripple: float, fall: float) -> int:
-    """Row of the rule to use, or the number of rules where none will do; the ripples are exp(-fall) of their height."""
+    """Return the row of the rule to use, or the number of rules if none suffices; ripples are exp(-fall) high."""
     row = 0
     while row < _POINTS.size and reach < _REACH[row]:
         row += 1
@@ -215,7 +215,7 @@ def _rule_for(reach: float, ripple: float, fall: float) -> int:
 
 @compiled
 def _rules(x: float, y: float, a: float, b: float, table: RadialTable) -> tuple[int, int]:
-    """Rules along x and y for a piece of half sides a, b centred at (x, y); (-1, -1) where nothing is left of it."""
+    """Return the rules along x and y for a piece of half sides a, b at (x, y); (-1, -1) where its response vanishes."""
     gap_x, gap_y = max(abs(x) - a, 0.0), max(abs(y) - b, 0.0)
     decay, wavenumber, width, end = table.decay, table.wavenumber, table.width, table.edges[-1]
     if gap_x * gap_x + gap_y * gap_y >= end * end:
@@ -324,7 +324,7 @@ def add_cells(out: FloatArray, grid: Grid, table: RadialTable, kind: int, images
 
 
 def surface_remainder(grid: Grid, body: Body, load: Load) -> FloatArray:
-    """What a bonded layer adds to the surface coefficients of a free grid on a half-space of the layer's material.
+    """Compute the surface coefficients of a layered body less those of a half-space of its outermost material.
 
     (nx, ny) [m/Pa]; see `coefficients.surface_coefficients`.
     """
@@ -335,7 +335,7 @@ def surface_remainder(grid: Grid, body: Body, load: Load) -> FloatArray:
 
 
 def in_plane_remainder(grid: Grid, body: Body) -> FloatArray:
-    """Same for the in-plane displacements: (3, nx, ny) [m/Pa]."""
+    """Compute the same remainder of the in-plane displacements: (3, nx, ny) [m/Pa]."""
     out = np.zeros((3, *grid.shape))
     add_cells(out, grid, radial_table(in_plane_kernels(body), _reach(grid)), IN_PLANE)
     clear_odd(out, IN_PLANE_PARITY)
@@ -343,7 +343,7 @@ def in_plane_remainder(grid: Grid, body: Body) -> FloatArray:
 
 
 def stress_remainder(grid: Grid, body: Body, depth: float, load: Load) -> FloatArray:
-    """Same for the six stresses at `depth` in the layer; below the layer the whole coefficients: (6, nx, ny)."""
+    """Compute the remainder of the six stresses at `depth`; below the outermost layer the whole: (6, nx, ny)."""
     out = np.zeros((6, *grid.shape))
     add_cells(out, grid, radial_table(stress_kernels(body, depth, load), _reach(grid)), STRESS[load])
     clear_odd(out, STRESS_PARITY[load])
@@ -351,7 +351,7 @@ def stress_remainder(grid: Grid, body: Body, depth: float, load: Load) -> FloatA
 
 
 def clear_odd(out: FloatArray, parities: tuple[tuple[int, int], ...]) -> None:
-    """Round-off on the lines where an odd component vanishes."""
+    """Set rounding errors to zero on the lines where an odd component vanishes."""
     for component, (along_x, along_y) in enumerate(parities):
         if along_x < 0:
             out[component, 0] = 0.0

@@ -29,7 +29,7 @@ from scipy import special
 
 from bem.compiled import compiled
 from bem.grid import FloatArray
-from bem.kernels import layered
+from bem.kernels import layer_waves, layered
 from bem.kernels.half_space import Load
 from bem.materials import Body
 
@@ -45,7 +45,7 @@ _ABSCISSAE, _GAUSS = np.polynomial.legendre.leggauss(14)
 
 @dataclass(frozen=True)
 class Path:
-    """How the path of integration avoids the poles.
+    """Path of integration in the complex plane of q that avoids the poles.
 
     Attributes
     ----------
@@ -123,7 +123,7 @@ class RadialTable(NamedTuple):
 
 def surface_kernels(body: Body, load: Load) -> Kernels:
     """Normal surface displacement less that of a half-space of the outermost material; signs: see `layered_cells`."""
-    row = layered.NORMAL_W if load is Load.NORMAL else layered.TANGENTIAL_W
+    row = layer_waves.NORMAL_W if load is Load.NORMAL else layer_waves.TANGENTIAL_W
     scale = 0.5 / body.surface_material.shear_modulus
 
     def spectra(q: NDArray) -> NDArray:
@@ -138,7 +138,7 @@ def in_plane_kernels(body: Body) -> Kernels:
 
     def spectra(q: NDArray) -> NDArray:
         f = layered.wave_functions(q, body, 0.0, remainder=True, load=Load.TANGENTIAL)
-        along, across = -f[layered.TANGENTIAL_U], f[layered.ACROSS_U]
+        along, across = -f[layer_waves.TANGENTIAL_U], f[layer_waves.ACROSS_U]
         return np.stack([along + across, along - across]) * (scale / q)
 
     return _kernels(spectra, (0, 2), layered.features(body, 0.0), ("in plane", body))
@@ -150,16 +150,16 @@ def stress_kernels(body: Body, depth: float, load: Load) -> Kernels:
 
     def normal(q: NDArray) -> NDArray:
         f = layered.wave_functions(q, body, depth, remainder=found.remainder, load=load)
-        ee, tt = f[layered.NORMAL_EE], f[layered.NORMAL_TT]
-        return np.stack([f[layered.NORMAL_SIGMA], f[layered.NORMAL_TAU], 0.5 * (ee + tt), 0.5 * (ee - tt)])
+        ee, tt = f[layer_waves.NORMAL_EE], f[layer_waves.NORMAL_TT]
+        return np.stack([f[layer_waves.NORMAL_SIGMA], f[layer_waves.NORMAL_TAU], 0.5 * (ee + tt), 0.5 * (ee - tt)])
 
     def tangential(q: NDArray) -> NDArray:
         f = layered.wave_functions(q, body, depth, remainder=found.remainder, load=load)
-        tau, ee, tt = f[layered.TANGENTIAL_TAU], f[layered.TANGENTIAL_EE], f[layered.TANGENTIAL_TT]
-        across, below = f[layered.ACROSS_ET], f[layered.ACROSS_TZ]
+        tau, ee, tt = f[layer_waves.TANGENTIAL_TAU], f[layer_waves.TANGENTIAL_EE], f[layer_waves.TANGENTIAL_TT]
+        across, below = f[layer_waves.ACROSS_ET], f[layer_waves.ACROSS_TZ]
         return np.stack(
             [
-                f[layered.TANGENTIAL_SIGMA],
+                f[layer_waves.TANGENTIAL_SIGMA],
                 0.5 * (below - tau),
                 0.5 * (tau + below),
                 0.25 * (3 * ee + tt) + 0.5 * across,
@@ -188,7 +188,7 @@ def radial_table(kernels: Kernels, r_max: float, *, line: bool = False) -> Radia
 
 
 def _made(kernels: Kernels, panels: int, line: bool) -> RadialTable:
-    """That of so many panels: whole numbers of doublings, so that grids of nearly one size share it."""
+    """Compute a table of so many panels: a whole number of doublings, so that grids of similar size share it."""
     cuts = kernels.path.cuts
     edges = np.concatenate([[0.0], kernels.decay / 8 * 2.0 ** (np.arange(panels) / cuts)])
     nodes = [panel_nodes(a, b) for a, b in itertools.pairwise(edges)]
@@ -199,11 +199,11 @@ def _made(kernels: Kernels, panels: int, line: bool) -> RadialTable:
 
 
 _kept = lru_cache(maxsize=64)(_made)
-"""Coarser grids of a contact are as long, and ask for the same table: some 40 kB each."""
+"""Cached tables, some 40 kB each: coarser grids of a contact are as long and use the same table."""
 
 
 def panel_nodes(a: float, b: float) -> FloatArray:
-    """Where a panel of r is sampled."""
+    """Return the sample points of a panel of r."""
     return 0.5 * (a + b) + 0.5 * (b - a) * _CHEBYSHEV
 
 
@@ -243,7 +243,7 @@ def apply(matrix: NDArray, vector: NDArray) -> NDArray:
 
 
 def _wave(order: int, s: FloatArray, line: bool) -> FloatArray:
-    """What is integrated against the spectrum on the real axis, over q (and over r^2, or r for a line)."""
+    """Return the wave that multiplies the spectrum on the real axis, over q (and over r^2, or r for a line)."""
     if line:
         return (np.sin(s) if order else np.cos(s)) / np.pi
     values: FloatArray = special.jv(order, s) * s / (2 * np.pi)

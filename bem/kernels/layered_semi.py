@@ -1,4 +1,4 @@
-"""What a layer adds to influence coefficients on a grid with one periodic axis: the images of the loaded cell summed.
+"""Remainder of the influence coefficients of a layered body on a grid with one periodic axis: a sum over images.
 
 The spectrum is split smoothly at q0 = 48 / period by chi(q) = erfc((q - q0) / w) / 2, w = 8 / period:
 
@@ -13,9 +13,9 @@ like the radial ones.
 The cost does not depend on the thickness, and nothing is cut off above round-off.
 
 Datum of the displacement under pressure, as in `semi_periodic`: its mean along the period is zero at one length of the
-grid's free axis from a line load. That holds for the half-space of the layer's material and for what the layer adds.
+grid's free axis from a line load. This holds for the half-space of the layer's material and for the remainder.
 So a vanishing layer leaves the numbers of the substrate, a very thick one those of its own material, and identical
-materials change nothing. Another length adds a constant to the displacement, proportional to the load.
+materials change nothing. Another reference length adds a constant to the displacement, proportional to the load.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ from numpy.typing import NDArray
 from scipy import special
 
 from bem.grid import FloatArray, Grid
-from bem.kernels import layered
+from bem.kernels import layer_waves, layered
 from bem.kernels.coefficients import IN_PLANE_PARITY, STRESS_PARITY, SURFACE_PARITY
 from bem.kernels.half_space import Load
 from bem.kernels.layered_cells import IN_PLANE, STRESS, SURFACE, add_cells, clear_odd
@@ -70,7 +70,7 @@ _CELL_NODES, _CELL_WEIGHTS = np.polynomial.legendre.leggauss(16)
 
 
 def surface_remainder(grid: Grid, body: Body, load: Load) -> FloatArray:
-    """What a bonded layer adds to the surface coefficients of a half-space of its material: (nx, ny) [m/Pa]."""
+    """Compute the surface coefficients less those of a half-space of the outermost material: (nx, ny) [m/Pa]."""
     tangential = load is Load.TANGENTIAL
     parities = (SURFACE_PARITY[load],)
     free, along = _axes(grid)
@@ -93,7 +93,7 @@ def surface_remainder(grid: Grid, body: Body, load: Load) -> FloatArray:
 
 
 def in_plane_remainder(grid: Grid, body: Body) -> FloatArray:
-    """Same for the in-plane displacements under tractions along x and y: (3, nx, ny) [m/Pa]."""
+    """Compute the same remainder of the in-plane displacements: (3, nx, ny) [m/Pa]."""
     free, along = _axes(grid)
     decay = 0.5 * grid.lengths[along]
     in_plane, across = _steps(body)
@@ -117,7 +117,7 @@ def in_plane_remainder(grid: Grid, body: Body) -> FloatArray:
 
 
 def _steps(body: Body) -> FloatArray:
-    """What the remainders are times q where q vanishes, of plane and of antiplane strain [1/Pa]: base less surface."""
+    """Return the limits of q times the remainder for q -> 0, plane and antiplane strain [1/Pa]: base less surface."""
     one, two = body.surface_material, body.material
     plane = (1 - two.poissons_ratio) / two.shear_modulus - (1 - one.poissons_ratio) / one.shear_modulus
     return np.array([plane, 1 / two.shear_modulus - 1 / one.shear_modulus])
@@ -142,7 +142,7 @@ def _add_steps(half: FloatArray, grid: Grid, parts: _Parts) -> None:
 
 
 def stress_remainder(grid: Grid, body: Body, depth: float, load: Load) -> FloatArray:
-    """Same for the six stresses at `depth` in the layer; below the layer the whole coefficients: (6, nx, ny)."""
+    """Compute the remainder of the six stresses at `depth`; below the outermost layer the whole: (6, nx, ny)."""
     tangential = load is Load.TANGENTIAL
     parities = STRESS_PARITY[load]
     free, _ = _axes(grid)
@@ -155,9 +155,9 @@ def stress_remainder(grid: Grid, body: Body, depth: float, load: Load) -> FloatA
         f = layered.wave_functions(k, body, depth, remainder=inside, load=load)
         out = np.zeros((6, k.size), dtype=k.dtype)
         if tangential and free == 1:
-            out[4], out[5] = f[layered.ACROSS_TZ], f[layered.ACROSS_ET]
+            out[4], out[5] = f[layer_waves.ACROSS_TZ], f[layer_waves.ACROSS_ET]
             return out
-        first = layered.TANGENTIAL_U if tangential else layered.NORMAL_U
+        first = layer_waves.TANGENTIAL_U if tangential else layer_waves.NORMAL_U
         tau, sigma, ee, tt = f[first + 2 : first + 6]
         out[free], out[1 - free], out[2], out[4 - free] = ee, tt, sigma, -tau if tangential else tau
         return out
@@ -179,7 +179,7 @@ def _mean_log(cells: int, side: float, height: float, reference: float) -> Float
 
 @dataclass(frozen=True)
 class _Parts:
-    """One response as every part of the sum needs it.
+    """Quantities of one response that all parts of the sum share.
 
     response: (kx, ky) -> (components, ...) as in `layered`; mean: the same along the free axis, complex k, less
     step exp(-k s)/k, (components,), s half a period, whose transform is added in closed form.
@@ -230,7 +230,7 @@ def _far_cells(grid: Grid, near: int, parts: _Parts) -> FloatArray:
 
 
 def _mirrored(half: FloatArray, grid: Grid, parities: Parities) -> FloatArray:
-    """The second half of the period by parity."""
+    """Fill the second half of the period by parity."""
     _, along = _axes(grid)
     cells = grid.shape[along]
     out = np.empty((len(parities), *grid.shape))

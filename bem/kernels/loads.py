@@ -1,4 +1,4 @@
-"""What acts on a cell, and the symmetry of what it causes."""
+"""Loads on a cell, and the symmetry of the response to each."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from bem.grid import FloatArray
 
 
 class Load(Enum):
-    """What acts on a cell: unit pressure, or unit traction along +x."""
+    """Load on a cell: unit pressure, or unit traction along +x."""
 
     NORMAL = 0
     TANGENTIAL = 1
@@ -39,7 +39,7 @@ STRESS_PARITY: dict[Load, Parities] = {
 
 
 def clear_odd(values: FloatArray, x: ArrayLike, y: ArrayLike, parities: Parities) -> FloatArray:
-    """Set what is odd in x (y) to exactly zero where x (y) is; in place. `values` (parts, ...), x and y broadcast."""
+    """Set components odd in x (y) to exactly zero at x = 0 (y = 0), in place; `values` (parts, ...)."""
     for index, (along_x, along_y) in enumerate(parities):
         part = values[index, ...]
         if along_x < 0:

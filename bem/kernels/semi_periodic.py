@@ -8,8 +8,8 @@ explicitly, the rest as an integral from half a period before (Gauss, in a varia
 infinity) plus the Euler-Maclaurin terms of the midpoint rule, taken from samples around the lower end instead of
 derivatives.
 
-Where a part of the cell is more than `_LINE` periods away (along the free axis or in depth), its images look like a
-line load: what is left out is exp(-2 pi _LINE) of it. There the plane-strain forms of `half_plane` serve.
+Where a part of the cell is more than `_LINE` periods away (along the free axis or in depth), its images act as a
+line load to exp(-2 pi _LINE). There the plane-strain forms of `half_plane` are used.
 
 Datum of the displacement. Under pressure the mean along the periodic axis is that of a line load, -2 P / (pi E*) ln|x /
 reference|, P per unit length: it grows without bound and has no natural zero. The reference length taken here is the
@@ -53,7 +53,7 @@ _STRESS, _PRESSURE_DISPLACEMENT, _TRACTION_DISPLACEMENT, _IN_PLANE = 0, 1, 2, 3
 
 
 class _Response(NamedTuple):
-    """What is summed and under what load; lengths in periods.
+    """Response that is summed, and its load; lengths in periods.
 
     swap: the periodic axis is x. reference: length at which a line load displaces nothing. first: the nearest image
     that belongs to the tail.
@@ -214,7 +214,7 @@ def _add_cell(
 
 @compiled
 def _within_reach(what: _Response, free: float, half: float) -> tuple[float, float]:
-    """The part of the cell at -`free` that is not seen as a line; empty where the ends meet."""
+    """Return the part of the cell at -`free` within `_LINE` periods; empty where its ends coincide."""
     reach = np.sqrt(max(_LINE * _LINE - what.z * what.z, 0.0))
     return min(max(free - reach, -half), half), min(max(free + reach, -half), half)
 

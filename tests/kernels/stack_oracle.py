@@ -6,7 +6,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from bem.kernels import layered
+from bem.kernels import layer_waves, layered
 
 
 def elasticity(body, kx, ky, depth, traction):
@@ -78,12 +78,12 @@ def package(body, kx, ky, depth, tangential):
     scale = 2 * body.surface_material.shear_modulus * q
     stress = layered.stress_response([kx], [ky], body, depth, tangential=tangential)[:, 0].astype(complex)
     if tangential:
-        along = 1j * cosine * 1j * f[layered.TANGENTIAL_U]
-        across = -sine * f[layered.ACROSS_U]
-        normal = 1j * cosine * f[layered.TANGENTIAL_W]
+        along = 1j * cosine * 1j * f[layer_waves.TANGENTIAL_U]
+        across = -sine * f[layer_waves.ACROSS_U]
+        normal = 1j * cosine * f[layer_waves.TANGENTIAL_W]
         stress[[0, 1, 2, 5]] *= 1j
     else:
-        along, across, normal = 1j * f[layered.NORMAL_U], 0.0, f[layered.NORMAL_W]
+        along, across, normal = 1j * f[layer_waves.NORMAL_U], 0.0, f[layer_waves.NORMAL_W]
         stress[[3, 4]] *= 1j
     return np.array([cosine * along - sine * across, sine * along + cosine * across, normal]) / scale, stress
 
@@ -105,7 +105,9 @@ def assert_finite_and_balanced(q, body, depth, jump):
     that part of the largest on the surface."""
     assert np.isfinite(layered.wave_functions(q, body, depth)).all()
     surface = layered.wave_functions(q, body, 0.0)[:, 0]
-    loads = surface[[layered.NORMAL_TAU, layered.NORMAL_SIGMA, layered.TANGENTIAL_TAU, layered.TANGENTIAL_SIGMA, 14]]
+    loads = surface[
+        [layer_waves.NORMAL_TAU, layer_waves.NORMAL_SIGMA, layer_waves.TANGENTIAL_TAU, layer_waves.TANGENTIAL_SIGMA, 14]
+    ]
     # a thin stiff layer carries up to 1e6 times the load: 1e-15 of that
     assert loads == pytest.approx([0, -1, 1, 0, -1], abs=1e-9)
     keep = [0, 1, 2, 3, 6, 7, 8, 9, 12, 14]

@@ -11,7 +11,7 @@ from stack_oracle import assert_finite_and_balanced, disagreement, off_the_mean_
 
 from bem import Body, Grid, Layer
 from bem.errors import InputError
-from bem.kernels import layered, spectral
+from bem.kernels import layer_waves, layered, spectral
 from bem.kernels.half_space import Load
 
 PAIRS = [(1e-3, 0.2, 0.35), (0.05, 0.4999, 0.1), (1.0, 0.3, 0.3), (20.0, -0.6, 0.45), (1e3, 0.25, -0.3)]
@@ -114,7 +114,7 @@ def test_identical_materials_are_a_half_space(nu):
             ]
         )
         assert f[:4] == pytest.approx(expected, abs=4e-15)  # round-off
-        assert f[layered.ACROSS_TZ] == pytest.approx(-decay, abs=2e-15)
+        assert f[layer_waves.ACROSS_TZ] == pytest.approx(-decay, abs=2e-15)
     w = layered.surface_response(q, 0.0, body, tangential=False)
     assert w == pytest.approx((1 - nu) / (g * q), rel=1e-14, abs=0)
 

@@ -5,7 +5,7 @@ import pytest
 from coated_bodies import assert_layers_of_the_same_change_nothing
 
 from bem import Body, Grid, Layer, Material, displacement_operator, subsurface_stress
-from bem.kernels import layered, layered_hankel
+from bem.kernels import layer_waves, layered, layered_hankel
 
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
 SOFT = Material("soft", youngs_modulus=10e9, poissons_ratio=0.42)
@@ -48,9 +48,9 @@ def test_hertz_pressure_on_a_coated_body(coating, thickness):
     for depth in depths:
         q, weights = quadrature(depth)
         f = layered.wave_functions(q, body, depth)
-        lateral = 0.5 * (f[layered.NORMAL_EE] + f[layered.NORMAL_TT])
+        lateral = 0.5 * (f[layer_waves.NORMAL_EE] + f[layer_waves.NORMAL_TT])
         measure = spectrum_of_hertz(q) * q * weights / (2 * np.pi)
-        stress.append([lateral @ measure, f[layered.NORMAL_SIGMA] @ measure])
+        stress.append([lateral @ measure, f[layer_waves.NORMAL_SIGMA] @ measure])
     errors = []
     for cells in (17, 51):
         grid = Grid((cells, cells), (2.5 / cells, 2.5 / cells))
