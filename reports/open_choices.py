@@ -106,7 +106,8 @@ def experiment_name(scene: str, choice: str) -> str:
 
 def checks() -> list[Check]:
     """Return the lines that are held against the scenes of `OTHERS`."""
-    return [check for each in CHECKS.values() for check in each if check.scene in OTHERS and not check.echoes]
+    lines = [check for each in CHECKS.values() for check in each]
+    return [check for check in lines if check.scene in OTHERS and not check.basis and not check.run]
 
 
 def lines() -> list[tuple[str, ...]]:

@@ -279,6 +279,13 @@ def _separation_datum(module: Any, stored: Any) -> Rows:
         yield f"{length:g} um, {pressure:g} GPa", _again(row, compute, within(relative=1e-6, absolute=0.1))
 
 
+def _piece_shapes(module: Any, stored: Any) -> Rows:
+    for row in stored:
+        compute = partial(module.row, row["load_N"], row["connectivity"])
+        allowed = within(relative=1e-3, pieces=(0.0, 1e-3 * row["pieces"]))
+        yield f"{row['load_N']:g} N, {row['connectivity']} neighbours", _again(row, compute, allowed)
+
+
 def _stribeck_effects(module: Any, stored: Any) -> Rows:
     for contact, found in stored.items():
         for curve in found["curves"]:
@@ -537,6 +544,7 @@ RESULTS: dict[str, Result] = {
         experiment("long_ellipse", _long_ellipse, 10, "the film's own error bar"),
         experiment("lumped_heat", _lumped_heat, 6, "1e-4 of a film or a friction, ten times Newton's tolerance"),
         experiment("patch_length", _patch_length, 6, _MIXED),
+        experiment("piece_shapes", _piece_shapes, 15, "1e-3, the digits that are stored"),
         experiment("point_films", _point_films, 4, "status and grid equal, pressure within 1 % of so few cells"),
         experiment("point_table", _point_table, 40, "the film's own error bar on the finest grid"),
         experiment("preconditioned_spectrum", _preconditioned_spectrum, 5, "2 %, what one cell at the edge changes"),

@@ -21,7 +21,8 @@ def _lines(section: str) -> list[Check]:
             rules[line["rule"]],
             line["accepted"],
             line.get("remark", ""),
-            line.get("echoes", False),
+            line.get("basis", ""),
+            line.get("run", ""),
         )
         for line in _WORDS[section]
     ]

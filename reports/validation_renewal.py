@@ -184,7 +184,8 @@ def _history(run: FinishedRun) -> dict[str, Any]:
     """Figures cycle by cycle, mean over repetitions, in a row for each load and variant, or speed.
 
     wear : `cycle_radius_nm` (mean by volume), `cycle_volume_um3` (worn), `cycle_pressure_Pa` (mean over the contact).
-    running-in : `cycle_radius_nm`, that of the mean volume of a cycle's pieces, and `cycle_contact_share`.
+    running-in : `cycle_radius_nm` (of the mean volume of a cycle's pieces), `cycle_contact_share`, `cycle_friction`.
+    tribofilm : `sample_film_nm`, `sample_pressure_Pa` (mean over the contact), at contacts that were solved.
     """
     data = run.dataset
     if run.summary["kind"] == "wear":
@@ -199,16 +200,20 @@ def _history(run: FinishedRun) -> dict[str, Any]:
         history = {
             "cycle_radius_nm": 1e9 * np.cbrt(3 / (4 * np.pi) * pieces),
             "cycle_contact_share": data["contact_share"],
+            "cycle_friction": data["friction_over_cycles"],
         }
+    elif run.summary["kind"] == "tribofilm":
+        samples = {"sample_film_nm": 1e9 * data["sample_thickness"], "sample_pressure_Pa": data["sample_mean_pressure"]}
+        return {name: _rows(values, along="sample") for name, values in samples.items()}
     else:
         return {}
     return {name: _rows(values) for name, values in history.items() if values is not None}
 
 
-def _rows(values: Any) -> list[list[float | None]]:
-    """Values over cycles to four digits, a row for each case; cycles without a value are left out of means."""
+def _rows(values: Any, along: str = "cycle") -> list[list[float | None]]:
+    """Values over cycles or samples to four digits, a row for each case; what has no value is left out of means."""
     if "repetition" in values.dims:
         values = values.mean("repetition")
-    table = values.transpose(..., "cycle").to_numpy()
+    table = values.transpose(..., along).to_numpy()
     table = table.reshape(-1, table.shape[-1])  # cases in a row, one where the scene has no axis
     return [[None if np.isnan(v) else float(f"{v:.4g}") for v in row] for row in table]

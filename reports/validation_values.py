@@ -52,12 +52,20 @@ class Rule:
     quoted: Callable[[Summary], str] = lambda summary: ""
 
 
+BASES = ("input", "calibrated", "by construction")
+"""What a line rests on that is shown and not counted: on a number put in, on one that a constant was fitted to, or on
+the form of the model, from which the statement follows whatever its constants are."""
+
+
 @dataclass(frozen=True)
 class Check:
     """A line of the table: what the source says, what is accepted and by what right, our rule, and a remark.
 
-    `echoes` says of a line that repeats what was put in: it has no verdict. What a remark quotes of ours stands in the
-    place it leaves, `{quoted}`.
+    basis : one of `BASES`, or empty for a line that is judged and counted. A line by construction that does not hold is
+        judged all the same.
+    run : name of the experiment whose result is judged; empty for that of the built-in scene.
+
+    What a remark quotes of ours stands in the place it leaves, `{quoted}`.
     """
 
     item: str
@@ -66,7 +74,17 @@ class Check:
     rule: Rule
     accepted: str
     remark: str = ""
-    echoes: bool = False
+    basis: str = ""
+    run: str = ""
+
+    def summary(self) -> Summary:
+        """Return the stored result that the line is held against.
+
+        Raises
+        ------
+        FileNotFoundError : it was not run.
+        """
+        return experiment(self.run) if self.run else stored(self.scene)
 
 
 SCATTER = math.sqrt(175 / 110)

@@ -15,6 +15,7 @@ SCRIPTS = (
     "film_regimes",
     "load_share_curves",
     "patch_length",
+    "piece_shapes",
     "separation_datum",
     "stribeck_effects",
 )

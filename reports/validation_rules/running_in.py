@@ -11,11 +11,13 @@ from reports.validation_values import (
     clear_minimum,
     cycles_of,
     drop,
+    experiment,
     falling,
     largest_drop,
     mean_of,
     quoted,
     speed,
+    stored,
     within,
 )
 
@@ -74,6 +76,19 @@ def _radius_grows(summary: Summary) -> bool | None:
     return None if found is None else found[1] > found[0]
 
 
+def _late_change(summary: Summary) -> float | None:
+    """Largest relative change of friction from cycles 141 to 150 to the last ten of 200, over speeds."""
+    rows = summary.get("cycle_friction")
+    return None if rows is None else max(abs(mean_of(row[140:150]) / mean_of(row[-10:]) - 1) for row in rows)
+
+
+def _from_120_nm(summary: Summary) -> float:
+    """Largest relative difference of run-in friction over hardness from that of the scene, a disk of Sq 120 nm."""
+    pairs = zip(summary["friction_run_in"], stored("hardness-optimum")["friction_run_in"], strict=True)
+    return max(abs(ours / scene - 1) for ours, scene in pairs)
+
+
+SMOOTHER, ROUGHER = "hardness-disk-sq-60-nm", "hardness-disk-sq-240-nm"
 CYCLES = {"running-in-cells-of-450-nm": "in the first five and the last 50 cycles"}
 CELLS = {f"running-in-cells-of-{cell}-nm": f"with cells of {cell} nm" for cell in (450, 225, 113)}
 DROPS = {
@@ -114,10 +129,15 @@ RULES: dict[str, Rule] = {
             if "scattering_mean_radius_nm" in s
             else None
         ),
+        quoted(lambda s: f"{at(s, 'scattering_mean_radius_nm')} nm", CELLS),
     ),
     "no_running_in_where_the_disk_is_hard": Rule(
         lambda s: f"{s['friction_initial'][-1]:.4f} to {s['friction_run_in'][-1]:.4f}",
         lambda s: abs(s["friction_run_in"][-1] / s["friction_initial"][-1] - 1) < READING,
+        quoted(
+            lambda s: f"{s['friction_initial'][-1]:.4f} to {s['friction_run_in'][-1]:.4f}",
+            {"hardness-frame-cylinder": "with the one", "hardness-skin-0": "with the other"},
+        ),
     ),
     "sq_of_the_disk_at_0_01_m_s_nm": Rule(
         lambda s: f"{at(s, 'Sq_initial_nm', speed(0.01)(s))} to {at(s, 'Sq_final_nm', speed(0.01)(s))}",
@@ -135,6 +155,22 @@ RULES: dict[str, Rule] = {
     "radius_over_speed_0_001_to_0_4_m_s_on_the": Rule(
         lambda s: ", ".join(f"{at(s, 'particle_equivalent_radius_nm', i).mean:.0f}" for i in range(9)),
         lambda s: _falls_with_speed(s, "particle_equivalent_radius_nm"),
+        quoted(
+            lambda s: ", ".join(f"{value:.0f}" for value in s["volume_mean_radius_nm"]) + " nm",
+            {"drop-cylinder-90-patch": "with a moving disk", "drop-disk-0-patch": "without a skin"},
+        ),
+    ),
+    "full_film_after_running_in": Rule(
+        lambda s: ", ".join(f"{at(s, 'contact_load_N', speed(v)(s)).mean:.3f}" for v in (0.03, 0.05, 0.1, 0.2)),
+        lambda s: all(at(s, "contact_load_N", speed(v)(s)).mean == 0.0 for v in (0.05, 0.1, 0.2)),
+        quoted(
+            lambda s: f"{at(s, 'contact_load_N', speed(0.05)(s)).mean:.2f} N",
+            DROPS | {"drop-disk-90-hertz": "with oil counted over Hertz' contact"},
+        ),
+    ),
+    "two_hundred_cycles_settle_friction": Rule(
+        lambda s: "cycles not stored" if _late_change(s) is None else f"{100 * (_late_change(s) or 0.0):.1f}",
+        lambda s: None if _late_change(s) is None else (_late_change(s) or 0.0) < READING,
     ),
     "the_same_on_half_the_cell_0_003_to_0_2_m_s_nm": Rule(
         lambda s: (
@@ -161,5 +197,18 @@ RULES: dict[str, Rule] = {
         ),
         clear_minimum,
         quoted(_over_hardness, LONGER_WAVES),
+    ),
+    "soft_disks_lose_the_largest_particles": Rule(
+        lambda s: ", ".join(f"{value:.0f}" for value in s["volume_mean_radius_nm"]),
+        lambda s: s["volume_mean_radius_nm"][0] == max(s["volume_mean_radius_nm"]),
+        quoted(
+            lambda s: ", ".join(f"{value:.0f}" for value in s["volume_mean_radius_nm"]) + " nm",
+            {"hardness-frame-cylinder": "with a moving disk", "hardness-skin-0": "without a skin"},
+        ),
+    ),
+    "initial_roughness_of_the_soft_body_and_hardness": Rule(
+        lambda s: f"{100 * max(_from_120_nm(s), _from_120_nm(experiment(SMOOTHER))):.1f}",
+        lambda s: max(_from_120_nm(s), _from_120_nm(experiment(SMOOTHER))) < READING,
+        quoted(_over_hardness, {SMOOTHER: "with Sq 60 nm", ROUGHER: "with Sq 240 nm"}),
     ),
 }

@@ -6,6 +6,7 @@ import math
 from collections.abc import Callable
 
 from bem.particles import particle_coefficient
+from reports.experiments.kept import found
 from reports.validation_values import (
     READING,
     SCATTER,
@@ -16,6 +17,7 @@ from reports.validation_values import (
     criterion_over_archard,
     cycles_of,
     echo,
+    experiment,
     falling,
     four_radii,
     hertz_pressure,
@@ -92,8 +94,9 @@ def _volume_line(summary: Summary) -> str:
 
 
 def _volume_falls(summary: Summary) -> bool | None:
-    found = _volume(summary)
-    return None if found is None else found[1] < 0.5 * found[0]
+    """Whether the first cycle wears more than the last ones, and the first quarter of cycles more than a quarter."""
+    found, early = _volume(summary), _volume_early(summary)
+    return None if found is None or early is None else found[1] < found[0] and early > 0.25
 
 
 def _pressure_line(summary: Summary) -> str:
@@ -138,7 +141,77 @@ def _over_the_other(name: str) -> Callable[[Summary], list[float]]:
     return lambda summary: [a.mean / b.mean for a, b in zip(radii(summary), radii(stored(name)), strict=True)]
 
 
-_film_over_steel = _over_the_other("wear-steel-steel")
+_over_steel_on_one_mesh = _over_the_other("wear-load-one-mesh")
+
+
+def _ratios(values: list[float]) -> str:
+    return ", ".join(f"{value:.2f}" for value in values)
+
+
+def _below_steel(summary: Summary) -> list[float]:
+    """Radius of the steel pair less that of the film's pieces, by light scattering, load by load [nm]."""
+    pairs = zip(radii_by(stored("wear-steel-steel"), "scattering"), radii_by(summary, "scattering"), strict=True)
+    return [steel.mean - film.mean for steel, film in pairs]
+
+
+def _radius_rises(summary: Summary) -> float:
+    return _rises_over_load(summary, "equivalent_radius")
+
+
+def _bare_on_one_mesh() -> float:
+    return _radius_rises(experiment("brass-one-mesh"))
+
+
+def _rises_beyond_scatter(summary: Summary) -> bool:
+    """Whether the radius at 10 N lies above that at 2.5 N by more than the larger spread over repetitions."""
+    low, high = (at(summary, "particle_equivalent_radius_nm", load(newtons)(summary)) for newtons in (2.5, 10))
+    return high.mean - low.mean > max(low.spread or 0.0, high.spread or 0.0)
+
+
+def _volume_over_number(summary: Summary, newtons: float) -> float:
+    return ratio_of_means(summary, newtons, "volume_mean_equivalent_radius_nm", "number_mean_equivalent_radius_nm")
+
+
+def _both_ratios(summary: Summary) -> str:
+    return f"{_volume_over_number(summary, 2.5):.2f} and {_volume_over_number(summary, 10):.2f}"
+
+
+def _number_and_volume(summary: Summary) -> list[float]:
+    return [radii_by(summary, weight)[load(10)(summary)].mean for weight in ("number", "volume")]
+
+
+def _radii_over_cycles(summary: Summary) -> tuple[float, float]:
+    """Radius by volume in the first five and the last 50 cycles [nm]."""
+    row = cycles_of(summary, "cycle_radius_nm")
+    return (math.nan, math.nan) if row is None else (mean_of(row[:5]), mean_of(row[-50:]))
+
+
+def _mesh_series(summary: Summary) -> str:
+    return f"{mesh_means('number')(summary)} nm"
+
+
+def _first_cycle(summary: Summary) -> str:
+    """Radius by volume [nm] and worn volume [um3] of the first cycle."""
+    return f"{summary['cycle_radius_nm'][0][0]:.0f} nm and {summary['cycle_volume_um3'][0][0]:.0f} um3"
+
+
+def _at_both_loads(summary: Summary) -> str:
+    return f"{_sizes_there_at(summary, 10)} and {_sizes_there_at(summary, 2.5)} nm"
+
+
+def _sizes_there_at(summary: Summary, newtons: float) -> str:
+    index = load(newtons)(summary)
+    found = (at(summary, f"particle_{quantity}_nm", index).mean for quantity in ("length", "width", "thickness"))
+    return " / ".join(f"{value:.0f}" for value in found)
+
+
+def _piece_shapes() -> str:
+    """Sizes at 10 N by definition, 6 neighbours, by volume; see `reports.experiments.piece_shapes`."""
+    (row,) = (one for one in found("piece_shapes") if one["load_N"] == 10.0 and one["connectivity"] == 6)
+    parts = []
+    for name, weights in row["sizes_nm"].items():
+        parts.append(" / ".join(f"{value:.0f}" for value in weights["volume"]) + f" by {name}")
+    return "; ".join(parts)
 
 
 def _removal_there(summary: Summary) -> str:
@@ -195,6 +268,17 @@ def _of_spheres(summary: Summary) -> str:
     return f"{few:.0f} to {many:.0f} are spheres of 175 and 110 nm; a sphere of our mean volume has {own} nm"
 
 
+def _brass_counts(summary: Summary) -> str:
+    """Particles per mm and N of the bare disk at each load, and of the film at 10 N on other disks and cells."""
+    bare = stored("wear-steel-brass")
+    counts = ", ".join(f"{particles_per_mm_and_newton(bare, f, 800e-7):.0f}" for f in (2.5, 5.0, 10.0))
+    others = {"brass-film-disk-keeps-its-shape": "at 10 N if the disk keeps its shape", **HALF_CELL}
+    return (
+        f"{quoted(lambda one: f'{particles_per_mm_and_newton(one, 10.0, 800e-7):.0f}', others)(summary)}; "
+        f"{counts} of the bare disk"
+    )
+
+
 def _sizes_at(
     newtons: float, wanted: tuple[float, float, float], quote: Callable[[Summary], str] = lambda summary: ""
 ) -> Rule:
@@ -219,15 +303,28 @@ FILMS = {
     "brass-film-disk-keeps-its-shape": "if it keeps its shape",
     "brass-film-150-nm": "with a film of 150 nm on one that wears along",
 }
+HALF_CELL = {"brass-film-half-the-cell": "on half the cell"}
+MESHES = "mesh-240-to-480-cells"
+PIECES = {
+    "steel-18-neighbours": "with 18 neighbours at 10 and 2.5 N",
+    "steel-26-neighbours": "with 26",
+    "steel-linear-refinement": "with stress linear between depths",
+    "steel-averaged-over-300-nm": "with stress averaged over 300 nm",
+}
 HARD = {"hard-roughness-all-cycles": "for 50, 500, 1500 nm"}
 
 
 RULES: dict[str, Rule] = {
-    "steel_10_n_length_width_thickness_nm": _sizes_at(10, (442, 245, 197), quoted(_sizes_there, SLOPES)),
+    "steel_10_n_length_width_thickness_nm": _sizes_at(
+        10,
+        (442, 245, 197),
+        lambda s: f"{_piece_shapes()}; {quoted(_at_both_loads, PIECES)(s)}; {quoted(_sizes_there, SLOPES)(s)}",
+    ),
     "steel_2_5_n_length_width_thickness_nm": _sizes_at(2.5, (267, 161, 151), _other_weights),
     "steel_radius_at_2_5_5_10_n_nm": Rule(
         four_radii,
         lambda s: all(within(v, 110, 175) for v in radii_by(s, "scattering")),
+        quoted(lambda s: f"{radii_by(s, 'scattering')[0]} nm at 10 N", REMOVALS | ALL_CYCLES),
     ),
     "radius_rises_with_load_steel": Rule(
         lambda s: listed(radii(s)),
@@ -257,14 +354,25 @@ RULES: dict[str, Rule] = {
     "change_of_sq_over_load_brass": Rule(
         _roughness_over_load,
         lambda s: [change > 0 for change in _roughness_changes(s)] == [False, True, True],
+        quoted(
+            lambda s: f"{_roughness_over_load(s)} %",
+            {"brass-frame-disk": "on a disk that stands still", "brass-skin-0": "without a skin"},
+        ),
     ),
     "bare_brass_radius_rises_with_load": Rule(
         lambda s: listed(radii(s)),
         lambda s: falling(radii(s)[::-1]) and not unchanged([radii(s)[0], radii(s)[-1]]),
+        lambda s: f"{listed(radii(stored('wear-steel-brass')))} nm",
     ),
     "bare_brass_larger_than_steel": Rule(
-        lambda s: ", ".join(f"{ratio:.2f}" for ratio in _film_over_steel(s)),
-        lambda s: all(ratio > 1 for ratio in _film_over_steel(s)),
+        lambda s: _ratios(_over_steel_on_one_mesh(s)),
+        lambda s: all(ratio > 1 for ratio in _over_steel_on_one_mesh(s)),
+        lambda s: _ratios(_over_the_other("wear-steel-steel")(stored("wear-steel-brass"))),
+    ),
+    "brass_film_rise_of_sizes_against_the_afm": Rule(
+        lambda s: " / ".join(f"{rise:.2f}" for rise in _rises(s)[:2]),
+        lambda s: all(rise > afm for rise, afm in zip(_rises(s)[:2], (751 / 543, 521 / 397), strict=True)),
+        lambda s: " / ".join(f"{rise:.2f}" for rise in _rises(stored("wear-brass-transfer-film"))[:2]),
     ),
     "brass_film_sizes_against_the_afm": Rule(
         lambda s: f"{sizes(load(10))(s)} and {sizes(load(2.5))(s)}",
@@ -272,22 +380,23 @@ RULES: dict[str, Rule] = {
     ),
     "brass_film_thickness_over_load": Rule(
         lambda s: f"{_rises_over_load(s, 'thickness'):.2f}",
-        lambda s: 1 < _rises_over_load(s, "thickness") < 126 / 115 * (1 + READING),
-        _widths_in_cells,
+        lambda s: 1 <= _rises_over_load(s, "thickness") <= 126 / 115,
+        lambda s: f"{_rises_over_load(stored('wear-brass-transfer-film'), 'thickness'):.2f}",
     ),
     "brass_film_rises_less_than_bare": Rule(
+        lambda s: f"{_radius_rises(s):.2f} against {_bare_on_one_mesh():.2f}",
+        lambda s: _radius_rises(s) < _bare_on_one_mesh(),
         lambda s: (
-            f"{_rises_over_load(s, 'equivalent_radius'):.2f} against "
-            f"{_rises_over_load(stored('wear-steel-brass'), 'equivalent_radius'):.2f}"
+            f"{_radius_rises(stored('wear-brass-transfer-film')):.2f} against "
+            f"{_radius_rises(stored('wear-steel-brass')):.2f}"
         ),
-        lambda s: (
-            _rises_over_load(s, "equivalent_radius") < _rises_over_load(stored("wear-steel-brass"), "equivalent_radius")
-        ),
-        _widths_in_cells,
     ),
     "steel_radius_at_2_5_5_10_n_on_one_mesh_of_101": Rule(
         lambda s: listed(radii(s)),
-        lambda s: unchanged(radii(s)),
+        _rises_beyond_scatter,
+        quoted(
+            _radii_there, {"one-mesh-frame-disk": "on a disk that stands still", "one-mesh-skin-0": "without a skin"}
+        ),
     ),
     "largest_hertz_pressure_at_2_5_5_10_n_gpa": Rule(
         lambda s: ", ".join(f"{hertz_pressure(f):.4f}" for f in (2.5, 5.0, 10.0)),
@@ -316,7 +425,10 @@ RULES: dict[str, Rule] = {
     ),
     "radius_falls_from_the_first_cycles_to_a": Rule(
         lambda s: "first cycles " + str(at(s, "first_cycles_radius_nm", load(10)(s))),
-        lambda s: at(s, "first_cycles_radius_nm", load(10)(s)).mean > SCATTER * _settled(s).mean,
+        lambda s: (
+            at(s, "first_cycles_radius_nm", load(10)(s)).mean - _settled(s).mean
+            > (at(s, "first_cycles_radius_nm", load(10)(s)).spread or 0.0)
+        ),
         quoted(_radius_there, ALL_CYCLES),
     ),
     "plateau_of_the_radius": Rule(_plateau_line, _plateau_in_time),
@@ -330,43 +442,57 @@ RULES: dict[str, Rule] = {
     ),
     "mesh_mean_radius_by_number_80_to_320_cells": Rule(
         mesh_means("number"),
-        settled_by_mesh("number"),
-        _widths_in_cells,
+        lambda s: settled_by_mesh("number")(s) and falling(radii_by(s, "number")[:4]),
+        quoted(_mesh_series, {MESHES: "on 240, 320, 400, 480 cells"}),
     ),
     "mesh_mean_radius_by_volume_the_same_meshes_nm": Rule(
         mesh_means("volume"),
-        settled_by_mesh("volume"),
-        quoted(_radii_there, DEPTHS),
+        lambda s: (
+            radii(s)[1].mean < radii(stored("wear-mesh-convergence"))[0].mean and unchanged(radii(s)[1:], 1 + READING)
+        ),
+        lambda s: f"{listed(radii(stored('wear-mesh-convergence'))[:4])} nm",
     ),
     "depths_mean_radius_by_volume_at_8_16_32_64": Rule(
-        lambda s: ", ".join(str(at(s, "volume_mean_equivalent_radius_nm", i)) for i in (4, 5, 6, 2)),
-        lambda s: unchanged([at(s, "volume_mean_equivalent_radius_nm", i) for i in (2, 4, 5, 6)], 1 + READING),
+        lambda s: listed(radii(s)),
+        lambda s: unchanged(radii(s), 1 + READING),
         quoted(_radii_there, DEPTHS),
     ),
     "the_same_against_a_rigid_flat_by_volume_nm": Rule(
         mesh_means("volume"),
         settled_by_mesh("volume"),
-        _widths_in_cells,
+        quoted(
+            lambda s: f"{mesh_means('volume')(s)} nm",
+            {"rigid-flat-frame-disk": "on a disk that stands still", "rigid-flat-skin-0": "without a skin"},
+        ),
     ),
     "bare_brass_disk_radius_at_10_n_nm": Rule(
         radius(10),
         lambda s: within(at(s, "particle_equivalent_radius_nm", load(10)(s)), 500, 600),
         quoted(_radius_there, CYLINDERS),
     ),
-    "brass_film_10_n_length_width_thickness_nm": _sizes_at(10, (635, 262, 95), quoted(_sizes_there, FILMS)),
-    "brass_film_2_5_n_length_width_thickness_nm": _sizes_at(2.5, (300, 195, 89), _widths_in_cells),
+    "brass_film_10_n_length_width_thickness_nm": _sizes_at(
+        10,
+        (635, 262, 95),
+        lambda s: (
+            f"{quoted(_sizes_there, FILMS)(s)}; {quoted(lambda one: f'{_sizes_there_at(one, 10)} nm', HALF_CELL)(s)}"
+        ),
+    ),
+    "brass_film_2_5_n_length_width_thickness_nm": _sizes_at(
+        2.5, (300, 195, 89), quoted(lambda s: f"{_sizes_there_at(s, 2.5)} nm", HALF_CELL)
+    ),
     "brass_film_radius_at_2_5_5_10_n_nm": Rule(
         four_radii,
         lambda s: all(within(v, 110, 175) for v in radii_by(s, "scattering")),
         quoted(_radius_there, FILMS),
     ),
     "film_particles_are_smaller_than_steel": Rule(
-        lambda s: ", ".join(f"{ratio:.2f}" for ratio in _film_over_steel(s)),
-        lambda s: all(ratio < 1 for ratio in _film_over_steel(s)),
+        lambda s: ", ".join(f"{difference:.0f}" for difference in _below_steel(s)),
+        lambda s: all(20 <= difference <= 40 for difference in _below_steel(s)),
+        quoted(_radius_there, FILMS),
     ),
     "soft_body_s_roughness_500_1000_1500_nm_radius": Rule(
         lambda s: listed(radii(s)),
-        lambda s: unchanged(radii(s)),
+        lambda s: unchanged(radii(s), 1 + READING),
         quoted(lambda s: f"{radii(s)[0]} nm", {"hard-roughness-all-cycles": "with the smoothest"}),
     ),
     "hard_body_s_roughness_50_500_1500_nm_radius": Rule(
@@ -377,6 +503,43 @@ RULES: dict[str, Rule] = {
     "radius_by_volume_over_radius_by_number_steel": Rule(
         lambda s: f"{_spread_of_sizes(s):.2f}",
         lambda s: 358 / 175 / SCATTER < _spread_of_sizes(s) < 358 / 175 * SCATTER,
+    ),
+    "few_large_particles_dominate_more_at_2_5_n": Rule(
+        _both_ratios,
+        lambda s: _volume_over_number(s, 2.5) > _volume_over_number(s, 10),
+        lambda s: _both_ratios(stored("wear-load-one-mesh")),
+    ),
+    "model_radii_below_the_afm_steel": Rule(
+        lambda s: " and ".join(f"{radius:.0f}" for radius in _number_and_volume(s)),
+        lambda s: all(ours < afm for ours, afm in zip(_number_and_volume(s), (175, 358), strict=True)),
+    ),
+    "hardness_of_the_steel_disk": Rule(
+        lambda s: "1.8 and 1.08",
+        echo,
+        quoted(_sizes_there, {"steel-110-hv": "as against 1.8 GPa in the line on sizes"}),
+    ),
+    "smooth_soft_disk_grows_rougher": Rule(
+        lambda s: (
+            f"{at(s, 'Sq_initial_nm')} to {at(s, 'Sq_final_nm')}; {_radii_over_cycles(s)[0]:.0f} to "
+            f"{_radii_over_cycles(s)[1]:.0f}"
+        ),
+        lambda s: (
+            at(s, "Sq_final_nm").mean > at(s, "Sq_initial_nm").mean
+            and _radii_over_cycles(s)[1] > _radii_over_cycles(s)[0]
+        ),
+    ),
+    "axes_of_figure_5": Rule(
+        lambda s: (
+            f"{s['cycle_radius_nm'][load(10)(s)][0]:.0f} to {_settled(s)}; "
+            f"{s['cycle_volume_um3'][load(10)(s)][0]:.0f} to {at(s, 'worn_volume_per_cycle_um3', load(10)(s))}"
+        ),
+        lambda s: None,
+        quoted(_first_cycle, REMOVALS),
+    ),
+    "axis_of_figure_8b": Rule(
+        lambda s: listed(radii(s)),
+        lambda s: None,
+        quoted(_radii_there, HARD),
     ),
     "width_over_thickness_steel_10_n": Rule(
         lambda s: f"{_flatness(s):.2f}",
@@ -394,6 +557,6 @@ RULES: dict[str, Rule] = {
     "particles_per_mm_and_n_at_2_5_5_10_n_brass": Rule(
         lambda s: ", ".join(f"{particles_per_mm_and_newton(s, f, 800e-7):.0f}" for f in (2.5, 5.0, 10.0)),
         lambda s: all(12800 <= particles_per_mm_and_newton(s, f, 800e-7) <= 15200 for f in (2.5, 5.0, 10.0)),
-        _widths_in_cells,
+        _brass_counts,
     ),
 }
