@@ -12,10 +12,10 @@ import math
 from collections.abc import Callable, Iterable, Sequence
 from typing import Any
 
-from reports import independent, neglects, open_choices, patch_length, reproduced
+from reports import independent, neglects, open_choices, patch_length, piece_shapes, reproduced
 from reports.builder import COLOURS, Page, Section, figure, table, text
 from reports.experiments import kept
-from reports.validation_lines import CHECKS, CHOICES, WITHOUT_LINE
+from reports.validation_lines import CHECKS, CHOICES, CONTRADICTIONS, WITHOUT_LINE
 from reports.validation_origin import stale
 from reports.validation_renewal import VALIDATION, jobs, scripts
 from reports.validation_values import (
@@ -138,8 +138,14 @@ def build() -> Page:
         sections.append(Section(title, table(headers, lines) + figures_for(title)))
     sections.append(Section("Independent figures", independent.body()))
     sections.append(Section("What the source leaves open in its wear loops", open_choices.body()))
+    sections.append(Section("The shape of pieces", piece_shapes.body()))
     sections.append(Section("The area over which oil is counted", patch_length.body()))
     sections.append(Section("What the Stribeck curves leave out", neglects.body()))
+    sections.append(
+        Section(
+            "Where the source contradicts itself", table(("where", "what it says", "what is taken"), CONTRADICTIONS)
+        )
+    )
     sections.append(Section("Statements without a line", table(("paper", "statement", "why"), WITHOUT_LINE)))
     sections.append(Section("What was chosen, and why", table(("what", "choice", "reason"), CHOICES)))
     sections.append(Section("Stored results", results_table()))

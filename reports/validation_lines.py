@@ -39,4 +39,9 @@ CHOICES: tuple[tuple[str, str, str], ...] = tuple(
 WITHOUT_LINE: tuple[tuple[str, str, str], ...] = tuple(
     (entry["paper"], entry["statement"], entry["reason"]) for entry in _WORDS["without_line"]
 )
-"""Statements of papers A to D that no line of a table can be held against, and why."""
+"""Statements of the papers that no line of a table can be held against, and why."""
+
+CONTRADICTIONS: tuple[tuple[str, str, str], ...] = tuple(
+    (entry["where"], entry["text"], entry["taken"]) for entry in _WORDS["contradictions"]
+)
+"""Where the source contradicts itself, is misprinted or leaves two readings: where, what it says, what is taken."""

@@ -183,15 +183,17 @@ def _same_text(folder: Path, text: str) -> bool:
 def _history(run: FinishedRun) -> dict[str, Any]:
     """Figures cycle by cycle, mean over repetitions, in a row for each load and variant, or speed.
 
-    wear : `cycle_radius_nm` (mean by volume), `cycle_volume_um3` (worn), `cycle_pressure_Pa` (mean over the contact).
+    wear : `cycle_radius_nm` (mean by volume), `cycle_particles`, `cycle_volume_um3` (worn), `cycle_pressure_Pa` (mean
+    over the contact).
     running-in : `cycle_radius_nm` (of the mean volume of a cycle's pieces), `cycle_contact_share`, `cycle_friction`.
-    tribofilm : `sample_film_nm`, `sample_pressure_Pa` (mean over the contact), at contacts that were solved.
+    tribofilm : `sample_film_nm`, `sample_pressure_Pa` (mean over the contact) of all cases' solved contacts in a row.
     """
     data = run.dataset
     if run.summary["kind"] == "wear":
         pressure = data["contact_load"] / data["contact_area"] if "contact_area" in data else None
         history = {
             "cycle_radius_nm": 1e9 * data["radius"],
+            "cycle_particles": data["particles"],
             "cycle_volume_um3": 1e18 * data["volume"] if "volume" in data else None,
             "cycle_pressure_Pa": pressure,
         }

@@ -38,7 +38,7 @@ class Value:
         if not math.isfinite(self.mean):
             return "none"
         shown = f"{self.mean:.3g}" if abs(self.mean) < 1000 else f"{self.mean:.0f}"
-        if not self.spread:
+        if not self.spread or self.spread < 1e-9 * abs(self.mean):  # of what was put in: round-off
             return shown
         return f"{shown} ± {self.spread:.2g}" if self.spread < 99.5 else f"{shown} ± {self.spread:.0f}"
 

@@ -76,6 +76,11 @@ def _radius_grows(summary: Summary) -> bool | None:
     return None if found is None else found[1] > found[0]
 
 
+def _initial_share(summary: Summary, metres_per_second: float) -> float:
+    """Part of the load that the surfaces carry before running-in."""
+    return at(summary, "contact_load_initial_N", speed(metres_per_second)(summary)).mean / 5.5
+
+
 def _late_change(summary: Summary) -> float | None:
     """Largest relative change of friction from cycles 141 to 150 to the last ten of 200, over speeds."""
     rows = summary.get("cycle_friction")
@@ -108,6 +113,10 @@ RULES: dict[str, Rule] = {
         lambda s: ", ".join(f"{drop(s, v):.4f}" for v in (0.01, 0.03, 0.05, 0.1, 0.2, 0.4)),
         _drops_as_in_the_source,
         quoted(_drops_there, DROPS),
+    ),
+    "all_three_regimes_are_present": Rule(
+        lambda s: ", ".join(f"{_initial_share(s, v):.3g}" for v in (0.001, 0.05, 0.4)),
+        lambda s: _initial_share(s, 0.001) > 0.9 > _initial_share(s, 0.05) > _initial_share(s, 0.4) == 0,
     ),
     "contact_load_falls_with_running_in_at_0_01_m": Rule(
         lambda s: (

@@ -29,6 +29,10 @@ def _rougher(summary: Summary) -> str:
         return "not run"
 
 
+def _films(summary: Summary) -> str:
+    return f"film {listed([at(summary, 'film_thickness_nm', i) for i in range(3)])} nm"
+
+
 def _overshoot(summary: Summary, place: int) -> float:
     """Largest mean film over the film at the end, of one case of the tip."""
     return float(summary["largest_mean_thickness_nm"][place] / summary["film_thickness_nm"][place])
@@ -38,10 +42,14 @@ def _pressures(summary: Summary) -> tuple[float, float, float, float] | None:
     """Mean pressure [GPa] of the first case at no film, at the first 10 nm and at the end, and the film there [nm]."""
     if "sample_pressure_Pa" not in summary:
         return None
-    pressure, film = (
-        [value for value in summary[key][0] if value is not None] for key in ("sample_pressure_Pa", "sample_film_nm")
-    )
-    ten = next(place for place, thickness in enumerate(film) if thickness >= 10)
+    pressure, film = summary["sample_pressure_Pa"][0], summary["sample_film_nm"][0]
+    end = next(
+        (place for place in range(1, len(film)) if film[place] < film[place - 1]), len(film)
+    )  # of the first case
+    pressure, film = pressure[:end], film[:end]
+    ten = next((place for place, thickness in enumerate(film) if thickness >= 10), len(film) - 1)
+    if film[-1] <= 10:
+        return None
     return 1e-9 * pressure[0], 1e-9 * pressure[ten], 1e-9 * pressure[-1], film[-1]
 
 
@@ -114,7 +122,7 @@ RULES: dict[str, Rule] = {
     "modulus_of_the_film_counts_little_hardness_decides": Rule(
         lambda s: _percent(_changes(s, AS_STEEL)),
         lambda s: all(abs(change) < READING for change in _changes(s, AS_STEEL)),
-        _rougher,
+        lambda s: f"{_rougher(s)}; {quoted(_films, {AS_STEEL: 'with a film as stiff as the steel'})(s)}",
     ),
     "hardness_of_the_film_decides": Rule(
         lambda s: f"{_percent(_changes(s, HARD))}; by the modulus {_percent(_changes(s, STIFF))}",
@@ -123,7 +131,7 @@ RULES: dict[str, Rule] = {
             for modulus, hardness in zip(_changes(s, STIFF), _changes(s, HARD), strict=True)
         ),
         quoted(
-            lambda s: f"film {listed([at(s, 'film_thickness_nm', i) for i in range(3)])} nm",
+            _films,
             {STIFF: "with 130 GPa", HARD: "with a film of 4 GPa"},
         ),
     ),

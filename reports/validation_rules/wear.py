@@ -180,14 +180,32 @@ def _number_and_volume(summary: Summary) -> list[float]:
     return [radii_by(summary, weight)[load(10)(summary)].mean for weight in ("number", "volume")]
 
 
+def _numbers(summary: Summary) -> tuple[float, float] | None:
+    """Particles per cycle: mean of the first five and of the last 50 cycles."""
+    row = cycles_of(summary, "cycle_particles")
+    return None if row is None else (mean_of(row[:5]), mean_of(row[-50:]))
+
+
 def _radii_over_cycles(summary: Summary) -> tuple[float, float]:
     """Radius by volume in the first five and the last 50 cycles [nm]."""
     row = cycles_of(summary, "cycle_radius_nm")
     return (math.nan, math.nan) if row is None else (mean_of(row[:5]), mean_of(row[-50:]))
 
 
+def _smooth_line(summary: Summary) -> str:
+    first, last = _radii_over_cycles(summary)
+    return (
+        f"{at(summary, 'Sq_initial_nm').mean:.0f} to {at(summary, 'Sq_final_nm').mean:.0f}; {first:.0f} to {last:.0f}"
+    )
+
+
 def _mesh_series(summary: Summary) -> str:
     return f"{mesh_means('number')(summary)} nm"
+
+
+def _on_all_meshes(finer: Summary) -> list[Value]:
+    """Radius by volume on 80, 160, 240, 320 cells of the scene, and on finer meshes."""
+    return [*radii(stored("wear-mesh-convergence"))[:4], *radii(finer)]
 
 
 def _first_cycle(summary: Summary) -> str:
@@ -268,6 +286,12 @@ def _of_spheres(summary: Summary) -> str:
     return f"{few:.0f} to {many:.0f} are spheres of 175 and 110 nm; a sphere of our mean volume has {own} nm"
 
 
+def _steel_counts(summary: Summary) -> str:
+    """Particles per mm and N at 10 N under other choices."""
+    others = {"one-mesh-frame-disk": "at 10 N on a disk that stands still", "one-mesh-skin-0": "without a skin"}
+    return quoted(lambda one: f"{particles_per_mm_and_newton(one, 10.0, 350e-7):.0f}", others)(summary)
+
+
 def _brass_counts(summary: Summary) -> str:
     """Particles per mm and N of the bare disk at each load, and of the film at 10 N on other disks and cells."""
     bare = stored("wear-steel-brass")
@@ -304,7 +328,7 @@ FILMS = {
     "brass-film-150-nm": "with a film of 150 nm on one that wears along",
 }
 HALF_CELL = {"brass-film-half-the-cell": "on half the cell"}
-MESHES = "mesh-240-to-480-cells"
+MESHES = "mesh-400-and-480-cells"
 PIECES = {
     "steel-18-neighbours": "with 18 neighbours at 10 and 2.5 N",
     "steel-26-neighbours": "with 26",
@@ -443,14 +467,13 @@ RULES: dict[str, Rule] = {
     "mesh_mean_radius_by_number_80_to_320_cells": Rule(
         mesh_means("number"),
         lambda s: settled_by_mesh("number")(s) and falling(radii_by(s, "number")[:4]),
-        quoted(_mesh_series, {MESHES: "on 240, 320, 400, 480 cells"}),
+        quoted(_mesh_series, {MESHES: "on 400 and 480 cells (two surfaces)"}),
     ),
     "mesh_mean_radius_by_volume_the_same_meshes_nm": Rule(
-        mesh_means("volume"),
+        lambda s: listed(_on_all_meshes(s)),
         lambda s: (
-            radii(s)[1].mean < radii(stored("wear-mesh-convergence"))[0].mean and unchanged(radii(s)[1:], 1 + READING)
+            _on_all_meshes(s)[3].mean < _on_all_meshes(s)[0].mean and unchanged(_on_all_meshes(s)[3:], 1 + READING)
         ),
-        lambda s: f"{listed(radii(stored('wear-mesh-convergence'))[:4])} nm",
     ),
     "depths_mean_radius_by_volume_at_8_16_32_64": Rule(
         lambda s: listed(radii(s)),
@@ -519,14 +542,16 @@ RULES: dict[str, Rule] = {
         quoted(_sizes_there, {"steel-110-hv": "as against 1.8 GPa in the line on sizes"}),
     ),
     "smooth_soft_disk_grows_rougher": Rule(
-        lambda s: (
-            f"{at(s, 'Sq_initial_nm')} to {at(s, 'Sq_final_nm')}; {_radii_over_cycles(s)[0]:.0f} to "
-            f"{_radii_over_cycles(s)[1]:.0f}"
-        ),
+        _smooth_line,
         lambda s: (
             at(s, "Sq_final_nm").mean > at(s, "Sq_initial_nm").mean
             and _radii_over_cycles(s)[1] > _radii_over_cycles(s)[0]
         ),
+        quoted(_smooth_line, {"steel-smooth-disk-110-hv": "with a disk of 1.08 GPa (one surface)"}),
+    ),
+    "number_of_particles_falls_over_the_cycles": Rule(
+        lambda s: "cycles not stored" if _numbers(s) is None else " to ".join(f"{n:.0f}" for n in _numbers(s) or ()),
+        lambda s: None if _numbers(s) is None else (_numbers(s) or (0, 0))[1] < (_numbers(s) or (0, 0))[0],
     ),
     "axes_of_figure_5": Rule(
         lambda s: (
@@ -552,7 +577,7 @@ RULES: dict[str, Rule] = {
     "particles_per_mm_and_n_at_2_5_5_10_n_steel": Rule(
         lambda s: ", ".join(f"{particles_per_mm_and_newton(s, f, 350e-7):.0f}" for f in (2.5, 5.0, 10.0)),
         lambda s: all(1200 <= particles_per_mm_and_newton(s, f, 350e-7) <= 6000 for f in (2.5, 5.0, 10.0)),
-        _of_spheres,
+        lambda s: f"{_of_spheres(s)} (less than our radius by volume, which weighs the large ones); {_steel_counts(s)}",
     ),
     "particles_per_mm_and_n_at_2_5_5_10_n_brass": Rule(
         lambda s: ", ".join(f"{particles_per_mm_and_newton(s, f, 800e-7):.0f}" for f in (2.5, 5.0, 10.0)),
