@@ -1,41 +1,66 @@
 """Dry normal contact of rough bodies: elastic or capped at a hardness, under a load, an approach or a mean gap.
 
 The pressure p minimises p.Kp/2 + p.(gap - approach) subject to 0 <= p <= hardness, where K is the displacement operator
-(Kalker 1977). Under a prescribed load the approach is the Lagrange multiplier of the sum of pressures. The algorithm is
-an active-set method with preconditioned conjugate gradients (Polonsky & Keer 1999), started from coarser grids:
+(Kalker 1977). Under a prescribed load the approach is the Lagrange multiplier of the sum of pressures. Friction that
+couples into the gap and a prescribed mean gap have no such energy; the contact conditions are the same. The algorithm
+is a primal-dual active-set method (Hintermueller, Ito & Kunisch 2003): conjugate gradients solve on a fixed set of
+cells, and the set changes between solutions. Polonsky & Keer (1999) change the set in every CG iteration instead.
 
-1. `problem` checks the arguments and scales gaps and pressures by powers of two; `controls` has the prescribed
-   quantity. Cost: one pass over the grid.
-2. `nested_iteration` solves on coarser grids, down to 32 cells, and interpolates p^2 inside contact and gap^(2/3)
-   outside; every region of 8 x 8 coarse cells keeps its load. Cost: less than a third of the fine grid.
-3. `active_set` repeats steps 4 to 9 on each grid until no contact condition is violated by more than the tolerance.
-4. Apply K in double precision; `reductions` returns gap, energy and violations. Cost: one convolution and two passes.
-5. If the energy has its minimum before three quarters of the step, backtrack to the minimum. No convolution.
-6. Activate the cells that penetrate, and the capped cells that open (`grid_workspace`).
-7. `pcg` solves for pressures without bounds on the active cells, with convolutions in single precision; under load
-   control directions carry no net load. The last step has an extrapolated length and takes no convolution. `gcr`
-   replaces it where friction couples into the gap or the mean gap is prescribed (Eisenstat, Elman & Schultz 1983).
-   Cost: one convolution per iteration, a few iterations.
-8. Its preconditioner is a factorised sparse approximate inverse on ten neighbours (`sparse_inverse`; Kolotilina &
-   Yeremin 1993) with a correction on a grid eight times coarser (`coarse_correction`; at most 20 CG iterations there,
-   each about 1/64 of a convolution).
-9. `bounds` projects onto the bounds: the sparse inverse corrects the neighbours of removed tension, regions make up for
-   load that a cap clips, and the prescribed load is restored.
-10. `fallbacks` takes over where the sets swing: energy guard, lagged friction, secant searches over load or approach,
-    and the least mean gap of bodies that cannot be pressed flat (`mean_gap_limits`).
-11. `certificate` recomputes the residual from the returned pressure, with area and perimeter of second order
-    (`contact_area`, `contact_boundary`) and the maximum pressure between cells (`peak_pressure`).
+Calls, in order:
 
-A rough contact takes eleven convolutions, weighted by cells over all grids. `solve` is the entry point and calls these
-steps in order; `solution` is its result. `regions` labels separate spots of contact, and `mean_gap_multiplicity` notes
-other loads with the same mean gap.
+1. `solve.solve_contact` checks the arguments (`problem.checked_request`) and scales gaps and pressures by powers of
+   two. Cost: four passes over the grid (finite values, two of moments, scaling).
+2. `fallbacks.without_contact` and `fallbacks.pressed_flat` return contacts known in closed form.
+3. `nested_iteration.start_from_coarser` solves a grid of twice the cell size, which is started in the same way; grids
+   up to 32 cells along the longer side are not coarsened. The result is interpolated as p^2 inside contact and
+   -c gap^(2/3) outside, up to three cells from the contact, with c such that slopes on both sides of the edge agree.
+   Every square of 8 x 8 coarse cells without a capped cell keeps its load, by a change of at most half. Coarse grids
+   have a tolerance of their own. Cost: 85/256 of the finest grid, if all grids take equal numbers of convolutions.
+4. `fallbacks.solve_on_grid` solves each grid: `problem.GridProblem.solve` calls `active_set.solve_active_set`, and only
+   where that stalls is there a fallback (step 11). `controls` has what depends on the prescribed quantity.
+5. `active_set` repeats steps 6 to 10 until no contact condition is violated by more than the tolerance. It gives up
+   after 100 outer iterations, without progress for 60, without iterations left, or without a cell to activate; it then
+   returns the pressure with the smallest violation.
+6. Apply K in double precision; `reductions` returns gap, energy and violations. The spectrum of a coated K is
+   assembled at its first use. Cost: one convolution and two passes; one more pass with capped cells, and one where
+   fewer than one cell in contact out of eleven is below the cap: the approach is then the mean of its bounds.
+7. If the energy has its minimum between 0.02 and 0.75 of the step, backtrack to it and project the step of that length.
+   No convolution, but one more outer iteration; steps 8 to 10 are omitted. The same holds where the energy guard
+   rejects a step. The guard is set after eight outer iterations without progress, for problems with an energy.
+8. Activate the open cells that overlap and the capped cells with a positive gap (`grid_workspace`).
+9. `pcg` solves for pressures without bounds on the active cells, with convolutions in single precision. Under load
+   control directions carry no net load: with the preconditioner M^-1, s = M^-1 1 and Q = 1 - s 1^T / (1^T s), the
+   preconditioned residual is Q M^-1 Q^T r, which sums to zero and keeps the preconditioner symmetric. The last step
+   has an extrapolated length and takes no convolution, if it is expected to suffice and the last such step halved the
+   violation. `gcr` replaces `pcg` where there is no energy (Eisenstat, Elman & Schultz 1983). The preconditioner is a
+   factorised sparse approximate inverse on ten neighbours (`sparse_inverse`; Kolotilina & Yeremin 1993) with a
+   correction on a grid up to eight times coarser (`coarse_correction`; at most 20 CG iterations there). Cost: one
+   convolution per iteration, a few iterations.
+10. `bounds` projects onto the bounds. Elastic bodies: the sparse inverse corrects the neighbours of removed tension.
+    With a hardness, or at an approach where displacements have no mean: squares of 8 x 8 cells keep the load that
+    clipping removes. Then the prescribed load is restored, by scaling elastic pressures and by shifting capped ones.
+    Where few of the cells are below the cap, a projected gradient step takes the place of the solution of step 9. It
+    has the length of a single cell's response and may raise the energy.
+11. `fallbacks`: a rerun with the energy guard from the start, friction lagged by one contact, secant searches over load
+    or approach, and the least mean gap of bodies that cannot be pressed flat (`mean_gap_limits`).
+12. `certificate` recomputes load, gap and residual from the returned pressure; the approach is the solver's, and the
+    displacement is computed again unless it already is K p. It adds area and perimeter of second order
+    (`contact_area`, `contact_boundary`) and the maximum pressure between cells (`peak_pressure`). The status is
+    "converged" where this residual is at most the tolerance, whatever the solver reached inside; else "infeasible"
+    where no such mean gap exists, "max_iterations" where no iterations are left, or "stalled".
 
-Terms: a cell is *free* (no pressure), *active* (pressure between the bounds) or *capped* (at the hardness). A *round*
-or outer iteration is one pass through steps 4 to 9. A *trial* pressure is one without bounds. *Rise* is the pressure
-that answers a unit rise of the approach.
+Elastic rough contacts of half-spaces under load take about eleven convolutions at the default tolerance, weighted by
+cells over all grids; capped contacts and stiff layers take up to a hundred and more. `regions` labels separate spots of
+contact, and `mean_gap_multiplicity` notes other loads with the same mean gap.
 
-The package knows grids, threads, transforms and the displacement operator, but no materials, surface statistics,
-lubricants or scenes. Units inside are the solver's own; users see SI units.
+Terms: a cell is *open* (no pressure), *between the bounds*, or *capped* (at the hardness). The *active* cells of step 8
+are those between the bounds and those that violate their state. An outer iteration, or *round*, is one pass through
+steps 6 to 10. A *trial* pressure is one without bounds. *Rise* is s of step 9: the pressure of a unit approach, K^-1 1,
+approximated by the preconditioner.
+
+The package knows grids, threads, transforms and the displacement operator, but no surface statistics, lubricants or
+scenes; materials only for notes on arguments outside their usual ranges. Units inside are the solver's own; users see
+SI units.
 
 Verified in tests/contact: closed forms (Hertz, Westergaard, punches), an independent oracle on dense matrices, contacts
 on which other methods fail, and numbers of convolutions.

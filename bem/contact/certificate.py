@@ -1,7 +1,8 @@
-"""Certificate of a contact, recomputed from the returned pressure alone.
+"""Certificate of a contact, recomputed from the returned pressure and approach.
 
-The displacement is the operator applied to that pressure; load, approach or mean gap, bounds and complementarity follow
-from both. The status "converged" refers to this residual, not to what the solver reached inside.
+The displacement is the operator applied to that pressure; load or mean gap, bounds and complementarity follow from the
+three. The approach is the solver's. The status "converged" refers to this residual, not to what the solver reached
+inside.
 """
 
 from __future__ import annotations

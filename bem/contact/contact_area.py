@@ -190,7 +190,7 @@ def rows_in_contact(
 
 
 def _kink(gap: FloatArray, row: NDArray[np.int64], column: NDArray[np.int64], outwards: int, wraps: bool) -> FloatArray:
-    """Return the position (m,) of a kink of the undeformed gap, in links from a cell inside to the next row outwards.
+    """Return the position (m,) of a kink of an undeformed or worn gap, in links from a cell inside to the next row.
 
     Not-a-number where there is none. Bodies worn in contact meet at an angle where contact ends: the kink is the
     intersection of the lines through the last two cells inside and the first two outside.
