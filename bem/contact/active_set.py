@@ -12,11 +12,14 @@ outer iteration
 4. projects onto the bounds and restores the prescribed load (`bounds`, `controls`).
 
 The energy may rise while the largest violation falls. After a few outer iterations without progress an energy guard
-takes back every step that raises the energy and replaces it by part of it, or by a projected gradient step, until a
-tenth of the violation is reached; no set of cells can then repeat.
+takes back every step that raises the energy, unless the violation fell by a tenth, and replaces it by part of it, or by
+a projected gradient step, until a tenth of the violation is reached. Sets of cells can repeat only where their energies
+differ by less than round-off.
 
 Where nearly all cells in contact are at the cap, unbounded pressures carry no information, and a projected gradient
-step takes their place. Friction in the gap and a prescribed mean gap have no energy; where the sets then swing,
+step takes their place. Its length is that of a single cell's response, so it may raise the energy.
+
+Friction in the gap and a prescribed mean gap have no energy; where the sets then swing,
 `fallbacks` has other methods.
 
 Verified in tests/contact/test_contact_oracle.py and tests/contact/test_contact_solver.py.
@@ -34,12 +37,11 @@ from numpy.typing import NDArray
 
 from bem.contact import bounds, gcr, pcg, reductions
 from bem.contact.bounds import Iterate, split_cells, split_field
-from bem.contact.controls import Control
+from bem.contact.controls import FULLY_PLASTIC_RATIO, Control
 from bem.contact.grid_workspace import (
     ActiveCells,
     GridResult,
     GridWorkspace,
-    Indices,
     InitialPressure,
     IterationBudget,
     SolverParameters,
@@ -69,9 +71,6 @@ _LONGEST_GUARDED_STEP = 0.98
 
 _ROUND_OFF_PATIENCE = 5
 """Outer iterations without progress that are made where the violation is round-off of the transforms."""
-
-_FEW = 0.1
-"""Cells between the bounds over cells at the cap, below which the contact counts as fully plastic."""
 
 
 def solve_active_set(
@@ -104,6 +103,7 @@ def solve_active_set(
     iterate = control.initial_iterate(grid, start)
     has_energy = operator.symmetric and control.has_energy
     before: _Point | None = None
+    best: _Evaluation | None = None
     step: _Step | None = None
     while True:
         grid.begin_round(iterate, keep=before is not None)
@@ -112,20 +112,21 @@ def solve_active_set(
             report(budget.iterations, now.violation, now.iterate.cells.size + now.iterate.capped.size)
         if now.violation <= now.goal:
             return now.result(grid, converged=True)
+        if best is None or now.violation < best.violation:
+            best = now
         progress.rounds += 1
         grid.extrapolation.judge(now.violation)
         if budget.left <= 0 or progress.rounds >= parameters.rounds:
-            return now.result(grid)
+            return best.result(grid, last=now)
         current = now.point
         potential = control.potential(current.energy, current.force)
         if progress.stalls(now.violation, potential, current.size, round_off=now.round_off):
-            return now.result(grid, round_off=now.round_off)
+            return best.result(grid, last=now, round_off=now.round_off)
         before = current if has_energy else None
         improved = progress.improves(now.violation)
         progress.set_guard(now.violation, has_energy=has_energy)
-        if progress.release == 0.0:
-            guard.accepted = None
-        elif guard.accepted is not None and not improved and current.above(guard.accepted, now.approach):
+        guarded = progress.release > 0 and guard.accepted is not None and not improved
+        if guarded and guard.accepted is not None and current.above(guard.accepted, now.approach):
             iterate, step = guard.take_back(grid, control, guard.accepted, current), None
             continue
         guard.accepted, guard.refused = current, 0
@@ -135,7 +136,7 @@ def solve_active_set(
             continue
         step = _next_step(grid, control, now, budget, symmetric=has_energy)
         if step is None:
-            return now.result(grid)
+            return best.result(grid, last=now)
         iterate = step.iterate
         if step.shifted:
             before = None
@@ -185,8 +186,22 @@ class _Evaluation:
         """Return the approach of the pressure."""
         return self.point.approach
 
-    def result(self, grid: GridWorkspace, *, converged: bool = False, round_off: bool = False) -> GridResult:
-        """Return the result on this grid; its buffers are released."""
+    def result(
+        self,
+        grid: GridWorkspace,
+        *,
+        last: _Evaluation | None = None,
+        converged: bool = False,
+        round_off: bool = False,
+    ) -> GridResult:
+        """Return the result on this grid; its buffers are released.
+
+        last : the evaluation whose displacement is in the buffer, if it is not this one.
+        """
+        length = self.length
+        if last is not None and last is not self:
+            grid.displace(self.iterate)
+            length = 1.0
         pressure, displacement = grid.release(self.iterate)
         return GridResult(
             pressure,
@@ -194,7 +209,7 @@ class _Evaluation:
             self.approach,
             self.violation,
             converged=converged,
-            exact_displacement=self.length == 1,
+            exact_displacement=length == 1,
             round_off=round_off,
         )
 
@@ -203,40 +218,52 @@ class _Evaluation:
 class _Progress:
     """Progress so far; decides when to give up and when to set the energy guard.
 
-    first : first violation. best : least violation. mark, lowest : least violation and energy, for stalling.
-    waited : outer iterations since `mark` or `lowest` improved. unimproved : outer iterations since `best` did.
+    A violation makes progress against the one at the last progress, not against the one before: a slow but steady fall
+    is progress as well.
+
+    first : first violation. least : least violation.
+    patience_mark : violation when it last fell by a tenth. unimproved : outer iterations since.
+    stall_mark : violation when it last fell by three tenths. lowest : least energy. waited : outer iterations since
+    one of both made progress.
     release : violation that releases the energy guard; zero while the guard is off.
     """
 
     parameters: SolverParameters
     rounds: int = 0
     first: float = math.inf
-    best: float = math.inf
-    mark: float = math.inf
+    least: float = math.inf
+    patience_mark: float = math.inf
+    unimproved: int = 0
+    stall_mark: float = math.inf
     lowest: float = math.inf
     waited: int = 0
-    unimproved: int = 0
     release: float = 0.0
 
     def stalls(self, violation: float, potential: float, size: float, *, round_off: bool) -> bool:
-        """Return True if neither the violation nor, under the guard, the energy has fallen for long."""
-        fell = self.parameters.patience == 0 and potential < self.lowest - _ENERGY_FALL * size
-        self.waited = 0 if violation < 0.7 * self.mark or fell else self.waited + 1
-        self.mark, self.lowest = min(self.mark, violation), min(self.lowest, potential)
+        """Return True if neither the violation nor, in a guarded run, the energy has fallen for long."""
+        fell = self.parameters.guarded and potential < self.lowest - _ENERGY_FALL * size
+        self.lowest = min(self.lowest, potential)
+        progressed = violation < 0.7 * self.stall_mark
+        if progressed:
+            self.stall_mark = violation
+        self.waited = 0 if progressed or fell else self.waited + 1
         limit = self.parameters.stall
         return self.waited > (min(_ROUND_OFF_PATIENCE, limit) if round_off else limit)
 
     def improves(self, violation: float) -> bool:
-        """Return True if the violation is the least so far, by a tenth."""
-        improved = violation < 0.9 * self.best
+        """Return True if the violation has fallen by a tenth since it last did."""
+        self.least = min(self.least, violation)
+        improved = violation < 0.9 * self.patience_mark
+        if improved:
+            self.patience_mark = violation
         self.unimproved = 0 if improved else self.unimproved + 1
-        self.best = min(self.best, violation)
         return improved
 
     def set_guard(self, violation: float, *, has_energy: bool) -> None:
-        """Set the energy guard after too many outer iterations without progress, or release it."""
-        if self.unimproved >= self.parameters.patience and self.release == 0.0 and has_energy:
-            self.release = 0.1 * self.best
+        """Set the energy guard in a guarded run or after too many outer iterations without progress, or release it."""
+        wanted = self.parameters.guarded or self.unimproved >= self.parameters.patience
+        if wanted and self.release == 0.0 and has_energy:
+            self.release = 0.1 * self.least
         elif violation <= self.release:
             self.release = 0.0
 
@@ -252,12 +279,13 @@ class _EnergyGuard:
     def take_back(self, grid: GridWorkspace, control: Control, last: _Point, refused: _Point) -> Iterate:
         """Replace a step that raised the energy by part of it, or by a gradient step from its beginning."""
         self.refused += 1
-        length = _energy_minimum(grid, last, refused, refused.approach) if self.refused == 1 else 0.0
-        if length > 0:
-            ends = (point.iterate.as_field(grid.gap.size, grid.cap) for point in (last, refused))
-            first, second = ends
-            raw = (1 - length) * first + length * second
-            return split_field(control.project(raw, grid.cap), grid.cap)
+        if self.refused == 1:
+            # sum over differences: the works of both pressures may agree in all digits
+            before, after = (point.iterate.as_field(grid.gap.size, grid.cap) for point in (last, refused))
+            slope = float(((after - before) * (grid.gap + grid.flat["displacement"] - refused.approach)).sum())
+            fraction = _least_energy_fraction(last, refused, slope, refused.approach)
+            if _SHORTEST_STEP < fraction < _LONGEST_GUARDED_STEP:
+                return _blend(last.iterate, refused.iterate, fraction, grid.cap)
         self.step = self.step / 4 if self.refused > 2 else 1 / grid.largest_eigenvalue
         grid.swap_displacements()
         grid.displace(last.iterate)
@@ -315,51 +343,39 @@ def _backtrack(grid: GridWorkspace, before: _Point, iterate: Iterate, survey: Su
     Changes of the set that are each right can be too many together, and the sets would swing ever wider. The
     displacement of the minimum replaces that in the buffer without a convolution. `survey` is that of the end.
     """
-    displacement, approach = grid.flat["displacement"], before.approach
-    slope = survey.work - survey.work_of_other - approach * (survey.force - before.force)
-    rise = survey.energy - before.energy - approach * (survey.force - before.force)
-    curvature = 2 * (slope - rise)
-    if not curvature > 10 * _ENERGY_ROUND_OFF * max(survey.size, before.size):
+    end = _Point(iterate, before.approach, survey.energy, survey.size, survey.force)
+    slope = survey.work - survey.work_of_other - before.approach * (survey.force - before.force)
+    fraction = _least_energy_fraction(before, end, slope, before.approach, 10 * _ENERGY_ROUND_OFF)
+    if not _SHORTEST_STEP < fraction < _LONGEST_STEP:
         return None
-    length = 1 - slope / curvature
-    if not _SHORTEST_STEP < length < _LONGEST_STEP:
-        return None
-    reductions.in_blocks(displacement.size, 0, bounds.mix, displacement, grid.flat["before"], length)
-    ends = _pressed(before.iterate, grid.cap), _pressed(iterate, grid.cap)
-    cells, values = bounds.blend(*ends, length, grid.cap)
-    if before.iterate.capped.size == 0 and iterate.capped.size == 0:
-        return Iterate(cells, values, iterate.capped), length
-    return split_cells(cells, values, grid.cap), length
+    displacement = grid.flat["displacement"]
+    reductions.in_blocks(displacement.size, 0, bounds.mix, displacement, grid.flat["before"], fraction)
+    return _blend(before.iterate, iterate, fraction, grid.cap), fraction
 
 
-def _pressed(iterate: Iterate, cap: float) -> tuple[Indices, FloatArray]:
-    """Return all cells with pressure in ascending order, and their pressures."""
-    if iterate.capped.size == 0:
-        return iterate.cells, iterate.values
-    cells = np.concatenate([iterate.cells, iterate.capped])
-    values = np.concatenate([iterate.values, np.full(iterate.capped.size, cap)])
-    order = np.argsort(cells, kind="stable")
-    return cells[order], values[order]
+def _least_energy_fraction(old: _Point, new: _Point, slope: float, approach: float, least: float = 0.0) -> float:
+    """Return the fraction of a step with the least energy; not-a-number where the curvature is not positive.
 
-
-def _energy_minimum(grid: GridWorkspace, old: _Point, new: _Point, approach: float) -> float:
-    """Return the fraction of a step with the least energy; zero if the energy rises from the start.
-
-    The displacement of the new pressure is in the buffer.
+    slope : derivative of the energy along the step at its end. least : curvature over the energies' terms that is
+    round-off.
     """
-    size, cap = grid.gap.size, grid.cap
-    change = new.iterate.as_field(size, cap) - old.iterate.as_field(size, cap)
-    slope = float((change * (grid.gap + grid.flat["displacement"] - approach)).sum())
     rise = new.energy - old.energy - approach * (new.force - old.force)
     curvature = 2 * (slope - rise)
-    if not curvature > 0:
-        return 0.0
-    length = 1 - slope / curvature
-    return length if _SHORTEST_STEP < length < _LONGEST_GUARDED_STEP else 0.0
+    if not curvature > least * max(new.size, old.size):
+        return math.nan
+    return 1 - slope / curvature
+
+
+def _blend(old: Iterate, new: Iterate, fraction: float, cap: float) -> Iterate:
+    """Return (1 - fraction) old + fraction new: cells open at both ends stay open, capped ones capped."""
+    cells, values = bounds.blend(bounds.loaded_cells(old, cap), bounds.loaded_cells(new, cap), fraction, cap)
+    if old.capped.size == 0 and new.capped.size == 0:
+        return Iterate(cells, values, new.capped)
+    return split_cells(cells, values, cap)
 
 
 def _gradient_step(grid: GridWorkspace, control: Control, iterate: Iterate, approach: float, step: float) -> Iterate:
-    """Take a projected gradient step; one over the largest eigenvalue cannot raise the energy."""
+    """Take a projected gradient step; a step up to one over the largest eigenvalue cannot raise the energy."""
     raw = np.empty(grid.gap.size)
     reductions.in_blocks(raw.size, 0, bounds.descend, grid.flat["displacement"], grid.gap, approach, step, raw)
     raw[iterate.cells] += iterate.values
@@ -384,7 +400,10 @@ def _next_step(
     raw = solver.close_gap(grid, active, control, now.goal, budget)
     iterate = active.iterate
     clipped = _to_bounds(grid, control, iterate, raw.copy())
-    if clipped.cells.size <= _FEW * clipped.capped.size and clipped.cells.size < 0.5 * iterate.cells.size:
+    if (
+        clipped.cells.size <= FULLY_PLASTIC_RATIO * clipped.capped.size
+        and clipped.cells.size < 0.5 * iterate.cells.size
+    ):
         # fully plastic: unbounded pressures carry no information
         return _Step(_gradient_step(grid, control, iterate, now.approach, 1 / grid.self_response))
     return _Step(clipped, begun=iterate, raw=raw)

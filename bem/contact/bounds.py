@@ -42,7 +42,8 @@ _TENSION_ITERATIONS = 2
 class Iterate:
     """Feasible pressure.
 
-    cells : (n,), ascending flat indices of the cells strictly between the bounds.
+    cells : (n,), ascending flat indices of the cells between the bounds; of all active cells after an activation, which
+        adds cells exactly at a bound, and of all cells of a uniform first pressure.
     values : (n,), their pressures.
     capped : (m,), ascending flat indices of the cells at the cap.
     """
@@ -71,6 +72,21 @@ def split_cells(cells: Indices, values: FloatArray, cap: float) -> Iterate:
     return Iterate(cells[~capped], values[~capped], cells[capped])
 
 
+def loaded_cells(iterate: Iterate, cap: float) -> tuple[Indices, FloatArray]:
+    """Return all cells with pressure in ascending order, capped cells included, and their pressures."""
+    return _with_capped(iterate.cells, iterate.values, iterate.capped, cap)
+
+
+def _with_capped(cells: Indices, values: FloatArray, capped: Indices, cap: float) -> tuple[Indices, FloatArray]:
+    """Return cells and capped cells in one ascending list, and their pressures."""
+    if capped.size == 0:
+        return cells, values
+    cells = np.concatenate([cells, capped])
+    values = np.concatenate([values, np.full(capped.size, cap)])
+    order = np.argsort(cells, kind="stable")
+    return cells[order], values[order]
+
+
 def clip_to_bounds(iterate: Iterate, raw: FloatArray, cap: float) -> Iterate:
     """Move cells whose trial pressures leave the bounds to the free and to the capped set."""
     below, above = raw <= 0, raw >= cap
@@ -93,10 +109,7 @@ def clip_to_load(iterate: Iterate, raw: FloatArray, cap: float, force: float, si
     missing = force - cap * capped.size
     if not 0 <= missing <= cap * cells.size:
         # the capped cells carry too much, or the others cannot carry the rest: shift all of them
-        raw = np.concatenate([raw, np.full(capped.size, cap)])
-        cells = np.concatenate([cells, capped])
-        order = np.argsort(cells, kind="stable")
-        cells, raw = cells[order], raw[order]
+        cells, raw = _with_capped(cells, raw, capped, cap)
         capped = np.empty(0, np.int64)
         missing = force
         if missing > cap * cells.size:

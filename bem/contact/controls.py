@@ -20,8 +20,9 @@ from bem.contact.grid_workspace import GridWorkspace, InitialPressure
 
 FloatArray = NDArray[np.float64]
 
-_FEW = 0.1
-"""Cells between the bounds over cells at the cap, below which the former do not determine the approach."""
+FULLY_PLASTIC_RATIO = 0.1
+"""Cells between the bounds over cells at the cap, below which the contact counts as fully plastic: the former then
+determine neither the approach nor the pressures."""
 
 _SMALLEST_FALL = 0.02
 """Smallest fall of the mean gap with the approach (one without contact) that search directions count on."""
@@ -119,7 +120,7 @@ class LoadControl(Control):
 
         Where hardly any cell is between the bounds, return the approach with the least violation of all cells.
         """
-        if iterate.cells.size > _FEW * iterate.capped.size:
+        if iterate.cells.size > FULLY_PLASTIC_RATIO * iterate.capped.size:
             return total / iterate.cells.size
         deepest, nearest = grid.separations(iterate)
         return deepest if deepest <= nearest else 0.5 * (deepest + nearest)

@@ -1,9 +1,10 @@
-"""One grid under any control, with the fallbacks where the active set stalls.
+"""Solution on one grid under any control: the active set, and fallbacks where that stalls.
 
-`solve_on_grid` first solves for the prescribed quantity directly. If that stalls:
+`solve_on_grid` is called for every grid. It first solves for the prescribed quantity by the active set alone. Fallbacks
+follow only if that stalls:
 
-1. load or approach, symmetric operator: again from the last pressure with the energy guard on from the start, and then
-   with clipping ignored as a stopping criterion;
+1. load, or approach unless displacements have no mean, symmetric operator: again from the last pressure with the energy
+   guard on from the start, and then with clipping ignored as a stopping criterion;
 2. friction in the gap: the frictional part of the displacement is lagged, so that each contact is frictionless;
 3. approach: a secant search over the load;
 4. mean gap: a secant search over the approach and, below a hardness, over the load; elastic bodies for which neither
@@ -69,8 +70,13 @@ class Start:
     approach: float
 
 
-def solve_on_grid(problem: GridProblem, control: Control, start: Start, tolerance: float) -> GridResult:
-    """Solve on one grid under any control."""
+def solve_on_grid(
+    problem: GridProblem, control: Control, start: Start, tolerance: float, *, guarded_rerun: bool = True
+) -> GridResult:
+    """Solve on one grid under any control.
+
+    guarded_rerun : False on coarse grids, where a stalled contact is not repeated under the energy guard.
+    """
     mean_free = problem.operator.mean_free
     if isinstance(control, MeanGapControl):
         if mean_free and control.mean_gap <= tolerance:
@@ -82,11 +88,11 @@ def solve_on_grid(problem: GridProblem, control: Control, start: Start, toleranc
         # displacements have no mean: the mean gap fixes the approach
         control = ApproachControl(float(problem.gap.mean()) - control.mean_gap)
     if not isinstance(control, ApproachControl):
-        return _solve_guarded(problem, control, start.pressure, tolerance)
+        return _solve_guarded(problem, control, start.pressure, tolerance, rerun=guarded_rerun)
     # where displacements have no mean, a load is far easier than an approach near full contact
-    first = _solve_directly if mean_free else _solve_guarded
+    first = _solve_directly if mean_free or not guarded_rerun else _solve_guarded
     result = first(problem, control, start.pressure, tolerance)
-    if _is_final(problem, result):
+    if _is_final(problem, result) or not (guarded_rerun or mean_free):
         return result
     return _approach_by_load(problem, control, tolerance)
 
@@ -104,16 +110,18 @@ def _solve_directly(problem: GridProblem, control: Control, start: InitialPressu
     return problem.solve(control, start, problem.settings.allowed(tolerance), parameters)
 
 
-def _solve_guarded(problem: GridProblem, control: Control, start: InitialPressure, tolerance: float) -> GridResult:
-    """Solve for a load or an approach; repeat under the energy guard, or with lagged friction, if that stalls."""
+def _solve_guarded(
+    problem: GridProblem, control: Control, start: InitialPressure, tolerance: float, *, rerun: bool = True
+) -> GridResult:
+    """Solve for a load or an approach; repeat with lagged friction or, if `rerun`, under the energy guard."""
     settings, allowed = problem.settings, problem.settings.allowed(tolerance)
     result = _solve_directly(problem, control, start, tolerance)
     if _is_final(problem, result):
         return result
     if not problem.operator.symmetric:
         return _solve_with_lagged_friction(problem, control, start, allowed)
-    for clipping in (settings.parameters.clipping, 0.0):
-        guarded = replace(settings.parameters, patience=0, rounds=_GUARDED_ROUNDS, clipping=clipping)
+    for clipping in (settings.parameters.clipping, 0.0) if rerun else ():
+        guarded = replace(settings.parameters, guarded=True, rounds=_GUARDED_ROUNDS, clipping=clipping)
         result = problem.solve(control, result.pressure, allowed, guarded)
         if _is_final(problem, result):
             break
@@ -135,8 +143,7 @@ def _solve_mean_gap(problem: GridProblem, control: MeanGapControl, start: Start,
     if _is_final(problem, result):
         return result
 
-    def excess(contact: GridResult) -> float:
-        return mean_gap - mean_opening(gap, contact)
+    excess = _mean_gap_excess(gap, mean_gap)
 
     def by_approach(_last: GridResult) -> GridResult:
         guess, patient = max(start.approach, least), not problem.operator.mean_free
@@ -188,10 +195,17 @@ def _below_least_mean_gap(problem: GridProblem, mean_gap: float, missed: GridRes
         found = mean_opening(gap, outcome.result) if outcome.bound is None else None
         return replace(outcome.result, converged=False, least_mean_gap=outcome.bound, least_found=found)
 
+    excess = _mean_gap_excess(gap, mean_gap)
+    return _search_approach(problem, excess, outcome.result.pressure, tolerance, outcome.bracket)
+
+
+def _mean_gap_excess(gap: FloatArray, mean_gap: float) -> Callable[[GridResult], float]:
+    """Return the function by how much a prescribed mean gap exceeds that of a contact."""
+
     def excess(contact: GridResult) -> float:
         return mean_gap - mean_opening(gap, contact)
 
-    return _search_approach(problem, excess, outcome.result.pressure, tolerance, outcome.bracket)
+    return excess
 
 
 def _approach_by_load(problem: GridProblem, control: ApproachControl, tolerance: float) -> GridResult:
@@ -306,20 +320,22 @@ def _next_point(points: list[tuple[float, float]], low: float, high: float, step
 class _CouplingChange:
     """Change of the frictional displacement from one lagged contact to the next.
 
-    size : of the last change. least : of all changes. waited : contacts since `least` fell by a tenth.
+    size : of the last change. mark : size when it last fell by a tenth. waited : contacts since.
     """
 
     last: FloatArray | None = None
     size: float = math.inf
-    least: float = math.inf
+    mark: float = math.inf
     waited: int = 0
 
     def update(self, coupling: FloatArray) -> None:
         """Record the next frictional displacement."""
         if self.last is not None:
             self.size = float(np.abs(coupling - self.last).max())
-            self.waited = 0 if self.size < 0.9 * self.least else self.waited + 1
-            self.least = min(self.least, self.size)
+            fell = self.size < 0.9 * self.mark
+            if fell:
+                self.mark = self.size
+            self.waited = 0 if fell else self.waited + 1
         self.last = coupling
 
 

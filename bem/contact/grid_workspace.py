@@ -54,6 +54,10 @@ class IterationBudget:
         """Return the iterations that remain."""
         return self.limit - self.iterations
 
+    def part(self, fraction: float) -> IterationBudget:
+        """Return a budget that ends after a fraction of the iterations that remain."""
+        return IterationBudget(self.iterations + int(fraction * max(self.left, 0)), self.iterations)
+
 
 @dataclass(frozen=True)
 class Tolerance:
@@ -124,6 +128,7 @@ class SolverParameters:
     final : fraction of the tolerance that ends CG.
     rounds : limit of outer iterations.
     patience : outer iterations without progress before the energy guard is set.
+    guarded : True if the energy guard is set from the start.
     stall : outer iterations without progress before the solver gives up.
     """
 
@@ -134,6 +139,7 @@ class SolverParameters:
     final: float = 0.8
     rounds: int = 100
     patience: int = 8
+    guarded: bool = False
     stall: int = 60
 
 

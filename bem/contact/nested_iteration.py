@@ -5,7 +5,8 @@ to the power 3/2. The interpolated function is therefore phi = p^2 inside and -c
 across the edge. The interpolation changes the load of each region by its edges; load errors between regions excite
 long-wavelength displacement errors, so each region of 8 x 8 coarse cells keeps its coarse-grid load.
 
-Coarse grids are solved until a tenth of their first violation is left, which is what the interpolation to them cost.
+Coarse grids are solved until a tenth of their first violation is left, which is what the interpolation to them cost,
+and to 6 % of the roughness at most. The coarsest grid, which has no interpolated start, has the same bounds.
 Verified in tests/contact/test_nested_iteration.py.
 """
 
@@ -39,6 +40,9 @@ _LARGEST_CHANGE = 0.5
 _COARSEST = 32
 """Cells along the longer side up to which a grid starts without a coarser one; smaller grids save nothing."""
 
+_COARSE_BUDGET = 0.2
+"""Fraction of the remaining iterations that a coarse grid may use; a start that takes more is not worth its cost."""
+
 OF_FIRST = 0.1
 """Fraction of the first violation that coarse grids are solved to. On large grids both that violation and the next
 grid's first one are far below `COARSE_TOLERANCE`, because most of the roughness has long wavelengths."""
@@ -66,7 +70,12 @@ def start_from_coarser(problem: GridProblem, control: Control) -> Start:
         return nothing
     start = start_from_coarser(coarser, prescribed) if max(shape) > _COARSEST else nothing
     tolerance = max(settings.tolerance, COARSE_TOLERANCE * settings.scale)
-    result = solve_on_grid(coarser, prescribed, start, tolerance)
+    budget = settings.budget.part(_COARSE_BUDGET)
+    limited = replace(coarser, settings=replace(coarser.settings, budget=budget))
+    result = solve_on_grid(limited, prescribed, start, tolerance, guarded_rerun=False)
+    settings.budget.iterations = budget.iterations
+    if not result.converged and result.least_found is None and result.least_mean_gap is None:
+        return nothing
     cells, pressure = prolong(
         result.pressure.reshape(shape),
         result.displacement.reshape(shape),

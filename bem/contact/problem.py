@@ -126,7 +126,10 @@ class Settings:
 
 @dataclass(frozen=True)
 class GridProblem:
-    """The problem on one grid: operator, gap (flat, lowest value zero) and cap."""
+    """The problem on one grid: operator, gap (one-dimensional) and cap.
+
+    The lowest gap is zero on the finest grid only: coarse grids sample the gap, and lagged friction changes it.
+    """
 
     settings: Settings
     operator: DisplacementOperator

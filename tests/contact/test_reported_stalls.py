@@ -89,3 +89,18 @@ def test_stiff_layer_under_a_load_that_sinks_it_far_deeper_than_its_roughness():
         assert solution.load == pytest.approx(load, rel=1e-12)
         counted.append(solution.convolutions)
     assert max(counted) <= 75
+
+
+def test_a_coarse_grid_that_stalls_leaves_its_iterations_to_the_finest():
+    """A layer ten thousand times stiffer than its base: the 32 x 32 grid used all iterations that were allowed."""
+    base, film = (
+        Material(name, youngs_modulus=modulus, poissons_ratio=0.3)
+        for name, modulus in (("base", 210e5), ("film", 210e9))
+    )
+    grid = Grid((64, 64), (1e-6, 1e-6))
+    operator = displacement_operator(grid, (Body(base, layer=Layer(film, 2e-6)), Body(film)))
+    gap = -generate_surface(grid, rms_height=20e-9, hurst=0.8, rolloff_wavelength=20e-6, cutoff_wavelength=4e-6, seed=1)
+    solution = solve_contact(gap, operator, load=0.1e9 * grid.area)
+    assert solution.status == Status.CONVERGED, solution.residual
+    opening = gap + operator(solution.pressure) - solution.approach
+    assert opening.min() >= -2e-8 * gap.std()
