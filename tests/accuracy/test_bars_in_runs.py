@@ -53,7 +53,7 @@ def test_every_headline_figure_has_its_error():
     for name in ("approach_m", "max_von_mises_Pa"):
         parts = {key: value for key, value in summary.items() if key.startswith(f"{name}_error_")}
         assert len(parts) == 2, name
-        assert sum(parts.values()) == pytest.approx(summary[f"{name}_error"], abs=0), name
+        assert sum(parts.values()) == pytest.approx(summary[f"{name}_error"], rel=1e-6, abs=0), name
     assert float(found.variables["approach_error_grid"].values) == summary["approach_m_error_grid"]
 
 

@@ -37,7 +37,7 @@ def test_bars_cover_nine_errors_in_ten_and_are_not_far_too_large(experiment, cas
         for figure, bar in comparison.bars.items():
             if bar is not None:
                 parts = [part[figure] for part in comparison.parts.values() if figure in part]
-                assert np.sum(parts, axis=0) == pytest.approx(bar, abs=0), figure
+                assert np.sum(parts, axis=0) == pytest.approx(bar, rel=1e-6, abs=0), figure
 
 
 def test_an_error_of_growth_is_that_of_a_steady_film():

@@ -36,7 +36,7 @@ def verify(solution, gap, op, hardness, control):
     cap = np.inf if hardness is None else hardness
     assert violation(op, gap, solution, cap) <= TOLERANCE * roughness + 1e-12 * (reach + np.abs(gap).max())
     if "load" in control:
-        assert solution.load == pytest.approx(control["load"], rel=1e-12, abs=0)  # round-off of a sum over the cells
+        assert solution.load == pytest.approx(control["load"], rel=TOLERANCE, abs=0)
     if "approach" in control:
         assert solution.approach == pytest.approx(control["approach"], rel=1e-12)
     if "mean_gap" in control:

@@ -223,7 +223,7 @@ def test_a_law_of_growth_and_a_hardness_in_a_scene():
         bem.register(Steady)
         bem.register(Ramp)
         scene = load_scene(data | change | {"film": film})
-        assert scene.film.kinetics().speed == pytest.approx(2e-9 / 60, abs=0)
+        assert scene.film.kinetics().speed == pytest.approx(2e-9 / 60, rel=1e-6, abs=0)
         assert scene.film.hardness.lowest(5e-8, 300.0) == 2e9
         assert scene.film.hardness.highest(300.0) == 6e9
         assert get_kind("tribofilm").model.model_validate(scene.model_dump()) == scene

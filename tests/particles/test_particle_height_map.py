@@ -25,7 +25,7 @@ def box_map():
 
 def test_boxes():
     first, second = particles_from_height_map(box_map(), SPACING, threshold=50e-9)
-    assert first.volume == pytest.approx(50 * 500e-18 * 100e-9, abs=0)
+    assert first.volume == pytest.approx(50 * 500e-18 * 100e-9, rel=1e-6, abs=0)
     assert (first.length, first.width) == pytest.approx((250e-9, 100e-9))
     assert first.thickness == pytest.approx(100e-9)
     assert first.equivalent_radius == pytest.approx((3 * first.volume / (4 * math.pi)) ** (1 / 3))
@@ -34,7 +34,7 @@ def test_boxes():
     assert first.columns_count == 50
     assert not first.truncated
     assert second.thickness == pytest.approx(90e-9)
-    assert second.volume == pytest.approx(500e-18 * (7 * 70e-9 + 90e-9), abs=0)
+    assert second.volume == pytest.approx(500e-18 * (7 * 70e-9 + 90e-9), rel=1e-6, abs=0)
     np.testing.assert_allclose(second.column_thickness.sum() * 500e-18, second.volume, rtol=1e-12)
 
 

@@ -120,8 +120,11 @@ def test_cycles_of_a_wear_run_are_kept_case_by_case_mean_over_repetitions():
     radius = np.full((2, 1, 2, 3), np.nan)
     radius[0, 0] = [[1e-9, 2e-9, np.nan], [3e-9, 2e-9, np.nan]]
     array = xarray.DataArray(radius, dims=("load", "variant", "repetition", "cycle"))
-    run = SimpleNamespace(summary={"kind": "wear"}, dataset={"radius": array})
-    assert validation_renewal._history(run) == {"cycle_radius_nm": [[2.0, 2.0, None], [None, None, None]]}
+    run = SimpleNamespace(summary={"kind": "wear"}, dataset={"radius": array, "particles": np.isfinite(array)})
+    assert validation_renewal._history(run) == {
+        "cycle_radius_nm": [[2.0, 2.0, None], [None, None, None]],
+        "cycle_particles": [[1.0, 1.0, 0.0], [0.0, 0.0, 0.0]],
+    }
 
 
 def test_pressures_and_volumes_of_wear_and_radii_of_running_in_are_kept_cycle_by_cycle():
@@ -130,11 +133,13 @@ def test_pressures_and_volumes_of_wear_and_radii_of_running_in_are_kept_cycle_by
 
     data = {
         "radius": over_cycles(1e-9, 2e-9),
+        "particles": over_cycles(5, 0),
         "volume": over_cycles(3e-18, 0.0),
         "contact_load": over_cycles(2.0, 2.0),
         "contact_area": over_cycles(1e-9, 2e-9),
     }
     kept = validation_renewal._history(SimpleNamespace(summary={"kind": "wear"}, dataset=data))
+    assert kept["cycle_particles"] == [[5.0, 0.0]]
     assert kept["cycle_volume_um3"] == [[3.0, 0.0]]
     assert kept["cycle_pressure_Pa"] == [[2e9, 1e9]]
     sphere = 4 / 3 * np.pi * 100e-9**3
