@@ -147,9 +147,14 @@ def test_pressures_and_volumes_of_wear_and_radii_of_running_in_are_kept_cycle_by
         "volume_over_cycles": over_cycles(5 * sphere, 0.0),
         "particles_over_cycles": over_cycles(5.0, 0.0),
         "contact_share": over_cycles(0.9, 0.8),
+        "friction_over_cycles": over_cycles(0.11, 0.1),
     }
     kept = validation_renewal._history(SimpleNamespace(summary={"kind": "running-in"}, dataset=data))
-    assert kept == {"cycle_radius_nm": [[100.0, None]], "cycle_contact_share": [[0.9, 0.8]]}
+    assert kept == {
+        "cycle_radius_nm": [[100.0, None]],
+        "cycle_contact_share": [[0.9, 0.8]],
+        "cycle_friction": [[0.11, 0.1]],
+    }
 
 
 def test_whatever_goes_wrong_with_one_leaves_the_others(small, tmp_path, monkeypatch):
