@@ -208,6 +208,28 @@ def test_pieces_that_hold_a_sphere_are_those_of_a_search_over_every_place(seed, 
 
 
 @pytest.mark.internal
+@pytest.mark.parametrize("axis", [0, 1])
+@pytest.mark.parametrize("end", [slice(0, 6), slice(-6, None)], ids=["first cells", "last cells"])
+def test_a_sphere_does_not_reach_beyond_a_free_edge(axis, end):
+    """A sphere of 8 cells across needs 7 cells of full depth: a strip of 6 at an edge holds it only with a seventh,
+    beside it or, on a periodic grid, behind the edge."""
+    shape = (16, 16)
+
+    def holds(periodic, *more):
+        labels = np.zeros(shape, np.int32)
+        for part in (end, *more):
+            np.moveaxis(labels, axis, 0)[part] = 1
+        pieces = Segmentation(labels, 8.0 * labels, 1, np.zeros(2, np.bool_))
+        wraps = (periodic, True) if axis == 0 else (True, periodic)
+        return holding(pieces, Grid(shape, (1.0, 1.0), periodic=wraps), 8.0).count == 1
+
+    beside, behind = (slice(6, 7), slice(-1, None)) if end.start == 0 else (slice(-7, -6), slice(0, 1))
+    assert [holds(periodic) for periodic in (False, True)] == [False, False]
+    assert [holds(periodic, beside) for periodic in (False, True)] == [True, True]
+    assert [holds(periodic, behind) for periodic in (False, True)] == [False, True]
+
+
+@pytest.mark.internal
 def test_small_pieces_stay_and_large_ones_leave_as_they_are():
     lower, upper = surfaces()
     every = run_in(lower, upper, cycles=1, **ARGUMENTS).particles

@@ -88,6 +88,21 @@ def test_a_bound_spares_every_transform_where_nothing_can_yield():
     assert stack.max() < 0.64e9  # and indeed nothing does
 
 
+@pytest.mark.parametrize(("strength", "count"), [(0.99, 1), (1.01, 0)])
+def test_the_bound_on_von_mises_hides_no_yield_by_tresca(strength, count):
+    """Under the middle of a strip of half-width a with a uniform pressure p, at a depth of a, the principal stresses
+    differ by 2 p / pi, more than anywhere else (Johnson 1985, section 2.5). The bound on von Mises stress there is
+    within Tresca's factor of it."""
+    grid, pressure = Grid((24, 1), (100e-9, 100e-9), periodic=(False, True)), 1e9
+    strip = np.zeros(grid.shape)
+    strip[12] = pressure
+    disk = Body(replace(SOFT.material, yield_stress=strength * 2 / np.pi * pressure))
+    depths = np.arange(1, 6) * 50e-9
+    fixed = setup(grid=grid, gap=np.zeros(grid.shape), bodies=(disk, HARD), friction=0.0, depths=depths)
+    model = WearModel(criterion={"kind": "tresca", "skin_depth": 50e-9})
+    assert yielded_pieces(strip, fixed, model, 0).pieces.count == count
+
+
 def test_only_the_cubic_needs_the_depth_below_the_quiet_one():
     lower, upper = surfaces()
     fixed = setup()
