@@ -42,6 +42,17 @@ def test_neighbours_lift_an_asperity_by_the_potential_of_the_lattice():
     assert (found.from_flat < found.mean_plane).all()
 
 
+def test_an_array_that_ends_sinks_in_by_the_deflection_under_its_mean_pressure():
+    """At the middle of a square of side W under a uniform pressure q, 4 asinh(1) q W / (pi E*) (Johnson 1985, section
+    3.3): the depth from the flat less that is the depth from the mean plane, under the same load."""
+    spacing = 8e-6
+    load = pressed(spacing, 64).from_flat
+    sunk = 4 * math.log(1 + math.sqrt(2)) * load / spacing**2 * (10 * spacing) / (math.pi * MODULUS)
+    assert ((sunk > 0.1 * DEPTHS) & (sunk < 0.9 * DEPTHS)).all()
+    # each array interpolates between its own fourteen loads, of contacts of some cells
+    assert pressed(spacing, 64, DEPTHS - sunk).mean_plane == pytest.approx(load, rel=0.01, abs=0)
+
+
 def test_depths_beyond_the_loads_are_refused():
     with pytest.raises(InputError, match="cannot be reached"):
         pressed(3e-6, 16, depths=np.array([1e-9, 400e-9]))

@@ -245,6 +245,56 @@ def test_the_balance_takes_another_film_model(constant, model):
     assert balance.contacts <= 14
 
 
+class Misloaded:
+    """A rough contact that carries more than is asked of it, by a share."""
+
+    def __init__(self, rough, excess):
+        self.rough, self.excess = rough, excess
+
+    def __getattr__(self, name):
+        return getattr(self.rough, name)
+
+    def at_load(self, film, load, tolerance, start):
+        return self.rough.at_load(film, (1 + self.excess) * load, tolerance, start)
+
+
+@pytest.mark.internal
+@pytest.mark.parametrize(
+    ("excess", "status"),
+    [(-0.01, Status.STALLED), (0.01, Status.STALLED), (-1e-4, Status.CONVERGED), (1e-4, Status.CONVERGED)],
+)
+def test_a_load_that_is_missed_to_either_side_is_no_balance(excess, status):
+    """Surfaces that hold the film's oil while they carry too little or too much."""
+    film = FlatFilm(1e-6)
+    rough = Misloaded(rough_contact(MixedSetup(**CASE), HEIGHT, (0.1, 0.0)), excess)
+    balance = share_load(film, rough, 5.5, 5e-4, film.under(5.5, 0, None), BalanceStart(2.0))
+    assert balance.regime is Regime.MIXED
+    assert abs(balance.oil_imbalance) <= 5e-4
+    assert balance.imbalance == pytest.approx(excess * (1 - balance.film.load / 5.5), rel=1e-6, abs=0)
+    assert balance.status is status
+
+
+@pytest.mark.internal
+def test_films_start_from_the_known_one_under_the_nearest_load():
+    """Known are the film under the whole load and the last three."""
+    solved, distances = [], []
+
+    class Recorded(FlatFilm):
+        def under(self, load, level, start):
+            known = [math.log(load / one.load) for one in (solved[0], *solved[1:][-3:])]
+            distances.append((abs(math.log(load / start.load)), min(map(abs, known)), abs(known[0])))
+            solved.append(super().under(load, level, start))
+            return solved[-1]
+
+    film = Recorded(1e-6)
+    solved.append(FlatFilm.under(film, 5.5, 0, None))
+    rough = rough_contact(MixedSetup(**CASE), HEIGHT, (0.1, 0.0))
+    share_load(film, rough, 5.5, 5e-4, solved[0], BalanceStart(2.0))
+    assert all(start == pytest.approx(nearest, abs=1e-12) for start, nearest, _ in distances)
+    # and in this balance that is not always the film under the whole load
+    assert any(nearest < 0.5 * whole for _, nearest, whole in distances)
+
+
 @pytest.mark.internal
 @pytest.mark.parametrize("constant", [1e-9, 1e-3])
 def test_beyond_film_and_yielded_surfaces_together_is_infeasible(constant):

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.optimize import curve_fit
 
 from bem import InputError
 from bem.friction.load_share import curves_load_share, fit_load_share
@@ -39,6 +40,18 @@ def test_noise_is_in_the_errors():
         misses += (abs(fit.b - 0.6) > 2 * fit.b_error) + (abs(fit.c - 1.4) > 2 * fit.c_error)
     # two standard errors are missed by 5 % of 120; noise is cut at the ends, which makes it a few more or fewer
     assert 0 < misses < 20
+
+
+@pytest.mark.parametrize("b", [0.2, 3.0])
+def test_errors_are_those_of_least_squares_in_the_constants_themselves(b):
+    """A fit in (B, C) instead of (ln B, C) has the same least squares, and the same errors of either constant."""
+    noise = np.random.default_rng(11).normal(0, 0.01, RATIO.size)
+    share = np.clip(np.exp(-b * RATIO**1.4) + noise, 0, 1)
+    fit = fit_load_share(RATIO, share)
+    best, covariance = curve_fit(lambda ratio, b, c: np.exp(-b * ratio**c), RATIO, share, (b, 1.4))
+    # derivatives of the other fit are differences
+    assert (fit.b, fit.c) == pytest.approx(tuple(best), rel=1e-5)
+    assert (fit.b_error, fit.c_error) == pytest.approx(tuple(np.sqrt(np.diag(covariance))), rel=1e-4)
 
 
 def test_points_out_of_range_do_not_count_and_too_few_are_refused():

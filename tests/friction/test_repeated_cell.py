@@ -176,6 +176,15 @@ def logarithmic(length, sinks=0.0, at=1e8):
     return CellLaw(CELL, tuple(cells))
 
 
+@pytest.mark.internal
+def test_real_area_is_proportional_to_pressure_up_to_the_whole_cell():
+    """Cells whose real area is p / 1e11 of them: so it is between those tabulated (1e4 to 1e10 Pa), below and above
+    them, and no more than all of a cell."""
+    pressure = np.geomspace(1e2, 1e13, 45)
+    share = logarithmic(1e-9).share(np.log(pressure))
+    np.testing.assert_allclose(share, np.minimum(pressure / 1e11, 1.0), rtol=1e-12)
+
+
 def test_smooth_enough_or_fast_enough_is_a_full_film():
     found = solve_mixed(**BALL, grid=CELL, height=waves(CELL, 1e-9), speeds=(0.6, 0.4))
     assert found.full_film
