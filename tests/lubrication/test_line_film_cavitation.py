@@ -110,6 +110,17 @@ def test_reversed_slider_is_the_mirror_image():
 
 
 @pytest.mark.internal
+@pytest.mark.parametrize("entrainment", [1.0, -1.0])
+def test_a_gap_that_only_narrows_stays_full_to_its_outlet(entrainment):
+    """Oil is squeezed out where the gap is less than in front of the outlet: it holds no more than its own volume."""
+    film = np.linspace(2, 1, 101)
+    found = slider(film, 100, Cavitation.MASS_CONSERVING, entrainment)[1].film
+    assert (found.pressure[1:-1] > 0).all()
+    np.testing.assert_allclose(found.fraction, 1.0, rtol=1e-9)
+    np.testing.assert_allclose(found.mass, found.film, rtol=1e-9)  # the density is one
+
+
+@pytest.mark.internal
 def test_swift_stieber_makes_oil_where_the_film_forms_again():
     """What the option is for: the second pocket is fed with more than comes out of the first."""
     film = two_waves(np.linspace(0, 1, 401))

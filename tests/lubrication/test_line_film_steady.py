@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from scipy.integrate import quad
 from scipy.optimize import brentq
 
 import bem.lubrication.line_continuation as line_continuation
@@ -17,6 +18,7 @@ from bem import InputError, Lubricant, Status, solve_line_film
 from bem.benchmarks.line_film import LOADS, PIEZO, film_row, read_table
 from bem.lubrication import steady
 from bem.lubrication.line_case import LineCase
+from bem.lubrication.line_friction import rolling_upstream
 from bem.lubrication.line_newton import newton
 from bem.lubrication.steady import lowest_film
 from bem.notes.lubrication import FILM_NOT_FOUND
@@ -582,6 +584,39 @@ def test_rolling_force_is_the_moment_of_the_pressure(speeds, supply):
     assert at.rolling_force == film.rolling_force
     rolling = solve_line_film(**case | {"speeds": (speeds[0], speeds[0])}, supply=supply)
     assert rolling.shear_force == pytest.approx(rolling.rolling_force, rel=1e-12)
+
+
+@pytest.mark.internal
+@pytest.mark.parametrize("contact_modulus", [math.inf, 115e9])
+def test_rolling_upstream_of_the_mesh_is_the_integral_of_its_flow(contact_modulus):
+    """Half of h dp/dx is 3 (H - H_e)/H^2 in units of the film, from far upstream to the first node, where the gap
+    H = X^2/2 + c is a parabola and H_e is that of the exit."""
+    film = solve_line_film(
+        load=1e3, radius=6e-3, contact_modulus=contact_modulus, speeds=(1.0, 0.9), points=400, lubricant=Lubricant(0.02)
+    )
+    state = film.state.state
+    first, left = state.position[0], state.film[-1]
+    lift = state.film[0] - first**2 / 2
+    exact = quad(lambda x: 3 * (x**2 / 2 + lift - left) / (x**2 / 2 + lift) ** 2, -math.inf, first, epsrel=1e-10)[0]
+    # terms of c^2 are left out: (c/X^2)^2 of the first node, 50 times sqrt(2 H) upstream
+    assert rolling_upstream(state) == pytest.approx(exact, rel=1e-6)
+
+
+def test_sliding_the_other_way_turns_the_sliding_part_of_the_shear_stress():
+    """mu (u1 - u2)/h + (h/2) dp/dx with speeds exchanged: the film is the same, half of the difference is Couette's
+    stress and half of the sum the rolling part."""
+    one, other = (solve_line_film(**THESIS, speeds=speeds, points=400) for speeds in ((0.06, 0.04), (0.04, 0.06)))
+    np.testing.assert_allclose(other.pressure, one.pressure, rtol=1e-12)
+    full = one.pressure > 0
+    x, pressure, thickness = one.position, one.pressure[full], one.thickness[full]
+    sliding = THESIS["lubricant"].viscosity_at(pressure) * 0.02 / thickness
+    rolling = 0.5 * thickness * np.gradient(one.pressure, x)[full]
+    first, second = one.shear_stress()[full], other.shear_stress()[full]
+    largest = np.abs(sliding).max()
+    np.testing.assert_allclose(0.5 * (first - second), sliding, atol=1e-10 * largest)
+    np.testing.assert_allclose(0.5 * (first + second), rolling, atol=1e-10 * largest)
+    # the forces of the two solutions follow the same rule
+    assert one.shear_force + other.shear_force == pytest.approx(2 * one.rolling_force, rel=1e-9)
 
 
 @pytest.mark.parametrize("ratio", [7.0, 8.0, 9.0])
