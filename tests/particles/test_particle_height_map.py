@@ -38,6 +38,26 @@ def test_boxes():
     np.testing.assert_allclose(second.column_thickness.sum() * 500e-18, second.volume, rtol=1e-12)
 
 
+def test_position_is_the_centre_of_volume_from_the_centre_of_the_map():
+    heights = np.zeros((60, 50))
+    columns, thickness = ([10, 10, 11], [7, 8, 8]), np.array([60e-9, 180e-9, 90e-9])
+    heights[columns] = thickness
+    (particle,) = particles_from_height_map(heights, SPACING, threshold=50e-9)
+    grid = Grid((60, 50), SPACING)
+    expected = [np.average(axis[at], weights=thickness) for axis, at in zip((grid.x, grid.y), columns, strict=True)]
+    assert particle.position == pytest.approx(expected, rel=1e-9, abs=0)
+
+
+def test_pits_do_not_move_the_plate():
+    """Pits at one end of a tilted map: a plane fitted through them too would tilt against the plate."""
+    heights = box_map()
+    plain = particles_from_height_map(heights, SPACING, threshold=50e-9)
+    heights[3:9, 3:47] = -200e-9
+    heights += 0.05 * np.arange(60)[:, None] * SPACING[0]
+    found = particles_from_height_map(heights, SPACING, threshold=50e-9)
+    assert [p.volume for p in found] == pytest.approx([p.volume for p in plain], rel=1e-9, abs=0)
+
+
 def test_threshold_is_above_the_plate_wherever_that_is():
     heights = box_map()
     x, y = np.arange(60)[:, None] * SPACING[0], np.arange(50)[None, :] * SPACING[1]
@@ -88,6 +108,9 @@ def test_smallest():
     assert len(particles_from_height_map(heights, SPACING, threshold=50e-9)) == 3
     assert len(particles_from_height_map(heights, SPACING, threshold=50e-9, smallest_columns=2)) == 2
     assert len(particles_from_height_map(heights, SPACING, threshold=50e-9, smallest_radius=60e-9)) == 1
+    radii = [p.equivalent_radius for p in particles_from_height_map(heights, SPACING, threshold=50e-9)]
+    kept = particles_from_height_map(heights, SPACING, threshold=50e-9, smallest_radius=sorted(radii)[1])
+    assert len(kept) == 2, "a particle of the smallest radius counts"
 
 
 def test_connectivity():
@@ -114,6 +137,15 @@ def test_separation_of_touching_particles(distance):
     assert label_particles(level, 0.05).max() == 1
     assert label_particles(level, 0.05, separate=depth + 0.01).max() == 1
     assert label_particles(level, 0.05, separate=depth - 0.01).max() == 2
+
+
+@pytest.mark.parametrize(("separate", "count"), [(0.15, 2), (0.25, 1)])
+def test_the_lower_summit_decides_whether_particles_part(separate, count):
+    """The pass at 40 nm lies a fifth below the summit of 50 nm, and three fifths below that of 100 nm."""
+    heights = np.zeros((9, 5))
+    heights[3:6, 2] = [100e-9, 40e-9, 50e-9]
+    found = particles_from_height_map(heights, SPACING, threshold=10e-9, background="none", separate=separate)
+    assert len(found) == count
 
 
 @pytest.mark.internal
@@ -171,6 +203,25 @@ def test_minimum_area_rectangle():
         pytest.approx((1.0, 2.0)),
         pytest.approx((2.0, 1.0)),
     )
+
+
+def test_rectangle_of_least_area_is_not_that_of_least_perimeter():
+    """An obtuse triangle: its longest side bounds the least area (found here by turning), a short one the perimeter."""
+    x, y = np.indices((60, 50))
+    rest = 1 - (y - 3) / 40
+    triangle = (y >= 3) & (rest > 0) & (x >= 5 + 8 * rest) & (x <= 5 + 48 * rest)
+    (particle,) = particles_from_height_map(
+        np.where(triangle, 1e-7, 0.0), (1e-8, 1e-8), threshold=5e-8, background="none", rectangle="minimum_area"
+    )
+    corners = np.concatenate([np.argwhere(triangle) + (a, b) for a in (0, 1) for b in (0, 1)])
+    angle = np.linspace(0, np.pi / 2, 5001)
+    along, across = (
+        np.ptp(corners @ direction, axis=0)
+        for direction in ((np.cos(angle), np.sin(angle)), (-np.sin(angle), np.cos(angle)))
+    )
+    area = along * across
+    assert area[np.argmin(along + across)] > 1.1 * area.min(), "the two rectangles differ"
+    assert particle.length * particle.width == pytest.approx(1e-16 * area.min(), rel=1e-3, abs=0)
 
 
 def test_nothing_there():

@@ -56,6 +56,8 @@ def test_weighted_means_by_hand():
     assert volume.mean_length == pytest.approx((4 + 6 + 88) / 10)
     above = particle_statistics(particles, smallest_radius=1.5)
     assert (above.count, above.excluded, above.mean_equivalent_radius) == (1, 2, pytest.approx(2))
+    from_smallest = particle_statistics(particles, smallest_radius=particles[0].equivalent_radius)
+    assert (from_smallest.count, from_smallest.excluded) == (3, 0), "particles of the smallest radius count"
     binned = particle_statistics(particles, edges=[0.5, 1.5, 2.5])
     np.testing.assert_array_equal(binned.counts, [2, 1])
     by_volume = particle_statistics(particles, weight="volume", edges=[0.5, 1.5, 2.5])
