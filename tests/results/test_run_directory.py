@@ -125,17 +125,18 @@ def test_volume_holds_every_value_where_it_belongs(tmp_path):
 
 
 @pytest.mark.internal
-def test_volume_cells_have_positive_volume(tmp_path):
+def test_volume_cells_have_their_corners_in_the_order_of_vtk(tmp_path):
     """VTK's order of corners: bottom face counter-clockwise seen from above, then the top face."""
     import meshio
 
     mesh = meshio.read(write_volumes(tmp_path, fields(4, 3), ("von_mises",))[0])
     corners = mesh.points[mesh.cells_dict["hexahedron"]]
-    a, b, c = (corners[:, i] - corners[:, 0] for i in (1, 3, 4))
-    volumes = np.einsum("ij,ij->i", np.cross(a, b), c)
-    assert len(volumes) == 3 * 3 * 2
-    # all cells are alike: dx dy dz; tolerance is the round-off of coordinate differences
-    np.testing.assert_allclose(volumes, 1e-6 * 1e-6 * 0.5e-6, rtol=1e-9)
+    assert len(corners) == len(np.unique(corners[:, 0], axis=0)) == 3 * 3 * 2
+    face = [(0, 0), (1, 0), (1, 1), (0, 1)]
+    reference = np.array([(*corner, level) for level in (0, 1) for corner in face])
+    # all cells are alike, dx by dy by dz; tolerance is the round-off of coordinates
+    expected = np.broadcast_to(reference * (1e-6, 1e-6, 0.5e-6), corners.shape)
+    np.testing.assert_allclose(corners - corners[:, :1], expected, rtol=0, atol=1e-15)
 
 
 @pytest.mark.internal
@@ -369,6 +370,12 @@ def test_resuming_another_scene_is_refused(tmp_path):
     assert (tmp_path / "scene.toml").read_text() == "a = 1\n[b]\nc = 2\n"
 
 
+def test_keys_that_one_scene_lacks_are_differences(tmp_path):
+    RunDirectory.start(tmp_path, "a", "a = 1\n[b]\nc = 2\n").close()
+    with pytest.raises(InputError, match=r"differ in b\.c: 2 there, not set now; d: not set there, 3 now\)"):
+        RunDirectory.start(tmp_path, "a", "a = 1\nd = 3\n", resume=True)
+
+
 def test_numbered_folders(tmp_path, monkeypatch):
     monkeypatch.chdir(tmp_path)
     paths = []
@@ -440,6 +447,18 @@ def test_damage_to_a_finished_run_is_found(tmp_path):
         open_run(tmp_path)
 
 
+@pytest.mark.internal
+@pytest.mark.parametrize("name", ["scene.toml", "summary.json", "results.nc"])
+def test_a_file_without_a_checksum_is_not_sound(tmp_path, name):
+    finished_run(tmp_path, "a = 1\n", "a.png")
+    known = json.loads((tmp_path / "checksums.json").read_text())
+    del known[name]
+    (tmp_path / "checksums.json").write_text(json.dumps(known))
+    assert damaged_files(tmp_path) == [name]
+    with pytest.raises(ResultsError, match=rf"{name}: is damaged .*missing from checksums\.json"):
+        _ = open_run(tmp_path).dataset
+
+
 def test_what_is_not_a_finished_run(tmp_path):
     with pytest.raises(ResultsError, match="no such folder"):
         open_run(tmp_path / "nowhere")
@@ -454,6 +473,13 @@ def test_what_is_not_a_finished_run(tmp_path):
 def test_summary_is_json_whatever_is_in_it():
     text = summary_text({"a": np.float64(1.5), "b": np.arange(3), "c": float("nan"), "d": {"e": np.int64(2)}, "f": "µ"})
     assert json.loads(text) == {"a": 1.5, "b": [0, 1, 2], "c": None, "d": {"e": 2}, "f": "µ"}
+
+
+@pytest.mark.internal
+@pytest.mark.parametrize("value", [np.inf, -np.inf, np.nan, np.float64(np.inf)])
+def test_numbers_that_are_not_finite_are_null_in_a_summary(value):
+    text = summary_text({"alone": value, "list": [1.0, value], "array": np.array([value, 2.0])})
+    assert json.loads(text) == {"alone": None, "list": [1.0, None], "array": [None, 2.0]}
 
 
 @pytest.mark.internal
