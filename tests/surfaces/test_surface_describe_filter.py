@@ -54,6 +54,18 @@ def test_sinusoid():
     assert got.autocorrelation_length == got.autocorrelation_length_x
 
 
+@pytest.mark.parametrize("axis", [0, 1])
+def test_long_lags_of_a_free_axis_are_means_over_the_pairs_that_exist(axis):
+    """A step in the middle of n cells: of the n - k pairs at lag k, k have opposite signs: r = (n - 3 k) / (n - k)."""
+    n, cell = 400, (1e-7, 3e-7)
+    step = np.where(np.arange(n) < n // 2, -1e-9, 1e-9)
+    got = describe_surface(np.repeat(np.expand_dims(step, 1 - axis), 3, axis=1 - axis), cell)
+    lengths = (got.autocorrelation_length_x, got.decay_length_x), (got.autocorrelation_length_y, got.decay_length_y)
+    expected = [n * (1 - level) / (3 - level) * cell[axis] for level in (math.exp(-1), 0.2)]
+    # linear between lags: r changes by 2 / n a lag, and its slope by a few times 1 / n of that
+    assert lengths[axis] == pytest.approx(expected, rel=1e-4)
+
+
 def test_flat_and_profile():
     flat = describe_surface(np.full((5, 5), 1e-3), (1e-6, 1e-6))
     assert flat.Sq == 0
