@@ -213,7 +213,7 @@ def test_rectangle_of_least_area_is_not_that_of_least_perimeter():
     (particle,) = particles_from_height_map(
         np.where(triangle, 1e-7, 0.0), (1e-8, 1e-8), threshold=5e-8, background="none", rectangle="minimum_area"
     )
-    corners = np.concatenate([np.argwhere(triangle) + (a, b) for a in (0, 1) for b in (0, 1)])
+    corners = np.concatenate([np.argwhere(triangle) + np.array([a, b]) for a in (0, 1) for b in (0, 1)])
     angle = np.linspace(0, np.pi / 2, 5001)
     along, across = (
         np.ptp(corners @ direction, axis=0)
