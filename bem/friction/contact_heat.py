@@ -25,7 +25,7 @@ from bem.heat.bodies import conductors_of
 from bem.heat.partition import TemperatureSolution
 from bem.heat.steady import surface_temperature
 from bem.lubrication.with_heat import FilmHeat
-from bem.notes import Note, as_note
+from bem.notes import Note
 from bem.notes.lubrication import BODY_AT_REST
 
 TOLERANCE = 1e-6
@@ -38,7 +38,7 @@ class ContactHeat:
     """Temperatures of the surfaces in contact.
 
     mean, maximum : over the cells in contact, by pressure, and the highest [K]; temperature : (nx, ny) [K]. law : of
-    boundary friction, told the mean. coefficient : of it. status : of the heat conduction. notes : sentences.
+    boundary friction, told the mean. coefficient : of it. status, notes : of the heat conduction.
     """
 
     mean: float
@@ -90,7 +90,7 @@ def contact_heat(film: PatchFilm, contact: Pressed, setup: MixedSetup, speeds: t
         law=law,
         coefficient=coefficient,
         status=found.status,
-        notes=tuple(map(as_note, found.notes))
+        notes=found.notes
         + ((BODY_AT_REST(distance="the cylinder's radius"),) if moving != speeds and 0 in speeds else ()),
     )
 

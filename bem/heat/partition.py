@@ -22,6 +22,8 @@ from bem.errors import Status
 from bem.grid import FloatArray
 from bem.heat.bodies import Conductor
 from bem.heat.operators import HeatOperator
+from bem.notes import Note
+from bem.notes.heat import BULK_HOT, RISE_TRANSFORMS, SURFACE_SOFTENS, SURFACE_TRANSFORMS
 from bem.numerics.gmres import gmres
 from bem.representation import readable
 
@@ -30,6 +32,8 @@ LIMIT = 400
 _SOLVES = 3
 """Largest number of solves, each to a tenth of the tolerance before it: GMRES bounds a 2-norm, not a maximum."""
 
+_ZERO_CELSIUS = 273.15
+"""Absolute temperature of 0 C [K]."""
 _ABSOLUTE_BULK = 150.0
 """Bulk temperatures from here on are absolute temperatures [K]; with smaller ones the result is a rise."""
 _HOT_BULK = 573.15
@@ -58,7 +62,7 @@ class TemperatureSolution:
     residual : largest difference between the two surfaces where heat is made, recomputed from `heat`, over the largest
         rise (or difference of bulk temperatures, where that is more); of one body zero.
     status : outcome; `residual` is at most the tolerance if it is converged.
-    notes : sentences on the limits of this result.
+    notes : on the limits of this result.
     """
 
     temperature: FloatArray
@@ -71,7 +75,7 @@ class TemperatureSolution:
     iterations: int
     residual: float
     status: Status
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
 
 
 @dataclass(frozen=True)
@@ -183,27 +187,15 @@ def _on_grid(values: FloatArray, heated_mask: NDArray[np.bool_]) -> FloatArray:
     return field
 
 
-def _notes(maximum: float, bulk: float) -> Iterator[str]:
-    """Sentences on a maximum temperature and the larger bulk temperature [K] at which the model's constants fail."""
+def _notes(maximum: float, bulk: float) -> Iterator[Note]:
+    """Yield notes on a maximum temperature and the larger bulk temperature [K] at which the model's constants fail."""
     if bulk < _ABSOLUTE_BULK:
         if maximum > _TRANSFORMATION:
-            yield (
-                f"the temperature rises by {maximum:.0f} K, which neither steel (transformed at 727 C) nor light "
-                "metals or polymers stand; heat, speed or conductivity are not what they will be"
-            )
+            yield RISE_TRANSFORMS(rise=maximum)
         return
     if bulk > _HOT_BULK:
-        yield (
-            f"the bulk temperature of {bulk - 273.15:.0f} C is above 300 C, beyond what oils and hardened bearing "
-            "steels stand; the catalogue's thermal constants are those near room temperature"
-        )
+        yield BULK_HOT(bulk=bulk - _ZERO_CELSIUS, limit=_HOT_BULK - _ZERO_CELSIUS)
     if maximum > _TRANSFORMATION:
-        yield (
-            f"the surface reaches {maximum - 273.15:.0f} C, above the transformation of steel (727 C) and the melting "
-            "of aluminium (660 C) and polymers; hardness, friction and so the heat are not what they will be"
-        )
+        yield SURFACE_TRANSFORMS(temperature=maximum - _ZERO_CELSIUS)
     elif maximum > _SOFTENING >= bulk:
-        yield (
-            f"the surface reaches {maximum - 273.15:.0f} C; usual hardened bearing steel is tempered at 150 to 200 C "
-            "and softens above, most polymers melt below 330 C"
-        )
+        yield SURFACE_SOFTENS(temperature=maximum - _ZERO_CELSIUS)

@@ -2,10 +2,10 @@
 
 from collections.abc import Mapping
 
-from bem.notes import accuracy, checks, contact, elements, friction, general, lubrication, scenes, wear
+from bem.notes import accuracy, checks, contact, elements, friction, general, heat, lubrication, scenes, wear
 from bem.notes.note import NoteKind, defined_kinds
 
-PARTS = (general, contact, lubrication, friction, wear, scenes, checks, accuracy, elements)
+PARTS = (general, contact, heat, lubrication, friction, wear, scenes, checks, accuracy, elements)
 """Modules of kinds, in the order of the guide."""
 
 

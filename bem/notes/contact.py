@@ -1,4 +1,4 @@
-"""Notes on dry contacts and on flow factors."""
+"""Notes on dry contacts, on partial slip and on flow factors."""
 
 from bem.notes.note import Level, define
 
@@ -40,6 +40,14 @@ MEAN_GAP_AMBIGUOUS = define(
     "The one found carries {load:si N}, and another lies between {first:si N} and {last:si N}, {place}: the"
     " layer stands off beside the contact.",
     "Prescribe a load to choose.",
+)
+SLIP_PRESSED_AT_ONCE = define(
+    "slip-pressed-at-once",
+    CAUTION,
+    "The bodies differ in elasticity, and their whole pressure came at once.",
+    "Surfaces slip while pressure grows, so that the stick area depends on how it grew: a ball's stick radius comes "
+    "out half as large (Spence 1968).",
+    "Give the contact in steps, each with the solution before it as `previous`.",
 )
 PATCH_REPEATS = define(
     "flow-patch-repeats",

@@ -18,6 +18,7 @@ from bem.convolution import displacement_operator
 from bem.errors import InputError, Status
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
+from bem.notes import Note
 from bem.representation import readable
 from bem.tangential.operator import tangential_operator
 from bem.tangential.partial_slip import checked_step, solve_step
@@ -52,7 +53,7 @@ class CoupledSolution:
     rounds: int
     residual: float
     status: Status
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
 
 
 @one_blas_thread

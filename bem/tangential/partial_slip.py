@@ -12,6 +12,8 @@ from bem.contact.grid_workspace import IterationBudget
 from bem.errors import ConvergenceError, InputError, Status
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
+from bem.notes import Note
+from bem.notes.contact import SLIP_PRESSED_AT_ONCE
 from bem.tangential.certificate import certify, stick_area
 from bem.tangential.initial_tractions import jaeger_start, start_from_coarser
 from bem.tangential.operator import TangentialOperator, tangential_operator
@@ -28,13 +30,6 @@ from bem.tangential.problem import (
 from bem.tangential.slip_newton import SlipResult, solve_slip
 from bem.tangential.solution import TangentialSolution
 from bem.threads import one_blas_thread
-
-AT_ONCE = (
-    "the bodies differ in elasticity, and their whole pressure came at once: surfaces slip while pressure grows, so "
-    "that what sticks depends on how it grew (a ball's stick radius comes out half as large); give the contact in "
-    "steps, each with the one before as `previous`"
-)
-"""Note on a first step of bodies that differ (Spence 1968)."""
 
 _NO_SLIP = 1e6
 """Friction bound without slip, over the traction that moves a single cell by the shift."""
@@ -171,7 +166,7 @@ def solve_step(
             traction = None if previous is None else previous.traction
             start = start_from_coarser(problem, traction, budget) if jaeger is None else jaeger
         result = solve_slip(problem, start, SAFETY * tolerance, budget)
-    notes = (AT_ONCE,) if previous is None and under_pressure.any() else ()
+    notes = (SLIP_PRESSED_AT_ONCE(),) if previous is None and under_pressure.any() else ()
     return _solution(step, problem, result, under_pressure, tolerance, budget, notes)
 
 
@@ -189,7 +184,7 @@ def _solution(
     under_pressure: FloatArray,
     tolerance: float,
     budget: IterationBudget,
-    notes: tuple[str, ...],
+    notes: tuple[Note, ...],
 ) -> TangentialSolution:
     """Certify the tractions and return the solution; `result` is None without contact."""
     operator, bound, imposed = problem.operator, problem.bound, problem.imposed

@@ -8,6 +8,7 @@ import numpy as np
 
 from bem.errors import Status
 from bem.grid import FloatArray
+from bem.notes import Note
 from bem.representation import readable
 
 
@@ -43,7 +44,7 @@ class TangentialSolution:
         costs as much as two of the normal contact; the operator of one direction alone counts as half.
     iterations : Newton steps on all grids.
     status : outcome; `residual` is at most the tolerance if it is converged.
-    notes : sentences on the limits of this solution.
+    notes : on the limits of this solution.
     """
 
     traction: FloatArray
@@ -62,4 +63,4 @@ class TangentialSolution:
     counted_stick_area: float = 0.0
     cell_energy: float = 0.0
     creepage: FloatArray = field(default_factory=lambda: np.zeros(2))
-    notes: tuple[str, ...] = ()
+    notes: tuple[Note, ...] = ()
