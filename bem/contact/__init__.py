@@ -9,40 +9,48 @@ cells, and the set changes between solutions. Polonsky & Keer (1999) change the 
 Calls, in order:
 
 1. `solve.solve_contact` checks the arguments (`problem.checked_request`) and scales gaps and pressures by powers of
-   two. Cost: four passes over the grid (finite values, two of moments, scaling).
+   two. Cost: four passes over the grid (finite values, two of moments, scaling), and the kernel of the bodies with its
+   spectrum, which `convolution` evaluates at its first use here and keeps.
 2. `fallbacks.without_contact` and `fallbacks.pressed_flat` return contacts known in closed form.
-3. `nested_iteration.start_from_coarser` solves a grid of twice the cell size, which is started in the same way; grids
-   up to 32 cells along the longer side are not coarsened. The result is interpolated as p^2 inside contact and
-   -c gap^(2/3) outside, up to three cells from the contact, with c such that slopes on both sides of the edge agree.
-   Every square of 8 x 8 coarse cells without a capped cell keeps its load, by a change of at most half. Coarse grids
-   have a tolerance of their own. Cost: 85/256 of the finest grid, if all grids take equal numbers of convolutions.
-4. `fallbacks.solve_on_grid` solves each grid: `problem.GridProblem.solve` calls `active_set.solve_active_set`, and only
-   where that stalls is there a fallback (step 11). `controls` has what depends on the prescribed quantity.
+3. `nested_iteration.start_from_coarser` solves a grid of twice the cell size, which is started in the same way; a
+   coarse grid of at most 32 cells along the longer side starts from a uniform pressure. The result is interpolated as
+   p^2 inside contact and -c gap^(2/3) outside, up to three cells from the contact, with c such that slopes on both
+   sides of the edge agree. Every square of 8 x 8 coarse cells without a capped cell keeps its load, by a change of at
+   most half. Coarse grids have a tolerance of their own, a fifth of the remaining iterations each, and no rerun under
+   the energy guard; a result that did not converge is dropped, and the finer grid starts from a uniform pressure.
+   Cost: 85/256 of the finest grid, if all grids take equal numbers of convolutions.
+4. `fallbacks.solve_on_grid` solves each grid: `problem.GridProblem.solve` calls `active_set.solve_active_set`, and
+   only where that stalls is there a fallback (step 11). `controls` has what depends on the prescribed quantity.
 5. `active_set` repeats steps 6 to 10 until no contact condition is violated by more than the tolerance. It gives up
-   after 100 outer iterations, without progress for 60, without iterations left, or without a cell to activate; it then
-   returns the pressure with the smallest violation.
-6. Apply K in double precision; `reductions` returns gap, energy and violations. The spectrum of a coated K is
-   assembled at its first use. Cost: one convolution and two passes; one more pass with capped cells, and one where
-   fewer than one cell in contact out of eleven is below the cap: the approach is then the mean of its bounds.
-7. If the energy has its minimum between 0.02 and 0.75 of the step, backtrack to it and project the step of that length.
-   No convolution, but one more outer iteration; steps 8 to 10 are omitted. The same holds where the energy guard
-   rejects a step. The guard is set after eight outer iterations without progress, for problems with an energy.
+   after 100 outer iterations, after 60 (5 near round-off) in which the violation has not fallen by 30 %, or without
+   iterations left; it then returns the pressure with the smallest violation.
+6. Apply K in double precision; `reductions` returns gap, energy and violations. Cost: one convolution and two passes;
+   one more pass with capped cells, and one where at most one cell in contact out of eleven is below the cap. The
+   approach is the mean of gap plus displacement over the cells between the bounds; in the last case it is the mean of
+   the least and the largest approach that capped and open cells allow.
+7. If the energy has its minimum between 0.02 and 0.75 of the step, blend both pressures and both displacements there,
+   which takes no convolution. The next iterate is the projection of the unbounded step of that length; steps 8 to 10
+   are omitted. Under the energy guard a step that raises the energy is replaced by the blend, or by a gradient step
+   that takes a convolution. The guard is set after eight outer iterations in which the violation has not fallen by 10
+   %, for problems with an energy.
 8. Activate the open cells that overlap and the capped cells with a positive gap (`grid_workspace`).
 9. `pcg` solves for pressures without bounds on the active cells, with convolutions in single precision. Under load
-   control directions carry no net load: with the preconditioner M^-1, s = M^-1 1 and Q = 1 - s 1^T / (1^T s), the
-   preconditioned residual is Q M^-1 Q^T r, which sums to zero and keeps the preconditioner symmetric. The last step
-   has an extrapolated length and takes no convolution, if it is expected to suffice and the last such step halved the
-   violation. `gcr` replaces `pcg` where there is no energy (Eisenstat, Elman & Schultz 1983). The preconditioner is a
-   factorised sparse approximate inverse on ten neighbours (`sparse_inverse`; Kolotilina & Yeremin 1993) with a
-   correction on a grid up to eight times coarser (`coarse_correction`; at most 20 CG iterations there). Cost: one
-   convolution per iteration, a few iterations.
+   control directions carry no net load: with the preconditioner M^-1, s close to M^-1 1 (carried over between rounds)
+   and Q = 1 - s 1^T / (1^T s), the preconditioned residual is Q M^-1 Q^T r, which sums to zero and keeps the
+   preconditioner symmetric. The last step has an extrapolated length and takes no convolution, if it is expected to
+   suffice and the last such step halved the violation. `gcr` replaces `pcg` where there is no energy (Eisenstat, Elman
+   & Schultz 1983). The preconditioner is a factorised sparse approximate inverse on ten neighbours (`sparse_inverse`;
+   Kolotilina & Yeremin 1993) with a correction on a grid up to eight times coarser (`coarse_correction`; at most 20 CG
+   iterations there). Cost: one convolution per iteration, a few iterations.
 10. `bounds` projects onto the bounds. Elastic bodies: the sparse inverse corrects the neighbours of removed tension.
     With a hardness, or at an approach where displacements have no mean: squares of 8 x 8 cells keep the load that
     clipping removes. Then the prescribed load is restored, by scaling elastic pressures and by shifting capped ones.
-    Where few of the cells are below the cap, a projected gradient step takes the place of the solution of step 9. It
-    has the length of a single cell's response and may raise the energy.
-11. `fallbacks`: a rerun with the energy guard from the start, friction lagged by one contact, secant searches over load
-    or approach, and the least mean gap of bodies that cannot be pressed flat (`mean_gap_limits`).
+    Where cells below the cap are at most a tenth of the capped ones and fewer than half of the active ones, the
+    solution of step 9 is discarded for a projected gradient step. Its length is one over the response of a single
+    cell, which may raise the energy.
+11. `fallbacks`: up to two reruns with the energy guard from the start, the second without early ends of step 9;
+    friction lagged by one contact, secant searches over load or approach, and the least mean gap of bodies that cannot
+    be pressed flat (`mean_gap_limits`).
 12. `certificate` recomputes load, gap and residual from the returned pressure; the approach is the solver's, and the
     displacement is computed again unless it already is K p. It adds area and perimeter of second order
     (`contact_area`, `contact_boundary`) and the maximum pressure between cells (`peak_pressure`). The status is
