@@ -95,7 +95,7 @@ def _from_environment() -> int:
 
 
 class _Inside(threading.local):
-    """Whether the present thread works on a shared block."""
+    """Thread-local flag: `shared` is True while the thread works on a shared block."""
 
     shared = False
 

@@ -64,7 +64,7 @@ def with_stored(remark: str, rule: Rule, summary: Summary) -> str:
 
 
 def counts(lines: Iterable[tuple[str, str, str, Any, str, str]]) -> dict[str, int]:
-    """How many lines agree and differ, by stored results that hold and by stale ones; lines by basis, and the rest."""
+    """Count lines that agree and differ (by valid and by stale results), lines by basis, and the others."""
     found = dict.fromkeys(("agrees", "differs", "agrees, stale", "differs, stale", *BASES, "–"), 0)
     for line in lines:
         found[line[3]] += 1

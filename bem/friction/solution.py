@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Continuation:
-    """What is kept of a balance.
+    """Parts of a balance from which the balance at the next speed starts.
 
     speed_power : power of the speed with which the film's load over the contact's went from the solution before.
     refinement : as of `Balance`. whole : the film under the whole load on the coarsest mesh; None of a ball.

@@ -75,7 +75,7 @@ def surface_temperature(
 
 
 def _response(body: Conductor) -> tuple[float, float]:
-    """What decides a body's operator."""
+    """Return the properties that determine a body's operator: conductivity and wavenumber."""
     return body.conductivity, body.wavenumber
 
 

@@ -154,12 +154,12 @@ class HeatedFilm:
 
     @property
     def minimum_thickness(self) -> float:
-        """Of the film [m]."""
+        """Minimum thickness of the film [m]."""
         return self.film.minimum_thickness
 
     @property
     def central_thickness(self) -> float:
-        """Of the film [m]."""
+        """Central thickness of the film [m]."""
         return self.film.central_thickness
 
     @property

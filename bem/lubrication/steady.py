@@ -36,7 +36,7 @@ def line_film(
     cavitation: Cavitation = Cavitation.SWIFT_STIEBER,
     supply: Supply | float | None = None,
 ) -> FilmSolution:
-    """As `bem.solve_line_film` without heat, with the equations of the last step, by which one next to it starts."""
+    """Solve an isothermal line film; a neighbour can start from the equations it keeps."""
     supply = checked_supply(supply)
     scales, reversed_ = case.scaled(position)
     problem = case.problem(scales)

@@ -21,7 +21,7 @@ PLAIN = "remark"
 
 
 class Level(StrEnum):
-    """How much a note matters to a reader of the results."""
+    """Severity of a note for a reader of the results."""
 
     OUTSIDE_MODEL = "outside_model"
     """The result is solved, but it is not what it is called: the model does not hold there."""
@@ -167,7 +167,7 @@ class Note(str):
 
     @property
     def headline(self) -> str:
-        """What is wrong or uncertain, with its place, without a full stop."""
+        """First sentence with the note's place, without a full stop: what is wrong or uncertain."""
         text = self.texts[0].split(";")[0] if self.code == PLAIN else self.texts[0]
         return _placed(self.where, text.rstrip("."))
 
@@ -253,8 +253,8 @@ def si(value: float, unit: str, digits: int = 3) -> str:
 
 
 def percent(share: float) -> str:
-    """Return a share of one in per cent."""
-    return f"{100 * share:.2g} %" if share < 0.995 or share > 1.005 else "100 %"
+    """Return a share of one in per cent: two digits below 100, whole per cents from there on."""
+    return f"{100 * share:.2g} %" if share < 0.995 else f"{100 * share:.0f} %"
 
 
 def joined(words: list[str]) -> str:

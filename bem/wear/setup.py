@@ -58,7 +58,7 @@ class WearChoices(Protocol):
 
     @property
     def within_layer(self) -> bool:
-        """Whether pieces of a coated body end at the interface."""
+        """True if pieces of a coated body end at the interface."""
 
 
 def wearing_bodies(bodies: tuple[Body, Body], wears: str) -> tuple[int, ...]:
@@ -73,7 +73,7 @@ def wearing_bodies(bodies: tuple[Body, Body], wears: str) -> tuple[int, ...]:
 
 @dataclass(frozen=True, eq=False)
 class WearSetup:
-    """What stays the same over all cycles.
+    """Parts of a wear loop that stay the same over all cycles.
 
     grid : of the contact. bodies : (lower, upper). gap : macroscopic gap of the smooth bodies, (nx, ny) [m].
     load : on the grid [N]. friction : of the contact, traction over pressure. depths : (nz,) [m], increasing, >= 0.

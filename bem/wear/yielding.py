@@ -32,7 +32,7 @@ class StressCriterion(Protocol):
 
     @property
     def is_von_mises(self) -> bool:
-        """Whether the equivalent stress is von Mises' own."""
+        """True if the equivalent stress is that of von Mises."""
 
     @property
     def von_mises_factor(self) -> float | None:

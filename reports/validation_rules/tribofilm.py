@@ -59,7 +59,7 @@ def _pressure_line(summary: Summary) -> str:
 
 
 def _pressure_drops_early(summary: Summary) -> bool | None:
-    """Whether it falls, and faster over the first 10 nm of film than over the rest."""
+    """Return True if the pressure falls, and faster over the first 10 nm of film than over the rest."""
     found = _pressures(summary)
     if found is None:
         return None

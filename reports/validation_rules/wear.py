@@ -94,7 +94,7 @@ def _volume_line(summary: Summary) -> str:
 
 
 def _volume_falls(summary: Summary) -> bool | None:
-    """Whether the first cycle wears more than the last ones, and the first quarter of cycles more than a quarter."""
+    """Return True if the first cycle wears more than the last, and the first quarter of cycles more than a quarter."""
     found, early = _volume(summary), _volume_early(summary)
     return None if found is None or early is None else found[1] < found[0] and early > 0.25
 
@@ -163,7 +163,7 @@ def _bare_on_one_mesh() -> float:
 
 
 def _rises_beyond_scatter(summary: Summary) -> bool:
-    """Whether the radius at 10 N lies above that at 2.5 N by more than the larger spread over repetitions."""
+    """Return True if the radius at 10 N exceeds that at 2.5 N by more than the larger spread over repetitions."""
     low, high = (at(summary, "particle_equivalent_radius_nm", load(newtons)(summary)) for newtons in (2.5, 10))
     return high.mean - low.mean > max(low.spread or 0.0, high.spread or 0.0)
 

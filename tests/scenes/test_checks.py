@@ -7,11 +7,12 @@ from small_scenes import PATCH, oiled_ball
 from bem import Grid
 from bem.errors import InputError
 from bem.notes import OUTSIDE, outside
+from bem.notes.note import percent, si
 from bem.runs import plan_scene, run_scene
 from bem.scenes import library
 from bem.scenes.checks import OUTCOME_CHECKS, SCENE_CHECKS, examine, outcome_warnings, scene_warnings, surfaces_of
 from bem.scenes.checks.overview import bodies, common, differing
-from bem.scenes.checks.words import percent, si, times
+from bem.scenes.checks.words import times
 from bem.scenes.common import GeneratedSurface
 from bem.scenes.context import Outcome, Variable
 from bem.surfaces import write_surface

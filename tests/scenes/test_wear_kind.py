@@ -10,9 +10,9 @@ from small_scenes import WEAR
 
 from bem.campaigns import campaign_of, compute, plan
 from bem.errors import InfeasibleError, InputError
+from bem.notes.note import percent
 from bem.scenes import load_scene
 from bem.scenes.checks import examine, outcome_warnings
-from bem.scenes.checks.words import percent
 from bem.scenes.kind import get_kind
 
 KEYS = {

@@ -105,7 +105,7 @@ def grid_smaller_than_hertz(facts: Facts) -> Iterator[Note]:
         assert case.grid is not None
         size = 2 * case.smooth.semi_axes[axis]
         yield GRID_SMALLER_THAN_HERTZ(
-            case.place("grid"), length=case.grid.lengths[axis], axis="xy"[axis], size=size, wanted=1.5 * size
+            case.note_place("grid"), length=case.grid.lengths[axis], axis="xy"[axis], size=size, wanted=1.5 * size
         )
 
 
@@ -131,7 +131,7 @@ def flat_patch_with_free_edges(facts: Facts) -> Iterator[Note]:
     for case in facts.cases:
         free = [name for name, wraps in zip("xy", case.grid.periodic, strict=True) if not wraps] if case.grid else []
         if case.shape == "flat" and free and case.load is not None:
-            yield PATCH_IS_PUNCH(case.place("grid"), axes=" and ".join(free))
+            yield PATCH_IS_PUNCH(case.note_place("grid"), axes=" and ".join(free))
             return
 
 
@@ -152,7 +152,7 @@ def curved_body_repeats(facts: Facts) -> Iterator[Note]:
             size, length = case.smooth.semi_axes[axis], case.grid.lengths[axis]
             if case.grid.periodic[axis] and math.isfinite(size):
                 near = f", {length / size:.2g} contact radii apart" if length < 5 * size else ""
-                yield BODY_REPEATS(case.place("grid"), axis=name, shape=case.shape, length=length, near=near)
+                yield BODY_REPEATS(case.note_place("grid"), axis=name, shape=case.shape, length=length, near=near)
 
 
 @scene_check
@@ -166,7 +166,7 @@ def patch_sinks_at_given_separation(facts: Facts) -> Iterator[Note]:
     for case in facts.cases:
         if case.grid is not None and case.load is not None:
             sunk = sinking_compliance(case.grid) * case.load / (case.grid.area * scene.modulus)
-            yield PATCH_SINKS(case.place("sharing.separation"), sunk=sunk, length=case.grid.lengths[0])
+            yield PATCH_SINKS(case.note_place("sharing.separation"), sunk=sunk, length=case.grid.lengths[0])
             return
 
 
@@ -178,7 +178,7 @@ def wave_does_not_fit_the_period(facts: Facts) -> Iterator[Note]:
             continue
         waves = case.grid.lengths[0] / case.wavelength
         if abs(waves - round(waves)) > 1e-6 * waves or round(waves) == 0:
-            yield WAVE_DOES_NOT_FIT(case.place("shape.wavelength"), waves=waves, length=case.grid.lengths[0])
+            yield WAVE_DOES_NOT_FIT(case.note_place("shape.wavelength"), waves=waves, length=case.grid.lengths[0])
 
 
 @scene_check

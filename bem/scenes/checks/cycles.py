@@ -26,12 +26,13 @@ from bem.notes.checks import (
     WEAR_STEPS_OVERSHOOT,
     WORN_STEEP,
 )
+from bem.notes.note import joined, percent, si
 from bem.scenes.checks.facts import Facts
 from bem.scenes.checks.hertz import LARGEST_SLOPE, STEEP
 from bem.scenes.checks.outcome import at_the_cap
 from bem.scenes.checks.registry import outcome_check
 from bem.scenes.checks.roughened import roughened, with_pieces
-from bem.scenes.checks.words import joined, numbers, percent, si
+from bem.scenes.checks.words import numbers
 from bem.scenes.common import BODIES
 from bem.scenes.context import Outcome
 

@@ -11,11 +11,11 @@ from typing import TYPE_CHECKING, Any
 
 from bem.grid import Grid
 from bem.materials import Body, Material, contact_modulus, softer_hardness
+from bem.notes.note import si
 from bem.scenes import build
 from bem.scenes.axes import Axis
 from bem.scenes.checks.hertz import SmoothContact, smooth_contact
 from bem.scenes.checks.surfaces_of import RoughSurface, rough_surface
-from bem.scenes.checks.words import si
 from bem.scenes.common import SceneModel, SmoothSurface
 from bem.scenes.kind import get_kind
 
@@ -69,7 +69,7 @@ class Case:
         """For the end of a sentence: " (10 N)", or nothing."""
         return f" ({self.label})" if self.label else ""
 
-    def place(self, key: str = "") -> str:
+    def note_place(self, key: str = "") -> str:
         """Return the place of a note on this contact: a key of the scene, and the contact's label."""
         return ", ".join(part for part in (key, self.label) if part)
 

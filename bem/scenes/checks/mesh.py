@@ -24,10 +24,10 @@ from bem.notes.checks import (
     SLIDES_DIFFER,
     WAVES_OF_TWO_CELLS,
 )
+from bem.notes.note import joined, si
 from bem.scenes.checks.facts import Case, Facts, worst
 from bem.scenes.checks.registry import scene_check
 from bem.scenes.checks.surfaces_of import RoughSurface
-from bem.scenes.checks.words import joined, si
 from bem.scenes.common import GeneratedSurface
 
 _CELLS_ACROSS = 8
@@ -49,7 +49,7 @@ def few_cells_across_the_contact(facts: Facts) -> Iterator[Note]:
         across, case = 1 / found[0], found[1]
         assert case.smooth is not None
         yield CELLS_ACROSS_CONTACT(
-            case.place("grid"), across=across, fewest=_CELLS_ACROSS, spacing=min(case.smooth.semi_axes) / 10
+            case.note_place("grid"), across=across, fewest=_CELLS_ACROSS, spacing=min(case.smooth.semi_axes) / 10
         )
 
 
@@ -63,11 +63,11 @@ def few_cells_per_wave(facts: Facts) -> Iterator[Note]:
     for _, case, surface in facts.worst_surfaces(lambda s: max(s.grid.spacing) / (s.shortest_wave or 1.0)):
         spacing = max(surface.grid.spacing)
         if getattr(surface.table, "hurst", None) is not None and surface.shortest_wave is None:
-            yield WAVES_OF_TWO_CELLS(case.place(f"{surface.body}.surface"), wave=2 * spacing)
+            yield WAVES_OF_TWO_CELLS(case.note_place(f"{surface.body}.surface"), wave=2 * spacing)
         elif surface.shortest_wave is not None and surface.shortest_wave / spacing < _CELLS_PER_WAVE:
             wave = surface.shortest_wave
             yield CELLS_PER_WAVE(
-                case.place("grid"),
+                case.note_place("grid"),
                 cells=wave / spacing,
                 body=surface.body,
                 wave=wave,
@@ -89,7 +89,7 @@ def few_cells_per_correlation_length(facts: Facts) -> Iterator[Note]:
         wave = surface.shortest_wave
         if cells < _CELLS_PER_WAVE and (wave is None or wave >= _CELLS_PER_WAVE * max(surface.grid.spacing)):
             yield CELLS_PER_CORRELATION_LENGTH(
-                case.place("grid"), body=surface.body, length=length, cells=cells, spacing=length / 6
+                case.note_place("grid"), body=surface.body, length=length, cells=cells, spacing=length / 6
             )
 
 
@@ -108,7 +108,7 @@ def patch_of_few_correlation_lengths(facts: Facts) -> Iterator[Note]:
         unknown = math.isnan(length) and min(surface.grid.shape) > 8
         if unknown or min(surface.grid.lengths) < _LENGTHS_PER_GRID * length:
             yield PATCH_SHORT(
-                case.place("grid"),
+                case.note_place("grid"),
                 reason="unknown" if unknown else "few",
                 body=surface.body,
                 lengths=math.nan if unknown else min(surface.grid.lengths) / length,
@@ -128,10 +128,10 @@ def layer_against_the_mesh(facts: Facts) -> Iterator[Note]:
             thickness, spacing = body.layer.thickness, max(case.grid.spacing)
             if thickness < 0.5 * spacing and (name, "thin") not in seen:
                 seen.add((name, "thin"))
-                yield LAYER_THIN(case.place(f"{name}.layer"), thickness=thickness, cell=spacing)
+                yield LAYER_THIN(case.note_place(f"{name}.layer"), thickness=thickness, cell=spacing)
             if thickness > 2 * max(case.grid.lengths) and not all(case.grid.periodic) and (name, "thick") not in seen:
                 seen.add((name, "thick"))
-                yield LAYER_THICK(case.place(f"{name}.layer"), thickness=thickness, length=max(case.grid.lengths))
+                yield LAYER_THICK(case.note_place(f"{name}.layer"), thickness=thickness, length=max(case.grid.lengths))
 
 
 @scene_check

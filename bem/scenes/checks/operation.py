@@ -33,7 +33,7 @@ def growth_without_a_barrier(facts: Facts) -> Iterator[Note]:
         lowered = case.friction * pressure * film.activation_volume
         if lowered > film.activation_energy and math.isfinite(lowered):
             yield GROWTH_WITHOUT_BARRIER(
-                case.place("film"),
+                case.note_place("film"),
                 stress=case.friction * pressure,
                 lowered=lowered / ELECTRON_VOLT,
                 barrier=film.activation_energy / ELECTRON_VOLT,

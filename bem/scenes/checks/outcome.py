@@ -26,11 +26,12 @@ from bem.notes.checks import (
     STRESS_ABOVE_YIELD,
     STRESS_AT_DEEPEST_DEPTH,
 )
+from bem.notes.note import joined, percent, si
 from bem.scenes.checks.contact import hertz_pressure_above_hardness, yield_below_the_surface
 from bem.scenes.checks.facts import Case, Facts
 from bem.scenes.checks.registry import outcome_check
 from bem.scenes.checks.roughened import roughened
-from bem.scenes.checks.words import joined, numbers, percent, si, times
+from bem.scenes.checks.words import numbers, times
 from bem.scenes.context import Outcome
 
 _AT_EDGE = 1e-4

@@ -6,8 +6,9 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from bem.materials import Body, Material
+from bem.notes.note import percent, si
 from bem.scenes.checks.facts import Case, Facts
-from bem.scenes.checks.words import percent, si, times
+from bem.scenes.checks.words import times
 
 if TYPE_CHECKING:
     from bem.lubrication import Lubricant

@@ -10,9 +10,9 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from bem.materials import contact_modulus
+from bem.notes.note import si
 from bem.scenes.checks.facts import Case, Facts
 from bem.scenes.checks.units_of import suspected_units
-from bem.scenes.checks.words import si
 
 _REMEDY = "lower the load, or check the units of load, modulus and lengths"
 

@@ -32,7 +32,7 @@ def steep_roughness(facts: Facts) -> Iterator[Note]:
     an rms slope of 0.5, and summits at twice the rms slope are cliffs."""
     for slope, case, surface in facts.worst_surfaces(lambda surface: surface.rms_slope):
         if slope > STEEP:
-            yield SURFACE_STEEP(case.place(f"{surface.body}.surface"), slope=slope)
+            yield SURFACE_STEEP(case.note_place(f"{surface.body}.surface"), slope=slope)
 
 
 @scene_check
@@ -40,7 +40,7 @@ def roughness_as_large_as_the_patch(facts: Facts) -> Iterator[Note]:
     """Heights of a tenth of the patch are form, or in a wrong unit."""
     for share, case, surface in facts.worst_surfaces(lambda surface: surface.rms_height / min(surface.grid.lengths)):
         if share > 0.1:
-            yield SURFACE_IS_FORM(case.place(f"{surface.body}.surface"), height=surface.rms_height, share=share)
+            yield SURFACE_IS_FORM(case.note_place(f"{surface.body}.surface"), height=surface.rms_height, share=share)
 
 
 @scene_check
@@ -61,10 +61,10 @@ def surface_interpolated_from_few_points(facts: Facts) -> Iterator[Note]:
         finer = max(d / h for d, h in zip(surface.source_spacing, surface.grid.spacing, strict=True))
         if min(surface.source_points) < _POINTS * (1 - _ROUND_OFF):
             apart = times(surface.source_spacing, "m")
-            yield MAP_FEW_POINTS(case.place(f"{surface.body}.surface"), points=points, apart=apart)
+            yield MAP_FEW_POINTS(case.note_place(f"{surface.body}.surface"), points=points, apart=apart)
         elif finer > 2:
             apart = times(surface.source_spacing, "m")
-            yield MAP_COARSE(case.place(f"{surface.body}.surface"), finer=finer, apart=apart)
+            yield MAP_COARSE(case.note_place(f"{surface.body}.surface"), finer=finer, apart=apart)
 
 
 def _counted(points: float) -> str:

@@ -9,8 +9,9 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from bem.grid import FloatArray, Grid
+from bem.notes.note import percent, si
 from bem.scenes import build, maps
-from bem.scenes.checks.words import percent, si, times
+from bem.scenes.checks.words import times
 from bem.scenes.common import GeneratedSurface, MeasuredSurface
 from bem.scenes.context import derive_seed
 
