@@ -17,14 +17,14 @@ FATIGUE_CONSTANTS = define(
     CAUTION,
     "The fatigue constants are those of unalloyed and low-alloy steels.",
     "wear.criterion low_cycle_fatigue wears {material}, E = {modulus:si Pa}, which is none.",
-    "Give its own ductility and exponent.",
+    "Give the material its own ductility and exponent.",
 )
 LAYER_INCOMPRESSIBLE = define(
     "layer-incompressible",
     CAUTION,
     "The layer's stiffness hangs on the last digit of Poisson's ratio.",
     "Poisson's ratio {ratio:g} makes the bonded layer {stiffer:.0f} times as stiff in compression as its modulus.",
-    "Measure it, or bracket it with two runs.",
+    "Measure Poisson's ratio, or bracket it with two runs.",
 )
 HARDNESS_UNLIKELY = define(
     "hardness-unlikely",
@@ -46,14 +46,14 @@ CAP_OF_STIFFER = define(
     CAUTION,
     "The contact is capped at the hardness of the stiffer body.",
     "{material} has neither hardness nor yield stress, so that pressures are capped at the {cap:si Pa} of {stiff}.",
-    "To cap it at its own, give {material} a hardness.",
+    "Give {material} a hardness of its own.",
 )
 YIELD_UNLIKELY = define(
     "yield-stress-unlikely",
     CAUTION,
     "The yield stress does not fit the hardness.",
     "{stress:si Pa} is hardness / {ratio:.2g}; metals have hardness / 2.6 to / 3, brittle solids down to / 1.5.",
-    "Leave it out for hardness / 2.8, or check both.",
+    "Leave yield_stress out (hardness / 2.8 is taken), or check both.",
 )
 TENSILE_CAP = define(
     "tensile-strength-as-cap",
@@ -132,7 +132,7 @@ PRESSURE_ABOVE_HARDNESS = define(
     CAUTION,
     "The elastic contact exceeds the hardness; a real one would flow.",
     "Hertz pressure {pressure:si Pa} is {ratio:.2g} times the softer hardness.",
-    "To keep below it, {action}.",
+    "To stay below the hardness, {action}.",
 )
 YIELD_BELOW_SURFACE = define(
     "yield-below-surface",
@@ -140,7 +140,7 @@ YIELD_BELOW_SURFACE = define(
     "The softer body begins to yield below its surface.",
     "Hertz pressure {pressure:si Pa} is {ratio:.3g} times that at which it begins to yield, {onset:si Pa}: "
     "elastic stresses there are too high, and the first loadings leave residual stresses.",
-    "Lower the load or allow for it.",
+    "Lower the load, or expect residual stresses.",
 )
 LOAD_NEAR_HARDNESS = define(
     "load-near-hardness",
@@ -255,7 +255,7 @@ DEPTHS_MISS_STRESS = define(
     CAUTION,
     "outputs.depths miss the largest von Mises stress.",
     "It lies {at:si m} below the surface; the nearest depth is {nearest:si m}.",
-    "Take depths every {step:si m} there.",
+    "Take depths every {step:si m} around {at:si m}.",
 )
 DEPTHS_IN_LAYER_FEW = define(
     "depths-in-layer-few",
@@ -361,7 +361,7 @@ STRESS_ABOVE_YIELD = define(
     CAUTION,
     "Elastic von Mises stresses exceed the yield stress.",
     "They reach {stress:si Pa} and are too high in {volume:.3g} um^3.",
-    "Lower the load, or read them as where yield begins.",
+    "Lower the load, or read the stresses as a sign of where yield begins.",
 )
 SPOTS_SMALL = define(
     "spots-small",
@@ -467,7 +467,7 @@ PARTICLES_AS_LARGE_AS_GRID = define(
     CAUTION,
     "The grid decides the size of the largest particle.",
     "It is {largest:si m} long on a grid of {side:si m}.",
-    "Take a larger one, or read it as wear of the whole surface.",
+    "Take a larger grid, or read the particle as wear of the whole surface.",
 )
 NOTHING_CAME_OFF = define(
     "nothing-came-off",

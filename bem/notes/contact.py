@@ -9,7 +9,7 @@ CONTACT_REACHES_EDGE = define(
     CAUTION,
     "The contact reaches the edge of the grid along {axes}.",
     "For this solver the bodies end there.",
-    "If they do not, make the grid longer or periodic along {axes}.",
+    "If the bodies go on there, make the grid longer or periodic along {axes}.",
 )
 CONTACT_SPOTS_SMALL = define(
     "contact-spots-small",

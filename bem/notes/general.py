@@ -21,12 +21,12 @@ CHECK_FAILED = define(
     Level.CAUTION,
     "The check {check} could not be made.",
     "It ended with {error}.",
-    "Report it; the results do not depend on it.",
+    "Report this message; the results do not depend on it.",
 )
 FIGURE_MISSING = define(
     "figure-missing",
     Level.CAUTION,
     "Figure {figure} could not be drawn.",
     "It ended with {error}.",
-    "Report it; the results are complete without it.",
+    "Report this message; the results are complete without it.",
 )

@@ -18,7 +18,7 @@ BULK_HOT = define(
     "The bulk temperature of {bulk:.0f} degC is above {limit:.0f} degC.",
     "Oils and hardened bearing steels do not stand it, and the catalogue's thermal constants are those near room "
     "temperature.",
-    "Lower the bulk temperature, or give thermal constants at it.",
+    "Lower the bulk temperature, or give thermal constants at that temperature.",
 )
 SURFACE_TRANSFORMS = define(
     "surface-transforms",

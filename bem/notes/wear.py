@@ -101,5 +101,5 @@ LIFE_DISTANCE_DIFFERS = define(
     CAUTION,
     "wear.law.distance does not fit the speeds.",
     "It is {given:si m}; at these speeds a place slides {slid:si m} while the {length:si m} of the patch pass.",
-    "Set wear.law.distance to that value.",
+    "Set wear.law.distance to {slid:si m}.",
 )
