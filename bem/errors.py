@@ -71,8 +71,10 @@ class ResultsError(BemError, OSError):
 
 @contextmanager
 def interrupts_as_they_are() -> Iterator[None]:
-    """An interrupt that fell into the call of a compiled loop, of which Python makes a SystemError that it caused, is
-    raised as itself: what goes on after an interrupt would take it for a mistake of the program.
+    """Raise an interrupt that fell into the call of a compiled loop as itself.
+
+    Python turns such an interrupt into a SystemError, and that one into another for every array and tuple that the loop
+    still has to return. The interrupt is the first cause of the chain.
 
     Raises
     ------
@@ -81,6 +83,9 @@ def interrupts_as_they_are() -> Iterator[None]:
     try:
         yield
     except SystemError as error:
-        if isinstance(error.__cause__, KeyboardInterrupt):
-            raise error.__cause__ from None
+        cause: BaseException | None = error
+        while isinstance(cause, SystemError):
+            cause = cause.__cause__
+        if isinstance(cause, KeyboardInterrupt):
+            raise cause from None
         raise

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import contextlib
 import json
-import signal
 import sys
 import time
 from collections.abc import Mapping
@@ -12,9 +11,10 @@ from pathlib import Path
 from typing import Any
 
 from bem.app.workspace import ASKED, OWN, PROGRESS
-from bem.errors import BemError
+from bem.errors import BemError, interrupts_as_they_are
 from bem.notes import Level, Note
 from bem.results.atomic import write_text
+from bem.startup.interrupts import catch_interrupts
 
 _EVERY = 0.3  # seconds between two writings of the progress
 
@@ -59,7 +59,8 @@ def main(folder: Path) -> int:
 
     told = Told(folder / OWN / PROGRESS)
     try:
-        done = run_scene(folder / OWN / ASKED if _asked(folder) else folder, folder, resume=True, watcher=told)
+        with interrupts_as_they_are():
+            done = run_scene(folder / OWN / ASKED if _asked(folder) else folder, folder, resume=True, watcher=told)
     except BemError as error:
         told.end("failed", "\n".join(getattr(error, "messages", None) or [str(error)]))
         return error.exit_code
@@ -78,10 +79,6 @@ def _asked(folder: Path) -> bool:
     return (folder / OWN / ASKED).is_file()
 
 
-def _interrupt(*_: object) -> None:
-    raise KeyboardInterrupt
-
-
 if __name__ == "__main__":
-    signal.signal(signal.SIGTERM, _interrupt)
+    catch_interrupts()
     sys.exit(main(Path(sys.argv[1])))

@@ -13,10 +13,11 @@ import gc
 import os
 import signal
 import sys
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from bem.cli._streams import code_at_end, protect_streams
 from bem.errors import BemError, interrupts_as_they_are
+from bem.startup.interrupts import catch_interrupts
 
 if TYPE_CHECKING:
     import typer
@@ -91,8 +92,7 @@ def main() -> None:
     gc.disable()  # see `bem.startup.lazy.collecting`
     try:
         atexit.register(_done)
-        signal.signal(signal.SIGTERM, _interrupt)
-        sys.unraisablehook = _unraisable
+        catch_interrupts()
         protect_streams()
         with interrupts_as_they_are():
             build()(standalone_mode=True)
@@ -130,17 +130,3 @@ def _done() -> None:
     gives such signals back to the system there, unless they are ignored."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGALRM):
         signal.signal(number, signal.SIG_IGN)
-
-
-def _interrupt(*_: object) -> None:
-    raise KeyboardInterrupt
-
-
-def _unraisable(lost: Any) -> None:
-    """An interrupt that fell into a destructor or a callback, where Python only prints it, is repeated a moment later:
-    at once it could fall into this very function."""
-    if isinstance(lost.exc_value, KeyboardInterrupt):
-        signal.signal(signal.SIGALRM, _interrupt)
-        signal.setitimer(signal.ITIMER_REAL, 0.01)
-    else:
-        sys.__unraisablehook__(lost)

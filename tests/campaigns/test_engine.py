@@ -187,15 +187,18 @@ def test_a_case_that_fails_is_named_and_the_others_are_kept(tmp_path, monkeypatc
 
 
 @pytest.mark.internal
-def test_an_interrupt_that_falls_into_a_compiled_call_pauses_the_run(tmp_path, monkeypatch):
-    """numba rebuilds what a loop returns by Python; what is raised there Python tells as a SystemError. A paused run
-    was called failed."""
+@pytest.mark.parametrize("arrays", [0, 1, 5])
+def test_an_interrupt_that_falls_into_a_compiled_call_pauses_the_run(tmp_path, monkeypatch, arrays):
+    """numba rebuilds what a loop returns by Python; what is raised there Python tells as a SystemError, once more for
+    every array that is still to be returned. A paused run was called failed."""
 
     def interrupted(*given):
-        try:
-            raise KeyboardInterrupt
-        except KeyboardInterrupt as error:
-            raise SystemError("CPUDispatcher(_gather) returned a result with an exception set") from error
+        error = KeyboardInterrupt()
+        for _ in range(arrays + 1):
+            outer = SystemError("returned a result with an exception set")
+            outer.__cause__ = error
+            error = outer
+        raise error
 
     monkeypatch.setattr("bem.campaigns.engine.solve_case", interrupted)
     with pytest.raises(KeyboardInterrupt):
