@@ -115,6 +115,7 @@ FILM_LOADS = {
 FILM_AS_SEPARATION = {"wavelength-film-as-separation": "at 0.6, 0.8, 1.0 GPa"}
 
 
+SLOWER = {"given-film-a-tenth-as-fast": "at a tenth of that speed"}
 SQUARES = {
     "given-film-square-of-204-um": "at 0.6, 0.8, 1.0 GPa on a square of 204 um (one surface)",
     "given-film-square-of-816-um": "on one of 816 um",
@@ -175,7 +176,11 @@ RULES: dict[str, Rule] = {
     "largest_difference_near_1_gpa": Rule(
         lambda s: f"{_difference_at(s, 1.0):.1f}",
         lambda s: 31.5 <= _difference_at(s, 1.0) < 32.5,
-        quoted(_d_there, SQUARES),
+        lambda s: (
+            f"{_difference_at(stored('asperities-given-film'), 1.0):.1f} at 0.003 m/s, "
+            f"{quoted(lambda slower: f'{_difference_at(slower, 1.0):.1f}', SLOWER)(s)}; "
+            f"{quoted(_d_there, SQUARES)(s)}"
+        ),
     ),
     "speed_of_the_largest_difference": Rule(
         lambda s: ", ".join(f"{v:.2g}" for v in _largest_difference_speeds(s).values()),
