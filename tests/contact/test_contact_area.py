@@ -119,6 +119,25 @@ def test_narrow_contact_and_narrow_gaps(share):
     assert abs(np.mean(errors)) < 0.4 * np.mean(plain)
 
 
+@pytest.mark.internal
+@pytest.mark.parametrize("direction", [(1, 0), (0, 1), (1, 1), (2, 1)])
+@pytest.mark.parametrize("loaded", [1e-4, 1e4])
+def test_bodies_worn_to_a_wedge_touch_up_to_its_edge_in_any_direction(direction, loaded):
+    """A strip that is worn flat between straight flanks: its area is that between the kinks, whatever the pressure.
+
+    The law of smooth boundaries places the edge 0.3 to 0.6 of a cell off."""
+    half_width = 0.21
+    m, n = direction
+    grid = Grid((64, 64), (1 / 64, 1 / 64), periodic=(True, True))
+    across = np.abs((m * grid.x[:, None] + n * grid.y[None, :] + 0.013) % 1 - 0.5)
+    worn = np.maximum(across - half_width, 0.0)
+    pressure = np.where(across < half_width, loaded, 0.0)
+    region = contact_region(pressure, worn, worn, grid, 1.0, compliance=1e-12 / loaded)
+    cells = abs(region.area - 2 * half_width) * 64 / (2 * np.hypot(m, n))  # from where the edge lies
+    # exact where the smoothed indicator has the right normal: along the axes and at 45 degrees
+    assert cells < (1e-9 if m * n in (0, 1) else 0.1)
+
+
 @pytest.mark.parametrize("mean_pressure", [0.002, 0.008, 0.02])
 @pytest.mark.parametrize("hardness", [None, 0.06])
 def test_rough_contact_converges_with_order_two(mean_pressure, hardness):
