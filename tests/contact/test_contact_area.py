@@ -7,7 +7,7 @@ from test_contact_closed_forms import order
 
 from bem import Body, Grid, Layer, Material, displacement_operator, generate_surface, solve_contact
 from bem.contact import contact_area, contact_boundary
-from bem.contact.contact_area import contact_region
+from bem.contact.contact_area import contact_region, rows_in_contact
 from bem.contact.regions import count_spots
 from bem.reference_solutions.hertz import sphere_contact
 from bem.threads import set_threads
@@ -136,6 +136,21 @@ def test_bodies_worn_to_a_wedge_touch_up_to_its_edge_in_any_direction(direction,
     cells = abs(region.area - 2 * half_width) * 64 / (2 * np.hypot(m, n))  # from where the edge lies
     # exact where the smoothed indicator has the right normal: along the axes and at 45 degrees
     assert cells < (1e-9 if m * n in (0, 1) else 0.1)
+
+
+@pytest.mark.internal
+@pytest.mark.parametrize("half_width", [0.203, 0.207, 0.211, 0.215])
+@pytest.mark.parametrize("periodic", [(True, True), (False, True)])
+def test_rows_in_contact_make_up_the_strip_wherever_it_ends(half_width, periodic):
+    """Kinks in any quarter of a cell: the part of a row beyond its centre, or of the next row."""
+    grid = Grid((64, 8), (1 / 64, 1 / 64), periodic=periodic)
+    across = np.abs(grid.x[:, None] - grid.x.mean() - 0.001) + np.zeros(grid.shape)
+    worn = np.maximum(across - half_width, 0.0)
+    pressure = np.where(across < half_width, 1.0, 0.0)
+    rows = rows_in_contact(pressure, worn, worn, grid, 1.0, compliance=1e-12)
+    assert rows.sum() / 64 == pytest.approx(2 * half_width, rel=1e-9)
+    assert rows.min() >= 0
+    assert rows.max() == 1
 
 
 @pytest.mark.parametrize("mean_pressure", [0.002, 0.008, 0.02])
