@@ -11,7 +11,7 @@ Calls, in order:
 1. `solve.solve_contact` checks the arguments (`problem.checked_request`) and scales gaps and pressures by powers of
    two. Cost: four passes over the grid (finite values, two of moments, scaling), and the kernel of the bodies with its
    spectrum, which `convolution` evaluates at its first use here and keeps.
-2. `fallbacks.without_contact` and `fallbacks.pressed_flat` return contacts known in closed form.
+2. `solve_on_grid.without_contact` and `solve_on_grid.pressed_flat` return contacts known in closed form.
 3. `nested_iteration.start_from_coarser` solves a grid of twice the cell size, which is started in the same way; a
    coarse grid of at most 32 cells along the longer side starts from a uniform pressure. The result is interpolated as
    p^2 inside contact and -c gap^(2/3) outside, up to three cells from the contact, with c such that slopes on both
@@ -19,7 +19,7 @@ Calls, in order:
    most half. Coarse grids have a tolerance of their own, a fifth of the remaining iterations each, and no rerun under
    the energy guard; a result that did not converge is dropped, and the finer grid starts from a uniform pressure.
    Cost: 85/256 of the finest grid, if all grids take equal numbers of convolutions.
-4. `fallbacks.solve_on_grid` solves each grid: `problem.GridProblem.solve` calls `active_set.solve_active_set`, and
+4. `solve_on_grid.solve_on_grid` solves each grid: `problem.GridProblem.solve` calls `active_set.solve_active_set`, and
    only where that stalls is there a fallback (step 11). `controls` has what depends on the prescribed quantity.
 5. `active_set` repeats steps 6 to 10 until no contact condition is violated by more than the tolerance. It gives up
    after 100 outer iterations, after 60 (5 near round-off) in which the violation has not fallen by 30 %, or without
@@ -48,7 +48,7 @@ Calls, in order:
     Where cells below the cap are at most a tenth of the capped ones and fewer than half of the active ones, the
     solution of step 9 is discarded for a projected gradient step. Its length is one over the response of a single
     cell, which may raise the energy.
-11. `fallbacks`: up to two reruns with the energy guard from the start, the second without early ends of step 9;
+11. `solve_on_grid`: up to two reruns with the energy guard from the start, the second without early ends of step 9;
     friction lagged by one contact, secant searches over load or approach, and the least mean gap of bodies that cannot
     be pressed flat (`mean_gap_limits`).
 12. `certificate` recomputes load, gap and residual from the returned pressure; the approach is the solver's, and the

@@ -20,7 +20,7 @@ Where nearly all cells in contact are at the cap, unbounded pressures carry no i
 step takes their place. Its length is that of a single cell's response, so it may raise the energy.
 
 Friction in the gap and a prescribed mean gap have no energy; where the sets then swing,
-`fallbacks` has other methods.
+`solve_on_grid` has other methods.
 
 Verified in tests/contact/test_contact_oracle.py and tests/contact/test_contact_solver.py.
 """
@@ -48,6 +48,7 @@ from bem.contact.grid_workspace import (
     Tolerance,
 )
 from bem.contact.reductions import Survey
+from bem.contact.sparse_inverse import SparseInverseOnCells
 from bem.convolution import DisplacementOperator
 
 FloatArray = NDArray[np.float64]
@@ -297,20 +298,22 @@ class _Step:
     """The next pressure.
 
     shifted : True if energies cannot be compared along the step (shift of a full contact).
-    begun, raw : the active cells with their pressures, and the pressures without bounds that the step was to reach.
+    begun, near, raw : the active cells with their pressures, the sparse inverse on them, and the pressures without
+    bounds that the step was to reach.
     """
 
     iterate: Iterate
     shifted: bool = False
     begun: Iterate | None = None
+    near: SparseInverseOnCells | None = None
     raw: FloatArray | None = None
 
     def shortened(self, grid: GridWorkspace, control: Control, length: float) -> Iterate | None:
         """Return the projection of the unconstrained step at a fraction of its length."""
-        if self.begun is None or self.raw is None:
+        if self.begun is None or self.near is None or self.raw is None:
             return None
         values = self.begun.values
-        return _to_bounds(grid, control, self.begun, values + length * (self.raw - values))
+        return _to_bounds(grid, control, self.begun, self.near, values + length * (self.raw - values))
 
 
 def _evaluate(
@@ -399,24 +402,25 @@ def _next_step(
     solver = pcg if symmetric else gcr
     raw = solver.close_gap(grid, active, control, now.goal, budget)
     iterate = active.iterate
-    clipped = _to_bounds(grid, control, iterate, raw.copy())
+    clipped = _to_bounds(grid, control, iterate, active.near, raw.copy())
     if (
         clipped.cells.size <= FULLY_PLASTIC_RATIO * clipped.capped.size
         and clipped.cells.size < 0.5 * iterate.cells.size
     ):
         # fully plastic: unbounded pressures carry no information
         return _Step(_gradient_step(grid, control, iterate, now.approach, 1 / grid.self_response))
-    return _Step(clipped, begun=iterate, raw=raw)
+    return _Step(clipped, begun=iterate, near=active.near, raw=raw)
 
 
-def _to_bounds(grid: GridWorkspace, control: Control, iterate: Iterate, raw: FloatArray) -> Iterate:
+def _to_bounds(
+    grid: GridWorkspace, control: Control, iterate: Iterate, near: SparseInverseOnCells, raw: FloatArray
+) -> Iterate:
     """Project trial pressures (overwritten) on the active cells onto the bounds, and restore the load.
 
     Neighbours make up for tension that is removed, regions for load that a cap clips.
     """
-    near = grid.near_on(iterate.cells)
     mean_free = grid.operator.mean_free
-    if near is None or control.keeps_regional_load(capped=math.isfinite(grid.cap), mean_free=mean_free):
+    if control.keeps_regional_load(capped=math.isfinite(grid.cap), mean_free=mean_free):
         shape = grid.operator.grid.shape
         bounds.redistribute_clipped_load(iterate.cells, raw, grid.cap, shape, bounds.REGION)
     else:

@@ -214,7 +214,6 @@ class GridWorkspace:
         self.extrapolation = Extrapolation()
         self.rise = _NO_RISE
         self.sparse: SparseInverse | None = None
-        self.near: tuple[Indices, SparseInverseOnCells] | None = None
         self.coarse: CoarseCorrection | None = None
 
     @property
@@ -306,7 +305,6 @@ class GridWorkspace:
         known.solve(pattern, unsolved=unsolved)
         cells, values, gap, mean_gap = merged
         near = SparseInverseOnCells(SparseRows(columns, pattern, known.table))
-        self.near = cells, near
         if capped.size:
             self.state[violating] = CONTACT
             capped = capped[self.state[capped] == CAPPED]
@@ -324,25 +322,11 @@ class GridWorkspace:
         self.rise = rise
         return rise
 
-    def preconditioner(self, cells: Indices) -> Preconditioner:
-        """Return the two-level approximate inverse on the cells."""
-        sparse = self.sparse_inverse()
-        self.near = None  # release the old rows first
-        near = sparse.on(cells)
-        self.near = cells, near
-        return self._with_coarse(cells, near)
-
     def preconditioner_on(self, active: ActiveCells) -> Preconditioner:
         """Return the two-level approximate inverse on the active cells."""
-        return self._with_coarse(active.iterate.cells, active.near)
-
-    def _with_coarse(self, cells: Indices, near: SparseInverseOnCells) -> Preconditioner:
+        cells, near = active.iterate.cells, active.near
         coarse = None if self.coarse is None else self.coarse.on(cells, near.row_sums())
         return Preconditioner(near, coarse, np.empty(cells.size))
-
-    def near_on(self, cells: Indices) -> SparseInverseOnCells | None:
-        """Return the sparse inverse last connected, if it is on these cells (the same array)."""
-        return self.near[1] if self.near is not None and self.near[0] is cells else None
 
     def release(self, iterate: Iterate) -> tuple[FloatArray, FloatArray]:
         """Return the pressure as a field and the displacement; both own the buffers of the workspace."""

@@ -24,8 +24,8 @@ from bem.compiled import compiled
 from bem.contact import reductions
 from bem.contact.bounds import split_cells
 from bem.contact.controls import Control
-from bem.contact.fallbacks import COARSE_TOLERANCE, Start, solve_on_grid, without_contact
 from bem.contact.problem import GridProblem
+from bem.contact.solve_on_grid import COARSE_TOLERANCE, Start, solve_on_grid, without_contact
 from bem.threads import share
 
 FloatArray = NDArray[np.float64]

@@ -14,12 +14,12 @@ from bem.contact import reductions
 from bem.contact.active_set import Report
 from bem.contact.certificate import certify, elastic_length
 from bem.contact.controls import Control
-from bem.contact.fallbacks import Start, pressed_flat, solve_on_grid, without_contact
 from bem.contact.grid_workspace import GridResult, IterationBudget, is_flat
 from bem.contact.mean_gap_multiplicity import note_on_several_answers
 from bem.contact.nested_iteration import start_from_coarser
 from bem.contact.problem import GridProblem, Settings, Units, checked_request
 from bem.contact.solution import ContactSolution
+from bem.contact.solve_on_grid import Start, pressed_flat, solve_on_grid, without_contact
 from bem.convolution import DisplacementOperator
 from bem.errors import Status
 from bem.materials import Body

@@ -20,6 +20,7 @@ import numpy as np
 import scipy.linalg
 
 from bem import solve_contact
+from bem.contact.coarse_correction import Preconditioner
 from bem.contact.grid_workspace import GridWorkspace, SolverParameters
 from reports.experiments.contact_convolutions import SLOPE, heights, operator
 from reports.experiments.kept import keep, result_of, rounded
@@ -34,7 +35,9 @@ def row(kind: str, cells: int, share: float) -> dict[str, Any]:
     contact = solve_contact(gap, applied, load=0.5 * share * SLOPE)
     touching = np.flatnonzero(contact.pressure.reshape(-1) > 0)
     level = GridWorkspace(applied, gap.reshape(-1) - gap.min(), math.inf, SolverParameters())
-    inverse, out = level.preconditioner(touching), np.empty(touching.size)
+    near = level.sparse_inverse().on(touching)
+    coarse = None if level.coarse is None else level.coarse.on(touching, near.row_sums())
+    inverse, out = Preconditioner(near, coarse, np.empty(touching.size)), np.empty(touching.size)
     rows = np.empty((touching.size, touching.size))
     for number in range(touching.size):
         inverse(np.eye(1, touching.size, number)[0], out)

@@ -5,6 +5,7 @@ import scipy.optimize
 import scipy.signal
 from random_surfaces import self_affine
 
+from bem.contact.bounds import Iterate
 from bem.convolution import displacement_operator
 from bem.grid import Grid
 from bem.kernels.coefficients import SURFACE_PARITY, Load, surface_coefficients
@@ -20,6 +21,13 @@ def body(modulus=1.0, poisson=0.0):
 
 def operator(shape, spacing, periodic, modulus=1.0):
     return displacement_operator(Grid(shape, spacing, periodic=periodic), body(modulus))
+
+
+def active_cells(workspace, cells):
+    """The cells as the active set of a workspace, with the rows of the sparse inverse connected."""
+    iterate = Iterate(cells, np.zeros(cells.size), cells[:0])
+    workspace.begin_round(iterate, keep=False)
+    return workspace.activate(iterate, np.empty(0, np.int32), 0.0, with_rise=False)
 
 
 def rough(nx, ny, seed=0, hurst=0.8, rolloff=2.0):

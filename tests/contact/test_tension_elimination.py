@@ -2,7 +2,7 @@
 
 import numpy as np
 import pytest
-from contact_oracles import FREE, HALF_X, HALF_Y, PERIODIC, notes_surface, operator
+from contact_oracles import FREE, HALF_X, HALF_Y, PERIODIC, active_cells, notes_surface, operator
 
 from bem.contact import bounds
 from bem.contact.bounds import _TENSION_ITERATIONS, eliminate_tension
@@ -30,10 +30,9 @@ def contact_of(periodic, share, seed):
     height = notes_surface(N, seed, rolloff=3).ravel()
     cells = np.flatnonzero(height > np.quantile(height, 1 - share))
     workspace = GridWorkspace(op, np.zeros(N * N), np.inf, SolverParameters())
-    workspace.preconditioner(cells)
     matrix = kernel(op, cells) + 1e-6 * np.eye(cells.size)  # a doubly periodic grid has none for a uniform pressure
     closing = height[cells] - height[cells].min()
-    return workspace.near_on(cells), matrix, np.linalg.solve(matrix, closing)
+    return active_cells(workspace, cells).near, matrix, np.linalg.solve(matrix, closing)
 
 
 def dense_rows(near, size):

@@ -33,7 +33,6 @@ from bem.contact.problem import GridProblem
 from bem.convolution import DisplacementOperator
 
 FloatArray = NDArray[np.float64]
-Solve = Callable[[ApproachControl | LoadControl, InitialPressure, float], GridResult]
 
 COARSE_TOLERANCE = 6e-2
 """Violation over roughness that coarse grids are solved to; the interpolation loses more."""
@@ -88,9 +87,9 @@ def solve_on_grid(
         # displacements have no mean: the mean gap fixes the approach
         control = ApproachControl(float(problem.gap.mean()) - control.mean_gap)
     if not isinstance(control, ApproachControl):
-        return _solve_guarded(problem, control, start.pressure, tolerance, rerun=guarded_rerun)
+        return _solve_with_fallbacks(problem, control, start.pressure, tolerance, rerun=guarded_rerun)
     # where displacements have no mean, a load is far easier than an approach near full contact
-    first = _solve_directly if mean_free or not guarded_rerun else _solve_guarded
+    first = _solve_directly if mean_free or not guarded_rerun else _solve_with_fallbacks
     result = first(problem, control, start.pressure, tolerance)
     if _is_final(problem, result) or not (guarded_rerun or mean_free):
         return result
@@ -110,7 +109,7 @@ def _solve_directly(problem: GridProblem, control: Control, start: InitialPressu
     return problem.solve(control, start, problem.settings.allowed(tolerance), parameters)
 
 
-def _solve_guarded(
+def _solve_with_fallbacks(
     problem: GridProblem, control: Control, start: InitialPressure, tolerance: float, *, rerun: bool = True
 ) -> GridResult:
     """Solve for a load or an approach; repeat with lagged friction or, if `rerun`, under the energy guard."""
@@ -183,7 +182,7 @@ def _below_least_mean_gap(problem: GridProblem, mean_gap: float, missed: GridRes
     gap = problem.gap
 
     def at(approach: float, start: FloatArray | None) -> GridResult:
-        return _solve_guarded(problem, ApproachControl(approach), start, tolerance)
+        return _solve_with_fallbacks(problem, ApproachControl(approach), start, tolerance)
 
     first = at(float(gap.mean()), None)
     if not first.converged:
@@ -269,7 +268,7 @@ class _SecantSearch:
         precision = max(tolerance, 0.03 * self.length)
         points: list[tuple[float, float]] = []
         while True:
-            result = _solve_guarded(self.problem, self.control(x), start, precision)
+            result = _solve_with_fallbacks(self.problem, self.control(x), start, precision)
             start = result.pressure
             error = self.excess(result)
             if abs(error) <= tolerance and precision <= tolerance:
