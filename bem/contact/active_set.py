@@ -47,7 +47,7 @@ from bem.contact.grid_workspace import (
     SolverParameters,
     Tolerance,
 )
-from bem.contact.reductions import Survey
+from bem.contact.reductions import ContactSums
 from bem.contact.sparse_inverse import SparseInverseOnCells
 from bem.convolution import DisplacementOperator
 
@@ -90,7 +90,7 @@ def solve_active_set(
     Parameters
     ----------
     operator : displacement operator of the grid.
-    gap : flat, lowest value zero.
+    gap : one-dimensional, lowest value zero.
     control : prescribed quantity.
     cap : highest pressure; may be infinite.
     start : feasible initial pressure, or None.
@@ -103,12 +103,12 @@ def solve_active_set(
     progress, guard = _Progress(parameters), _EnergyGuard()
     iterate = control.initial_iterate(grid, start)
     has_energy = operator.symmetric and control.has_energy
-    before: _Point | None = None
+    previous: _Point | None = None
     best: _Evaluation | None = None
     step: _Step | None = None
     while True:
-        grid.begin_round(iterate, keep=before is not None)
-        now = _evaluate(grid, control, iterate, before, tolerance, progress)
+        grid.begin_round(iterate, keep=previous is not None)
+        now = _evaluate(grid, control, iterate, previous, tolerance, progress)
         if report is not None:
             report(budget.iterations, now.violation, now.iterate.cells.size + now.iterate.capped.size)
         if now.violation <= now.goal:
@@ -121,57 +121,60 @@ def solve_active_set(
             return best.result(grid, last=now)
         current = now.point
         potential = control.potential(current.energy, current.force)
-        if progress.stalls(now.violation, potential, current.size, round_off=now.round_off):
+        if progress.stalls(now.violation, potential, current.energy_size, round_off=now.round_off):
             return best.result(grid, last=now, round_off=now.round_off)
-        before = current if has_energy else None
+        previous = current if has_energy else None
         improved = progress.improves(now.violation)
         progress.set_guard(now.violation, has_energy=has_energy)
         guarded = progress.release > 0 and guard.accepted is not None and not improved
-        if guarded and guard.accepted is not None and current.above(guard.accepted, now.approach):
-            iterate, step = guard.take_back(grid, control, guard.accepted, current), None
+        if guarded and guard.accepted is not None and current.has_higher_energy_than(guard.accepted, now.approach):
+            iterate, step = guard.reject_step(grid, control, guard.accepted, current), None
             continue
         guard.accepted, guard.refused = current, 0
-        shorter = step.shortened(grid, control, now.length) if step is not None and now.length < 1 else None
+        shorter = (
+            step.shortened(grid, control, now.step_fraction) if step is not None and now.step_fraction < 1 else None
+        )
         if shorter is not None:
             iterate, step = shorter, None
             continue
-        step = _next_step(grid, control, now, budget, symmetric=has_energy)
+        step = _next_step(grid, control, now, budget, has_energy=has_energy)
         if step is None:
             return best.result(grid, last=now)
         iterate = step.iterate
-        if step.shifted:
-            before = None
+        if step.along_null_space:
+            previous = None
 
 
 class _Point(NamedTuple):
     """A feasible pressure with its approach.
 
-    energy : at approach zero. size : sum of the energy's terms. force : sum of pressures.
+    energy : at approach zero. energy_size : sum of its absolute terms, the scale of its round-off. force : sum of
+    pressures.
     """
 
     iterate: Iterate
     approach: float
     energy: float
-    size: float
+    energy_size: float
     force: float
 
-    def above(self, other: _Point, approach: float) -> bool:
+    def has_higher_energy_than(self, other: _Point, approach: float) -> bool:
         """Return True if the energy at an approach is higher than the other's by more than round-off."""
-        rise = self.energy - other.energy - approach * (self.force - other.force)
-        return rise > _ENERGY_ROUND_OFF * max(self.size, other.size)
+        energy_change = self.energy - other.energy - approach * (self.force - other.force)
+        return energy_change > _ENERGY_ROUND_OFF * max(self.energy_size, other.energy_size)
 
 
 @dataclass(frozen=True)
 class _Evaluation:
     """A pressure with its true gap.
 
-    length : fraction of the step that was taken; below one after backtracking.
+    step_fraction : fraction of the step that was taken; below one after backtracking.
     violating : cells that violate their state. violation : largest violation. goal : its tolerance.
     round_off : True if the violation is near the resolution of the transforms.
     """
 
     point: _Point
-    length: float
+    step_fraction: float
     violating: NDArray[np.int32]
     violation: float
     goal: float
@@ -199,10 +202,10 @@ class _Evaluation:
 
         last : the evaluation whose displacement is in the buffer, if it is not this one.
         """
-        length = self.length
+        step_fraction = self.step_fraction
         if last is not None and last is not self:
             grid.displace(self.iterate)
-            length = 1.0
+            step_fraction = 1.0
         pressure, displacement = grid.release(self.iterate)
         return GridResult(
             pressure,
@@ -210,7 +213,7 @@ class _Evaluation:
             self.approach,
             self.violation,
             converged=converged,
-            exact_displacement=length == 1,
+            exact_displacement=step_fraction == 1,
             round_off=round_off,
         )
 
@@ -240,15 +243,15 @@ class _Progress:
     waited: int = 0
     release: float = 0.0
 
-    def stalls(self, violation: float, potential: float, size: float, *, round_off: bool) -> bool:
+    def stalls(self, violation: float, potential: float, energy_size: float, *, round_off: bool) -> bool:
         """Return True if neither the violation nor, in a guarded run, the energy has fallen for long."""
-        fell = self.parameters.guarded and potential < self.lowest - _ENERGY_FALL * size
+        fell = self.parameters.guarded and potential < self.lowest - _ENERGY_FALL * energy_size
         self.lowest = min(self.lowest, potential)
         progressed = violation < 0.7 * self.stall_mark
         if progressed:
             self.stall_mark = violation
         self.waited = 0 if progressed or fell else self.waited + 1
-        limit = self.parameters.stall
+        limit = self.parameters.stall_limit
         return self.waited > (min(_ROUND_OFF_PATIENCE, limit) if round_off else limit)
 
     def improves(self, violation: float) -> bool:
@@ -277,13 +280,13 @@ class _EnergyGuard:
     refused: int = 0
     step: float = 0.0
 
-    def take_back(self, grid: GridWorkspace, control: Control, last: _Point, refused: _Point) -> Iterate:
+    def reject_step(self, grid: GridWorkspace, control: Control, last: _Point, refused: _Point) -> Iterate:
         """Replace a step that raised the energy by part of it, or by a gradient step from its beginning."""
         self.refused += 1
         if self.refused == 1:
             # sum over differences: the works of both pressures may agree in all digits
-            before, after = (point.iterate.as_field(grid.gap.size, grid.cap) for point in (last, refused))
-            slope = float(((after - before) * (grid.gap + grid.flat["displacement"] - refused.approach)).sum())
+            previous, after = (point.iterate.as_field(grid.gap.size, grid.cap) for point in (last, refused))
+            slope = float(((after - previous) * (grid.gap + grid.displacement_values - refused.approach)).sum())
             fraction = _least_energy_fraction(last, refused, slope, refused.approach)
             if _SHORTEST_STEP < fraction < _LONGEST_GUARDED_STEP:
                 return _blend(last.iterate, refused.iterate, fraction, grid.cap)
@@ -297,63 +300,68 @@ class _EnergyGuard:
 class _Step:
     """The next pressure.
 
-    shifted : True if energies cannot be compared along the step (shift of a full contact).
-    begun, near, raw : the active cells with their pressures, the sparse inverse on them, and the pressures without
+    along_null_space : True if a uniform pressure on doubly periodic bodies was added, which displaces nothing: energies
+    cannot be compared.
+    initial, near, trial : the active cells with their pressures, the sparse inverse on them, and the pressures without
     bounds that the step was to reach.
     """
 
     iterate: Iterate
-    shifted: bool = False
-    begun: Iterate | None = None
+    along_null_space: bool = False
+    initial: Iterate | None = None
     near: SparseInverseOnCells | None = None
-    raw: FloatArray | None = None
+    trial: FloatArray | None = None
 
-    def shortened(self, grid: GridWorkspace, control: Control, length: float) -> Iterate | None:
+    def shortened(self, grid: GridWorkspace, control: Control, step_fraction: float) -> Iterate | None:
         """Return the projection of the unconstrained step at a fraction of its length."""
-        if self.begun is None or self.near is None or self.raw is None:
+        if self.initial is None or self.near is None or self.trial is None:
             return None
-        values = self.begun.values
-        return _to_bounds(grid, control, self.begun, self.near, values + length * (self.raw - values))
+        values = self.initial.values
+        return _to_bounds(grid, control, self.initial, self.near, values + step_fraction * (self.trial - values))
 
 
 def _evaluate(
     grid: GridWorkspace,
     control: Control,
     iterate: Iterate,
-    before: _Point | None,
+    previous: _Point | None,
     tolerance: Tolerance,
     progress: _Progress,
 ) -> _Evaluation:
     """Evaluate the pressure whose displacement is in the buffer, or the minimum of the energy on the way to it."""
-    survey, length = grid.survey(iterate, None if before is None else before.iterate), 1.0
-    backtracked = None if before is None else _backtrack(grid, before, iterate, survey)
+    sums, step_fraction = grid.contact_sums(iterate, None if previous is None else previous.iterate), 1.0
+    backtracked = None if previous is None else _backtrack(grid, previous, iterate, sums)
     if backtracked is not None:
-        iterate, length = backtracked
-        survey = grid.survey(iterate)
-    approach = control.approach(grid, iterate, survey.total)
+        iterate, step_fraction = backtracked
+        sums = grid.contact_sums(iterate)
+    approach = control.approach(grid, iterate, sums.separation_sum)
     violating, largest = grid.violations(iterate, approach)
-    violation = max(largest, survey.deepest - approach, approach - survey.nearest)
+    violation = max(largest, sums.largest_separation - approach, approach - sums.smallest_separation)
     if progress.rounds == 0:
         progress.first = violation
-    point = _Point(iterate, approach, survey.energy, survey.size, survey.force)
-    goal = tolerance.bound(approach, survey.reach, progress.first)
-    return _Evaluation(point, length, violating, violation, goal, tolerance.is_round_off(violation, survey.reach))
+    point = _Point(iterate, approach, sums.energy, sums.energy_size, sums.force)
+    goal = tolerance.bound(approach, sums.largest_displacement, progress.first)
+    return _Evaluation(
+        point, step_fraction, violating, violation, goal, tolerance.is_round_off(violation, sums.largest_displacement)
+    )
 
 
-def _backtrack(grid: GridWorkspace, before: _Point, iterate: Iterate, survey: Survey) -> tuple[Iterate, float] | None:
+def _backtrack(
+    grid: GridWorkspace, previous: _Point, iterate: Iterate, sums: ContactSums
+) -> tuple[Iterate, float] | None:
     """Return the minimum of the energy along a step, and its fraction of the step; None to accept the end.
 
     Changes of the set that are each right can be too many together, and the sets would swing ever wider. The
-    displacement of the minimum replaces that in the buffer without a convolution. `survey` is that of the end.
+    displacement of the minimum replaces that in the buffer without a convolution. `sums` is that of the end.
     """
-    end = _Point(iterate, before.approach, survey.energy, survey.size, survey.force)
-    slope = survey.work - survey.work_of_other - before.approach * (survey.force - before.force)
-    fraction = _least_energy_fraction(before, end, slope, before.approach, 10 * _ENERGY_ROUND_OFF)
+    end = _Point(iterate, previous.approach, sums.energy, sums.energy_size, sums.force)
+    slope = sums.work - sums.work_of_other - previous.approach * (sums.force - previous.force)
+    fraction = _least_energy_fraction(previous, end, slope, previous.approach, 10 * _ENERGY_ROUND_OFF)
     if not _SHORTEST_STEP < fraction < _LONGEST_STEP:
         return None
-    displacement = grid.flat["displacement"]
-    reductions.in_blocks(displacement.size, 0, bounds.mix, displacement, grid.flat["before"], fraction)
-    return _blend(before.iterate, iterate, fraction, grid.cap), fraction
+    displacement = grid.displacement_values
+    reductions.run_blocks(displacement.size, 0, bounds.mix, displacement, grid.previous_values, fraction)
+    return _blend(previous.iterate, iterate, fraction, grid.cap), fraction
 
 
 def _least_energy_fraction(old: _Point, new: _Point, slope: float, approach: float, least: float = 0.0) -> float:
@@ -362,9 +370,9 @@ def _least_energy_fraction(old: _Point, new: _Point, slope: float, approach: flo
     slope : derivative of the energy along the step at its end. least : curvature over the energies' terms that is
     round-off.
     """
-    rise = new.energy - old.energy - approach * (new.force - old.force)
-    curvature = 2 * (slope - rise)
-    if not curvature > least * max(new.size, old.size):
+    energy_change = new.energy - old.energy - approach * (new.force - old.force)
+    curvature = 2 * (slope - energy_change)
+    if not curvature > least * max(new.energy_size, old.energy_size):
         return math.nan
     return 1 - slope / curvature
 
@@ -379,53 +387,53 @@ def _blend(old: Iterate, new: Iterate, fraction: float, cap: float) -> Iterate:
 
 def _gradient_step(grid: GridWorkspace, control: Control, iterate: Iterate, approach: float, step: float) -> Iterate:
     """Take a projected gradient step; a step up to one over the largest eigenvalue cannot raise the energy."""
-    raw = np.empty(grid.gap.size)
-    reductions.in_blocks(raw.size, 0, bounds.descend, grid.flat["displacement"], grid.gap, approach, step, raw)
-    raw[iterate.cells] += iterate.values
-    raw[iterate.capped] += grid.cap
-    return split_field(control.project(raw, grid.cap), grid.cap)
+    trial = np.empty(grid.gap.size)
+    reductions.run_blocks(trial.size, 0, bounds.descend, grid.displacement_values, grid.gap, approach, step, trial)
+    trial[iterate.cells] += iterate.values
+    trial[iterate.capped] += grid.cap
+    return split_field(control.project(trial, grid.cap), grid.cap)
 
 
 def _next_step(
-    grid: GridWorkspace, control: Control, now: _Evaluation, budget: IterationBudget, *, symmetric: bool
+    grid: GridWorkspace, control: Control, now: _Evaluation, budget: IterationBudget, *, has_energy: bool
 ) -> _Step | None:
     """Activate the violating cells, close the gap and project onto the bounds; None without an active cell."""
-    active = grid.activate(now.iterate, now.violating, now.approach, with_rise=control.coupled)
+    active = grid.activate(now.iterate, now.violating, now.approach, with_unit_approach=control.coupled)
     if active.iterate.cells.size == 0:
         return None
     if _is_full_contact(grid, control, active, now.goal):
         shifted = bounds.shift_full_contact(active.iterate, active.mean_gap, grid.cap)
         if shifted is not None:
-            return _Step(shifted, shifted=True)
+            return _Step(shifted, along_null_space=True)
         # a cell is at a bound already: close the varying part of the gap first
         active = replace(active, gap=active.gap - active.mean_gap, mean_gap=0.0)
-    solver = pcg if symmetric else gcr
-    raw = solver.close_gap(grid, active, control, now.goal, budget)
+    solver = pcg if has_energy else gcr
+    trial = solver.close_gap(grid, active, control, now.goal, budget)
     iterate = active.iterate
-    clipped = _to_bounds(grid, control, iterate, active.near, raw.copy())
+    clipped = _to_bounds(grid, control, iterate, active.near, trial.copy())
     if (
         clipped.cells.size <= FULLY_PLASTIC_RATIO * clipped.capped.size
         and clipped.cells.size < 0.5 * iterate.cells.size
     ):
         # fully plastic: unbounded pressures carry no information
         return _Step(_gradient_step(grid, control, iterate, now.approach, 1 / grid.self_response))
-    return _Step(clipped, begun=iterate, near=active.near, raw=raw)
+    return _Step(clipped, initial=iterate, near=active.near, trial=trial)
 
 
 def _to_bounds(
-    grid: GridWorkspace, control: Control, iterate: Iterate, near: SparseInverseOnCells, raw: FloatArray
+    grid: GridWorkspace, control: Control, iterate: Iterate, near: SparseInverseOnCells, trial: FloatArray
 ) -> Iterate:
     """Project trial pressures (overwritten) on the active cells onto the bounds, and restore the load.
 
-    Neighbours make up for tension that is removed, regions for load that a cap clips.
+    The sparse inverse corrects the neighbours of removed tension, or squares of cells keep the load that is clipped.
     """
     mean_free = grid.operator.mean_free
-    if control.keeps_regional_load(capped=math.isfinite(grid.cap), mean_free=mean_free):
+    if control.keeps_load_of_squares(capped=math.isfinite(grid.cap), mean_free=mean_free):
         shape = grid.operator.grid.shape
-        bounds.redistribute_clipped_load(iterate.cells, raw, grid.cap, shape, bounds.REGION)
+        bounds.redistribute_clipped_load(iterate.cells, trial, grid.cap, shape, bounds.SQUARE_SIDE)
     else:
-        bounds.eliminate_tension(near, raw)
-    return control.restore(grid, iterate, raw)
+        bounds.eliminate_tension(near, trial)
+    return control.restore(grid, iterate, trial)
 
 
 def _is_full_contact(grid: GridWorkspace, control: Control, active: ActiveCells, goal: float) -> bool:

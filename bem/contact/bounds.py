@@ -3,7 +3,7 @@
 An `Iterate` stores a feasible pressure as the cells strictly between the bounds, their values, and the cells at the
 cap. Trial pressures of the linear solver leave the bounds; three operations bring them back:
 
-- `redistribute_clipped_load` keeps the load of each region of 8 x 8 cells, because load that moves across the surface
+- `redistribute_clipped_load` keeps the load of each square of 8 x 8 cells, because load that moves across the surface
   excites long-wavelength displacement errors;
 - `eliminate_tension` sets negative pressures to zero and corrects their neighbours with the sparse approximate
   inverse, which is the projection in the energy norm as far as near neighbours reach;
@@ -22,17 +22,17 @@ from numpy.typing import NDArray
 
 from bem.compiled import compiled
 from bem.contact import reductions
-from bem.contact.reductions import CAPPED
+from bem.contact.cell_states import CAPPED
 from bem.contact.sparse_inverse import NEIGHBOURS, SparseInverseOnCells
 
 FloatArray = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
-REGION = 8
-"""Cells along the side of a region that keeps its load when pressures are clipped."""
+SQUARE_SIDE = 8
+"""Cells along the side of a square that keeps its load when pressures are clipped."""
 
-_LARGEST_CHANGE = 0.5
-"""Largest relative change of the pressures of a region that makes up for clipped load."""
+LARGEST_CHANGE = 0.5
+"""Largest relative change of the pressures of a square that makes up for clipped load."""
 
 _TENSION_ITERATIONS = 2
 """CG iterations of the tension elimination; the matrix is close to its diagonal."""
@@ -42,10 +42,10 @@ _TENSION_ITERATIONS = 2
 class Iterate:
     """Feasible pressure.
 
-    cells : (n,), ascending flat indices of the cells between the bounds; of all active cells after an activation, which
+    cells : (n,), ascending cell indices of the cells between the bounds; of all active cells after an activation, which
         adds cells exactly at a bound, and of all cells of a uniform first pressure.
     values : (n,), their pressures.
-    capped : (m,), ascending flat indices of the cells at the cap.
+    capped : (m,), ascending cell indices of the cells at the cap.
     """
 
     cells: Indices
@@ -53,14 +53,14 @@ class Iterate:
     capped: Indices
 
     def as_field(self, size: int, cap: float) -> FloatArray:
-        """Return the pressure as a flat field of `size` cells."""
+        """Return the pressure as a one-dimensional field of `size` cells."""
         field = np.empty(size)
         reductions.scatter(field, self.cells, self.values, self.capped, cap)
         return field
 
 
 def split_field(pressure: FloatArray, cap: float) -> Iterate:
-    """Split a feasible field (flat) by its bounds."""
+    """Split a feasible field (one-dimensional) by its bounds."""
     return Iterate(*split_by_bounds(pressure, cap))
 
 
@@ -87,36 +87,36 @@ def _with_capped(cells: Indices, values: FloatArray, capped: Indices, cap: float
     return cells[order], values[order]
 
 
-def clip_to_bounds(iterate: Iterate, raw: FloatArray, cap: float) -> Iterate:
+def clip_to_bounds(iterate: Iterate, trial: FloatArray, cap: float) -> Iterate:
     """Move cells whose trial pressures leave the bounds to the free and to the capped set."""
-    below, above = raw <= 0, raw >= cap
+    below, above = trial <= 0, trial >= cap
     if not (below.any() or above.any()):
-        return Iterate(iterate.cells, raw, iterate.capped)
+        return Iterate(iterate.cells, trial, iterate.capped)
     inside = ~(below | above)
     capped = np.sort(np.concatenate([iterate.capped, iterate.cells[above]])) if above.any() else iterate.capped
-    return Iterate(iterate.cells[inside], raw[inside], capped)
+    return Iterate(iterate.cells[inside], trial[inside], capped)
 
 
-def clip_to_load(iterate: Iterate, raw: FloatArray, cap: float, force: float, size: int) -> Iterate:
+def clip_to_load(iterate: Iterate, trial: FloatArray, cap: float, force: float, size: int) -> Iterate:
     """Clip trial pressures and restore their sum, the cells at the cap included, to `force`.
 
     Elastic pressures are scaled; capped ones are shifted uniformly. `size` is the number of cells of the grid.
     """
     cells, capped = iterate.cells, iterate.capped
     if math.isinf(cap):
-        cells, raw, total = keep_positive(cells, raw)
-        return Iterate(cells, raw * (force / total), capped)
+        cells, trial, total = keep_positive(cells, trial)
+        return Iterate(cells, trial * (force / total), capped)
     missing = force - cap * capped.size
     if not 0 <= missing <= cap * cells.size:
         # the capped cells carry too much, or the others cannot carry the rest: shift all of them
-        cells, raw = _with_capped(cells, raw, capped, cap)
+        cells, trial = _with_capped(cells, trial, capped, cap)
         capped = np.empty(0, np.int64)
         missing = force
         if missing > cap * cells.size:
             field = np.zeros(size)
-            field[cells] = raw
-            cells, raw = np.arange(size), field
-    values = shift_to_sum(raw, missing, cap)
+            field[cells] = trial
+            cells, trial = np.arange(size), field
+    values = shift_to_sum(trial, missing, cap)
     above = values >= cap
     inside = (values > 0) & ~above
     if above.any():
@@ -124,16 +124,16 @@ def clip_to_load(iterate: Iterate, raw: FloatArray, cap: float, force: float, si
     return Iterate(cells[inside], values[inside], capped)
 
 
-def shift_to_sum(raw: FloatArray, total: float, cap: float) -> FloatArray:
-    """Return clip(raw + s, 0, cap) with the shift s that gives the sum `total`, which the bounds must allow.
+def shift_to_sum(trial: FloatArray, total: float, cap: float) -> FloatArray:
+    """Return clip(trial + s, 0, cap) with the shift s that gives the sum `total`, which the bounds must allow.
 
     A safeguarded Newton iteration solves the piecewise linear equation for s. The values are measured from their
     maximum, so that s keeps all its digits however small the sum is.
     """
     if not total > 0:
-        return np.zeros(raw.size)
-    top = float(raw.max())
-    shifted = raw - top
+        return np.zeros(trial.size)
+    top = float(trial.max())
+    shifted = trial - top
     high = cap - float(shifted.min())
     shifted += reductions.shift_to(shifted, max(top, 0.0), high, float(total), float(cap), reductions.BLOCK)
     return np.clip(shifted, 0.0, cap, out=shifted)
@@ -195,8 +195,8 @@ def merge(old, found, state, cap, surface):
 
 
 @compiled
-def blend(old, new, share, cap):
-    """Return (1 - share) old + share new of two pressures (cells, values) with ascending cells.
+def blend(old, new, fraction, cap):
+    """Return (1 - fraction) old + fraction new of two pressures (cells, values) with ascending cells.
 
     A cell at the cap in both stays exactly there; cells without pressure are left out.
     """
@@ -213,9 +213,9 @@ def blend(old, new, share, cap):
         both[k] = cells[a] if from_old else more[b]
         value = 0.0
         if from_old:
-            value = values[a] * (1 - share)
+            value = values[a] * (1 - fraction)
         if from_new:
-            value += share * more_values[b]
+            value += fraction * more_values[b]
         if from_old and from_new and values[a] == cap and more_values[b] == cap:
             value = cap
         mixed[k] = value
@@ -226,12 +226,12 @@ def blend(old, new, share, cap):
 
 
 @compiled
-def mix(start, stop, result, displacement, earlier, share):
-    """Blend two displacements: share * displacement + (1 - share) * earlier."""
+def mix(start, stop, result, displacement, earlier, fraction):
+    """Blend two displacements: fraction * displacement + (1 - fraction) * earlier."""
     displacement, earlier = displacement[start:stop], earlier[start:stop]
-    rest = 1 - share
+    rest = 1 - fraction
     for k in range(displacement.size):
-        displacement[k] = displacement[k] * share + earlier[k] * rest
+        displacement[k] = displacement[k] * fraction + earlier[k] * rest
 
 
 @compiled
@@ -321,7 +321,7 @@ def redistribute_clipped_load(cells, values, cap, shape, side):
             inside[b] += value
     for square in range(excess.size):
         share = excess[square] / inside[square] if inside[square] > 0 else 0.0
-        excess[square] = 1 - max(-_LARGEST_CHANGE, min(_LARGEST_CHANGE, share))
+        excess[square] = 1 - max(-LARGEST_CHANGE, min(LARGEST_CHANGE, share))
     for k in range(cells.size):
         if 0 < values[k] < cap:
             values[k] *= excess[np.uint64(squares[k])]

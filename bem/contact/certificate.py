@@ -29,7 +29,7 @@ _ROUND_OFF = 1e-15
 """Round-off of an approach by the change of units, relative to the lengths that it is a sum of."""
 
 
-def elastic_length(request: Request) -> float:
+def uniform_displacement(request: Request) -> float:
     """Return the displacement of a cell under the prescribed mean pressure [m]; zero unless a load is prescribed.
 
     On a doubly periodic grid a uniform pressure displaces nothing, but displacements are rounded on this scale.
@@ -40,16 +40,16 @@ def elastic_length(request: Request) -> float:
 def certify(
     request: Request,
     units: Units,
-    roughness: float,
+    rms_gap: float,
     result: GridResult,
     *,
-    unmet: Status,
+    status_if_unmet: Status,
     iterations: int,
     convolutions_before: float,
 ) -> ContactSolution:
     """Recompute the residual from the pressure, and convert everything to SI units.
 
-    unmet : status if the residual exceeds the tolerance.
+    status_if_unmet : status if the residual exceeds the tolerance.
     """
     operator, grid = request.operator, request.operator.grid
     pressure = result.pressure.reshape(grid.shape)
@@ -59,7 +59,7 @@ def certify(
     approach = _approach(request, units, result)
     deformed = np.empty(grid.shape)
     depth = np.zeros(grid.shape)
-    largest, reach, force, _, capped, volume = reductions.assemble(
+    largest, largest_displacement, force, _, capped, volume = reductions.assemble(
         (pressure.reshape(-1), displacement.reshape(-1), request.gap.reshape(-1)),
         (units.pressure, units.length),
         approach,
@@ -67,18 +67,19 @@ def certify(
         (deformed.reshape(-1), depth.reshape(-1)),
     )
     load = force * grid.cell_area
-    missed = 0.0
+    load_error = 0.0
     if request.mean_gap is not None:
         largest = max(largest, abs(volume / grid.cells - request.mean_gap))
-        reach = max(reach, request.mean_gap)
+        largest_displacement = max(largest_displacement, request.mean_gap)
     elif request.approach is not None:
         largest = max(largest, abs(approach - request.approach))
     elif request.load is not None:
-        missed = _relative(abs(load - request.load), request.load)
+        load_error = _relative(abs(load - request.load), request.load)
     contact, plastic, doubt = _regions(request, pressure, deformed, load, capped=capped > 0)
-    reach = max(reach, elastic_length(request))
-    residual = max(_relative(largest, reach if is_flat(roughness, reach) else roughness), missed)
-    status = Status.CONVERGED if residual <= request.tolerance else unmet
+    largest_displacement = max(largest_displacement, uniform_displacement(request))
+    reference = largest_displacement if is_flat(rms_gap, largest_displacement) else rms_gap
+    residual = max(_relative(largest, reference), load_error)
+    status = Status.CONVERGED if residual <= request.tolerance else status_if_unmet
     return ContactSolution(
         pressure=pressure,
         displacement=displacement,

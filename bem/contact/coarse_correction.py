@@ -39,7 +39,7 @@ _REDUCTION = 0.03
 _ITERATIONS = 20
 """Limit of the iterations on the coarse grid; reached only for layers much stiffer than their base."""
 
-_NEAR = 0.85
+_NEAR_FRACTION = 0.85
 """Fraction of the near part's response to long wavelengths; at edges and on small contacts it is below one."""
 
 
@@ -69,12 +69,12 @@ class CoarseCorrection:
         return self.rows, self.columns, self.workspace.field.shape[1]
 
     def on(self, cells: NDArray[Any], row_sums: FloatArray) -> CoarseCorrectionOnCells:
-        """Return the middle factor on the active cells (flat indices), for a G with these row sums."""
-        correction = self.unassigned(row_sums)
+        """Return the middle factor on the active cells (cell indices), for a G with these row sums."""
+        correction = self.allocated(row_sums)
         assign_cells(cells, self.mapping, row_sums, correction.blocks, correction.root, correction.inverse_root)
         return correction
 
-    def unassigned(self, row_sums: FloatArray) -> CoarseCorrectionOnCells:
+    def allocated(self, row_sums: FloatArray) -> CoarseCorrectionOnCells:
         """Return the middle factor before `assign_cells` has filled it in."""
         root, inverse_root = np.zeros((2, self.workspace.given.size))
         return CoarseCorrectionOnCells(self, np.empty(row_sums.size, np.int32), row_sums, root, inverse_root)
@@ -139,7 +139,7 @@ def coarse_correction(operator: DisplacementOperator, near: float) -> CoarseCorr
             break
         coarse = coarser
         halvings += 1
-    convolution = coarse.smooth_part(operator, _NEAR * near) if halvings else None
+    convolution = coarse.smooth_part(operator, _NEAR_FRACTION * near) if halvings else None
     if convolution is None:
         return None
     rows, columns = (
@@ -207,8 +207,8 @@ def correct(values, far):
 def _solve(workspace, root, transform, reduction, limit):
     """Solve (1 + D^1/2 F D^1/2) solution = given by conjugate gradients; return the number of convolutions."""
     given, solution, residual, direction, response, field = workspace
-    room, scratch, factor = transform
-    flat = field.reshape(-1)
+    plan, scratch, factor = transform
+    field_values = field.reshape(-1)
     squares = 0.0
     for b in range(given.size):
         g = given[b]
@@ -224,11 +224,11 @@ def _solve(workspace, root, transform, reduction, limit):
         for b in range(given.size):
             d = residual[b] + share * direction[b]
             direction[b] = d
-            flat[b] = root[b] * d
-        convolve(room, scratch, factor, field, field)
+            field_values[b] = root[b] * d
+        convolve(plan, scratch, factor, field, field)
         curvature = 0.0
         for b in range(given.size):
-            value = root[b] * flat[b] + direction[b]
+            value = root[b] * field_values[b] + direction[b]
             response[b] = value
             curvature += value * direction[b]
         step = squares / curvature

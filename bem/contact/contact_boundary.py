@@ -159,7 +159,7 @@ def links_along(crossed: Crossed, axis: int, spacing: tuple[float, float], wraps
 def cells_at_edge(
     crossed: Crossed, inside: NDArray[np.uint8], spacing: tuple[float, float], wraps: tuple[bool, bool]
 ) -> tuple[NDArray[np.int64], FloatArray]:
-    """Return the flat indices (m,) of the cells at the boundary, and the fraction of each cell beyond it (m,).
+    """Return the cell indices (m,) of the cells at the boundary, and the fraction of each cell beyond it (m,).
 
     To first order the fraction is half a link less the distance of the crossing from the centre, summed over the links
     of the cell with the squared cosine between link and normal; the squares of both cosines sum to one.
@@ -278,7 +278,7 @@ def _write_crossings(first, last, links, starts, field, blurred, where, law, cro
     factor, hardness, constants, ends, give = law
     addresses = strength.ctypes.data, opening.ctypes.data, shape.ctypes.data
     for i in range(first, last):
-        # flat indices of the rows before, here, beyond and behind
+        # cell indices of the rows before, here, beyond and behind
         before, here = wrapped_index(i - 1, nx, wraps_x) * ny, i * ny
         beyond = wrapped_index(i + 1, nx, wraps_x) * ny
         behind = wrapped_index(i + 2, nx, wraps_x) * ny

@@ -35,7 +35,7 @@ class Control(ABC):
     """True if search directions carry no net load."""
 
     coupled: ClassVar[bool] = False
-    """True if search directions are corrected by the pressure of a rise of the approach."""
+    """True if search directions are corrected by the pressure of a unit approach."""
 
     has_energy: ClassVar[bool] = True
     """True if the contact minimises an energy over the feasible pressures."""
@@ -45,13 +45,13 @@ class Control(ABC):
 
     @abstractmethod
     def approach_without_contact(self, gap: FloatArray) -> float:
-        """Return the approach at zero pressure over a gap (flat, lowest value zero); infinite under a positive load."""
+        """Return the approach at zero pressure over a gap (one-dimensional, lowest value zero); infinite under a load."""
 
     @abstractmethod
-    def approach(self, grid: GridWorkspace, iterate: Iterate, total: float) -> float:
+    def approach(self, grid: GridWorkspace, iterate: Iterate, separation_sum: float) -> float:
         """Return the approach of a pressure whose displacement is in the grid's buffer.
 
-        total : sum of gap + displacement over the cells between the bounds.
+        separation_sum : sum of gap + displacement over the cells between the bounds.
         """
 
     def potential(self, energy: float, force: float) -> float:
@@ -65,25 +65,26 @@ class Control(ABC):
             return Iterate(overlapping, np.zeros(overlapping.size), overlapping[:0])
         return start if isinstance(start, Iterate) else split_field(start, grid.cap)
 
-    def keeps_regional_load(self, *, capped: bool, mean_free: bool) -> bool:
-        """Return True if clipped load stays in its region, because no other response would restore it.
+    def keeps_load_of_squares(self, *, capped: bool, mean_free: bool) -> bool:
+        """Return True if clipped load stays in its square of 8 x 8 cells, because no other response would restore it.
 
         capped : True below a finite hardness. mean_free : True if displacements have no mean.
         """
         return capped or mean_free
 
-    def restore(self, grid: GridWorkspace, iterate: Iterate, raw: FloatArray) -> Iterate:
+    def restore(self, grid: GridWorkspace, iterate: Iterate, trial: FloatArray) -> Iterate:
         """Clip trial pressures to the bounds and restore the prescribed quantity, if the pressure determines it."""
-        return clip_to_bounds(iterate, raw, grid.cap)
+        return clip_to_bounds(iterate, trial, grid.cap)
 
-    def project(self, raw: FloatArray, cap: float) -> FloatArray:
+    def project(self, trial: FloatArray, cap: float) -> FloatArray:
         """Return the closest feasible field."""
-        return np.clip(raw, 0.0, cap)
+        return np.clip(trial, 0.0, cap)
 
-    def rise_coefficient(self, grid: GridWorkspace, iterate: Iterate, total: float) -> float:
-        """Return the multiple of the rise pressure that is subtracted from a direction of unit sum.
+    def unit_approach_coefficient(self, grid: GridWorkspace, iterate: Iterate, unit_approach_load: float) -> float:
+        """Return the multiple of the pressure of a unit approach that is subtracted from a direction of unit sum.
 
-        The rise pressure is the preconditioner's answer to a unit rise of the approach; `total` is its sum.
+        The pressure of a unit approach is the preconditioner applied to a uniform unit displacement;
+        `unit_approach_load` is its sum.
         """
         return 0.0
 
@@ -115,15 +116,15 @@ class LoadControl(Control):
         """Return zero without a load, infinity with a load."""
         return 0.0 if self.force == 0 else math.inf
 
-    def approach(self, grid: GridWorkspace, iterate: Iterate, total: float) -> float:
+    def approach(self, grid: GridWorkspace, iterate: Iterate, separation_sum: float) -> float:
         """Return the mean of gap + displacement over the cells between the bounds.
 
         Where hardly any cell is between the bounds, return the approach with the least violation of all cells.
         """
         if iterate.cells.size > FULLY_PLASTIC_RATIO * iterate.capped.size:
-            return total / iterate.cells.size
-        deepest, nearest = grid.separations(iterate)
-        return deepest if deepest <= nearest else 0.5 * (deepest + nearest)
+            return separation_sum / iterate.cells.size
+        largest, smallest = grid.separations(iterate)
+        return largest if largest <= smallest else 0.5 * (largest + smallest)
 
     def initial_iterate(self, grid: GridWorkspace, start: InitialPressure) -> Iterate:
         """Return the start scaled to the load, or a uniform pressure."""
@@ -134,21 +135,21 @@ class LoadControl(Control):
         cells = np.arange(grid.gap.size)
         return Iterate(cells, np.full(cells.size, self.force / cells.size), cells[:0])
 
-    def keeps_regional_load(self, *, capped: bool, mean_free: bool) -> bool:
+    def keeps_load_of_squares(self, *, capped: bool, mean_free: bool) -> bool:
         """Return True below a finite hardness; elastic load is restored over all cells."""
         return capped
 
-    def restore(self, grid: GridWorkspace, iterate: Iterate, raw: FloatArray) -> Iterate:
+    def restore(self, grid: GridWorkspace, iterate: Iterate, trial: FloatArray) -> Iterate:
         """Clip trial pressures and restore the load."""
-        return clip_to_load(iterate, raw, grid.cap, self.force, grid.gap.size)
+        return clip_to_load(iterate, trial, grid.cap, self.force, grid.gap.size)
 
-    def project(self, raw: FloatArray, cap: float) -> FloatArray:
+    def project(self, trial: FloatArray, cap: float) -> FloatArray:
         """Return the closest field within the bounds that carries the load."""
-        return shift_to_sum(raw, self.force, cap if math.isfinite(cap) else self.force)
+        return shift_to_sum(trial, self.force, cap if math.isfinite(cap) else self.force)
 
-    def rise_coefficient(self, grid: GridWorkspace, iterate: Iterate, total: float) -> float:
+    def unit_approach_coefficient(self, grid: GridWorkspace, iterate: Iterate, unit_approach_load: float) -> float:
         """Return the coefficient that leaves no net load."""
-        return 1 / total
+        return 1 / unit_approach_load
 
     def approach_change(self, response: FloatArray, grid: GridWorkspace, iterate: Iterate) -> float:
         """Return the mean response of the active cells."""
@@ -173,7 +174,7 @@ class ApproachControl(Control):
         """Return the prescribed approach."""
         return self.distance
 
-    def approach(self, grid: GridWorkspace, iterate: Iterate, total: float) -> float:
+    def approach(self, grid: GridWorkspace, iterate: Iterate, separation_sum: float) -> float:
         """Return the prescribed approach."""
         return self.distance
 
@@ -205,15 +206,15 @@ class MeanGapControl(Control):
         """Return the approach that closes the undeformed gap to the prescribed mean."""
         return float(gap.mean()) - self.mean_gap
 
-    def approach(self, grid: GridWorkspace, iterate: Iterate, total: float) -> float:
+    def approach(self, grid: GridWorkspace, iterate: Iterate, separation_sum: float) -> float:
         """Return the approach that gives the mean gap."""
-        opening = grid.mean_below_cap(grid.gap + grid.flat["displacement"], iterate.capped)
+        opening = grid.mean_below_cap(grid.gap + grid.displacement_values, iterate.capped)
         return opening - self.mean_gap * grid.gap.size / max(1, grid.gap.size - iterate.capped.size)
 
-    def rise_coefficient(self, grid: GridWorkspace, iterate: Iterate, total: float) -> float:
+    def unit_approach_coefficient(self, grid: GridWorkspace, iterate: Iterate, unit_approach_load: float) -> float:
         """Return the negative coefficient by which the approach follows the mean displacement."""
-        rise = grid.mean_rise(iterate)
-        return -rise / max(1 - rise * total, _SMALLEST_FALL)
+        displacement_per_force = grid.mean_displacement_per_force(iterate)
+        return -displacement_per_force / max(1 - displacement_per_force * unit_approach_load, _SMALLEST_FALL)
 
     def approach_change(self, response: FloatArray, grid: GridWorkspace, iterate: Iterate) -> float:
         """Return the mean response of the cells below the cap."""

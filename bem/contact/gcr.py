@@ -6,7 +6,7 @@ preconditioned A: 0.24 where friction times Dundurs' beta is one half. Conjugate
 a above one.
 
 A prescribed mean gap makes the approach follow the mean displacement, so that each pressure moves all cells. One
-convolution gives that mean together with the gap, and the pressures of a rise of the approach precondition it.
+convolution gives that mean together with the gap, and the pressure of a unit approach preconditions it.
 
 Eisenstat, Elman & Schultz, SIAM J. Numer. Anal. 20, 1983; the rate is that of Concus & Golub, 1976.
 """
@@ -49,10 +49,10 @@ class _State:
 
     def step(self, direction: FloatArray, response: FloatArray) -> bool:
         """Minimise the residual along an orthogonalised direction (both overwritten); False if it has no response."""
-        for before, answer in self.directions:
-            component = float(answer @ response)
-            direction -= component * before
-            response -= component * answer
+        for earlier, earlier_response in self.directions:
+            component = float(earlier_response @ response)
+            direction -= component * earlier
+            response -= component * earlier_response
         size = math.sqrt(float(response @ response))
         if not size > 0:
             return False
@@ -82,29 +82,29 @@ def close_gap(
         if cells.size == 1:
             return iterate.values.copy()
     inverse = grid.preconditioner_on(active)
-    rise, coefficient = np.empty(0), 0.0
+    unit_approach, coefficient = np.empty(0), 0.0
     if control.coupled:
-        _, rise, total = grid.known_rise(active)
-        coefficient = control.rise_coefficient(grid, iterate, total)
+        _, unit_approach, total = grid.find_unit_approach(active)
+        coefficient = control.unit_approach_coefficient(grid, iterate, total)
     weighted = np.empty(cells.size if control.zero_sum else 0)
     now = _State(iterate.values.copy(), residual, float(residual @ residual))
-    lowest, enough = now.squares * parameters.reduction**2, now.squares * parameters.least_reduction**2
+    lowest, enough = now.squares * parameters.relative_residual**2, now.squares * parameters.clip_allowed_below**2
 
     def ends(pressure: FloatArray, reduction: float, safety: float) -> bool:
         """Return True if a pressure that leaves a fraction of the residual meets a criterion."""
         squares, largest = reduction**2 * now.squares, reduction * float(np.abs(residual).max())
-        if squares <= lowest or safety * largest <= parameters.final * goal:
+        if squares <= lowest or safety * largest <= parameters.tolerance_fraction * goal:
             return True
         # clipping will bring back a residual of about this size
         outside = float(np.maximum(-pressure, pressure - grid.cap).max())
-        return squares <= enough and largest <= parameters.clipping * grid.self_response * outside
+        return squares <= enough and largest <= parameters.clip_residual_ratio * grid.self_response * outside
 
     for _ in range(min(parameters.iterations_per_round, budget.left)):
-        direction, given = np.empty(cells.size), residual
+        direction, right_side = np.empty(cells.size), residual
         if control.zero_sum:
-            pcg.subtract_mean(residual, rise, 1 / coefficient, weighted)
-            given = weighted
-        pcg.constrain(direction, rise, coefficient * inverse(given, direction), residual, residual)
+            pcg.subtract_mean(residual, unit_approach, 1 / coefficient, weighted)
+            right_side = weighted
+        pcg.constrain(direction, unit_approach, coefficient * inverse(right_side, direction), residual, residual)
         budget.iterations += 1
         if now.directions and grid.extrapolation.trusted:
             trial = now.pressure - now.length * direction

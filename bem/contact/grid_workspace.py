@@ -1,6 +1,6 @@
 """Workspace of one grid: operator, gap, buffers and preconditioner; tolerances, limits and results.
 
-Pressures and gaps are flat and in the solver's units.
+Pressures and gaps are one-dimensional and in the solver's units.
 """
 
 from __future__ import annotations
@@ -15,8 +15,9 @@ from numpy.typing import NDArray
 from bem.compiled import compiled
 from bem.contact import reductions
 from bem.contact.bounds import Iterate, merge
+from bem.contact.cell_states import CAPPED, ELASTIC
 from bem.contact.coarse_correction import CoarseCorrection, Preconditioner, coarse_correction
-from bem.contact.reductions import CAPPED, CONTACT, NO_PRESSURE, Survey
+from bem.contact.reductions import NO_PRESSURE, ContactSums
 from bem.contact.sparse_inverse import REACH, SparseInverse, SparseInverseOnCells, SparseRows, connect, sparse_inverse
 from bem.convolution import DisplacementOperator
 
@@ -30,16 +31,16 @@ _RESOLUTION = 4e-16
 """Violations below this fraction of the lengths they are differences of are round-off."""
 
 _FLAT = 1e-6
-"""A gap with roughness below this fraction of the displacement is flat: its residual is relative to the
+"""A gap with an rms value below this fraction of the displacement is flat: its residual is relative to the
 displacement."""
 
 _FLAT_RESOLUTION = 1e-12
 """Largest relative violation aimed at for a flat gap; the transforms resolve little less."""
 
 
-def is_flat(roughness: float, displacement: float) -> bool:
+def is_flat(rms_gap: float, displacement: float) -> bool:
     """Return True if a gap is flat compared with a displacement [m]."""
-    return roughness <= _FLAT * displacement
+    return rms_gap <= _FLAT * displacement
 
 
 @dataclass
@@ -63,14 +64,14 @@ class IterationBudget:
 class Tolerance:
     """Largest violation allowed: the least of several bounds.
 
-    length : absolute bound.
+    absolute : absolute bound.
     relative : bound relative to the displacement.
-    of_first : bound relative to the first violation, on coarse grids; not below `least`.
+    coarse_reduction : bound relative to the first violation, on coarse grids; not below `least`.
     """
 
-    length: float
+    absolute: float
     relative: float
-    of_first: float = math.inf
+    coarse_reduction: float = math.inf
     least: float = 0.0
 
     @staticmethod
@@ -80,17 +81,17 @@ class Tolerance:
 
     def bound(self, approach: float, displacement: float, first: float) -> float:
         """Return the bound at an approach, largest displacement and first violation; never below round-off."""
-        goal = min(self.length, self.relative * displacement)
-        if math.isfinite(self.of_first):
-            goal = min(goal, max(self.of_first * first, self.least))
-        if is_flat(self.length, self.relative * displacement):
+        goal = min(self.absolute, self.relative * displacement)
+        if math.isfinite(self.coarse_reduction):
+            goal = min(goal, max(self.coarse_reduction * first, self.least))
+        if is_flat(self.absolute, self.relative * displacement):
             goal = min(self.relative, _FLAT_RESOLUTION) * displacement
         return max(goal, _RESOLUTION * (abs(approach) + displacement))
 
 
 @dataclass(frozen=True)
 class GridResult:
-    """Result on one grid: scaled pressure and displacement (flat), approach, and largest violation.
+    """Result on one grid: scaled pressure and displacement (one-dimensional), approach, and largest violation.
 
     exact_displacement : True if the displacement is the operator applied to this pressure, not a combination of others.
     round_off : not converged, and the remaining violation is round-off of the transforms; fallbacks would not help.
@@ -121,53 +122,53 @@ def mean_opening(gap: FloatArray, result: GridResult) -> float:
 class SolverParameters:
     """Numbers that balance outer iterations against CG iterations.
 
-    reduction : relative residual (2-norm) that ends CG.
-    least_reduction : relative residual above which clipping does not end CG.
-    clipping : largest residual, in responses of a cell to the pressure out of bounds, that ends CG.
+    relative_residual : relative residual (2-norm) that ends CG.
+    clip_allowed_below : relative residual above which clipping does not end CG.
+    clip_residual_ratio : largest residual, in responses of a cell to the pressure out of bounds, that ends CG.
     iterations_per_round : limit of CG iterations in an outer iteration.
-    final : fraction of the tolerance that ends CG.
+    tolerance_fraction : fraction of the tolerance that ends CG.
     rounds : limit of outer iterations.
     patience : outer iterations without progress before the energy guard is set.
     guarded : True if the energy guard is set from the start.
-    stall : outer iterations without progress before the solver gives up.
+    stall_limit : outer iterations without progress before the solver gives up.
     """
 
-    reduction: float = 1e-4
-    least_reduction: float = 0.3
-    clipping: float = 0.3
+    relative_residual: float = 1e-4
+    clip_allowed_below: float = 0.3
+    clip_residual_ratio: float = 0.3
     iterations_per_round: int = 80
-    final: float = 0.8
+    tolerance_fraction: float = 0.8
     rounds: int = 100
     patience: int = 8
     guarded: bool = False
-    stall: int = 60
+    stall_limit: int = 60
 
 
 @dataclass(slots=True)
 class Extrapolation:
     """Final CG step of extrapolated length, without a convolution; disabled once it fails to halve the violation."""
 
-    length: float = 1.0
+    step_length: float = 1.0
     trusted: bool = True
     taken: bool = False
-    before: float = math.inf
+    previous_violation: float = math.inf
 
     def judge(self, violation: float) -> None:
-        """Compare the violation with that of the outer iteration before."""
-        if self.taken and violation > 0.5 * self.before:
+        """Compare the violation with that of the previous outer iteration."""
+        if self.taken and violation > 0.5 * self.previous_violation:
             self.trusted = False
-        self.taken, self.before = False, violation
+        self.taken, self.previous_violation = False, violation
 
 
-class Rise(NamedTuple):
-    """Pressures that answer a unit rise of the approach, on the active cells, and their sum."""
+class UnitApproachPressure(NamedTuple):
+    """Pressure of a unit approach on the active cells, K^-1 1 approximated by the preconditioner, and its sum."""
 
     cells: Indices
     pressure: FloatArray
     total: float
 
 
-_NO_RISE = Rise(np.empty(0, np.int64), np.empty(0), 0.0)
+_UNKNOWN_UNIT_APPROACH = UnitApproachPressure(np.empty(0, np.int64), np.empty(0), 0.0)
 
 
 @dataclass(frozen=True)
@@ -175,14 +176,14 @@ class ActiveCells:
     """The active cells of an outer iteration, those that violated their state included.
 
     iterate : their pressures. gap : (n,), gap + displacement - approach (overwritten by solvers). mean_gap : its mean.
-    near : the sparse inverse. rise : pressures of a rise of the approach; total 0 where unknown.
+    near : the sparse inverse. unit_approach : pressure of a unit approach; total 0 where unknown.
     """
 
     iterate: Iterate
     gap: FloatArray
     mean_gap: float
     near: SparseInverseOnCells
-    rise: Rise
+    unit_approach: UnitApproachPressure
 
 
 def _single_field(field: FloatArray) -> NDArray[np.float32]:
@@ -204,15 +205,19 @@ class GridWorkspace:
         self.parameters = parameters
         self.state = np.zeros(gap.size, np.uint8)
         self.displacement = self.double.transform.empty_field()
-        self.before = self.double.transform.empty_field()
-        names = ("displacement", "before")
-        self.flat: dict[str, NDArray[Any]] = {name: getattr(self, name).reshape(-1) for name in names}
-        # single-precision results share memory with the displacement before, which CG does not need
-        self.single_field, self._other_field = _single_field(self.before), _single_field(self.displacement)
+        self.previous_displacement = self.double.transform.empty_field()
+        # one-dimensional views
+        self.displacement_values: NDArray[Any] = self.displacement.reshape(-1)
+        self.previous_values: NDArray[Any] = self.previous_displacement.reshape(-1)
+        # single-precision results share memory with the previous displacement, which CG does not need
+        self.single_field, self._other_field = (
+            _single_field(self.previous_displacement),
+            _single_field(self.displacement),
+        )
         self._swapped = False
         self.self_response = float(operator.near_field(0)[0, 0])
         self.extrapolation = Extrapolation()
-        self.rise = _NO_RISE
+        self.unit_approach = _UNKNOWN_UNIT_APPROACH
         self.sparse: SparseInverse | None = None
         self.coarse: CoarseCorrection | None = None
 
@@ -224,56 +229,56 @@ class GridWorkspace:
         return float(np.abs(real).max())
 
     def mean_below_cap(self, field: NDArray[Any], capped: Indices) -> float:
-        """Return the mean of a field (flat) over the cells below the cap."""
+        """Return the mean of a field (one-dimensional) over the cells below the cap."""
         total = float(field.sum(dtype=np.float64) - field[capped].sum(dtype=np.float64))
         return total / max(1, field.size - capped.size)
 
-    def mean_rise(self, iterate: Iterate) -> float:
+    def mean_displacement_per_force(self, iterate: Iterate) -> float:
         """Return the mean displacement below the cap per unit sum of pressures, for the displacement in the buffer."""
         force = float(iterate.values.sum())
         if iterate.capped.size:
             force += self.cap * iterate.capped.size
-        return self.mean_below_cap(self.flat["displacement"], iterate.capped) / force if force > 0 else 0.0
+        return self.mean_below_cap(self.displacement_values, iterate.capped) / force if force > 0 else 0.0
 
     def displace(self, iterate: Iterate) -> None:
         """Write the displacement of a pressure to the buffer."""
         if iterate.capped.size == 0:
             self.double.apply_to_cells(iterate.cells, iterate.values, self.displacement)
             return
-        reductions.scatter(self.flat["displacement"], iterate.cells, iterate.values, iterate.capped, self.cap)
+        reductions.scatter(self.displacement_values, iterate.cells, iterate.values, iterate.capped, self.cap)
         self.double.apply(self.displacement, self.displacement)
 
     def swap_displacements(self) -> None:
-        """Make the displacement the one before, once in an outer iteration."""
+        """Make the displacement the previous one, once in an outer iteration."""
         if self._swapped:
             return
         self._swapped = True
-        self.displacement, self.before = self.before, self.displacement
-        self.flat["displacement"], self.flat["before"] = self.flat["before"], self.flat["displacement"]
+        self.displacement, self.previous_displacement = self.previous_displacement, self.displacement
+        self.displacement_values, self.previous_values = self.previous_values, self.displacement_values
         self.single_field, self._other_field = self._other_field, self.single_field
 
     def begin_round(self, iterate: Iterate, *, keep: bool) -> None:
-        """Write the displacement of a pressure to the buffer; `keep` the last displacement as the one before."""
+        """Write the displacement of a pressure to the buffer; `keep` the last displacement as the previous one."""
         if keep:
             self.swap_displacements()
         self._swapped = False
         self.displace(iterate)
 
-    def survey(self, iterate: Iterate, other: Iterate | None = None) -> Survey:
+    def contact_sums(self, iterate: Iterate, other: Iterate | None = None) -> ContactSums:
         """Return the reductions of a pressure with its displacement, and the work of another pressure there."""
-        before = NO_PRESSURE if other is None else (other.cells, other.values, other.capped)
+        other_pressure = NO_PRESSURE if other is None else (other.cells, other.values, other.capped)
         pressure = iterate.cells, iterate.values, iterate.capped
-        return reductions.survey(self.flat["displacement"], self.gap, pressure, self.cap, before)
+        return reductions.contact_sums(self.displacement_values, self.gap, pressure, self.cap, other_pressure)
 
     def separations(self, iterate: Iterate) -> tuple[float, float]:
         """Return the largest gap + displacement of cells with pressure, and the smallest of cells below the cap."""
-        reductions.mark(self.state, iterate.cells, iterate.capped)
-        return reductions.separations(self.flat["displacement"], self.gap, self.state)
+        reductions.mark_states(self.state, iterate.cells, iterate.capped)
+        return reductions.separations(self.displacement_values, self.gap, self.state)
 
     def violations(self, iterate: Iterate, approach: float) -> tuple[NDArray[np.int32], float]:
         """Write all states; return the cells that violate theirs, and the largest violation."""
         pressure = iterate.cells, iterate.values, iterate.capped
-        return reductions.find_violations(self.flat["displacement"], self.gap, self.state, pressure, approach)
+        return reductions.find_violations(self.displacement_values, self.gap, self.state, pressure, approach)
 
     def sparse_inverse(self) -> SparseInverse:
         """Return the sparse inverse of this grid; the coarse correction is prepared with it."""
@@ -284,43 +289,45 @@ class GridWorkspace:
         return self.sparse
 
     def activate(
-        self, iterate: Iterate, violating: NDArray[np.int32], approach: float, *, with_rise: bool
+        self, iterate: Iterate, violating: NDArray[np.int32], approach: float, *, with_unit_approach: bool
     ) -> ActiveCells:
         """Add the violating cells to those between the bounds, and connect the rows of the sparse inverse.
 
-        The rise pressures are carried over from the outer iteration before, if `with_rise`.
+        The pressure of a unit approach is carried over from the previous outer iteration, if `with_unit_approach`.
         """
         sparse, capped = self.sparse_inverse(), iterate.capped
         known = sparse.patterns
-        merged, columns, pattern, unsolved, rise, total = _activate(
+        merged, columns, pattern, unsolved, unit_approach, total = _activate(
             (iterate.cells, iterate.values),
             violating,
             (self.state, self.cap),
-            (self.flat["displacement"], self.gap, approach),
+            (self.displacement_values, self.gap, approach),
             (*sparse.shape, *sparse.periodic),
             (known.offsets, known.solved),
-            (self.rise.cells, self.rise.pressure, self.rise.total),
-            with_rise,
+            (self.unit_approach.cells, self.unit_approach.pressure, self.unit_approach.total),
+            with_unit_approach,
         )
         known.solve(pattern, unsolved=unsolved)
         cells, values, gap, mean_gap = merged
         near = SparseInverseOnCells(SparseRows(columns, pattern, known.table))
         if capped.size:
-            self.state[violating] = CONTACT
+            self.state[violating] = ELASTIC
             capped = capped[self.state[capped] == CAPPED]
-        return ActiveCells(Iterate(cells, values, capped), gap, mean_gap, near, Rise(cells, rise, total))
+        return ActiveCells(
+            Iterate(cells, values, capped), gap, mean_gap, near, UnitApproachPressure(cells, unit_approach, total)
+        )
 
-    def known_rise(self, active: ActiveCells) -> Rise:
-        """Return the rise pressures of the active cells, by one preconditioning where they are unknown."""
-        rise = active.rise
-        if not rise.total > 0:
-            total = self.preconditioner_on(active)(np.ones(rise.pressure.size), rise.pressure)
+    def find_unit_approach(self, active: ActiveCells) -> UnitApproachPressure:
+        """Return the pressure of a unit approach on the active cells; one preconditioning where it is unknown."""
+        unit_approach = active.unit_approach
+        if not unit_approach.total > 0:
+            total = self.preconditioner_on(active)(np.ones(unit_approach.pressure.size), unit_approach.pressure)
             if not total > 0:
-                rise.pressure[:] = 1.0
-                total = float(rise.pressure.size)
-            rise = Rise(rise.cells, rise.pressure, total)
-        self.rise = rise
-        return rise
+                unit_approach.pressure[:] = 1.0
+                total = float(unit_approach.pressure.size)
+            unit_approach = UnitApproachPressure(unit_approach.cells, unit_approach.pressure, total)
+        self.unit_approach = unit_approach
+        return unit_approach
 
     def preconditioner_on(self, active: ActiveCells) -> Preconditioner:
         """Return the two-level approximate inverse on the active cells."""
@@ -330,26 +337,26 @@ class GridWorkspace:
 
     def release(self, iterate: Iterate) -> tuple[FloatArray, FloatArray]:
         """Return the pressure as a field and the displacement; both own the buffers of the workspace."""
-        pressure = self.flat["before"]
+        pressure = self.previous_values
         reductions.scatter(pressure, iterate.cells, iterate.values, iterate.capped, self.cap)
-        return pressure, self.flat["displacement"]
+        return pressure, self.displacement_values
 
 
 @compiled
-def _activate(old, violating, states, surface, grid, known, rise, with_rise):
-    """Merge the cells, connect the rows of the sparse inverse and carry the rise pressures; see `activate`."""
+def _activate(old, violating, states, surface, grid, known, unit_approach, with_unit_approach):
+    """Merge the cells, connect the sparse inverse, carry over the pressure of a unit approach; see `activate`."""
     merged = merge(old, violating, states[0], states[1], surface)
     cells = merged[0]
     columns, pattern, unsolved = connect(cells, grid, known[0], known[1])
-    carried, total = np.empty(cells.size if with_rise else 0), 0.0
-    if with_rise:
-        total = carry(rise[0], rise[1], rise[2], cells, carried)
+    carried, total = np.empty(cells.size if with_unit_approach else 0), 0.0
+    if with_unit_approach:
+        total = carry_to_cells(unit_approach[0], unit_approach[1], unit_approach[2], cells, carried)
     return merged, columns, pattern, unsolved, carried, total
 
 
 @compiled
-def carry(before, values, total, cells, out):
-    """Carry values (their sum is `total`) from the cells `before` to `cells`; both ascend. Returns the new sum.
+def carry_to_cells(previous_cells, values, total, cells, out):
+    """Carry values (their sum is `total`) from the cells `previous_cells` to `cells`; both ascend. Returns the new sum.
 
     New cells get the mean of the carried values. Returns zero where at most half of the cells are known, or where the
     carried values sum to at most half of their share of the total.
@@ -358,9 +365,9 @@ def carry(before, values, total, cells, out):
     known = 0
     sum_known = 0.0
     for k in range(cells.size):
-        while a < before.size and before[a] < cells[k]:
+        while a < previous_cells.size and previous_cells[a] < cells[k]:
             a += 1
-        if a < before.size and before[a] == cells[k]:
+        if a < previous_cells.size and previous_cells[a] == cells[k]:
             out[k] = values[a]
             known += 1
             sum_known += values[a]

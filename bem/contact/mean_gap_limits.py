@@ -84,8 +84,8 @@ def least_mean_gap(
 ) -> LeastMeanGap | None:
     """Approach the least mean gap until the prescribed one is passed, is proved not to exist, or contacts repeat.
 
-    gap : flat, lowest value zero. first : converged contact with a larger mean gap. solve : contact at an approach from
-    an initial pressure. Returns None where a contact does not converge or nothing is decided.
+    gap : one-dimensional, lowest value zero. first : converged contact with a larger mean gap. solve : contact at an
+    approach from an initial pressure. Returns None where a contact does not converge or nothing is decided.
     """
     left = _tangent(operator, gap, first)
     right: _Tangent | None = None
@@ -93,7 +93,7 @@ def least_mean_gap(
         return None
     if left.total <= 0:
         left, right = None, left
-    approach, nearest = first.approach, left or right
+    approach, best = first.approach, left or right
     tried = {approach}
     for _ in range(_STEPS):
         if left is None:
@@ -110,8 +110,8 @@ def least_mean_gap(
             approach = (left.bound - right.bound) / (left.total - right.total)
             start = left.result.pressure
             if any(abs(approach - one) <= _SAME * abs(one) for one in tried):
-                assert nearest is not None
-                return LeastMeanGap(nearest.result, None, None)
+                assert best is not None
+                return LeastMeanGap(best.result, None, None)
         tried.add(approach)
         result = solve(approach, start)
         if not result.converged or not math.isfinite(approach):
@@ -123,7 +123,7 @@ def least_mean_gap(
         if cut is None:
             return None
         left, right = (cut, right) if cut.total > 0 else (left, cut)
-        nearest = cut if nearest is None or cut.mean_gap < nearest.mean_gap else nearest
+        best = cut if best is None or cut.mean_gap < best.mean_gap else best
     return None
 
 

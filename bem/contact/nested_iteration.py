@@ -2,11 +2,11 @@
 
 The square of the pressure falls linearly to zero at the edge of a contact, and the gap outside grows like the distance
 to the power 3/2. The interpolated function is therefore phi = p^2 inside and -c gap^(2/3) outside, which is smooth
-across the edge. The interpolation changes the load of each region by its edges; load errors between regions excite
-long-wavelength displacement errors, so each region of 8 x 8 coarse cells keeps its coarse-grid load.
+across the edge. The interpolation changes the load of each square by its edges; load errors between squares excite
+long-wavelength displacement errors, so each square of 8 x 8 coarse cells keeps its coarse-grid load.
 
 Coarse grids are solved until a tenth of their first violation is left, which is what the interpolation to them cost,
-and to 6 % of the roughness at most. The coarsest grid, which has no interpolated start, has the same bounds.
+and to 6 % of the rms gap at most. The coarsest grid, which has no interpolated start, has the same bounds.
 Verified in tests/contact/test_nested_iteration.py.
 """
 
@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 
 from bem.compiled import compiled
 from bem.contact import reductions
-from bem.contact.bounds import split_cells
+from bem.contact.bounds import LARGEST_CHANGE, SQUARE_SIDE, split_cells
 from bem.contact.controls import Control
 from bem.contact.problem import GridProblem
 from bem.contact.solve_on_grid import COARSE_TOLERANCE, Start, solve_on_grid, without_contact
@@ -31,19 +31,13 @@ from bem.threads import share
 FloatArray = NDArray[np.float64]
 Table = tuple[NDArray[np.int64], FloatArray]
 
-_REGION = 8
-"""Coarse cells along the side of a region that keeps its load."""
-
-_LARGEST_CHANGE = 0.5
-"""Largest relative change of the pressures of a region."""
-
 _COARSEST = 32
 """Cells along the longer side up to which a grid starts without a coarser one; smaller grids save nothing."""
 
 _COARSE_BUDGET = 0.2
 """Fraction of the remaining iterations that a coarse grid may use; a start that takes more is not worth its cost."""
 
-OF_FIRST = 0.1
+COARSE_REDUCTION = 0.1
 """Fraction of the first violation that coarse grids are solved to. On large grids both that violation and the next
 grid's first one are far below `COARSE_TOLERANCE`, because most of the roughness has long wavelengths."""
 
@@ -59,7 +53,9 @@ def start_from_coarser(problem: GridProblem, control: Control) -> Start:
     # the units of the kernels may differ by a power of two
     factor = coarse.unit / operator.unit
     gap = sample(problem.gap.reshape(operator.grid.shape), shape, periodic)
-    coarser = GridProblem(replace(settings, of_first=OF_FIRST), coarse, gap.reshape(-1), problem.cap * factor)
+    coarser = GridProblem(
+        replace(settings, coarse_reduction=COARSE_REDUCTION), coarse, gap.reshape(-1), problem.cap * factor
+    )
     prescribed = control.on_coarser(
         problem.gap,
         coarser.gap,
@@ -147,7 +143,7 @@ def prolong(
 ) -> tuple[NDArray[np.int64], FloatArray]:
     """Prolong a solution, given as arrays (nx, ny) of the coarser grid, to the finer grid `shape`.
 
-    Returns the flat indices of the cells with pressure, and their pressures, at most the cap. A cell gets no pressure
+    Returns the cell indices of the cells with pressure, and their pressures, at most the cap. A cell gets no pressure
     where none of the sixteen cells that it is interpolated from has any.
     """
     phi, marks = _evaluate_phi(pressure, displacement, gap, approach, *periodic)
@@ -170,8 +166,8 @@ def prolong(
         cells, values = (np.concatenate([array[part] for part in parts]) for array in (cells, values))
     else:
         cells, values = cells[parts[0]].copy(), values[parts[0]].copy()
-    along = [_regions(n, m, wraps) for n, m, wraps in zip(pressure.shape, shape, periodic, strict=True)]
-    _restore_region_loads(pressure, (cells, values), shape[1], along[0], along[1], cap)
+    along = [_squares_along(n, m, wraps) for n, m, wraps in zip(pressure.shape, shape, periodic, strict=True)]
+    _restore_square_loads(pressure, (cells, values), shape[1], along[0], along[1], cap)
     return cells, values
 
 
@@ -185,10 +181,10 @@ def _first_points(cells: int, onto: int, periodic: bool) -> NDArray[np.int64]:
     return begins
 
 
-class _Regions(NamedTuple):
+class _Squares(NamedTuple):
     """Regions along an axis.
 
-    number : of regions. coarse : region of each coarse point. first, second : regions of each fine point.
+    number : of squares. coarse : square of each coarse point. first, second : squares of each fine point.
     share : weight of the second. length : spacing of fine points in that of coarse points.
     """
 
@@ -201,14 +197,14 @@ class _Regions(NamedTuple):
 
 
 @lru_cache(maxsize=64)
-def _regions(cells: int, onto: int, periodic: bool) -> _Regions:
-    """Assign points to regions; a fine point between two coarse points belongs to both, by linear interpolation."""
+def _squares_along(cells: int, onto: int, periodic: bool) -> _Squares:
+    """Assign points to squares; a fine point between two coarse points belongs to both, by linear interpolation."""
     spacing = _spacing(cells, onto, periodic)
     position = np.arange(onto) * spacing
     below = np.floor(position).astype(np.int64)
     above = (below + 1) % cells if periodic else np.minimum(below + 1, cells - 1)
-    coarse = np.arange(cells) // _REGION
-    return _Regions(int(coarse[-1]) + 1, coarse, coarse[below], coarse[above], position - below, spacing)
+    coarse = np.arange(cells) // SQUARE_SIDE
+    return _Squares(int(coarse[-1]) + 1, coarse, coarse[below], coarse[above], position - below, spacing)
 
 
 def _edge_scale(pressure: FloatArray, phi: FloatArray, marks: NDArray[np.uint8], cap: float) -> float:
@@ -219,7 +215,7 @@ def _edge_scale(pressure: FloatArray, phi: FloatArray, marks: NDArray[np.uint8],
     return float(squares / opening)
 
 
-_NEAR, _WITHIN = 1, 2
+_NEAR_CONTACT, _IN_STENCIL = 1, 2
 """Bits of a cell's mark: a cell with pressure lies within three columns; the interpolation beyond the cell uses one."""
 
 
@@ -238,7 +234,7 @@ def _evaluate_phi(pressure, displacement, gap, approach, wraps_x, wraps_y):
                 wide[j], wide[ny + 3 + j] = wide[3 + (j - 3) % ny], wide[3 + j % ny]
         for j in range(ny):
             within = wide[j + 2] | wide[j + 3] | wide[j + 4] | wide[j + 5]
-            marks[i, j] = _WITHIN * within | wide[j] | wide[j + 1] | within | wide[j + 6]
+            marks[i, j] = _IN_STENCIL * within | wide[j] | wide[j + 1] | within | wide[j + 6]
     phi = np.empty((nx, ny))
     near = np.empty(ny, np.uint8)
     for i in range(nx):
@@ -311,7 +307,7 @@ def _prolong_phi(phi, marks, rows, lines, columns, begins, cap, cells, values):
         u, v, w, x = row_weights[i, 0], row_weights[i, 1], row_weights[i, 2], row_weights[i, 3]
         for j in range(width):
             line[j] = u * phi[a, j] + v * phi[b, j] + w * phi[c, j] + x * phi[d, j]
-            within[j] = (marks[a, j] | marks[b, j] | marks[c, j] | marks[d, j]) & _WITHIN
+            within[j] = (marks[a, j] | marks[b, j] | marks[c, j] | marks[d, j]) & _IN_STENCIL
         for word in range(words.size):
             if words[word] == 0:
                 continue
@@ -337,8 +333,8 @@ def _prolong_phi(phi, marks, rows, lines, columns, begins, cap, cells, values):
 
 
 @compiled
-def _restore_region_loads(pressure, fine, width, rows, columns, cap):
-    """Scale each region without a capped cell to its load on the coarser grid.
+def _restore_square_loads(pressure, fine, width, rows, columns, cap):
+    """Scale each square without a capped cell to its load on the coarser grid.
 
     fine : cells of the finer grid, which has `width` columns, and their pressures.
     """
@@ -346,10 +342,10 @@ def _restore_region_loads(pressure, fine, width, rows, columns, cap):
     missing = np.zeros((rows.number, columns.number))
     inside = np.zeros(missing.shape)
     for i in range(pressure.shape[0]):
-        region = missing[rows.coarse[i]]
+        square = missing[rows.coarse[i]]
         for j in range(pressure.shape[1]):
             if pressure[i, j] != 0:
-                region[columns.coarse[j]] += pressure[i, j]
+                square[columns.coarse[j]] += pressure[i, j]
     cell_fraction = rows.length * columns.length
     i = 0
     for n in range(cells.size):
@@ -372,7 +368,7 @@ def _restore_region_loads(pressure, fine, width, rows, columns, cap):
     for i in range(rows.number):
         for j in range(columns.number):
             change = missing[i, j] / inside[i, j] if inside[i, j] > 0 else 0.0
-            factor[i, j] = 1 + max(-_LARGEST_CHANGE, min(_LARGEST_CHANGE, change))
+            factor[i, j] = 1 + max(-LARGEST_CHANGE, min(LARGEST_CHANGE, change))
     i = 0
     for n in range(cells.size):
         while cells[n] >= (i + 1) * width:

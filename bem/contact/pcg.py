@@ -4,8 +4,8 @@ One compiled call makes all iterations, single-precision convolutions included. 
 the call returns for each convolution and is resumed after it; the arithmetic between transforms is the same, so results
 have the same bits for every number of threads.
 
-- Under load control directions carry no net load. The residual is freed of its mean weighted by the rise pressures,
-  which keeps the preconditioner symmetric.
+- Under load control directions carry no net load. The mean of the residual, weighted by the pressure of a unit approach
+  (`unit_approach`), is subtracted from the residual, which keeps the projected preconditioner symmetric.
 - The direction is that of Polak and Ribiere, which tolerates the inexact coarse correction.
 - The iteration ends at a relative residual, at the tolerance, or where clipping to the bounds would bring back a
   residual of the same size.
@@ -34,40 +34,50 @@ from bem.transforms.loops import convolve_cells
 
 FloatArray = NDArray[np.float64]
 
-LEFT = 0.05
+REMAINING = 0.05
 """Fraction of the largest residual that a step of extrapolated length is assumed to leave."""
 
-LEFT_AT_GOAL = 0.1
+REMAINING_AT_GOAL = 0.1
 """The same fraction where the tolerance is to be met: a missed tolerance costs a whole outer iteration."""
 
-_NO_RISE = np.empty(0), 0.0
+_NO_UNIT_APPROACH = np.empty(0), 0.0
 
 
 class StoppingCriteria(NamedTuple):
     """When conjugate gradients end.
 
-    reduction : relative squared residual at which they end.
-    least_reduction : relative squared residual from which on clipping ends them.
+    relative_residual : relative squared residual at which they end.
+    clip_allowed_below : relative squared residual from which on clipping ends them.
     goal : largest residual at which they end.
-    clipping : largest residual at which they end, per pressure out of bounds.
+    clip_residual_ratio : largest residual at which they end, per pressure out of bounds.
     iterations : their limit.
     extrapolate : True if a step of extrapolated length may be the last.
-    left, left_at_goal : fractions of the residual that such a step is assumed to leave.
+    remaining, remaining_at_goal : fractions of the residual that such a step is assumed to leave.
     """
 
-    reduction: float
-    least_reduction: float
+    relative_residual: float
+    clip_allowed_below: float
     goal: float
-    clipping: float
+    clip_residual_ratio: float
     iterations: int
     extrapolate: bool
-    left: float
-    left_at_goal: float
+    remaining: float
+    remaining_at_goal: float
 
 
-_FIRST, _DUE, _ITERATIONS, _LAST, _SLOPE, _SQUARES, _FIRST_SQUARES, _LENGTH, _EXTRAPOLATED, _COARSE, _APPLIED = range(
-    11
-)
+(
+    _FIRST,
+    _RESPONSE_READY,
+    _ITERATIONS,
+    _LAST,
+    _SLOPE,
+    _SQUARES,
+    _FIRST_SQUARES,
+    _STEP_LENGTH,
+    _EXTRAPOLATED,
+    _COARSE,
+    _APPLIED,
+) = range(11)
 """Entries of the solver's state: whether it is at its start; whether a convolution is due; iterations; z.r of the last
 iteration; t.r; r.r now and at the start; last step length; whether the last step was extrapolated; coarse and fine
 convolutions."""
@@ -84,23 +94,23 @@ def close_gap(
     pressure = active.iterate.values.copy()
     if n == 0 or (control.zero_sum and n == 1):  # a single cell carries the whole load
         return pressure
-    rise = grid.known_rise(active)[1:] if control.zero_sum else _NO_RISE
+    unit_approach = grid.find_unit_approach(active)[1:] if control.zero_sum else _NO_UNIT_APPROACH
     parameters, extrapolation, single = grid.parameters, grid.extrapolation, grid.single
     criteria = StoppingCriteria(
-        parameters.reduction**2,
-        parameters.least_reduction**2,
-        parameters.final * goal,
-        parameters.clipping * grid.self_response,
+        parameters.relative_residual**2,
+        parameters.clip_allowed_below**2,
+        parameters.tolerance_fraction * goal,
+        parameters.clip_residual_ratio * grid.self_response,
         min(parameters.iterations_per_round, budget.left),
         extrapolation.trusted,
-        LEFT,
-        LEFT_AT_GOAL,
+        REMAINING,
+        REMAINING_AT_GOAL,
     )
     work = np.zeros((4, n))
-    vectors = (pressure, active.gap, work[0], work[1], work[2], work[3], np.empty(n), np.empty(rise[0].size))
+    vectors = (pressure, active.gap, work[0], work[1], work[2], work[3], np.empty(n), np.empty(unit_approach[0].size))
     state = np.zeros(11)
-    state[_FIRST], state[_LAST], state[_LENGTH] = 1.0, math.inf, extrapolation.length
-    coarse = None if grid.coarse is None else grid.coarse.unassigned(np.empty(n))
+    state[_FIRST], state[_LAST], state[_STEP_LENGTH] = 1.0, math.inf, extrapolation.step_length
+    coarse = None if grid.coarse is None else grid.coarse.allocated(np.empty(n))
     alone = threads_for(single.transform.entries) == 1
     lock = single.transform.lock
     with lock, lock if coarse is None else coarse.coarse.convolution.transform.lock:
@@ -113,7 +123,7 @@ def close_gap(
             vectors,
             near,
             far,
-            rise,
+            unit_approach,
             criteria,
             grid.single_field,
             engine,
@@ -127,31 +137,31 @@ def close_gap(
     if coarse is not None:
         coarse.coarse.convolution.counted(int(found[_COARSE]))
     budget.iterations += int(found[_ITERATIONS])
-    extrapolation.length, extrapolation.taken = found[_LENGTH], found[_EXTRAPOLATED] == 1
+    extrapolation.step_length, extrapolation.taken = found[_STEP_LENGTH], found[_EXTRAPOLATED] == 1
     return work[3] if extrapolation.taken else pressure
 
 
 @compiled
-def _iterate(state, cells, vectors, near, far, rise, criteria, convolved, engine, cap, mean, alone):
+def _iterate(state, cells, vectors, near, far, unit_approach, criteria, convolved, engine, cap, mean, alone):
     """Iterate up to the end or, unless `alone`, up to the next convolution; return True if that is due.
 
     vectors : p, r, r of the last iteration, t, z, q (in the end the extrapolated p), scratch of the preconditioner, and
-    the residual without its weighted mean (empty without a zero-sum constraint). rise : pressures and their sum.
-    mean : of the residual.
+    the residual without its weighted mean (empty without a zero-sum constraint). unit_approach : pressure of a unit
+    approach and its sum. mean : of the residual.
     """
-    room, scratch, factor = engine
-    flat = convolved.reshape(-1)
+    plan, scratch, factor = engine
+    response_field = convolved.reshape(-1)
     if state[_FIRST]:
         _start(state, cells, vectors, near, far, mean)
     while True:
-        if state[_DUE] and _advance(state, cells, vectors, flat, criteria, cap):
+        if state[_RESPONSE_READY] and _advance(state, cells, vectors, response_field, criteria, cap):
             return False
-        if state[_ITERATIONS] == criteria.iterations or _turn(state, vectors, near, far, rise, criteria, cap):
+        if state[_ITERATIONS] == criteria.iterations or _turn(state, vectors, near, far, unit_approach, criteria, cap):
             return False
-        state[_DUE] = 1
+        state[_RESPONSE_READY] = 1
         if not alone:
             return True
-        convolve_cells(room, scratch, factor, cells, vectors[3], convolved)
+        convolve_cells(plan, scratch, factor, cells, vectors[3], convolved)
         state[_APPLIED] += 1
 
 
@@ -171,20 +181,22 @@ def _start(state, cells, vectors, near, far, mean):
 
 
 @compiled
-def _turn(state, vectors, near, far, rise, criteria, cap):
+def _turn(state, vectors, near, far, unit_approach, criteria, cap):
     """Write the next direction; return True if the iteration ends without its convolution."""
-    pressure, residual, previous, direction, preconditioned, response, values, shifted = vectors
-    given, coefficient = residual, 0.0
-    if shifted.size:
-        subtract_mean(residual, rise[0], rise[1], shifted)
-        given, coefficient = shifted, 1 / rise[1]
-    apply_factor(near, given, values)
+    pressure, residual, previous, direction, preconditioned, response, values, projected_residual = vectors
+    right_side, coefficient = residual, 0.0
+    if projected_residual.size:
+        subtract_mean(residual, unit_approach[0], unit_approach[1], projected_residual)
+        right_side, coefficient = projected_residual, 1 / unit_approach[1]
+    apply_factor(near, right_side, values)
     if far is not None:
         state[_COARSE] += correct(values, far[1])
     total = apply_transpose(near, values, preconditioned)
-    full, change = constrain(preconditioned, rise[0], coefficient * total, residual, previous)
+    full, change = constrain(preconditioned, unit_approach[0], coefficient * total, residual, previous)
     beta = max(0.0, change / state[_LAST])
-    outside, largest = extrapolate(pressure, preconditioned, direction, beta, state[_LENGTH], cap, residual, response)
+    outside, largest = extrapolate(
+        pressure, preconditioned, direction, beta, state[_STEP_LENGTH], cap, residual, response
+    )
     if not full > 0:
         return True
     state[_LAST] = full
@@ -199,18 +211,20 @@ def _turn(state, vectors, near, far, rise, criteria, cap):
 @compiled
 def _advance(state, cells, vectors, convolved, criteria, cap):
     """Step to the minimum along the direction; return True if the iteration ends there."""
-    pressure, residual, previous, direction, _, response, _, shifted = vectors
+    pressure, residual, previous, direction, _, response, _, projected_residual = vectors
     total, curvature = gather(convolved, cells, response, direction)
     if not curvature > 0:
         return True
-    mean = total / cells.size if shifted.size else 0.0
-    state[_LENGTH] = state[_SLOPE] / curvature
-    squares, largest, outside = advance(pressure, residual, previous, direction, response, mean, state[_LENGTH], cap)
+    mean = total / cells.size if projected_residual.size else 0.0
+    state[_STEP_LENGTH] = state[_SLOPE] / curvature
+    squares, largest, outside = advance(
+        pressure, residual, previous, direction, response, mean, state[_STEP_LENGTH], cap
+    )
     state[_SQUARES] = squares
     relative = squares / state[_FIRST_SQUARES]
-    if relative <= criteria.reduction or largest <= criteria.goal:
+    if relative <= criteria.relative_residual or largest <= criteria.goal:
         return True
-    return relative <= criteria.least_reduction and largest <= criteria.clipping * outside
+    return relative <= criteria.clip_allowed_below and largest <= criteria.clip_residual_ratio * outside
 
 
 @compiled
@@ -218,9 +232,12 @@ def _ends_extrapolated(criteria, relative, largest, outside):
     """Return True if a step of extrapolated length is expected to meet a criterion."""
     if not criteria.extrapolate:
         return False
-    if criteria.left**2 * relative <= criteria.reduction or criteria.left * largest <= criteria.clipping * outside:
+    if (
+        criteria.remaining**2 * relative <= criteria.relative_residual
+        or criteria.remaining * largest <= criteria.clip_residual_ratio * outside
+    ):
         return True
-    return criteria.left_at_goal * largest <= criteria.goal
+    return criteria.remaining_at_goal * largest <= criteria.goal
 
 
 @compiled
@@ -244,11 +261,11 @@ def subtract_mean(values, weights, total, out):
 
 
 @compiled
-def constrain(preconditioned, rise, coefficient, residual, previous):
-    """Subtract a multiple of the rise pressures from z; return z.r and z.(r - previous r)."""
+def constrain(preconditioned, unit_approach, coefficient, residual, previous):
+    """Subtract a multiple of the pressure of a unit approach from z; return z.r and z.(r - previous r)."""
     if coefficient:
-        for k in range(rise.size):
-            preconditioned[k] -= coefficient * rise[k]
+        for k in range(unit_approach.size):
+            preconditioned[k] -= coefficient * unit_approach[k]
     full = 0.0
     change = 0.0
     for k in range(residual.size):

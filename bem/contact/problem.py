@@ -79,12 +79,12 @@ class Units:
     datum: float
 
     @classmethod
-    def of(cls, request: Request, roughness: float, datum: float) -> Units:
-        """Choose a power of two [m] near the roughness, or near the expected displacement of a flat gap.
+    def of(cls, request: Request, rms_gap: float, datum: float) -> Units:
+        """Choose a power of two [m] near the rms gap, or near the expected displacement of a flat gap.
 
         The unit is one for a large gap with lowest value zero, which then need not be copied.
         """
-        length = _length_unit(request, roughness, datum)
+        length = _length_unit(request, rms_gap, datum)
         if request.gap.size >= LARGE and datum == 0.0 and _FAR < length < 1 / _FAR:
             length = 1.0
         return cls(length, length / request.operator.unit, datum)
@@ -103,25 +103,25 @@ class Units:
 class Settings:
     """Settings that all grids of one problem share.
 
-    tolerance, roughness : in the solver's length. of_first : as in `Tolerance`, on coarse grids.
+    tolerance, rms_gap : in the solver's length. coarse_reduction : as in `Tolerance`, on coarse grids.
     """
 
     tolerance: float
-    roughness: float
+    rms_gap: float
     budget: IterationBudget
     parameters: SolverParameters = field(default_factory=SolverParameters)
-    of_first: float = math.inf
+    coarse_reduction: float = math.inf
 
     @property
     def scale(self) -> float:
-        """Return the roughness, or one where the gap is flat."""
-        return self.roughness or 1.0
+        """Return the rms gap, or one where the gap is flat."""
+        return self.rms_gap or 1.0
 
     def allowed(self, tolerance: float) -> Tolerance:
         """Return the tolerance of the violation; relative to the displacement where the gap is flat."""
-        if not self.roughness > 0:
+        if not self.rms_gap > 0:
             return Tolerance(math.inf, tolerance)
-        return Tolerance(tolerance, tolerance / self.roughness, self.of_first, self.tolerance)
+        return Tolerance(tolerance, tolerance / self.rms_gap, self.coarse_reduction, self.tolerance)
 
 
 @dataclass(frozen=True)
@@ -147,8 +147,8 @@ class GridProblem:
         )
 
 
-def _length_unit(request: Request, roughness: float, datum: float) -> float:
-    length = roughness
+def _length_unit(request: Request, rms_gap: float, datum: float) -> float:
+    length = rms_gap
     if not length > 0:
         if request.load is not None:
             length = request.load / request.operator.grid.area * request.operator.unit

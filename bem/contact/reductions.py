@@ -3,7 +3,7 @@
 Passes over whole fields work in blocks of fixed size that threads share. Sums are formed block by block in order, so a
 result has the same bits for every number of threads.
 
-- `survey`: energy, approach and extremes of the gap over the cells with pressure;
+- `contact_sums`: energy, approach and extremes of the gap over the cells with pressure;
 - `find_violations`: the state of each cell, and the cells that violate it;
 - `assemble`: the certificate, and the results in SI units;
 - `moments`, `rescale`, `scatter`, `shift_to`: statistics, units, scattering, and the Newton iteration for a shift.
@@ -20,14 +20,12 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.compiled import compiled
+from bem.contact.cell_states import CAPPED, ELASTIC, OPEN
 from bem.threads import share
 
 FloatArray = NDArray[np.float64]
 Cells = tuple[NDArray[np.int64], FloatArray, NDArray[np.int64]]
 """A pressure: cells between the bounds, their values, and cells at the cap."""
-
-FREE, CONTACT, CAPPED = 0, 1, 2
-"""State of a cell: no pressure; pressure between the bounds; pressure at the cap."""
 
 NO_PRESSURE: Cells = (np.empty(0, np.int64), np.empty(0), np.empty(0, np.int64))
 
@@ -38,7 +36,7 @@ _ONE_THREAD = 4
 """Blocks of a field up to which one thread searches for violations: sharing the work would take longer."""
 
 
-def in_blocks(size: int, results: int, kernel: Callable[..., None], *arguments: Any) -> FloatArray:
+def run_blocks(size: int, results: int, kernel: Callable[..., None], *arguments: Any) -> FloatArray:
     """Call `kernel(start, stop, out, *arguments)` for all blocks of `size` entries; return the results (blocks,
     results)."""
     blocks = -(-size // BLOCK)
@@ -60,7 +58,7 @@ def sums(size: int, results: int, kernel: Callable[..., None], *arguments: Any) 
         found = np.zeros(results)
         kernel(0, size, found, *arguments)
         return found.tolist()
-    return in_blocks(size, results, kernel, *arguments).sum(axis=0).tolist()
+    return run_blocks(size, results, kernel, *arguments).sum(axis=0).tolist()
 
 
 @compiled
@@ -122,9 +120,9 @@ def shift_to(values, start, high, wanted, cap, block):
 def moments(values: FloatArray) -> tuple[float, float, float]:
     """Return minimum, mean and standard deviation; sums are of differences from the first value."""
     first = float(values[0])
-    partial = in_blocks(values.size, 2, _least_and_sum, values, first)
+    partial = run_blocks(values.size, 2, _least_and_sum, values, first)
     mean = float(partial[:, 1].sum()) / values.size
-    about = in_blocks(values.size, 1, _squares_about, values, first, mean)
+    about = run_blocks(values.size, 1, _squares_about, values, first, mean)
     return float(partial[:, 0].min()), first + mean, float(np.sqrt(about[:, 0].sum() / values.size))
 
 
@@ -152,7 +150,7 @@ def _squares_about(start, stop, result, values, first, mean):
 
 def rescale(values: FloatArray, datum: float, factor: float, out: FloatArray) -> None:
     """Write (values - datum) * factor to `out`."""
-    in_blocks(values.size, 0, _rescale, values, datum, factor, out)
+    run_blocks(values.size, 0, _rescale, values, datum, factor, out)
 
 
 @compiled
@@ -171,7 +169,8 @@ def assemble(
 ) -> tuple[float, float, float, int, int, float]:
     """Convert scaled results to SI units in place and evaluate the contact conditions.
 
-    fields : (pressure, displacement, gap), flat; the first two scaled by `units` (pressure [Pa], length [m]).
+    fields : (pressure, displacement, gap), one-dimensional; the first two scaled by `units` (pressure [Pa], length
+        [m]).
     results : (deformed gap, plastic depth), written; the plastic depth is zero on entry.
 
     Returns
@@ -180,10 +179,10 @@ def assemble(
     displacement), largest displacement [m], sum of pressures [Pa], numbers of cells in contact and at the cap, and sum
     of the positive gaps [m].
     """
-    partial = in_blocks(fields[0].size, 6, _assemble, fields, units, approach, cap, results)
-    largest, reach = partial[:, 0].max(), partial[:, 1].max()
+    partial = run_blocks(fields[0].size, 6, _assemble, fields, units, approach, cap, results)
+    largest, largest_displacement = partial[:, 0].max(), partial[:, 1].max()
     force, contact, capped, volume = partial[:, 2:].sum(axis=0)
-    return float(largest), float(reach), float(force), int(contact), int(capped), float(volume)
+    return float(largest), float(largest_displacement), float(force), int(contact), int(capped), float(volume)
 
 
 _STRETCH = 128
@@ -254,11 +253,11 @@ def _evaluate(given, units, approach, cap, deformed, violations, openings):
 @compiled
 def _raise_largest(bits, violations, displacement):
     """Update the bits of the largest violation and of the largest absolute displacement."""
-    largest, reach = bits[0], bits[1]
+    largest, largest_displacement = bits[0], bits[1]
     for k in range(displacement.size):
         largest = max(largest, violations[k])
-        reach = max(reach, displacement[k] & _MAGNITUDE)
-    bits[0], bits[1] = largest, reach
+        largest_displacement = max(largest_displacement, displacement[k] & _MAGNITUDE)
+    bits[0], bits[1] = largest, largest_displacement
 
 
 @compiled
@@ -269,49 +268,53 @@ def _sum(values):
     return total
 
 
-class Survey(NamedTuple):
+class ContactSums(NamedTuple):
     """Reductions over the cells with pressure p, undeformed gap g and displacement u.
 
-    total, deepest, nearest : sum, maximum and minimum of g + u over the cells between the bounds.
-    reach : maximum of abs(u) over the same cells.
+    separation_sum, largest_separation, smallest_separation : sum, maximum and minimum of g + u over the cells between
+        the bounds.
+    largest_displacement : maximum of abs(u) over the cells between the bounds, or over the capped cells if there are
+        none between.
     energy : sum of p (g + u / 2) over all cells with pressure.
-    size : sum of abs(p g) + abs(p u), the scale of the energy's round-off.
+    energy_size : sum of abs(p g) + abs(p u), the scale of the energy's round-off.
     force : sum of p.
     work : sum of p (g + u).
     work_of_other : sum of q (g + u) for another pressure q.
     """
 
-    total: float
-    deepest: float
-    nearest: float
-    reach: float
+    separation_sum: float
+    largest_separation: float
+    smallest_separation: float
+    largest_displacement: float
     energy: float
-    size: float
+    energy_size: float
     force: float
     work: float
     work_of_other: float
 
 
-def survey(
+def contact_sums(
     displacement: FloatArray, gap: FloatArray, pressure: Cells, cap: float, other: Cells = NO_PRESSURE
-) -> Survey:
+) -> ContactSums:
     """Return the reductions of a pressure, and the work of another pressure on the same displacement."""
     if max(pressure[0].size, pressure[2].size, other[0].size, other[2].size) <= BLOCK:
-        found: tuple[float, ...] = _survey_all(displacement, gap, pressure, cap, other)
-        return Survey(*found)
-    seen = _in_blocks(displacement, gap, pressure[0], pressure[1])
+        found: tuple[float, ...] = _sum_all_cells(displacement, gap, pressure, cap, other)
+        return ContactSums(*found)
+    seen = _sum_cells_in_blocks(displacement, gap, pressure[0], pressure[1])
     if pressure[2].size:
-        seen = _combine(seen, _in_blocks(displacement, gap, pressure[2], np.full(pressure[2].size, cap)))
+        seen = _add_capped(seen, _sum_cells_in_blocks(displacement, gap, pressure[2], np.full(pressure[2].size, cap)))
     work = sums(other[0].size, 1, _work, displacement, gap, other[0], other[1])[0]
     if other[2].size:
         work += sums(other[2].size, 1, _work, displacement, gap, other[2], np.full(other[2].size, cap))[0]
     judged: list[float] = [*seen.tolist(), work]
-    return Survey(*judged)
+    return ContactSums(*judged)
 
 
-def _in_blocks(displacement: FloatArray, gap: FloatArray, cells: NDArray[Any], values: FloatArray) -> FloatArray:
-    """Return `_survey` of any number of cells."""
-    partial = in_blocks(cells.size, 8, _survey, displacement, gap, cells, values)
+def _sum_cells_in_blocks(
+    displacement: FloatArray, gap: FloatArray, cells: NDArray[Any], values: FloatArray
+) -> FloatArray:
+    """Return `_sum_cells` of any number of cells."""
+    partial = run_blocks(cells.size, 8, _sum_cells, displacement, gap, cells, values)
     if partial.shape[0] == 1:
         return np.asarray(partial[0])
     seen = partial.sum(axis=0)
@@ -322,14 +325,14 @@ def _in_blocks(displacement: FloatArray, gap: FloatArray, cells: NDArray[Any], v
 
 
 @compiled
-def _survey_all(displacement, gap, pressure, cap, other):
+def _sum_all_cells(displacement, gap, pressure, cap, other):
     cells, values, capped = pressure
     seen, work = np.zeros(8), np.zeros(1)
-    _survey(0, cells.size, seen, displacement, gap, cells, values)
+    _sum_cells(0, cells.size, seen, displacement, gap, cells, values)
     if capped.size:
         more = np.zeros(8)
-        _survey(0, capped.size, more, displacement, gap, capped, np.full(capped.size, cap))
-        seen = _combine(seen, more)
+        _sum_cells(0, capped.size, more, displacement, gap, capped, np.full(capped.size, cap))
+        seen = _add_capped(seen, more)
     cells, values, capped = other
     _work(0, cells.size, work, displacement, gap, cells, values)
     total = work[0]
@@ -340,7 +343,7 @@ def _survey_all(displacement, gap, pressure, cap, other):
 
 
 @compiled
-def _combine(inside, capped):
+def _add_capped(inside, capped):
     """Add the survey of the cells at the cap to that of the cells between the bounds."""
     seen = inside.copy()
     if inside[2] == np.inf:  # no cell between the bounds
@@ -351,9 +354,9 @@ def _combine(inside, capped):
 
 
 @compiled
-def _survey(start, stop, result, displacement, gap, cells, values):
+def _sum_cells(start, stop, result, displacement, gap, cells, values):
     total = 0.0
-    deepest, nearest, reach = -np.inf, np.inf, 0.0
+    largest_separation, smallest_separation, largest_displacement = -np.inf, np.inf, 0.0
     energy = 0.0
     size = 0.0
     force = 0.0
@@ -366,12 +369,12 @@ def _survey(start, stop, result, displacement, gap, cells, values):
         u = displacement[c]
         opening = g + u
         total += opening
-        if opening > deepest:
-            deepest = opening
-        if opening < nearest:
-            nearest = opening
-        if abs(u) > reach:
-            reach = abs(u)
+        if opening > largest_separation:
+            largest_separation = opening
+        if opening < smallest_separation:
+            smallest_separation = opening
+        if abs(u) > largest_displacement:
+            largest_displacement = abs(u)
         by_gap = p * g
         by_displacement = p * u
         energy += by_gap + 0.5 * by_displacement
@@ -379,9 +382,9 @@ def _survey(start, stop, result, displacement, gap, cells, values):
         force += p
         work += by_gap + by_displacement
     result[0] = total
-    result[1] = deepest
-    result[2] = nearest
-    result[3] = reach
+    result[1] = largest_separation
+    result[2] = smallest_separation
+    result[3] = largest_displacement
     result[4] = energy
     result[5] = size
     result[6] = force
@@ -399,11 +402,11 @@ def _work(start, stop, result, displacement, gap, cells, values):
 
 
 @compiled
-def mark(state, cells, capped):
+def mark_states(state, cells, capped):
     """Write the state of every cell."""
-    state[:] = FREE
+    state[:] = OPEN
     for k in range(cells.size):
-        state[np.uint64(cells[k])] = CONTACT
+        state[np.uint64(cells[k])] = ELASTIC
     for k in range(capped.size):
         state[np.uint64(capped[k])] = CAPPED
 
@@ -419,8 +422,8 @@ def find_violations(
     if gap.size <= _ONE_THREAD * BLOCK:
         count, largest = _mark_and_find(displacement, gap, state, pressure, approach, found)
         return found[: int(count)], largest
-    mark(state, pressure[0], pressure[2])
-    partial = in_blocks(gap.size, 2, _find_violations, displacement, gap, state, approach, found)
+    mark_states(state, pressure[0], pressure[2])
+    partial = run_blocks(gap.size, 2, _find_violations, displacement, gap, state, approach, found)
     starts = range(0, gap.size, BLOCK)
     parts = [found[start : start + int(count)] for start, count in zip(starts, partial[:, 0].tolist(), strict=True)]
     return np.concatenate(parts), float(partial[:, 1].max())
@@ -428,7 +431,7 @@ def find_violations(
 
 @compiled
 def _mark_and_find(displacement, gap, state, pressure, approach, found):
-    mark(state, pressure[0], pressure[2])
+    mark_states(state, pressure[0], pressure[2])
     result = np.zeros(2)
     _find_violations(0, gap.size, result, displacement, gap, state, approach, found)
     return result[0], result[1]
@@ -448,7 +451,7 @@ def _find_violations(start, stop, result, displacement, gap, state, approach, fo
         if count == 0:
             continue
         for c in range(first, last):
-            if state[c] == CONTACT:
+            if state[c] == ELASTIC:
                 continue
             value = approach - gap[c] - displacement[c]
             if state[c] == CAPPED:
@@ -463,19 +466,19 @@ def _find_violations(start, stop, result, displacement, gap, state, approach, fo
 
 def separations(displacement: FloatArray, gap: FloatArray, state: NDArray[np.uint8]) -> tuple[float, float]:
     """Return the largest gap + displacement of cells with pressure, and the smallest of cells below the cap."""
-    partial = in_blocks(gap.size, 2, _separations, displacement, gap, state)
+    partial = run_blocks(gap.size, 2, _separations, displacement, gap, state)
     return float(partial[:, 0].max()), float(partial[:, 1].min())
 
 
 @compiled
 def _separations(start, stop, result, displacement, gap, state):
     displacement, gap, state = displacement[start:stop], gap[start:stop], state[start:stop]
-    deepest, nearest = -np.inf, np.inf
+    largest_separation, smallest_separation = -np.inf, np.inf
     for k in range(gap.size):
         value = gap[k] + displacement[k]
-        if state[k] != FREE and value > deepest:
-            deepest = value
-        if state[k] != CAPPED and value < nearest:
-            nearest = value
-    result[0] = deepest
-    result[1] = nearest
+        if state[k] != OPEN and value > largest_separation:
+            largest_separation = value
+        if state[k] != CAPPED and value < smallest_separation:
+            smallest_separation = value
+    result[0] = largest_separation
+    result[1] = smallest_separation

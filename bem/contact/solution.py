@@ -7,6 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
+from bem.contact.cell_states import CAPPED
 from bem.errors import Status
 from bem.notes import Note
 from bem.representation import readable
@@ -62,12 +63,9 @@ class ContactSolution:
     notes: tuple[Note, ...] = ()
 
 
-OPEN, ELASTIC, CAPPED = 0, 1, 2
-
-
 def contact_state(pressure: FloatArray, hardness: float | None = None) -> NDArray[np.int8]:
     """Return OPEN, ELASTIC or CAPPED for each cell (nx, ny), from its pressure [Pa] and the hardness [Pa], if any."""
-    state = (pressure > 0).view(np.int8)  # ELASTIC is one
+    state = (pressure > 0).view(np.int8)  # OPEN is zero, ELASTIC one
     if hardness is not None:
         state[pressure >= hardness] = CAPPED
     return state

@@ -12,7 +12,7 @@ from numpy.typing import NDArray
 
 from bem.contact import reductions
 from bem.contact.active_set import Report
-from bem.contact.certificate import certify, elastic_length
+from bem.contact.certificate import certify, uniform_displacement
 from bem.contact.controls import Control
 from bem.contact.grid_workspace import GridResult, IterationBudget, is_flat
 from bem.contact.mean_gap_multiplicity import note_on_several_answers
@@ -87,14 +87,13 @@ def solve_contact(
         initial_pressure=initial_pressure,
         max_iterations=max_iterations,
     )
-    before = operator.count.weighted
-    datum, mean, roughness = (float(value) for value in reductions.moments(request.gap.reshape(-1)))
-    request.refuse_infeasible(mean, _TIGHTER * tolerance * roughness)
-    units = Units.of(request, roughness, datum)
-    rough = roughness / units.length
-    settings = Settings(
-        _TIGHTER * tolerance * rough if rough > 0 else tolerance, rough, IterationBudget(max_iterations)
-    )
+    convolutions_before = operator.count.weighted
+    datum, mean, rms_gap = (float(value) for value in reductions.moments(request.gap.reshape(-1)))
+    request.refuse_infeasible(mean, _TIGHTER * tolerance * rms_gap)
+    units = Units.of(request, rms_gap, datum)
+    scaled_rms_gap = rms_gap / units.length
+    inner_tolerance = _TIGHTER * tolerance * scaled_rms_gap if scaled_rms_gap > 0 else tolerance
+    settings = Settings(inner_tolerance, scaled_rms_gap, IterationBudget(max_iterations))
     problem = GridProblem(
         settings,
         operator,
@@ -103,16 +102,16 @@ def solve_contact(
         _report(callback, settings, operator),
     )
     start = None if initial_pressure is None else np.asarray(initial_pressure, np.float64).reshape(-1) / units.pressure
-    flat = is_flat(roughness, elastic_length(request))
+    flat = is_flat(rms_gap, uniform_displacement(request))
     result = _solve_scaled(problem, units.control(request), start, flat=flat)
     solution = certify(
         request,
         units,
-        roughness,
+        rms_gap,
         result,
-        unmet=_unmet_status(result, settings.budget),
+        status_if_unmet=_unmet_status(result, settings.budget),
         iterations=settings.budget.iterations,
-        convolutions_before=before,
+        convolutions_before=convolutions_before,
     )
     notes = _notes_on_arguments(operator, load, hardness)
     if mean_gap is not None and solution.status is Status.CONVERGED:
@@ -134,7 +133,7 @@ def _notes_on_operator(bodies: tuple[Body, ...], spacing: tuple[float, float]) -
 
 
 def _scaled(gap: FloatArray, units: Units) -> FloatArray:
-    """Return the gap (flat) in the solver's units, lowest value zero; not copied where the units are one."""
+    """Return the gap (one-dimensional) in the solver's units, lowest value zero; not copied where the units are one."""
     if units.datum == 0.0 and units.length == 1.0:
         return gap
     scaled = np.empty(gap.size)

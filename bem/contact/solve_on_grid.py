@@ -35,7 +35,7 @@ from bem.convolution import DisplacementOperator
 FloatArray = NDArray[np.float64]
 
 COARSE_TOLERANCE = 6e-2
-"""Violation over roughness that coarse grids are solved to; the interpolation loses more."""
+"""Violation over the rms gap that coarse grids are solved to; the interpolation loses more."""
 
 _GUARDED_ROUNDS = 400
 """Limit of outer iterations under the energy guard; contacts below stiff layers take up to three hundred."""
@@ -63,7 +63,7 @@ _LARGEST_LOGARITHM = 600.0
 
 @dataclass(frozen=True)
 class Start:
-    """Initial pressure (flat) and approach."""
+    """Initial pressure (one-dimensional) and approach."""
 
     pressure: InitialPressure
     approach: float
@@ -105,7 +105,7 @@ def _solve_directly(problem: GridProblem, control: Control, start: InitialPressu
     """Solve for a load or an approach without fallbacks."""
     parameters = problem.settings.parameters
     if not problem.operator.symmetric:
-        parameters = replace(parameters, stall=_FRICTION_STALL)
+        parameters = replace(parameters, stall_limit=_FRICTION_STALL)
     return problem.solve(control, start, problem.settings.allowed(tolerance), parameters)
 
 
@@ -119,8 +119,8 @@ def _solve_with_fallbacks(
         return result
     if not problem.operator.symmetric:
         return _solve_with_lagged_friction(problem, control, start, allowed)
-    for clipping in (settings.parameters.clipping, 0.0) if rerun else ():
-        guarded = replace(settings.parameters, guarded=True, rounds=_GUARDED_ROUNDS, clipping=clipping)
+    for ratio in (settings.parameters.clip_residual_ratio, 0.0) if rerun else ():
+        guarded = replace(settings.parameters, guarded=True, rounds=_GUARDED_ROUNDS, clip_residual_ratio=ratio)
         result = problem.solve(control, result.pressure, allowed, guarded)
         if _is_final(problem, result):
             break
@@ -137,7 +137,7 @@ def _solve_mean_gap(problem: GridProblem, control: MeanGapControl, start: Start,
     settings, gap, cap, mean_gap = problem.settings, problem.gap, problem.cap, control.mean_gap
     # displacements are not negative on average, so this approach is too small
     least = float(gap.mean()) - mean_gap
-    parameters = replace(settings.parameters, stall=_MEAN_GAP_STALL)
+    parameters = replace(settings.parameters, stall_limit=_MEAN_GAP_STALL)
     result = problem.solve(control, start.pressure, settings.allowed(tolerance), parameters)
     if _is_final(problem, result):
         return result
@@ -181,13 +181,13 @@ def _below_least_mean_gap(problem: GridProblem, mean_gap: float, missed: GridRes
 
     gap = problem.gap
 
-    def at(approach: float, start: FloatArray | None) -> GridResult:
+    def solve_at(approach: float, start: FloatArray | None) -> GridResult:
         return _solve_with_fallbacks(problem, ApproachControl(approach), start, tolerance)
 
-    first = at(float(gap.mean()), None)
+    first = solve_at(float(gap.mean()), None)
     if not first.converged:
         return missed
-    outcome = least_mean_gap(mean_gap, problem.operator, gap, first, problem.settings.scale, tolerance, at)
+    outcome = least_mean_gap(mean_gap, problem.operator, gap, first, problem.settings.scale, tolerance, solve_at)
     if outcome is None:
         return missed
     if outcome.bracket is None:
@@ -248,7 +248,7 @@ def _search_load(
 class _SecantSearch:
     """Safeguarded secant search for the zero of an excess that rises with x.
 
-    control : of x. excess : of the contact under that control. tolerance : of the excess. length : its scale.
+    control : of x. excess : of the contact under that control. tolerance : of the excess. scale : of the excess.
     patient : if False, the search ends at the first contact that does not converge.
     """
 
@@ -256,7 +256,7 @@ class _SecantSearch:
     control: Callable[[float], ApproachControl | LoadControl]
     excess: Callable[[GridResult], float]
     tolerance: float
-    length: float
+    scale: float
     patient: bool = True
 
     def run(self, x: float, bracket: tuple[float, float], step: float, start: InitialPressure) -> GridResult:
@@ -265,7 +265,7 @@ class _SecantSearch:
         Without an upper bound the search also ends where the excess falls, because a zero need not exist.
         """
         tolerance, (low, high) = self.tolerance, bracket
-        precision = max(tolerance, 0.03 * self.length)
+        precision = max(tolerance, 0.03 * self.scale)
         points: list[tuple[float, float]] = []
         while True:
             result = _solve_with_fallbacks(self.problem, self.control(x), start, precision)
@@ -353,17 +353,17 @@ def _solve_with_lagged_friction(
     pressure = _as_field(problem, start)
     change = _CouplingChange()
     ready = COARSE_TOLERANCE * settings.scale
-    short = replace(settings.parameters, stall=_LAGGED_STALL)
+    short = replace(settings.parameters, stall_limit=_LAGGED_STALL)
     result: GridResult | None = None
     for _ in range(_LAGGED_CONTACTS):
         operator.scaled().apply(pressure.reshape(shape), displacement)
         frictionless.scaled().apply(pressure.reshape(shape), part)
         coupling = (displacement - part).reshape(-1)
-        goal = min(allowed.length, allowed.relative * float(np.abs(displacement).max()))
+        goal = min(allowed.absolute, allowed.relative * float(np.abs(displacement).max()))
         change.update(coupling)
         if result is None:
-            roughness = settings.roughness or math.inf
-            tolerance = Tolerance(COARSE_TOLERANCE * roughness, COARSE_TOLERANCE)
+            rms_gap = settings.rms_gap or math.inf
+            tolerance = Tolerance(COARSE_TOLERANCE * rms_gap, COARSE_TOLERANCE)
         else:
             violation = result.violation + change.size
             if violation <= goal or settings.budget.left <= 0 or change.waited > 5:
@@ -376,7 +376,7 @@ def _solve_with_lagged_friction(
                     return coupled
                 ready = 0.1 * change.size
             relative = 0.1 * change.size / float(np.abs(displacement).max())
-            tolerance = Tolerance(max(0.3 * allowed.length, 0.1 * change.size), max(0.3 * allowed.relative, relative))
+            tolerance = Tolerance(max(0.3 * allowed.absolute, 0.1 * change.size), max(0.3 * allowed.relative, relative))
         lagged = replace(problem, operator=frictionless, gap=problem.gap + coupling)
         result = lagged.solve(control, start, tolerance, settings.parameters)
         pressure = start = result.pressure

@@ -100,7 +100,7 @@ class SparseInverse:
         return float(1 / self.patterns.table[-1, -1] ** 2)
 
     def on(self, cells: NDArray[Any], diagonal: FloatArray | None = None) -> SparseInverseOnCells:
-        """Return the inverse on the active cells (ascending flat indices), with a diagonal (n,) added to the kernel."""
+        """Return the inverse on the active cells (ascending cell indices), with a diagonal (n,) added to the kernel."""
         known = self.patterns
         columns, pattern, unsolved = connect(cells, (*self.shape, *self.periodic), known.offsets, known.solved)
         known.solve(pattern, unsolved=unsolved)

@@ -27,7 +27,7 @@ def active_cells(workspace, cells):
     """The cells as the active set of a workspace, with the rows of the sparse inverse connected."""
     iterate = Iterate(cells, np.zeros(cells.size), cells[:0])
     workspace.begin_round(iterate, keep=False)
-    return workspace.activate(iterate, np.empty(0, np.int32), 0.0, with_rise=False)
+    return workspace.activate(iterate, np.empty(0, np.int32), 0.0, with_unit_approach=False)
 
 
 def rough(nx, ny, seed=0, hurst=0.8, rolloff=2.0):

@@ -130,7 +130,7 @@ def judged(pressure, *, displacement=0.0, at=-1.0, cap=math.inf, fresh=True, **a
         Units(1.0, 1 / op.unit, 0.0),
         float(gap.std()),
         level,
-        unmet=Status.STALLED,
+        status_if_unmet=Status.STALLED,
         iterations=1,
         convolutions_before=op.count.weighted,
     )

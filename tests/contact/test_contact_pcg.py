@@ -7,7 +7,7 @@ from contact_oracles import FREE, PERIODIC, displacement, notes_surface, operato
 from bem.contact import gcr, pcg
 from bem.contact.bounds import Iterate
 from bem.contact.controls import ApproachControl, LoadControl
-from bem.contact.grid_workspace import GridWorkspace, IterationBudget, SolverParameters, carry
+from bem.contact.grid_workspace import GridWorkspace, IterationBudget, SolverParameters, carry_to_cells
 
 SIZE = 200
 NOTHING = np.empty(0, np.int32)
@@ -37,11 +37,11 @@ def test_vector_passes():
 def test_values_are_carried_from_cells_to_cells():
     before, values = np.array([2, 3, 7, 9]), np.array([1.0, 2.0, 3.0, 4.0])
     out = np.empty(5)
-    assert carry(before, values, 10.0, np.array([0, 3, 7, 9, 11]), out) == 15.0
+    assert carry_to_cells(before, values, 10.0, np.array([0, 3, 7, 9, 11]), out) == 15.0
     np.testing.assert_array_equal(out, [3.0, 2.0, 3.0, 4.0, 3.0])
-    assert carry(before, values, 10.0, np.array([0, 3, 4, 9, 11]), out) == 0.0  # most are new
+    assert carry_to_cells(before, values, 10.0, np.array([0, 3, 4, 9, 11]), out) == 0.0  # most are new
     fallen = np.array([1.0, 0.1, 0.1, 0.1])  # those known have too little of the sum
-    assert carry(before, fallen, 1.3, np.array([3, 7, 9]), out[:3]) == 0.0
+    assert carry_to_cells(before, fallen, 1.3, np.array([3, 7, 9]), out[:3]) == 0.0
 
 
 @pytest.mark.parametrize("solver", [pcg, gcr])
@@ -50,7 +50,7 @@ def test_no_cells_take_no_iteration(n, solver):
     workspace = GridWorkspace(operator((n, n), (1 / n, 1 / n), PERIODIC), np.zeros(n * n), np.inf, SolverParameters())
     iterate = Iterate(np.empty(0, np.int64), np.empty(0), np.empty(0, np.int64))
     budget = IterationBudget(9)
-    active = workspace.activate(iterate, NOTHING, 0.1, with_rise=False)
+    active = workspace.activate(iterate, NOTHING, 0.1, with_unit_approach=False)
     if solver is gcr:
         budget.limit = 0  # the residual has no largest value
     assert solver.close_gap(workspace, active, ApproachControl(0.1), 1e-6, budget).size == 0
@@ -60,14 +60,14 @@ def test_no_cells_take_no_iteration(n, solver):
 def start(op, n, control, seed):
     """A rough set of active cells with pressures of another surface, and the gap under them."""
     workspace = GridWorkspace(
-        op, 0.01 * notes_surface(n, seed, rolloff=4).ravel(), np.inf, SolverParameters(clipping=0.0)
+        op, 0.01 * notes_surface(n, seed, rolloff=4).ravel(), np.inf, SolverParameters(clip_residual_ratio=0.0)
     )
     height = notes_surface(n, rolloff=4).ravel()
     cells = np.flatnonzero(height > np.quantile(height, 0.8))
     iterate = Iterate(cells, 5 + np.random.default_rng(6).random(cells.size), cells[:0])
     workspace.begin_round(iterate, keep=False)
     workspace.extrapolation.trusted = False
-    return workspace, workspace.activate(iterate, NOTHING, 0.02, with_rise=control.coupled)
+    return workspace, workspace.activate(iterate, NOTHING, 0.02, with_unit_approach=control.coupled)
 
 
 @pytest.mark.parametrize("n", [24, 96])  # the smaller has no coarse correction

@@ -5,6 +5,7 @@ import pytest
 from contact_oracles import FREE, PERIODIC, notes_surface, operator
 
 from bem.contact import bounds, coarse_correction, reductions
+from bem.contact.cell_states import CAPPED, ELASTIC, OPEN
 from bem.contact.grid_workspace import GridWorkspace, SolverParameters
 
 pytestmark = pytest.mark.internal
@@ -26,7 +27,7 @@ def test_survey(fields):
     displacement, gap, cells, values = fields
     capped, cap, nothing = np.setdiff1d(np.arange(150), cells), 1.5, cells[:0]
     other = cells[::3], values[::3] ** 2, capped[::2]
-    seen = reductions.survey(displacement, gap, (cells, values, nothing), cap, other)
+    seen = reductions.contact_sums(displacement, gap, (cells, values, nothing), cap, other)
     u, g = displacement[cells], gap[cells]
     plain = (
         (g + u).sum(), (g + u).max(), (g + u).min(), np.abs(u).max(), (values * (g + u / 2)).sum(),
@@ -34,12 +35,12 @@ def test_survey(fields):
         (values**2 * (g + u))[::3].sum() + cap * (gap + displacement)[capped[::2]].sum(),
     )  # fmt: skip
     assert np.allclose(seen, plain, rtol=0, atol=ROUND_OFF * seen.size)
-    both = reductions.survey(displacement, gap, (cells, values, capped), cap)
-    more = reductions.survey(displacement, gap, (capped, np.full(capped.size, cap), nothing), cap)
+    both = reductions.contact_sums(displacement, gap, (cells, values, capped), cap)
+    more = reductions.contact_sums(displacement, gap, (capped, np.full(capped.size, cap), nothing), cap)
     assert both[:4] == seen[:4]
     assert np.allclose(both[4:8], np.add(seen[4:8], more[4:8]), rtol=0, atol=ROUND_OFF * seen.size)
     assert both.work_of_other == 0
-    alone = reductions.survey(displacement, gap, (nothing, values[:0], capped), cap)
+    alone = reductions.contact_sums(displacement, gap, (nothing, values[:0], capped), cap)
     assert alone[1:3] == (-np.inf, np.inf)
     assert alone.reach == np.abs(displacement[capped]).max()
 
@@ -51,19 +52,19 @@ def test_the_deepest_and_the_nearest_are_those_of_numbers(fields):
     opening, capped = gap + displacement, np.setdiff1d(np.arange(150), cells)
     # what is no number counts for nothing: it is told by the sum
     known = opening[cells][~np.isnan(opening[cells])]
-    seen = reductions.survey(displacement, gap, (cells, values, cells[:0]), 1.5)
+    seen = reductions.contact_sums(displacement, gap, (cells, values, cells[:0]), 1.5)
     assert seen[1:4] == (known.max(), known.min(), np.inf)
     assert np.isnan(seen.total)
     finite = cells[6:], values[6:], cells[:0]
-    assert reductions.survey(displacement, gap, finite, 1.5)[1:4] == (
+    assert reductions.contact_sums(displacement, gap, finite, 1.5)[1:4] == (
         opening[cells[6:]].max(), opening[cells[6:]].min(), np.abs(displacement[cells[6:]]).max()
     )  # fmt: skip
     state = np.zeros(SIZE, np.uint8)
-    reductions.mark(state, cells, capped)
+    reductions.mark_states(state, cells, capped)
     pressed, open_to = np.union1d(cells, capped), np.setdiff1d(np.arange(SIZE), capped)
     wanted = np.nanmax(opening[pressed]), np.nanmin(opening[open_to])
     assert reductions.separations(displacement, gap, state) == wanted
-    state[:] = reductions.CAPPED
+    state[:] = CAPPED
     assert reductions.separations(displacement, gap, state)[1] == np.inf
 
 
@@ -76,7 +77,7 @@ def test_a_field_is_split_by_its_bounds(cap, fields):
     assert np.array_equal(values, pressure[cells])
     assert np.array_equal(capped, np.flatnonzero(pressure >= cap))
     out = np.empty(SIZE)
-    reductions.in_blocks(SIZE, 0, bounds.descend, displacement, gap, 0.3, 0.7, out)
+    reductions.run_blocks(SIZE, 0, bounds.descend, displacement, gap, 0.3, 0.7, out)
     assert np.array_equal(out, -(0.7 * (gap + displacement - 0.3)))
 
 
@@ -113,7 +114,7 @@ def test_merge(fields):
     displacement, gap, cells, values = fields
     found = np.setdiff1d(np.arange(0, SIZE, 7), cells).astype(np.int32)
     state = np.zeros(SIZE, np.uint8)
-    state[found[::2]] = reductions.CAPPED
+    state[found[::2]] = CAPPED
     *merged, mean = bounds.merge((cells, values), found, state, 2.0, (displacement, gap, 0.3))
     everywhere = np.zeros(SIZE)
     everywhere[cells], everywhere[found[::2]] = values, 2.0
@@ -130,10 +131,10 @@ def test_violations_of_free_and_of_capped_cells(fields):
     pressure = cells[:100], values[:100], cells[100:]
     found, largest = reductions.find_violations(displacement, gap, state, pressure, 0.1)
     plain = np.zeros(SIZE)
-    plain[pressure[0]], plain[pressure[2]] = reductions.CONTACT, reductions.CAPPED
+    plain[pressure[0]], plain[pressure[2]] = ELASTIC, CAPPED
     assert np.array_equal(state, plain)
     value = 0.1 - gap - displacement
-    wrong = ((state == reductions.FREE) & (value > 0)) | ((state == reductions.CAPPED) & (value < 0))
+    wrong = ((state == OPEN) & (value > 0)) | ((state == CAPPED) & (value < 0))
     assert np.array_equal(found, np.flatnonzero(wrong))
     assert largest == pytest.approx(np.abs(value[wrong]).max(), rel=1e-14)
 

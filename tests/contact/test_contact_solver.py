@@ -379,7 +379,7 @@ def test_a_first_step_without_a_convolution_saves_them_and_leaves_the_answer(mon
     gap = -notes_surface(128)
     op = operator((128, 128), (1 / 128, 1 / 128), PERIODIC)
     quick = solve_contact(gap, op, load=0.0035)
-    monkeypatch.setattr(pcg, "LEFT", np.inf)  # as if clipping never undid enough
+    monkeypatch.setattr(pcg, "REMAINING", np.inf)  # as if clipping never undid enough
     plain = solve_contact(gap, op, load=0.0035)
     assert quick.convolutions < plain.convolutions
     assert np.abs(quick.pressure - plain.pressure).max() <= 1e-5 * plain.pressure.max()  # both certified to 1e-8
@@ -392,11 +392,11 @@ def test_regions_that_keep_their_load_save_convolutions_and_leave_the_answer(mon
     op = operator((256, 256), (1 / 256, 1 / 256), FREE)
     assert solve_contact(gap, op, load=0.022).convolutions <= 16  # 14.1, without a cap neighbours make up for it
     kept = solve_contact(gap, op, load=0.022, hardness=0.05)
-    monkeypatch.setattr(bounds, "REGION", 256)  # one region: the load of all is restored anyway
-    monkeypatch.setattr(nested_iteration, "_REGION", 256)
-    nested_iteration._regions.cache_clear()
+    monkeypatch.setattr(bounds, "SQUARE_SIDE", 256)  # one square: the load of all is restored anyway
+    monkeypatch.setattr(nested_iteration, "SQUARE_SIDE", 256)
+    nested_iteration._squares_along.cache_clear()
     moved = solve_contact(gap, op, load=0.022, hardness=0.05)
-    nested_iteration._regions.cache_clear()
+    nested_iteration._squares_along.cache_clear()
     assert kept.convolutions <= 18  # 15.6 and 28.6 counted
     assert kept.convolutions < 0.7 * moved.convolutions
     assert np.abs(kept.pressure - moved.pressure).max() <= 1e-5 * moved.pressure.max()  # both certified to 1e-8

@@ -13,8 +13,8 @@ from bem.contact.grid_workspace import GridWorkspace, SolverParameters
 def _point(grid: GridWorkspace, iterate: Iterate) -> _Point:
     """Return a point at approach one; the displacement of the pressure is then in the buffer."""
     grid.displace(iterate)
-    survey = grid.survey(iterate)
-    return _Point(iterate, 1.0, survey.energy, survey.size, survey.force)
+    sums = grid.contact_sums(iterate)
+    return _Point(iterate, 1.0, sums.energy, sums.energy_size, sums.force)
 
 
 @pytest.mark.parametrize("cap", [1.0, np.inf])
@@ -37,7 +37,7 @@ def test_part_of_a_refused_step_keeps_open_cells_open_and_capped_cells_capped(ca
         # the refused pressure comes last: its displacement stays in the buffer
         last, refused = (_point(grid, end) for end in ends)
         guard = _EnergyGuard()
-        blended = guard.take_back(grid, control, last, refused).as_field(256, cap)
+        blended = guard.reject_step(grid, control, last, refused).as_field(256, cap)
         between = (blended - first)[first != second] / (second - first)[first != second]
         if not np.ptp(between) < 1e-6:
             continue  # a gradient step
