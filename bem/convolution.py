@@ -308,12 +308,12 @@ class DisplacementOperator:
         """Lengths of the transforms."""
         return padded_shape(self.grid.shape, self.grid.periodic)
 
-    def scaled(self, dtype: DTypeLike = np.float64, *, symmetric_part: bool = False) -> ScaledConvolution:
-        """The operator divided by `unit`, in float64 or float32, without the coupling of friction if so asked."""
-        key = (np.dtype(dtype).char, symmetric_part or self.symmetric)
+    def scaled(self, dtype: DTypeLike = np.float64) -> ScaledConvolution:
+        """The operator divided by `unit`, in float64 or float32."""
+        key = (np.dtype(dtype).char, "displacement")
         if key not in self._multipliers:
             parts = [(self._spectra.even, EVEN, 1.0)]
-            if self._spectra.odd is not None and not symmetric_part:
+            if self._spectra.odd is not None:
                 parts.append((self._spectra.odd, ODD_IN_X, 1.0))
             self._multipliers[key] = multiplier(parts).astype(dtype)
         transform = transform_of(self.grid.shape, self.padded, dtype)

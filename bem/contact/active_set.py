@@ -52,8 +52,8 @@ from bem.contact.sparse_inverse import SparseInverseOnCells
 from bem.convolution import DisplacementOperator
 
 FloatArray = NDArray[np.float64]
-Report = Callable[[int, float, int], None]
-"""Called after each outer iteration with CG iterations, violation and cells in contact."""
+Report = Callable[[int, float, float, int], None]
+"""Called after each outer iteration with CG iterations, violation, largest displacement and cells in contact."""
 
 _ENERGY_FALL = 1e-9
 """Relative fall of the energy that counts as progress under the energy guard."""
@@ -110,7 +110,12 @@ def solve_active_set(
         grid.begin_round(iterate, keep=previous is not None)
         now = _evaluate(grid, control, iterate, previous, tolerance, progress)
         if report is not None:
-            report(budget.iterations, now.violation, now.iterate.cells.size + now.iterate.capped.size)
+            report(
+                budget.iterations,
+                now.violation,
+                now.largest_displacement,
+                now.iterate.cells.size + now.iterate.capped.size,
+            )
         if now.violation <= now.goal:
             return now.result(grid, converged=True)
         if best is None or now.violation < best.violation:
@@ -130,7 +135,7 @@ def solve_active_set(
         if guarded and guard.accepted is not None and current.has_higher_energy_than(guard.accepted, now.approach):
             iterate, step = guard.reject_step(grid, control, guard.accepted, current), None
             continue
-        guard.accepted, guard.refused = current, 0
+        guard.accept(current)
         shorter = (
             step.shortened(grid, control, now.step_fraction) if step is not None and now.step_fraction < 1 else None
         )
@@ -170,6 +175,7 @@ class _Evaluation:
 
     step_fraction : fraction of the step that was taken; below one after backtracking.
     violating : cells that violate their state. violation : largest violation. goal : its tolerance.
+    largest_displacement : of the cells in contact.
     round_off : True if the violation is near the resolution of the transforms.
     """
 
@@ -178,6 +184,7 @@ class _Evaluation:
     violating: NDArray[np.int32]
     violation: float
     goal: float
+    largest_displacement: float
     round_off: bool
 
     @property
@@ -274,26 +281,36 @@ class _Progress:
 
 @dataclass(slots=True)
 class _EnergyGuard:
-    """The last accepted pressure, the refused steps since, and the length of the last gradient step."""
+    """The last accepted pressure, and the steps rejected since.
+
+    rejected : their number. step_length : of the last gradient step among them, zero before the first.
+    """
 
     accepted: _Point | None = None
-    refused: int = 0
-    step: float = 0.0
+    rejected: int = 0
+    step_length: float = 0.0
+
+    def accept(self, point: _Point) -> None:
+        """Accept a pressure, from which the next steps begin."""
+        self.accepted, self.rejected, self.step_length = point, 0, 0.0
 
     def reject_step(self, grid: GridWorkspace, control: Control, last: _Point, refused: _Point) -> Iterate:
-        """Replace a step that raised the energy by part of it, or by a gradient step from its beginning."""
-        self.refused += 1
-        if self.refused == 1:
+        """Replace a step that raised the energy by part of it, or by a gradient step from its beginning.
+
+        A gradient step that raises the energy is replaced by one of a quarter of its length.
+        """
+        self.rejected += 1
+        if self.rejected == 1:
             # sum over differences: the works of both pressures may agree in all digits
             previous, after = (point.iterate.as_field(grid.gap.size, grid.cap) for point in (last, refused))
             slope = float(((after - previous) * (grid.gap + grid.displacement_values - refused.approach)).sum())
             fraction = _least_energy_fraction(last, refused, slope, refused.approach)
             if _SHORTEST_STEP < fraction < _LONGEST_GUARDED_STEP:
                 return _blend(last.iterate, refused.iterate, fraction, grid.cap)
-        self.step = self.step / 4 if self.refused > 2 else 1 / grid.largest_eigenvalue
+        self.step_length = self.step_length / 4 if self.step_length > 0 else 1 / grid.largest_eigenvalue
         grid.swap_displacements()
         grid.displace(last.iterate)
-        return _gradient_step(grid, control, last.iterate, last.approach, self.step)
+        return _gradient_step(grid, control, last.iterate, last.approach, self.step_length)
 
 
 @dataclass(frozen=True)
@@ -340,10 +357,10 @@ def _evaluate(
     if progress.rounds == 0:
         progress.first = violation
     point = _Point(iterate, approach, sums.energy, sums.energy_size, sums.force)
-    goal = tolerance.bound(approach, sums.largest_displacement, progress.first)
-    return _Evaluation(
-        point, step_fraction, violating, violation, goal, tolerance.is_round_off(violation, sums.largest_displacement)
-    )
+    displacement = sums.largest_displacement
+    goal = tolerance.bound(approach, displacement, progress.first)
+    round_off = tolerance.is_round_off(violation, displacement)
+    return _Evaluation(point, step_fraction, violating, violation, goal, displacement, round_off)
 
 
 def _backtrack(
@@ -415,7 +432,8 @@ def _next_step(
         clipped.cells.size <= FULLY_PLASTIC_RATIO * clipped.capped.size
         and clipped.cells.size < 0.5 * iterate.cells.size
     ):
-        # fully plastic: unbounded pressures carry no information
+        # fully plastic: unbounded pressures carry no information, and no extrapolated step is taken that can be judged
+        grid.extrapolation.taken = False
         return _Step(_gradient_step(grid, control, iterate, now.approach, 1 / grid.self_response))
     return _Step(clipped, initial=iterate, near=active.near, trial=trial)
 

@@ -45,7 +45,7 @@ class Control(ABC):
 
     @abstractmethod
     def approach_without_contact(self, gap: FloatArray) -> float:
-        """Return the approach at zero pressure over a gap (one-dimensional, lowest value zero); infinite under a load."""
+        """Return the approach without pressure over a gap (one-dimensional, minimum zero); infinite with a load."""
 
     @abstractmethod
     def approach(self, grid: GridWorkspace, iterate: Iterate, separation_sum: float) -> float:

@@ -24,6 +24,7 @@ from bem.compiled import compiled
 from bem.contact import reductions
 from bem.contact.bounds import LARGEST_CHANGE, SQUARE_SIDE, split_cells
 from bem.contact.controls import Control
+from bem.contact.grid_workspace import GridResult, Tolerance
 from bem.contact.problem import GridProblem
 from bem.contact.solve_on_grid import COARSE_TOLERANCE, Start, solve_on_grid, without_contact
 from bem.threads import share
@@ -36,6 +37,10 @@ _COARSEST = 32
 
 _COARSE_BUDGET = 0.2
 """Fraction of the remaining iterations that a coarse grid may use; a start that takes more is not worth its cost."""
+
+_USEFUL_EXCESS = 2.0
+"""Violation over the bound of coarse grids up to which a result that did not converge is interpolated all the same; a
+larger one is worse than a uniform pressure."""
 
 COARSE_REDUCTION = 0.1
 """Fraction of the first violation that coarse grids are solved to. On large grids both that violation and the next
@@ -70,7 +75,7 @@ def start_from_coarser(problem: GridProblem, control: Control) -> Start:
     limited = replace(coarser, settings=replace(coarser.settings, budget=budget))
     result = solve_on_grid(limited, prescribed, start, tolerance, guarded_rerun=False)
     settings.budget.iterations = budget.iterations
-    if not result.converged and result.least_found is None and result.least_mean_gap is None:
+    if not _is_useful(result, settings.allowed(tolerance)):
         return nothing
     cells, pressure = prolong(
         result.pressure.reshape(shape),
@@ -83,6 +88,14 @@ def start_from_coarser(problem: GridProblem, control: Control) -> Start:
     )
     pressure /= factor
     return Start(split_cells(cells, pressure, problem.cap), result.approach)
+
+
+def _is_useful(result: GridResult, allowed: Tolerance) -> bool:
+    """Return True if a coarse result is worth interpolating: converged, near its goal, or the least mean gap."""
+    if result.converged or result.least_found is not None or result.least_mean_gap is not None:
+        return True
+    displacement = float(np.abs(result.displacement).max())
+    return result.violation <= _USEFUL_EXCESS * allowed.bound(result.approach, displacement, math.inf)
 
 
 def _spacing(cells: int, onto: int, periodic: bool) -> float:

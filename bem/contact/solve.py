@@ -92,14 +92,14 @@ def solve_contact(
     request.refuse_infeasible(mean, _TIGHTER * tolerance * rms_gap)
     units = Units.of(request, rms_gap, datum)
     scaled_rms_gap = rms_gap / units.length
-    inner_tolerance = _TIGHTER * tolerance * scaled_rms_gap if scaled_rms_gap > 0 else tolerance
+    inner_tolerance = _TIGHTER * tolerance * (scaled_rms_gap or 1.0)
     settings = Settings(inner_tolerance, scaled_rms_gap, IterationBudget(max_iterations))
     problem = GridProblem(
         settings,
         operator,
         _scaled(request.gap.reshape(-1), units),
         request.cap / units.pressure,
-        _report(callback, settings, operator),
+        _report(callback, settings, uniform_displacement(request) / units.length, operator),
     )
     start = None if initial_pressure is None else np.asarray(initial_pressure, np.float64).reshape(-1) / units.pressure
     flat = is_flat(rms_gap, uniform_displacement(request))
@@ -164,12 +164,19 @@ def _unmet_status(result: GridResult, budget: IterationBudget) -> Status:
     return Status.MAX_ITERATIONS if budget.left <= 0 else Status.STALLED
 
 
-def _report(callback: Callback | None, settings: Settings, operator: DisplacementOperator) -> Report | None:
-    """Return the user's callback with the arguments of an outer iteration."""
+def _report(
+    callback: Callback | None, settings: Settings, uniform: float, operator: DisplacementOperator
+) -> Report | None:
+    """Return the user's callback with the arguments of an outer iteration; the residual is that of the certificate.
+
+    uniform : displacement under the prescribed mean pressure, in the solver's length.
+    """
     if callback is None:
         return None
 
-    def report(iterations: int, violation: float, cells: int) -> None:
-        callback(iterations, violation / settings.scale, cells / operator.grid.cells)
+    def report(iterations: int, violation: float, displacement: float, cells: int) -> None:
+        displacement = max(displacement, uniform)
+        reference = displacement if is_flat(settings.rms_gap, displacement) else settings.rms_gap
+        callback(iterations, violation / reference if reference > 0 else violation, cells / operator.grid.cells)
 
     return report

@@ -16,6 +16,7 @@ from contact_oracles import FREE, HALF_Y, PERIODIC, body, notes_surface, operato
 from bem import threads
 from bem.contact import bounds, nested_iteration, pcg, reductions, solve_contact
 from bem.contact import problem as contact_problem
+from bem.contact import solve as contact_solve
 from bem.convolution import displacement_operator
 from bem.errors import InfeasibleError, InputError, Status
 from bem.grid import Grid
@@ -134,6 +135,33 @@ def test_callback_sees_the_residual_fall(problem):
     assert seen[-1][0] == solution.iterations
     assert seen[-1][1] == pytest.approx(solution.residual, rel=0.5)  # another sum of the same gap
     assert seen[-1][2] == pytest.approx(solution.counted_area)
+
+
+def test_callback_sees_the_residual_of_a_flat_punch_relative_to_its_displacement():
+    op = operator((32, 32), (1.0, 1.0), FREE)
+    seen = []
+    solution = solve_contact(
+        np.zeros((32, 32)), op, load=1400.0, tolerance=1e-6, callback=lambda *state: seen.append(state)
+    )
+    assert seen[-1][1] == pytest.approx(solution.residual, rel=0.01)
+
+
+@pytest.mark.internal
+def test_the_solver_aims_below_the_tolerance_for_flat_and_rough_gaps(monkeypatch):
+    """Part of the tolerance is left for round-off of the units in the certificate."""
+    bounds_of = []
+
+    def solve(problem, *arguments, **keywords):
+        allowed = problem.settings.allowed(problem.settings.tolerance)
+        bounds_of.append(allowed.bound(0.0, problem.settings.scale, np.inf) / problem.settings.scale)
+        return solve_scaled(problem, *arguments, **keywords)
+
+    solve_scaled = contact_solve._solve_scaled
+    monkeypatch.setattr(contact_solve, "_solve_scaled", solve)
+    op = operator((32, 32), (1.0, 1.0), FREE)
+    for gap in (np.zeros((32, 32)), rough(32, 32)):
+        solve_contact(gap, op, load=1000.0, tolerance=1e-6)
+    assert bounds_of == pytest.approx([0.9e-6, 0.9e-6], rel=1e-9)
 
 
 def test_zero_load_and_separated_bodies(problem):
@@ -400,6 +428,14 @@ def test_regions_that_keep_their_load_save_convolutions_and_leave_the_answer(mon
     assert kept.convolutions <= 18  # 15.6 and 28.6 counted
     assert kept.convolutions < 0.7 * moved.convolutions
     assert np.abs(kept.pressure - moved.pressure).max() <= 1e-5 * moved.pressure.max()  # both certified to 1e-8
+
+
+def test_a_discarded_step_of_a_plastic_contact_does_not_end_the_extrapolation_of_later_ones():
+    """Steps that a gradient step replaced were judged by the violation after the gradient step: 88.7 convolutions."""
+    op = operator((256, 256), (1 / 256, 1 / 256), FREE)
+    solutions = [solve_contact(-notes_surface(256, seed), op, load=0.012, hardness=0.02) for seed in range(3)]
+    assert all(one.status is Status.CONVERGED for one in solutions)
+    assert sum(one.convolutions for one in solutions) <= 65  # 57.1
 
 
 @pytest.mark.internal

@@ -6,7 +6,7 @@ import pytest
 from bem import Body, Grid, Material, displacement_operator
 from bem.contact.active_set import _EnergyGuard, _Point, _Progress
 from bem.contact.bounds import Iterate, split_field
-from bem.contact.controls import LoadControl
+from bem.contact.controls import ApproachControl, LoadControl
 from bem.contact.grid_workspace import GridWorkspace, SolverParameters
 
 
@@ -49,6 +49,27 @@ def test_part_of_a_refused_step_keeps_open_cells_open_and_capped_cells_capped(ca
     assert checked >= 20
 
 
+def test_a_gradient_step_that_raises_the_energy_again_is_shortened():
+    operator = displacement_operator(
+        Grid((16, 16), (1.0, 1.0)), Body(Material("unit", youngs_modulus=1.0, poissons_ratio=0.3))
+    )
+    grid = GridWorkspace(operator, np.random.default_rng(0).random(256), np.inf, SolverParameters())
+    pressure = np.full(256, 5.0)
+    last = _point(grid, split_field(pressure, np.inf))
+    guard = _EnergyGuard()
+    guard.accept(last)
+    lengths = []
+    for _ in range(3):
+        # a step of no length has no minimum on the way: each replacement is a gradient step from its beginning
+        step = guard.reject_step(grid, ApproachControl(1.0), last, last).as_field(256, np.inf) - pressure
+        lengths.append(np.abs(step).max())
+        grid.begin_round(last.iterate, keep=True)
+    assert lengths[0] / np.array(lengths) == pytest.approx([1.0, 4.0, 16.0], rel=1e-9)
+    guard.accept(last)
+    step = guard.reject_step(grid, ApproachControl(1.0), last, last).as_field(256, np.inf) - pressure
+    assert np.abs(step).max() == pytest.approx(lengths[0], rel=1e-9)
+
+
 @pytest.mark.parametrize("factor", [0.8, 0.95])
 def test_a_steady_fall_of_the_violation_is_progress(factor):
     progress = _Progress(SolverParameters(rounds=1000))
@@ -70,4 +91,4 @@ def test_no_fall_of_the_violation_sets_the_guard_and_then_stalls():
         progress.set_guard(1.0 + count % 2, has_energy=True)
         guarded = count if guarded is None and progress.release > 0 else guarded
         stalled = count if stalled is None and stalls else stalled
-    assert (guarded, stalled) == (parameters.patience, parameters.stall + 1)
+    assert (guarded, stalled) == (parameters.patience, parameters.stall_limit + 1)

@@ -1,10 +1,16 @@
 """From a coarser grid to a finer one: what regions carry stays, and what that saves."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from contact_oracles import FREE, HALF_X, HALF_Y, PERIODIC, notes_surface, operator, rough
 
 from bem.contact import nested_iteration, solve_contact
+from bem.contact.controls import LoadControl
+from bem.contact.grid_workspace import IterationBudget
+from bem.contact.problem import GridProblem, Settings
+from bem.contact.solve_on_grid import solve_on_grid
 from bem.threads import set_threads
 
 
@@ -119,3 +125,19 @@ def test_dense_contacts_with_ends_begin_with_the_load_where_it_belongs(cells, pe
     solutions = [solve_contact(-notes_surface(cells, seed), op, load=0.02) for seed in range(3)]
     assert all(one.status == "converged" for one in solutions)
     assert np.mean([one.convolutions for one in solutions]) <= most
+
+
+@pytest.mark.internal
+@pytest.mark.parametrize(("excess", "kept"), [(1.3, True), (4.0, False)])
+def test_a_coarse_result_that_just_misses_its_goal_starts_the_finer_grid(excess, kept, monkeypatch):
+    def stalled(problem, control, start, tolerance, *, guarded_rerun):
+        result = solve_on_grid(problem, control, start, tolerance, guarded_rerun=guarded_rerun)
+        return replace(result, converged=False, violation=excess * tolerance)
+
+    op, gap = operator((64, 64), (1 / 64, 1 / 64), FREE), -notes_surface(64)
+    gap -= gap.min()
+    rms_gap, budget = float(gap.std()), IterationBudget(1000)
+    problem = GridProblem(Settings(1e-8 * rms_gap, rms_gap, budget), op, gap.reshape(-1), np.inf)
+    monkeypatch.setattr(nested_iteration, "solve_on_grid", stalled)
+    start = nested_iteration.start_from_coarser(problem, LoadControl(40.0))
+    assert (start.pressure is not None) is kept
