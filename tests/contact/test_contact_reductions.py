@@ -23,7 +23,7 @@ def fields(request, monkeypatch):
     return rng.standard_normal(SIZE), rng.standard_normal(SIZE), cells, rng.uniform(0, 1, cells.size)
 
 
-def test_survey(fields):
+def test_contact_sums(fields):
     displacement, gap, cells, values = fields
     capped, cap, nothing = np.setdiff1d(np.arange(150), cells), 1.5, cells[:0]
     other = cells[::3], values[::3] ** 2, capped[::2]
@@ -34,18 +34,18 @@ def test_survey(fields):
         (np.abs(values * g) + np.abs(values * u)).sum(), values.sum(), (values * (g + u)).sum(),
         (values**2 * (g + u))[::3].sum() + cap * (gap + displacement)[capped[::2]].sum(),
     )  # fmt: skip
-    assert np.allclose(seen, plain, rtol=0, atol=ROUND_OFF * seen.size)
+    assert np.allclose(seen, plain, rtol=0, atol=ROUND_OFF * seen.energy_size)
     both = reductions.contact_sums(displacement, gap, (cells, values, capped), cap)
     more = reductions.contact_sums(displacement, gap, (capped, np.full(capped.size, cap), nothing), cap)
     assert both[:4] == seen[:4]
-    assert np.allclose(both[4:8], np.add(seen[4:8], more[4:8]), rtol=0, atol=ROUND_OFF * seen.size)
+    assert np.allclose(both[4:8], np.add(seen[4:8], more[4:8]), rtol=0, atol=ROUND_OFF * seen.energy_size)
     assert both.work_of_other == 0
     alone = reductions.contact_sums(displacement, gap, (nothing, values[:0], capped), cap)
     assert alone[1:3] == (-np.inf, np.inf)
-    assert alone.reach == np.abs(displacement[capped]).max()
+    assert alone.largest_displacement == np.abs(displacement[capped]).max()
 
 
-def test_the_deepest_and_the_nearest_are_those_of_numbers(fields):
+def test_the_largest_and_the_smallest_separation_skip_not_a_number(fields):
     displacement, gap, cells, values = fields
     displacement[cells[:6]] = np.inf, -np.inf, np.nan, -np.nan, -0.0, 3.5
     gap[cells[4:6]] = 0.0, -3.5
@@ -54,7 +54,7 @@ def test_the_deepest_and_the_nearest_are_those_of_numbers(fields):
     known = opening[cells][~np.isnan(opening[cells])]
     seen = reductions.contact_sums(displacement, gap, (cells, values, cells[:0]), 1.5)
     assert seen[1:4] == (known.max(), known.min(), np.inf)
-    assert np.isnan(seen.total)
+    assert np.isnan(seen.separation_sum)
     finite = cells[6:], values[6:], cells[:0]
     assert reductions.contact_sums(displacement, gap, finite, 1.5)[1:4] == (
         opening[cells[6:]].max(), opening[cells[6:]].min(), np.abs(displacement[cells[6:]]).max()

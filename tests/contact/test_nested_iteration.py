@@ -75,7 +75,7 @@ def plain(fields, cap, shape, periodic):
 def test_pressures_on_the_finer_grid_are_those_of_whole_fields(shape, finer, periodic, threads, monkeypatch):
     rng = np.random.default_rng(shape[0])
     monkeypatch.setattr(nested_iteration.reductions, "BLOCK", 5 * finer[1])
-    monkeypatch.setattr(nested_iteration, "_restore_region_loads", lambda *_: None)
+    monkeypatch.setattr(nested_iteration, "_restore_square_loads", lambda *_: None)
     set_threads(threads)
     for cap in (np.inf, 0.8):
         for share in (0.03, 0.3):
