@@ -6,7 +6,18 @@ couples into the gap and a prescribed mean gap have no such energy; the contact 
 is a primal-dual active-set method (Hintermueller, Ito & Kunisch 2003): conjugate gradients solve on a fixed set of
 cells, and the set changes between solutions. Polonsky & Keer (1999) change the set in every CG iteration instead.
 
-Calls, in order:
+Functions, as they call one another:
+
+    solve.solve_contact
+        nested_iteration.start_from_coarser         once per coarser grid, the coarsest innermost
+            solve_on_grid.solve_on_grid             one coarse grid
+        solve_on_grid.solve_on_grid                 the finest grid
+            problem.GridProblem.solve               once, and again for each fallback
+                active_set.solve_active_set         outer iterations
+                    pcg.close_gap or gcr.close_gap  one linear solution on a fixed set of cells
+        certificate.certify
+
+Steps, in order:
 
 1. `solve.solve_contact` checks the arguments (`problem.checked_request`) and scales gaps and pressures by powers of
    two. Cost: four passes over the grid (finite values, two of moments, scaling), and the kernel of the bodies with its
@@ -17,8 +28,8 @@ Calls, in order:
    p^2 inside contact and -c gap^(2/3) outside, up to three cells from the contact, with c such that slopes on both
    sides of the edge agree. Every square of 8 x 8 coarse cells without a capped cell keeps its load, by a change of at
    most half. Coarse grids have a tolerance of their own, a fifth of the remaining iterations each, and no rerun under
-   the energy guard; a result that did not converge is dropped, and the finer grid starts from a uniform pressure.
-   Cost: 85/256 of the finest grid, if all grids take equal numbers of convolutions.
+   the energy guard. A result with more than twice the allowed violation is dropped, and the finer grid starts from a
+   uniform pressure. Cost: 85/256 of the finest grid, if all grids take equal numbers of convolutions.
 4. `solve_on_grid.solve_on_grid` solves each grid: `problem.GridProblem.solve` calls `active_set.solve_active_set`, and
    only where that stalls is there a fallback (step 11). `controls` has what depends on the prescribed quantity.
 5. `active_set` repeats steps 6 to 10 until no contact condition is violated by more than the tolerance. It gives up
@@ -31,17 +42,17 @@ Calls, in order:
 7. If the energy has its minimum between 0.02 and 0.75 of the step, blend both pressures and both displacements there,
    which takes no convolution. The next iterate is the projection of the unbounded step of that length; steps 8 to 10
    are omitted. Under the energy guard a step that raises the energy is replaced by the blend, or by a gradient step
-   that takes a convolution. The guard is set after eight outer iterations in which the violation has not fallen by 10
-   %, for problems with an energy.
+   that takes a convolution and is shortened to a quarter as long as it raises the energy. The guard is set after eight
+   outer iterations in which the violation has not fallen by 10 %, for problems with an energy.
 8. Activate the open cells that overlap and the capped cells with a positive gap (`grid_workspace`).
 9. `pcg` solves for pressures without bounds on the active cells, with convolutions in single precision. Under load
-   control directions carry no net load: with the preconditioner M^-1, s close to M^-1 1 (carried over between rounds)
-   and Q = 1 - s 1^T / (1^T s), the preconditioned residual is Q M^-1 Q^T r, which sums to zero and keeps the
-   preconditioner symmetric. The last step has an extrapolated length and takes no convolution, if it is expected to
-   suffice and the last such step halved the violation. `gcr` replaces `pcg` where there is no energy (Eisenstat, Elman
-   & Schultz 1983). The preconditioner is a factorised sparse approximate inverse on ten neighbours (`sparse_inverse`;
-   Kolotilina & Yeremin 1993) with a correction on a grid up to eight times coarser (`coarse_correction`; at most 20 CG
-   iterations there). Cost: one convolution per iteration, a few iterations.
+   control directions carry no net load: with the preconditioner M^-1, s close to M^-1 1 (`unit_approach`, carried over
+   between rounds) and Q = 1 - s 1^T / (1^T s), the preconditioned residual is Q M^-1 Q^T r, which sums to zero and
+   keeps the preconditioner symmetric. The last step has an extrapolated length and takes no convolution, if it is
+   expected to suffice and the last such step halved the violation. `gcr` replaces `pcg` where there is no energy
+   (Eisenstat, Elman & Schultz 1983). The preconditioner is a factorised sparse approximate inverse on ten neighbours
+   (`sparse_inverse`; Kolotilina & Yeremin 1993) with a correction on a grid up to eight times coarser
+   (`coarse_correction`; at most 20 CG iterations there). Cost: one convolution per iteration, a few iterations.
 10. `bounds` projects onto the bounds. Elastic bodies: the sparse inverse corrects the neighbours of removed tension.
     With a hardness, or at an approach where displacements have no mean: squares of 8 x 8 cells keep the load that
     clipping removes. Then the prescribed load is restored, by scaling elastic pressures and by shifting capped ones.
@@ -63,8 +74,11 @@ contact, and `mean_gap_multiplicity` notes other loads with the same mean gap.
 
 Terms: a cell is *open* (no pressure), *between the bounds*, or *capped* (at the hardness). The *active* cells of step 8
 are those between the bounds and those that violate their state. An outer iteration, or *round*, is one pass through
-steps 6 to 10. A *trial* pressure is one without bounds. *Rise* is s of step 9: the pressure of a unit approach, K^-1 1,
-approximated by the preconditioner.
+steps 6 to 10. A *trial* pressure is one without bounds. The *pressure of a unit approach* (`unit_approach`) is s of
+step 9: K^-1 1, approximated by the preconditioner. The *rms gap* is the standard deviation of the undeformed gap, form
+included. A gap is *flat* where its rms value is negligible against the displacement (`grid_workspace.is_flat`). A *cell
+index* is i ny + j for the cell (i, j); one-dimensional fields are in this order. *Squares* of 8 x 8 cells keep their
+loads in steps 3 and 10.
 
 The package knows grids, threads, transforms and the displacement operator, but no surface statistics, lubricants or
 scenes; materials only for notes on arguments outside their usual ranges. Units inside are the solver's own; users see

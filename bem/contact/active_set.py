@@ -1,28 +1,30 @@
 """Primal-dual active set on one grid: conjugate gradients on the active cells, between updates of the set.
 
-The pressure minimises p.Kp/2 + p.(gap - approach) over 0 <= p <= cap, with its sum prescribed under load control. An
-outer iteration
+Steps 5 to 8 of `bem.contact`, which calls them from `problem.GridProblem.solve` on every grid. The pressure minimises
+p.Kp/2 + p.(gap - approach) over 0 <= p <= cap, with its sum prescribed under load control. An outer iteration
 
-1. applies the operator in double precision, which gives the true gap, its violations and the energy; if the energy has
-   its minimum well before the end of the step, it backtracks to the minimum, whose displacement takes no convolution,
-   and then projects the unconstrained step of that length, because a cell that is active at either end is active
-   between both;
-2. adds the free cells that overlap and the capped cells that open;
+1. `_evaluate`: applies the operator in double precision, which gives the true gap, its violations and the energy; if
+   the energy has its minimum well before the end of the step, `_backtrack` blends to the minimum, whose displacement
+   takes no convolution, and `_Step.shortened` then projects the unconstrained step of that length, because a cell that
+   is active at either end is active between both;
+2. `_next_step`: adds the open cells that overlap and the capped cells that open (`grid_workspace`);
 3. solves for pressures without bounds on the active cells (`pcg`; `gcr` with friction or a prescribed mean gap); and
-4. projects onto the bounds and restores the prescribed load (`bounds`, `controls`).
+4. `_to_bounds`: projects onto the bounds and restores the prescribed load (`bounds`, `controls`).
 
 The energy may rise while the largest violation falls. After a few outer iterations without progress an energy guard
-takes back every step that raises the energy, unless the violation fell by a tenth, and replaces it by part of it, or by
-a projected gradient step, until a tenth of the violation is reached. Sets of cells can repeat only where their energies
-differ by less than round-off.
+(`_EnergyGuard`) rejects every step that raises the energy, unless the violation fell by a tenth. It replaces the step
+by part of it, or by a projected gradient step that is shortened as long as it raises the energy. The guard is released
+when a tenth of the violation is reached. Sets of cells can repeat only where their energies differ by less than
+round-off.
 
-Where nearly all cells in contact are at the cap, unbounded pressures carry no information, and a projected gradient
-step takes their place. Its length is that of a single cell's response, so it may raise the energy.
+Where nearly all cells in contact are at the cap, unbounded pressures carry no information. They are discarded for a
+projected gradient step with the length of a single cell's response, which may raise the energy.
 
-Friction in the gap and a prescribed mean gap have no energy; where the sets then swing,
-`solve_on_grid` has other methods.
+Friction in the gap and a prescribed mean gap have no energy; where the sets then swing, `solve_on_grid` has other
+methods.
 
-Verified in tests/contact/test_contact_oracle.py and tests/contact/test_contact_solver.py.
+Verified in tests/contact/test_contact_oracle.py, tests/contact/test_contact_solver.py and
+tests/contact/test_energy_guard.py.
 """
 
 from __future__ import annotations
@@ -131,7 +133,7 @@ def solve_active_set(
         previous = current if has_energy else None
         improved = progress.improves(now.violation)
         progress.set_guard(now.violation, has_energy=has_energy)
-        guarded = progress.release > 0 and guard.accepted is not None and not improved
+        guarded = progress.release_violation > 0 and guard.accepted is not None and not improved
         if guarded and guard.accepted is not None and current.has_higher_energy_than(guard.accepted, now.approach):
             iterate, step = guard.reject_step(grid, control, guard.accepted, current), None
             continue
@@ -229,54 +231,57 @@ class _Evaluation:
 class _Progress:
     """Progress so far; decides when to give up and when to set the energy guard.
 
-    A violation makes progress against the one at the last progress, not against the one before: a slow but steady fall
+    A violation is compared with the violation at the last progress, not with the previous one: a slow but steady fall
     is progress as well.
 
-    first : first violation. least : least violation.
-    patience_mark : violation when it last fell by a tenth. unimproved : outer iterations since.
-    stall_mark : violation when it last fell by three tenths. lowest : least energy. waited : outer iterations since
-    one of both made progress.
-    release : violation that releases the energy guard; zero while the guard is off.
+    rounds : outer iterations so far.
+    first_violation, least_violation : of the largest violations so far.
+    patience_mark : violation when it last fell by a tenth.
+    rounds_without_improvement : outer iterations since then.
+    stall_mark : violation when it last fell by three tenths.
+    least_energy : so far.
+    rounds_without_progress : outer iterations since the stall mark, or in a guarded run the energy, last fell.
+    release_violation : violation that releases the energy guard; zero while the guard is off.
     """
 
     parameters: SolverParameters
     rounds: int = 0
-    first: float = math.inf
-    least: float = math.inf
+    first_violation: float = math.inf
+    least_violation: float = math.inf
     patience_mark: float = math.inf
-    unimproved: int = 0
+    rounds_without_improvement: int = 0
     stall_mark: float = math.inf
-    lowest: float = math.inf
-    waited: int = 0
-    release: float = 0.0
+    least_energy: float = math.inf
+    rounds_without_progress: int = 0
+    release_violation: float = 0.0
 
     def stalls(self, violation: float, potential: float, energy_size: float, *, round_off: bool) -> bool:
         """Return True if neither the violation nor, in a guarded run, the energy has fallen for long."""
-        fell = self.parameters.guarded and potential < self.lowest - _ENERGY_FALL * energy_size
-        self.lowest = min(self.lowest, potential)
+        fell = self.parameters.guarded and potential < self.least_energy - _ENERGY_FALL * energy_size
+        self.least_energy = min(self.least_energy, potential)
         progressed = violation < 0.7 * self.stall_mark
         if progressed:
             self.stall_mark = violation
-        self.waited = 0 if progressed or fell else self.waited + 1
+        self.rounds_without_progress = 0 if progressed or fell else self.rounds_without_progress + 1
         limit = self.parameters.stall_limit
-        return self.waited > (min(_ROUND_OFF_PATIENCE, limit) if round_off else limit)
+        return self.rounds_without_progress > (min(_ROUND_OFF_PATIENCE, limit) if round_off else limit)
 
     def improves(self, violation: float) -> bool:
         """Return True if the violation has fallen by a tenth since it last did."""
-        self.least = min(self.least, violation)
+        self.least_violation = min(self.least_violation, violation)
         improved = violation < 0.9 * self.patience_mark
         if improved:
             self.patience_mark = violation
-        self.unimproved = 0 if improved else self.unimproved + 1
+        self.rounds_without_improvement = 0 if improved else self.rounds_without_improvement + 1
         return improved
 
     def set_guard(self, violation: float, *, has_energy: bool) -> None:
         """Set the energy guard in a guarded run or after too many outer iterations without progress, or release it."""
-        wanted = self.parameters.guarded or self.unimproved >= self.parameters.patience
-        if wanted and self.release == 0.0 and has_energy:
-            self.release = 0.1 * self.least
-        elif violation <= self.release:
-            self.release = 0.0
+        wanted = self.parameters.guarded or self.rounds_without_improvement >= self.parameters.patience
+        if wanted and self.release_violation == 0.0 and has_energy:
+            self.release_violation = 0.1 * self.least_violation
+        elif violation <= self.release_violation:
+            self.release_violation = 0.0
 
 
 @dataclass(slots=True)
@@ -355,10 +360,10 @@ def _evaluate(
     violating, largest = grid.violations(iterate, approach)
     violation = max(largest, sums.largest_separation - approach, approach - sums.smallest_separation)
     if progress.rounds == 0:
-        progress.first = violation
+        progress.first_violation = violation
     point = _Point(iterate, approach, sums.energy, sums.energy_size, sums.force)
     displacement = sums.largest_displacement
-    goal = tolerance.bound(approach, displacement, progress.first)
+    goal = tolerance.bound(approach, displacement, progress.first_violation)
     round_off = tolerance.is_round_off(violation, displacement)
     return _Evaluation(point, step_fraction, violating, violation, goal, displacement, round_off)
 

@@ -1,7 +1,8 @@
 """Pressures within the bounds 0 <= p <= cap: active sets, projections and the removal of tension.
 
-An `Iterate` stores a feasible pressure as the cells strictly between the bounds, their values, and the cells at the
-cap. Trial pressures of the linear solver leave the bounds; three operations bring them back:
+Step 10 of `bem.contact`, and the merging and blending of sets in steps 7 and 8. An `Iterate` stores a feasible pressure
+as the cells strictly between the bounds, their values, and the cells at the cap. Trial pressures of the linear solver
+leave the bounds; three operations bring them back:
 
 - `redistribute_clipped_load` keeps the load of each square of 8 x 8 cells, because load that moves across the surface
   excites long-wavelength displacement errors;

@@ -1,8 +1,8 @@
 """Certificate of a contact, recomputed from the returned pressure and approach.
 
-The displacement is the operator applied to that pressure; load or mean gap, bounds and complementarity follow from the
-three. The approach is the solver's. The status "converged" refers to this residual, not to what the solver reached
-inside.
+Step 12 of `bem.contact`. The displacement is the operator applied to that pressure; load or mean gap, bounds and
+complementarity follow from the three. The approach is the solver's. The status "converged" refers to this residual, not
+to what the solver reached inside.
 """
 
 from __future__ import annotations
@@ -30,7 +30,7 @@ _ROUND_OFF = 1e-15
 
 
 def uniform_displacement(request: Request) -> float:
-    """Return the displacement of a cell under the prescribed mean pressure [m]; zero unless a load is prescribed.
+    """Return the displacement of a free grid under the mean prescribed pressure [m]; zero unless a load is prescribed.
 
     On a doubly periodic grid a uniform pressure displaces nothing, but displacements are rounded on this scale.
     """

@@ -1,8 +1,9 @@
 """Coarse-grid correction: the long wavelengths of the kernel that the sparse inverse does not see.
 
-The kernel on the active cells is taken as a near part, whose inverse is the sparse approximation G^T G, plus P F P^T.
-F is the kernel of a grid eight times coarser, less the near part's own response to long wavelengths; P is constant on
-each coarse cell. With W = G P reduced to its diagonal (the row sums of G), the two-level preconditioner is
+Second level of the preconditioner of step 9 of `bem.contact`. The kernel on the active cells is taken as a near part,
+whose inverse is the sparse approximation G^T G, plus P F P^T. F is the kernel of a grid up to eight times coarser, less
+the near part's own response to long wavelengths; P is constant on each coarse cell. G P is replaced by W, which has one
+entry per row, the row sum of G, in the column of the coarse cell. The two-level preconditioner is
 
     inverse = G^T (1 + W F W^T)^-1 G.
 

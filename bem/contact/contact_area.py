@@ -17,7 +17,7 @@ The constants are fitted to contacts with known boundary, Hertz (cells) and West
 cells. The contribution of narrow regions falls with the inverse of their number
 of cells along the link; its two constants are fitted to rough surfaces (`reports/experiments/contact_area.py`).
 
-Verified in tests/contact/test_contact_area.py.
+Part of step 12 of `bem.contact`. Verified in tests/contact/test_contact_area.py.
 """
 
 from __future__ import annotations

@@ -1,9 +1,10 @@
 """Crossings of the contact boundary with the links between cell centres, and the area that it cuts off.
 
-The compiled part of `contact_area`, which derives the position of a crossing. Three passes: one over cells finds the
-links between a cell inside and a cell outside, and the distance to the next links along the line; one over links finds
-the crossings; one over squares of four centres adds up area and length. The last two take time in proportion to the
-length of the boundary. Verified in tests/contact/test_contact_area.py against every link in plain Python.
+The compiled part of `contact_area` (step 12 of `bem.contact`), which derives the position of a crossing. Three passes:
+one over cells finds the links between a cell inside and a cell outside, and the distance to the next links along the
+line; one over links finds the crossings; one over squares of four centres adds up area and length. The last two take
+time in proportion to the length of the boundary. Verified in tests/contact/test_contact_area.py against every link in
+plain Python.
 """
 
 from __future__ import annotations

@@ -1,8 +1,9 @@
 """The prescribed quantity: load, approach, or mean gap. Constraints on one algorithm.
 
-Everything that depends on the kind of control is a method here: the approach of a pressure, the projection onto the
-feasible set, the restoration of the prescribed quantity, the constraint on search directions, and the transfer to
-another grid. All numbers are in the solver's units: forces are sums of scaled pressures, lengths are scaled gaps.
+The part of steps 3, 6, 9 and 10 of `bem.contact` that depends on the prescribed quantity. Everything that depends on
+the kind of control is a method here: the approach of a pressure, the projection onto the feasible set, the restoration
+of the prescribed quantity, the constraint on search directions, and the transfer to another grid. All numbers are in
+the solver's units: forces are sums of scaled pressures, lengths are scaled gaps.
 """
 
 from __future__ import annotations
@@ -117,9 +118,10 @@ class LoadControl(Control):
         return 0.0 if self.force == 0 else math.inf
 
     def approach(self, grid: GridWorkspace, iterate: Iterate, separation_sum: float) -> float:
-        """Return the mean of gap + displacement over the cells between the bounds.
+        """Return the mean of gap + displacement over the cells between the bounds: an estimate of the multiplier.
 
-        Where hardly any cell is between the bounds, return the approach with the least violation of all cells.
+        Where hardly any cell is between the bounds, return the approach that minimises the largest violation: the
+        midpoint between the least separation below the cap and the largest with pressure.
         """
         if iterate.cells.size > FULLY_PLASTIC_RATIO * iterate.capped.size:
             return separation_sum / iterate.cells.size
@@ -140,7 +142,7 @@ class LoadControl(Control):
         return capped
 
     def restore(self, grid: GridWorkspace, iterate: Iterate, trial: FloatArray) -> Iterate:
-        """Clip trial pressures and restore the load."""
+        """Clip trial pressures and restore the load: elastic pressures are scaled, capped ones shifted."""
         return clip_to_load(iterate, trial, grid.cap, self.force, grid.gap.size)
 
     def project(self, trial: FloatArray, cap: float) -> FloatArray:

@@ -1,9 +1,9 @@
 """Generalised conjugate residuals on the active cells, where the equations are not symmetric.
 
-Friction that couples into the gap adds a skew part A to the kernel S. The preconditioned S is close to one, so the
-least residual over all directions falls by a / (1 + sqrt(1 + a^2)) per iteration, where a is the norm of the
-preconditioned A: 0.24 where friction times Dundurs' beta is one half. Conjugate gradients on S alone would diverge for
-a above one.
+Step 9 of `bem.contact` with friction in the gap or a prescribed mean gap (`pcg` otherwise). Friction that couples into
+the gap adds a skew part A to the kernel S. The preconditioned S is close to one, so the least residual over all
+directions falls by a / (1 + sqrt(1 + a^2)) per iteration, where a is the norm of the preconditioned A: 0.24 where
+friction times Dundurs' beta is one half. Conjugate gradients on S alone would diverge for a above one.
 
 A prescribed mean gap makes the approach follow the mean displacement, so that each pressure moves all cells. One
 convolution gives that mean together with the gap, and the pressure of a unit approach preconditions it.

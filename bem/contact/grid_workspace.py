@@ -1,6 +1,7 @@
 """Workspace of one grid: operator, gap, buffers and preconditioner; tolerances, limits and results.
 
-Pressures and gaps are one-dimensional and in the solver's units.
+Step 8 of `bem.contact` (`GridWorkspace.activate`), and the state that steps 6 to 10 share. Pressures and gaps are
+one-dimensional and in the solver's units.
 """
 
 from __future__ import annotations
@@ -62,17 +63,21 @@ class IterationBudget:
 
 @dataclass(frozen=True)
 class Tolerance:
-    """Largest violation allowed: the least of several bounds.
+    """Largest violation allowed, from the largest displacement u, the approach d and the first violation v:
 
-    absolute : absolute bound.
-    relative : bound relative to the displacement.
-    coarse_reduction : bound relative to the first violation, on coarse grids; not below `least`.
+    max(min(absolute, relative u, max(coarse_reduction v, coarse_floor)), _RESOLUTION (|d| + u)).
+
+    absolute : bound on the violation.
+    relative : bound relative to the displacement. Where absolute <= _FLAT relative u the gap is flat, and the minimum
+        is min(relative, _FLAT_RESOLUTION) u.
+    coarse_reduction : on coarse grids, bound relative to the first violation; infinite on the finest grid.
+    coarse_floor : lower limit of the bound by `coarse_reduction`.
     """
 
     absolute: float
     relative: float
     coarse_reduction: float = math.inf
-    least: float = 0.0
+    coarse_floor: float = 0.0
 
     @staticmethod
     def is_round_off(violation: float, displacement: float) -> bool:
@@ -83,7 +88,7 @@ class Tolerance:
         """Return the bound at an approach, largest displacement and first violation; never below round-off."""
         goal = min(self.absolute, self.relative * displacement)
         if math.isfinite(self.coarse_reduction):
-            goal = min(goal, max(self.coarse_reduction * first, self.least))
+            goal = min(goal, max(self.coarse_reduction * first, self.coarse_floor))
         if is_flat(self.absolute, self.relative * displacement):
             goal = min(self.relative, _FLAT_RESOLUTION) * displacement
         return max(goal, _RESOLUTION * (abs(approach) + displacement))
@@ -122,11 +127,14 @@ def mean_opening(gap: FloatArray, result: GridResult) -> float:
 class SolverParameters:
     """Numbers that balance outer iterations against CG iterations.
 
-    relative_residual : relative residual (2-norm) that ends CG.
-    clip_allowed_below : relative residual above which clipping does not end CG.
-    clip_residual_ratio : largest residual, in responses of a cell to the pressure out of bounds, that ends CG.
+    CG has residual r (gap) and pressure p. It ends at the first of four conditions.
+
+    relative_residual : ends CG at |r|_2 <= relative_residual |r_0|_2.
+    tolerance_fraction : ends CG at max|r| <= tolerance_fraction tolerance.
+    clip_residual_ratio : ends CG at max|r| <= clip_residual_ratio K00 max(-p, p - cap), where K00 is the response of a
+        cell to its own pressure: clipping would bring back a residual of the same size.
+    clip_allowed_below : the last condition applies only at |r|_2 <= clip_allowed_below |r_0|_2.
     iterations_per_round : limit of CG iterations in an outer iteration.
-    tolerance_fraction : fraction of the tolerance that ends CG.
     rounds : limit of outer iterations.
     patience : outer iterations without progress before the energy guard is set.
     guarded : True if the energy guard is set from the start.

@@ -21,7 +21,7 @@ contact. Where a condition fails nothing is proved: a layer so thin and stiff th
 may have K^T y < 0. The tangents are then no bounds and may meet at an earlier contact; the search ends there with the
 least mean gap found.
 
-Verified in tests/contact/test_least_gap.py against linear programming.
+Last fallback of step 11 of `bem.contact`. Verified in tests/contact/test_least_gap.py against linear programming.
 """
 
 from __future__ import annotations

@@ -3,7 +3,8 @@
 A stiff layer on a soft base bends on a free grid: the mean gap falls with the load until the bodies nearly fill it, and
 grows again as the layer stands off beside the contact. A mean gap between the least one and the one without contact
 then has two solutions. Contacts under loads around the solution are computed on a coarse grid; each change of sign of
-(mean gap - prescribed mean gap) over the load is a solution. Verified in tests/contact/test_several_answers.py.
+(mean gap - prescribed mean gap) over the load is a solution. Called by `solve.solve_contact` after step 12 of
+`bem.contact`. Verified in tests/contact/test_several_answers.py.
 """
 
 from __future__ import annotations

@@ -1,9 +1,10 @@
-"""Nested iteration: the solution on a coarser grid, interpolated, starts each grid; the coarsest has 32 cells.
+"""Nested iteration: the solution on a coarser grid, interpolated, starts each grid.
 
-The square of the pressure falls linearly to zero at the edge of a contact, and the gap outside grows like the distance
-to the power 3/2. The interpolated function is therefore phi = p^2 inside and -c gap^(2/3) outside, which is smooth
-across the edge. The interpolation changes the load of each square by its edges; load errors between squares excite
-long-wavelength displacement errors, so each square of 8 x 8 coarse cells keeps its coarse-grid load.
+Step 3 of `bem.contact`. The coarsest grid has 17 to 32 cells along its longer side, or half as many as a finest grid of
+up to 32. The square of the pressure falls linearly to zero at the edge of a contact, and the gap outside grows like the
+distance to the power 3/2. The interpolated function is therefore phi = p^2 inside and -c gap^(2/3) outside, which is
+smooth across the edge. The interpolation changes the load of each square by its edges; load errors between squares
+excite long-wavelength displacement errors, so each square of 8 x 8 coarse cells keeps its coarse-grid load.
 
 Coarse grids are solved until a tenth of their first violation is left, which is what the interpolation to them cost,
 and to 6 % of the rms gap at most. The coarsest grid, which has no interpolated start, has the same bounds.
@@ -33,7 +34,7 @@ FloatArray = NDArray[np.float64]
 Table = tuple[NDArray[np.int64], FloatArray]
 
 _COARSEST = 32
-"""Cells along the longer side up to which a grid starts without a coarser one; smaller grids save nothing."""
+"""Cells along the longer side up to which a coarse grid is not coarsened again; smaller grids save nothing."""
 
 _COARSE_BUDGET = 0.2
 """Fraction of the remaining iterations that a coarse grid may use; a start that takes more is not worth its cost."""

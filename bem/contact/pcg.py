@@ -1,8 +1,9 @@
 """Preconditioned conjugate gradients on the active cells: pressures without bounds that close the gap.
 
-One compiled call makes all iterations, single-precision convolutions included. Where several threads share a transform,
-the call returns for each convolution and is resumed after it; the arithmetic between transforms is the same, so results
-have the same bits for every number of threads.
+Step 9 of `bem.contact` where the contact has an energy (`gcr` otherwise). One compiled call makes all iterations,
+single-precision convolutions included. Where several threads share a transform, the call returns for each convolution
+and is resumed after it; the arithmetic between transforms is the same, so results have the same bits for every number
+of threads.
 
 - Under load control directions carry no net load. The mean of the residual, weighted by the pressure of a unit approach
   (`unit_approach`), is subtracted from the residual, which keeps the projected preconditioner symmetric.

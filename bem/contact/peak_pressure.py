@@ -6,7 +6,8 @@ cells would be p - (dx^2 p_xx + dy^2 p_yy) / 24. The boundary of contact, where 
 in proportion; three fifths of it are applied, which leaves no mean error on balls.
 
 No correction is applied to spots of fewer than 1.5 cells per radius. Spots of one cell, cells at the hardness, the ends
-of punches and free edges of the grid return the highest cell. Verified in tests/contact/test_peak_pressure.py.
+of punches and free edges of the grid return the highest cell. Part of step 12 of `bem.contact`. Verified in
+tests/contact/test_peak_pressure.py.
 """
 
 from __future__ import annotations

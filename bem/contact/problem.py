@@ -1,4 +1,7 @@
-"""The contact problem: checked arguments in SI units, the solver's units, and the problem on one grid."""
+"""The contact problem: checked arguments in SI units, the solver's units, and the problem on one grid.
+
+Step 1 of `bem.contact` (`checked_request`, `Units`), and the call of the active set in step 4 (`GridProblem.solve`).
+"""
 
 from __future__ import annotations
 
@@ -118,7 +121,10 @@ class Settings:
         return self.rms_gap or 1.0
 
     def allowed(self, tolerance: float) -> Tolerance:
-        """Return the tolerance of the violation; relative to the displacement where the gap is flat."""
+        """Return the tolerance of the violation: tolerance x min(1, displacement / rms gap), in the solver's length.
+
+        Where the gap is exactly flat the tolerance is relative to the displacement alone.
+        """
         if not self.rms_gap > 0:
             return Tolerance(math.inf, tolerance)
         return Tolerance(tolerance, tolerance / self.rms_gap, self.coarse_reduction, self.tolerance)

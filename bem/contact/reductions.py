@@ -1,7 +1,7 @@
 """Fused reductions over a field or over the cells with pressure; each pass reads and writes memory once.
 
-Passes over whole fields work in blocks of fixed size that threads share. Sums are formed block by block in order, so a
-result has the same bits for every number of threads.
+The passes of steps 1, 6 and 12 of `bem.contact`. Passes over whole fields work in blocks of fixed size that threads
+share. Sums are formed block by block in order, so a result has the same bits for every number of threads.
 
 - `contact_sums`: energy, approach and extremes of the gap over the cells with pressure;
 - `find_violations`: the state of each cell, and the cells that violate it;

@@ -1,7 +1,7 @@
 """Connected regions (spots) of contact; cells are connected through their sides.
 
-Runs of cells along the rows are joined by union-find instead of single cells. Verified in
-tests/contact/test_regions.py.
+No step of `bem.contact`: accuracy and wear use the spots of a solution. Runs of cells along the rows are joined by
+union-find instead of single cells. Verified in tests/contact/test_regions.py.
 """
 
 from __future__ import annotations

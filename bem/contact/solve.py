@@ -1,4 +1,7 @@
-"""Solve a dry contact: check the arguments, scale, solve from coarse to fine grids, and certify the result."""
+"""Solve a dry contact: check the arguments, scale, solve from coarse to fine grids, and certify the result.
+
+Step 1 of `bem.contact`, and the calls of steps 2, 3, 4 and 12.
+"""
 
 from __future__ import annotations
 

@@ -1,7 +1,7 @@
 """Solution on one grid under any control: the active set, and fallbacks where that stalls.
 
-`solve_on_grid` is called for every grid. It first solves for the prescribed quantity by the active set alone. Fallbacks
-follow only if that stalls:
+Steps 2, 4 and 11 of `bem.contact`. `solve_on_grid` is called for every grid. It first solves for the prescribed
+quantity by the active set alone, through `problem.GridProblem.solve`. Fallbacks follow only if that stalls:
 
 1. load, or approach unless displacements have no mean, symmetric operator: again from the last pressure with the energy
    guard on from the start, and then with clipping ignored as a stopping criterion;

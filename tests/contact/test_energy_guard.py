@@ -78,7 +78,7 @@ def test_a_steady_fall_of_the_violation_is_progress(factor):
         assert not progress.stalls(violation, 0.0, 1.0, round_off=False)
         progress.improves(violation)
         progress.set_guard(violation, has_energy=True)
-        assert progress.release == 0
+        assert progress.release_violation == 0
 
 
 def test_no_fall_of_the_violation_sets_the_guard_and_then_stalls():
@@ -89,6 +89,6 @@ def test_no_fall_of_the_violation_sets_the_guard_and_then_stalls():
         stalls = progress.stalls(1.0 + count % 2, 0.0, 1.0, round_off=False)
         progress.improves(1.0 + count % 2)
         progress.set_guard(1.0 + count % 2, has_energy=True)
-        guarded = count if guarded is None and progress.release > 0 else guarded
+        guarded = count if guarded is None and progress.release_violation > 0 else guarded
         stalled = count if stalled is None and stalls else stalled
     assert (guarded, stalled) == (parameters.patience, parameters.stall_limit + 1)
