@@ -19,7 +19,7 @@ from numpy.typing import ArrayLike, NDArray
 from bem.compiled import compiled
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
-from bem.stress.fields import VON_MISES_WEIGHTS, StressRequest, TransformedLoad
+from bem.stress.request import VON_MISES_WEIGHTS, StressRequest, TransformedLoad
 from bem.threads import threads_for
 from bem.transforms.count import COUNT
 from bem.transforms.loops import GROUP, Squares, term_of_group

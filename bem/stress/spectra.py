@@ -18,11 +18,8 @@ import math
 from dataclasses import dataclass
 
 import numpy as np
-from numpy.typing import ArrayLike
 
-from bem.arguments import is_finite
 from bem.compiled import compiled
-from bem.errors import InputError
 from bem.grid import FloatArray, Grid
 from bem.kernels.coefficients import STRESS_PARITY, Load, stress_coefficients
 from bem.kernels.spectral import stress_response
@@ -72,32 +69,6 @@ def elastic_ratios(body: Body) -> tuple[float, ...]:
     """Properties that determine stress: Poisson's ratios, moduli over the half-space's, depths of interfaces [m]."""
     ratios = (solid.youngs_modulus / body.material.youngs_modulus for solid in body.media[:-1])
     return (*(solid.poissons_ratio for solid in body.media), *ratios, *body.interfaces)
-
-
-def check_request(
-    name: str, grid: object, body: object, depths: ArrayLike, friction: object
-) -> tuple[tuple[float, ...], float]:
-    """Return depths and friction of a request as numbers.
-
-    Raises
-    ------
-    InputError : a grid, body, depth or friction coefficient that is not valid; all mistakes are listed.
-    """
-    messages = []
-    if not isinstance(grid, Grid):
-        messages.append(f"{name}: grid {grid!r} must be a Grid")
-    if not isinstance(body, Body):
-        messages.append(f"{name}: body {body!r} must be a Body")
-    if not is_finite(friction):
-        messages.append(f"{name}: friction {friction!r} must be a finite number")
-    values = np.asarray(depths)
-    if values.dtype.kind not in "fiu" or values.ndim != 1:
-        messages.append(f"{name}: depths must be a one-dimensional sequence of numbers [m]")
-    elif not np.isfinite(values).all() or (values < 0).any():
-        messages.append(f"{name}: depths must be finite and not negative (0 is the surface) [m]")
-    if messages:
-        raise InputError(messages)
-    return tuple(float(z) for z in values), float(friction)  # type: ignore[arg-type]
 
 
 def padded_lengths(grid: Grid) -> tuple[int, int]:

@@ -14,7 +14,8 @@ from bem.kernels.coefficients import STRESS_PARITY, stress_coefficients
 from bem.kernels.spectral import stress_response
 from bem.materials import Body
 from bem.numerics.cache import KeptValues
-from bem.stress.spectra import COUNT, check_request, elastic_ratios, pressure_and_friction
+from bem.stress.request import check_request
+from bem.stress.spectra import COUNT, elastic_ratios, pressure_and_friction
 
 _TABLES = KeptValues(1 << 27)
 """Cache of the sums over a kernel above the thresholds."""

@@ -10,7 +10,7 @@ from mixed_case import STEEL, mixed_case
 import bem.convolution as convolution
 import bem.kernels.coefficients as coefficients
 import bem.stress as stress
-import bem.stress.fields as stress_fields
+import bem.stress.request as stress_request
 import bem.stress.spectra as stress_spectra
 import bem.transforms as transforms
 from bem import (
@@ -346,7 +346,7 @@ def test_waves_along_a_periodic_axis_are_padded_by_their_reach_alone(monkeypatch
 
     found, numbers = stresses(SOFT)
     layered, under_layers = stresses(coated)
-    for room in (stress_spectra, stress_fields):
+    for room in (stress_spectra, stress_request):
         monkeypatch.setattr(room, "column_lengths", lambda grid, body: None)
     whole, most = stresses(SOFT)
     assert numbers < {0.3: 0.64, 1.0: 0.75}[stretch] * most

@@ -48,7 +48,7 @@ FIRST_RUN_COMPILES = {
     ("bem.lubrication.point.rough_loops", "_barred"),
     ("bem.lubrication.point.rough_loops", "rough_flows"),
     ("bem.stress.connected_regions", "_clear"),
-    ("bem.stress.fields", "_add_square"),
+    ("bem.stress.request", "_add_square"),
     ("bem.tangential.operator", "_multiply_normal"),
     ("bem.tangential.operator", "_multiply_pressure"),
 }
