@@ -15,8 +15,8 @@ from bem.reference_solutions.hamilton import sphere_stress
 from bem.reference_solutions.mcewen import cylinder_stress
 from bem.stress import (
     von_mises_field,
-    von_mises_limit,
     von_mises_planes,
+    von_mises_upper_bound,
 )
 from bem.threads import set_threads
 from bem.transforms import COUNT as TRANSFORMS
@@ -219,7 +219,7 @@ def test_the_limit_is_never_exceeded(periodic, friction):
         blob = np.zeros(shape)
         blob[: (shape[0] + 1) // 2, : (shape[1] + 1) // 2] = 2.0
         for pressure in (rough(rng, shape, 0.2), rough(rng, shape, 1) * rng.choice([-1, 1], shape), blob):
-            limit = von_mises_limit(pressure, grid, BODY, depths, friction=friction)
+            limit = von_mises_upper_bound(pressure, grid, BODY, depths, friction=friction)
             field = von_mises_field(pressure, grid, BODY, depths, friction=friction)
             # round-off of the transforms
             assert (field.max(axis=(1, 2)) <= limit + 1e-14 * np.abs(pressure).max()).all()
@@ -234,13 +234,13 @@ def test_the_limit_is_near_for_one_loaded_cell_and_costs_one_pass_a_depth():
     depths = [0.5, 3.0]
     room.COUNT.reset()
     for pressure, factor in ((one, 1.6), (many, 3.0)):
-        limit = von_mises_limit(pressure, grid, BODY, depths, friction=0.2)
+        limit = von_mises_upper_bound(pressure, grid, BODY, depths, friction=0.2)
         peak = von_mises_field(pressure, grid, BODY, depths, friction=0.2).max(axis=(1, 2))
         # one cell: sqrt(5) at most if the largest d, e, yz, xz, xy were equal and apart; as measured, rounded up
         assert (limit < factor * peak).all()
     assert room.COUNT.bounds == 2
     TRANSFORMS.reset()
-    assert not von_mises_limit(0 * many, grid, BODY, depths[::-1], friction=0.2).any()
+    assert not von_mises_upper_bound(0 * many, grid, BODY, depths[::-1], friction=0.2).any()
     assert (room.COUNT.bounds, TRANSFORMS.forward, TRANSFORMS.inverse) == (2, 0, 0)
 
 
@@ -308,7 +308,7 @@ def test_linearity_mirror_and_scale(nx, ny, periodic, friction, seed):
 def test_bad_input_is_refused_with_every_mistake_named():
     grid = Grid((4, 4), (1, 1))
     pressure = np.ones((4, 4))
-    for function in (subsurface_stress, von_mises_field, von_mises_limit, von_mises_planes):
+    for function in (subsurface_stress, von_mises_field, von_mises_upper_bound, von_mises_planes):
         with pytest.raises(InputError) as caught:
             function(pressure, grid, "steel", [-1.0], friction=np.nan)
         assert len(caught.value.messages) == 3

@@ -116,7 +116,7 @@ FORKS = """
 import os, sys, threading, time, warnings
 import numpy as np
 from bem import Body, Grid, Material, displacement_operator, solve_contact
-from bem.stress import stress_below
+from bem.stress import summarise_stress
 
 warnings.simplefilter("ignore")  # later Pythons warn of any fork beside threads
 grid, steel = Grid((64, 64), (1e-6, 1e-6)), Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3))
@@ -124,7 +124,7 @@ gap = grid.x[:, None] ** 2 / 2e-3 + grid.y**2 / 2e-3
 
 def solve(load):
     found = solve_contact(gap, displacement_operator(grid, steel), load=load)
-    stress_below(found.pressure, grid, steel, np.array([0.0, 1e-5 * load]))
+    summarise_stress(found.pressure, grid, steel, np.array([0.0, 1e-5 * load]))
     return found.pressure
 
 def solve_forever():

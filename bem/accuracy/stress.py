@@ -11,7 +11,7 @@ from bem.accuracy.contact import Coarser, ContactCase, is_resolved, share_at_edg
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
 from bem.notes.accuracy import NoBar
-from bem.stress import StressBelow, stress_below, von_mises_planes
+from bem.stress import StressSummary, summarise_stress, von_mises_planes
 from bem.stress.stress_summary import yield_stresses
 
 NAMES = ("max_von_mises", "max_von_mises_depth")
@@ -45,7 +45,7 @@ def stress_bars(
     case: ContactCase,
     coarser: Coarser,
     body: Body,
-    below: StressBelow,
+    below: StressSummary,
     friction: float = 0.0,
     traction: FloatArray | None = None,
     fewer: tuple[FloatArray, FloatArray] | None = None,
@@ -55,7 +55,7 @@ def stress_bars(
     Parameters
     ----------
     case, coarser : the contact and its coarser solution, as `bem.accuracy.contact` makes them.
-    body, friction : as `bem.stress.stress_below` takes them.
+    body, friction : as `bem.stress.summarise_stress` takes them.
     below : what it gave for the contact.
     traction : the coarser one (2, nx, ny) [Pa] where `below` is that of tractions of their own.
     fewer : pressure (nx, ny) and traction [Pa] on the coarser grid with half of the steps in which the load comes.
@@ -65,7 +65,7 @@ def stress_bars(
 
 
 def _of_volume(
-    case: ContactCase, coarser: Coarser, body: Body, below: StressBelow, rubbed: dict[str, Any]
+    case: ContactCase, coarser: Coarser, body: Body, below: StressSummary, rubbed: dict[str, Any]
 ) -> ErrorBars:
     found, depths = below.yielded_volume, below.depths
     if found is None:
@@ -77,7 +77,7 @@ def _of_volume(
         return ErrorBars.together({GRID: {"yielded_volume": 0.0}})
     first, last = max(near[0] - 2, 0), min(near[-1] + 2, len(depths) - 1)  # what lies farther does not yield
     few = depths[sorted({*range(first, last, 2), last})]
-    there = stress_below(coarser.solution.pressure, coarser.grid, body, few, **rubbed).yielded_volume
+    there = summarise_stress(coarser.solution.pressure, coarser.grid, body, few, **rubbed).yielded_volume
     assert there is not None
     return ErrorBars.together({GRID: {"yielded_volume": _VOLUME.bar(found - there, 0.0, resolved=is_resolved(case))}})
 
@@ -86,7 +86,7 @@ def _of_stress(
     case: ContactCase,
     coarser: Coarser,
     body: Body,
-    below: StressBelow,
+    below: StressSummary,
     rubbed: dict[str, Any],
     fewer: tuple[FloatArray, FloatArray] | None,
 ) -> ErrorBars:
@@ -133,14 +133,14 @@ def _of_stress(
 
 def _highest_below(
     pressure: FloatArray, grid: Grid, body: Body, depths: FloatArray, rubbed: dict[str, Any]
-) -> StressBelow:
+) -> StressSummary:
     """Stresses next to the depth where they are highest; planes are not kept on the way to it."""
     planes = von_mises_planes(pressure, grid, body, depths, **rubbed, out=np.empty(grid.shape))
     k = int(np.argmax([plane.max() for plane in planes]))
-    return stress_below(pressure, grid, body, depths[max(k - 2, 0) : k + 3], **rubbed)
+    return summarise_stress(pressure, grid, body, depths[max(k - 2, 0) : k + 3], **rubbed)
 
 
-def _between(below: StressBelow, k: int) -> tuple[float, float]:
+def _between(below: StressSummary, k: int) -> tuple[float, float]:
     """What may be wrong with the highest stress [Pa] and its depth [m] between the depths next to the k-th."""
     depths = below.depths
     if below.max_von_mises_depth == depths[k]:  # nothing was looked for

@@ -198,7 +198,7 @@ def watched() -> Iterator[dict[str, float]]:
         (sparse_inverse.SparseInverseOnCells, "spread", "preconditioner"),
         (sparse_inverse.SparseInverseOnCells, "collect", "preconditioner"),
         (coarse_correction.CoarseCorrectionOnCells, "apply", "preconditioner"),
-        (bem.stress.fields, "_recombine", "elementwise"),
+        (bem.stress.fields, "_from_deviatoric", "elementwise"),
         (yielding, "segment", "pieces"),
     ]
     kept = [(owner, name, getattr(owner, name)) for owner, name, _ in targets]

@@ -92,13 +92,13 @@ def ball_stress(cells: float, *, axes: str, kept: bool) -> Timed:
 
 def ball_mises(cells: float, *, axes: str) -> Timed:
     """The highest von Mises stress below the ball, kernels made anew; the error is relative."""
-    from bem.stress import stress_below
+    from bem.stress import summarise_stress
 
     n = int(cells)
     grid, pressure, depths = ball_grid(n, axes), ball_pressure(n), ball_depths(n, axes)
 
     def solve() -> float:
-        return stress_below(pressure, grid, UNIT, depths).max_von_mises
+        return summarise_stress(pressure, grid, UNIT, depths).max_von_mises
 
     return Timed(solve, lambda found: Outcome({"mises_error": abs(found / highest_mises(axes) - 1)}), _forget)
 

@@ -28,7 +28,7 @@ from bem.materials import Body, Material
 if TYPE_CHECKING:
     from bem.friction import MixedSolution
     from bem.lubrication import FilmSolution
-    from bem.stress import StressBelow
+    from bem.stress import StressSummary
 
 RAW = "raw:"
 FINEST = 2048
@@ -122,7 +122,7 @@ def contact(code: float) -> Timed:
 
 def stress(code: float) -> Timed:
     """Stresses below the rough contact at cells / 16 depths; the contact is not timed."""
-    from bem.stress import stress_below
+    from bem.stress import summarise_stress
 
     n, digits = size_and_digits(code)
     grid = Grid((n, n), (1 / n, 1 / n), periodic=PERIODIC)
@@ -131,7 +131,7 @@ def stress(code: float) -> Timed:
     body = Body(Material("unit", youngs_modulus=1 - POISSON**2, poissons_ratio=POISSON, yield_stress=_YIELD))
     depths = 0.05 * np.linspace(0, 1, n // 16) ** 2
 
-    def judge(below: StressBelow) -> Outcome:
+    def judge(below: StressSummary) -> Outcome:
         figures = {
             "max_von_mises": below.max_von_mises,
             "max_von_mises_depth": below.max_von_mises_depth,
@@ -142,7 +142,7 @@ def stress(code: float) -> Timed:
         }
         return Outcome({}, {"depths": float(len(depths))}, figures)
 
-    return Timed(lambda: stress_below(pressure, grid, body, depths), judge)
+    return Timed(lambda: summarise_stress(pressure, grid, body, depths), judge)
 
 
 def film(code: float) -> Timed:

@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from bem.accuracy.bars import Rule
     from bem.contact import ContactSolution
     from bem.scenes.tables.tangential import PushedScene, RolledScene
-    from bem.stress import StressBelow
+    from bem.stress import StressSummary
     from bem.tangential import TangentialSolution
 
 
@@ -125,7 +125,7 @@ class Found:
     given: tuple[str, ...]
     residual: float
     limit: float
-    below: StressBelow | None
+    below: StressSummary | None
 
 
 def bars(scene: StressedScene, site: Site, found: Found, again: Callable[[Site], Coarse]) -> ErrorBars:
@@ -202,21 +202,21 @@ def plan_around(scene: PushedScene | RolledScene, steps: Callable[[Grid, float],
 
 def stresses_under(
     scene: StressedScene, grid: Grid, pressure: FloatArray, traction: FloatArray, context: Context
-) -> StressBelow | None:
+) -> StressSummary | None:
     """Stresses under the pressure (nx, ny) and the traction (2, nx, ny) on the lower body [Pa]; None where they are not
     wanted.
     """
-    from bem.stress import stress_below
+    from bem.stress import summarise_stress
 
     depths = np.array(scene.outputs.wanted_depths())
     if not len(depths):
         return None
     body, sign = scene.stressed()
     with context.timer("stresses"):
-        return stress_below(pressure, grid, body, depths, traction=sign * traction)
+        return summarise_stress(pressure, grid, body, depths, traction=sign * traction)
 
 
-def stress_figures(below: StressBelow | None) -> dict[str, Any]:
+def stress_figures(below: StressSummary | None) -> dict[str, Any]:
     """Von Mises stress as a record's fields."""
     if below is None:
         return {}

@@ -1,12 +1,19 @@
-"""Von Mises stress of the regions above a limit that are connected to the surface.
+"""Von Mises stress of the regions above a limit that are connected to the surface; other rows are not computed.
 
-A region above the limit that starts at the first depth extends from row to row (along y) and from depth to depth. Rows
-are computed in groups of `loops.GROUP`: all groups of the first depth, then the groups beside a row above the limit, at
-its depth and at the neighbouring depths, until no group is left. Five transforms along x serve all rows of a depth;
-transforms along y are made for the requested groups only, half of them in a rough contact.
+Rows (constant x) are computed in groups of eight (`transforms.loops.GROUP`). The queue holds pairs of a depth and a
+group.
 
-The result is exact: a row that is left out touches no row above the limit that is connected to the surface. Verified
-in tests/stress/test_connected_regions.py against whole planes.
+1. Queue all groups of the first depth: a region that is connected to the surface has points there.
+2. Take the shallowest depth of the queue. Transform the five terms of its von Mises stress along x. Cost: five passes
+   along x over all columns.
+3. Transform its queued groups along y and add the squares. Cost: half of the rows of a rough contact over all depths.
+4. Queue the groups beside a row with points above the limit, at its own depth and at `depths_beside` depths above and
+   below.
+5. Repeat from step 3 at the same depth, then from step 2, until the queue is empty.
+
+The result is exact: every row beside a row above the limit that is connected to the first depth is computed, so a row
+that is left out is not part of such a region. A flood fill by rows; this project's own. Verified in
+tests/stress/test_connected_regions.py against whole planes.
 """
 
 from __future__ import annotations
@@ -21,18 +28,19 @@ from bem.grid import FloatArray, Grid
 from bem.materials import Body
 from bem.stress.request import VON_MISES_WEIGHTS, StressRequest, TransformedLoad
 from bem.threads import threads_for
-from bem.transforms.count import COUNT
+from bem.transforms.count import COUNT as TRANSFORM_COUNT
 from bem.transforms.loops import GROUP, Squares, term_of_group
 
 _WEIGHTS = np.array(VON_MISES_WEIGHTS[1:])
+"""Weights of the squares of d, e, yz, xz, xy."""
 _TERMS = len(_WEIGHTS)
 
 
 @dataclass(frozen=True, eq=False)
-class ReachedStress:
-    """Von Mises stress of the first depths.
+class ConnectedStress:
+    """Von Mises stress around the regions above a limit, down to the deepest depth they can reach.
 
-    planes : (nz, nx, ny) [Pa], undefined in rows that were left out; `cleared` writes zeros there.
+    planes : (nz, nx, ny) [Pa], not set in rows that were not computed; `clear_other_rows` writes zeros there.
     computed : (nz, nx) True for rows that were computed.
     exceeding : (nx, ny) True where the limit is exceeded at any depth.
     passes : number of passes along x: one for each depth, and one for each return from a deeper depth.
@@ -44,7 +52,7 @@ class ReachedStress:
     passes: int
 
 
-def reached_stress(
+def connected_stress(
     pressure: ArrayLike,
     grid: Grid,
     body: Body,
@@ -52,8 +60,8 @@ def reached_stress(
     limit: float,
     *,
     friction: float = 0.0,
-    reach: int = 1,
-) -> ReachedStress:
+    depths_beside: int = 1,
+) -> ConnectedStress:
     """Compute von Mises stress in and around the regions above a limit that are connected to the first depth.
 
     Parameters
@@ -61,13 +69,13 @@ def reached_stress(
     pressure, grid, body, friction : as in `subsurface_stress`.
     depths : (nz,) [m], rising.
     limit : von Mises stress [Pa].
-    reach : number of depths above and below a row above the limit at which the row and its neighbours are computed.
+    depths_beside : number of depths above and below a row above the limit at which it and its neighbours are computed.
 
     Raises
     ------
     InputError : as `subsurface_stress`.
     """
-    request = StressRequest.of("reached_stress", pressure, grid, body, depths, friction)
+    request = StressRequest.of("connected_stress", pressure, grid, body, depths, friction)
     (load,) = request.loads
     transform, number, wraps = load.transform, len(request.depths), grid.periodic[0]
     stress = np.empty((number, *grid.shape))
@@ -80,23 +88,25 @@ def reached_stress(
         index = min(waiting)
         waiting.remove(index)
         missing = requested[index] & ~computed[index]
-        if threads_for(transform.entries) == 1:
+        if (
+            threads_for(transform.entries) == 1
+        ):  # one thread adds requested groups at once, several leave them to step 3
             squares.begun[:] = np.logical_or.reduceat(missing, starts)
         _transform_along_x(load, request.depths[index], squares, stress[index])
         passes += 1
         rows = requested[index], computed[index], exceeding
         done, beside = _follow_rows(transform.plan, transform.singles, squares, stress[index], limit, wraps, *rows)
-        COUNT.rows += done * _TERMS
-        for other in range(max(index - reach, 0), min(index + reach + 1, number)):
+        TRANSFORM_COUNT.rows += done * _TERMS
+        for other in range(max(index - depths_beside, 0), min(index + depths_beside + 1, number)):
             requested[other] |= beside
             if (requested[other] & ~computed[other]).any():
                 waiting.add(other)
     used = int(computed.any(axis=1).sum())
-    return ReachedStress(stress[:used], computed[:used], exceeding, passes)
+    return ConnectedStress(stress[:used], computed[:used], exceeding, passes)
 
 
-def cleared(planes: FloatArray, rows: NDArray[np.bool_]) -> FloatArray:
-    """Return the planes (nz, nx, ny) after zeros were written into all rows but `rows` (nz, nx)."""
+def clear_other_rows(planes: FloatArray, rows: NDArray[np.bool_]) -> FloatArray:
+    """Write zeros into the rows of the planes (nz, nx, ny) that are not in `rows` (nz, nx), and return the planes."""
     _clear(planes, rows)
     return planes
 
@@ -118,7 +128,10 @@ def _clear(stress, computed):
 
 
 def _transform_along_x(load: TransformedLoad, depth: float, squares: Squares, out: FloatArray) -> None:
-    """Transform the five terms of von Mises stress at a depth along x."""
+    """Transform the five terms of von Mises stress at a depth along x (step 2).
+
+    Squares of the groups marked in `squares.begun` are added in the same pass.
+    """
     spectra = load.spectra(depth)
     squares.columns[:] = spectra.columns[1:]
     factors = tuple(one.factor(load.transform.dtype) for one in spectra.multipliers[1:])
@@ -127,10 +140,10 @@ def _transform_along_x(load: TransformedLoad, depth: float, squares: Squares, ou
 
 @compiled
 def _follow_rows(room, singles, squares, out, limit, wraps, requested, computed, exceeding):
-    """Compute the groups with a requested row, then the groups beside rows above the limit, until none is left.
+    """Compute the groups with a requested row and the groups beside rows above the limit (steps 3 and 4).
 
-    Returns the number of computed rows, and (nx,) True for rows above the limit and their neighbours. `exceeding`
-    receives the points above the limit.
+    Returns the number of computed rows, and (nx,) True for rows above the limit and their neighbours. `requested` and
+    `computed` (nx,) are updated; `exceeding` (nx, ny) receives the points above the limit.
     """
     nx, done, again = room.nx, 0, True
     beside = np.zeros(nx, np.bool_)

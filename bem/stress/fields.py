@@ -58,7 +58,7 @@ def subsurface_stress(
 
     def write_plane(own: StressRequest, index: int) -> None:
         own.write_components(index, result[:, index])
-        _recombine(result[:, index])
+        _from_deviatoric(result[:, index])
 
     _for_each_depth(request, write_plane)
     return result
@@ -74,11 +74,14 @@ def von_mises_planes(
     traction: ArrayLike | None = None,
     out: FloatArray | None = None,
 ) -> Iterator[FloatArray]:
-    """Return an iterator over planes (nx, ny) of von Mises stress [Pa], one for each depth.
+    """Return an iterator over planes (nx, ny) of von Mises stress [Pa], one for each depth in the given order.
 
-    Arguments as in `subsurface_stress`. A plane is computed when it is requested, together with as many of the next
-    planes as there are further threads. Each plane is a new array, or `out` (nx, ny) overwritten, or the next plane of
-    `out` (nz, nx, ny).
+    A plane is computed when it is requested. With n threads it is computed together with the next n - 1 planes.
+
+    Parameters
+    ----------
+    pressure, grid, body, depths, friction, traction : as in `subsurface_stress`.
+    out : (nx, ny) for each plane in turn, or (nz, nx, ny) for all planes; a new array for each plane if None.
     """
     request = StressRequest.of("von_mises_planes", pressure, grid, body, depths, friction, traction)
     if out is None:
@@ -100,7 +103,10 @@ def von_mises_field(
 ) -> FloatArray:
     """Compute von Mises stress (nz, nx, ny) [Pa] without storing six components.
 
-    Arguments as in `subsurface_stress`, but `out` : (nz, nx, ny) to write into, a new array if None.
+    Parameters
+    ----------
+    pressure, grid, body, depths, friction, traction : as in `subsurface_stress`.
+    out : (nz, nx, ny) to write into; a new array if None.
     """
     request = StressRequest.of("von_mises_field", pressure, grid, body, depths, friction, traction)
     result = check_out("von_mises_field", out, (len(request.depths), *grid.shape))
@@ -126,6 +132,7 @@ def von_mises(stress: ArrayLike) -> FloatArray:
 
 @compiled
 def _von_mises(s, out):
+    """Write the von Mises stress (n,) of stresses `s` (6, n)."""
     for i in range(out.size):
         d = s[0, i] - s[1, i]
         e = s[2, i] - 0.5 * (s[0, i] + s[1, i])
@@ -134,8 +141,8 @@ def _von_mises(s, out):
 
 
 @compiled
-def _recombine(stress):
-    """Replace (t, d, e, ...) by (xx, yy, zz, ...) in place."""
+def _from_deviatoric(stress):
+    """Replace t, d, e by xx, yy, zz in (6, nx, ny): the inverse of `spectra._to_deviatoric`."""
     for i in range(stress.shape[1]):
         for j in range(stress.shape[2]):
             t, d, e = stress[0, i, j], stress[1, i, j], stress[2, i, j]
@@ -148,7 +155,7 @@ def _recombine(stress):
 def _for_each_depth(
     request: StressRequest, work: Callable[[StressRequest, int], None], first: int = 0, last: int | None = None
 ) -> None:
-    """Call `work` for the depths from `first` to before `last`; threads share the depths, each with own transforms."""
+    """Call `work` with a request and an index for depths `first` to `last` - 1; each thread has its own transforms."""
     number = (len(request.depths) if last is None else last) - first
     entries = number * request.entries
     own = [request, *(request.for_worker(worker) for worker in range(1, min(threads_for(entries), number)))]
@@ -156,6 +163,7 @@ def _for_each_depth(
 
 
 def _write_von_mises(planes: FloatArray, first: int, request: StressRequest, index: int) -> None:
+    """Write von Mises stress of the depth `index` into `planes`, which begin at the depth `first`."""
     request.write_von_mises(index, planes[index - first])
 
 

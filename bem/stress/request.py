@@ -72,7 +72,7 @@ def check_out(name: str, out: FloatArray | None, shape: tuple[int, ...]) -> Floa
 
 @compiled
 def _add_square(values, weight, stage, out):
-    """Add weight x values^2 to the sum in `out`, which `stage` starts, continues, or ends with its root."""
+    """Add weight x values^2 to the sum in `out`; `stage` starts the sum, continues it, or ends it with its root."""
     for i in range(out.shape[0]):
         for j in range(out.shape[1]):
             square = weight * values[i, j] * values[i, j]
@@ -83,14 +83,14 @@ def _add_square(values, weight, stage, out):
 VON_MISES_WEIGHTS = (0.0, 0.75, 1.0, 3.0, 3.0, 3.0)
 """Weights of the squares of t, d, e, yz, xz, xy in the square of von Mises stress."""
 _STAGES = {1: BEGINS, 5: ENDS}
-"""Stages of the first and the last term of that sum."""
+"""Stage of the first and the last component of the sum; the others have `GOES_ON`."""
 
 
 @dataclass(frozen=True)
 class TransformedLoad:
-    """One field on the surface with its transform, and the spectra of the kernels that act on it.
+    """Transform of one field on the surface: the pressure, or one direction of a prescribed traction.
 
-    acting : loads proportional to the field.
+    acting : loads proportional to the field, each with its factor.
     spectrum : transform of the field.
     sweep : number of the sweep in the cache of spectra.
     exchanged : True if field and grid have their axes exchanged, so that a traction along +y is one along +x.
@@ -123,7 +123,7 @@ class TransformedLoad:
 
     @cached_property
     def scratch(self) -> FloatArray:
-        """Work array for one field."""
+        """Return a work array for one field."""
         return self.transform.empty_field()
 
     @cached_property
@@ -131,7 +131,7 @@ class TransformedLoad:
         return self.grid, elastic_ratios(self.body), self.acting
 
     def spectra(self, depth: float) -> StressSpectra:
-        """Spectra of t, d, e, yz, xz, xy at a depth, from the cache where it has them."""
+        """Return the spectra of t, d, e, yz, xz, xy at a depth [m], from the cache or computed."""
         make = partial(compute_spectra, self.grid, self.body, depth, self.acting)
         return SPECTRA.of((self._key, depth), make, self.sweep)
 
@@ -172,7 +172,11 @@ _EXCHANGED = (0, 1, 2, 4, 3, 5)
 
 @dataclass(frozen=True)
 class StressRequest:
-    """A checked request: grid, depths [m] and transformed loads, the pressure first."""
+    """A checked request.
+
+    depths : (nz,) [m].
+    loads : the pressure with friction x pressure, then the directions of a prescribed traction that are not zero.
+    """
 
     grid: Grid
     depths: tuple[float, ...]
@@ -204,7 +208,7 @@ class StressRequest:
 
     @property
     def entries(self) -> int:
-        """Numbers in the transforms of one depth, for the choice of threads."""
+        """Return how many numbers the transforms of one depth have, for the choice of threads."""
         return 5 * len(self.loads) * self.loads[0].transform.entries
 
     def for_worker(self, worker: int) -> StressRequest:
@@ -240,6 +244,7 @@ class StressRequest:
 
 
 def _checked_traction(name: str, traction: ArrayLike, grid: Grid, friction: float) -> FloatArray:
+    """Return the traction (2, nx, ny) [Pa] of a request without friction."""
     values = np.asarray(traction, dtype=np.float64)
     if values.shape != (2, *grid.shape) or not np.isfinite(values).all():
         raise InputError(f"{name}: traction {values.shape} must be finite numbers of shape {(2, *grid.shape)} [Pa]")

@@ -1,15 +1,20 @@
 """Spectra of the stress kernels at a depth, computed once and cached.
 
-The spectra are those of
+The six spectra are those of the hydrostatic and deviatoric combinations
 
-    t = xx + yy + zz,   d = xx - yy,   e = zz - (xx + yy)/2,   yz,   xz,   xy
+    t = xx + yy + zz,   d = xx - yy,   e = zz - (xx + yy)/2,   yz,   xz,   xy,
 
-because von Mises stress, sqrt(3/4 d^2 + e^2 + 3 (yz^2 + xz^2 + xy^2)), needs only the last five.
+because von Mises stress needs only the last five:
+
+    von Mises^2 = 3/4 d^2 + e^2 + 3 (yz^2 + xz^2 + xy^2).
 
 Every kernel is even or odd along each axis, so a spectrum is a real or an imaginary quarter array of
 (px/2 + 1)(py/2 + 1) numbers, where px, py are the padded lengths. A depth has six quarter arrays under pressure alone
 and twelve with traction: 6.3 MB for 256 x 256 free cells. `set_stress_memory` bounds the cache; where a sweep over the
 depths does not fit, the first depths stay and the others are computed again in every sweep.
+
+Two savings leave results within rounding error: columns of negligible coefficients are dropped (`StressSpectra`), and
+transforms of short waves have fewer cells of padding (`column_lengths`).
 """
 
 from __future__ import annotations
@@ -42,7 +47,7 @@ class StressCount:
 
 
 COUNT = StressCount()
-"""Kernels computed by this process; values from the cache are not counted."""
+"""Counts of this process; values from caches are not counted."""
 
 _COUNTING = ForkSafeLock()
 
@@ -51,7 +56,7 @@ SPECTRA = KeptValues()
 
 
 def set_stress_memory(limit: int) -> None:
-    """Bound the memory that cached stress spectra may hold [bytes]; default 512 MiB, 0 keeps none.
+    """Bound the memory of cached stress spectra [bytes]; default 512 MiB, 0 caches none.
 
     Raises
     ------
@@ -61,26 +66,29 @@ def set_stress_memory(limit: int) -> None:
 
 
 def stress_memory() -> int:
-    """Memory held by cached stress spectra [bytes]."""
+    """Return the memory of the cached stress spectra [bytes]."""
     return SPECTRA.nbytes
 
 
 def elastic_ratios(body: Body) -> tuple[float, ...]:
-    """Properties that determine stress: Poisson's ratios, moduli over the half-space's, depths of interfaces [m]."""
+    """Return what stress under given loads depends on, the key of caches.
+
+    Poisson's ratios, Young's moduli of layers over that of the half-space, depths of interfaces [m].
+    """
     ratios = (solid.youngs_modulus / body.material.youngs_modulus for solid in body.media[:-1])
     return (*(solid.poissons_ratio for solid in body.media), *ratios, *body.interfaces)
 
 
 def padded_lengths(grid: Grid) -> tuple[int, int]:
-    """Lengths of the transforms along x and y."""
+    """Return the lengths of the transforms along x and y."""
     return padded_shape(grid.shape, grid.periodic)
 
 
 def column_lengths(grid: Grid, body: Body) -> tuple[int, ...] | None:
-    """Lengths of the transforms along a free x for each wavenumber along a periodic y; None where all are equal.
+    """Return the lengths of the transforms along x for each wavenumber along y; None where all are equal.
 
-    Below a homogeneous body the kernel of a wave along y decays exponentially along x, so short waves need less
-    padding. Kernels of layers may decay more slowly.
+    Where x is free, y is periodic and the body is homogeneous, the kernel of a wave along y decays exponentially along
+    x, so short waves need less padding. Kernels of layers may decay more slowly.
     """
     if grid.periodic != (False, True) or not body.homogeneous:
         return None
@@ -89,14 +97,14 @@ def column_lengths(grid: Grid, body: Body) -> tuple[int, ...] | None:
 
 
 Loads = tuple[tuple[Load, float], ...]
-"""Loads proportional to one surface field, each with its factor."""
+"""Loads that are proportional to one field on the surface, each with its factor."""
 
 TRACTION: Loads = ((Load.TANGENTIAL, 1.0),)
 """A traction along +x alone."""
 
 
 def pressure_and_friction(friction: float) -> Loads:
-    """A pressure, and the traction friction x pressure along +x."""
+    """Return the loads proportional to a pressure: the pressure, and the traction friction x pressure along +x."""
     return ((Load.NORMAL, 1.0), *(((Load.TANGENTIAL, friction),) if friction != 0 else ()))
 
 
@@ -104,10 +112,10 @@ def pressure_and_friction(friction: float) -> Loads:
 class StressSpectra:
     """Spectra of the kernels of t, d, e, yz, xz, xy at one depth.
 
-    multipliers : spectrum of each component.
-    columns : number of wavenumbers along y of each component that count. Below the surface coefficients fall
-        exponentially on a periodic axis: 20 cells down half of the wavenumbers are left. Coefficients of the others are
-        below the rounding error of the largest.
+    multipliers : (6,), spectrum of each component.
+    columns : (6,), number of wavenumbers along y, from zero on, whose coefficients are not negligible. On a periodic
+        axis coefficients fall exponentially with depth: 20 cells below the surface half of the wavenumbers are left.
+        The others are below the rounding error of the largest.
     """
 
     multipliers: tuple[Multiplier, ...]
@@ -115,13 +123,13 @@ class StressSpectra:
 
     @property
     def nbytes(self) -> int:
-        """Memory [bytes]."""
+        """Return the memory [bytes]."""
         return sum(one.nbytes for one in self.multipliers)
 
 
 @compiled
-def _combine(stress):
-    """Replace (xx, yy, zz, ...) by (t, d, e, ...) in place."""
+def _to_deviatoric(stress):
+    """Replace xx, yy, zz by t, d, e in (6, nx, ny)."""
     for i in range(stress.shape[1]):
         for j in range(stress.shape[2]):
             xx, yy, zz = stress[0, i, j], stress[1, i, j], stress[2, i, j]
@@ -131,7 +139,7 @@ def _combine(stress):
 
 
 def compute_spectra(grid: Grid, body: Body, depth: float, acting: Loads) -> StressSpectra:
-    """Compute the spectra at a depth [m] under the loads that act."""
+    """Compute the spectra of the kernels at a depth [m] under loads proportional to one field."""
     with _COUNTING:
         COUNT.spectra += 1
     padded, lengths = padded_lengths(grid), column_lengths(grid, body)
@@ -140,7 +148,7 @@ def compute_spectra(grid: Grid, body: Body, depth: float, acting: Loads) -> Stre
     for load, factor in acting:
         response = stress_response if doubly_periodic else stress_coefficients
         kernels = response(grid, body, depth, load)
-        _combine(kernels)
+        _to_deviatoric(kernels)
         for component, parity in enumerate(STRESS_PARITY[load]):
             if doubly_periodic:
                 # `multiplier` takes i^2 = -1 for a kernel odd along both axes; the response has it already
@@ -154,7 +162,7 @@ def compute_spectra(grid: Grid, body: Body, depth: float, acting: Loads) -> Stre
 
 
 def _significant_columns(spectrum: Multiplier) -> int:
-    """Number of wavenumbers along y, from zero on, up to the last with a coefficient above rounding error."""
+    """Return the number of wavenumbers along y up to the last with a coefficient above rounding error."""
     parts = [np.abs(part).max(axis=1) for part in (spectrum.real, spectrum.imaginary) if part is not None]
     if not parts:
         return 0

@@ -1,10 +1,17 @@
 """Figures of the stress below one contact: maximum von Mises stress, its depth, yielded area and volume.
 
-The maximum is interpolated between points and depths (`bem.numerics.subcell`), and so is the boundary of the yielded
-region. Two exceptions: within one cell of the surface the stress below constant cell pressures is not smooth, so the
-maximum of the points is taken; and no interpolation crosses an interface of layers, where stresses jump.
+Every given depth is computed as a whole plane. The maximum is that of a surface through the highest point: a paraboloid
+in the plane, then the cubic through the neighbouring depths (`bem.numerics.subcell`). The yielded area has the contour
+of the yield stress inside cells, and the yielded volume is its integral over depth.
 
-Knows `stress.fields` and the yield stresses of bodies. Verified in tests/stress/test_stress_below.py.
+The maximum falls back to fewer dimensions in three cases:
+
+- within one cell of the surface the stress below constant cell pressures is not smooth: maximum of the points;
+- at the edge of a free grid, or where the paraboloid has no maximum within a cell: maximum of the points;
+- next to an interface of layers, where stresses jump, or next to a depth without such a paraboloid: maximum of the
+  plane, at the depth of the points.
+
+The package knows the yield stresses of bodies. Verified in tests/stress/test_stress_summary.py.
 """
 
 from __future__ import annotations
@@ -23,16 +30,16 @@ from bem.numerics.subcell import area_above, around, highest_along, top
 from bem.stress.fields import subsurface_stress, von_mises, von_mises_planes
 
 _DEPTHS_BESIDE = 2
-"""Depths on either side of the depth of the maximum that the interpolation uses."""
+"""Number of depths above and below the depth of the maximum through which the cubic may pass."""
 _SUBINTERVALS = 4
 """Subintervals between two depths in the integral of the yielded area."""
 _NEARLY_YIELDED = 0.9
-"""Intervals whose two ends are below this fraction of the yield stress add no yielded volume."""
+"""Intervals with von Mises stress below this fraction of the yield stress at both ends add no yielded volume."""
 
 
 @dataclass(frozen=True, eq=False)
-class StressBelow:
-    """Stresses of a body at depths below its surface.
+class StressSummary:
+    """Stresses of a body at depths below its surface, and their figures.
 
     depths : (nz,) [m].
     von_mises : (nz, nx, ny) [Pa].
@@ -69,7 +76,7 @@ class StressBelow:
         return None if counted is None else float(np.trapezoid(counted, self.depths))
 
 
-def stress_below(
+def summarise_stress(
     pressure: FloatArray,
     grid: Grid,
     body: Body,
@@ -80,8 +87,8 @@ def stress_below(
     components: bool = False,
     out: FloatArray | None = None,
     after: Callable[[int], None] | None = None,
-) -> StressBelow:
-    """Compute von Mises stress plane by plane, the six components on request, and their figures.
+) -> StressSummary:
+    """Compute von Mises stress at depths, on request the six components, and summarise them.
 
     Parameters
     ----------
@@ -90,9 +97,9 @@ def stress_below(
     depths : (nz,) [m], rising.
     friction : coefficient of the traction friction x pressure along +x.
     traction : (2, nx, ny) [Pa], instead of friction x pressure.
-    components : True to keep the six components.
+    components : True to compute the six components too.
     out : (nz, nx, ny) for von Mises stress; a new array if None.
-    after : called after each plane with the number of planes that are complete.
+    after : called after each plane with the number of computed planes.
     """
     places = np.asarray(depths, dtype=np.float64)
     field = np.empty((len(places), *grid.shape)) if out is None else out
@@ -114,7 +121,7 @@ def stress_below(
             after(i + 1)
     limited = bool(np.isfinite(limits).any())
     stress_top, depth_top = _highest(field, places, highest, grid, body)
-    return StressBelow(
+    return StressSummary(
         depths=places,
         von_mises=field,
         stress=stress,
@@ -128,30 +135,35 @@ def stress_below(
 
 
 def _highest(field: FloatArray, depths: FloatArray, highest: FloatArray, grid: Grid, body: Body) -> tuple[float, float]:
-    """Return the maximum von Mises stress between points and depths [Pa], and its depth [m]."""
+    """Return the maximum von Mises stress between points and depths [Pa], and its depth [m].
+
+    field : (nz, nx, ny) [Pa]. highest : (nz,), maximum of the points of each depth [Pa].
+    """
     k = int(np.argmax(highest))
     of_points = float(highest[k]), float(depths[k])
     if depths[k] < math.sqrt(grid.cell_area):
         return of_points
     ix, iy = np.unravel_index(int(np.argmax(field[k])), grid.shape)
     place = int(ix), int(iy)
-    own = _top(field[k], grid, place)
-    if own is None:
+    in_plane = _top(field[k], grid, place)
+    if in_plane is None:
         return of_points
     first = max(k - _DEPTHS_BESIDE, 0)
     near = depths[first : k + _DEPTHS_BESIDE + 1]
     tops = np.array([_top(plane, grid, place) for plane in field[first : k + _DEPTHS_BESIDE + 1]], dtype=np.float64)
     beside = slice(max(k - first - 1, 0), k - first + 2)
     if np.isnan(tops[beside]).any() or _crosses(body, near[beside][0], near[beside][-1]):
-        return own, of_points[1]
+        return in_plane, of_points[1]
     return highest_along(near[~np.isnan(tops)], tops[~np.isnan(tops)])
 
 
 def _crosses(body: Body, above: float, below: float) -> bool:
+    """Return True if an interface of layers lies between two depths [m]."""
     return any(above <= interface <= below for interface in body.interfaces)
 
 
 def _top(plane: FloatArray, grid: Grid, place: tuple[int, int]) -> float | None:
+    """Return the maximum of the paraboloid around a cell; None at a free edge, or if it has none within a cell."""
     patch = around(plane, grid, place)
     return None if patch is None else top(patch)
 
@@ -167,8 +179,11 @@ def _volume(
 ) -> float:
     """Integrate the yielded area over depth [m^3].
 
-    The trapezoidal rule runs over subintervals, between which von Mises stress is a cubic polynomial of the depth. It
-    is linear within one cell of the surface. An interval with an interface has no subintervals.
+    Trapezoidal rule over four subintervals of each interval. At the inner nodes von Mises stress is interpolated by the
+    cubic through up to four depths of the same yield stress, or linearly within one cell of the surface and beside an
+    interface. An interval that contains an interface has no subintervals.
+
+    areas : (nz,) yielded area [m^2]. limits : (nz,) yield stress [Pa].
     """
     scratch, volume, cell = np.empty(grid.shape), 0.0, math.sqrt(grid.cell_area)
     for k in range(len(depths) - 1):
@@ -187,11 +202,12 @@ def _volume(
 
 
 def _weights(nodes: FloatArray, place: float) -> FloatArray:
-    """Return the Lagrange weights of the values at the nodes for the value at a place."""
+    """Return the Lagrange weights of the values at `nodes` for the value at `place` [m]."""
     return np.array([np.prod([(place - b) / (a - b) for b in nodes if b != a]) for a in nodes])
 
 
 def _blend(field: FloatArray, own: list[int], weights: FloatArray, out: FloatArray) -> None:
+    """Write the weighted sum of the planes `own` of `field` (nz, nx, ny) to `out` (nx, ny)."""
     np.multiply(field[own[0]], weights[0], out=out)
     for m, weight in zip(own[1:], weights[1:], strict=True):
         out += weight * field[m]

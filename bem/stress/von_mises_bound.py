@@ -1,4 +1,19 @@
-"""Upper bound on von Mises stress at a depth, without any transform: depths that cannot yield are skipped."""
+"""Upper bound on von Mises stress at a depth from the largest pressure and the sum of pressures; no transform.
+
+Each component that von Mises stress depends on is a sum over the cells j of p_j k_j, where the kernel k includes the
+traction friction x pressure. With k^+ and k^- the positive and negative parts of k, p >= 0 gives
+
+    -sum p_j k_j^-  <=  sum p_j k_j  <=  sum p_j k_j^+,
+
+and for either sign of k, p_j <= m, sum p_j = P and any t >= 0
+
+    sum p_j k_j^+  <=  m sum max(k_j - t, 0) + t P.
+
+The larger of both sums bounds the magnitude of the component, and von Mises stress grows with every magnitude. Where p
+has negative values, abs(p) takes the place of p and the sum of both parts bounds the magnitude. The right-hand side is
+minimised over t = 0 and powers of two. The sums over max(k - t, 0) take one pass over the kernel and are cached for
+each depth. The proof is this project's own.
+"""
 
 from __future__ import annotations
 
@@ -18,25 +33,20 @@ from bem.stress.request import check_request
 from bem.stress.spectra import COUNT, elastic_ratios, pressure_and_friction
 
 _TABLES = KeptValues(1 << 27)
-"""Cache of the sums over a kernel above the thresholds."""
+"""Cache of the tables of `_table` (128 MiB, apart from `set_stress_memory`)."""
 
 
-def von_mises_limit(
+def von_mises_upper_bound(
     pressure: ArrayLike, grid: Grid, body: Body, depths: ArrayLike, *, friction: float = 0.0
 ) -> FloatArray:
-    """Return an upper bound on von Mises stress at each depth from the largest pressure and the sum of pressures.
+    """Return an upper bound on von Mises stress at each depth.
 
-    A depth needs one pass over its kernel, whose table is cached; the bound itself then costs a few operations. It is
-    two to three times the maximum of a rough contact.
+    Two to three times the maximum below a rough contact. A depth takes one pass over its kernel at first use.
 
-    Proof. Each of d, e, yz, xz, xy at a point is the sum over the cells j of p_j k_j (traction included in k). For
-    p >= 0 it lies between minus the sum of p_j k_j^- and the sum of p_j k_j^+, where k^+ and k^- are the positive and
-    negative parts of k: the larger of the two sums bounds its magnitude, and von Mises grows with every magnitude.
-    (Where p has negative values their sum bounds it, with |p|.) With p_j <= m and sum p_j = P, any t >= 0 gives
-
-        sum p_j k_j  <=  m sum max(k_j - t, 0) + t P;
-
-    the least over powers of two for t, and t = 0, is taken, and sums run over every offset the grid has.
+    Parameters
+    ----------
+    pressure : (nx, ny) [Pa].
+    grid, body, depths, friction : as in `subsurface_stress`.
 
     Returns
     -------
@@ -46,25 +56,26 @@ def von_mises_limit(
     ------
     InputError : as `subsurface_stress`.
     """
-    places, coefficient = check_request("von_mises_limit", grid, body, depths, friction)
+    places, coefficient = check_request("von_mises_upper_bound", grid, body, depths, friction)
     field = grid.check_field(pressure, "pressure")
     either_sign = float(field.min()) < 0
     magnitude = np.abs(field) if either_sign else field
     largest, total = float(magnitude.max()), float(magnitude.sum())
-    limit = np.empty(len(places))
+    bound = np.empty(len(places))
     sweep = _TABLES.begin_sweep()
     for index, depth in enumerate(places):
         key = (grid, elastic_ratios(body), depth, coefficient)
         above = _TABLES.of(key, partial(_table, grid, body, depth, coefficient), sweep)
         parts = (largest * above + total * _THRESHOLDS).min(axis=1).reshape(5, 2)
-        reach = parts.sum(axis=1) if either_sign else parts.max(axis=1)
+        component = parts.sum(axis=1) if either_sign else parts.max(axis=1)
+        square = 0.75 * component[0] ** 2 + component[1] ** 2 + 3 * float((component[2:] ** 2).sum())
         # the last factor covers the round-off of sums over all cells
-        limit[index] = math.sqrt(0.75 * reach[0] ** 2 + reach[1] ** 2 + 3 * float((reach[2:] ** 2).sum())) * (1 + 1e-9)
-    return limit
+        bound[index] = math.sqrt(square) * (1 + 1e-9)
+    return bound
 
 
 def _table(grid: Grid, body: Body, depth: float, friction: float) -> FloatArray:
-    """Compute the sums over the kernel of a depth above each threshold, (parts, levels + 1)."""
+    """Return the sums of max(k - t, 0) over a kernel for each part of `_PARTS` and threshold t, (10, 49)."""
     COUNT.bounds += 1
     normal, tangential = _kernel_values(grid, body, depth, friction)
     above = np.zeros((_PARTS, _LEVELS + 1))
@@ -73,16 +84,16 @@ def _table(grid: Grid, body: Body, depth: float, friction: float) -> FloatArray:
 
 
 _PARTS = 10
-"""Positive and negative parts of d, e, yz, xz, xy."""
+"""Number of positive and negative parts of the components d, e, yz, xz, xy (`spectra`)."""
 _LEVELS = 48
-"""Number of thresholds above 0."""
+"""Number of positive thresholds."""
 _HIGHEST = 4
-"""Exponent of the highest threshold; coefficients of a cell are of order one."""
+"""Exponent of the highest threshold 2^4; stresses under a loaded cell are of the order of its pressure."""
 _THRESHOLDS: FloatArray = np.append(2.0 ** (_HIGHEST - np.arange(_LEVELS)), 0.0)
 
 
 def _kernel_values(grid: Grid, body: Body, depth: float, friction: float) -> FloatArray:
-    """Compute six stresses of a cell under pressure and under traction at non-negative offsets, (2, 6, nx, ny)."""
+    """Return six stresses at offsets >= 0 from a cell, under unit pressure and under friction, (2, 6, nx, ny)."""
     kernels = np.zeros((2, 6, *grid.shape))
     for load, factor in pressure_and_friction(friction):
         if all(grid.periodic):
@@ -126,7 +137,7 @@ def _sums_above(normal, tangential, wraps_x, wraps_y, above):
 
 @compiled
 def _signed_parts(normal, tangential, i, j, out):
-    """Write the parts of the kernel (see _PARTS) at offset (i, j), by the parities of both loads."""
+    """Write the parts (10,) of the kernel at offset (i, j) to `out`, by the parities of both loads."""
     k = abs(i)
     m = abs(j)
     sx = -1.0 if i < 0 else 1.0

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.grid import FloatArray
-from bem.stress import cleared, reached_stress, subsurface_stress, von_mises_limit, von_mises_planes
+from bem.stress import clear_other_rows, connected_stress, subsurface_stress, von_mises_planes, von_mises_upper_bound
 from bem.wear.loads import Removal, SurfaceLoad
 from bem.wear.removal import RemovalLaw
 from bem.wear.segmentation import Segmentation, refine_depths, segment
@@ -97,7 +97,7 @@ def cannot_yield(
     if factor is None or any(load.traction is not None for load in loads):
         return False
     grid, solid = setup.grid, setup.bodies[body]
-    limit = sum(von_mises_limit(load.pressure, grid, solid, [depth], **load.shear(body))[0] for load in loads)
+    limit = sum(von_mises_upper_bound(load.pressure, grid, solid, [depth], **load.shear(body))[0] for load in loads)
     return bool(factor * limit <= setup.yield_stress(body))
 
 
@@ -145,7 +145,7 @@ class YieldedStress:
     @cached_property
     def stress(self) -> FloatArray:
         """The planes, zero in rows that no piece reaches."""
-        return self.planes if self.rows is None else cleared(self.planes, self.rows)
+        return self.planes if self.rows is None else clear_other_rows(self.planes, self.rows)
 
 
 def yielded_stress(
@@ -204,7 +204,7 @@ def piece_stress(
         return YieldedStress(none, depths[:0], 0, time.perf_counter() - start)
     reach = 2 if model.refinement == "monotone_cubic" else 1
     solid, shear = setup.bodies[body], first.shear(body)
-    reached = reached_stress(first.pressure, grid, solid, depths, strength, reach=reach, **shear)
+    reached = connected_stress(first.pressure, grid, solid, depths, strength, depths_beside=reach, **shear)
     found, rows = reached.planes, reached.computed
     used = len(found) if len(found) > 1 else 0  # of the first depth alone where nothing yields in it
     seconds = time.perf_counter() - start

@@ -19,7 +19,7 @@ from numpy.typing import NDArray
 from bem import Body, Grid, Layer, Material, displacement_operator, solve_contact
 from bem.accuracy import ContactCase, contact_bars, figures_of, solve_coarser, stress_bars
 from bem.errors import Status
-from bem.stress import StressBelow, stress_below
+from bem.stress import StressSummary, summarise_stress
 from bem.surfaces import generate_surface
 from reports.experiments.judging import Comparison, Experiment, main
 
@@ -86,11 +86,11 @@ class Problem:
         layers = tuple(Layer(limited(layer.material), layer.thickness) for layer in self.body.layers)
         return replace(self, body=Body(limited(self.body.material), layers=layers))
 
-    def stresses(self, case: ContactCase, factor: int) -> StressBelow:
+    def stresses(self, case: ContactCase, factor: int) -> StressSummary:
         """Below the contact, at `factor` times as many depths."""
         count = (self.depths - 1) * factor + 1
         depths = min(self.grid.lengths) / 4 * (np.arange(count) / (count - 1)) ** 2
-        return stress_below(case.solution.pressure, case.grid, self.body, depths)
+        return summarise_stress(case.solution.pressure, case.grid, self.body, depths)
 
 
 def waves_through(heights: FloatArray, factor: int) -> FloatArray:

@@ -10,7 +10,7 @@ from bem.accuracy import ContactCase, contact_bars, figures_of, solve_coarser, s
 from bem.errors import Status
 from bem.notes.accuracy import NoBar
 from bem.reference_solutions.hertz import ellipse_contact
-from bem.stress import stress_below
+from bem.stress import summarise_stress
 
 STEEL = Material("steel", youngs_modulus=200e9, poissons_ratio=0.3)
 
@@ -206,7 +206,7 @@ def test_a_stress_that_jumps_at_an_interface_may_be_higher_there():
     operator = displacement_operator(grid, body)
     case = ContactCase(operator, gap, solve_contact(gap, operator, load=0.5), load=0.5)
     coarse, fine = np.linspace(0, 12e-6, 9), np.linspace(0, 12e-6, 121)
-    found, truth = (stress_below(case.solution.pressure, grid, body, depths) for depths in (coarse, fine))
+    found, truth = (summarise_stress(case.solution.pressure, grid, body, depths) for depths in (coarse, fine))
     bars = stress_bars(case, solve_coarser(case), body, found)
     missed = truth.highest.max() - found.max_von_mises
     assert missed > 0.02 * truth.highest.max()
@@ -214,7 +214,7 @@ def test_a_stress_that_jumps_at_an_interface_may_be_higher_there():
 
 
 def bars_below(case, depths):
-    below = stress_below(case.solution.pressure, case.grid, Body(STEEL), depths)
+    below = summarise_stress(case.solution.pressure, case.grid, Body(STEEL), depths)
     return stress_bars(case, solve_coarser(case), Body(STEEL), below)
 
 
@@ -222,7 +222,7 @@ def test_highest_stress_of_a_ball_is_covered():
     case = ball(64)
     a = (0.75 * 1.0 * 1e-3 / STEEL.plane_strain_modulus) ** (1 / 3)
     depths = np.linspace(0, 2 * a, 15)
-    below = stress_below(case.solution.pressure, case.grid, Body(STEEL), depths)
+    below = summarise_stress(case.solution.pressure, case.grid, Body(STEEL), depths)
     bars = stress_bars(case, solve_coarser(case), Body(STEEL), below).values
     # Johnson, Contact Mechanics, section 3.4: for nu = 0.3 the largest shear stress, half of it, is 0.310 p0 at 0.48 a
     p0 = 1.5 / (np.pi * a**2)
@@ -246,11 +246,11 @@ def test_the_volume_that_yields_below_a_ball_is_covered():
     def below(strength):
         elastic = {"youngs_modulus": STEEL.youngs_modulus, "poissons_ratio": STEEL.poissons_ratio}
         body = Body(Material("steel", **elastic, yield_stress=strength))
-        found = stress_below(case.solution.pressure, case.grid, body, depths)
+        found = summarise_stress(case.solution.pressure, case.grid, body, depths)
         return found.yielded_volume, stress_bars(case, solve_coarser(case), body, found).values
 
     volume, bars = below(0.55 * p0)
-    # Hamilton's closed form, see tests/stress/test_stress_below.py
+    # Hamilton's closed form, see tests/stress/test_stress_summary.py
     assert abs(volume - 0.36835 * a**3) <= bars["yielded_volume"] < 0.3 * volume
     assert below(2 * p0)[1]["yielded_volume"] == 0
     assert "yielded_volume" not in bars_below(case, depths).values  # steel without a yield stress

@@ -12,7 +12,7 @@ from bem.accuracy.contact import ContactCase, share_at_edge
 from bem.accuracy.sticking import PUSH_RULES, ROLL_RULES, cells_across_ring, sticking_bars
 from bem.convolution import DisplacementOperator
 from bem.reference_solutions.hertz import ellipse_contact
-from bem.stress import stress_below
+from bem.stress import summarise_stress
 from bem.tangential import tangential_stiffness
 from reports.error_bars import RESULTS
 
@@ -152,7 +152,7 @@ def test_depth_below_a_ball_is_known_to_a_percent(ball):
     """Looked for between points and depths it is off by less than its bar, and that is small."""
     depths = 5e-6 * np.linspace(0, 1.6, 13) ** 2
     body = Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3))
-    below = stress_below(ball.solution.pressure, ball.grid, body, depths)
+    below = summarise_stress(ball.solution.pressure, ball.grid, body, depths)
     bars = stress_bars(ball, solve_coarser(ball), body, below)
     z = np.linspace(0.3, 0.7, 40001)
     # von Mises on the axis below Hertz' pressure (Johnson, Contact Mechanics, eq. 3.45)

@@ -6,7 +6,7 @@ import pytest
 from bem import Body, Grid, Material, displacement_operator, solve_contact
 from bem.accuracy import ContactCase, contact_bars, solve_coarser, stress_bars
 from bem.accuracy.sharp import is_sharp
-from bem.stress import stress_below
+from bem.stress import summarise_stress
 from bem.surfaces import generate_surface
 
 STEEL = Material("steel", youngs_modulus=200e9, poissons_ratio=0.3)
@@ -120,7 +120,7 @@ def test_under_a_cap_a_sharp_contact_may_reach_it():
 def test_stress_at_a_sharp_edge_has_no_bar():
     def bars(shape, depths):
         case = pressed(SHAPES[shape])
-        below = stress_below(case.solution.pressure, GRID, Body(STEEL), np.array(depths))
+        below = summarise_stress(case.solution.pressure, GRID, Body(STEEL), np.array(depths))
         return stress_bars(case, solve_coarser(case), Body(STEEL), below)
 
     at_surface = bars("punch", np.linspace(0, 40e-6, 9))

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bem import Body, Grid, InputError, Material, transforms
-from bem.stress import cleared, reached_stress, set_stress_memory, von_mises_field
+from bem.stress import clear_other_rows, connected_stress, set_stress_memory, von_mises_field
 from bem.threads import set_threads
 from bem.wear import WearModel, WearSetup, yielded_pieces
 from bem.wear.criterion import VonMises
@@ -31,7 +31,7 @@ def rough_pressure(shape, seed):
 
 def zeroed(found):
     """The planes with zeros in rows that were left out."""
-    return cleared(found.planes, found.computed)
+    return clear_other_rows(found.planes, found.computed)
 
 
 def setup(shape, periodic):
@@ -46,7 +46,7 @@ def test_rows_that_are_computed_are_those_of_whole_planes_and_what_exceeds_the_l
     pressure = rough_pressure(shape, 3)
     whole = von_mises_field(pressure, grid, STEEL, DEPTHS, friction=0.3)
     limit = 0.45 * whole.max()
-    found = reached_stress(pressure, grid, STEEL, DEPTHS, limit, friction=0.3, reach=2)
+    found = connected_stress(pressure, grid, STEEL, DEPTHS, limit, friction=0.3, depths_beside=2)
     used = len(found.planes)
     # round-off of transforms in other portions
     error = np.abs(zeroed(found) - whole[:used])[found.computed].max()
@@ -87,7 +87,7 @@ def test_what_lies_deeper_and_wider_than_the_surface_shows_is_found_by_a_second_
     limit = 0.55e9
     above = (whole > limit).any(axis=2).sum(axis=1)
     assert above.argmax() > 3  # wider below than at the surface
-    found = reached_stress(pressure, grid, STEEL, depths, limit, reach=2)
+    found = connected_stress(pressure, grid, STEEL, depths, limit, depths_beside=2)
     used = len(found.planes)
     assert found.passes >= used
     both = whole[:used] > limit
@@ -138,10 +138,10 @@ def test_several_threads_give_the_same():
     set_stress_memory(1 << 29)
     whole = von_mises_field(pressure, grid, STEEL, depths, friction=0.2)
     limit = 0.5 * whole.max()
-    one = reached_stress(pressure, grid, STEEL, depths, limit, friction=0.2)
+    one = connected_stress(pressure, grid, STEEL, depths, limit, friction=0.2)
     set_threads(2)
     try:
-        two = reached_stress(pressure, grid, STEEL, depths, limit, friction=0.2)
+        two = connected_stress(pressure, grid, STEEL, depths, limit, friction=0.2)
     finally:
         set_threads(1)
     assert np.array_equal(zeroed(one), zeroed(two))

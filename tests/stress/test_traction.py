@@ -5,7 +5,7 @@ import pytest
 
 from bem import Body, Grid, InputError, Layer, Material, subsurface_stress
 from bem.reference_solutions.hamilton import sphere_stress
-from bem.stress import stress_below, von_mises, von_mises_field
+from bem.stress import summarise_stress, von_mises, von_mises_field
 from bem.verification.patches import disc_means, free_grid
 
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3, yield_stress=1e9)
@@ -55,7 +55,7 @@ def test_below_cattaneo_s_ball():
     depths = np.array([0.2, 0.45, 0.8])
     x, y = np.array([0.0, 0.5, -1.0, 0.8]), np.array([0.0, 0.25, 0.5, -0.6])
     body = Body(Material("unit", youngs_modulus=1.0, poissons_ratio=0.3, yield_stress=0.5))
-    found = stress_below(
+    found = summarise_stress(
         pressure, where.grid, body, depths, traction=np.stack([traction, 0 * traction]), components=True
     )
     i, j = where.at(x, y)

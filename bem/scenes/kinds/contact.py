@@ -27,7 +27,7 @@ from bem.scenes.tables.pressing import ContactOutputs, StressedScene
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars
     from bem.contact import ContactSolution
-    from bem.stress import StressBelow
+    from bem.stress import StressSummary
 
 _STRESS_COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
 
@@ -136,7 +136,7 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
         solution, history = _solve(scene, grid, undeformed, context)
     tell(context, solution.notes)
     tell(context, _standing_off(solution))
-    below: StressBelow | None = None
+    below: StressSummary | None = None
     if scene.outputs.wanted_depths():
         with context.timer("stresses"):
             below = _stresses(scene, grid, solution.pressure, context)
@@ -213,9 +213,9 @@ def _level_before(context: Context) -> ContactSolution | None:
     return None if before is None else before[0]
 
 
-def _stresses(scene: ContactScene, grid: Grid, pressure: FloatArray, context: Context) -> StressBelow:
+def _stresses(scene: ContactScene, grid: Grid, pressure: FloatArray, context: Context) -> StressSummary:
     """Stresses in the body asked for, at every depth; von Mises on disk where it is very large."""
-    from bem.stress import stress_below
+    from bem.stress import summarise_stress
 
     depths, (body, sign) = np.array(scene.outputs.wanted_depths()), scene.stressed()
     friction = sign * scene.contact.friction
@@ -226,14 +226,14 @@ def _stresses(scene: ContactScene, grid: Grid, pressure: FloatArray, context: Co
         context.progress(done, len(depths), "stresses")
 
     wanted = scene.outputs.stresses
-    return stress_below(pressure, grid, body, depths, friction=friction, components=wanted, out=field, after=after)
+    return summarise_stress(pressure, grid, body, depths, friction=friction, components=wanted, out=field, after=after)
 
 
 def _bars(
     scene: ContactScene,
     undeformed: FloatArray,
     solution: ContactSolution,
-    below: StressBelow | None,
+    below: StressSummary | None,
     rough: Mapping[str, FloatArray],
     context: Context,
 ) -> ErrorBars:

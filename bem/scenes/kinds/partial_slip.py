@@ -27,7 +27,7 @@ from bem.scenes.tables.tangential import PushedScene
 
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars
-    from bem.stress import StressBelow
+    from bem.stress import StressSummary
 
 _TRANSFORMS = 6.0 * 22
 """Of a step: 15 to 23 convolutions were counted on 128 to 512 cells a side, first steps and later ones alike, each of
@@ -161,7 +161,7 @@ def _tell(scene: PartialSlipScene, steps: int, context: Context) -> None:
 
 
 def _bars(
-    scene: PartialSlipScene, site: Site, path: Path, below: StressBelow | None, extra: dict[str, Any]
+    scene: PartialSlipScene, site: Site, path: Path, below: StressSummary | None, extra: dict[str, Any]
 ) -> ErrorBars:
     """From the same steps on the grid of twice the cell, and there with half of those in which the load comes."""
     from bem.accuracy.sticking import PUSH_RULES

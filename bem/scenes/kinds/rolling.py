@@ -20,7 +20,7 @@ from bem.scenes.tables.tangential import RolledScene
 
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars
-    from bem.stress import StressBelow
+    from bem.stress import StressSummary
     from bem.tangential import TangentialSolution
 
 _TRANSFORMS = 6.0 * 2.8
@@ -117,7 +117,7 @@ def _figures(site: Site, found: TangentialSolution, spin: float) -> dict[str, fl
     }
 
 
-def _bars(scene: RollingContactScene, site: Site, found: TangentialSolution, below: StressBelow | None) -> ErrorBars:
+def _bars(scene: RollingContactScene, site: Site, found: TangentialSolution, below: StressSummary | None) -> ErrorBars:
     """From the same on the grid of twice the cell."""
     from bem.accuracy.sticking import ROLL_RULES
 

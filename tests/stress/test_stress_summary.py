@@ -5,7 +5,7 @@ import pytest
 
 from bem import Body, Grid, Layer, Material, displacement_operator, solve_contact
 from bem.reference_solutions.hertz import sphere_contact
-from bem.stress import stress_below, subsurface_stress, von_mises_field
+from bem.stress import subsurface_stress, summarise_stress, von_mises_field
 from bem.stress.stress_summary import yield_stresses
 
 GRID = Grid((16, 8), (1e-6, 1e-6), periodic=(True, True))
@@ -19,7 +19,7 @@ def test_a_uniform_pressure_yields_everywhere_or_nowhere():
     mises = 2e9 * (1 - 0.6) / 0.7
     for limit, volume in ((0.9 * mises, GRID.area * 4e-6), (1.1 * mises, 0.0)):
         steel = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3, yield_stress=limit)
-        found = stress_below(np.full(GRID.shape, 2e9), GRID, Body(steel), depths)
+        found = summarise_stress(np.full(GRID.shape, 2e9), GRID, Body(steel), depths)
         assert found.max_von_mises == pytest.approx(mises, rel=1e-12)  # round-off of the transform
         assert found.yielded_volume == pytest.approx(volume, rel=1e-12, abs=0)
 
@@ -29,7 +29,7 @@ def test_figures_are_those_of_the_fields(components):
     rng = np.random.default_rng(3)
     pressure, depths, done = rng.random(GRID.shape) * 3e9, np.array([0.2e-6, 0.5e-6, 1e-6]), []
     out = np.empty((3, *GRID.shape))
-    found = stress_below(
+    found = summarise_stress(
         pressure, GRID, Body(STEEL), depths, friction=0.2, components=components, out=out, after=done.append
     )
     field = von_mises_field(pressure, GRID, Body(STEEL), depths, friction=0.2)
@@ -53,7 +53,7 @@ def test_figures_are_those_of_the_fields(components):
 def test_each_depth_yields_as_the_material_there():
     body = Body(STEEL, layers=[Layer(FILM, 1e-6)])
     assert yield_stresses(body, np.array([0.5e-6, 2e-6])).tolist() == [np.inf, 1e9]
-    assert stress_below(np.ones(GRID.shape), GRID, Body(FILM), [0.0, 1e-6]).yielded_volume is None
+    assert summarise_stress(np.ones(GRID.shape), GRID, Body(FILM), [0.0, 1e-6]).yielded_volume is None
 
 
 UNIT = Material("unit", youngs_modulus=1.0, poissons_ratio=0.3, yield_stress=0.55)
@@ -69,7 +69,7 @@ def below_a_ball(radius, seed, deepest=2.0):
         reference.undeformed_gap(x, y), displacement_operator(grid, Body(UNIT)), load=reference.load
     )
     depths = radius * rng.uniform(0.8, 1.2) * deepest * np.linspace(0, 1, 24) ** 2
-    return stress_below(solution.pressure / reference.maximum_pressure, grid, Body(UNIT), depths)
+    return summarise_stress(solution.pressure / reference.maximum_pressure, grid, Body(UNIT), depths)
 
 
 def test_the_highest_stress_and_what_yields_below_a_ball_are_of_second_order():
@@ -101,7 +101,7 @@ def below_a_line(radius):
     until = 0.5 * radius * (ends * np.sqrt(1 - ends**2) + np.arcsin(ends))
     pressure = np.repeat(np.diff(until, axis=1), 4, axis=1)
     soft = Material("unit", youngs_modulus=1.0, poissons_ratio=0.3, yield_stress=0.45)
-    return stress_below(pressure, grid, Body(soft), 2.2 * radius * np.linspace(0, 1, 24))
+    return summarise_stress(pressure, grid, Body(soft), 2.2 * radius * np.linspace(0, 1, 24))
 
 
 def test_the_highest_stress_and_what_yields_below_a_line_are_of_second_order():
@@ -120,14 +120,14 @@ def test_no_top_is_looked_for_across_an_interface_or_at_the_surface():
     radius, grid = 8.0, Grid((24, 24), (1.0, 1.0))
     pressure = np.sqrt(np.maximum(1 - (grid.x[:, None] ** 2 + grid.y**2) / radius**2, 0))
     depths = radius * np.linspace(0, 1.5, 16)
-    plain = stress_below(pressure, grid, Body(UNIT), depths)
+    plain = summarise_stress(pressure, grid, Body(UNIT), depths)
     assert plain.max_von_mises_depth not in depths
     k = int(np.argmax(plain.highest))
     # the same stresses, an interface of equal materials half-way to the next depth
     body = Body(UNIT, layers=[Layer(UNIT, float(depths[k : k + 2].mean()))])
-    found = stress_below(pressure, grid, body, depths)
+    found = summarise_stress(pressure, grid, body, depths)
     assert found.max_von_mises_depth == depths[k]
     assert found.max_von_mises == pytest.approx(plain.highest[k], rel=5e-3)  # in its plane
-    sliding = stress_below(pressure, grid, Body(UNIT), depths, friction=0.8)
+    sliding = summarise_stress(pressure, grid, Body(UNIT), depths, friction=0.8)
     assert sliding.max_von_mises_depth == 0.0
     assert sliding.max_von_mises == sliding.max_von_mises_of_points
