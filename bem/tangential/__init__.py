@@ -6,10 +6,12 @@ and slip against the traction where abs(q) = g. The in-plane displacement A q is
 Partial slip (`partial_slip`; Cattaneo 1938, Mindlin 1949) minimises the convex energy q (A q / 2 - b) on the friction
 discs abs(q) <= g, where b is the imposed displacement:
 
-1. `problem` checks the arguments. The previous step of a history enters b, with the shift, the rotation and the
-   in-plane displacement under the pressure. Cost: one convolution for bodies that differ in elasticity, else none.
-2. `initial_tractions` starts a first straight push from a normal contact for the unused bound (Jaeger 1998, Ciavarella
-   1998), and any other step from coarser grids. Cost: three to four convolutions, weighted by cells over all grids.
+1. `partial_slip` checks the arguments (with `problem`) and adds up b: the shift, the rotation, the previous step of a
+   history, and the in-plane displacement under the pressure. Cost: one convolution for bodies that differ in
+   elasticity, else none.
+2. `initial_tractions` starts a first straight push of like bodies from a normal contact for the unused bound (Jaeger
+   1998, Ciavarella 1998), and any other step from coarser grids. Cost: three to four convolutions, weighted by cells
+   over all grids.
 3. `slip_newton` takes Newton steps on the slip set until the law holds to the tolerance (primal-dual active sets:
    Stadler 2004; Hueeber, Stadler & Wohlmuth 2008). Slipping cells move along the tangents of their discs, under a force
    the directions carry no net force, and the energy guards each step. Cost: one convolution per iteration of conjugate
@@ -27,12 +29,16 @@ over one cell, where P is the same projection; the creepage is the multiplier of
 convolutions per cell along the contact.
 
 Contact and partial slip together (`coupled_slip`; Spence 1968): a fixed-point iteration between `bem.contact` and steps
-1 to 6, because the tractions of bodies that differ change the gap. Cost: two to ten rounds.
+1 to 6, because the tractions of bodies that differ change the gap, and so the pressure. Steps 1 to 6 alone couple one
+way: the pressure moves the surfaces in the plane. Cost: two to ten rounds.
 
 `operator` is A with its adjoints under pressure; `solution` is the result of partial slip and rolling.
 
 Terms: a cell *sticks* or *slips*; the *slip set* is the set of slipping cells. The *displacement residual*
-r = b - A q is minus the slip. The *shift* is the rigid displacement of one body against the other.
+r = b - A q is minus the slip. The *shift* is the rigid displacement of one body against the other. A *trial* traction
+is one before its projection onto the discs. The *reduced* problem has the n cells in contact only. A *load step*
+(`partial_slip.LoadStep`, forces in N) gives one `problem.SlipProblem` on each grid (sums of tractions in Pa), whose
+result is `slip_newton.SlipResult`.
 
 The package knows the normal contact (its pressure and its preconditioner), but no lubrication, wear or scenes. Verified
 in tests/tangential against Cattaneo and Mindlin, Mindlin and Deresiewicz, Carter, Spence and Kalker's linear theory.

@@ -2,7 +2,7 @@
 
 The residual is the largest violation of Coulomb's law. The projection of q + t r onto the friction discs equals q if
 and only if the law holds for the tractions q and the displacement residual r (minus the slip), for every stiffness
-t > 0. With the stiffness of a single cell, the difference over t is a length.
+t > 0. With the stiffness of a single cell, the difference over t is a length. Cost: no convolution.
 
 The stick area is of second order in the cell. Next to the edge of stick the traction falls short of friction x pressure
 by k sqrt(d) at a distance d inside, and the surfaces slip by 4 k d^(3/2) / (3 E) outside: the missing traction behaves
@@ -66,9 +66,9 @@ def certify(
     displacement_residual: FloatArray,
     *,
     scale: float,
-    force: FloatArray | None,
+    traction_sum: FloatArray | None,
 ) -> Certificate:
-    """Evaluate Coulomb's law.
+    """Evaluate Coulomb's law: its residual, the slip and the sticking cells.
 
     Parameters
     ----------
@@ -77,18 +77,18 @@ def certify(
     traction : (2, nx, ny) [Pa].
     displacement_residual : (2, nx, ny), minus the slip [m].
     scale : length [m] to which violations are relative.
-    force : (2,), prescribed sum of the tractions over the cells [Pa], or None.
+    traction_sum : (2,), prescribed sum of the tractions over the cells [Pa], or None.
     """
     cells, stiffness = bound > 0, operator.stiffness
-    wanted = traction[:, cells] + stiffness * displacement_residual[:, cells]
-    allowed = np.empty_like(wanted)
-    project_to_friction_discs(wanted, bound[cells], allowed)
+    trial = traction[:, cells] + stiffness * displacement_residual[:, cells]
+    allowed = np.empty_like(trial)
+    project_to_friction_discs(trial, bound[cells], allowed)
     violation = float(np.abs(allowed - traction[:, cells]).max(initial=0.0)) / stiffness
     residual = violation / scale if scale > 0 else 0.0
-    if force is not None and cells.any():
-        residual = max(residual, float(np.abs(traction.sum((1, 2)) - force).max() / bound.sum()))
+    if traction_sum is not None and cells.any():
+        residual = max(residual, float(np.abs(traction.sum((1, 2)) - traction_sum).max() / bound.sum()))
     slips = np.zeros_like(cells)
-    slips[cells] = np.hypot(*wanted) > bound[cells]
+    slips[cells] = np.hypot(*trial) > bound[cells]
     return Certificate(residual, np.where(slips, -displacement_residual, 0.0), cells & ~slips)
 
 
@@ -99,7 +99,15 @@ def stick_area(
     certificate: Certificate,
     contact: ContactSolution | None,
 ) -> float:
-    """Return the area that sticks [m^2].
+    """Return the area that sticks [m^2], of second order.
+
+    The edge of stick is found as the edge of a contact with the modulus E across the edge, whose pressure is the
+    missing traction m = friction x pressure - abs(traction). Its gap is
+
+    - on slipping cells, the slip as if it were directed across the edge;
+    - outside contact, gap x (m/pressure) x (E*/E): next to the edge of contact m/pressure is constant and the gap is
+      proportional to k / E*, so this is the gap of a contact with the pressure m;
+    - on cells without friction, or if `contact` is None, the gap of an edge half-way between the centres.
 
     Parameters
     ----------
@@ -107,8 +115,7 @@ def stick_area(
     bound : (nx, ny), friction x pressure [Pa].
     traction : (2, nx, ny) [Pa].
     certificate : slip and sticking cells.
-    contact : its gap locates the edge of stick where that is the edge of contact; if None, it lies half-way between
-        cells.
+    contact : the normal contact, which has gap and pressure; None if only its pressure is known.
     """
     sticks, grid = certificate.sticks, operator.grid
     if not sticks.any():
@@ -116,18 +123,18 @@ def stick_area(
     missing = np.where(sticks, np.maximum(bound - np.hypot(*traction), _LEAST_MISSING * bound), 0.0)
     across, along = _moduli(operator)
     slips = (bound > 0) & ~sticks
-    opening = np.where(slips, _slip_across_edge(certificate, across / along, grid.periodic), 0.0)
+    gap = np.where(slips, _slip_across_edge(certificate, across / along, grid.periodic), 0.0)
     link = math.sqrt(grid.cell_area)
     half_way = np.where(slips, 0.0, _mean_of_neighbours(missing) * (_HALF_WAY * link / (0.75 * across)))
     if contact is None:
-        return contact_region(missing, opening + half_way, np.zeros(grid.shape), grid, across).area
+        return contact_region(missing, gap + half_way, np.zeros(grid.shape), grid, across).area
     ratio = np.divide(missing, contact.pressure, out=np.zeros_like(missing), where=sticks)
     wavenumber = _CELL_WAVENUMBER / link
     normal = sum(float(layered.surface_response(wavenumber, 0.0, b, tangential=False)) for b in operator.bodies)
-    gap = np.maximum(contact.gap, 0.0) * _mean_of_neighbours(ratio) * (2 / (wavenumber * normal) / across)
-    opening += np.where(contact.pressure > 0, half_way, gap)
-    shape = contact.gap - contact.displacement
-    return min(contact_region(missing, opening, shape, grid, across).area, contact.contact_area)
+    outside = np.maximum(contact.gap, 0.0) * _mean_of_neighbours(ratio) * (2 / (wavenumber * normal) / across)
+    gap += np.where(contact.pressure > 0, half_way, outside)
+    undeformed = contact.gap - contact.displacement
+    return min(contact_region(missing, gap, undeformed, grid, across).area, contact.contact_area)
 
 
 def _moduli(operator: TangentialOperator) -> tuple[float, float]:
@@ -138,7 +145,9 @@ def _moduli(operator: TangentialOperator) -> tuple[float, float]:
 
 
 def _slip_across_edge(certificate: Certificate, ratio: float, periodic: tuple[bool, bool]) -> FloatArray:
-    """Return the slip [m] across the edge of stick with the same missing traction.
+    """Return the slip [m] that a slip across the edge of stick would have, under the same missing traction.
+
+    The direction of the edge is the gradient of the smoothed map of sticking cells.
 
     ratio : modulus across the edge over the modulus along it.
     """

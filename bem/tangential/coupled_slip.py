@@ -1,9 +1,16 @@
 """Contact and partial slip together: tractions of bodies that differ change the gap, and the pressure responds.
 
-Fixed-point iteration: solve the contact with the gap under the last tractions, then partial slip under its pressure.
-Each responds to the other through the bodies' mismatch (Dundurs' beta, at most 1/2), so that the iteration converges by
-a factor of two to ten a round. The certificate is that of the last pair: the contact with the gap under its own
-tractions.
+`solve_partial_slip` couples one way: the given pressure moves the surfaces in the plane. Here the coupling is two-way,
+by fixed-point iteration over rounds:
+
+1. Solve the normal contact with the gap plus the normal displacement under the tractions of the last round.
+2. Solve partial slip under its pressure, warm-started from the tractions of the last round.
+3. Compute the normal displacement under the new tractions. Its change is an error of the gap of step 1.
+4. Repeat until the residual of the contact plus this error, and the residual of slip, meet the tolerance.
+
+Pressure and tractions respond to each other through the bodies' mismatch only (Dundurs' beta, at most 1/2), so the
+error falls by a factor of two to ten a round. The certificate belongs to the returned pair of pressure and tractions.
+Cost of a round: one contact, one partial slip, and one convolution.
 """
 
 from __future__ import annotations
@@ -21,13 +28,13 @@ from bem.materials import Body
 from bem.notes import Note
 from bem.representation import readable
 from bem.tangential.operator import tangential_operator
-from bem.tangential.partial_slip import checked_step, solve_step
+from bem.tangential.partial_slip import check_step, solve_step
 from bem.tangential.problem import check_settings
 from bem.tangential.solution import TangentialSolution
 from bem.threads import one_blas_thread
 
-_INNER = 0.1
-"""Fraction of the tolerance to which the contact and the slip of a round are solved."""
+_SUBPROBLEM_FRACTION = 0.1
+"""Fraction of the tolerance to which the contact and the partial slip of a round are solved."""
 
 
 @readable
@@ -103,7 +110,7 @@ def solve_coupled_slip(
         raise InputError(f"max_rounds: {max_rounds!r} must be a whole number >= 1")
     if not (previous is None or isinstance(previous, CoupledSolution)):
         raise InputError(f"previous: {type(previous).__name__} must be a CoupledSolution, or None")
-    operator, tangential = displacement_operator(grid, bodies), tangential_operator(grid, bodies)
+    normal_operator, tangential_map = displacement_operator(grid, bodies), tangential_operator(grid, bodies)
     gap = grid.check_field(gap, "gap")
     displacement = np.zeros(grid.shape) if previous is None else previous.normal_displacement
     pressure = None if previous is None else previous.contact.pressure
@@ -113,17 +120,17 @@ def solve_coupled_slip(
         rounds += 1
         contact = solve_contact(
             gap + displacement,
-            operator,
+            normal_operator,
             load=load,
             approach=approach,
             mean_gap=mean_gap,
             hardness=hardness,
-            tolerance=_INNER * tolerance,
+            tolerance=_SUBPROBLEM_FRACTION * tolerance,
             initial_pressure=pressure,
             max_iterations=max_iterations,
         )
         pressure = contact.pressure
-        step = checked_step(
+        step = check_step(
             contact,
             grid,
             bodies,
@@ -133,10 +140,10 @@ def solve_coupled_slip(
             rotation=rotation,
             previous=None if previous is None else previous.tangential,
         )
-        slip = solve_step(step, _INNER * tolerance, max_iterations, slip)
+        slip = solve_step(step, _SUBPROBLEM_FRACTION * tolerance, max_iterations, slip)
         convolutions, iterations = convolutions + slip.convolutions, iterations + slip.iterations
-        response = tangential.normal_displacement(slip.traction)
-        error = _error_of_gap(contact, response - displacement, free=approach is None)
+        response = tangential_map.normal_displacement(slip.traction)
+        error = _gap_violation(contact, response - displacement, approach_free=approach is None)
         residual = max(contact.residual + error, slip.residual)
         if residual <= tolerance or rounds >= max_rounds:
             break
@@ -148,16 +155,19 @@ def solve_coupled_slip(
     return CoupledSolution(contact, slip, response, rounds, residual, status, (*contact.notes, *slip.notes))
 
 
-def _error_of_gap(contact: ContactSolution, change: FloatArray, *, free: bool) -> float:
-    """Return by how much a contact violates its conditions if its gap changes, over its largest displacement.
+def _gap_violation(contact: ContactSolution, change: FloatArray, *, approach_free: bool) -> float:
+    """Return the violation of the contact conditions after a change of the gap, over the largest displacement.
 
-    change : (nx, ny) [m]. free : True if the bodies may move together.
+    In contact the gap must not change, except by an approach that is free; elsewhere the surfaces must not overlap.
+
+    change : (nx, ny), change of the gap [m].
+    approach_free : True if the approach is unknown (load or mean gap prescribed).
     """
     touches = contact.pressure > 0
     scale = float(np.abs(contact.displacement).max())
     if not touches.any() or not scale > 0:
         return 0.0
     inside = change[touches]
-    middle = 0.5 * float(inside.max() + inside.min()) if free else 0.0
+    middle = 0.5 * float(inside.max() + inside.min()) if approach_free else 0.0
     overlap = float((-(contact.gap + change - middle))[~touches].max(initial=0.0))
     return max(float(np.abs(inside - middle).max()), overlap) / scale

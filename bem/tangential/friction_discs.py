@@ -1,4 +1,7 @@
-"""Euclidean projection onto the friction discs abs(q) <= friction x pressure, with a total force where one is given."""
+"""Euclidean projection onto the friction discs abs(q) <= friction x pressure, on request with a given total force.
+
+Cost: one pass over the cells in contact, or one pass per Newton step of the two multipliers of the force.
+"""
 
 from __future__ import annotations
 
@@ -24,30 +27,30 @@ _GROWTH = 8.0
 
 
 @compiled
-def project_to_friction_discs(wanted: FloatArray, bound: FloatArray, out: FloatArray) -> None:
-    """Write the tractions (2, n) within `bound` (n,) that are nearest to the tractions `wanted`."""
-    _project(wanted, bound, np.zeros(2), out)
+def project_to_friction_discs(trial: FloatArray, bound: FloatArray, out: FloatArray) -> None:
+    """Write the tractions (2, n) within `bound` (n,) that are nearest to the tractions `trial`."""
+    _project(trial, bound, np.zeros(2), out)
 
 
 @compiled
-def project_with_force(wanted: FloatArray, bound: FloatArray, force: FloatArray, out: FloatArray) -> FloatArray:
-    """Write the tractions (2, n) within `bound` (n,) whose sum is `force` (2,) and that are nearest to `wanted`.
+def project_with_force(trial: FloatArray, bound: FloatArray, traction_sum: FloatArray, out: FloatArray) -> FloatArray:
+    """Write the tractions (2, n) within `bound` (n,) whose sum is `traction_sum` (2,) and that are nearest to `trial`.
 
-    They are the projection of wanted + offset; returns the offset (2,), which is the Lagrange multiplier of the force.
-    The offset minimises a convex potential whose gradient is the sum of the tractions less the force. The length of a
-    Newton step is limited, and the limit grows where it is reached. A step is shortened if the slope of the potential
-    at its end is more than half of the initial slope, with the opposite sign.
+    They are the projection of trial + offset; returns the offset (2,), the Lagrange multiplier of the sum. The offset
+    minimises a convex potential whose gradient is the sum of the tractions less `traction_sum`. Newton's method with a
+    trust region: the longest step grows where a step of that length is accepted. A step is shortened if the slope of
+    the potential at its end is more than half of the initial slope, with the opposite sign.
     """
     total = bound.sum()
     offset = np.zeros(2)
-    sums = _project(wanted, bound, offset, out)
+    sums = _project(trial, bound, offset, out)
     error = np.empty(2)
-    trial = np.empty(2)
+    trial_offset = np.empty(2)
     limit = 4.0 * bound.max()
     exact = _EXACT + 2e-16 * np.sqrt(bound.size)
     last = np.inf
     for _ in range(_ITERATIONS):
-        error[0], error[1] = force[0] - sums[0], force[1] - sums[1]
+        error[0], error[1] = traction_sum[0] - sums[0], traction_sum[1] - sums[1]
         largest = max(abs(error[0]), abs(error[1]))
         if largest <= exact * sums[5] or last <= largest <= _ROUNDING * total:
             break
@@ -57,9 +60,9 @@ def project_with_force(wanted: FloatArray, bound: FloatArray, force: FloatArray,
         size = max(abs(step[0]), abs(step[1]))
         length = 1.0
         for _ in range(_BACKTRACKS):
-            trial[0], trial[1] = offset[0] + length * step[0], offset[1] + length * step[1]
-            sums = _project(wanted, bound, trial, out)
-            end_slope = (force[0] - sums[0]) * step[0] + (force[1] - sums[1]) * step[1]
+            trial_offset[0], trial_offset[1] = offset[0] + length * step[0], offset[1] + length * step[1]
+            sums = _project(trial, bound, trial_offset, out)
+            end_slope = (traction_sum[0] - sums[0]) * step[0] + (traction_sum[1] - sums[1]) * step[1]
             if end_slope >= -0.5 * slope:
                 break
             length *= max(0.1, min(0.5, slope / (slope - end_slope)))
@@ -67,22 +70,23 @@ def project_with_force(wanted: FloatArray, bound: FloatArray, force: FloatArray,
             limit *= _GROWTH
         elif length < 1:
             limit = max(2 * length * size, 1e-3 * bound.max())
-        change = max(abs(trial[0] - offset[0]), abs(trial[1] - offset[1]))
-        offset[:] = trial
+        change = max(abs(trial_offset[0] - offset[0]), abs(trial_offset[1] - offset[1]))
+        offset[:] = trial_offset
         if change <= 1e-16 * max(abs(offset[0]), abs(offset[1])):
             break
     return offset
 
 
 @compiled
-def _project(wanted: FloatArray, bound: FloatArray, offset: FloatArray, out: FloatArray) -> FloatArray:
-    """Write the projection of wanted + offset.
+def _project(trial: FloatArray, bound: FloatArray, offset: FloatArray, out: FloatArray) -> FloatArray:
+    """Write the projection of trial + offset onto the discs.
 
-    Returns sums (6,) over the cells: both tractions, their derivatives xx, yy and xy by the offset, absolute values.
+    Returns sums (6,) over the cells: both tractions, their derivatives xx, yy and xy with respect to the offset, and
+    absolute values.
     """
     sums = np.zeros(6)
     for k in range(bound.size):
-        x, y, limit = wanted[0, k] + offset[0], wanted[1, k] + offset[1], bound[k]
+        x, y, limit = trial[0, k] + offset[0], trial[1, k] + offset[1], bound[k]
         length = np.sqrt(x * x + y * y)
         if length > limit:
             ratio = limit / length

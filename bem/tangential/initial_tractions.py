@@ -3,18 +3,20 @@
 Initial tractions of slipping cells lie outside their discs, by stiffness x slip: `slip_newton` projects them and reads
 the slip from the distance.
 
-**Jaeger start.** Where no cell slips sideways, the tractions q along the push and their displacement A q along it solve
-a normal contact problem. The unused bound p = g - q >= 0 is its pressure, and the surfaces stick where p > 0:
+**Jaeger start**, for a first push by a force without imposed displacement (like bodies, no rotation). Where no cell
+slips sideways, the tractions q along the push and their displacement A q along it solve a normal contact problem. The
+unused bound p = g - q >= 0 is its pressure, and the surfaces stick where p > 0:
 
     -A g + A p = -shift where p > 0,    -A g + A p >= -shift elsewhere.
 
-That is a contact with the gap -A g, under the load sum g - force. It is the exact solution for like bodies with a
+This is a contact with the gap -A g, under the load sum g - force. It is the exact solution for like bodies with a
 Poisson's ratio of zero, and leaves only the sideways slip of other bodies. Ciavarella, J. Mech. Phys. Solids 46 (1998);
 Jaeger, Arch. Appl. Mech. 68 (1998).
 
-**Nested iteration.** Otherwise the solution on a grid of half as many cells is interpolated, and is started in the same
-way. Interpolated are the tractions over their bounds (of a step in a history: their change) and the slip, bilinearly
-among the coarse cells in contact.
+**Nested iteration**, for all other steps: bodies of different elasticity, a shift, a rotation, or a history. The
+solution on a grid of half as many cells along each axis is interpolated; it is started in the same way. Interpolated
+are the tractions over their bounds (of a step in a history: their change) and the slip, bilinearly among the coarse
+cells in contact.
 """
 
 from __future__ import annotations
@@ -33,10 +35,10 @@ from bem.tangential.problem import SlipProblem
 from bem.tangential.slip_newton import solve_slip
 
 _JAEGER_TOLERANCE = 1e-2
-"""Tolerance of the normal contact of the Jaeger start; 0.1 and 0.001 both take 5 % more convolutions in all."""
+"""Tolerance of the normal contact of the Jaeger start; affects cost only."""
 
 _COARSE_TOLERANCE = 1e-3
-"""Tolerance on coarse grids; the interpolation loses more than a smaller one gains."""
+"""Tolerance on coarse grids, near the error of the interpolation to the finer grid; affects cost only."""
 
 _FEWEST_CELLS = 4
 """Cells in contact below which a coarse grid is not used."""
@@ -47,7 +49,7 @@ def jaeger_start(problem: SlipProblem) -> FloatArray | None:
 
     Returns None unless the problem has a force other than zero and no imposed displacement.
     """
-    force, bound = problem.force, problem.bound
+    force, bound = problem.traction_sum, problem.bound
     if force is None or problem.imposed.any() or not force.any():
         return None
     size = math.hypot(*force)
@@ -70,7 +72,7 @@ def start_from_coarser(problem: SlipProblem, previous: FloatArray | None, budget
     coarse = _coarse_problem(problem)
     if coarse is None:
         return before
-    coarse_before = _sample_both(before, coarse.operator.grid.shape, grid)
+    coarse_before = _restrict(before, coarse.operator.grid.shape, grid)
     start = start_from_coarser(coarse, None if previous is None else coarse_before, budget)
     result = solve_slip(coarse, start, _COARSE_TOLERANCE, budget)
     cells = result.cells
@@ -90,13 +92,13 @@ def _coarse_problem(problem: SlipProblem) -> SlipProblem | None:
     bound = np.maximum(sample(problem.bound, operator.grid.shape, grid.periodic), 0.0)
     if np.count_nonzero(bound) < _FEWEST_CELLS:
         return None
-    imposed = _sample_both(problem.imposed, operator.grid.shape, grid)
+    imposed = _restrict(problem.imposed, operator.grid.shape, grid)
     # the force remains the same fraction of what friction can carry
-    force = None if problem.force is None else problem.force * (bound.sum() / problem.bound.sum())
-    return replace(problem, operator=operator, bound=bound, imposed=imposed, force=force)
+    traction_sum = None if problem.traction_sum is None else problem.traction_sum * (bound.sum() / problem.bound.sum())
+    return replace(problem, operator=operator, bound=bound, imposed=imposed, traction_sum=traction_sum)
 
 
-def _sample_both(field: FloatArray, shape: tuple[int, int], grid: Grid) -> FloatArray:
+def _restrict(field: FloatArray, shape: tuple[int, int], grid: Grid) -> FloatArray:
     """Restrict a field (2, nx, ny) to a coarser grid."""
     return np.stack([sample(component, shape, grid.periodic) for component in field])
 

@@ -130,31 +130,34 @@ class TangentialOperator:
     def spectra(self) -> InPlaneSpectra:
         """Return the spectra of both bodies together [m/Pa]; operators share them."""
 
-        def make() -> InPlaneSpectra:
+        def compute() -> InPlaneSpectra:
             COUNT.in_plane += len(self.bodies)
-            parts = [_in_plane(self.grid, body, self.padded) for body in self.bodies]
+            parts = [_spectra_under_traction(self.grid, body, self.padded) for body in self.bodies]
             return InPlaneSpectra(*(np.ascontiguousarray(part) for part in np.sum(parts, axis=0)))
 
-        return shared(("in plane", *self._key), make)
+        return shared(("in plane", *self._key), compute)
 
     @cached_property
     def _pressure_spectra(self) -> PressureSpectra | None:
         """Return the spectra under pressure [m/Pa], first body less second; None if both cancel."""
-        if not self.coupled:
+        if not self.displaced_by_pressure:
             return None
 
-        def make() -> PressureSpectra:
+        def compute() -> PressureSpectra:
             COUNT.tangential += 2 * len(self.bodies)
             signs = (1.0, -1.0)
-            responses = [_pressure(self.grid, body, self.padded) for body in self.bodies]
+            responses = [_spectra_under_pressure(self.grid, body, self.padded) for body in self.bodies]
             parts = (sum(sign * part[axis] for sign, part in zip(signs, responses, strict=False)) for axis in range(2))
             return PressureSpectra(*(np.ascontiguousarray(part) for part in parts))
 
-        return shared(("pushed", *self._key), make)
+        return shared(("under pressure", *self._key), compute)
 
     @property
-    def coupled(self) -> bool:
-        """Return True if pressure displaces the surfaces in the plane: Dundurs' beta is not zero, or layers differ."""
+    def displaced_by_pressure(self) -> bool:
+        """Return True if pressure displaces the surfaces against each other in the plane.
+
+        It does if Dundurs' beta is not zero or layers differ. Tractions then change the gap too.
+        """
         return couples(self.bodies)
 
     @property
@@ -208,8 +211,11 @@ class TangentialOperator:
         _multiply_traction(self.spectra, along_x, along_y)
         return self._inverse(along_x, along_y)
 
-    def under_pressure(self, pressure: FloatArray) -> FloatArray:
-        """Return the in-plane displacement (2, nx, ny) [m], first less second, under `pressure` (nx, ny) [Pa]."""
+    def displacement_under_pressure(self, pressure: FloatArray) -> FloatArray:
+        """Return the in-plane displacement (2, nx, ny) [m], first less second, under `pressure` (nx, ny) [Pa].
+
+        Zero without a convolution if the bodies respond alike.
+        """
         pressure = self.grid.check_field(pressure, "pressure")
         if self._pressure_spectra is None:
             return np.zeros((2, *self.grid.shape))
@@ -222,7 +228,8 @@ class TangentialOperator:
     def normal_displacement(self, traction: FloatArray) -> FloatArray:
         """Return the normal displacement (nx, ny) [m], sum of both surfaces, under `traction` (2, nx, ny) [Pa].
 
-        Positive into the bodies. By reciprocity it is the adjoint of `under_pressure`, and zero if that is zero.
+        Positive into the bodies. By reciprocity this map is the adjoint of `displacement_under_pressure`; both vanish
+        together.
         """
         if self._pressure_spectra is None:
             return np.zeros(self.grid.shape)
@@ -234,7 +241,7 @@ class TangentialOperator:
         return out
 
     def _inverse(self, along_x: ComplexArray, along_y: ComplexArray) -> FloatArray:
-        """Return the displacements (2, nx, ny) of two spectra, and count one application."""
+        """Return the displacement (2, nx, ny) [m] of the spectra of its components, and count one application."""
         self.count.applications += 1
         self.count.weighted += self.weight
         transform = transform_of(self.grid.shape, self.padded)
@@ -280,8 +287,8 @@ def tangential_operator(grid: Grid, bodies: Body | tuple[Body, Body]) -> Tangent
     return TangentialOperator(grid, tuple(pair))
 
 
-def _in_plane(grid: Grid, body: Body, padded: tuple[int, int]) -> FloatArray:
-    """Return the spectra xx, yy and xy of one body, (3, py // 2 + 1, px // 2 + 1)."""
+def _spectra_under_traction(grid: Grid, body: Body, padded: tuple[int, int]) -> FloatArray:
+    """Return the spectra xx, yy and xy of one body under tractions [m/Pa], (3, py // 2 + 1, px // 2 + 1)."""
     if all(grid.periodic):
         response = spectral.in_plane_response(grid, body)
         return np.ascontiguousarray(response[:, : padded[0] // 2 + 1].swapaxes(1, 2))
@@ -292,8 +299,11 @@ def _in_plane(grid: Grid, body: Body, padded: tuple[int, int]) -> FloatArray:
     return np.stack([sign * kernel_spectrum(part, padded, parity) for sign, part, parity in parts])
 
 
-def _pressure(grid: Grid, body: Body, padded: tuple[int, int]) -> tuple[FloatArray, FloatArray]:
-    """Return the imaginary spectra of (ux, uy) under pressure; by reciprocity minus those of uz under traction."""
+def _spectra_under_pressure(grid: Grid, body: Body, padded: tuple[int, int]) -> tuple[FloatArray, FloatArray]:
+    """Return the imaginary parts of the spectra of (ux, uy) of one body under pressure [m/Pa].
+
+    By reciprocity they are minus those of uz under traction.
+    """
     turned = Grid(grid.shape[::-1], grid.spacing[::-1], periodic=grid.periodic[::-1])
     if all(grid.periodic):
         along_x = spectral.surface_response(grid, body, Load.TANGENTIAL)[: padded[0] // 2 + 1].T.copy()

@@ -1,4 +1,8 @@
-"""Partial slip under a given pressure: check the arguments, start, solve, certify; and the stiffness before slip."""
+"""Partial slip under a given pressure, and the tangential stiffness before slip.
+
+`solve_partial_slip` checks the arguments (`check_step`) and solves one load step (`solve_step`): imposed displacement,
+initial tractions, Newton's method (`slip_newton`), certificate. `coupled_slip` calls both for each of its rounds.
+"""
 
 from __future__ import annotations
 
@@ -31,8 +35,8 @@ from bem.tangential.slip_newton import SlipResult, solve_slip
 from bem.tangential.solution import TangentialSolution
 from bem.threads import one_blas_thread
 
-_NO_SLIP = 1e6
-"""Friction bound without slip, over the traction that moves a single cell by the shift."""
+_UNREACHED_BOUND = 1e6
+"""Friction bound that no traction reaches, over the traction that moves a single cell by the unit shift."""
 
 _STIFFNESS_STEPS = 200
 """Limit of the Newton steps for the stiffness."""
@@ -87,18 +91,20 @@ def solve_partial_slip(
     Cells without friction slide freely and count neither as sticking nor as slipping.
     """
     check_settings(rotation, tolerance, max_iterations)
-    step = checked_step(
+    step = check_step(
         contact, grid, bodies, friction=friction, force=force, shift=shift, rotation=rotation, previous=previous
     )
     return solve_step(step, tolerance, max_iterations)
 
 
 @dataclass(frozen=True)
-class SlipStep:
-    """Checked arguments of one step.
+class LoadStep:
+    """Checked arguments of one load step of a history.
 
-    pressure, bound : (nx, ny) [Pa]. force : (2,) [N], or None. shift : (2,) [m], or None. rotation : [rad].
-    contact : None if its pressure alone is given.
+    pressure, bound : (nx, ny), pressure and friction x pressure [Pa].
+    force : (2,) [N], or None. shift : (2,) [m], or None. rotation : [rad].
+    previous : solution of the previous load step, or None.
+    contact : the normal contact; None if only its pressure is given.
     """
 
     operator: TangentialOperator
@@ -111,7 +117,7 @@ class SlipStep:
     contact: ContactSolution | None
 
 
-def checked_step(
+def check_step(
     contact: ContactSolution | FloatArray,
     grid: Grid,
     bodies: Body | tuple[Body, Body],
@@ -121,8 +127,8 @@ def checked_step(
     shift: Sequence[float] | None,
     rotation: float,
     previous: TangentialSolution | None,
-) -> SlipStep:
-    """Check the arguments of `solve_partial_slip`.
+) -> LoadStep:
+    """Check the arguments of `solve_partial_slip` and return the load step.
 
     Raises
     ------
@@ -142,15 +148,21 @@ def checked_step(
     if total is not None:
         check_force(total, bound, grid)
     solved = contact if isinstance(contact, ContactSolution) else None
-    return SlipStep(operator, pressure, bound, total, moved, rotation, previous, solved)
+    return LoadStep(operator, pressure, bound, total, moved, rotation, previous, solved)
 
 
 def solve_step(
-    step: SlipStep, tolerance: float, max_iterations: int, near: TangentialSolution | None = None
+    step: LoadStep, tolerance: float, max_iterations: int, warm_start: TangentialSolution | None = None
 ) -> TangentialSolution:
-    """Solve one step; `near`, its solution under nearly the same pressure, is a warm start."""
+    """Solve one load step.
+
+    The imposed displacement is rigid movement less in-plane displacement under the pressure. With a previous step only
+    their changes count: sticking cells keep their relative displacement.
+
+    warm_start : solution of the same load step under nearly the same pressure; affects cost and rounding only.
+    """
     operator, bound, grid, previous = step.operator, step.bound, step.operator.grid, step.previous
-    under_pressure = operator.under_pressure(step.pressure) if operator.coupled else np.zeros((2, *grid.shape))
+    under_pressure = operator.displacement_under_pressure(step.pressure)
     imposed = _rigid_movement(grid, step.rotation, step.shift) - under_pressure
     if previous is not None:
         imposed = imposed + previous.displacement - _rigid_movement(grid, previous.rotation, previous.shift)
@@ -159,8 +171,8 @@ def solve_step(
     problem = SlipProblem(operator, bound, imposed, total)
     result: SlipResult | None = None
     if (bound > 0).any():
-        if near is not None:
-            start = near.traction - operator.stiffness * near.slip
+        if warm_start is not None:
+            start = warm_start.traction - operator.stiffness * warm_start.slip
         else:
             jaeger = jaeger_start(problem) if previous is None else None
             traction = None if previous is None else previous.traction
@@ -178,7 +190,7 @@ def _rigid_movement(grid: Grid, rotation: float, shift: FloatArray | None) -> Fl
 
 
 def _solution(
-    step: SlipStep,
+    step: LoadStep,
     problem: SlipProblem,
     result: SlipResult | None,
     under_pressure: FloatArray,
@@ -186,7 +198,10 @@ def _solution(
     budget: IterationBudget,
     notes: tuple[Note, ...],
 ) -> TangentialSolution:
-    """Certify the tractions and return the solution; `result` is None without contact."""
+    """Certify the tractions and return the solution.
+
+    result : of Newton's method; None without contact. under_pressure : in-plane displacement (2, nx, ny) [m].
+    """
     operator, bound, imposed = problem.operator, problem.bound, problem.imposed
     cells, area = bound > 0, operator.grid.cell_area
     traction, elastic = np.zeros_like(imposed), np.zeros_like(imposed)
@@ -197,7 +212,7 @@ def _solution(
     if step.shift is not None:
         shift = step.shift
     scale = displacement_scale(elastic[:, cells], imposed[:, cells], least=rounding_scale(imposed))
-    certificate = certify(operator, bound, traction, residual, scale=scale, force=problem.force)
+    certificate = certify(operator, bound, traction, residual, scale=scale, traction_sum=problem.traction_sum)
     counted = float(np.count_nonzero(certificate.sticks)) * area
     in_contact = float(np.count_nonzero(cells)) * area
     if step.contact is not None and step.contact.counted_area > 0:  # the area of second order, less frictionless cells
@@ -257,7 +272,7 @@ def tangential_stiffness(
     touches = pressure > 0
     if not touches.any():
         return np.zeros((2, 2))
-    bound = np.where(touches, _NO_SLIP * operator.stiffness, 0.0)
+    bound = np.where(touches, _UNREACHED_BOUND * operator.stiffness, 0.0)
     columns = []
     for shift in np.eye(2):
         imposed = np.broadcast_to(shift[:, None, None], (2, *grid.shape))

@@ -1,4 +1,7 @@
-"""Partial slip on one grid, its checked arguments, and the lengths to which displacements are relative."""
+"""Problem of partial slip on one grid, checks of arguments, and the scales of displacements.
+
+`rolling` has the same arguments and scales.
+"""
 
 from __future__ import annotations
 
@@ -26,14 +29,15 @@ class SlipProblem:
     """Partial slip on one grid.
 
     bound : (nx, ny), friction x pressure [Pa].
-    imposed : (2, nx, ny), imposed displacement without the shift [m].
-    force : (2,), sum of the tractions over the cells [Pa]; None if the shift is part of `imposed`.
+    imposed : (2, nx, ny), imposed displacement b without an unknown shift [m].
+    traction_sum : (2,), sum of the tractions over the cells, the force over the area of a cell [Pa]; None if the shift
+        is prescribed and part of `imposed`.
     """
 
     operator: TangentialOperator
     bound: FloatArray
     imposed: FloatArray
-    force: FloatArray | None
+    traction_sum: FloatArray | None
 
 
 def displacement_scale(*fields: FloatArray, least: float) -> float:

@@ -51,10 +51,12 @@ from bem.tangential.solution import TangentialSolution
 from bem.threads import one_blas_thread
 
 _REDUCTION = 0.03
-"""Relative residual of a linear system; from 0.1 to 0.01 the sum of all convolutions hardly depends on it."""
+"""Relative residual of GMRES; affects cost only, and little."""
 
 _HALVINGS = 8
+"""Limit of the trials of a line search."""
 _KRYLOV, _RESTARTS = 60, 4
+"""GMRES steps before a restart, and limit of the restarts."""
 
 _FLAT = 1e-12
 """Relative eigenvalue below which the force does not respond to a uniform offset of the tractions."""
@@ -102,12 +104,12 @@ def solve_rolling(
         grid = Grid((grid.shape[0] + 2, grid.shape[1]), grid.spacing, periodic=grid.periodic)
         operator = tangential_operator(grid, bodies)
         pressure, bound = (np.pad(field, ((1, 1), (0, 0))) for field in (pressure, bound))
-    under_pressure = operator.under_pressure(pressure) if operator.coupled else np.zeros((2, *grid.shape))
+    under_pressure = operator.displacement_under_pressure(pressure)
     x, y = grid.x - grid.x.mean(), grid.y - grid.y.mean()
-    rigid = np.empty((2, *grid.shape))
-    rigid[0] = (creep[0] - spin * y[None, :]) * grid.spacing[0]
-    rigid[1] = (creep[1] + spin * x[:, None]) * grid.spacing[0]
-    problem = RollingProblem(operator, bound, rigid + slip_over_cell(grid, under_pressure), total)
+    rigid_slip = np.empty((2, *grid.shape))
+    rigid_slip[0] = (creep[0] - spin * y[None, :]) * grid.spacing[0]
+    rigid_slip[1] = (creep[1] + spin * x[:, None]) * grid.spacing[0]
+    problem = RollingProblem(operator, bound, rigid_slip + slip_over_cell(grid, under_pressure), total)
     result = _solve(problem, SAFETY * tolerance, max_iterations)
     failed = Status.MAX_ITERATIONS if result.iterations >= max_iterations else Status.STALLED
     solution = _solution(problem, result, under_pressure, creep * grid.spacing[0], tolerance, failed)
@@ -147,14 +149,15 @@ class RollingProblem:
     """Steady rolling on one grid.
 
     bound : (nx, ny), friction x pressure [Pa].
-    rigid : (2, nx, ny), slip over a cell without tractions [m].
-    force : (2,), sum of the tractions over the cells [Pa]; None if the creepage is part of `rigid`.
+    imposed_slip : (2, nx, ny), slip over a cell without tractions: by creepage, spin and pressure [m].
+    traction_sum : (2,), sum of the tractions over the cells, the force over the area of a cell [Pa]; None if the
+        creepage is part of `imposed_slip`.
     """
 
     operator: TangentialOperator
     bound: FloatArray
-    rigid: FloatArray
-    force: FloatArray | None
+    imposed_slip: FloatArray
+    traction_sum: FloatArray | None
 
 
 @dataclass(frozen=True)
@@ -172,29 +175,29 @@ class _State:
 
     traction : q, (2, n) [Pa].
     slip : s, (2, n) [m], without the creepage of a given force.
-    wanted : (2, n) [Pa], q - t s plus the offset.
+    trial : (2, n) [Pa], q - t s plus the offset.
     offset : (2,) [Pa], minus t x the slip over a cell by the creepage of the force.
-    residual : (2, n) [Pa], q less the projection of `wanted`.
+    projection_residual : (2, n) [Pa], q less the projection of `trial`.
     """
 
     traction: FloatArray
     slip: FloatArray
-    wanted: FloatArray
+    trial: FloatArray
     offset: FloatArray
-    residual: FloatArray
+    projection_residual: FloatArray
 
 
 @dataclass(frozen=True)
-class _RollingOnCells:
+class _ReducedRolling:
     """The problem on the n cells in contact.
 
-    bound : (n,) [Pa]. rigid : (2, n) [m]. stiffness : t [Pa/m], of a single cell.
+    bound : (n,) [Pa]. imposed_slip : (2, n) [m]. stiffness : t [Pa/m], of a single cell.
     """
 
     problem: RollingProblem
     cells: NDArray[np.bool_]
     bound: FloatArray
-    rigid: FloatArray
+    imposed_slip: FloatArray
     stiffness: float
 
     def elastic_slip(self, traction: FloatArray) -> FloatArray:
@@ -205,24 +208,24 @@ class _RollingOnCells:
         return slip_over_cell(grid, self.problem.operator.apply(full))[:, self.cells]
 
     def project(self, traction: FloatArray, slip: FloatArray) -> _State:
-        """Project q - t s onto the friction discs, and onto the force if it is given."""
-        wanted = traction - self.stiffness * slip
-        allowed = np.empty_like(wanted)
+        """Project q - t s onto the friction discs, with the total force if it is given, and return the state."""
+        trial = traction - self.stiffness * slip
+        allowed = np.empty_like(trial)
         offset = np.zeros(2)
-        if self.problem.force is None:
-            project_to_friction_discs(wanted, self.bound, allowed)
+        if self.problem.traction_sum is None:
+            project_to_friction_discs(trial, self.bound, allowed)
         else:
-            offset = project_with_force(wanted, self.bound, self.problem.force, allowed)
-        return _State(traction, slip, wanted + offset[:, None], offset, traction - allowed)
+            offset = project_with_force(trial, self.bound, self.problem.traction_sum, allowed)
+        return _State(traction, slip, trial + offset[:, None], offset, traction - allowed)
 
     def jacobian(self, state: _State) -> Callable[[FloatArray], FloatArray]:
-        """Return the derivative of the projection residual, applied to a change of the tractions (2 n,)."""
-        length = np.hypot(*state.wanted)
+        """Return the map from a change of the tractions (2 n,) to the change of the projection residual (2 n,)."""
+        length = np.hypot(*state.trial)
         slips = length > self.bound
-        normal = np.where(slips, state.wanted / np.where(slips, length, 1.0), 0.0)
+        normal = np.where(slips, state.trial / np.where(slips, length, 1.0), 0.0)
         ratio = np.where(slips, self.bound / np.where(slips, length, 1.0), 1.0)
         inverse: FloatArray | None = None
-        if self.problem.force is not None:  # inverse of the derivative of the force by a uniform offset
+        if self.problem.traction_sum is not None:  # inverse of the derivative of the force by a uniform offset
             mixed = -float((ratio * normal[0] * normal[1]).sum())
             xx, yy = (float((ratio * (1 - part**2)).sum()) for part in normal)
             inverse = np.asarray(np.linalg.pinv([[xx, mixed], [mixed, yy]], rcond=_FLAT, hermitian=True))
@@ -242,15 +245,15 @@ class _RollingOnCells:
 
     def converged(self, state: _State, tolerance: float) -> bool:
         """Return True if the projection residual, and the error of the force inside the discs, meet the tolerance."""
-        least = rounding_scale(self.problem.rigid, state.traction / self.stiffness)
-        scale = displacement_scale(state.slip, self.rigid, state.offset / self.stiffness, least=least)
-        if float(np.abs(state.residual).max()) > tolerance * self.stiffness * scale:
+        least = rounding_scale(self.problem.imposed_slip, state.traction / self.stiffness)
+        scale = displacement_scale(state.slip, self.imposed_slip, state.offset / self.stiffness, least=least)
+        if float(np.abs(state.projection_residual).max()) > tolerance * self.stiffness * scale:
             return False
-        if self.problem.force is None:
+        if self.problem.traction_sum is None:
             return True
         inside = np.empty_like(state.traction)
         project_to_friction_discs(state.traction, self.bound, inside)
-        return float(np.abs(inside.sum(1) - self.problem.force).max()) <= tolerance * float(self.bound.sum())
+        return float(np.abs(inside.sum(1) - self.problem.traction_sum).max()) <= tolerance * float(self.bound.sum())
 
 
 def _solve(problem: RollingProblem, tolerance: float, limit: int) -> _RollingResult:
@@ -258,38 +261,39 @@ def _solve(problem: RollingProblem, tolerance: float, limit: int) -> _RollingRes
     cells = problem.bound > 0
     if not cells.any():
         return _RollingResult(np.zeros((2, 0)), np.zeros(2), 0)
-    on = _RollingOnCells(problem, cells, problem.bound[cells], problem.rigid[:, cells], problem.operator.stiffness)
-    state = on.project(np.zeros_like(on.rigid), on.rigid)
-    if problem.force is not None and on.rigid.any():
-        traction = -state.residual
-        state = on.project(traction, on.rigid + on.elastic_slip(traction))
+    imposed_slip = problem.imposed_slip[:, cells]
+    reduced = _ReducedRolling(problem, cells, problem.bound[cells], imposed_slip, problem.operator.stiffness)
+    state = reduced.project(np.zeros_like(reduced.imposed_slip), reduced.imposed_slip)
+    if problem.traction_sum is not None and reduced.imposed_slip.any():
+        traction = -state.projection_residual
+        state = reduced.project(traction, reduced.imposed_slip + reduced.elastic_slip(traction))
     iterations = 0
-    while iterations < limit and not on.converged(state, tolerance):
+    while iterations < limit and not reduced.converged(state, tolerance):
         iterations += 1
-        next_state = _backtrack(on, state, _newton_step(on, state))
+        next_state = _backtrack(reduced, state, _newton_step(reduced, state))
         if next_state is None:
             break
         state = next_state
-    return _RollingResult(state.traction, 0.0 - state.offset / on.stiffness, iterations)
+    return _RollingResult(state.traction, 0.0 - state.offset / reduced.stiffness, iterations)
 
 
-def _newton_step(on: _RollingOnCells, state: _State) -> FloatArray:
+def _newton_step(reduced: _ReducedRolling, state: _State) -> FloatArray:
     """Return the Newton step (2, n) [Pa]."""
-    size = state.residual.size
-    matrix = LinearOperator((size, size), matvec=on.jacobian(state), dtype=np.float64)
-    step, _ = gmres(matrix, -state.residual.ravel(), rtol=_REDUCTION, restart=_KRYLOV, maxiter=_RESTARTS)
+    size = state.projection_residual.size
+    matrix = LinearOperator((size, size), matvec=reduced.jacobian(state), dtype=np.float64)
+    step, _ = gmres(matrix, -state.projection_residual.ravel(), rtol=_REDUCTION, restart=_KRYLOV, maxiter=_RESTARTS)
     return np.asarray(step, dtype=np.float64).reshape(2, -1)
 
 
-def _backtrack(on: _RollingOnCells, state: _State, step: FloatArray) -> _State | None:
+def _backtrack(reduced: _ReducedRolling, state: _State, step: FloatArray) -> _State | None:
     """Return the state after the step, halved until the projection residual falls; None if it does not."""
-    slip = on.elastic_slip(step)
-    before = float(np.linalg.norm(state.residual))
+    slip = reduced.elastic_slip(step)
+    before = float(np.linalg.norm(state.projection_residual))
     length = 1.0
     for _ in range(_HALVINGS):
-        trial = on.project(state.traction + length * step, state.slip + length * slip)
-        if float(np.linalg.norm(trial.residual)) <= (1 - 0.1 * length) * before:
-            return trial
+        after = reduced.project(state.traction + length * step, state.slip + length * slip)
+        if float(np.linalg.norm(after.projection_residual)) <= (1 - 0.1 * length) * before:
+            return after
         length *= 0.5
     return None
 
@@ -306,19 +310,19 @@ def _solution(
 
     creep : (2,), slip over a cell by the prescribed creepage [m]. failed : status if the tolerance is not met.
     """
-    operator, grid, bound, rigid = problem.operator, problem.operator.grid, problem.bound, problem.rigid
+    operator, grid, bound, imposed_slip = problem.operator, problem.operator.grid, problem.bound, problem.imposed_slip
     cells, area = bound > 0, grid.cell_area
     traction, allowed = np.zeros((2, *grid.shape)), np.empty_like(result.traction)
     project_to_friction_discs(result.traction, bound[cells], allowed)
     traction[:, cells] = allowed
     elastic = operator.apply(traction)
-    if problem.force is not None:
+    if problem.traction_sum is not None:
         creep = result.creep
-        rigid = rigid + creep[:, None, None]
-    slip = rigid + slip_over_cell(grid, elastic)
-    least = rounding_scale(problem.rigid, traction / operator.stiffness)
-    scale = displacement_scale(slip[:, cells], problem.rigid[:, cells], creep, least=least)
-    certificate = certify(operator, bound, traction, -slip, scale=scale, force=problem.force)
+        imposed_slip = imposed_slip + creep[:, None, None]
+    slip = imposed_slip + slip_over_cell(grid, elastic)
+    least = rounding_scale(problem.imposed_slip, traction / operator.stiffness)
+    scale = displacement_scale(slip[:, cells], problem.imposed_slip[:, cells], creep, least=least)
+    certificate = certify(operator, bound, traction, -slip, scale=scale, traction_sum=problem.traction_sum)
     stuck, in_contact = (float(np.count_nonzero(where)) * area for where in (certificate.sticks, cells))
     return TangentialSolution(
         traction=traction,

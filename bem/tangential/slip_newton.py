@@ -38,7 +38,7 @@ from bem.tangential.problem import SlipProblem, displacement_scale, rounding_sca
 BoolArray = NDArray[np.bool_]
 
 _REDUCTION = 1e-3
-"""Relative residual at which conjugate gradients end; from 1e-2 to 1e-5 convolutions hardly depend on it."""
+"""Relative residual at which conjugate gradients end; affects cost only, and little."""
 
 _LEAST_REDUCTION = 0.3
 """Relative residual from which on the projection onto the discs may end conjugate gradients."""
@@ -54,7 +54,9 @@ _ON_DISC = 1e-9
 """Relative distance from its disc within which a traction counts as on the disc."""
 
 _CG_ITERATIONS = 200
+"""Limit of the iterations of conjugate gradients in one Newton step."""
 _HALVINGS = 10
+"""Limit of the trials of a line search."""
 
 _FLAT = 1e-13
 """Curvature along a direction, relative to the stiffness of a single cell, below which no displacement resists it."""
@@ -65,7 +67,7 @@ _ENERGY_ROUNDING = 1e-11
 
 @dataclass(frozen=True)
 class SlipResult:
-    """Tractions on the n cells in contact.
+    """Result of `solve_slip` on the n cells in contact.
 
     cells : (nx, ny), True for cells in contact.
     traction : (2, n) [Pa].
@@ -87,7 +89,7 @@ class SlipResult:
 
 
 def solve_slip(problem: SlipProblem, start: FloatArray, tolerance: float, budget: IterationBudget) -> SlipResult:
-    """Iterate until the violation is at most tolerance x the largest displacement.
+    """Solve partial slip on one grid: Newton steps until the violation is at most tolerance x the largest displacement.
 
     Parameters
     ----------
@@ -96,32 +98,32 @@ def solve_slip(problem: SlipProblem, start: FloatArray, tolerance: float, budget
     tolerance : relative.
     budget : limit of the Newton steps over all grids.
     """
-    on = _SlipOnCells.of(problem)
-    traction, _ = on.project(start[:, on.cells])
-    displacement = on.displace(traction)
+    reduced = _ReducedProblem.of(problem)
+    traction, _ = reduced.project(start[:, reduced.cells])
+    displacement = reduced.displace(traction)
     full_steps = True
     least = rounding_scale(problem.imposed)
     while True:
-        state = on.evaluate(traction, on.gather(displacement))
-        scale = displacement_scale(state.displacement, on.imposed, least=least)
+        state = reduced.evaluate(traction, reduced.gather(displacement))
+        scale = displacement_scale(state.displacement, reduced.imposed, least=least)
         converged = state.violation <= tolerance * scale
         if converged or budget.left <= 0:
             break
         budget.iterations += 1
         goal = _GOAL * tolerance * scale
-        step = _full_step(on, state, goal) if full_steps else None
+        step = _full_step(reduced, state, goal) if full_steps else None
         if step is None:  # slip changes its direction, and will do so in the next iterations
             full_steps = False
-            step = _damped_step(on, state, goal)
+            step = _damped_step(reduced, state, goal)
         if step is None:
             break
         traction, displacement = step
     return SlipResult(
-        on.cells,
+        reduced.cells,
         traction,
         displacement,
         state.shift,
-        state.residual,
+        state.displacement_residual,
         state.slips,
         state.violation,
         converged,
@@ -132,22 +134,23 @@ def solve_slip(problem: SlipProblem, start: FloatArray, tolerance: float, budget
 class _State:
     """Tractions (2, n) [Pa], their displacement (2, n) [m], and Coulomb's conditions.
 
-    shift : (2,) [m]. residual : (2, n), displacement residual with the shift [m]. slips : (n,). violation : [m].
+    shift : (2,) [m]. displacement_residual : (2, n), r with the shift [m]. slips : (n,). violation : [m].
     """
 
     traction: FloatArray
     displacement: FloatArray
     shift: FloatArray
-    residual: FloatArray
+    displacement_residual: FloatArray
     slips: BoolArray
     violation: float
 
 
 @dataclass(frozen=True)
-class _SlipOnCells:
-    """The problem on the n cells in contact.
+class _ReducedProblem:
+    """The problem restricted to the n cells in contact.
 
-    numbers : their flat indices. field : (2, nx, ny), scratch that is zero on all other cells.
+    cells : (nx, ny), True for cells in contact. numbers : (n,), their flat indices. bound : (n,) [Pa].
+    imposed : (2, n) [m]. stiffness : of a single cell [Pa/m]. field : (2, nx, ny), scratch, zero on all other cells.
     """
 
     problem: SlipProblem
@@ -160,7 +163,7 @@ class _SlipOnCells:
     field: FloatArray
 
     @classmethod
-    def of(cls, problem: SlipProblem) -> _SlipOnCells:
+    def of(cls, problem: SlipProblem) -> _ReducedProblem:
         """Collect the cells in contact."""
         operator, cells = problem.operator, problem.bound > 0
         imposed = problem.imposed[:, cells]
@@ -184,13 +187,13 @@ class _SlipOnCells:
         """Return a field (2, nx, ny) on the cells, (2, n)."""
         return field.reshape(2, -1).take(self.numbers, 1)
 
-    def project(self, wanted: FloatArray) -> tuple[FloatArray, FloatArray]:
+    def project(self, trial: FloatArray) -> tuple[FloatArray, FloatArray]:
         """Return the nearest admissible tractions (2, n), and stiffness x the shift (2,) that meets the force."""
-        out = np.empty_like(wanted)
-        if self.problem.force is None:
-            project_to_friction_discs(wanted, self.bound, out)
+        out = np.empty_like(trial)
+        if self.problem.traction_sum is None:
+            project_to_friction_discs(trial, self.bound, out)
             return out, np.zeros(2)
-        return out, project_with_force(wanted, self.bound, self.problem.force, out)
+        return out, project_with_force(trial, self.bound, self.problem.traction_sum, out)
 
     def energy(self, traction: FloatArray, displacement: FloatArray) -> float:
         """Return the energy that the method minimises, over the area of a cell."""
@@ -209,7 +212,7 @@ class _SlipOnCells:
 
 def _main_direction(problem: SlipProblem, imposed: FloatArray) -> FloatArray:
     """Return the unit vector (2,) of the force, or of the mean imposed displacement; along x if both vanish."""
-    given = imposed.mean(1) if problem.force is None else problem.force
+    given = imposed.mean(1) if problem.traction_sum is None else problem.traction_sum
     length = math.hypot(*given)
     return given / length if length > 0 else np.array([1.0, 0.0])
 
@@ -261,12 +264,12 @@ class _TangentSpace:
     constraint: _ForceConstraint | None
 
     @classmethod
-    def of(cls, on: _SlipOnCells, slips: BoolArray, normal: FloatArray, residual: FloatArray) -> _TangentSpace:
+    def of(cls, reduced: _ReducedProblem, slips: BoolArray, normal: FloatArray, residual: FloatArray) -> _TangentSpace:
         """Prepare the space for a slip set (n,), the normals (2, n) of its discs and the displacement residual."""
-        curvature = np.where(slips, np.maximum((residual * normal).sum(0), 0.0) / on.bound, 0.0)
-        preconditioner = on.preconditioner.on(on.numbers, slips, normal, curvature)
+        curvature = np.where(slips, np.maximum((residual * normal).sum(0), 0.0) / reduced.bound, 0.0)
+        preconditioner = reduced.preconditioner.on(reduced.numbers, slips, normal, curvature)
         space = cls(slips, normal, curvature, preconditioner, None)
-        return space if on.problem.force is None else replace(space, constraint=_ForceConstraint.of(space))
+        return space if reduced.problem.traction_sum is None else replace(space, constraint=_ForceConstraint.of(space))
 
     def tangential(self, values: FloatArray) -> FloatArray:
         """Remove the part of `values` (2, n) along the normals of the discs."""
@@ -289,58 +292,58 @@ class _TangentSpace:
         return out - first * self.constraint.responses[0] - second * self.constraint.responses[1]
 
 
-def _full_step(on: _SlipOnCells, state: _State, goal: float) -> tuple[FloatArray, FloatArray] | None:
+def _full_step(reduced: _ReducedProblem, state: _State, goal: float) -> tuple[FloatArray, FloatArray] | None:
     """Return new tractions and their displacement after a full Newton step; None if it raises the energy."""
-    traction, residual = state.traction, state.residual
+    traction, residual = state.traction, state.displacement_residual
     length = np.hypot(*traction)
-    slips = (length >= (1 - _ON_DISC) * on.bound) & ((residual * traction).sum(0) > 0)
+    slips = (length >= (1 - _ON_DISC) * reduced.bound) & ((residual * traction).sum(0) > 0)
     normal = np.where(slips, traction / np.where(slips, length, 1.0), 0.0)
-    step = _solve_linear(on, _TangentSpace.of(on, slips, normal, residual), traction, residual, goal)
-    return _backtrack(on, state, step, trials=1)
+    step = _solve_linear(reduced, _TangentSpace.of(reduced, slips, normal, residual), traction, residual, goal)
+    return _backtrack(reduced, state, step, trials=1)
 
 
-def _damped_step(on: _SlipOnCells, state: _State, goal: float) -> tuple[FloatArray, FloatArray] | None:
+def _damped_step(reduced: _ReducedProblem, state: _State, goal: float) -> tuple[FloatArray, FloatArray] | None:
     """Return new tractions and their displacement after a damped step; None if no step lowers the energy.
 
     The cells of the predicted slip set jump to their discs before the Newton step, which costs one more convolution.
     """
-    traction, residual = state.traction, state.residual
-    wanted = traction + on.stiffness * residual
+    traction, residual = state.traction, state.displacement_residual
+    trial = traction + reduced.stiffness * residual
     # a single cell is far stiffer than a spot that moves as a whole: cells that would turn around are freed first
-    slips = state.slips & ((wanted * traction).sum(0) > 0)
-    normal = np.where(slips, wanted / np.where(slips, np.hypot(*wanted), 1.0), 0.0)
-    jump = np.where(slips, on.bound * normal - traction, 0.0)
-    if on.problem.force is not None and not slips.all():  # sticking cells take the opposite force
+    slips = state.slips & ((trial * traction).sum(0) > 0)
+    normal = np.where(slips, trial / np.where(slips, np.hypot(*trial), 1.0), 0.0)
+    jump = np.where(slips, reduced.bound * normal - traction, 0.0)
+    if reduced.problem.traction_sum is not None and not slips.all():  # sticking cells take the opposite force
         jump -= np.where(slips, 0.0, (jump.sum(1) / np.count_nonzero(~slips))[:, None])
     after_jump = residual
     if float(np.abs(jump).max()) > _ON_DISC * float(np.abs(traction).max()):
-        after_jump = residual - on.gather(on.displace(jump))
-    space = _TangentSpace.of(on, slips, normal, residual)
-    step = jump + _solve_linear(on, space, traction + jump, after_jump, goal)
-    return _backtrack(on, state, step) or _backtrack(on, state, on.stiffness * residual)
+        after_jump = residual - reduced.gather(reduced.displace(jump))
+    space = _TangentSpace.of(reduced, slips, normal, residual)
+    step = jump + _solve_linear(reduced, space, traction + jump, after_jump, goal)
+    return _backtrack(reduced, state, step) or _backtrack(reduced, state, reduced.stiffness * residual)
 
 
 def _backtrack(
-    on: _SlipOnCells, state: _State, step: FloatArray, trials: int = _HALVINGS
+    reduced: _ReducedProblem, state: _State, step: FloatArray, trials: int = _HALVINGS
 ) -> tuple[FloatArray, FloatArray] | None:
     """Project the step onto the discs and halve it until the energy does not rise.
 
     Returns the tractions (2, n) and their displacement (2, nx, ny); None if the energy rises in all trials.
     """
-    before = on.energy(state.traction, state.displacement)
+    before = reduced.energy(state.traction, state.displacement)
     length = 1.0
     for _ in range(trials):
-        traction, _ = on.project(state.traction + length * step)
-        displacement = on.displace(traction)
+        traction, _ = reduced.project(state.traction + length * step)
+        displacement = reduced.displace(traction)
         allowed_rise = _ENERGY_ROUNDING * abs(before) if length == 1 else 0.0
-        if on.energy(traction, on.gather(displacement)) <= before + allowed_rise:
+        if reduced.energy(traction, reduced.gather(displacement)) <= before + allowed_rise:
             return traction, displacement
         length *= 0.5
     return None
 
 
 def _solve_linear(
-    on: _SlipOnCells, space: _TangentSpace, traction: FloatArray, residual: FloatArray, goal: float
+    reduced: _ReducedProblem, space: _TangentSpace, traction: FloatArray, residual: FloatArray, goal: float
 ) -> FloatArray:
     """Return the step (2, n) in the tangent space that removes the displacement residual, by conjugate gradients.
 
@@ -349,19 +352,19 @@ def _solve_linear(
     step, full_residual = np.zeros_like(residual), residual.copy()
     residual = space.project(residual)
     # violations are measured on the discs: a slipping cell with a small disc and a large slip is compliant
-    damping = 1 / (1 + space.curvature * on.stiffness)
+    damping = 1 / (1 + space.curvature * reduced.stiffness)
     first = _norm(damping * residual)
     direction = space.precondition(residual)
     product = float((residual * direction).sum())
     for _ in range(_CG_ITERATIONS):
         if not product > 0:
             break
-        displacement = on.gather(on.displace(direction))
+        displacement = reduced.gather(reduced.displace(direction))
         response = displacement + space.curvature * direction
         curvature = float((direction * response).sum())
-        if not curvature > _FLAT * float((direction * direction).sum()) / on.stiffness:
+        if not curvature > _FLAT * float((direction * direction).sum()) / reduced.stiffness:
             # a mean traction on a doubly periodic grid displaces nothing: only the discs limit the step
-            return step + direction * (2 * float(on.bound.max()) / float(np.abs(direction).max()))
+            return step + direction * (2 * float(reduced.bound.max()) / float(np.abs(direction).max()))
         length = product / curvature
         step += length * direction
         full_residual -= length * displacement
@@ -372,7 +375,7 @@ def _solve_linear(
             break
         if left <= _LEAST_REDUCTION * first:
             elastic = full_residual - space.curvature * step
-            if left <= _PROJECTION * _residual_after_projection(on, space, traction + step, elastic):
+            if left <= _PROJECTION * _residual_after_projection(reduced, space, traction + step, elastic):
                 break
         preconditioned = space.precondition(residual)
         following = float((residual * preconditioned).sum())
@@ -382,13 +385,13 @@ def _solve_linear(
 
 
 def _residual_after_projection(
-    on: _SlipOnCells, space: _TangentSpace, traction: FloatArray, residual: FloatArray
+    reduced: _ReducedProblem, space: _TangentSpace, traction: FloatArray, residual: FloatArray
 ) -> float:
     """Estimate the residual [m] that the projection onto the discs and cells that stop slipping bring back."""
-    excess = np.maximum(np.hypot(*traction) - on.bound, 0.0)
+    excess = np.maximum(np.hypot(*traction) - reduced.bound, 0.0)
     outward = ((residual + space.shift(residual)[:, None]) * space.normal).sum(0)
     released = np.where(space.slips, np.minimum(outward, 0.0), 0.0)
-    return math.hypot(_norm(excess) / on.stiffness, _norm(released))
+    return math.hypot(_norm(excess) / reduced.stiffness, _norm(released))
 
 
 def _norm(values: FloatArray) -> float:

@@ -62,7 +62,7 @@ def surface_displacement(name: str, grid: Grid, body: Body, given: FloatArray, l
         return pressed if load is Load.NORMAL else displacement_operator(grid, body, friction=1.0)(given) - pressed
     operator = TangentialOperator(grid, (body,))
     if load is Load.NORMAL:
-        found = operator.under_pressure(given)
+        found = operator.displacement_under_pressure(given)
     else:
         found = operator(np.stack([given, np.zeros_like(given)]))
     return found[DISPLACEMENTS.index(name)]

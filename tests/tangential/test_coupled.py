@@ -142,7 +142,7 @@ def test_both_hold_under_each_other():
     assert (opened - middle).min() > -3e-7 * scale
     assert np.abs(operator.normal_displacement(traction)).max() > 1e-3 * scale  # there is something to miss
     assert (np.hypot(*traction) <= 0.5 * pressure * (1 + 1e-12)).all()
-    moved = operator(traction) + operator.under_pressure(pressure) - found.tangential.shift[:, None, None]
+    moved = operator(traction) + operator.displacement_under_pressure(pressure) - found.tangential.shift[:, None, None]
     inside = touches & (np.hypot(*traction) < 0.5 * pressure * (1 - 1e-6))
     assert inside.any()
     assert np.abs(moved[:, inside]).max() < 1e-6 * scale

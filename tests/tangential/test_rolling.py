@@ -115,7 +115,7 @@ def test_certificate_holds_from_the_traction_alone():
     solution = solve_rolling(pressure, grid, bodies, friction=0.2, creepage=(2e-3, 1e-3), spin=2.0)
     assert solution.status == "converged"
     operator = tangential_operator(grid, bodies)
-    moved = operator(solution.traction) + operator.under_pressure(pressure)
+    moved = operator(solution.traction) + operator.displacement_under_pressure(pressure)
     x, y = grid.x - grid.x.mean(), grid.y - grid.y.mean()
     slip = moved.copy()
     slip[:, :-1] -= moved[:, 1:]
@@ -270,7 +270,7 @@ def test_energy_of_unlike_rollers_is_that_of_fine_cells(name, friction, share):
         assert work[-1] == pytest.approx(friction_work(solution, grid), rel=1e-6)
         assert 0 < solution.cell_energy < solution.dissipated_energy
         # creepage and pressure put in what friction takes
-        pushed = tangential_operator(grid, bodies).under_pressure(pressure)
+        pushed = tangential_operator(grid, bodies).displacement_under_pressure(pressure)
         mean = 0.5 * (solution.traction[:, :-1] + solution.traction[:, 1:])
         put_in = -float(solution.force @ solution.creepage)
         put_in -= float((mean * (pushed[:, :-1] - pushed[:, 1:])).sum()) * grid.spacing[1]
