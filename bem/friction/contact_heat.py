@@ -22,7 +22,7 @@ from bem.friction.rough_contact import Pressed
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray
 from bem.heat.bodies import conductors_of
-from bem.heat.partition import TemperatureSolution
+from bem.heat.solution import TemperatureSolution
 from bem.heat.steady import surface_temperature
 from bem.lubrication.with_heat import FilmHeat
 from bem.notes import Note

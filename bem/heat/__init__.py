@@ -5,21 +5,21 @@ The heat source is at rest on the grid; the bodies move under it along x (Jaeger
 
 1. `bodies` checks the arguments and reduces each body to a `Conductor`: conductivity, diffusivity, speed and bulk
    temperature.
-2. `coefficients` tabulates the temperature of one uniformly heated cell: one integral over time for all Peclet numbers,
-   by Gauss points. Cost: one product of a column and a row per Gauss point; once per grid and body.
-3. `operators` makes a convolution of the table, split into a part even and a part odd along x, on free axes or periodic
-   along y; on doubly periodic grids it takes the exact transfer function of each wave. `band_temperatures` is the
-   matrix of a line contact, in closed form. Cost: one convolution per application.
+2. `coefficients` tabulates the temperature around one uniformly heated cell: one integral over time for all Peclet
+   numbers, by Gauss points. Cost: one product of a column and a row per Gauss point; once per call and body.
+3. `operators` makes a convolution of the table, split into a part even and a part odd along x, where the grid is free
+   along x. On doubly periodic grids it takes the exact transfer function of each wave. Cost: one convolution per
+   application.
 4. `partition` splits the heat of each cell between two bodies so that their surfaces are equally hot where heat is
-   generated (Blok's partition, cell by cell). The linear system (K1 + K2) q1 = K2 q + b2 - b1 is solved by GMRES
-   (`bem.numerics.gmres`), preconditioned by the inverse of the periodic transfer function. Cost: two convolutions and
-   one for the preconditioner per iteration, ten to thirty iterations.
-5. `steady` has `surface_temperature` and `flash_temperature`, which take steps 1 to 4.
-6. `history` has `surface_temperature_history`: the heat is constant in each step, and the temperature of a step is the
-   sum over all earlier steps, in the spectrum. Cost: proportional to the square of the number of steps; memory of one
-   padded spectrum per step and body.
+   generated (Blok 1937, cell by cell), by GMRES. Cost: two convolutions and one for the preconditioner per iteration,
+   ten to thirty iterations. A single body takes one convolution in place of this step.
+5. `solution` builds the `TemperatureSolution`. Its residual is recomputed from the returned heat.
 
-The result is a `TemperatureSolution` (`partition`); its residual is recomputed from the returned heat.
+`steady` has `surface_temperature` and `flash_temperature`, which take steps 1 to 5. `history` has
+`surface_temperature_history`, which repeats steps 4 and 5 with the heat of all earlier steps. Cost: proportional to the
+square of the number of steps; memory of one padded spectrum per step and body.
+
+`line_contact` is the closed form under bands without end, for `bem.lubrication`; steps 1 to 5 do not use it.
 
 The package knows grids, materials and transforms, no contact. Verified against finite elements in
 `bem.verification.heat` and against the closed forms of `bem.reference_solutions.heat_sources` in tests/heat.
@@ -31,7 +31,7 @@ from bem.startup.lazy import loader
 
 if TYPE_CHECKING:
     from bem.heat.history import surface_temperature_history
-    from bem.heat.partition import TemperatureSolution
+    from bem.heat.solution import TemperatureSolution
     from bem.heat.steady import flash_temperature, surface_temperature
 
 __all__ = ["TemperatureSolution", "flash_temperature", "surface_temperature", "surface_temperature_history"]
@@ -41,6 +41,6 @@ __getattr__ = loader(
     {
         "steady": ["flash_temperature", "surface_temperature"],
         "history": ["surface_temperature_history"],
-        "partition": ["TemperatureSolution"],
+        "solution": ["TemperatureSolution"],
     },
 )

@@ -1,4 +1,4 @@
-"""Thermal properties of the bodies, and checks of the arguments of the public functions."""
+"""Bodies as conductors of heat, and checks of the arguments of the public functions."""
 
 from __future__ import annotations
 
@@ -16,7 +16,7 @@ _THERMAL_CONSTANTS = {"thermal_conductivity": "W/(m K)", "density": "kg/m^3", "h
 
 @dataclass(frozen=True)
 class Conductor:
-    """Half-space that moves along x under the heat source.
+    """Homogeneous half-space that moves along x under the heat source.
 
     Attributes
     ----------
@@ -32,8 +32,8 @@ class Conductor:
     bulk: float
 
     @property
-    def wavenumber(self) -> float:
-        """U / (2 kappa) [1/m], with the sign of the speed; times a length it is a Peclet number."""
+    def peclet_per_length(self) -> float:
+        """Return U / (2 kappa) [1/m] with the sign of the speed; times a length it is a Peclet number."""
         return self.speed / (2 * self.diffusivity)
 
 

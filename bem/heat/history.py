@@ -1,4 +1,9 @@
-"""Surface temperature over time of a heat source at rest over one or two half-spaces that may move."""
+"""Surface temperature over time of a heat source at rest over one or two half-spaces that may move.
+
+The heat is constant in each step. The temperature at the end of a step is the sum over all steps so far of the operator
+of that age (`operators`) applied to the heat of the step; the sum is taken in the spectrum. The partition between two
+bodies is solved in each step, with the rise by earlier steps as background.
+"""
 
 from __future__ import annotations
 
@@ -13,8 +18,8 @@ from bem.errors import InputError, Status
 from bem.grid import FloatArray, Grid
 from bem.heat.bodies import Conductor, conductors_of
 from bem.heat.operators import HeatOperator, approximate_inverse, heat_operator, periodic_operator
-from bem.heat.partition import Pair, TemperatureSolution, solve_partition, temperature_solution
-from bem.heat.steady import TOLERANCE
+from bem.heat.partition import TOLERANCE, BodyPair, solve_partition
+from bem.heat.solution import TemperatureSolution, build_solution
 from bem.materials import Body
 
 _NAME = "surface_temperature_history"
@@ -22,13 +27,13 @@ _NAME = "surface_temperature_history"
 
 @dataclass
 class _HeatHistory:
-    """Heat that has entered one body.
+    """Heat that has entered one body in earlier steps.
 
     Attributes
     ----------
     grid, body : of the temperature.
     step : length of a time step [s].
-    lags : operator for each lag in steps, made when first needed.
+    lags : operator for each lag in steps, computed at first use.
     spectra : spectrum of the heat of each step, oldest first.
     """
 
@@ -39,7 +44,7 @@ class _HeatHistory:
     spectra: list[NDArray[Any]] = field(default_factory=list)
 
     def operator(self, lag: int) -> HeatOperator:
-        """Operator from the heat of `lag` steps ago to the temperature rise at the end of the present step."""
+        """Return the operator from the heat of `lag` steps ago to the rise at the end of the present step."""
         while len(self.lags) <= lag:
             make = periodic_operator if all(self.grid.periodic) else heat_operator
             since = len(self.lags)
@@ -47,16 +52,16 @@ class _HeatHistory:
         return self.lags[lag]
 
     def temperature(self) -> FloatArray:
-        """Temperature (nx, ny) [K] at the end of the present step without its own heat."""
-        before = np.full(self.grid.shape, self.body.bulk)
+        """Return the temperature (nx, ny) [K] at the end of the present step without the heat of this step."""
+        background = np.full(self.grid.shape, self.body.bulk)
         if not self.spectra:
-            return before
+            return background
         transform = self.operator(0).transform
         total = transform.empty_spectrum()
         total[...] = 0
         for lag, spectrum in enumerate(reversed(self.spectra), start=1):
             self.operator(lag).add_product(spectrum, total)
-        return before + transform.inverse(total)
+        return background + transform.inverse(total)
 
     def enter(self, heat: FloatArray) -> None:
         """Add the heat (nx, ny) [W/m^2] of the present step."""
@@ -73,15 +78,15 @@ def surface_temperature_history(
     bulk: float | Sequence[float] = (0.0, 0.0),
     tolerance: float = TOLERANCE,
 ) -> list[TemperatureSolution]:
-    """Surface temperature over time, as `surface_temperature` but from bulk temperature on.
+    """Compute the surface temperature over time, from bulk temperature at the first instant.
 
-    The heat is constant over each step, over which Green's function is integrated exactly; work and memory: the first
-    grows with the square of the number of steps, the second holds a padded spectrum for each step and body.
+    Green's function is integrated exactly over each step, in which the heat is constant. The work grows with the square
+    of the number of steps. Memory holds one padded spectrum for each step and body.
 
     Parameters
     ----------
     times : (n + 1,) [s], rising in equal steps; both bodies are at bulk temperature at the first.
-    heat : flux made, (n, nx, ny) [W/m^2] during each step; or a function of time, taken in the middle of each.
+    heat : flux (n, nx, ny) [W/m^2] generated in each step; or a function of time [s], evaluated in its middle.
     grid : free, periodic, or periodic along y only.
     bodies, speeds, bulk, tolerance : as of `surface_temperature`; layers are not included.
 
@@ -101,17 +106,17 @@ def surface_temperature_history(
             "both, or free along x"
         )
     histories = [_HeatHistory(grid, body, step) for body in conductors]
-    preconditioner = approximate_inverse(grid, conductors, 0.25 * np.pi / step)
+    preconditioner = approximate_inverse(grid, conductors, 0.25 * np.pi / step)  # exact for the mean of one step
     solutions: list[TemperatureSolution] = []
     for flux in fluxes:
-        before = [history.temperature() for history in histories]
+        background = [history.temperature() for history in histories]
         if len(histories) == 1:
-            surface = before[0] + histories[0].operator(0)(flux)
-            solution = temperature_solution(flux, flux[None], surface[None], conductors, 1, 0.0, Status.CONVERGED)
+            surface = background[0] + histories[0].operator(0)(flux)
+            solution = build_solution(flux, flux[None], surface[None], conductors, 1, 0.0, Status.CONVERGED)
         else:
-            pair = Pair(conductors, tuple(history.operator(0) for history in histories), preconditioner)
+            pair = BodyPair(conductors, tuple(history.operator(0) for history in histories), preconditioner)
             guess = solutions[-1].partition * flux if solutions and np.isfinite(solutions[-1].share) else None
-            solution = solve_partition(flux, pair, before, guess, tolerance)
+            solution = solve_partition(flux, pair, background, guess, tolerance)
         for history, heat_into in zip(histories, solution.heat, strict=True):
             history.enter(heat_into)
         solutions.append(solution)

@@ -1,17 +1,11 @@
-"""Linear maps from heat flux to surface temperature: convolutions on a grid, and the matrix of a line contact.
+"""Linear maps from heat flux to surface temperature: convolutions on a grid.
 
 On a free axis the flux is constant in a cell; on a periodic axis it is sampled at the cell's centre, as for
 displacements. A kernel is stored as an even and an odd part along x, the direction of motion: only the odd part changes
 sign with the speed.
 
-In a line contact bands of heat extend without end along y. A unit flux from x1 to x2 raises the surface by
-
-    1/(pi k) integral exp(w (x - x')) K0(|w (x - x')|) dx',    w = U/(2 kappa)
-
-(Jaeger 1942; Carslaw and Jaeger, Conduction of Heat in Solids (1959), section 10.7), with the integral in closed form
-(Abramowitz and Stegun, 11.3.16). A body at rest has no steady temperature under a line of heat.
-
-Verified in tests/heat.
+The *age* of heat is the time since it was generated. An operator takes heat of ages between two values; from 0 to
+infinity it gives the steady temperature.
 """
 
 from __future__ import annotations
@@ -21,17 +15,14 @@ from dataclasses import dataclass
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.special import erfc, k0e, k1e
+from scipy.special import erfc
 
-from bem.errors import InputError
 from bem.grid import FloatArray, Grid
 from bem.heat.bodies import Conductor
-from bem.heat.coefficients import Rows, temperature_table
+from bem.heat.coefficients import TransverseBasis, temperature_table
 from bem.transforms import Multiplier, PaddedTransform, kernel_spectrum, multiplier, padded_shape, transform_of
 
 EVEN, ODD_IN_X = (1, 1), (-1, 1)
-_FAR_UPSTREAM = 20.0
-"""Peclet number upstream of which a band's heat is below round-off."""
 
 
 @dataclass(frozen=True)
@@ -42,7 +33,7 @@ class HeatOperator:
     multiplier: Multiplier
 
     def __call__(self, heat: FloatArray) -> FloatArray:
-        """Temperature rise under `heat`."""
+        """Return the temperature rise (nx, ny) [K] under `heat` (nx, ny) [W/m^2]."""
         return self.transform.convolve(heat, self.multiplier)
 
     def add_product(self, heat_spectrum: NDArray[np.complex128], total: NDArray[np.complex128]) -> None:
@@ -56,21 +47,21 @@ class HeatOperator:
         total[:, half:] += kernel[:, mirror].conj() * heat_spectrum[:, half:]
 
 
-def heat_operator(grid: Grid, body: Conductor, begin: float = 0.0, end: float = math.inf) -> HeatOperator:
-    """Operator of heat that was generated for a while; of the steady temperature by default.
+def heat_operator(grid: Grid, body: Conductor, least_age: float = 0.0, largest_age: float = math.inf) -> HeatOperator:
+    """Return the operator of heat of these ages; of the steady temperature by default.
 
     Parameters
     ----------
-    grid : free along x.
+    grid : free along x; along y free or periodic.
     body : a half-space.
-    begin, end : times since the heat ended and since it began [s].
+    least_age, largest_age : times since the heat ended and since it began [s].
     """
     nx, ny = grid.shape
     dx, dy = grid.spacing
     periodic = grid.periodic[1]
-    rows = Rows(ny // 2 + 1, 2 * math.pi / (ny * dy), True) if periodic else Rows(ny, dy, False)
-    spread = (math.sqrt(4 * body.diffusivity * begin), math.sqrt(4 * body.diffusivity * end))
-    table = temperature_table(nx, dx, rows, abs(body.wavenumber), *spread) / body.conductivity
+    basis = TransverseBasis(ny // 2 + 1, 2 * math.pi / (ny * dy), True) if periodic else TransverseBasis(ny, dy, False)
+    spread = (math.sqrt(4 * body.diffusivity * least_age), math.sqrt(4 * body.diffusivity * largest_age))
+    table = temperature_table(nx, dx, basis, abs(body.peclet_per_length), *spread) / body.conductivity
     if periodic:
         # the kernel sampled at the centres of cells is the sum of its cosines
         table = np.fft.irfft(table, ny, axis=1)
@@ -83,11 +74,20 @@ def heat_operator(grid: Grid, body: Conductor, begin: float = 0.0, end: float = 
     return HeatOperator(transform_of(grid.shape, padded), multiplier(parts))
 
 
-def periodic_operator(grid: Grid, body: Conductor, begin: float, end: float) -> HeatOperator:
-    """Operator of heat generated from `end` to `begin` ago [s] on a doubly periodic grid, exact for each wave.
+def periodic_operator(grid: Grid, body: Conductor, least_age: float, largest_age: float) -> HeatOperator:
+    """Return the operator of heat of these ages on a doubly periodic grid, exact for each wave.
 
-    With l = kappa q^2 + i U q_x the transfer function is sqrt(kappa / l) / k [erf(sqrt(l t))] between the two times,
-    and 2 sqrt(kappa t / pi) / k for the mean.
+    With the rate l = kappa q^2 + i U q_x of a wave the transfer function is
+
+        sqrt(kappa / l) / k [erf(sqrt(l largest_age)) - erf(sqrt(l least_age))],
+
+    and 2 sqrt(kappa / pi) / k [sqrt(largest_age) - sqrt(least_age)] for the mean.
+
+    Parameters
+    ----------
+    grid : periodic along both axes.
+    body : a half-space.
+    least_age, largest_age : times since the heat ended and since it began [s].
     """
     nx, ny = grid.shape
     dx, dy = grid.spacing
@@ -95,9 +95,9 @@ def periodic_operator(grid: Grid, body: Conductor, begin: float, end: float) -> 
     across = 2 * math.pi * np.arange(ny // 2 + 1) / (ny * dy)
     rate = body.diffusivity * (across[:, None] ** 2 + along**2) + 1j * body.speed * along
     rate[0, 0] = 1.0
-    decay = erfc(np.sqrt(rate * begin)) - erfc(np.sqrt(rate * end))
+    decay = erfc(np.sqrt(rate * least_age)) - erfc(np.sqrt(rate * largest_age))
     spectrum = np.sqrt(body.diffusivity / rate) * decay / body.conductivity
-    mean = 2 * math.sqrt(body.diffusivity / math.pi) * (math.sqrt(end) - math.sqrt(begin))
+    mean = 2 * math.sqrt(body.diffusivity / math.pi) * (math.sqrt(largest_age) - math.sqrt(least_age))
     spectrum[0, 0] = mean / body.conductivity
     imaginary = spectrum.imag.copy()
     if nx % 2 == 0:
@@ -107,11 +107,11 @@ def periodic_operator(grid: Grid, body: Conductor, begin: float, end: float) -> 
 
 
 def approximate_inverse(grid: Grid, bodies: tuple[Conductor, ...], rate: float = 0.0) -> HeatOperator:
-    """Preconditioner: the inverse of the sum of all bodies' transfer functions, periodic in the padded lengths.
+    """Return the preconditioner: the inverse of the sum of all bodies' transfer functions, periodic in padded lengths.
 
     The transfer function of a half-space is 1 / (k sqrt(q^2 + i U q_x / kappa + rate / kappa)) (Carslaw and Jaeger);
-    `rate` [1/s] stands for the inverse of the time since the heat began. The wavenumber is bounded from below by that
-    of the longest wave.
+    `rate` [1/s] replaces the time derivative: 0 for the steady state, pi / (4 t) for heat of ages up to t, which is
+    exact for the mean. The wavenumber is bounded from below by that of the longest wave.
     """
     px, py = padded_shape(grid.shape, grid.periodic)
     dx, dy = grid.spacing
@@ -129,36 +129,3 @@ def approximate_inverse(grid: Grid, bodies: tuple[Conductor, ...], rate: float =
     moves = any(body.speed for body in bodies)
     kernel = Multiplier(np.ascontiguousarray(inverse.real), imaginary if moves else None)
     return HeatOperator(transform_of(grid.shape, (px, py)), kernel)
-
-
-def band_temperatures(edges: FloatArray, body: Conductor) -> FloatArray:
-    """Temperature rise at the centres of the cells of a line contact per unit flux into each cell, (m, m) [K m^2/W].
-
-    Parameters
-    ----------
-    edges : (m + 1,) edges of the cells, ascending [m].
-    body : a half-space that moves.
-
-    Raises
-    ------
-    InputError : a body at rest.
-    """
-    if body.wavenumber == 0:
-        raise InputError(
-            "band_temperatures: the body is at rest (speed 0): under a line of heat no steady state exists"
-        )
-    centres = 0.5 * (edges[1:] + edges[:-1])
-    primitive = _primitive(body.wavenumber * (centres[:, None] - edges[None, :]))
-    return np.asarray((primitive[:, :-1] - primitive[:, 1:]) / (np.pi * body.conductivity * body.wavenumber))
-
-
-def _primitive(t: FloatArray) -> FloatArray:
-    """Integral of exp(s) K0(|s|) from 0 to t."""
-    out = np.where(t == 0, 0.0, -1.0)
-    near = (t != 0) & (t > -_FAR_UPSTREAM)
-    size = np.abs(t[near])
-    zeroth, first = k0e(size), k1e(size)
-    downstream = size * (zeroth + first) - 1
-    upstream = -1 - size * np.exp(-2 * size) * (zeroth - first)
-    out[near] = np.where(t[near] > 0, downstream, upstream)
-    return out

@@ -12,11 +12,9 @@ from bem.errors import InputError, Status
 from bem.grid import Grid
 from bem.heat.bodies import Conductor, check_steady, conductors_of
 from bem.heat.operators import approximate_inverse, heat_operator
-from bem.heat.partition import Pair, TemperatureSolution, solve_partition, temperature_solution
+from bem.heat.partition import TOLERANCE, BodyPair, solve_partition
+from bem.heat.solution import TemperatureSolution, build_solution
 from bem.materials import Body
-
-TOLERANCE = 1e-8
-"""Default bound on the difference of the two surfaces, over the largest rise."""
 
 
 def surface_temperature(
@@ -28,19 +26,19 @@ def surface_temperature(
     bulk: float | Sequence[float] = (0.0, 0.0),
     tolerance: float = TOLERANCE,
 ) -> TemperatureSolution:
-    """Surface temperature of heat made in a contact: Jaeger's moving source for any map, speed and pair of materials.
+    """Compute the steady surface temperature under a heat source: Jaeger's moving source for any map of the heat.
 
-    Steady, on bare half-spaces. Of one body all heat enters it; of a pair the heat of every cell is shared so that both
-    surfaces are equally hot where it is made; elsewhere they exchange none.
+    The bodies are bare half-spaces. A single body takes all heat. Two bodies share the heat of each cell so that both
+    surfaces are equally hot where heat is generated; elsewhere they exchange none.
 
     Parameters
     ----------
-    heat : flux made (nx, ny) [W/m^2], such as friction x pressure x sliding speed.
+    heat : generated flux (nx, ny) [W/m^2], such as friction x pressure x sliding speed.
     grid : free along x; along y free or periodic.
     bodies : one Body or a pair, whose materials have `thermal_conductivity`, `density` and `heat_capacity`.
-    speeds : over the contact [m/s], along +x (negative: along -x), one a body.
-    bulk : temperature far below the surface [K], one a body; with zeros the result is the rise.
-    tolerance : largest difference of the two surfaces where heat is made, over the largest rise.
+    speeds : of each body along +x relative to the heat source [m/s]; negative along -x.
+    bulk : temperature of each body far below the surface [K]; with zeros the result is the rise.
+    tolerance : bound on the difference of the two surfaces where heat is generated, over the largest rise.
 
     Returns
     -------
@@ -62,21 +60,21 @@ def surface_temperature(
     if len(conductors) == 1:
         (body,) = conductors
         surface = body.bulk + heat_operator(grid, body)(field)
-        return temperature_solution(field, field[None], surface[None], conductors, 1, 0.0, Status.CONVERGED)
+        return build_solution(field, field[None], surface[None], conductors, 1, 0.0, Status.CONVERGED)
     first = heat_operator(grid, conductors[0])
     alike = _response(conductors[0]) == _response(conductors[1])
-    pair = Pair(
+    pair = BodyPair(
         conductors,
         (first, first if alike else heat_operator(grid, conductors[1])),
         approximate_inverse(grid, conductors),
     )
-    before = [np.full(grid.shape, body.bulk) for body in conductors]
-    return solve_partition(field, pair, before, None, tolerance)
+    background = [np.full(grid.shape, body.bulk) for body in conductors]
+    return solve_partition(field, pair, background, None, tolerance)
 
 
 def _response(body: Conductor) -> tuple[float, float]:
-    """Return the properties that determine a body's operator: conductivity and wavenumber."""
-    return body.conductivity, body.wavenumber
+    """Return the properties that determine a body's operator: conductivity and Peclet number per length."""
+    return body.conductivity, body.peclet_per_length
 
 
 def flash_temperature(
@@ -89,15 +87,16 @@ def flash_temperature(
     bulk: float | Sequence[float] = (0.0, 0.0),
     tolerance: float = TOLERANCE,
 ) -> TemperatureSolution:
-    """Surface temperature of a rubbing contact: `surface_temperature` of the heat |friction (u1 - u2)| x pressure.
+    """Compute the flash temperature: `surface_temperature` under the heat |friction (u1 - u2)| x pressure.
 
     Parameters
     ----------
     pressure : (nx, ny) [Pa], of a contact solution.
     grid, bulk, tolerance : as of `surface_temperature`.
-    bodies : a pair, or one Body whose counterface takes no heat.
+    bodies : a pair, or one Body under a counterface that takes no heat.
     friction : coefficient, one number or (nx, ny).
-    speeds : of both surfaces over the contact [m/s], along x; of one Body its own first, then its counterface's.
+    speeds : (first, second) of both surfaces along x relative to the contact [m/s]; of one Body its own, then that of
+        the counterface.
 
     Raises
     ------

@@ -12,7 +12,7 @@ from bem.errors import InputError
 from bem.grid import Grid
 from bem.heat import surface_temperature
 from bem.heat.bodies import Conductor
-from bem.heat.operators import band_temperatures
+from bem.heat.line_contact import band_temperatures
 
 pytestmark = pytest.mark.internal
 

@@ -13,7 +13,7 @@ from scipy.special import k0e
 from unit_body import UNIT, body
 
 from bem import Body, Grid, InputError, Layer, Material, Status, flash_temperature, surface_temperature
-from bem.heat.coefficients import Rows, temperature_table
+from bem.heat.coefficients import TransverseBasis, temperature_table
 from bem.notes.heat import BULK_HOT, RISE_TRANSFORMS, SURFACE_SOFTENS, SURFACE_TRANSFORMS
 from bem.reference_solutions import heat_sources
 from bem.verification.patches import disc_means, free_grid
@@ -35,7 +35,7 @@ def disc(cells, peclet, profile):
 def test_a_cell_is_the_integral_of_moving_point_sources(wavenumber):
     """Another integral than the production's: over the cell, of exp(-w (r - x)) / (2 pi r)."""
     cells, across = 9, 0.7
-    table = temperature_table(cells, 1.0, Rows(6, across, False), wavenumber, 0.0, math.inf)
+    table = temperature_table(cells, 1.0, TransverseBasis(6, across, False), wavenumber, 0.0, math.inf)
     random = np.random.default_rng(11)
     offsets = [(random.integers(-8, 9), random.integers(1, 6)) for _ in range(3)] + [(1, 0), (-1, 0)]
 
@@ -52,7 +52,7 @@ def test_a_cell_is_the_integral_of_moving_point_sources(wavenumber):
 
 @pytest.mark.internal
 def test_a_cell_at_rest_is_the_potential_of_a_rectangle():
-    table = temperature_table(7, 2.0, Rows(5, 0.3, False), 0.0, 0.0, math.inf)
+    table = temperature_table(7, 2.0, TransverseBasis(5, 0.3, False), 0.0, 0.0, math.inf)
     x, y = 2.0 * np.arange(-6, 7)[:, None], 0.3 * np.arange(5)
     exact = heat_sources.rectangle_at_rest(x, y, (1.0, 0.15))
     assert np.abs(table - exact).max() < 1e-13 * exact.max()

@@ -49,6 +49,7 @@ def moving_bodies(
     sign = math.copysign(1.0, float(speeds[0]) + float(speeds[1]))
     moving = []
     for body in found:
-        number = body.wavenumber if abs(body.wavenumber) > least else math.copysign(least, body.speed or 1.0)
+        own = body.peclet_per_length
+        number = own if abs(own) > least else math.copysign(least, body.speed or 1.0)
         moving.append(replace(body, speed=2 * body.diffusivity * number * sign))
     return moving[0], moving[1]

@@ -21,7 +21,7 @@ from scipy.linalg import lu_factor, lu_solve
 
 from bem.grid import FloatArray
 from bem.heat.bodies import Conductor
-from bem.heat.operators import band_temperatures
+from bem.heat.line_contact import band_temperatures
 
 MAX_STEPS = 200
 LONGEST_STEP = 40.0

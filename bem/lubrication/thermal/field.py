@@ -25,7 +25,7 @@ from scipy.linalg.lapack import dgbtrf, dgbtrs
 
 from bem.grid import FloatArray
 from bem.heat.bodies import Conductor
-from bem.heat.operators import band_temperatures
+from bem.heat.line_contact import band_temperatures
 from bem.numerics.gmres import gmres
 
 MAX_STEPS = 200

@@ -18,7 +18,7 @@ import numpy as np
 from bem.errors import Status
 from bem.grid import FloatArray
 from bem.heat.bodies import Conductor
-from bem.heat.operators import band_temperatures
+from bem.heat.line_contact import band_temperatures
 from bem.lubrication.inlet_heating import InletHeating
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.point.film import PointFilmSolution
@@ -145,8 +145,8 @@ def _spread(bodies: tuple[Conductor, Conductor], half_axes: tuple[float, float])
     """How far heat spreads in bodies while they cross the contact, over the half-axis across; 0 of those that are taken
     as cool there."""
     along, across = half_axes
-    moving = [body for body in bodies if abs(body.wavenumber) * across > 1 + 1e-9]
-    return max((math.sqrt(along / abs(body.wavenumber)) / across for body in moving), default=0.0)
+    moving = [body for body in bodies if abs(body.peclet_per_length) * across > 1 + 1e-9]
+    return max((math.sqrt(along / abs(body.peclet_per_length)) / across for body in moving), default=0.0)
 
 
 def point_heat(film: PointFilmSolution, lubricant: Lubricant, bodies: tuple[Conductor, Conductor]) -> PointHeat:
