@@ -34,6 +34,7 @@ from bem.transforms.loops import GROUP, Squares, term_of_group
 _WEIGHTS = np.array(VON_MISES_WEIGHTS[1:])
 """Weights of the squares of d, e, yz, xz, xy."""
 _TERMS = len(_WEIGHTS)
+"""Number of terms of von Mises stress."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -88,9 +89,7 @@ def connected_stress(
         index = min(waiting)
         waiting.remove(index)
         missing = requested[index] & ~computed[index]
-        if (
-            threads_for(transform.entries) == 1
-        ):  # one thread adds requested groups at once, several leave them to step 3
+        if threads_for(transform.entries) == 1:  # step 2 adds the squares of requested groups while they are in cache
             squares.begun[:] = np.logical_or.reduceat(missing, starts)
         _transform_along_x(load, request.depths[index], squares, stress[index])
         passes += 1
@@ -139,13 +138,13 @@ def _transform_along_x(load: TransformedLoad, depth: float, squares: Squares, ou
 
 
 @compiled
-def _follow_rows(room, singles, squares, out, limit, wraps, requested, computed, exceeding):
+def _follow_rows(plan, singles, squares, out, limit, wraps, requested, computed, exceeding):
     """Compute the groups with a requested row and the groups beside rows above the limit (steps 3 and 4).
 
     Returns the number of computed rows, and (nx,) True for rows above the limit and their neighbours. `requested` and
     `computed` (nx,) are updated; `exceeding` (nx, ny) receives the points above the limit.
     """
-    nx, done, again = room.nx, 0, True
+    nx, done, again = plan.nx, 0, True
     beside = np.zeros(nx, np.bool_)
     while again:
         again = False
@@ -155,13 +154,13 @@ def _follow_rows(room, singles, squares, out, limit, wraps, requested, computed,
                 continue
             if not squares.begun[start // GROUP]:
                 for term in range(squares.weights.size):
-                    term_of_group(room, singles, squares, term, start // GROUP, out)
+                    term_of_group(plan, singles, squares, term, start // GROUP, out)
             again = True
             done += stop - start
             for i in range(start, stop):
                 computed[i] = True
                 above = 0
-                for j in range(room.ny):
+                for j in range(plan.ny):
                     over = not out[i, j] <= limit  # true for a value that is not a number
                     above += over
                     exceeding[i, j] |= over

@@ -196,7 +196,7 @@ class StressRequest:
         """Check a request of the function `name` and transform its fields."""
         places, coefficient = check_request(name, grid, body, depths, friction)
         field = grid.check_field(pressure, "pressure")
-        sheared = None if traction is None else _checked_traction(name, traction, grid, coefficient)
+        sheared = None if traction is None else _check_traction(name, traction, grid, coefficient)
         loads = [TransformedLoad.of(field, grid, body, pressure_and_friction(coefficient))]
         if sheared is not None:
             loads += [
@@ -243,7 +243,7 @@ class StressRequest:
             load.add_component(own, component, out)
 
 
-def _checked_traction(name: str, traction: ArrayLike, grid: Grid, friction: float) -> FloatArray:
+def _check_traction(name: str, traction: ArrayLike, grid: Grid, friction: float) -> FloatArray:
     """Return the traction (2, nx, ny) [Pa] of a request without friction."""
     values = np.asarray(traction, dtype=np.float64)
     if values.shape != (2, *grid.shape) or not np.isfinite(values).all():

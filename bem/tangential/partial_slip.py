@@ -26,7 +26,7 @@ from bem.tangential.problem import (
     SlipProblem,
     check_force,
     check_settings,
-    checked_vectors,
+    check_vectors,
     displacement_scale,
     friction_bound,
     rounding_scale,
@@ -142,13 +142,13 @@ def check_step(
         messages.append("force, shift: exactly one of them must be given")
     if previous is not None and previous.traction.shape != (2, *grid.shape):
         messages.append(f"previous: of shape {previous.traction.shape!r}, not of this grid's {(2, *grid.shape)!r}")
-    total, moved = checked_vectors({"force": force, "shift": shift}, messages)
+    total, displaced = check_vectors({"force": force, "shift": shift}, messages)
     if messages:
         raise InputError(messages)
     if total is not None:
         check_force(total, bound, grid)
     solved = contact if isinstance(contact, ContactSolution) else None
-    return LoadStep(operator, pressure, bound, total, moved, rotation, previous, solved)
+    return LoadStep(operator, pressure, bound, total, displaced, rotation, previous, solved)
 
 
 def solve_step(
@@ -156,8 +156,9 @@ def solve_step(
 ) -> TangentialSolution:
     """Solve one load step.
 
-    The imposed displacement is rigid movement less in-plane displacement under the pressure. With a previous step only
-    their changes count: sticking cells keep their relative displacement.
+    The imposed displacement b is the rigid movement (rotation and prescribed shift) less the in-plane displacement
+    under the pressure, both as changes since the previous step, plus A q of the previous step. Minus the slip,
+    r = b - A q, then vanishes where cells keep their relative displacement.
 
     warm_start : solution of the same load step under nearly the same pressure; affects cost and rounding only.
     """

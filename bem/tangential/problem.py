@@ -63,7 +63,7 @@ def check_settings(rotation: float, tolerance: float, max_iterations: int) -> No
         raise InputError(messages)
 
 
-def checked_vectors(
+def check_vectors(
     vectors: dict[str, Sequence[float] | None], messages: list[str]
 ) -> tuple[FloatArray | None, FloatArray | None]:
     """Return two vectors by name as arrays (2,); add a message for each that is not two finite numbers."""

@@ -42,7 +42,7 @@ from bem.tangential.problem import (
     SAFETY,
     check_force,
     check_settings,
-    checked_vectors,
+    check_vectors,
     displacement_scale,
     friction_bound,
     rounding_scale,
@@ -97,7 +97,7 @@ def solve_rolling(
     operator = tangential_operator(grid, bodies)
     check_settings(0.0, tolerance, max_iterations)
     pressure, bound = friction_bound(contact, grid, friction)
-    creep, total = _checked_creepage(grid, bound, creepage, spin, force)
+    creep, total = _check_creepage(grid, bound, creepage, spin, force)
     inside = slice(None)
     if not grid.periodic[0] and (bound[0].any() or bound[-1].any()):  # u(x + dx) must exist ahead of every cell
         inside = slice(1, -1)
@@ -117,12 +117,12 @@ def solve_rolling(
     return replace(solution, **fields)
 
 
-def _checked_creepage(
+def _check_creepage(
     grid: Grid, bound: FloatArray, creepage: Sequence[float], spin: float, force: Sequence[float] | None
 ) -> tuple[FloatArray, FloatArray | None]:
     """Return the creepage, and the force over the area of a cell if it is given."""
     messages: list[str] = []
-    creep, total = checked_vectors({"creepage": creepage, "force": force}, messages)
+    creep, total = check_vectors({"creepage": creepage, "force": force}, messages)
     if not math.isfinite(spin):
         messages.append(f"spin: {spin!r} must be finite [1/m]")
     if not messages and total is not None and np.any(creepage):
