@@ -32,8 +32,8 @@ from bem.contact import solve_contact
 from bem.convolution import DisplacementOperator, displacement_operator
 from bem.errors import InputError, Status
 from bem.flow.cell_problem import CellFlow, cell_flow
-from bem.flow.curve import Curve
-from bem.flow.inverse_gap import InverseGap, inverse_gap, inverse_opening
+from bem.flow.factor_curve import FactorCurve
+from bem.flow.inverse_gap import InverseGap, inverse_gap_of_contact, inverse_gap_of_cut_heights
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
 from bem.notes import Note
@@ -54,17 +54,18 @@ class FlowFactors:
 
     Attributes
     ----------
-    separations : [m], rising: distance of the mean planes of the undeformed surfaces, less what the bodies as a whole
-        approach (a doubly periodic patch has no other deflection of its mean).
-    pressure_x, pressure_y : phi_x and phi_y: pressure flow over that between smooth walls at the separation; exactly 0
-        where the fluid does not percolate.
-    pressure_xy : pressure flow along x for a gradient along y (and the reverse), in the same measure: of skewed lays.
-    shear_x : phi_s, of roughness on wall 1 alone; see the module for both.
+    separations : [m], rising: distance of the mean planes of the undeformed surfaces less the approach. The mean
+        deflection of a doubly periodic patch is zero by definition.
+    pressure_x, pressure_y : phi_x and phi_y: Poiseuille flow over the flow between smooth walls at the separation;
+        exactly 0 where the fluid does not percolate.
+    pressure_xy : Poiseuille flow along x under a gradient along y (and the reverse), over the same flow; not zero for
+        oblique lays.
+    shear_x : phi_s of roughness on wall 1 alone; see the module for two rough walls.
     friction_sliding, friction_shear, friction_pressure : phi_f, phi_fs and phi_fp of the stress on the smooth wall.
     mean_gap : [m], of the deformed gap.
     contact_area_fraction : of the patch.
-    mean_gap_scatter : [m], by how much the mean gap over cells scatters with where heights that are cut off lie between
-        their centres, as a standard deviation; 0 of bodies that deform.
+    mean_gap_scatter : [m], standard deviation of the mean gap by the unknown position, between the centres of cells, of
+        the edges at which heights are cut off; 0 for bodies that deform.
     flows_through_x, flows_through_y : whether the fluid percolates along the axis.
     pressure_x_error, pressure_y_error, shear_x_error : difference to cells twice as large, over 3 (second order); NaN
         if not asked for.
@@ -108,19 +109,19 @@ class FlowFactors:
         return next((status for status in self.statuses if status is not Status.CONVERGED), Status.CONVERGED)
 
     @cached_property
-    def pressure_x_curve(self) -> Curve:
+    def pressure_x_curve(self) -> FactorCurve:
         """phi_x between and beyond the separations: 1 plus a multiple of d^-2 far away."""
-        return Curve(self.separations, self.pressure_x, 1.0, 2.0)
+        return FactorCurve(self.separations, self.pressure_x, 1.0, 2.0)
 
     @cached_property
-    def pressure_y_curve(self) -> Curve:
+    def pressure_y_curve(self) -> FactorCurve:
         """phi_y likewise."""
-        return Curve(self.separations, self.pressure_y, 1.0, 2.0)
+        return FactorCurve(self.separations, self.pressure_y, 1.0, 2.0)
 
     @cached_property
-    def shear_x_curve(self) -> Curve:
+    def shear_x_curve(self) -> FactorCurve:
         """phi_s likewise: a multiple of 1/d far away; of d near contact, where the rough wall carries all fluid."""
-        return Curve(self.separations, np.maximum(self.shear_x, 0.0), 0.0, 1.0, growth=1.0)
+        return FactorCurve(self.separations, np.maximum(self.shear_x, 0.0), 0.0, 1.0, growth_exponent=1.0)
 
 
 def flow_factors(
@@ -160,37 +161,37 @@ def flow_factors(
     ------
     InputError : heights, separations or hardness out of range, one message for each.
     """
-    checked, apart = _checked(heights, grid, separations, hardness, bodies)
+    centred, rising = _check_arguments(heights, grid, separations, hardness, bodies)
     notes = []
     if not all(grid.periodic):
         notes.append(PATCH_REPEATS())
-    rms = float(np.sqrt(np.mean(checked**2)))
-    patch = _Patch.of(checked, grid, bodies, hardness, tolerance, rms)
+    rms = float(np.sqrt(np.mean(centred**2)))
+    patch = _Patch.of(centred, grid, bodies, hardness, tolerance, rms)
     rows = []
-    for d in apart:
-        rows.append(patch.row(d))
+    for d in rising:
+        rows.append(patch.solve(d))
         if callback is not None:
             callback(len(rows))
     columns = {name: np.array([row[0][name] for row in rows]) for name in rows[0][0]}
     coarse = patch.coarsened(bodies) if errors else None
-    other: dict[str, FloatArray] | None = None
+    coarser: dict[str, FloatArray] | None = None
     for name in ("pressure_x", "pressure_y", "shear_x"):
-        columns[f"{name}_error"] = np.full(len(apart), np.nan)
+        columns[f"{name}_error"] = np.full(len(rising), np.nan)
     if coarse is not None:
-        rows_there = [coarse.row(d)[0] for d in apart]
-        other = {name: np.array([row[name] for row in rows_there]) for name in rows_there[0]}
+        coarse_rows = [coarse.solve(d)[0] for d in rising]
+        coarser = {name: np.array([row[name] for row in coarse_rows]) for name in coarse_rows[0]}
         for name in ("pressure_x", "pressure_y", "shear_x"):
-            columns[f"{name}_error"] = np.abs(columns[name] - other[name]) / 3
-    shut = [f"{1e9 * d:.4g} nm" for d, row in zip(apart, rows, strict=True) if row[0]["pressure_x"] == 0]
-    if shut:
-        notes.append(FLOW_BARRED(separations=shut))
+            columns[f"{name}_error"] = np.abs(columns[name] - coarser[name]) / 3
+    closed = [f"{1e9 * d:.4g} nm" for d, row in zip(rising, rows, strict=True) if row[0]["pressure_x"] == 0]
+    if closed:
+        notes.append(FLOW_BARRED(separations=closed))
     return FlowFactors(
         wall_share=float(wall_share),
-        separations=apart,
+        separations=rising,
         statuses=tuple(row[1] for row in rows),
         rms_height=rms,
         notes=tuple(notes),
-        coarser=other,
+        coarser=coarser,
         **columns,
     )
 
@@ -232,7 +233,7 @@ def factors_for_films(
 
 @dataclass(frozen=True, eq=False)
 class _Patch:
-    """A rough patch and its contact.
+    """A rough patch, periodic along both axes, and its operator of dry contact.
 
     Attributes
     ----------
@@ -276,28 +277,28 @@ class _Patch:
         # the mean is not removed again: the mean planes are those of the original surface
         return _Patch.of(heights, grid, bodies, self.hardness, self.tolerance, self.rms)
 
-    def row(self, separation: float) -> tuple[dict[str, float], Status]:
-        """Return all factors at one separation [m], by name, and the worst status."""
-        gap, area, residual, status = self.deformed(separation)
-        # of order one, so that nothing depends on the unit
+    def solve(self, separation: float) -> tuple[dict[str, float], Status]:
+        """Return all factors at one separation [m], by name of the field of `FlowFactors`, and the worst status."""
+        gap, area, residual, status = self.contact_gap(separation)
+        # lengths over the separation: K, M and <1/h> then have no unit
         gap, least = gap / separation, LEAST_SHEAR_GAP * self.rms / separation
-        inverse = self._inverse(gap, separation, least)
+        inverse = self._inverse_gap(gap, separation, least)
         flow = cell_flow(gap, self.grid.spacing, tolerance=self.tolerance, inverse=inverse)
-        named = self._named(flow, separation, area, max(residual, flow.residual))
+        named = self._factors(flow, separation, area, max(residual, flow.residual))
         named["friction_sliding"] = float(inverse.means.mean())
-        named["mean_gap_scatter"] = 0.0 if self.operator is not None else self._scatter(separation)
+        named["mean_gap_scatter"] = 0.0 if self.operator is not None else self._mean_gap_scatter(separation)
         return named, status if status is not Status.CONVERGED else flow.status
 
-    def _inverse(self, gap: FloatArray, separation: float, least: float) -> InverseGap:
-        """Return the inverse of the gap (nx, ny) over the separation where it is at least `least`."""
+    def _inverse_gap(self, gap: FloatArray, separation: float, least: float) -> InverseGap:
+        """Return the inverse gap in units of the separation; gaps (nx, ny) below `least` do not count."""
         if self.rms == 0:
             return InverseGap(np.ones(gap.shape), np.full(gap.shape, np.nan))
         if self.operator is None:
-            return inverse_opening(1 - self.heights / separation, least, self.grid.spacing)
-        return inverse_gap(gap, least, self.grid.spacing)
+            return inverse_gap_of_cut_heights(1 - self.heights / separation, least, self.grid.spacing)
+        return inverse_gap_of_contact(gap, least, self.grid.spacing)
 
-    def _scatter(self, separation: float) -> float:
-        """Return the standard deviation [m] of the mean gap over the position of the cut within cells.
+    def _mean_gap_scatter(self, separation: float) -> float:
+        """Return the standard deviation [m] of the mean gap by the position of cuts within cells (rigid bodies).
 
         In a cell with a kink of slope a per cell, at distance u from the centre, the centre's value differs from the
         cell's mean by a (u^2/2 - 1/24); with u uniform from -1/2 to 1/2 its standard deviation is a/sqrt(720).
@@ -308,8 +309,12 @@ class _Patch:
             squares.append(float((np.square(beside - opening)[(beside > 0) != (opening > 0)]).sum()))
         return math.sqrt(max(squares) / 720) / opening.size
 
-    def deformed(self, separation: float) -> tuple[FloatArray, float, float, Status]:
-        """Return gap (nx, ny) [m], zero in contact, contact area fraction, and the contact's residual and status."""
+    def contact_gap(self, separation: float) -> tuple[FloatArray, float, float, Status]:
+        """Return the gap (nx, ny) [m], zero in contact, the contact area fraction, the contact's residual and status.
+
+        The gap of a contact is -heights + displacement - approach: at the approach -separation and without contact it
+        is separation - heights.
+        """
         if self.operator is None:
             gap = np.maximum(separation - self.heights, 0.0)
             area, residual, status = float((gap == 0).mean()), 0.0, Status.CONVERGED
@@ -321,25 +326,26 @@ class _Patch:
             area, residual, status = solution.contact_area / self.grid.area, solution.residual, solution.status
         return np.where(gap < LEAST_GAP * self.rms, 0.0, gap), area, residual, status
 
-    def _named(self, flow: CellFlow, separation: float, area: float, residual: float) -> dict[str, float]:
-        dragged = flow.dragged_flow[0, 0]
+    def _factors(self, flow: CellFlow, separation: float, area: float, residual: float) -> dict[str, float]:
+        """Return the factors that follow from the mean flow (formulas of the module), by name."""
+        couette_gap = flow.couette_gap[0, 0]
         return {
             "pressure_x": flow.pressure_flow[0, 0],
             "pressure_y": flow.pressure_flow[1, 1],
             "pressure_xy": flow.pressure_flow[0, 1],
-            "shear_x": (flow.mean_gap - dragged) * separation / self.rms if self.rms > 0 else 0.0,
+            "shear_x": (flow.mean_gap - couette_gap) * separation / self.rms if self.rms > 0 else 0.0,
             "friction_shear": 3 * flow.sliding_shear,
-            "friction_pressure": dragged,
+            "friction_pressure": couette_gap,
             "mean_gap": flow.mean_gap * separation,
             "contact_area_fraction": area,
-            "flows_through_x": flow.through_x,
-            "flows_through_y": flow.through_y,
+            "flows_through_x": flow.percolates_x,
+            "flows_through_y": flow.percolates_y,
             "residual": residual,
             "iterations": flow.iterations,
         }
 
 
-def _checked(
+def _check_arguments(
     heights: FloatArray,
     grid: Grid,
     separations: Sequence[float] | FloatArray,

@@ -2,16 +2,20 @@
 
 The midpoint rule is exact to all orders where the gap is smooth, but of order one half beside contact: there the gap h
 rises with the power 3/2 of the distance for elastic bodies (Johnson, *Contact Mechanics*, section 5.1) and with the
-first power for heights that are cut off, so 1/h is singular and a single centre near the edge dominates the sum. The
-measure g = h^(2/3), or h, is smooth. It is taken linear across a cell in which it changes much, and 1/h is integrated
-in closed form over the part of the cell with h above the smallest gap that counts. With Psi'' = 1/h(g) above the
-smallest g and 0 below, and 2a, 2b the changes of g across the cell along x and y, the mean of 1/h is
+first power for heights that are cut off, so 1/h is singular and a single centre near the edge dominates the sum.
 
-    (Psi(g+a+b) - Psi(g+a-b) - Psi(g-a+b) + Psi(g-a-b)) / (4 a b).
+1. Take the measure g = h^(2/3) for elastic bodies, or g = h for heights that are cut off: it is smooth at the edge.
+2. Extrapolate g linearly into the closed cells beside open ones (elastic bodies; cut heights are known everywhere).
+3. Use the midpoint rule in cells across which g changes little.
+4. In the other cells take g linear and integrate 1/h in closed form over the part with h above the smallest gap that
+   counts. With Psi'' = 1/h(g) above the smallest g and 0 below, and 2a, 2b the changes of g across the cell along x and
+   y, the mean of 1/h is
 
-Inside contact g is extrapolated linearly from the open cells beside. On random patches with 4 to 12 cells in the
-shortest wavelength the error is 0.2 to 0.8 %, of the midpoint rule 2 to 5 % (`reports/experiments/flow_error_bars.py`).
-The method is this project's own. Verified in tests/flow/test_inverse_gap.py against closed forms.
+       (Psi(g+a+b) - Psi(g+a-b) - Psi(g-a+b) + Psi(g-a-b)) / (4 a b).
+
+Cost: a few passes over the cells. On random patches with 4 to 12 cells in the shortest wavelength the error is 0.2 to
+0.8 % (`reports/experiments/flow_error_bars.py`). The method is this project's own. Verified in
+tests/flow/test_inverse_gap.py against closed forms.
 """
 
 from __future__ import annotations
@@ -35,34 +39,39 @@ class InverseGap:
 
     Attributes
     ----------
-    means : (nx, ny), mean of 1/gap over the part of the cell with enough gap, over the whole cell.
-    normal_x : (nx, ny), square of the x component of the normal of the contact's edge in open cells beside contact;
-        not-a-number elsewhere.
+    means : (nx, ny), integral of 1/gap over the part of the cell with enough gap, over the area of the whole cell.
+    normal_x_squared : (nx, ny), square of the x component of the normal of the contact's edge, in open cells beside
+        contact; not-a-number elsewhere.
     """
 
     means: FloatArray
-    normal_x: FloatArray
+    normal_x_squared: FloatArray
 
 
-def inverse_gap(gap: FloatArray, least: float, spacing: tuple[float, float] = (1.0, 1.0)) -> InverseGap:
-    """Return the inverse of the gap (nx, ny) >= 0 of elastic bodies, zero in contact, on a periodic patch.
+def inverse_gap_of_contact(gap: FloatArray, least: float, spacing: tuple[float, float] = (1.0, 1.0)) -> InverseGap:
+    """Return the inverse gap of elastic bodies in contact, on a periodic patch.
 
-    Gaps below `least` > 0 do not count.
+    gap : (nx, ny), zero in contact. least : smallest gap that counts, > 0. spacing : sides of a cell.
     """
     free = gap > 0
     measure, known = _extrapolate(np.where(free, gap, 0.0) ** (2 / 3), free)
     means = _means(measure, known, free, least ** (2 / 3), 1.5)
-    return InverseGap(means, _normal_x(measure, free, free, spacing))
+    return InverseGap(means, _normal_x_squared(measure, free, free, spacing))
 
 
-def inverse_opening(opening: FloatArray, least: float, spacing: tuple[float, float] = (1.0, 1.0)) -> InverseGap:
-    """Return the inverse gap of rigid bodies with heights cut off, from separation less height (nx, ny)."""
+def inverse_gap_of_cut_heights(
+    opening: FloatArray, least: float, spacing: tuple[float, float] = (1.0, 1.0)
+) -> InverseGap:
+    """Return the inverse gap of rigid bodies whose heights are cut off, on a periodic patch.
+
+    opening : separation less height (nx, ny), negative where heights are cut off. least, spacing : as above.
+    """
     everywhere = np.ones(opening.shape, dtype=np.bool_)
     means = _means(opening, everywhere, everywhere, least, 1.0)
-    return InverseGap(means, _normal_x(opening, everywhere, opening > 0, spacing))
+    return InverseGap(means, _normal_x_squared(opening, everywhere, opening > 0, spacing))
 
 
-def _normal_x(
+def _normal_x_squared(
     g: FloatArray, known: NDArray[np.bool_], free: NDArray[np.bool_], spacing: tuple[float, float]
 ) -> FloatArray:
     """Return the square of the normal's x component from the slopes of the measure, in open cells beside contact."""
@@ -115,15 +124,15 @@ def _means(g: FloatArray, known: NDArray[np.bool_], free: NDArray[np.bool_], lea
 
 
 def _over_cells(g: FloatArray, a: FloatArray, b: FloatArray, least: float, power: float) -> FloatArray:
-    """Return the means over cells across which g is linear, in closed form."""
+    """Return the means over cells across which g is linear, in closed form (step 4)."""
     b = np.maximum(b, _THINNEST * a)
-    corners = (_twice_integrated(g + way, least, power) for way in (a + b, a - b, b - a, -a - b))
+    corners = (_second_antiderivative(g + way, least, power) for way in (a + b, a - b, b - a, -a - b))
     first, second, third, fourth = corners
     return np.asarray((first - second - third + fourth) / (4 * a * b))
 
 
-def _twice_integrated(g: FloatArray, least: float, power: float) -> FloatArray:
-    """Psi: its second derivative is g^-power above `least`, where it and its slope are 0."""
+def _second_antiderivative(g: FloatArray, least: float, power: float) -> FloatArray:
+    """Return Psi(g), whose second derivative is g^-power above `least` and 0 below; Psi and its slope are 0 there."""
     ratio = np.maximum(g / least, 1.0)
     if power == 1.0:
         return np.asarray(least * (ratio * np.log(ratio) - ratio + 1))

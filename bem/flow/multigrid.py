@@ -22,18 +22,18 @@ from bem.grid import FloatArray
 
 Index = NDArray[np.int32]
 
-COARSEST = 120
+_COARSEST = 120
 """Largest number of nodes that is solved by elimination."""
-STRONG = 0.1
+_STRONG = 0.1
 """Smallest conductance of a link that joins two nodes, over the smaller diagonal of the two."""
-ENOUGH = 0.25
-"""Relative residual of a coarse level after one step below which the second step is left out."""
+_ONE_STEP = 0.25
+"""Relative residual of a coarse level below which one step of conjugate gradients is enough."""
 _CHECKS = 4
 """Largest number of times that the recomputed residual may be too large although the updated residual is not."""
 _AIM = 0.5
 """Goal of the updated residual over the allowed residual; the updated residual drifts by round-off."""
-SMALLEST_SHRINKAGE = 0.9
-"""Largest ratio of the nodes of a level to those of the finer level for which the level is kept."""
+_LARGEST_RATIO = 0.9
+"""Largest number of aggregates over nodes for which a coarser level is built."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -69,12 +69,15 @@ class Network:
         start, neighbour = matrix.indptr.astype(np.int32), matrix.indices.astype(np.int32)
         return cls(start, neighbour, matrix.data, _row_sums(start, matrix.data))
 
-    def leak(self, potential: FloatArray, source: FloatArray) -> FloatArray:
+    def residual(self, potential: FloatArray, source: FloatArray) -> FloatArray:
         """Return the residual, source less matrix times potential, (nodes,)."""
-        return np.asarray(_leak(self.start, self.neighbour, self.conductance, self.diagonal, potential, source))
+        return np.asarray(_residual(self.start, self.neighbour, self.conductance, self.diagonal, potential, source))
 
-    def joined(self, group: Index, groups: int) -> Network:
-        """Return the network of the aggregates; `group` is the aggregate of each node, -1 for none."""
+    def aggregated(self, group: Index, groups: int) -> Network:
+        """Return the coarse network, whose nodes are the aggregates.
+
+        group : (nodes,), aggregate of each node, -1 for none. groups : number of aggregates.
+        """
         row = np.repeat(np.arange(self.nodes), np.diff(self.start))
         once = row < self.neighbour
         a, b = group[row[once]], group[self.neighbour[once]]
@@ -103,54 +106,54 @@ class Hierarchy:
     def of(cls, network: Network) -> Hierarchy:
         """Build the hierarchy of a network."""
         levels: list[_Level] = []
-        while network.nodes > COARSEST:
+        while network.nodes > _COARSEST:
             group, groups = _aggregates(network)
-            if groups > SMALLEST_SHRINKAGE * network.nodes:
+            if groups > _LARGEST_RATIO * network.nodes:
                 break
             levels.append(_Level(network, group))
-            network = network.joined(group, groups)
-        return cls(tuple(levels), network, *_eliminated(network))
+            network = network.aggregated(group, groups)
+        return cls(tuple(levels), network, *_eliminate(network))
 
     def apply(self, residual: FloatArray, depth: int = 0) -> FloatArray:
         """Apply one cycle from a level on: pre-smoothing, coarse-grid correction, post-smoothing."""
         if depth == len(self.levels):
-            return np.asarray(_substituted(self.factors, self.pivots, residual))
+            return np.asarray(_substitute(self.factors, self.pivots, residual))
         level = self.levels[depth]
         network, group = level.network, level.group
         parts = (network.start, network.neighbour, network.conductance, network.diagonal)
-        found = np.zeros(network.nodes)
-        _relax(*parts, found, residual, True)
+        potential = np.zeros(network.nodes)
+        _relax(*parts, potential, residual, True)
         coarse_nodes = self.levels[depth + 1].network.nodes if depth + 1 < len(self.levels) else self.coarsest.nodes
-        coarse = self._solve(_restricted(*parts, found, residual, group, coarse_nodes), depth + 1)
-        _prolong(found, coarse, group)
-        _relax(*parts, found, residual, False)
-        return found
+        coarse = self._solve_level(_restrict_residual(*parts, potential, residual, group, coarse_nodes), depth + 1)
+        _prolong(potential, coarse, group)
+        _relax(*parts, potential, residual, False)
+        return potential
 
-    def _solve(self, right: FloatArray, depth: int) -> FloatArray:
+    def _solve_level(self, right: FloatArray, depth: int) -> FloatArray:
         """Take at most two steps of conjugate gradients on a level, each preconditioned by one cycle (K-cycle)."""
         if depth == len(self.levels):
             return self.apply(right, depth)
         network = self.levels[depth].network
         first = self.apply(right, depth)
-        image = -network.leak(first, np.zeros_like(first))
+        image = -network.residual(first, np.zeros_like(first))
         energy, work = _dot(first, image), _dot(first, right)
         if energy <= 0:
             return first
         length = work / energy
-        rest = right - length * image
-        if _dot(rest, rest) <= ENOUGH**2 * _dot(right, right):
+        residual = right - length * image
+        if _dot(residual, residual) <= _ONE_STEP**2 * _dot(right, right):
             return length * first
-        second = self.apply(rest, depth)
-        image_two = -network.leak(second, np.zeros_like(second))
-        mixed, energy_two, work_two = _dot(second, image), _dot(second, image_two), _dot(second, rest)
+        second = self.apply(residual, depth)
+        image_two = -network.residual(second, np.zeros_like(second))
+        mixed, energy_two, work_two = _dot(second, image), _dot(second, image_two), _dot(second, residual)
         left = energy_two - mixed**2 / energy
         if left <= 0:
             return length * first
         return (length - mixed * work_two / (energy * left)) * first + work_two / left * second
 
 
-def solve(
-    network: Network, source: FloatArray, allowed: Callable[[FloatArray], float], most: int
+def solve_network(
+    network: Network, source: FloatArray, max_residual: Callable[[FloatArray], float], max_iterations: int
 ) -> tuple[FloatArray, int]:
     """Solve for the potentials under sources that sum to zero over every connected part of the network.
 
@@ -158,8 +161,8 @@ def solve(
     ----------
     network : the nodes and links.
     source : (nodes,), flow into each node.
-    allowed : bound on the 1-norm of the residual, as a function of the potentials.
-    most : iterations at most.
+    max_residual : bound on the 1-norm of the residual, as a function of the potentials.
+    max_iterations : limit of the iterations.
 
     Returns
     -------
@@ -167,26 +170,26 @@ def solve(
     """
     hierarchy = Hierarchy.of(network)
     nothing = np.zeros(network.nodes)
-    potential, rest, direction, image, energy = nothing.copy(), source.copy(), nothing, nothing, 1.0
+    potential, residual, direction, image, energy = nothing.copy(), source.copy(), nothing, nothing, 1.0
     checks = 0
-    for iteration in range(most):
-        if float(np.abs(rest).sum()) <= _AIM * allowed(potential):
-            rest = network.leak(potential, source)
+    for iteration in range(max_iterations):
+        if float(np.abs(residual).sum()) <= _AIM * max_residual(potential):
+            residual = network.residual(potential, source)
             checks += 1
             # after several checks the residual is the round-off of the potentials
-            if checks == _CHECKS or float(np.abs(rest).sum()) <= allowed(potential):
+            if checks == _CHECKS or float(np.abs(residual).sum()) <= max_residual(potential):
                 return potential, iteration
-        step = hierarchy.apply(rest)
+        step = hierarchy.apply(residual)
         # flexible conjugate gradients: a K-cycle is not a linear map
         step -= _dot(step, image) / energy * direction
-        direction, image = step, -network.leak(step, nothing)
+        direction, image = step, -network.residual(step, nothing)
         energy = _dot(direction, image)
         if not energy > 0:
             return potential, iteration
-        length = _dot(direction, rest) / energy
+        length = _dot(direction, residual) / energy
         potential += length * direction
-        rest -= length * image
-    return potential, most
+        residual -= length * image
+    return potential, max_iterations
 
 
 def _aggregates(network: Network) -> tuple[Index, int]:
@@ -195,14 +198,14 @@ def _aggregates(network: Network) -> tuple[Index, int]:
     Links are weighed against the sum of the diagonals of the original nodes, because the smoother must reduce the error
     inside an aggregate. A dead end behind a throat so stays a node of its own until it has no other link.
     """
-    first, pairs = _pairs(network.start, network.neighbour, network.conductance, network.diagonal)
-    joined = network.joined(first, pairs)
+    first, pairs = _pair_nodes(network.start, network.neighbour, network.conductance, network.diagonal)
+    paired_network = network.aggregated(first, pairs)
     weight = np.bincount(first[first >= 0], network.diagonal[first >= 0], pairs)
-    second, groups = _pairs(joined.start, joined.neighbour, joined.conductance, weight)
+    second, groups = _pair_nodes(paired_network.start, paired_network.neighbour, paired_network.conductance, weight)
     return np.where(first >= 0, np.append(second, -1)[first], -1).astype(np.int32), int(groups)
 
 
-def _eliminated(network: Network) -> tuple[FloatArray, FloatArray]:
+def _eliminate(network: Network) -> tuple[FloatArray, FloatArray]:
     """Eliminate node after node, replacing each star by a mesh of links between its neighbours.
 
     All terms are positive, so weak links between strong ones lose no digit. A node without a link has potential zero.
@@ -216,6 +219,7 @@ def _eliminated(network: Network) -> tuple[FloatArray, FloatArray]:
 
 @compiled
 def _star_to_mesh(conductance):
+    """Return the factors (nodes, nodes) and pivots (nodes,) of the elimination; overwrites `conductance`."""
     nodes = len(conductance)
     pivots = np.zeros(nodes)
     for k in range(nodes):
@@ -235,25 +239,27 @@ def _star_to_mesh(conductance):
 
 
 @compiled
-def _substituted(factors, pivots, source):
+def _substitute(factors, pivots, source):
+    """Return the potentials (nodes,) by forward and back substitution."""
     nodes = len(pivots)
-    found = source.copy()
+    potential = source.copy()
     for k in range(nodes):
         if pivots[k] > 0:
             for j in range(k + 1, nodes):
-                found[j] += factors[k, j] * found[k]
+                potential[j] += factors[k, j] * potential[k]
     for k in range(nodes - 1, -1, -1):
         if pivots[k] > 0:
-            found[k] /= pivots[k]
+            potential[k] /= pivots[k]
             for j in range(k + 1, nodes):
-                found[k] += factors[k, j] * found[j]
+                potential[k] += factors[k, j] * potential[j]
         else:
-            found[k] = 0.0
-    return found
+            potential[k] = 0.0
+    return potential
 
 
 @compiled
 def _row_sums(start, values):
+    """Return the sum of the values of each row of a matrix in compressed rows."""
     sums = np.zeros(len(start) - 1)
     for i in range(len(sums)):
         for k in range(start[i], start[i + 1]):
@@ -263,6 +269,7 @@ def _row_sums(start, values):
 
 @compiled
 def _dot(a, b):
+    """Return the scalar product, summed in order."""
     total = 0.0
     for i in range(len(a)):
         total += a[i] * b[i]
@@ -270,7 +277,8 @@ def _dot(a, b):
 
 
 @compiled
-def _leak(start, neighbour, conductance, diagonal, potential, source):
+def _residual(start, neighbour, conductance, diagonal, potential, source):
+    """Return source less matrix times potential, (nodes,)."""
     out = np.empty(len(diagonal))
     for i in range(len(diagonal)):
         # differences, not products: a constant must leave nothing at all
@@ -295,8 +303,8 @@ def _relax(start, neighbour, conductance, diagonal, potential, source, forward):
 
 
 @compiled
-def _restricted(start, neighbour, conductance, diagonal, potential, source, group, groups):
-    """Return the residual summed over aggregates."""
+def _restrict_residual(start, neighbour, conductance, diagonal, potential, source, group, groups):
+    """Return the residual summed over the nodes of each aggregate, (groups,)."""
     out = np.zeros(groups)
     for i in range(len(diagonal)):
         if group[i] >= 0:
@@ -309,13 +317,14 @@ def _restricted(start, neighbour, conductance, diagonal, potential, source, grou
 
 @compiled
 def _prolong(potential, coarse, group):
+    """Add the potential of its aggregate to each node."""
     for i in range(len(potential)):
         if group[i] >= 0:
             potential[i] += coarse[group[i]]
 
 
 @compiled
-def _pairs(start, neighbour, conductance, weight):
+def _pair_nodes(start, neighbour, conductance, weight):
     """Pair each node with its free neighbour of the strongest link, and return the pair of each node and their number.
 
     A node whose strong neighbours are all paired joins the strongest of these pairs: dead ends would otherwise stay
@@ -331,7 +340,7 @@ def _pairs(start, neighbour, conductance, weight):
         best, partner = 0.0, -1
         for k in range(start[i], start[i + 1]):
             value, j = conductance[k], neighbour[k]
-            if group[j] == -2 and value > best and value >= STRONG * min(weight[i], weight[j]):
+            if group[j] == -2 and value > best and value >= _STRONG * min(weight[i], weight[j]):
                 best, partner = value, j
         if start[i] == start[i + 1]:
             group[i] = -1
@@ -346,7 +355,7 @@ def _pairs(start, neighbour, conductance, weight):
         for k in range(start[i], start[i + 1]):
             value, j = conductance[k], neighbour[k]
             # joins pairs only: chains of single nodes would make long aggregates
-            if paired[j] and value > best and value >= STRONG * weight[i]:
+            if paired[j] and value > best and value >= _STRONG * weight[i]:
                 best, partner = value, j
         if partner >= 0:
             group[i] = group[partner]

@@ -26,11 +26,11 @@ def test_grooves_are_exact(spacing):
     found = cell_flow(np.repeat(profile[:, None], 10, 1), spacing, tolerance=1e-10)
     turned = cell_flow(np.repeat(profile[None, :], 10, 0), spacing, tolerance=1e-10)
     assert found.pressure_flow == pytest.approx(np.diag([across, along]), rel=1e-9, abs=1e-12)
-    assert found.dragged_flow == pytest.approx(np.diag([dragged, profile.mean()]), rel=1e-9, abs=1e-12)
+    assert found.couette_gap == pytest.approx(np.diag([dragged, profile.mean()]), rel=1e-9, abs=1e-12)
     assert found.sliding_shear == pytest.approx((1 / profile).mean() - dragged**2 / across, rel=1e-8)
     assert turned.pressure_flow == pytest.approx(np.diag([along, across]), rel=1e-9, abs=1e-12)
     # along grooves nothing is dragged off: h varies across the sliding only
-    assert turned.dragged_flow[0, 0] == pytest.approx(profile.mean(), rel=1e-12)
+    assert turned.couette_gap[0, 0] == pytest.approx(profile.mean(), rel=1e-12)
     assert turned.sliding_shear == pytest.approx(0, abs=1e-12)
 
 
@@ -71,7 +71,7 @@ def test_small_roughness_is_perturbation_theory():
     assert (found.pressure_flow[0, 0] - 1) / s**2 == pytest.approx(3 - 9 * share, abs=0.05)
     assert (found.pressure_flow[1, 1] - 1) / s**2 == pytest.approx(3 - 9 * (1 - share), abs=0.05)
     assert found.pressure_flow[0, 1] / s**2 == pytest.approx(-9 * cross, abs=0.05)
-    assert (found.mean_gap - found.dragged_flow[0, 0]) / s**2 == pytest.approx(3 * share, abs=0.03)
+    assert (found.mean_gap - found.couette_gap[0, 0]) / s**2 == pytest.approx(3 * share, abs=0.03)
     assert found.sliding_shear / s**2 == pytest.approx(share, abs=0.02)
 
 
@@ -87,13 +87,13 @@ def test_bounds_symmetry_and_conservation(seed, nx, ny, separation, ratio):
     for axis in (0, 1):
         low = groove_factors(gap)[0]
         assert low * (1 - 1e-7) <= flow[axis, axis] <= (gap**3).mean() * (1 + 1e-12)
-        assert -1e-9 <= found.dragged_flow[axis, axis] <= gap.max()
+        assert -1e-9 <= found.couette_gap[axis, axis] <= gap.max()
     # errors are relative to 1e-4 of the mean h^3 at least
     scale = 1e-9 * (gap**3).mean()
     assert flow[0, 1] == pytest.approx(flow[1, 0], abs=scale + 1e-5 * abs(flow[0, 1]))
     assert abs(flow[0, 1]) <= np.sqrt(flow[0, 0] * flow[1, 1]) * (1 + 1e-5) + scale
-    assert (flow[0, 0] > 0) == found.through_x
-    assert (flow[1, 1] > 0) == found.through_y
+    assert (flow[0, 0] > 0) == found.percolates_x
+    assert (flow[1, 1] > 0) == found.percolates_y
     # a saving of energy: both means over one positive field
     assert found.sliding_shear >= -1e-9 * (1 / gap[gap > 0]).sum() / gap.size
     turned = cell_flow(np.ascontiguousarray(gap.T), (ratio, 1.0))
@@ -142,8 +142,8 @@ def test_pocket_is_carried_along():
     gap[3:8, 2:9] = np.random.default_rng(0).uniform(0.5, 1.5, (5, 7))
     found = cell_flow(gap, (1.0, 1.0))
     assert not found.pressure_flow.any()
-    assert not found.dragged_flow.any()
-    assert (found.through_x, found.through_y) == (False, False)
+    assert not found.couette_gap.any()
+    assert (found.percolates_x, found.percolates_y) == (False, False)
     # between closed ends Couette flow is sent back by pressure: four times the shear in all
     assert cell_flow(np.where(np.arange(8)[:, None] > 0, 1.0, 0.0) * np.ones((8, 3)), (1.0, 1.0)).sliding_shear == (
         pytest.approx(7 / 8, rel=1e-9)
@@ -156,7 +156,7 @@ def test_flow_is_zero_exactly_below_percolation():
     found = cell_flow(gap, (1.0, 1.0))
     assert found.pressure_flow[0, 0] == 0
     assert found.pressure_flow[1, 1] == pytest.approx(31 / 32, rel=1e-12)
-    assert (found.through_x, found.through_y) == (False, True)
+    assert (found.percolates_x, found.percolates_y) == (False, True)
     nothing = cell_flow(np.zeros((4, 4)), (1.0, 1.0))
     assert (nothing.mean_gap, nothing.open_fraction, nothing.status) == (0, 0, Status.CONVERGED)
 

@@ -5,7 +5,7 @@ import pytest
 
 from bem import CATALOGUE, Body, Grid, InputError, Status, flow_factors, generate_surface, solve_contact
 from bem.convolution import displacement_operator
-from bem.flow.curve import Curve
+from bem.flow.factor_curve import FactorCurve
 from bem.reference_solutions.rough_flow import (
     PATIR_CHENG,
     patir_cheng_friction,
@@ -185,7 +185,7 @@ def test_curve(zeros):
     h = np.array([0.5, 0.8, 1.0, 1.5, 3.0, 6.0])
     values = 1 - 0.9 * np.exp(-0.56 * h)
     values[:zeros] = 0
-    curve = Curve(h, values, 1.0, 2.0)
+    curve = FactorCurve(h, values, 1.0, 2.0)
     assert curve(h)[0] == pytest.approx(values, rel=1e-12)
     x = np.linspace(0.1, 30, 4001)
     value, slope = curve(x)
@@ -202,6 +202,6 @@ def test_curve(zeros):
 @pytest.mark.internal
 def test_curve_of_grooves_along_does_not_run_off():
     """phi_x > 1 rises as surfaces near; below the table it stays."""
-    curve = Curve(np.array([1.0, 2.0, 4.0]), np.array([2.0, 1.5, 1.1]), 1.0, 2.0)
+    curve = FactorCurve(np.array([1.0, 2.0, 4.0]), np.array([2.0, 1.5, 1.1]), 1.0, 2.0)
     value, slope = curve(np.array([0.01, 0.5]))
     assert (value == pytest.approx([2.0, 2.0]), (slope == 0).all()) == (True, True)

@@ -7,7 +7,7 @@ from scipy.optimize import brentq
 
 from bem import Body, Grid, Material
 from bem.flow import cell_flow, flow_factors
-from bem.flow.inverse_gap import inverse_gap, inverse_opening
+from bem.flow.inverse_gap import inverse_gap_of_contact, inverse_gap_of_cut_heights
 from bem.reference_solutions.westergaard import SinusoidalContact
 
 BODY = Body(Material("steel", youngs_modulus=200e9, poissons_ratio=0.3))
@@ -28,7 +28,7 @@ def test_a_smooth_gap_is_met_to_all_orders(cells):
     """<1/(1 + a cos)> = 1/sqrt(1 - a^2): centres of cells meet it to rounding, and cells count with theirs where the
     gap is this well resolved."""
     gap = 1 + 0.8 * np.cos(2 * np.pi * centres(cells))[:, None] * np.ones((1, 4))
-    for mean in (inverse_gap(gap, 1e-3).means.mean(), inverse_opening(gap, 1e-3).means.mean()):
+    for mean in (inverse_gap_of_contact(gap, 1e-3).means.mean(), inverse_gap_of_cut_heights(gap, 1e-3).means.mean()):
         assert mean == pytest.approx(1 / 0.6, rel=1e-12)
 
 
@@ -43,7 +43,7 @@ def test_a_wedge_is_exact_wherever_its_edge_lies(shift, axis):
     exact = np.log((1 - sixth) / least)  # slope 2 up and down over a period of 1
     field = np.repeat(opening[:, None], 4, 1)
     field = field if axis == 0 else field.T
-    assert inverse_opening(np.ascontiguousarray(field), least).means.mean() == pytest.approx(exact, rel=5e-4)
+    assert inverse_gap_of_cut_heights(np.ascontiguousarray(field), least).means.mean() == pytest.approx(exact, rel=5e-4)
 
 
 def ring(cells, shift, least):
@@ -65,7 +65,7 @@ def test_a_round_contact_is_met_where_centres_scatter():
         found, counts = [], []
         for shift in np.linspace(0, 0.5, 9):
             gap, exact = ring(cells, shift, least)
-            found.append(inverse_gap(gap, least).means.mean() / exact - 1)
+            found.append(inverse_gap_of_contact(gap, least).means.mean() / exact - 1)
             counts.append(counted(gap, least) / exact - 1)
         errors.append(np.sqrt(np.mean(np.square(found))))
         scatter.append(np.sqrt(np.mean(np.square(counts))))
@@ -100,9 +100,9 @@ def test_a_wave_in_contact_is_westergaards(share, largest):
 
 @pytest.mark.internal
 def test_no_gap_has_no_inverse():
-    assert inverse_gap(np.zeros((8, 8)), 1e-3).means.mean() == 0.0
-    assert inverse_opening(np.full((8, 8), -1.0), 1e-3).means.mean() == 0.0
-    assert inverse_gap(np.full((8, 1), 2.0), 1e-3).means.mean() == 0.5
+    assert inverse_gap_of_contact(np.zeros((8, 8)), 1e-3).means.mean() == 0.0
+    assert inverse_gap_of_cut_heights(np.full((8, 8), -1.0), 1e-3).means.mean() == 0.0
+    assert inverse_gap_of_contact(np.full((8, 1), 2.0), 1e-3).means.mean() == 0.5
 
 
 @pytest.mark.parametrize("share", [0.1, 0.4])
@@ -124,7 +124,7 @@ def oval(cells, shift):
     x, y = np.meshgrid(centres(cells, shift) - 0.5, centres(cells, 0.6 * shift) - 0.5, indexing="ij")
     gap = np.clip(np.hypot(x, 1.3 * y) - 0.2, 0.0, 0.25) ** 1.5
     spacing = (1 / cells, 1 / cells)
-    return cell_flow(gap, spacing, inverse=inverse_gap(gap, 1e-3, spacing)).sliding_shear
+    return cell_flow(gap, spacing, inverse=inverse_gap_of_contact(gap, 1e-3, spacing)).sliding_shear
 
 
 @pytest.mark.internal

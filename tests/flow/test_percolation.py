@@ -5,7 +5,7 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from bem.flow.percolation import open_pieces
+from bem.flow.percolation import label_clusters
 
 pytestmark = pytest.mark.internal
 
@@ -32,9 +32,9 @@ def drawn(*rows):
     ],
 )
 def test_reaching_round(picture, along_x, along_y):
-    pieces = open_pieces(picture)
-    assert (pieces.around_x.any(), pieces.around_y.any()) == (along_x, along_y)
-    assert ((pieces.label >= 0) == picture).all()
+    clusters = label_clusters(picture)
+    assert (clusters.wraps_x.any(), clusters.wraps_y.any()) == (along_x, along_y)
+    assert ((clusters.label >= 0) == picture).all()
 
 
 def flooded(is_open, axis):
@@ -65,9 +65,9 @@ def flooded(is_open, axis):
 def test_against_flooded_copies(seed, nx, ny, share):
     """A path that winds thrice, or an equal number of times round both, is beyond what nine copies tell: left out."""
     is_open = np.random.default_rng(seed).random((nx, ny)) < share
-    pieces = open_pieces(is_open)
+    clusters = label_clusters(is_open)
     for axis in (0, 1):
         seen = flooded(is_open, axis)
-        assert not (seen & ~pieces.around(axis)).any()
-        alone = pieces.around(axis) & ~pieces.around(1 - axis)
+        assert not (seen & ~clusters.percolating_cells(axis)).any()
+        alone = clusters.percolating_cells(axis) & ~clusters.percolating_cells(1 - axis)
         assert (seen[alone]).all()
