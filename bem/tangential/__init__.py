@@ -9,7 +9,7 @@ discs abs(q) <= g, where b is the imposed displacement:
 1. `partial_slip` checks the arguments (with `problem`) and adds up b: the shift, the rotation, the previous step of a
    history, and the in-plane displacement under the pressure. Cost: one convolution for bodies that differ in
    elasticity, else none.
-2. `initial_tractions` starts a first straight push of like bodies from a normal contact for the unused bound (Jaeger
+2. `initial_tractions` starts a first push of like bodies by a force from a normal contact for the unused bound (Jaeger
    1998, Ciavarella 1998), and any other step from coarser grids. Cost: three to four convolutions, weighted by cells
    over all grids.
 3. `slip_newton` takes Newton steps on the slip set until the law holds to the tolerance (primal-dual active sets:
@@ -21,6 +21,7 @@ discs abs(q) <= g, where b is the imposed displacement:
 5. `friction_discs` projects tractions onto the discs, and onto those with a given total force, whose Lagrange
    multiplier is the shift. Cost: a few passes over the cells in contact.
 6. `certificate` recomputes the residual of Coulomb's law from the returned tractions, and a stick area of second order.
+   Cost: a few passes over the grid.
 
 `tangential_stiffness` is the limit without slip (Mindlin 1949).
 
@@ -34,11 +35,11 @@ way: the pressure moves the surfaces in the plane. Cost: two to ten rounds.
 
 `operator` is A with its adjoints under pressure; `solution` is the result of partial slip and rolling.
 
-Terms: a cell *sticks* or *slips*; the *slip set* is the set of slipping cells. The *displacement residual*
-r = b - A q is minus the slip. The *shift* is the rigid displacement of one body against the other. A *trial* traction
-is one before its projection onto the discs. The *reduced* problem has the n cells in contact only. A *load step*
-(`partial_slip.LoadStep`, forces in N) gives one `problem.SlipProblem` on each grid (sums of tractions in Pa), whose
-result is `slip_newton.SlipResult`.
+Terms: a cell *sticks* or *slips*; the *slip set* is the set of slipping cells. The *displacement residual* r = b - A q
+[m] is minus the slip; the *residual* of a certificate or a solution is the relative violation of Coulomb's law. The
+*shift* is the rigid displacement of one body against the other. A *trial* traction is one before its projection onto
+the discs. The *reduced* problem has the n cells in contact only. A *load step* (`partial_slip.LoadStep`, forces in N)
+gives one `problem.SlipProblem` on each grid (sums of tractions in Pa), whose result is `slip_newton.SlipResult`.
 
 The package knows the normal contact (its pressure and its preconditioner), but no lubrication, wear or scenes. Verified
 in tests/tangential against Cattaneo and Mindlin, Mindlin and Deresiewicz, Carter, Spence and Kalker's linear theory.
