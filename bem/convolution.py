@@ -32,8 +32,8 @@ from numpy.typing import DTypeLike, NDArray
 from bem.arguments import is_finite
 from bem.errors import InputError
 from bem.grid import Grid
-from bem.kernels import layered
 from bem.kernels.coefficients import Load, surface_coefficients
+from bem.kernels.layered import frequency_response
 from bem.kernels.spectral import surface_response
 from bem.materials import Body, Material
 from bem.numerics.cache import KeptValues, Sized, bytes_of
@@ -279,7 +279,8 @@ class DisplacementOperator:
         """Effective contact modulus E* [Pa] under a harmonic pressure of a wavenumber [rad/m]."""
         if wavenumber not in self._moduli:
             response = sum(
-                float(layered.surface_response(wavenumber, 0.0, body, tangential=False)) for body in self.bodies
+                float(frequency_response.surface_response(wavenumber, 0.0, body, tangential=False))
+                for body in self.bodies
             )
             self._moduli[wavenumber] = 2 / (wavenumber * response)
         return self._moduli[wavenumber]

@@ -7,8 +7,7 @@ operator is diagonal, see `spectral`.
 
 from __future__ import annotations
 
-import importlib
-from typing import Any
+from types import ModuleType
 
 import numpy as np
 
@@ -95,9 +94,15 @@ def stress_coefficients(grid: Grid, body: Body, depth: float, load: Load) -> Flo
     return table
 
 
-def _layered(grid: Grid) -> Any:
-    """Return the module with the remainder of layers; imported only for layered bodies."""
-    return importlib.import_module("bem.kernels.layered_semi" if any(grid.periodic) else "bem.kernels.layered_cells")
+def _layered(grid: Grid) -> ModuleType:
+    """Return the module with the remainder of layers on a grid; imported late, because it loads scipy.special."""
+    if any(grid.periodic):
+        from bem.kernels.layered import semi_periodic as images
+
+        return images
+    from bem.kernels.layered import cells
+
+    return cells
 
 
 def _refuse_doubly_periodic(grid: Grid) -> None:

@@ -25,7 +25,7 @@ from bem.compiled import compiled
 from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.kernels.cell_rules import NODES, WEIGHTS, angle, chi_xx, cut, log_ratio, powers, rule
-from bem.kernels.loads import DISPLACEMENT_PARITY, IN_PLANE_PARITY, Load, clear_odd
+from bem.kernels.loads import DISPLACEMENT_PARITY, IN_PLANE_PARITY, Load, clear_odd, clear_odd_offsets
 from bem.materials import Material
 
 
@@ -270,4 +270,4 @@ def in_plane_table(shape: tuple[int, int], spacing: tuple[float, float], materia
     out = np.empty((3, *shape))
     _in_plane_table(shape[0], shape[1], spacing[0], spacing[1], material.poissons_ratio, out)
     out /= 4 * np.pi * material.shear_modulus
-    return clear_odd(out, np.arange(shape[0])[:, None], np.arange(shape[1])[None, :], IN_PLANE_PARITY)
+    return clear_odd_offsets(out, IN_PLANE_PARITY)

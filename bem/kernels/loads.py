@@ -47,3 +47,15 @@ def clear_odd(values: FloatArray, x: ArrayLike, y: ArrayLike, parities: Parities
         if along_y < 0:
             part[np.broadcast_to(np.equal(y, 0), part.shape)] = 0.0
     return values
+
+
+def clear_odd_offsets(table: FloatArray, parities: Parities, first: int = 0) -> FloatArray:
+    """Set coefficients odd in x (y) to exactly zero at offset zero, in place.
+
+    Parameters
+    ----------
+    table : (parts, nx, ny), at offsets i along x and j + `first` along y.
+    parities : parity of each part.
+    """
+    x, y = np.arange(table.shape[1])[:, None], np.arange(first, first + table.shape[2])[None, :]
+    return clear_odd(table, x, y, parities)

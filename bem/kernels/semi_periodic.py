@@ -30,7 +30,7 @@ from bem.kernels import half_space, subsurface
 from bem.kernels.cell_rules import NODES, WEIGHTS
 from bem.kernels.euler_maclaurin import euler_maclaurin
 from bem.kernels.half_plane import add_strip, log_strip
-from bem.kernels.loads import IN_PLANE_PARITY, STRESS_PARITY, SURFACE_PARITY, Load, clear_odd
+from bem.kernels.loads import IN_PLANE_PARITY, STRESS_PARITY, SURFACE_PARITY, Load, clear_odd_offsets
 from bem.kernels.subsurface import BLOCK, X_AT, Y_AT
 from bem.materials import Material
 
@@ -424,7 +424,7 @@ def in_plane_table(grid: Grid, material: Material) -> FloatArray:
     out[along] = newton - nu * even
     out[2] = nu * odd
     out *= grid.lengths[along] / (2 * np.pi * material.shear_modulus)
-    return clear_odd(out, np.arange(grid.shape[0])[:, None], np.arange(grid.shape[1])[None, :], IN_PLANE_PARITY)
+    return clear_odd_offsets(out, IN_PLANE_PARITY)
 
 
 def stress_table(grid: Grid, depth: float, poissons_ratio: float, load: Load) -> FloatArray:
@@ -434,4 +434,4 @@ def stress_table(grid: Grid, depth: float, poissons_ratio: float, load: Load) ->
     parities = [parity[along] for parity in STRESS_PARITY[load]]
     table: FloatArray = _table(grid, _STRESS, depth, poissons_ratio, float(normal), float(not normal), parities)
     table /= 2 * np.pi
-    return clear_odd(table, np.arange(grid.shape[0])[:, None], np.arange(grid.shape[1])[None, :], STRESS_PARITY[load])
+    return clear_odd_offsets(table, STRESS_PARITY[load])

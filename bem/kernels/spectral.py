@@ -20,7 +20,7 @@ import numpy as np
 
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
-from bem.kernels import layered
+from bem.kernels.layered import frequency_response
 from bem.kernels.loads import IN_PLANE_PARITY, STRESS_PARITY, SURFACE_PARITY, Load, Parities
 from bem.materials import Body
 
@@ -67,7 +67,9 @@ def surface_response(grid: Grid, body: Body, load: Load) -> FloatArray:
     kx, ky, q, odd_x, _ = _wavevectors(grid)
     if not body.homogeneous:
         tangential, half = load is Load.TANGENTIAL, grid.shape[0] // 2 + 1
-        rows = layered.surface_response((odd_x if tangential else kx)[:half], ky[:half], body, tangential=tangential)
+        rows = frequency_response.surface_response(
+            (odd_x if tangential else kx)[:half], ky[:half], body, tangential=tangential
+        )
         return _mirrored(rows[None], grid.shape[0], (SURFACE_PARITY[load],))[0]
     material = body.material
     if load is Load.NORMAL:
@@ -97,7 +99,7 @@ def in_plane_response(grid: Grid, body: Body) -> FloatArray:
         out[:, 0, 0] = 0.0
         return out
     half = grid.shape[0] // 2 + 1
-    out = _mirrored(layered.in_plane_response(kx[:half], ky[:half], body), grid.shape[0], IN_PLANE_PARITY)
+    out = _mirrored(frequency_response.in_plane_response(kx[:half], ky[:half], body), grid.shape[0], IN_PLANE_PARITY)
     out[2] *= (odd_x == kx) & (odd_y == ky)
     return out
 
@@ -117,7 +119,9 @@ def stress_response(grid: Grid, body: Body, depth: float, load: Load) -> FloatAr
     kx, ky, q, odd_x, odd_y = _wavevectors(grid)
     if not body.homogeneous:
         half = grid.shape[0] // 2 + 1
-        rows = layered.stress_response(kx[:half], ky[:half], body, float(depth), tangential=load is Load.TANGENTIAL)
+        rows = frequency_response.stress_response(
+            kx[:half], ky[:half], body, float(depth), tangential=load is Load.TANGENTIAL
+        )
         out = _mirrored(rows, grid.shape[0], STRESS_PARITY[load])
         for component, (parity_x, parity_y) in enumerate(STRESS_PARITY[load]):
             if parity_x < 0:

@@ -29,7 +29,7 @@ from bem.compiled import compiled
 from bem.grid import FloatArray
 from bem.kernels.cell_rules import NODES, WEIGHTS, angle, chi_xx, cut, log_ratio, powers, rule
 from bem.kernels.half_space import check_points
-from bem.kernels.loads import STRESS_PARITY, Load, clear_odd
+from bem.kernels.loads import STRESS_PARITY, Load, clear_odd, clear_odd_offsets
 
 _TWO_PI = 2.0 * np.pi
 
@@ -358,5 +358,4 @@ def stress_table(
     out = np.empty((6, *shape))
     normal = load is Load.NORMAL
     _table(spacing[0], spacing[1], depth, poissons_ratio, float(normal), float(not normal), first, out)
-    offsets = np.arange(shape[0])[:, None], np.arange(first, first + shape[1])[None, :]
-    return clear_odd(out, *offsets, STRESS_PARITY[load])
+    return clear_odd_offsets(out, STRESS_PARITY[load], first)

@@ -26,7 +26,7 @@ from scipy.ndimage import gaussian_filter
 from bem.contact import ContactSolution
 from bem.contact.contact_area import contact_region
 from bem.grid import FloatArray
-from bem.kernels import layered
+from bem.kernels.layered import frequency_response
 from bem.tangential.friction_discs import project_to_friction_discs
 from bem.tangential.operator import TangentialOperator
 
@@ -130,7 +130,9 @@ def stick_area(
         return contact_region(missing, gap + half_way, np.zeros(grid.shape), grid, across).area
     ratio = np.divide(missing, contact.pressure, out=np.zeros_like(missing), where=sticks)
     wavenumber = _CELL_WAVENUMBER / link
-    normal = sum(float(layered.surface_response(wavenumber, 0.0, b, tangential=False)) for b in operator.bodies)
+    normal = sum(
+        float(frequency_response.surface_response(wavenumber, 0.0, b, tangential=False)) for b in operator.bodies
+    )
     outside = np.maximum(contact.gap, 0.0) * _mean_of_neighbours(ratio) * (2 / (wavenumber * normal) / across)
     gap += np.where(contact.pressure > 0, half_way, outside)
     undeformed = contact.gap - contact.displacement
@@ -140,7 +142,7 @@ def stick_area(
 def _moduli(operator: TangentialOperator) -> tuple[float, float]:
     """Return the moduli E [Pa] of slip across the edge and along it, for waves of the length of a cell."""
     wavenumber = _CELL_WAVENUMBER / math.sqrt(operator.grid.cell_area)
-    response = np.sum([layered.in_plane_response(wavenumber, 0.0, body) for body in operator.bodies], axis=0)
+    response = np.sum([frequency_response.in_plane_response(wavenumber, 0.0, body) for body in operator.bodies], axis=0)
     return 2 / (wavenumber * float(response[0])), 2 / (wavenumber * float(response[1]))
 
 

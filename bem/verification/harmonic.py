@@ -8,8 +8,8 @@ from dataclasses import dataclass
 import numpy as np
 
 from bem.grid import FloatArray, Grid
-from bem.kernels.layer_waves import ACROSS_U, NORMAL_U, NORMAL_W, TANGENTIAL_U, TANGENTIAL_W
-from bem.kernels.layered import wave_functions
+from bem.kernels.layered.frequency_response import wave_functions
+from bem.kernels.layered.waves import ACROSS_U, NORMAL_U, NORMAL_W, TANGENTIAL_U, TANGENTIAL_W
 from bem.kernels.loads import Load
 from bem.materials import Body, Layer
 from bem.stress import subsurface_stress

@@ -9,7 +9,7 @@ from bem.contact.bounds import Iterate
 from bem.convolution import displacement_operator
 from bem.grid import Grid
 from bem.kernels.coefficients import SURFACE_PARITY, Load, surface_coefficients
-from bem.kernels.layered import surface_response
+from bem.kernels.layered.frequency_response import surface_response
 from bem.materials import Body, Material
 
 FREE, PERIODIC, HALF_X, HALF_Y = (False, False), (True, True), (True, False), (False, True)

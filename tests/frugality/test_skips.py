@@ -91,9 +91,9 @@ def test_without_a_coating_no_layered_kernel_is_computed(monkeypatch, periodic):
     def forbidden(*arguments, **keywords):
         raise AssertionError("a layered kernel was asked for")
 
-    import bem.kernels.layered as layered
+    import bem.kernels.layered.frequency_response as frequency_response
 
-    monkeypatch.setattr(layered, "wave_functions", forbidden)
+    monkeypatch.setattr(frequency_response, "wave_functions", forbidden)
     monkeypatch.setattr(coefficients, "_layered", forbidden)
     grid = Grid((16, 16), (1e-6, 1e-6), periodic=periodic)
     pressure = np.full(grid.shape, 1e8)

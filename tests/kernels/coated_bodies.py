@@ -5,9 +5,9 @@ import pytest
 from scipy import special
 
 from bem import Body, Layer, Material, displacement_operator, subsurface_stress
-from bem.kernels import layered, layered_hankel
 from bem.kernels.coefficients import STRESS_PARITY, stress_coefficients, surface_coefficients
-from bem.kernels.half_space import Load
+from bem.kernels.layered import frequency_response, hankel
+from bem.kernels.loads import Load
 
 
 def material(shear_modulus, poissons_ratio):
@@ -24,16 +24,16 @@ def error_of_table(kernels, radii, reach, panels):
 
     `panels` : length of the quadrature's panels over the decay of the spectra.
     """
-    graded = layered_hankel.graded(kernels.smallest / 4, 1 / kernels.decay)
+    graded = hankel.graded(kernels.smallest / 4, 1 / kernels.decay)
     even = np.arange(0, 40 / kernels.decay, min(panels / kernels.decay, 2 / radii.max()))
-    q, weights = layered_hankel.gauss_rule(np.union1d(graded, even))
+    q, weights = hankel.gauss_rule(np.union1d(graded, even))
     f = kernels.spectra(q) * (q * weights / (2 * np.pi))
     terms = [special.jv(order, np.outer(radii, q)) * f[n] for n, order in enumerate(kernels.orders)]
     expected = np.stack([t.sum(axis=1) for t in terms], axis=1)
     # what cancels on the real axis, over all components: some of them vanish
     size = np.stack([np.abs(t).sum(axis=1) for t in terms], axis=1).max(axis=1, keepdims=True)
-    table = layered_hankel.radial_table(kernels, reach)
-    return (np.abs(layered_hankel.table_values(table, radii) - expected) / size).max()
+    table = hankel.radial_table(kernels, reach)
+    return (np.abs(hankel.table_values(table, radii) - expected) / size).max()
 
 
 def in_plane_strain(stress, solid):
@@ -86,17 +86,17 @@ def by_fourier(body, depth, load, x, y, dx, dy):
     inside = depth is None or depth <= top
     decay = 2 * top - (depth or 0.0) if inside else depth
     radius = np.hypot(x, y) + np.hypot(dx, dy)
-    edges = np.union1d(layered_hankel.graded(1e-3, 1 / decay), np.arange(0, 40 / decay, min(1 / decay, 3 / radius)))
-    q, weights = layered_hankel.gauss_rule(edges)
+    edges = np.union1d(hankel.graded(1e-3, 1 / decay), np.arange(0, 40 / decay, min(1 / decay, 3 / radius)))
+    q, weights = hankel.gauss_rule(edges)
     count = 2 * int(24 * radius / decay) + 80
     theta = 2 * np.pi * (np.arange(count) + 0.5) / count
     kx, ky = np.outer(q, np.cos(theta)), np.outer(q, np.sin(theta))
     tangential = load is Load.TANGENTIAL
     if depth is None:
-        spectrum = layered.surface_response(kx, ky, body, tangential=tangential, remainder=True)[None]
+        spectrum = frequency_response.surface_response(kx, ky, body, tangential=tangential, remainder=True)[None]
         odd = [tangential]
     else:
-        spectrum = layered.stress_response(kx, ky, body, depth, tangential=tangential, remainder=inside)
+        spectrum = frequency_response.stress_response(kx, ky, body, depth, tangential=tangential, remainder=inside)
         odd = [a * b < 0 for a, b in STRESS_PARITY[load]]
     phase = kx * x + ky * y
     measure = (q * weights)[:, None] * np.sinc(kx * dx / 2 / np.pi) * np.sinc(ky * dy / 2 / np.pi)

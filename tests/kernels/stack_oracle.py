@@ -6,7 +6,7 @@ import mpmath as mp
 import numpy as np
 import pytest
 
-from bem.kernels import layer_waves, layered
+from bem.kernels.layered import frequency_response, waves
 
 
 def elasticity(body, kx, ky, depth, traction):
@@ -74,16 +74,16 @@ def package(body, kx, ky, depth, tangential):
     """The same from the package: complex displacement (3,) and stress (6,)."""
     q = np.hypot(kx, ky)
     cosine, sine = kx / q, ky / q
-    f = layered.wave_functions(np.array([q]), body, depth)[:, 0]
+    f = frequency_response.wave_functions(np.array([q]), body, depth)[:, 0]
     scale = 2 * body.surface_material.shear_modulus * q
-    stress = layered.stress_response([kx], [ky], body, depth, tangential=tangential)[:, 0].astype(complex)
+    stress = frequency_response.stress_response([kx], [ky], body, depth, tangential=tangential)[:, 0].astype(complex)
     if tangential:
-        along = 1j * cosine * 1j * f[layer_waves.TANGENTIAL_U]
-        across = -sine * f[layer_waves.ACROSS_U]
-        normal = 1j * cosine * f[layer_waves.TANGENTIAL_W]
+        along = 1j * cosine * 1j * f[waves.TANGENTIAL_U]
+        across = -sine * f[waves.ACROSS_U]
+        normal = 1j * cosine * f[waves.TANGENTIAL_W]
         stress[[0, 1, 2, 5]] *= 1j
     else:
-        along, across, normal = 1j * f[layer_waves.NORMAL_U], 0.0, f[layer_waves.NORMAL_W]
+        along, across, normal = 1j * f[waves.NORMAL_U], 0.0, f[waves.NORMAL_W]
         stress[[3, 4]] *= 1j
     return np.array([cosine * along - sine * across, sine * along + cosine * across, normal]) / scale, stress
 
@@ -103,22 +103,23 @@ def disagreement(body, kx, ky, depth, tangential):
 def assert_finite_and_balanced(q, body, depth, jump):
     """Of waves (1,): no overflow; the surface carries the load; displacements and tractions pass every interface, to
     that part of the largest on the surface."""
-    assert np.isfinite(layered.wave_functions(q, body, depth)).all()
-    surface = layered.wave_functions(q, body, 0.0)[:, 0]
-    loads = surface[
-        [layer_waves.NORMAL_TAU, layer_waves.NORMAL_SIGMA, layer_waves.TANGENTIAL_TAU, layer_waves.TANGENTIAL_SIGMA, 14]
-    ]
+    assert np.isfinite(frequency_response.wave_functions(q, body, depth)).all()
+    surface = frequency_response.wave_functions(q, body, 0.0)[:, 0]
+    loads = surface[[waves.NORMAL_TAU, waves.NORMAL_SIGMA, waves.TANGENTIAL_TAU, waves.TANGENTIAL_SIGMA, 14]]
     # a thin stiff layer carries up to 1e6 times the load: 1e-15 of that
     assert loads == pytest.approx([0, -1, 1, 0, -1], abs=1e-9)
     keep = [0, 1, 2, 3, 6, 7, 8, 9, 12, 14]
     for interface in body.interfaces:
-        above = layered.wave_functions(q, body, interface)[:, 0]
-        below = layered.wave_functions(q, body, float(np.nextafter(interface, np.inf)))[:, 0]
+        above = frequency_response.wave_functions(q, body, interface)[:, 0]
+        below = frequency_response.wave_functions(q, body, float(np.nextafter(interface, np.inf)))[:, 0]
         assert above[keep] == pytest.approx(below[keep], rel=1e-8, abs=jump * np.abs(surface).max())
 
 
 def off_the_mean_of_a_circle(body, depth, centre, radius):
     """By how much waves of a wavenumber are not the mean of those on a circle around it, over the largest of them."""
     circle = radius * np.exp(2j * np.pi * np.arange(64) / 64)
-    here = layered.wave_functions(np.array([centre]), body, depth)[:, 0]
-    return np.abs(layered.wave_functions(centre + circle, body, depth).mean(axis=1) - here).max() / np.abs(here).max()
+    here = frequency_response.wave_functions(np.array([centre]), body, depth)[:, 0]
+    return (
+        np.abs(frequency_response.wave_functions(centre + circle, body, depth).mean(axis=1) - here).max()
+        / np.abs(here).max()
+    )

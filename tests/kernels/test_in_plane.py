@@ -10,9 +10,10 @@ from test_layered_free import by_fourier
 from test_semi_periodic import CASES, geometry, images, limit
 
 from bem import Body, Grid, Layer, Material
-from bem.kernels import half_space, layered, layered_semi, spectral
+from bem.kernels import half_space, spectral
 from bem.kernels.coefficients import IN_PLANE_PARITY, in_plane_coefficients
-from bem.kernels.layered_cells import in_plane_remainder
+from bem.kernels.layered import frequency_response, semi_periodic
+from bem.kernels.layered.cells import in_plane_remainder
 from bem.kernels.loads import Load
 
 pytestmark = pytest.mark.internal
@@ -94,7 +95,7 @@ def test_stacks_solve_elasticity(thin, angle):
     for layers in ((Layer(stiff, 1.0),), (Layer(SOFT, thin), Layer(stiff, 0.5))):
         body = Body(SOLID, layers=layers)
         kx, ky = 1.5 * np.cos(angle), 1.5 * np.sin(angle)
-        got = layered.in_plane_response(kx, ky, body)
+        got = frequency_response.in_plane_response(kx, ky, body)
         with mp.workdps(50):
             under_x, _ = elasticity(body, kx, ky, 0.0, (1, 0, 0))
             under_y, _ = elasticity(body, kx, ky, 0.0, (0, 1, 0))
@@ -112,10 +113,10 @@ def test_layers_against_the_double_fourier_integral(ratio, nu1, nu2, monkeypatch
     for component in range(3):
 
         def response(kx, ky, body, *, tangential, remainder, component=component):
-            return layered.in_plane_response(kx, ky, body, remainder=remainder)[component]
+            return frequency_response.in_plane_response(kx, ky, body, remainder=remainder)[component]
 
         with monkeypatch.context() as patch:
-            patch.setattr(layered, "surface_response", response)
+            patch.setattr(frequency_response, "surface_response", response)
             for i, j in [(0, 0), (1, 0), (2, 3), (4, 1)]:
                 want = by_fourier(body, None, Load.NORMAL, i * 1.0, j * 0.7, 1.0, 0.7)[0]
                 # round-off of 1e5 terms that oscillate, as for the normal displacement
@@ -183,4 +184,4 @@ def test_a_period_grows_into_free_space():
 
 def test_identical_layers_leave_a_mixed_remainder_of_zero():
     grid = Grid((6, 8), (1.0, 1.0), periodic=(False, True))
-    assert np.abs(layered_semi.in_plane_remainder(grid, Body(SOLID, layer=Layer(SOLID, 0.5)))).max() < 1e-16
+    assert np.abs(semi_periodic.in_plane_remainder(grid, Body(SOLID, layer=Layer(SOLID, 0.5)))).max() < 1e-16

@@ -11,8 +11,9 @@ from stack_oracle import assert_finite_and_balanced, disagreement, off_the_mean_
 
 from bem import Body, Grid, Layer
 from bem.errors import InputError
-from bem.kernels import layer_waves, layered, spectral
-from bem.kernels.half_space import Load
+from bem.kernels import spectral
+from bem.kernels.layered import frequency_response, waves
+from bem.kernels.loads import Load
 
 PAIRS = [(1e-3, 0.2, 0.35), (0.05, 0.4999, 0.1), (1.0, 0.3, 0.3), (20.0, -0.6, 0.45), (1e3, 0.25, -0.3)]
 
@@ -73,7 +74,7 @@ def closed_form(q, body):
 def test_normal_displacement_keeps_its_digits(ratio, qh, nu1, nu2):
     body = coated(ratio, nu1, nu2, 0.25)
     q = qh / 0.25
-    value = layered.surface_response(q, 0.0, body, tangential=False)
+    value = frequency_response.surface_response(q, 0.0, body, tangential=False)
     assert value == pytest.approx(closed_form(q, body), rel=1e-11)  # the figure promised for any ratio
 
 
@@ -100,10 +101,11 @@ def test_identical_materials_are_a_half_space(nu):
     q = np.geomspace(1e-6, 1e6, 60) / 0.3
     g = body.material.shear_modulus
     assert np.array_equal(
-        layered.wave_functions(q, body, 0.2, remainder=True)[:, q * 0.3 > 1], np.zeros((15, (q * 0.3 > 1).sum()))
+        frequency_response.wave_functions(q, body, 0.2, remainder=True)[:, q * 0.3 > 1],
+        np.zeros((15, (q * 0.3 > 1).sum())),
     )
     for depth in (0.0, 0.1, 0.3, 0.5):
-        f = layered.wave_functions(q, body, depth)
+        f = frequency_response.wave_functions(q, body, depth)
         s, decay = q * depth, np.exp(-q * depth)
         expected = np.stack(  # Johnson (1985) 13.2 and the transform of Cerruti's solution
             [
@@ -114,8 +116,8 @@ def test_identical_materials_are_a_half_space(nu):
             ]
         )
         assert f[:4] == pytest.approx(expected, abs=4e-15)  # round-off
-        assert f[layer_waves.ACROSS_TZ] == pytest.approx(-decay, abs=2e-15)
-    w = layered.surface_response(q, 0.0, body, tangential=False)
+        assert f[waves.ACROSS_TZ] == pytest.approx(-decay, abs=2e-15)
+    w = frequency_response.surface_response(q, 0.0, body, tangential=False)
     assert w == pytest.approx((1 - nu) / (g * q), rel=1e-14, abs=0)
 
 
@@ -124,7 +126,7 @@ def test_thin_and_thick_layers_tend_to_their_half_spaces():
     one, two = material(40.0, 0.2), material(3.0, 0.4)
     for thickness, solid in ((1e-9, two), (1e6, one)):
         body = Body(two, layer=Layer(one, thickness))
-        value = layered.surface_response([1.0], [0.5], body, tangential=False)
+        value = frequency_response.surface_response([1.0], [0.5], body, tangential=False)
         expected = (1 - solid.poissons_ratio) / (solid.shear_modulus * np.hypot(1.0, 0.5))
         assert value == pytest.approx(expected, rel=1e-7)  # thin: first order in q h m = 4e-8
 
@@ -134,9 +136,13 @@ def test_incompressible_thin_layer_on_a_rigid_base():
     """nu = 1/2, q h << 1 << G2/G1: the squeezed film q^2 h^3 / 3 G1; a compressible one (1-2nu) h / 2(1-nu) G1."""
     q, h = 1e-2, 1.0
     tight = coated(1e-12, 0.5 - 1e-15, 0.3, h, 1e12)
-    assert layered.surface_response(q, 0.0, tight, tangential=False) == pytest.approx(q**2 * h**3 / 3, rel=1e-3)
+    assert frequency_response.surface_response(q, 0.0, tight, tangential=False) == pytest.approx(
+        q**2 * h**3 / 3, rel=1e-3
+    )
     loose = coated(1e-12, 0.3, 0.3, h, 1e12)
-    assert layered.surface_response(q, 0.0, loose, tangential=False) == pytest.approx(0.4 / 1.4 * h, rel=1e-3)
+    assert frequency_response.surface_response(q, 0.0, loose, tangential=False) == pytest.approx(
+        0.4 / 1.4 * h, rel=1e-3
+    )
 
 
 @pytest.mark.internal
@@ -145,7 +151,9 @@ def test_stiff_layer_on_a_soft_base_is_a_plate():
     nu1, q, h, m = 0.3, 1e-2, 1.0, 1e10
     body = coated(m, nu1, 0.2, h)
     bending = m * h**3 / (6 * (1 - nu1))
-    assert layered.surface_response(q, 0.0, body, tangential=False) == pytest.approx(1 / (bending * q**4), rel=1e-3)
+    assert frequency_response.surface_response(q, 0.0, body, tangential=False) == pytest.approx(
+        1 / (bending * q**4), rel=1e-3
+    )
 
 
 def test_complex_wavenumbers_continue_the_real_ones():
@@ -188,4 +196,4 @@ def test_doubly_periodic_grids(load):
 def test_bad_input_is_named():
     for body, depth in ((Body(material(1.0, 0.3)), 0.0), (coated(2.0, 0.3, 0.3, 1.0), 1.1)):
         with pytest.raises(InputError, match="outermost layer only"):
-            layered.wave_functions(np.ones(1), body, depth, remainder=True)
+            frequency_response.wave_functions(np.ones(1), body, depth, remainder=True)

@@ -14,10 +14,11 @@ from coated_bodies import (
 )
 
 from bem import Body, Grid
-from bem.kernels import layered_cells, layered_hankel
 from bem.kernels.coefficients import STRESS_PARITY, stress_coefficients, surface_coefficients
-from bem.kernels.half_space import Load
-from bem.kernels.layered_cells import stress_remainder, surface_remainder
+from bem.kernels.layered import cells as layered_cells
+from bem.kernels.layered import hankel
+from bem.kernels.layered.cells import stress_remainder, surface_remainder
+from bem.kernels.loads import Load
 
 pytestmark = pytest.mark.internal
 
@@ -34,9 +35,9 @@ def test_displacement_table_against_mpmath(ratio, nu1, nu2):
     """1/2 pi integral of (closed form - half-space) J0 q dq, by quadrature on the real axis in 25 digits."""
     h = 1.0
     body = coated(ratio, nu1, nu2, h)
-    table = layered_hankel.radial_table(layered_hankel.surface_kernels(body, Load.NORMAL), 50.0)
+    table = hankel.radial_table(hankel.surface_kernels(body, Load.NORMAL), 50.0)
     radii = np.array([0.05, 1.3, 6.0])
-    values = layered_hankel.table_values(table, radii)[:, 0]
+    values = hankel.table_values(table, radii)[:, 0]
     with mp.workdps(25):
         m, n1, n2 = mp.mpf(ratio), mp.mpf(nu1), mp.mpf(nu2)
         ell = 1 - 4 * (1 - n1) / (1 + m * (3 - 4 * n2))
@@ -65,8 +66,8 @@ def test_tables_against_the_real_axis(ratio, nu1, nu2, load):
     """The turned path gives what the real axis gives, for every order and depth."""
     body = coated(ratio, nu1, nu2, 1.0)
     radii = np.array([0.03, 0.4, 1.7, 9.0, 40.0])
-    cases = [layered_hankel.surface_kernels(body, load)]
-    cases += [layered_hankel.stress_kernels(body, depth, load) for depth in (0.4, 1.0, 1.001, 2.5)]
+    cases = [hankel.surface_kernels(body, load)]
+    cases += [hankel.stress_kernels(body, depth, load) for depth in (0.4, 1.0, 1.001, 2.5)]
     # panels that follow exponential tails (of soft layers) are the worst: measured 1e-13
     assert max(error_of_table(kernels, radii, 1e4, panels=1.0) for kernels in cases) < 5e-13
 
@@ -189,11 +190,9 @@ def test_cells_side_by_side_have_the_bits_of_single_ones(depth, spacing, load):
     """Rows longer than a block, with several rules and panels in them, and cells that are cut."""
     grid, body = Grid((7, 150), spacing), coated(5.0, 0.2, 0.35, 1.0)
     on_surface = depth is None
-    kernels = (
-        layered_hankel.surface_kernels(body, load) if on_surface else layered_hankel.stress_kernels(body, depth, load)
-    )
+    kernels = hankel.surface_kernels(body, load) if on_surface else hankel.stress_kernels(body, depth, load)
     kind = layered_cells.SURFACE[load] if on_surface else layered_cells.STRESS[load]
-    table = layered_hankel.radial_table(kernels, 100.0)  # ends within the grid
+    table = hankel.radial_table(kernels, 100.0)  # ends within the grid
     got = np.zeros((1 if on_surface else 6, *grid.shape))
     layered_cells.add_cells(got, grid, table, kind, (0, 1))
     single = np.zeros_like(got)

@@ -5,11 +5,11 @@ import pytest
 from coated_bodies import assert_identical_materials_add_nothing, assert_tractions_and_strains_pass, coated
 
 from bem import Body, Grid
-from bem.kernels import layered, layered_hankel, layered_semi
 from bem.kernels.coefficients import STRESS_PARITY, stress_coefficients, surface_coefficients
-from bem.kernels.half_space import Load
-from bem.kernels.layered_cells import stress_remainder as free_stress
-from bem.kernels.layered_semi import stress_remainder, surface_remainder
+from bem.kernels.layered import frequency_response, hankel, semi_periodic
+from bem.kernels.layered.cells import stress_remainder as free_stress
+from bem.kernels.layered.semi_periodic import stress_remainder, surface_remainder
+from bem.kernels.loads import Load
 
 pytestmark = pytest.mark.internal
 
@@ -29,17 +29,15 @@ def mode_sum(grid, body, depth, load, offsets):
     period = grid.lengths[along]
     modes = 2 * np.pi / period * np.arange(int(40 * period / (2 * np.pi * decay)) + 1)
     reach = max(abs(o[1 - along]) for o in offsets) * grid.spacing[1 - along] + max(grid.spacing)
-    edges = np.union1d(
-        layered_hankel.graded(1e-4 / decay, 1 / decay), np.linspace(0, 40 / decay, 24 + int(9 * reach / decay))
-    )
-    k, weights = layered_hankel.gauss_rule(edges)
+    edges = np.union1d(hankel.graded(1e-4 / decay, 1 / decay), np.linspace(0, 40 / decay, 24 + int(9 * reach / decay)))
+    k, weights = hankel.gauss_rule(edges)
     kx, ky = (k[:, None], modes[None]) if along == 1 else (modes[None], k[:, None])
     kx, ky = np.broadcast_arrays(kx, ky)
     if depth is None:
-        spectrum = layered.surface_response(kx, ky, body, tangential=tangential, remainder=True)[None]
+        spectrum = frequency_response.surface_response(kx, ky, body, tangential=tangential, remainder=True)[None]
         parities = [(-1, 1) if tangential else (1, 1)]
     else:
-        spectrum = layered.stress_response(kx, ky, body, depth, tangential=tangential, remainder=inside)
+        spectrum = frequency_response.stress_response(kx, ky, body, depth, tangential=tangential, remainder=inside)
         parities = STRESS_PARITY[load]
     measure = weights[:, None] * np.where(modes > 0, 2.0, 1.0) * grid.cell_area / (np.pi * period)
     measure = measure * np.sinc(kx * grid.spacing[0] / 2 / np.pi) * np.sinc(ky * grid.spacing[1] / 2 / np.pi)
@@ -142,15 +140,15 @@ def test_far_cells_are_line_loads(load, monkeypatch):
     grid = Grid((40, 3), (1.0, 1.0), periodic=(False, True))
     body = coated(30.0, 0.2, 0.4, 0.5)
     results = [surface_remainder(grid, body, load)[None], stress_remainder(grid, body, 0.2, load)]
-    monkeypatch.setattr(layered_semi, "_LINE", 100.0)
-    monkeypatch.setattr(layered_semi, "_SPLIT", 55.0)
-    monkeypatch.setattr(layered_semi, "_LAST", 55.0 + 48.0)
-    layered_semi._panel.cache_clear()
+    monkeypatch.setattr(semi_periodic, "_LINE", 100.0)
+    monkeypatch.setattr(semi_periodic, "_SPLIT", 55.0)
+    monkeypatch.setattr(semi_periodic, "_LAST", 55.0 + 48.0)
+    semi_periodic._panel.cache_clear()
     for before, after in zip(
         results, [surface_remainder(grid, body, load)[None], stress_remainder(grid, body, 0.2, load)], strict=True
     ):
         assert before == pytest.approx(after, abs=3e-13 * np.abs(after).max())  # round-off
-    layered_semi._panel.cache_clear()
+    semi_periodic._panel.cache_clear()
 
 
 @pytest.mark.parametrize("periodic", AXES)
@@ -159,12 +157,12 @@ def test_one_cell_per_period_is_plane_strain(periodic):
     shape = (6, 1) if periodic[1] else (1, 6)
     grid = Grid(shape, (1.0, 1.0), periodic=periodic)
     body = coated(7.0, 0.2, 0.4, 0.6)
-    q, weights = layered_hankel.gauss_rule(np.union1d(layered_hankel.graded(1e-3, 1.0), np.arange(0, 60, 0.25)))
+    q, weights = hankel.gauss_rule(np.union1d(hankel.graded(1e-3, 1.0), np.arange(0, 60, 0.25)))
     free = 0 if periodic[1] else 1
     for depth in (0.9, 2.0):
         stress = stress_coefficients(grid, body, depth, Load.NORMAL).reshape(6, 6)
         kx, ky = (q, 0 * q) if free == 0 else (0 * q, q)
-        spectrum = layered.stress_response(kx, ky, body, depth, tangential=False) * weights / np.pi
+        spectrum = frequency_response.stress_response(kx, ky, body, depth, tangential=False) * weights / np.pi
         spectrum *= np.sinc(q / (2 * np.pi))
         x = np.arange(6.0)[:, None]
         expected = [np.cos(q * x) @ spectrum[c] for c in range(3)]

@@ -5,7 +5,7 @@ import pytest
 from coated_bodies import assert_layers_of_the_same_change_nothing
 
 from bem import Body, Grid, Layer, Material, displacement_operator, subsurface_stress
-from bem.kernels import layer_waves, layered, layered_hankel
+from bem.kernels.layered import frequency_response, hankel, waves
 
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
 SOFT = Material("soft", youngs_modulus=10e9, poissons_ratio=0.42)
@@ -26,8 +26,8 @@ def spectrum_of_hertz(q):
 
 
 def quadrature(decay):
-    graded = layered_hankel.graded(1e-4, min(1.0, 1 / decay))
-    return layered_hankel.gauss_rule(np.union1d(graded, np.linspace(0, 40 / decay, 40 + int(20 / decay))))
+    graded = hankel.graded(1e-4, min(1.0, 1 / decay))
+    return hankel.gauss_rule(np.union1d(graded, np.linspace(0, 40 / decay, 40 + int(20 / decay))))
 
 
 @pytest.mark.internal
@@ -39,7 +39,7 @@ def test_hertz_pressure_on_a_coated_body(coating, thickness):
     """The axis against Hankel integrals of the response; the error falls with the cell as for a root at the edge."""
     body = Body(STEEL, layer=Layer(coating, thickness))
     q, weights = quadrature(2 * thickness)
-    added = layered.surface_response(q, 0 * q, body, tangential=False, remainder=True)
+    added = frequency_response.surface_response(q, 0 * q, body, tangential=False, remainder=True)
     centre = np.pi / (2 * coating.plane_strain_modulus) + np.sum(added * spectrum_of_hertz(q) * q * weights) / (
         2 * np.pi
     )
@@ -47,10 +47,10 @@ def test_hertz_pressure_on_a_coated_body(coating, thickness):
     stress = []
     for depth in depths:
         q, weights = quadrature(depth)
-        f = layered.wave_functions(q, body, depth)
-        lateral = 0.5 * (f[layer_waves.NORMAL_EE] + f[layer_waves.NORMAL_TT])
+        f = frequency_response.wave_functions(q, body, depth)
+        lateral = 0.5 * (f[waves.NORMAL_EE] + f[waves.NORMAL_TT])
         measure = spectrum_of_hertz(q) * q * weights / (2 * np.pi)
-        stress.append([lateral @ measure, f[layer_waves.NORMAL_SIGMA] @ measure])
+        stress.append([lateral @ measure, f[waves.NORMAL_SIGMA] @ measure])
     errors = []
     for cells in (17, 51):
         grid = Grid((cells, cells), (2.5 / cells, 2.5 / cells))

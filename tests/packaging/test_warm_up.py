@@ -43,7 +43,7 @@ FIRST_RUN_COMPILES = {
     ("bem.kernels.half_plane", "_logs"),
     ("bem.kernels.half_plane", "_many"),
     ("bem.kernels.half_space", "_many"),
-    ("bem.kernels.layered_hankel", "_evaluate_all"),
+    ("bem.kernels.layered.hankel", "_evaluate_all"),
     ("bem.kernels.subsurface", "_many"),
     ("bem.lubrication.point.rough_loops", "_barred"),
     ("bem.lubrication.point.rough_loops", "rough_flows"),

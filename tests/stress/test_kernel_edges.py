@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 
 from bem import Body, Grid, Layer, Material, displacement_operator, subsurface_stress
 from bem.kernels.coefficients import Load, stress_coefficients, surface_coefficients
-from bem.kernels.layered import stress_response, surface_response
+from bem.kernels.layered.frequency_response import stress_response, surface_response
 
 FREE, SEMI = (False, False), (False, True)
 

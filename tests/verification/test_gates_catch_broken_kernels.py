@@ -14,7 +14,7 @@ import numpy as np
 import pytest
 
 from bem import convolution
-from bem.kernels import layered_hankel
+from bem.kernels.layered import hankel
 from bem.kernels.loads import Load
 from bem.stress import spectra, von_mises_bound
 from bem.verification import registry
@@ -25,7 +25,7 @@ pytestmark = pytest.mark.internal
 def forget():
     """Spectra of healthy kernels must not serve a broken one, nor the other way round."""
     convolution._SPECTRA.clear()
-    layered_hankel._kept.cache_clear()
+    hankel._kept.cache_clear()
     for cache in (spectra.SPECTRA, von_mises_bound._TABLES):
         cache.clear()
 
@@ -75,12 +75,12 @@ SURFACE = [
     ("bem.kernels.semi_periodic.surface_table", None, Load.TANGENTIAL, "strip-tangential"),
     ("bem.convolution.surface_response", None, Load.NORMAL, "oblique-wave"),
     ("bem.convolution.surface_response", None, Load.TANGENTIAL, "oblique-wave"),
-    ("bem.kernels.layered.surface_response", None, Load.NORMAL, "harmonic-normal-soft"),
-    ("bem.kernels.layered.surface_response", None, Load.TANGENTIAL, "harmonic-tangential-soft"),
-    ("bem.kernels.layered_cells.surface_remainder", None, Load.NORMAL, "disc-uniform-soft"),
-    ("bem.kernels.layered_cells.surface_remainder", None, Load.TANGENTIAL, "disc-tangential-uniform-soft"),
-    ("bem.kernels.layered_semi.surface_remainder", None, Load.NORMAL, "strip-normal-soft"),
-    ("bem.kernels.layered_semi.surface_remainder", None, Load.TANGENTIAL, "strip-tangential-soft"),
+    ("bem.kernels.layered.frequency_response.surface_response", None, Load.NORMAL, "harmonic-normal-soft"),
+    ("bem.kernels.layered.frequency_response.surface_response", None, Load.TANGENTIAL, "harmonic-tangential-soft"),
+    ("bem.kernels.layered.cells.surface_remainder", None, Load.NORMAL, "disc-uniform-soft"),
+    ("bem.kernels.layered.cells.surface_remainder", None, Load.TANGENTIAL, "disc-tangential-uniform-soft"),
+    ("bem.kernels.layered.semi_periodic.surface_remainder", None, Load.NORMAL, "strip-normal-soft"),
+    ("bem.kernels.layered.semi_periodic.surface_remainder", None, Load.TANGENTIAL, "strip-tangential-soft"),
     ("bem.verification.strip.strip_displacement", None, Load.NORMAL, "strip-normal"),
     ("bem.verification.strip.strip_displacement", None, Load.TANGENTIAL, "strip-tangential"),
     ("bem.verification.rectangle.rectangle_displacement", 2, Load.NORMAL, "rectangle-normal"),
@@ -93,12 +93,12 @@ SURFACE = [
 IN_PLANE = [
     ("bem.kernels.half_space.in_plane_table", 0, None, "disc-tangential-uniform"),
     ("bem.kernels.half_space.in_plane_table", 2, None, "rectangle-tangential"),
-    ("bem.kernels.layered_cells.in_plane_remainder", 0, None, "disc-tangential-uniform-soft"),
-    ("bem.kernels.layered_cells.in_plane_remainder", 2, None, "rectangle-tangential-stiff"),
+    ("bem.kernels.layered.cells.in_plane_remainder", 0, None, "disc-tangential-uniform-soft"),
+    ("bem.kernels.layered.cells.in_plane_remainder", 2, None, "rectangle-tangential-stiff"),
     ("bem.kernels.semi_periodic.in_plane_table", 0, None, "strip-tangential"),
     ("bem.kernels.semi_periodic.in_plane_table", 0, None, "strip-antiplane"),
-    ("bem.kernels.layered_semi.in_plane_remainder", 0, None, "strip-tangential-soft"),
-    ("bem.kernels.layered_semi.in_plane_remainder", 0, None, "strip-antiplane-soft"),
+    ("bem.kernels.layered.semi_periodic.in_plane_remainder", 0, None, "strip-tangential-soft"),
+    ("bem.kernels.layered.semi_periodic.in_plane_remainder", 0, None, "strip-antiplane-soft"),
     ("bem.kernels.spectral.in_plane_response", 0, None, "harmonic-tangential-soft"),
     ("bem.kernels.spectral.in_plane_response", 0, None, "harmonic-antiplane-soft"),
     ("bem.tangential.operator.surface_coefficients", None, Load.TANGENTIAL, "disc-hertz-soft"),
@@ -121,20 +121,23 @@ STRESSES = each_load_and_component(
     ("bem.kernels.subsurface.stress_table", ("disc-uniform", "disc-tangential-uniform")),
     ("bem.kernels.semi_periodic.stress_table", ("images-bare-x", "images-bare-x")),
     ("bem.stress.spectra.stress_response", ("oblique-wave", "oblique-wave")),
-    ("bem.kernels.layered_cells.stress_remainder", ("disc-uniform-soft", "disc-tangential-uniform-soft")),
-    ("bem.kernels.layered_semi.stress_remainder", ("images-coated-x", "images-coated-x")),
+    ("bem.kernels.layered.cells.stress_remainder", ("disc-uniform-soft", "disc-tangential-uniform-soft")),
+    ("bem.kernels.layered.semi_periodic.stress_remainder", ("images-coated-x", "images-coated-x")),
     ("bem.verification.rectangle.rectangle_stress", ("rectangle-normal", "rectangle-tangential")),
 )
 PLANE = each_load_and_component(
     (0, 1, 2, 4),
     ("bem.kernels.semi_periodic.stress_table", ("strip-normal", "strip-tangential")),
-    ("bem.kernels.layered_semi.stress_remainder", ("strip-normal-soft", "strip-tangential-soft")),
+    ("bem.kernels.layered.semi_periodic.stress_remainder", ("strip-normal-soft", "strip-tangential-soft")),
     ("bem.verification.strip.strip_stress", ("strip-normal", "strip-tangential")),
-    ("bem.kernels.layered.stress_response", ("harmonic-normal-soft", "harmonic-tangential-soft")),
+    ("bem.kernels.layered.frequency_response.stress_response", ("harmonic-normal-soft", "harmonic-tangential-soft")),
 )
-ACROSS = [("bem.kernels.layered.stress_response", c, Load.TANGENTIAL, "harmonic-antiplane-soft") for c in (4, 5)]
+ACROSS = [
+    ("bem.kernels.layered.frequency_response.stress_response", c, Load.TANGENTIAL, "harmonic-antiplane-soft")
+    for c in (4, 5)
+]
 WAVES = [
-    ("bem.kernels.layered.wave_functions", row, None, gate)
+    ("bem.kernels.layered.frequency_response.wave_functions", row, None, gate)
     for rows, gate in (
         (range(1, 6), "harmonic-normal-soft"),
         (range(7, 12), "harmonic-tangential-soft"),

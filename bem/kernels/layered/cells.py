@@ -26,9 +26,7 @@ import numpy as np
 
 from bem.compiled import compiled
 from bem.grid import FloatArray, Grid
-from bem.kernels.coefficients import IN_PLANE_PARITY, STRESS_PARITY, SURFACE_PARITY
-from bem.kernels.half_space import Load
-from bem.kernels.layered_hankel import (
+from bem.kernels.layered.hankel import (
     RadialTable,
     evaluate,
     in_plane_kernels,
@@ -37,6 +35,7 @@ from bem.kernels.layered_hankel import (
     stress_kernels,
     surface_kernels,
 )
+from bem.kernels.loads import IN_PLANE_PARITY, STRESS_PARITY, SURFACE_PARITY, Load, clear_odd_offsets
 from bem.kernels.subsurface import BLOCK, Six, add_six
 from bem.materials import Body
 
@@ -330,33 +329,21 @@ def surface_remainder(grid: Grid, body: Body, load: Load) -> FloatArray:
     """
     out = np.zeros((1, *grid.shape))
     add_cells(out, grid, radial_table(surface_kernels(body, load), _reach(grid)), SURFACE[load])
-    clear_odd(out, (SURFACE_PARITY[load],))
-    return out[0]
+    return clear_odd_offsets(out, (SURFACE_PARITY[load],))[0]
 
 
 def in_plane_remainder(grid: Grid, body: Body) -> FloatArray:
     """Compute the same remainder of the in-plane displacements: (3, nx, ny) [m/Pa]."""
     out = np.zeros((3, *grid.shape))
     add_cells(out, grid, radial_table(in_plane_kernels(body), _reach(grid)), IN_PLANE)
-    clear_odd(out, IN_PLANE_PARITY)
-    return out
+    return clear_odd_offsets(out, IN_PLANE_PARITY)
 
 
 def stress_remainder(grid: Grid, body: Body, depth: float, load: Load) -> FloatArray:
     """Compute the remainder of the six stresses at `depth`; below the outermost layer the whole: (6, nx, ny)."""
     out = np.zeros((6, *grid.shape))
     add_cells(out, grid, radial_table(stress_kernels(body, depth, load), _reach(grid)), STRESS[load])
-    clear_odd(out, STRESS_PARITY[load])
-    return out
-
-
-def clear_odd(out: FloatArray, parities: tuple[tuple[int, int], ...]) -> None:
-    """Set rounding errors to zero on the lines where an odd component vanishes."""
-    for component, (along_x, along_y) in enumerate(parities):
-        if along_x < 0:
-            out[component, 0] = 0.0
-        if along_y < 0:
-            out[component, :, 0] = 0.0
+    return clear_odd_offsets(out, STRESS_PARITY[load])
 
 
 def _reach(grid: Grid) -> float:

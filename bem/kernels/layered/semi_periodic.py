@@ -29,11 +29,9 @@ from numpy.typing import NDArray
 from scipy import special
 
 from bem.grid import FloatArray, Grid
-from bem.kernels import layer_waves, layered
-from bem.kernels.coefficients import IN_PLANE_PARITY, STRESS_PARITY, SURFACE_PARITY
-from bem.kernels.half_space import Load
-from bem.kernels.layered_cells import IN_PLANE, STRESS, SURFACE, add_cells, clear_odd
-from bem.kernels.layered_hankel import (
+from bem.kernels.layered import frequency_response, waves
+from bem.kernels.layered.cells import IN_PLANE, STRESS, SURFACE, add_cells
+from bem.kernels.layered.hankel import (
     END,
     NODES,
     TURN,
@@ -51,10 +49,10 @@ from bem.kernels.layered_hankel import (
     surface_kernels,
     table_values,
 )
+from bem.kernels.loads import IN_PLANE_PARITY, STRESS_PARITY, SURFACE_PARITY, Load, Parities, clear_odd_offsets
 from bem.materials import Body
 
 ComplexArray = NDArray[np.complex128]
-Parities = tuple[tuple[int, int], ...]
 Response = Callable[[FloatArray, FloatArray], FloatArray]
 
 # in units of the period, or 1 over it
@@ -79,7 +77,7 @@ def surface_remainder(grid: Grid, body: Body, load: Load) -> FloatArray:
     step = np.zeros(1) if tangential else _steps(body)[:1]
 
     def response(kx: FloatArray, ky: FloatArray) -> FloatArray:
-        return layered.surface_response(kx, ky, body, tangential=tangential, remainder=True)[None]
+        return frequency_response.surface_response(kx, ky, body, tangential=tangential, remainder=True)[None]
 
     def mean(k: NDArray) -> NDArray:
         if tangential and free == 1:
@@ -101,7 +99,7 @@ def in_plane_remainder(grid: Grid, body: Body) -> FloatArray:
     step[free], step[along] = in_plane, across
 
     def response(kx: FloatArray, ky: FloatArray) -> FloatArray:
-        return layered.in_plane_response(kx, ky, body, remainder=True)
+        return frequency_response.in_plane_response(kx, ky, body, remainder=True)
 
     def mean(k: NDArray) -> NDArray:
         even, turned = kernels.spectra(k)
@@ -149,15 +147,15 @@ def stress_remainder(grid: Grid, body: Body, depth: float, load: Load) -> FloatA
     inside = body.medium_at(depth) == 0
 
     def response(kx: FloatArray, ky: FloatArray) -> FloatArray:
-        return layered.stress_response(kx, ky, body, depth, tangential=tangential, remainder=inside)
+        return frequency_response.stress_response(kx, ky, body, depth, tangential=tangential, remainder=inside)
 
     def mean(k: NDArray) -> NDArray:
-        f = layered.wave_functions(k, body, depth, remainder=inside, load=load)
+        f = frequency_response.wave_functions(k, body, depth, remainder=inside, load=load)
         out = np.zeros((6, k.size), dtype=k.dtype)
         if tangential and free == 1:
-            out[4], out[5] = f[layer_waves.ACROSS_TZ], f[layer_waves.ACROSS_ET]
+            out[4], out[5] = f[waves.ACROSS_TZ], f[waves.ACROSS_ET]
             return out
-        first = layer_waves.TANGENTIAL_U if tangential else layer_waves.NORMAL_U
+        first = waves.TANGENTIAL_U if tangential else waves.NORMAL_U
         tau, sigma, ee, tt = f[first + 2 : first + 6]
         out[free], out[1 - free], out[2], out[4 - free] = ee, tt, sigma, -tau if tangential else tau
         return out
@@ -240,8 +238,7 @@ def _mirrored(half: FloatArray, grid: Grid, parities: Parities) -> FloatArray:
         target[cells // 2 + 1 :] = parity[along] * source[1 : (cells + 1) // 2][::-1]
         if parity[along] < 0 and cells % 2 == 0:
             target[cells // 2] = 0.0
-    clear_odd(out, parities)
-    return out
+    return clear_odd_offsets(out, parities)
 
 
 def _line_table(grid: Grid, parts: _Parts, reach: float) -> RadialTable:

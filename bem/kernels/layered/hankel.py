@@ -29,8 +29,8 @@ from scipy import special
 
 from bem.compiled import compiled
 from bem.grid import FloatArray
-from bem.kernels import layer_waves, layered
-from bem.kernels.half_space import Load
+from bem.kernels.layered import frequency_response, waves
+from bem.kernels.loads import Load
 from bem.materials import Body
 
 ComplexArray = NDArray[np.complex128]
@@ -123,13 +123,15 @@ class RadialTable(NamedTuple):
 
 def surface_kernels(body: Body, load: Load) -> Kernels:
     """Normal surface displacement less that of a half-space of the outermost material; signs: see `layered_cells`."""
-    row = layer_waves.NORMAL_W if load is Load.NORMAL else layer_waves.TANGENTIAL_W
+    row = waves.NORMAL_W if load is Load.NORMAL else waves.TANGENTIAL_W
     scale = 0.5 / body.surface_material.shear_modulus
 
     def spectra(q: NDArray) -> NDArray:
-        return layered.wave_functions(q, body, 0.0, remainder=True, load=load)[row : row + 1] * (scale / q)
+        return frequency_response.wave_functions(q, body, 0.0, remainder=True, load=load)[row : row + 1] * (scale / q)
 
-    return _kernels(spectra, (0 if load is Load.NORMAL else 1,), layered.features(body, 0.0), ("normal", body, load))
+    return _kernels(
+        spectra, (0 if load is Load.NORMAL else 1,), frequency_response.features(body, 0.0), ("normal", body, load)
+    )
 
 
 def in_plane_kernels(body: Body) -> Kernels:
@@ -137,29 +139,29 @@ def in_plane_kernels(body: Body) -> Kernels:
     scale = 0.25 / body.surface_material.shear_modulus
 
     def spectra(q: NDArray) -> NDArray:
-        f = layered.wave_functions(q, body, 0.0, remainder=True, load=Load.TANGENTIAL)
-        along, across = -f[layer_waves.TANGENTIAL_U], f[layer_waves.ACROSS_U]
+        f = frequency_response.wave_functions(q, body, 0.0, remainder=True, load=Load.TANGENTIAL)
+        along, across = -f[waves.TANGENTIAL_U], f[waves.ACROSS_U]
         return np.stack([along + across, along - across]) * (scale / q)
 
-    return _kernels(spectra, (0, 2), layered.features(body, 0.0), ("in plane", body))
+    return _kernels(spectra, (0, 2), frequency_response.features(body, 0.0), ("in plane", body))
 
 
 def stress_kernels(body: Body, depth: float, load: Load) -> Kernels:
     """Six stresses: in the outermost layer less those of a half-space of its material, below it whole."""
-    found = layered.features(body, depth)
+    found = frequency_response.features(body, depth)
 
     def normal(q: NDArray) -> NDArray:
-        f = layered.wave_functions(q, body, depth, remainder=found.remainder, load=load)
-        ee, tt = f[layer_waves.NORMAL_EE], f[layer_waves.NORMAL_TT]
-        return np.stack([f[layer_waves.NORMAL_SIGMA], f[layer_waves.NORMAL_TAU], 0.5 * (ee + tt), 0.5 * (ee - tt)])
+        f = frequency_response.wave_functions(q, body, depth, remainder=found.remainder, load=load)
+        ee, tt = f[waves.NORMAL_EE], f[waves.NORMAL_TT]
+        return np.stack([f[waves.NORMAL_SIGMA], f[waves.NORMAL_TAU], 0.5 * (ee + tt), 0.5 * (ee - tt)])
 
     def tangential(q: NDArray) -> NDArray:
-        f = layered.wave_functions(q, body, depth, remainder=found.remainder, load=load)
-        tau, ee, tt = f[layer_waves.TANGENTIAL_TAU], f[layer_waves.TANGENTIAL_EE], f[layer_waves.TANGENTIAL_TT]
-        across, below = f[layer_waves.ACROSS_ET], f[layer_waves.ACROSS_TZ]
+        f = frequency_response.wave_functions(q, body, depth, remainder=found.remainder, load=load)
+        tau, ee, tt = f[waves.TANGENTIAL_TAU], f[waves.TANGENTIAL_EE], f[waves.TANGENTIAL_TT]
+        across, below = f[waves.ACROSS_ET], f[waves.ACROSS_TZ]
         return np.stack(
             [
-                f[layer_waves.TANGENTIAL_SIGMA],
+                f[waves.TANGENTIAL_SIGMA],
                 0.5 * (below - tau),
                 0.5 * (tau + below),
                 0.25 * (3 * ee + tt) + 0.5 * across,
@@ -174,7 +176,9 @@ def stress_kernels(body: Body, depth: float, load: Load) -> Kernels:
     return _kernels(tangential, (1, 0, 2, 1, 1, 3), found, key)
 
 
-def _kernels(spectra: Spectra, orders: tuple[int, ...], found: layered.Features, key: tuple[Any, ...]) -> Kernels:
+def _kernels(
+    spectra: Spectra, orders: tuple[int, ...], found: frequency_response.Features, key: tuple[Any, ...]
+) -> Kernels:
     return Kernels(spectra, orders, found.decay, found.smallest, path_for(found.angle), key)
 
 

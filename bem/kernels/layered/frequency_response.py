@@ -35,7 +35,7 @@ import numpy as np
 from numpy.typing import ArrayLike, NDArray
 
 from bem.errors import InputError
-from bem.kernels import layer_waves as waves
+from bem.kernels.layered import waves
 from bem.kernels.loads import Load
 from bem.materials import Body
 

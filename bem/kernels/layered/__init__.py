@@ -1,0 +1,1 @@
+"""Response of a stack of bonded layers on a half-space."""
