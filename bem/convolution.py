@@ -279,8 +279,7 @@ class DisplacementOperator:
         """Effective contact modulus E* [Pa] under a harmonic pressure of a wavenumber [rad/m]."""
         if wavenumber not in self._moduli:
             response = sum(
-                float(frequency_response.surface_response(wavenumber, 0.0, body, tangential=False))
-                for body in self.bodies
+                float(frequency_response.surface_response(wavenumber, 0.0, body, Load.NORMAL)) for body in self.bodies
             )
             self._moduli[wavenumber] = 2 / (wavenumber * response)
         return self._moduli[wavenumber]

@@ -67,9 +67,7 @@ def surface_response(grid: Grid, body: Body, load: Load) -> FloatArray:
     kx, ky, q, odd_x, _ = _wavevectors(grid)
     if not body.homogeneous:
         tangential, half = load is Load.TANGENTIAL, grid.shape[0] // 2 + 1
-        rows = frequency_response.surface_response(
-            (odd_x if tangential else kx)[:half], ky[:half], body, tangential=tangential
-        )
+        rows = frequency_response.surface_response((odd_x if tangential else kx)[:half], ky[:half], body, load)
         return _mirrored(rows[None], grid.shape[0], (SURFACE_PARITY[load],))[0]
     material = body.material
     if load is Load.NORMAL:
@@ -119,9 +117,7 @@ def stress_response(grid: Grid, body: Body, depth: float, load: Load) -> FloatAr
     kx, ky, q, odd_x, odd_y = _wavevectors(grid)
     if not body.homogeneous:
         half = grid.shape[0] // 2 + 1
-        rows = frequency_response.stress_response(
-            kx[:half], ky[:half], body, float(depth), tangential=load is Load.TANGENTIAL
-        )
+        rows = frequency_response.stress_response(kx[:half], ky[:half], body, float(depth), load)
         out = _mirrored(rows, grid.shape[0], STRESS_PARITY[load])
         for component, (parity_x, parity_y) in enumerate(STRESS_PARITY[load]):
             if parity_x < 0:

@@ -27,6 +27,7 @@ from bem.contact import ContactSolution
 from bem.contact.contact_area import contact_region
 from bem.grid import FloatArray
 from bem.kernels.layered import frequency_response
+from bem.kernels.loads import Load
 from bem.tangential.friction_discs import project_to_friction_discs
 from bem.tangential.operator import TangentialOperator
 
@@ -130,9 +131,7 @@ def stick_area(
         return contact_region(missing, gap + half_way, np.zeros(grid.shape), grid, across).area
     ratio = np.divide(missing, contact.pressure, out=np.zeros_like(missing), where=sticks)
     wavenumber = _CELL_WAVENUMBER / link
-    normal = sum(
-        float(frequency_response.surface_response(wavenumber, 0.0, b, tangential=False)) for b in operator.bodies
-    )
+    normal = sum(float(frequency_response.surface_response(wavenumber, 0.0, b, Load.NORMAL)) for b in operator.bodies)
     outside = np.maximum(contact.gap, 0.0) * _mean_of_neighbours(ratio) * (2 / (wavenumber * normal) / across)
     gap += np.where(contact.pressure > 0, half_way, outside)
     undeformed = contact.gap - contact.displacement

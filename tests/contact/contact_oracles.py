@@ -80,7 +80,7 @@ def _periodic_response(kx, ky, body, load):
     q = np.hypot(kx, ky)
     inverse = np.divide(1.0, q, out=np.zeros_like(q), where=q > 0)
     if not body.homogeneous:
-        found = np.where(q > 0, surface_response(kx, ky, body, tangential=load is Load.TANGENTIAL), 0.0)
+        found = np.where(q > 0, surface_response(kx, ky, body, load), 0.0)
     elif load is Load.NORMAL:
         found = 2 / body.material.plane_strain_modulus * inverse
     else:

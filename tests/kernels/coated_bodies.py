@@ -93,10 +93,10 @@ def by_fourier(body, depth, load, x, y, dx, dy):
     kx, ky = np.outer(q, np.cos(theta)), np.outer(q, np.sin(theta))
     tangential = load is Load.TANGENTIAL
     if depth is None:
-        spectrum = frequency_response.surface_response(kx, ky, body, tangential=tangential, remainder=True)[None]
+        spectrum = frequency_response.surface_response(kx, ky, body, load, remainder=True)[None]
         odd = [tangential]
     else:
-        spectrum = frequency_response.stress_response(kx, ky, body, depth, tangential=tangential, remainder=inside)
+        spectrum = frequency_response.stress_response(kx, ky, body, depth, load, remainder=inside)
         odd = [a * b < 0 for a, b in STRESS_PARITY[load]]
     phase = kx * x + ky * y
     measure = (q * weights)[:, None] * np.sinc(kx * dx / 2 / np.pi) * np.sinc(ky * dy / 2 / np.pi)

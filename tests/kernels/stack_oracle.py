@@ -7,6 +7,7 @@ import numpy as np
 import pytest
 
 from bem.kernels.layered import frequency_response, waves
+from bem.kernels.loads import Load
 
 
 def elasticity(body, kx, ky, depth, traction):
@@ -76,7 +77,9 @@ def package(body, kx, ky, depth, tangential):
     cosine, sine = kx / q, ky / q
     f = frequency_response.wave_functions(np.array([q]), body, depth)[:, 0]
     scale = 2 * body.surface_material.shear_modulus * q
-    stress = frequency_response.stress_response([kx], [ky], body, depth, tangential=tangential)[:, 0].astype(complex)
+    stress = frequency_response.stress_response(
+        [kx], [ky], body, depth, Load.TANGENTIAL if tangential else Load.NORMAL
+    )[:, 0].astype(complex)
     if tangential:
         along = 1j * cosine * 1j * f[waves.TANGENTIAL_U]
         across = -sine * f[waves.ACROSS_U]

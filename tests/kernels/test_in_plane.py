@@ -112,7 +112,7 @@ def test_layers_against_the_double_fourier_integral(ratio, nu1, nu2, monkeypatch
     got = in_plane_remainder(grid, body)
     for component in range(3):
 
-        def response(kx, ky, body, *, tangential, remainder, component=component):
+        def response(kx, ky, body, load, *, remainder, component=component):
             return frequency_response.in_plane_response(kx, ky, body, remainder=remainder)[component]
 
         with monkeypatch.context() as patch:

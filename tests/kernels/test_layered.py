@@ -74,7 +74,7 @@ def closed_form(q, body):
 def test_normal_displacement_keeps_its_digits(ratio, qh, nu1, nu2):
     body = coated(ratio, nu1, nu2, 0.25)
     q = qh / 0.25
-    value = frequency_response.surface_response(q, 0.0, body, tangential=False)
+    value = frequency_response.surface_response(q, 0.0, body, Load.NORMAL)
     assert value == pytest.approx(closed_form(q, body), rel=1e-11)  # the figure promised for any ratio
 
 
@@ -117,7 +117,7 @@ def test_identical_materials_are_a_half_space(nu):
         )
         assert f[:4] == pytest.approx(expected, abs=4e-15)  # round-off
         assert f[waves.ACROSS_TZ] == pytest.approx(-decay, abs=2e-15)
-    w = frequency_response.surface_response(q, 0.0, body, tangential=False)
+    w = frequency_response.surface_response(q, 0.0, body, Load.NORMAL)
     assert w == pytest.approx((1 - nu) / (g * q), rel=1e-14, abs=0)
 
 
@@ -126,7 +126,7 @@ def test_thin_and_thick_layers_tend_to_their_half_spaces():
     one, two = material(40.0, 0.2), material(3.0, 0.4)
     for thickness, solid in ((1e-9, two), (1e6, one)):
         body = Body(two, layer=Layer(one, thickness))
-        value = frequency_response.surface_response([1.0], [0.5], body, tangential=False)
+        value = frequency_response.surface_response([1.0], [0.5], body, Load.NORMAL)
         expected = (1 - solid.poissons_ratio) / (solid.shear_modulus * np.hypot(1.0, 0.5))
         assert value == pytest.approx(expected, rel=1e-7)  # thin: first order in q h m = 4e-8
 
@@ -136,13 +136,9 @@ def test_incompressible_thin_layer_on_a_rigid_base():
     """nu = 1/2, q h << 1 << G2/G1: the squeezed film q^2 h^3 / 3 G1; a compressible one (1-2nu) h / 2(1-nu) G1."""
     q, h = 1e-2, 1.0
     tight = coated(1e-12, 0.5 - 1e-15, 0.3, h, 1e12)
-    assert frequency_response.surface_response(q, 0.0, tight, tangential=False) == pytest.approx(
-        q**2 * h**3 / 3, rel=1e-3
-    )
+    assert frequency_response.surface_response(q, 0.0, tight, Load.NORMAL) == pytest.approx(q**2 * h**3 / 3, rel=1e-3)
     loose = coated(1e-12, 0.3, 0.3, h, 1e12)
-    assert frequency_response.surface_response(q, 0.0, loose, tangential=False) == pytest.approx(
-        0.4 / 1.4 * h, rel=1e-3
-    )
+    assert frequency_response.surface_response(q, 0.0, loose, Load.NORMAL) == pytest.approx(0.4 / 1.4 * h, rel=1e-3)
 
 
 @pytest.mark.internal
@@ -151,7 +147,7 @@ def test_stiff_layer_on_a_soft_base_is_a_plate():
     nu1, q, h, m = 0.3, 1e-2, 1.0, 1e10
     body = coated(m, nu1, 0.2, h)
     bending = m * h**3 / (6 * (1 - nu1))
-    assert frequency_response.surface_response(q, 0.0, body, tangential=False) == pytest.approx(
+    assert frequency_response.surface_response(q, 0.0, body, Load.NORMAL) == pytest.approx(
         1 / (bending * q**4), rel=1e-3
     )
 

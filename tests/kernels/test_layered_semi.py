@@ -34,10 +34,10 @@ def mode_sum(grid, body, depth, load, offsets):
     kx, ky = (k[:, None], modes[None]) if along == 1 else (modes[None], k[:, None])
     kx, ky = np.broadcast_arrays(kx, ky)
     if depth is None:
-        spectrum = frequency_response.surface_response(kx, ky, body, tangential=tangential, remainder=True)[None]
+        spectrum = frequency_response.surface_response(kx, ky, body, load, remainder=True)[None]
         parities = [(-1, 1) if tangential else (1, 1)]
     else:
-        spectrum = frequency_response.stress_response(kx, ky, body, depth, tangential=tangential, remainder=inside)
+        spectrum = frequency_response.stress_response(kx, ky, body, depth, load, remainder=inside)
         parities = STRESS_PARITY[load]
     measure = weights[:, None] * np.where(modes > 0, 2.0, 1.0) * grid.cell_area / (np.pi * period)
     measure = measure * np.sinc(kx * grid.spacing[0] / 2 / np.pi) * np.sinc(ky * grid.spacing[1] / 2 / np.pi)
@@ -162,7 +162,7 @@ def test_one_cell_per_period_is_plane_strain(periodic):
     for depth in (0.9, 2.0):
         stress = stress_coefficients(grid, body, depth, Load.NORMAL).reshape(6, 6)
         kx, ky = (q, 0 * q) if free == 0 else (0 * q, q)
-        spectrum = frequency_response.stress_response(kx, ky, body, depth, tangential=False) * weights / np.pi
+        spectrum = frequency_response.stress_response(kx, ky, body, depth, Load.NORMAL) * weights / np.pi
         spectrum *= np.sinc(q / (2 * np.pi))
         x = np.arange(6.0)[:, None]
         expected = [np.cos(q * x) @ spectrum[c] for c in range(3)]

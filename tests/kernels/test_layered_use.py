@@ -6,6 +6,7 @@ from coated_bodies import assert_layers_of_the_same_change_nothing
 
 from bem import Body, Grid, Layer, Material, displacement_operator, subsurface_stress
 from bem.kernels.layered import frequency_response, hankel, waves
+from bem.kernels.loads import Load
 
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
 SOFT = Material("soft", youngs_modulus=10e9, poissons_ratio=0.42)
@@ -39,7 +40,7 @@ def test_hertz_pressure_on_a_coated_body(coating, thickness):
     """The axis against Hankel integrals of the response; the error falls with the cell as for a root at the edge."""
     body = Body(STEEL, layer=Layer(coating, thickness))
     q, weights = quadrature(2 * thickness)
-    added = frequency_response.surface_response(q, 0 * q, body, tangential=False, remainder=True)
+    added = frequency_response.surface_response(q, 0 * q, body, Load.NORMAL, remainder=True)
     centre = np.pi / (2 * coating.plane_strain_modulus) + np.sum(added * spectrum_of_hertz(q) * q * weights) / (
         2 * np.pi
     )

@@ -73,14 +73,14 @@ def test_layers_of_any_stiffness_and_thickness_lie_between_base_and_layer(ratio,
     """Energy: a body stiffer everywhere gives less, so the response of each wave lies between the two half-spaces."""
     film = Layer(Material("film", youngs_modulus=ratio, poissons_ratio=0.3), thickness)
     kx, ky = np.array([1e-6, 1e-3, 0.1, 1.0, 10.0, 1e3]), np.zeros(6)
-    q_times = surface_response(kx, ky, body(layer=film), tangential=False) * kx
+    q_times = surface_response(kx, ky, body(layer=film), Load.NORMAL) * kx
     base, coat = 2 * 0.91, 2 * 0.91 / ratio
     assert np.isfinite(q_times).all()
     assert (q_times >= min(base, coat) * (1 - 1e-9)).all()
     assert (q_times <= max(base, coat) * (1 + 1e-9)).all()
-    for tangential in (False, True):
-        assert np.isfinite(surface_response(kx, ky, body(layer=film), tangential=tangential)).all()
-        assert np.isfinite(stress_response(kx, ky, body(layer=film), 0.5 * thickness, tangential=tangential)).all()
+    for load in Load:
+        assert np.isfinite(surface_response(kx, ky, body(layer=film), load)).all()
+        assert np.isfinite(stress_response(kx, ky, body(layer=film), 0.5 * thickness, load)).all()
 
 
 @pytest.mark.internal

@@ -45,7 +45,7 @@ def rows_of(gate):
 
 
 def break_kernel(monkeypatch, target, factor, *, component=None, load=None):
-    """Multiply what a function returns, or one component of it, for one load (given as Load or `tangential=`)."""
+    """Multiply what a function returns, or one component of it, for one load (an argument of type Load)."""
     module, name = target.rsplit(".", 1)
     home = importlib.import_module(module)
     healthy = getattr(home, name)
@@ -53,8 +53,6 @@ def break_kernel(monkeypatch, target, factor, *, component=None, load=None):
     def broken(*args, **kwargs):
         out = healthy(*args, **kwargs)
         given = kwargs.get("load", next((a for a in args if isinstance(a, Load)), Load.NORMAL))
-        if "tangential" in kwargs:
-            given = Load.TANGENTIAL if kwargs["tangential"] else Load.NORMAL
         if load is not None and given is not load:
             return out
         out = np.array(out)

@@ -131,19 +131,17 @@ def wave_functions(
     return out
 
 
-def surface_response(
-    kx: ArrayLike, ky: ArrayLike, body: Body, *, tangential: bool, remainder: bool = False
-) -> FloatArray:
+def surface_response(kx: ArrayLike, ky: ArrayLike, body: Body, load: Load, *, remainder: bool = False) -> FloatArray:
     """Compute normal surface displacement [m/Pa] under a unit traction exp(i k.x): pressure, or traction along +x.
 
     kx and ky [rad/m] broadcast. Under pressure the spectrum is the result; under a tangential traction it is i times
     the result (odd in kx). Zero where k = 0: there is no limit. `remainder` as in `wave_functions`.
     """
     cosine, _, q = _directions(kx, ky)
-    functions = wave_functions(q, body, 0.0, remainder=remainder, load=_load(tangential))
+    functions = wave_functions(q, body, 0.0, remainder=remainder, load=load)
     with np.errstate(divide="ignore", invalid="ignore"):
         scale = np.where(q > 0, 0.5 / (body.surface_material.shear_modulus * q), 0.0)
-    if tangential:
+    if load is Load.TANGENTIAL:
         return scale * cosine * functions[waves.TANGENTIAL_W].reshape(q.shape)
     return scale * functions[waves.NORMAL_W].reshape(q.shape)
 
@@ -169,7 +167,7 @@ def in_plane_response(kx: ArrayLike, ky: ArrayLike, body: Body, *, remainder: bo
 
 
 def stress_response(
-    kx: ArrayLike, ky: ArrayLike, body: Body, depth: float, *, tangential: bool, remainder: bool = False
+    kx: ArrayLike, ky: ArrayLike, body: Body, depth: float, load: Load, *, remainder: bool = False
 ) -> FloatArray:
     """Compute six stresses at `depth` under a unit traction exp(i k.x): pressure, or a traction along +x.
 
@@ -178,9 +176,9 @@ def stress_response(
     four under traction. At k = 0: the laterally constrained uniform state. `remainder` as in `wave_functions`.
     """
     cosine, sine, q = _directions(kx, ky)
-    f = wave_functions(q, body, depth, remainder=remainder, load=_load(tangential)).reshape(waves.ROWS, *q.shape)
+    f = wave_functions(q, body, depth, remainder=remainder, load=load).reshape(waves.ROWS, *q.shape)
     stress = np.empty((6, *q.shape))
-    if tangential:
+    if load is Load.TANGENTIAL:
         tau, sigma, ee, tt = (
             f[waves.TANGENTIAL_TAU],
             f[waves.TANGENTIAL_SIGMA],
@@ -210,10 +208,6 @@ def stress_response(
     for component in range(6):
         stress[component][at_rest] = 0.0 if remainder else uniform[component]
     return stress
-
-
-def _load(tangential: bool) -> Load:
-    return Load.TANGENTIAL if tangential else Load.NORMAL
 
 
 def _directions(kx: ArrayLike, ky: ArrayLike) -> tuple[FloatArray, FloatArray, FloatArray]:

@@ -77,7 +77,7 @@ def surface_remainder(grid: Grid, body: Body, load: Load) -> FloatArray:
     step = np.zeros(1) if tangential else _steps(body)[:1]
 
     def response(kx: FloatArray, ky: FloatArray) -> FloatArray:
-        return frequency_response.surface_response(kx, ky, body, tangential=tangential, remainder=True)[None]
+        return frequency_response.surface_response(kx, ky, body, load, remainder=True)[None]
 
     def mean(k: NDArray) -> NDArray:
         if tangential and free == 1:
@@ -147,7 +147,7 @@ def stress_remainder(grid: Grid, body: Body, depth: float, load: Load) -> FloatA
     inside = body.medium_at(depth) == 0
 
     def response(kx: FloatArray, ky: FloatArray) -> FloatArray:
-        return frequency_response.stress_response(kx, ky, body, depth, tangential=tangential, remainder=inside)
+        return frequency_response.stress_response(kx, ky, body, depth, load, remainder=inside)
 
     def mean(k: NDArray) -> NDArray:
         f = frequency_response.wave_functions(k, body, depth, remainder=inside, load=load)
