@@ -8,7 +8,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bem.grid import FloatArray, Grid
-from bem.kernels.layered.frequency_response import wave_functions
+from bem.kernels.layered.frequency_response import wave_frame_response
 from bem.kernels.layered.waves import ACROSS_U, NORMAL_U, NORMAL_W, TANGENTIAL_U, TANGENTIAL_W
 from bem.kernels.loads import Load
 from bem.materials import Body, Layer
@@ -125,6 +125,6 @@ def _waves(case: StoredCase, curve: StoredCurve) -> FloatArray:
     values = []
     for thickness, depth in _points(curve):
         body = _body(case, thickness)
-        found = wave_functions(np.ones(1), body, depth_on_side(body, depth, curve.side))
+        found = wave_frame_response(np.ones(1), body, depth_on_side(body, depth, curve.side))
         values.append(sign * found[row, 0] / (2 * body.surface_material.shear_modulus))
     return np.array(values)

@@ -93,7 +93,7 @@ def test_without_a_coating_no_layered_kernel_is_computed(monkeypatch, periodic):
 
     import bem.kernels.layered.frequency_response as frequency_response
 
-    monkeypatch.setattr(frequency_response, "wave_functions", forbidden)
+    monkeypatch.setattr(frequency_response, "wave_frame_response", forbidden)
     monkeypatch.setattr(coefficients, "_layered", forbidden)
     grid = Grid((16, 16), (1e-6, 1e-6), periodic=periodic)
     pressure = np.full(grid.shape, 1e8)

@@ -19,21 +19,21 @@ def coated(ratio, nu1, nu2, thickness, substrate_modulus=1.0):
     return Body(material(substrate_modulus, nu2), layer=Layer(material(ratio * substrate_modulus, nu1), thickness))
 
 
-def error_of_table(kernels, radii, reach, panels):
+def error_of_table(spectra, radii, reach, panels):
     """Largest error of the radial table against the same integrals along the real axis, over what cancels there.
 
     `panels` : length of the quadrature's panels over the decay of the spectra.
     """
-    graded = hankel.graded(kernels.smallest / 4, 1 / kernels.decay)
-    even = np.arange(0, 40 / kernels.decay, min(panels / kernels.decay, 2 / radii.max()))
+    graded = hankel.graded(spectra.smallest / 4, 1 / spectra.decay)
+    even = np.arange(0, 40 / spectra.decay, min(panels / spectra.decay, 2 / radii.max()))
     q, weights = hankel.gauss_rule(np.union1d(graded, even))
-    f = kernels.spectra(q) * (q * weights / (2 * np.pi))
-    terms = [special.jv(order, np.outer(radii, q)) * f[n] for n, order in enumerate(kernels.orders)]
+    f = spectra.values(q) * (q * weights / (2 * np.pi))
+    terms = [special.jv(order, np.outer(radii, q)) * f[n] for n, order in enumerate(spectra.orders)]
     expected = np.stack([t.sum(axis=1) for t in terms], axis=1)
     # what cancels on the real axis, over all components: some of them vanish
     size = np.stack([np.abs(t).sum(axis=1) for t in terms], axis=1).max(axis=1, keepdims=True)
-    table = hankel.radial_table(kernels, reach)
-    return (np.abs(hankel.table_values(table, radii) - expected) / size).max()
+    table = hankel.radial_table(spectra, reach)
+    return (np.abs(hankel.evaluate_table(table, radii) - expected) / size).max()
 
 
 def in_plane_strain(stress, solid):

@@ -75,7 +75,7 @@ def package(body, kx, ky, depth, tangential):
     """The same from the package: complex displacement (3,) and stress (6,)."""
     q = np.hypot(kx, ky)
     cosine, sine = kx / q, ky / q
-    f = frequency_response.wave_functions(np.array([q]), body, depth)[:, 0]
+    f = frequency_response.wave_frame_response(np.array([q]), body, depth)[:, 0]
     scale = 2 * body.surface_material.shear_modulus * q
     stress = frequency_response.stress_response(
         [kx], [ky], body, depth, Load.TANGENTIAL if tangential else Load.NORMAL
@@ -106,23 +106,23 @@ def disagreement(body, kx, ky, depth, tangential):
 def assert_finite_and_balanced(q, body, depth, jump):
     """Of waves (1,): no overflow; the surface carries the load; displacements and tractions pass every interface, to
     that part of the largest on the surface."""
-    assert np.isfinite(frequency_response.wave_functions(q, body, depth)).all()
-    surface = frequency_response.wave_functions(q, body, 0.0)[:, 0]
+    assert np.isfinite(frequency_response.wave_frame_response(q, body, depth)).all()
+    surface = frequency_response.wave_frame_response(q, body, 0.0)[:, 0]
     loads = surface[[waves.NORMAL_TAU, waves.NORMAL_SIGMA, waves.TANGENTIAL_TAU, waves.TANGENTIAL_SIGMA, 14]]
     # a thin stiff layer carries up to 1e6 times the load: 1e-15 of that
     assert loads == pytest.approx([0, -1, 1, 0, -1], abs=1e-9)
     keep = [0, 1, 2, 3, 6, 7, 8, 9, 12, 14]
     for interface in body.interfaces:
-        above = frequency_response.wave_functions(q, body, interface)[:, 0]
-        below = frequency_response.wave_functions(q, body, float(np.nextafter(interface, np.inf)))[:, 0]
+        above = frequency_response.wave_frame_response(q, body, interface)[:, 0]
+        below = frequency_response.wave_frame_response(q, body, float(np.nextafter(interface, np.inf)))[:, 0]
         assert above[keep] == pytest.approx(below[keep], rel=1e-8, abs=jump * np.abs(surface).max())
 
 
 def off_the_mean_of_a_circle(body, depth, centre, radius):
     """By how much waves of a wavenumber are not the mean of those on a circle around it, over the largest of them."""
     circle = radius * np.exp(2j * np.pi * np.arange(64) / 64)
-    here = frequency_response.wave_functions(np.array([centre]), body, depth)[:, 0]
+    here = frequency_response.wave_frame_response(np.array([centre]), body, depth)[:, 0]
     return (
-        np.abs(frequency_response.wave_functions(centre + circle, body, depth).mean(axis=1) - here).max()
+        np.abs(frequency_response.wave_frame_response(centre + circle, body, depth).mean(axis=1) - here).max()
         / np.abs(here).max()
     )

@@ -101,11 +101,11 @@ def test_identical_materials_are_a_half_space(nu):
     q = np.geomspace(1e-6, 1e6, 60) / 0.3
     g = body.material.shear_modulus
     assert np.array_equal(
-        frequency_response.wave_functions(q, body, 0.2, remainder=True)[:, q * 0.3 > 1],
+        frequency_response.wave_frame_response(q, body, 0.2, remainder=True)[:, q * 0.3 > 1],
         np.zeros((15, (q * 0.3 > 1).sum())),
     )
     for depth in (0.0, 0.1, 0.3, 0.5):
-        f = frequency_response.wave_functions(q, body, depth)
+        f = frequency_response.wave_frame_response(q, body, depth)
         s, decay = q * depth, np.exp(-q * depth)
         expected = np.stack(  # Johnson (1985) 13.2 and the transform of Cerruti's solution
             [
@@ -192,4 +192,4 @@ def test_doubly_periodic_grids(load):
 def test_bad_input_is_named():
     for body, depth in ((Body(material(1.0, 0.3)), 0.0), (coated(2.0, 0.3, 0.3, 1.0), 1.1)):
         with pytest.raises(InputError, match="outermost layer only"):
-            frequency_response.wave_functions(np.ones(1), body, depth, remainder=True)
+            frequency_response.wave_frame_response(np.ones(1), body, depth, remainder=True)

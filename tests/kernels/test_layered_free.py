@@ -35,9 +35,9 @@ def test_displacement_table_against_mpmath(ratio, nu1, nu2):
     """1/2 pi integral of (closed form - half-space) J0 q dq, by quadrature on the real axis in 25 digits."""
     h = 1.0
     body = coated(ratio, nu1, nu2, h)
-    table = hankel.radial_table(hankel.surface_kernels(body, Load.NORMAL), 50.0)
+    table = hankel.radial_table(hankel.surface_spectra(body, Load.NORMAL), 50.0)
     radii = np.array([0.05, 1.3, 6.0])
-    values = hankel.table_values(table, radii)[:, 0]
+    values = hankel.evaluate_table(table, radii)[:, 0]
     with mp.workdps(25):
         m, n1, n2 = mp.mpf(ratio), mp.mpf(nu1), mp.mpf(nu2)
         ell = 1 - 4 * (1 - n1) / (1 + m * (3 - 4 * n2))
@@ -66,10 +66,10 @@ def test_tables_against_the_real_axis(ratio, nu1, nu2, load):
     """The turned path gives what the real axis gives, for every order and depth."""
     body = coated(ratio, nu1, nu2, 1.0)
     radii = np.array([0.03, 0.4, 1.7, 9.0, 40.0])
-    cases = [hankel.surface_kernels(body, load)]
-    cases += [hankel.stress_kernels(body, depth, load) for depth in (0.4, 1.0, 1.001, 2.5)]
+    cases = [hankel.surface_spectra(body, load)]
+    cases += [hankel.stress_spectra(body, depth, load) for depth in (0.4, 1.0, 1.001, 2.5)]
     # panels that follow exponential tails (of soft layers) are the worst: measured 1e-13
-    assert max(error_of_table(kernels, radii, 1e4, panels=1.0) for kernels in cases) < 5e-13
+    assert max(error_of_table(spectra, radii, 1e4, panels=1.0) for spectra in cases) < 5e-13
 
 
 @pytest.mark.parametrize(("ratio", "nu1", "nu2"), [slow(*PAIRS[0]), PAIRS[1], slow(*PAIRS[2])])
@@ -190,9 +190,9 @@ def test_cells_side_by_side_have_the_bits_of_single_ones(depth, spacing, load):
     """Rows longer than a block, with several rules and panels in them, and cells that are cut."""
     grid, body = Grid((7, 150), spacing), coated(5.0, 0.2, 0.35, 1.0)
     on_surface = depth is None
-    kernels = hankel.surface_kernels(body, load) if on_surface else hankel.stress_kernels(body, depth, load)
-    kind = layered_cells.SURFACE[load] if on_surface else layered_cells.STRESS[load]
-    table = hankel.radial_table(kernels, 100.0)  # ends within the grid
+    spectra = hankel.surface_spectra(body, load) if on_surface else hankel.stress_spectra(body, depth, load)
+    kind = layered_cells.SURFACE_KIND[load] if on_surface else layered_cells.STRESS_KIND[load]
+    table = hankel.radial_table(spectra, 100.0)  # ends within the grid
     got = np.zeros((1 if on_surface else 6, *grid.shape))
     layered_cells.add_cells(got, grid, table, kind, (0, 1))
     single = np.zeros_like(got)

@@ -140,15 +140,15 @@ def test_far_cells_are_line_loads(load, monkeypatch):
     grid = Grid((40, 3), (1.0, 1.0), periodic=(False, True))
     body = coated(30.0, 0.2, 0.4, 0.5)
     results = [surface_remainder(grid, body, load)[None], stress_remainder(grid, body, 0.2, load)]
-    monkeypatch.setattr(semi_periodic, "_LINE", 100.0)
+    monkeypatch.setattr(semi_periodic, "_LINE_LOAD_DISTANCE", 100.0)
     monkeypatch.setattr(semi_periodic, "_SPLIT", 55.0)
-    monkeypatch.setattr(semi_periodic, "_LAST", 55.0 + 48.0)
-    semi_periodic._panel.cache_clear()
+    monkeypatch.setattr(semi_periodic, "_SPLIT_END", 55.0 + 48.0)
+    semi_periodic._bessel_panel.cache_clear()
     for before, after in zip(
         results, [surface_remainder(grid, body, load)[None], stress_remainder(grid, body, 0.2, load)], strict=True
     ):
         assert before == pytest.approx(after, abs=3e-13 * np.abs(after).max())  # round-off
-    semi_periodic._panel.cache_clear()
+    semi_periodic._bessel_panel.cache_clear()
 
 
 @pytest.mark.parametrize("periodic", AXES)

@@ -48,7 +48,7 @@ def test_hertz_pressure_on_a_coated_body(coating, thickness):
     stress = []
     for depth in depths:
         q, weights = quadrature(depth)
-        f = frequency_response.wave_functions(q, body, depth)
+        f = frequency_response.wave_frame_response(q, body, depth)
         lateral = 0.5 * (f[waves.NORMAL_EE] + f[waves.NORMAL_TT])
         measure = spectrum_of_hertz(q) * q * weights / (2 * np.pi)
         stress.append([lateral @ measure, f[waves.NORMAL_SIGMA] @ measure])

@@ -86,7 +86,7 @@ def test_a_layer_cut_in_two_is_the_same(layers):
             assert len(cut.layers) == len(layers) + 1
             for depth in (0.0, 0.3 * h, whole.interfaces[number], 4.0):
                 for wave in (q, q * np.exp(0.5j)):
-                    a, b = (frequency_response.wave_functions(wave, body, depth) for body in (whole, cut))
+                    a, b = (frequency_response.wave_frame_response(wave, body, depth) for body in (whole, cut))
                     # per wavenumber, of the largest of the medium's rows
                     scale = np.abs(a).max(axis=0)
                     assert (np.abs(a - b) <= 1e-12 * scale + 1e-300).all()
@@ -99,11 +99,11 @@ def test_stack_of_the_substrate_is_the_half_space():
     q = np.geomspace(1e-6, 1e4, 200)
     for depth in (0.0, 0.1, 0.25, 0.9, 1.75, 3.0):
         # round-off, of numbers up to 2
-        assert frequency_response.wave_functions(q, body, depth) == pytest.approx(
-            frequency_response.wave_functions(q, bare, depth), abs=1e-14
+        assert frequency_response.wave_frame_response(q, body, depth) == pytest.approx(
+            frequency_response.wave_frame_response(q, bare, depth), abs=1e-14
         )
     for depth in (0.0, 0.25):
-        nothing = frequency_response.wave_functions(q, body, depth, remainder=True)
+        nothing = frequency_response.wave_frame_response(q, body, depth, remainder=True)
         assert np.abs(nothing).max() < 1e-14
 
 
@@ -123,10 +123,10 @@ def test_tables_against_the_real_axis(layers, load):
     """The turned path gives what the real axis gives, for every order, in every medium."""
     body = stack(layers)
     radii = np.array([0.03, 0.4, 1.7, 9.0])
-    cases = [hankel.surface_kernels(body, load)]
+    cases = [hankel.surface_spectra(body, load)]
     tops = (0.0, *body.interfaces)
-    cases += [hankel.stress_kernels(body, top + 0.1, load) for top in tops]
-    assert max(error_of_table(kernels, radii, 1e3, panels=0.5) for kernels in cases) < 1e-12
+    cases += [hankel.stress_spectra(body, top + 0.1, load) for top in tops]
+    assert max(error_of_table(spectra, radii, 1e3, panels=0.5) for spectra in cases) < 1e-12
 
 
 @pytest.mark.internal
@@ -261,14 +261,14 @@ def test_a_graded_coating_is_met_with_order_two():
 def test_fifty_layers_ask_for_few_wavenumbers(monkeypatch):
     """What a contact of many layers costs: one table for all of its grids, its wavenumbers shared by all distances."""
     asked = []
-    true = frequency_response.wave_functions
+    true = frequency_response.wave_frame_response
 
     def counted(q, *args, **kwargs):
         asked.append(np.size(q))
         return true(q, *args, **kwargs)
 
-    monkeypatch.setattr(frequency_response, "wave_functions", counted)
-    hankel._kept.cache_clear()
+    monkeypatch.setattr(frequency_response, "wave_frame_response", counted)
+    hankel._cached_table.cache_clear()
     body = graded(50)
     for cells in (64, 32, 16):
         surface_coefficients(Grid((cells, cells), (6.4 / cells,) * 2), body, Load.NORMAL)

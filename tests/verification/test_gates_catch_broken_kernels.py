@@ -25,7 +25,7 @@ pytestmark = pytest.mark.internal
 def forget():
     """Spectra of healthy kernels must not serve a broken one, nor the other way round."""
     convolution._SPECTRA.clear()
-    hankel._kept.cache_clear()
+    hankel._cached_table.cache_clear()
     for cache in (spectra.SPECTRA, von_mises_bound._TABLES):
         cache.clear()
 
@@ -135,7 +135,7 @@ ACROSS = [
     for c in (4, 5)
 ]
 WAVES = [
-    ("bem.kernels.layered.frequency_response.wave_functions", row, None, gate)
+    ("bem.kernels.layered.frequency_response.wave_frame_response", row, None, gate)
     for rows, gate in (
         (range(1, 6), "harmonic-normal-soft"),
         (range(7, 12), "harmonic-tangential-soft"),
@@ -143,7 +143,7 @@ WAVES = [
     )
     for row in rows
 ] + [  # displacements along the surface, which no operator uses
-    ("bem.verification.harmonic.wave_functions", row, None, f"harmonic-{load}-soft")
+    ("bem.verification.harmonic.wave_frame_response", row, None, f"harmonic-{load}-soft")
     for row, load in ((0, "normal"), (6, "tangential"), (12, "antiplane"))
 ]
 OTHERS = [

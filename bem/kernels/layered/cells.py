@@ -29,11 +29,11 @@ from bem.grid import FloatArray, Grid
 from bem.kernels.layered.hankel import (
     RadialTable,
     evaluate,
-    in_plane_kernels,
+    in_plane_spectra,
     panel_of,
     radial_table,
-    stress_kernels,
-    surface_kernels,
+    stress_spectra,
+    surface_spectra,
 )
 from bem.kernels.loads import IN_PLANE_PARITY, STRESS_PARITY, SURFACE_PARITY, Load, clear_odd_offsets
 from bem.kernels.subsurface import BLOCK, Six, add_six
@@ -42,36 +42,36 @@ from bem.materials import Body
 # points, and the least D over half a side: (R + sqrt(R^2 - 1))^(-2 n) is 1e-15 for the large ones (the order of the
 # singularity costs a factor), 1e-13 for the small ones, which serve where the response is small
 _POINTS = np.array([2, 3, 4, 5, 6, 8, 10, 12, 16])
-_REACH = np.array([900.0, 100.0, 30.0, 15.0, 8.9, 4.4, 2.9, 2.2, 1.64])
+_MIN_RATIO = np.array([900.0, 100.0, 30.0, 15.0, 8.9, 4.4, 2.9, 2.2, 1.64])
 # and the most wavenumber times half a side of ripples, for an error of 1e-12 of them:
 # 4^n n!^4 / ((2n+1) (2n)!^3) kappa^(2n)
-_RIPPLE = np.array([4e-3, 0.055, 0.22, 0.54, 1.02, 2.3, 4.1, 6.1, 10.7])
-_MOST = int(_POINTS.max())
-_NODES = np.zeros((_POINTS.size, _MOST))
-_WEIGHTS = np.zeros((_POINTS.size, _MOST))
+_MAX_RIPPLE = np.array([4e-3, 0.055, 0.22, 0.54, 1.02, 2.3, 4.1, 6.1, 10.7])
+_MAX_POINTS = int(_POINTS.max())
+_NODES = np.zeros((_POINTS.size, _MAX_POINTS))
+_WEIGHTS = np.zeros((_POINTS.size, _MAX_POINTS))
 for _row, _n in enumerate(_POINTS):
     _NODES[_row, :_n], _WEIGHTS[_row, :_n] = np.polynomial.legendre.leggauss(int(_n))
 
 SURFACE_NORMAL, SURFACE_TANGENTIAL, STRESS_NORMAL, STRESS_TANGENTIAL, IN_PLANE = range(5)
-SURFACE = {Load.NORMAL: SURFACE_NORMAL, Load.TANGENTIAL: SURFACE_TANGENTIAL}
-STRESS = {Load.NORMAL: STRESS_NORMAL, Load.TANGENTIAL: STRESS_TANGENTIAL}
+SURFACE_KIND = {Load.NORMAL: SURFACE_NORMAL, Load.TANGENTIAL: SURFACE_TANGENTIAL}
+STRESS_KIND = {Load.NORMAL: STRESS_NORMAL, Load.TANGENTIAL: STRESS_TANGENTIAL}
 
 
 @compiled
-def _along(x: float, y: float, r: float) -> tuple[float, float]:
+def _direction(x: float, y: float, r: float) -> tuple[float, float]:
     """Return cosine and sine of the angle from x; their factors vanish at the origin."""
     r = max(r, 1e-300)
     return x / r, y / r
 
 
 @compiled
-def _pressed(c: float, s: float, g0: float, g1: float, g2: float, g3: float) -> Six:
+def _stress_under_pressure(c: float, s: float, g0: float, g1: float, g2: float, g3: float) -> Six:
     c2, s2 = (c - s) * (c + s), 2.0 * s * c
     return g2 - c2 * g3, g2 + c2 * g3, g0, -s * g1, -c * g1, -s2 * g3
 
 
 @compiled
-def _sheared(c: float, s: float, g0: float, g1: float, g2: float, g3: float, g4: float, g5: float) -> Six:
+def _stress_under_traction(c: float, s: float, g0: float, g1: float, g2: float, g3: float, g4: float, g5: float) -> Six:
     c2, s2 = (c - s) * (c + s), 2.0 * s * c
     c3, s3 = c2 * c - s2 * s, s2 * c + c2 * s
     xy = s3 * g5 - 0.5 * s * (g3 - g4)
@@ -84,7 +84,7 @@ def _add_point(kind: int, x: float, y: float, r: float, g: FloatArray, weight: f
     if kind == SURFACE_NORMAL:
         out[0] += weight * g[0]
         return
-    c, s = _along(x, y, r)
+    c, s = _direction(x, y, r)
     if kind == SURFACE_TANGENTIAL:
         out[0] -= weight * c * g[0]
         return
@@ -95,9 +95,9 @@ def _add_point(kind: int, x: float, y: float, r: float, g: FloatArray, weight: f
         out[2] -= weight * s2 * g[1]
         return
     if kind == STRESS_NORMAL:
-        stress = _pressed(c, s, g[0], g[1], g[2], g[3])
+        stress = _stress_under_pressure(c, s, g[0], g[1], g[2], g[3])
     else:
-        stress = _sheared(c, s, g[0], g[1], g[2], g[3], g[4], g[5])
+        stress = _stress_under_traction(c, s, g[0], g[1], g[2], g[3], g[4], g[5])
     for component in range(6):
         out[component] += weight * stress[component]
 
@@ -111,7 +111,7 @@ _SCRATCH = 17 * BLOCK
 
 
 @compiled
-def _add_side_by_side(
+def _add_points_of_panel(
     kind: int, x: float, count: int, tables: int, panel: FloatArray, weight: float, scratch: FloatArray
 ) -> None:
     """Add `weight` times the response at `count` points (x, `_Y`) that share a panel; `panel` (powers, tables)."""
@@ -132,11 +132,11 @@ def _add_side_by_side(
             scratch[k] += weight * scratch[_G + k]
     elif kind == SURFACE_TANGENTIAL:
         for k in range(count):
-            c, _ = _along(x, scratch[_Y + k], scratch[_R + k])
+            c, _ = _direction(x, scratch[_Y + k], scratch[_R + k])
             scratch[k] -= weight * c * scratch[_G + k]
     elif kind == IN_PLANE:
         for k in range(count):
-            c, s = _along(x, scratch[_Y + k], scratch[_R + k])
+            c, s = _direction(x, scratch[_Y + k], scratch[_R + k])
             even, turned = weight * scratch[_G + k], weight * scratch[_G + BLOCK + k]
             c2, s2 = (c - s) * (c + s), 2.0 * s * c
             scratch[k] += even - c2 * turned
@@ -144,15 +144,15 @@ def _add_side_by_side(
             scratch[2 * BLOCK + k] -= s2 * turned
     elif kind == STRESS_NORMAL:
         for k in range(count):
-            c, s = _along(x, scratch[_Y + k], scratch[_R + k])
-            stress = _pressed(
+            c, s = _direction(x, scratch[_Y + k], scratch[_R + k])
+            stress = _stress_under_pressure(
                 c, s, scratch[_G + k], scratch[_G + BLOCK + k], scratch[_G + 2 * BLOCK + k], scratch[_G + 3 * BLOCK + k]
             )
             add_six(weight, stress, k, scratch)
     else:
         for k in range(count):
-            c, s = _along(x, scratch[_Y + k], scratch[_R + k])
-            stress = _sheared(
+            c, s = _direction(x, scratch[_Y + k], scratch[_R + k])
+            stress = _stress_under_traction(
                 c, s, scratch[_G + k], scratch[_G + BLOCK + k], scratch[_G + 2 * BLOCK + k],
                 scratch[_G + 3 * BLOCK + k], scratch[_G + 4 * BLOCK + k], scratch[_G + 5 * BLOCK + k],
             )  # fmt: skip
@@ -196,32 +196,32 @@ def _add_block(
                     for k in range(stop - start):
                         part[_T + k] = (2.0 * part[_R + k] - lower - upper) / (upper - lower)
                     tables = coefficients.shape[2]
-                    _add_side_by_side(kind, px, stop - start, tables, coefficients[low], weight, part)
+                    _add_points_of_panel(kind, px, stop - start, tables, coefficients[low], weight, part)
                 start = stop
 
 
 @compiled
-def _rule_for(reach: float, ripple: float, fall: float) -> int:
+def _gauss_rule_for(ratio: float, ripple: float, fall: float) -> int:
     """Return the row of the rule to use, or the number of rules if none suffices; ripples are exp(-fall) high."""
     row = 0
-    while row < _POINTS.size and reach < _REACH[row]:
+    while row < _POINTS.size and ratio < _MIN_RATIO[row]:
         row += 1
     if ripple > 0.0:
-        while row < _POINTS.size and ripple * np.exp(-0.5 * fall / _POINTS[row]) > _RIPPLE[row]:
+        while row < _POINTS.size and ripple * np.exp(-0.5 * fall / _POINTS[row]) > _MAX_RIPPLE[row]:
             row += 1
     return row
 
 
 @compiled
-def _rules(x: float, y: float, a: float, b: float, table: RadialTable) -> tuple[int, int]:
+def _gauss_rules(x: float, y: float, a: float, b: float, table: RadialTable) -> tuple[int, int]:
     """Return the rules along x and y for a piece of half sides a, b at (x, y); (-1, -1) where its response vanishes."""
     gap_x, gap_y = max(abs(x) - a, 0.0), max(abs(y) - b, 0.0)
     decay, wavenumber, width, end = table.decay, table.wavenumber, table.width, table.edges[-1]
     if gap_x * gap_x + gap_y * gap_y >= end * end:
         return -1, -1
     fall = width * width * (gap_x * gap_x + gap_y * gap_y)
-    along_x = _rule_for(np.sqrt(x * x + gap_y * gap_y + decay * decay) / a, wavenumber * a, fall)
-    along_y = _rule_for(np.sqrt(y * y + gap_x * gap_x + decay * decay) / b, wavenumber * b, fall)
+    along_x = _gauss_rule_for(np.sqrt(x * x + gap_y * gap_y + decay * decay) / a, wavenumber * a, fall)
+    along_y = _gauss_rule_for(np.sqrt(y * y + gap_x * gap_x + decay * decay) / b, wavenumber * b, fall)
     return along_x, along_y
 
 
@@ -244,7 +244,7 @@ def _add_cell(
     while height > 0:
         height -= 1
         x0, y0, a, b = stack[height, 0], stack[height, 1], stack[height, 2], stack[height, 3]
-        along_x, along_y = _rules(x0, y0, a, b, table)
+        along_x, along_y = _gauss_rules(x0, y0, a, b, table)
         if along_x < 0:
             continue
         split_x, split_y = along_x == _POINTS.size, along_y == _POINTS.size
@@ -291,7 +291,7 @@ def _add_cells(
                 start = 0
                 while start < ny:
                     y = (start + q * period[1]) * sides[1]
-                    rules = _rules(x, y, a, b, table)
+                    rules = _gauss_rules(x, y, a, b, table)
                     if max(rules) == _POINTS.size or max(rules) < 0:
                         _add_cell(kind, x, y, a, b, table, stack, g, row[:, start])
                         start += 1
@@ -299,7 +299,7 @@ def _add_cells(
                     count = 0
                     while count < BLOCK and start + count < ny:
                         y = (start + count + q * period[1]) * sides[1]
-                        if _rules(x, y, a, b, table) != rules:
+                        if _gauss_rules(x, y, a, b, table) != rules:
                             break
                         scratch[_CELL + count] = y
                         count += 1
@@ -328,23 +328,23 @@ def surface_remainder(grid: Grid, body: Body, load: Load) -> FloatArray:
     (nx, ny) [m/Pa]; see `coefficients.surface_coefficients`.
     """
     out = np.zeros((1, *grid.shape))
-    add_cells(out, grid, radial_table(surface_kernels(body, load), _reach(grid)), SURFACE[load])
+    add_cells(out, grid, radial_table(surface_spectra(body, load), _diagonal(grid)), SURFACE_KIND[load])
     return clear_odd_offsets(out, (SURFACE_PARITY[load],))[0]
 
 
 def in_plane_remainder(grid: Grid, body: Body) -> FloatArray:
     """Compute the same remainder of the in-plane displacements: (3, nx, ny) [m/Pa]."""
     out = np.zeros((3, *grid.shape))
-    add_cells(out, grid, radial_table(in_plane_kernels(body), _reach(grid)), IN_PLANE)
+    add_cells(out, grid, radial_table(in_plane_spectra(body), _diagonal(grid)), IN_PLANE)
     return clear_odd_offsets(out, IN_PLANE_PARITY)
 
 
 def stress_remainder(grid: Grid, body: Body, depth: float, load: Load) -> FloatArray:
     """Compute the remainder of the six stresses at `depth`; below the outermost layer the whole: (6, nx, ny)."""
     out = np.zeros((6, *grid.shape))
-    add_cells(out, grid, radial_table(stress_kernels(body, depth, load), _reach(grid)), STRESS[load])
+    add_cells(out, grid, radial_table(stress_spectra(body, depth, load), _diagonal(grid)), STRESS_KIND[load])
     return clear_odd_offsets(out, STRESS_PARITY[load])
 
 
-def _reach(grid: Grid) -> float:
+def _diagonal(grid: Grid) -> float:
     return float(np.hypot(*grid.lengths))

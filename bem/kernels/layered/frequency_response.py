@@ -43,7 +43,7 @@ FloatArray = NDArray[np.float64]
 
 
 @dataclass(frozen=True)
-class Features:
+class QuadratureScales:
     """Scales that an integral over a response has to resolve.
 
     Attributes
@@ -61,7 +61,7 @@ class Features:
     angle: float
 
 
-def features(body: Body, depth: float) -> Features:
+def quadrature_scales(body: Body, depth: float) -> QuadratureScales:
     """Return the features of the response of a layered body at a depth [m].
 
     A stiff layer varies the response down to q = G_below / (G h), the stretch that it shares with the softest medium
@@ -78,7 +78,7 @@ def features(body: Body, depth: float) -> Features:
         for layer, modulus, softest in zip(body.layers, moduli, below, strict=False)
     )
     decay = 2 * body.interfaces[0] - depth if outermost else depth
-    return Features(outermost, decay, 1 / (8 * stretch), np.deg2rad(52.0 if len(body.layers) == 1 else 30.0))
+    return QuadratureScales(outermost, decay, 1 / (8 * stretch), np.deg2rad(52.0 if len(body.layers) == 1 else 30.0))
 
 
 def _media(body: Body) -> FloatArray:
@@ -93,7 +93,7 @@ def _media(body: Body) -> FloatArray:
     )
 
 
-def wave_functions(
+def wave_frame_response(
     wavenumber: NDArray, body: Body, depth: float, *, remainder: bool = False, load: Load | None = None
 ) -> NDArray:
     """Compute the response of a body to unit tractions exp(i k.x) on its surface, in the frame of the wavevector.
@@ -127,7 +127,7 @@ def wave_functions(
     q = np.ascontiguousarray(wavenumber).ravel()
     out = np.zeros((waves.ROWS, q.size), dtype=q.dtype)
     pressed, sheared = load is not Load.TANGENTIAL, load is not Load.NORMAL
-    waves.fill(q, float(above), medium, _media(body), remainder, pressed, sheared, out)
+    waves.fill_response(q, float(above), medium, _media(body), remainder, pressed, sheared, out)
     return out
 
 
@@ -135,10 +135,10 @@ def surface_response(kx: ArrayLike, ky: ArrayLike, body: Body, load: Load, *, re
     """Compute normal surface displacement [m/Pa] under a unit traction exp(i k.x): pressure, or traction along +x.
 
     kx and ky [rad/m] broadcast. Under pressure the spectrum is the result; under a tangential traction it is i times
-    the result (odd in kx). Zero where k = 0: there is no limit. `remainder` as in `wave_functions`.
+    the result (odd in kx). Zero where k = 0: there is no limit. `remainder` as in `wave_frame_response`.
     """
     cosine, _, q = _directions(kx, ky)
-    functions = wave_functions(q, body, 0.0, remainder=remainder, load=load)
+    functions = wave_frame_response(q, body, 0.0, remainder=remainder, load=load)
     with np.errstate(divide="ignore", invalid="ignore"):
         scale = np.where(q > 0, 0.5 / (body.surface_material.shear_modulus * q), 0.0)
     if load is Load.TANGENTIAL:
@@ -150,10 +150,12 @@ def in_plane_response(kx: ArrayLike, ky: ArrayLike, body: Body, *, remainder: bo
     """Compute in-plane surface displacements [m/Pa] under unit tractions exp(i k.x): (3, ...), real.
 
     ux under traction along x, uy under traction along y, and of one under the other. kx and ky [rad/m] broadcast. Zero
-    where k = 0: there is no limit. `remainder` as in `wave_functions`.
+    where k = 0: there is no limit. `remainder` as in `wave_frame_response`.
     """
     cosine, sine, q = _directions(kx, ky)
-    functions = wave_functions(q, body, 0.0, remainder=remainder, load=Load.TANGENTIAL).reshape(waves.ROWS, *q.shape)
+    functions = wave_frame_response(q, body, 0.0, remainder=remainder, load=Load.TANGENTIAL).reshape(
+        waves.ROWS, *q.shape
+    )
     with np.errstate(divide="ignore", invalid="ignore"):
         scale = np.where(q > 0, 0.5 / (body.surface_material.shear_modulus * q), 0.0)
     along, across = -scale * functions[waves.TANGENTIAL_U], scale * functions[waves.ACROSS_U]
@@ -173,10 +175,10 @@ def stress_response(
 
     kx and ky [rad/m] broadcast; -> (6, ...) in the order xx yy zz yz xz xy, real. The spectrum is the result where the
     stress is even under (x, y) -> (-x, -y), and i times the result where it is odd: yz and xz under pressure, the other
-    four under traction. At k = 0: the laterally constrained uniform state. `remainder` as in `wave_functions`.
+    four under traction. At k = 0: the laterally constrained uniform state. `remainder` as in `wave_frame_response`.
     """
     cosine, sine, q = _directions(kx, ky)
-    f = wave_functions(q, body, depth, remainder=remainder, load=load).reshape(waves.ROWS, *q.shape)
+    f = wave_frame_response(q, body, depth, remainder=remainder, load=load).reshape(waves.ROWS, *q.shape)
     stress = np.empty((6, *q.shape))
     if load is Load.TANGENTIAL:
         tau, sigma, ee, tt = (

@@ -30,38 +30,38 @@ from scipy import special
 
 from bem.grid import FloatArray, Grid
 from bem.kernels.layered import frequency_response, waves
-from bem.kernels.layered.cells import IN_PLANE, STRESS, SURFACE, add_cells
+from bem.kernels.layered.cells import IN_PLANE, STRESS_KIND, SURFACE_KIND, add_cells
 from bem.kernels.layered.hankel import (
     END,
-    NODES,
+    PANEL_NODES,
     TURN,
-    Kernels,
+    HankelSpectra,
     Path,
     RadialTable,
-    Spectra,
-    apply,
-    fit,
+    SpectrumFunction,
+    evaluate_table,
     gauss_rule,
-    in_plane_kernels,
+    in_plane_spectra,
+    interpolate_panels,
+    matrix_product,
     panel_nodes,
     radial_table,
-    stress_kernels,
-    surface_kernels,
-    table_values,
+    stress_spectra,
+    surface_spectra,
 )
 from bem.kernels.loads import IN_PLANE_PARITY, STRESS_PARITY, SURFACE_PARITY, Load, Parities, clear_odd_offsets
 from bem.materials import Body
 
 ComplexArray = NDArray[np.complex128]
-Response = Callable[[FloatArray, FloatArray], FloatArray]
+ResponseFunction = Callable[[FloatArray, FloatArray], FloatArray]
 
 # in units of the period, or 1 over it
-_SPLIT, _WIDTH = 48.0, 8.0
-_LAST = _SPLIT + 6 * _WIDTH  # erfc(6) = 2e-17
-_REACH = 1.5
-_PANEL = 0.125  # width of the outer panels of r
-_DEEP = 1.6  # decay from which the first part is below round-off
-_LINE = 8.0  # free distance from which only the mean is left: exp(-2 pi 8) = 1e-22
+_SPLIT, _SPLIT_WIDTH = 48.0, 8.0
+_SPLIT_END = _SPLIT + 6 * _SPLIT_WIDTH  # erfc(6) = 2e-17
+_SHORT_RANGE = 1.5
+_PANEL_WIDTH = 0.125  # width of the outer panels of r
+_NEGLIGIBLE_DECAY = 1.6  # decay from which the first part is below round-off
+_LINE_LOAD_DISTANCE = 8.0  # free distance from which only the mean is left: exp(-2 pi 8) = 1e-22
 
 
 _CELL_NODES, _CELL_WEIGHTS = np.polynomial.legendre.leggauss(16)
@@ -73,68 +73,68 @@ def surface_remainder(grid: Grid, body: Body, load: Load) -> FloatArray:
     parities = (SURFACE_PARITY[load],)
     free, along = _axes(grid)
     decay = 0.5 * grid.lengths[along]
-    kernels = surface_kernels(body, load)
-    step = np.zeros(1) if tangential else _steps(body)[:1]
+    spectra = surface_spectra(body, load)
+    limit = np.zeros(1) if tangential else _long_wave_limits(body)[:1]
 
     def response(kx: FloatArray, ky: FloatArray) -> FloatArray:
         return frequency_response.surface_response(kx, ky, body, load, remainder=True)[None]
 
-    def mean(k: NDArray) -> NDArray:
+    def mean_spectrum(k: NDArray) -> NDArray:
         if tangential and free == 1:
             return np.zeros((1, k.size), dtype=k.dtype)
-        return kernels.spectra(k) - step[:, None] * np.exp(-decay * k) / k
+        return spectra.values(k) - limit[:, None] * np.exp(-decay * k) / k
 
-    parts = _Parts(kernels, SURFACE[load], parities, response, mean, step)
-    half = _half(grid, parts)
-    _add_steps(half, grid, parts)
-    return _mirrored(half, grid, parities)[0]
+    remainder = _Remainder(spectra, SURFACE_KIND[load], parities, response, mean_spectrum, limit)
+    half = _half_period(grid, remainder)
+    _add_long_wave_limits(half, grid, remainder)
+    return _complete_by_parity(half, grid, parities)[0]
 
 
 def in_plane_remainder(grid: Grid, body: Body) -> FloatArray:
     """Compute the same remainder of the in-plane displacements: (3, nx, ny) [m/Pa]."""
     free, along = _axes(grid)
     decay = 0.5 * grid.lengths[along]
-    in_plane, across = _steps(body)
-    step = np.zeros(3)
-    step[free], step[along] = in_plane, across
+    in_plane, across = _long_wave_limits(body)
+    limit = np.zeros(3)
+    limit[free], limit[along] = in_plane, across
 
     def response(kx: FloatArray, ky: FloatArray) -> FloatArray:
         return frequency_response.in_plane_response(kx, ky, body, remainder=True)
 
-    def mean(k: NDArray) -> NDArray:
-        even, turned = kernels.spectra(k)
+    def mean_spectrum(k: NDArray) -> NDArray:
+        even, turned = spectra.values(k)
         out = np.zeros((3, k.size), dtype=k.dtype)
         out[free], out[along] = even + turned, even - turned
-        return out - step[:, None] * np.exp(-decay * k) / k
+        return out - limit[:, None] * np.exp(-decay * k) / k
 
-    kernels = in_plane_kernels(body)
-    parts = _Parts(kernels, IN_PLANE, IN_PLANE_PARITY, response, mean, step)
-    half = _half(grid, parts)
-    _add_steps(half, grid, parts)
-    return _mirrored(half, grid, IN_PLANE_PARITY)
+    spectra = in_plane_spectra(body)
+    remainder = _Remainder(spectra, IN_PLANE, IN_PLANE_PARITY, response, mean_spectrum, limit)
+    half = _half_period(grid, remainder)
+    _add_long_wave_limits(half, grid, remainder)
+    return _complete_by_parity(half, grid, IN_PLANE_PARITY)
 
 
-def _steps(body: Body) -> FloatArray:
+def _long_wave_limits(body: Body) -> FloatArray:
     """Return the limits of q times the remainder for q -> 0, plane and antiplane strain [1/Pa]: base less surface."""
     one, two = body.surface_material, body.material
     plane = (1 - two.poissons_ratio) / two.shear_modulus - (1 - one.poissons_ratio) / one.shear_modulus
     return np.array([plane, 1 / two.shear_modulus - 1 / one.shear_modulus])
 
 
-def _add_steps(half: FloatArray, grid: Grid, parts: _Parts) -> None:
-    """Add the parts in closed form, and the datum, of the components that have a step."""
+def _add_long_wave_limits(half: FloatArray, grid: Grid, remainder: _Remainder) -> None:
+    """Add the parts in closed form, and the datum, of the components that have a limit."""
     free, along = _axes(grid)
     height, reference = 0.5 * grid.lengths[along], grid.lengths[free]
-    steps = [component for component in range(len(half)) if parts.step[component]]
-    if not steps:
+    limited = [component for component in range(len(half)) if remainder.limit[component]]
+    if not limited:
         return
     logarithm = _mean_log(grid.shape[free], grid.spacing[free], height, reference)
-    there = table_values(_line_table(grid, parts, reference), np.array([reference]))[0]
-    for component in steps:
-        step = parts.step[component]
-        line = -step / np.pi * logarithm
-        line -= there[component]
-        line += step / np.pi * np.log(np.hypot(reference, height) / reference)
+    at_reference = evaluate_table(_line_load_table(grid, remainder, reference), np.array([reference]))[0]
+    for component in limited:
+        limit = remainder.limit[component]
+        line = -limit / np.pi * logarithm
+        line -= at_reference[component]
+        line += limit / np.pi * np.log(np.hypot(reference, height) / reference)
         line *= grid.cell_area / grid.lengths[along]
         half[component] += line[:, None] if free == 0 else line
 
@@ -149,8 +149,8 @@ def stress_remainder(grid: Grid, body: Body, depth: float, load: Load) -> FloatA
     def response(kx: FloatArray, ky: FloatArray) -> FloatArray:
         return frequency_response.stress_response(kx, ky, body, depth, load, remainder=inside)
 
-    def mean(k: NDArray) -> NDArray:
-        f = frequency_response.wave_functions(k, body, depth, remainder=inside, load=load)
+    def mean_spectrum(k: NDArray) -> NDArray:
+        f = frequency_response.wave_frame_response(k, body, depth, remainder=inside, load=load)
         out = np.zeros((6, k.size), dtype=k.dtype)
         if tangential and free == 1:
             out[4], out[5] = f[waves.ACROSS_TZ], f[waves.ACROSS_ET]
@@ -160,8 +160,10 @@ def stress_remainder(grid: Grid, body: Body, depth: float, load: Load) -> FloatA
         out[free], out[1 - free], out[2], out[4 - free] = ee, tt, sigma, -tau if tangential else tau
         return out
 
-    parts = _Parts(stress_kernels(body, depth, load), STRESS[load], parities, response, mean, np.zeros(6))
-    return _mirrored(_half(grid, parts), grid, parities)
+    remainder = _Remainder(
+        stress_spectra(body, depth, load), STRESS_KIND[load], parities, response, mean_spectrum, np.zeros(6)
+    )
+    return _complete_by_parity(_half_period(grid, remainder), grid, parities)
 
 
 def _mean_log(cells: int, side: float, height: float, reference: float) -> FloatArray:
@@ -172,23 +174,23 @@ def _mean_log(cells: int, side: float, height: float, reference: float) -> Float
     closed = np.diff(primitive, axis=1)[:, 0] * (height / side)
     at = np.hypot((offsets[:, None] + 0.5 * _CELL_NODES) * side, height) / reference
     # the closed form cancels far away, where the rule errs by (2 * 8)^-32
-    return np.where(offsets < 8, closed, apply(np.log(at), 0.5 * _CELL_WEIGHTS))
+    return np.where(offsets < 8, closed, matrix_product(np.log(at), 0.5 * _CELL_WEIGHTS))
 
 
 @dataclass(frozen=True)
-class _Parts:
+class _Remainder:
     """Quantities of one response that all parts of the sum share.
 
     response: (kx, ky) -> (components, ...) as in `layered`; mean: the same along the free axis, complex k, less
-    step exp(-k s)/k, (components,), s half a period, whose transform is added in closed form.
+    limit exp(-k s)/k, (components,), s half a period, whose transform is added in closed form.
     """
 
-    kernels: Kernels
+    spectra: HankelSpectra
     kind: int
     parities: Parities
-    response: Response
-    mean: Spectra
-    step: FloatArray
+    response: ResponseFunction
+    mean_spectrum: SpectrumFunction
+    limit: FloatArray
 
 
 def _axes(grid: Grid) -> tuple[int, int]:
@@ -196,38 +198,40 @@ def _axes(grid: Grid) -> tuple[int, int]:
     return (1, 0) if grid.periodic[0] else (0, 1)
 
 
-def _half(grid: Grid, parts: _Parts) -> FloatArray:
+def _half_period(grid: Grid, remainder: _Remainder) -> FloatArray:
     """Offsets up to half a period along the periodic axis: (components, ...)."""
     free, along = _axes(grid)
     period, side = grid.lengths[along], grid.spacing[free]
     cells = grid.shape[along] // 2 + 1
-    near = min(grid.shape[free], int(np.ceil(_LINE * period / side + 0.5)))
-    out = _long_waves(grid, near, cells, parts)
-    if parts.kernels.decay < _DEEP * period:
-        table = _windowed_table(parts.kernels, period)
-        add_cells(out, grid, table, parts.kind, (1, 0) if along == 0 else (0, 1))
+    near = min(grid.shape[free], int(np.ceil(_LINE_LOAD_DISTANCE * period / side + 0.5)))
+    out = _long_range(grid, near, cells, remainder)
+    if remainder.spectra.decay < _NEGLIGIBLE_DECAY * period:
+        table = _short_range_table(remainder.spectra, period)
+        add_cells(out, grid, table, remainder.kind, (1, 0) if along == 0 else (0, 1))
     if near < grid.shape[free]:
-        line = np.broadcast_to(_far_cells(grid, near, parts)[..., None], (len(out), grid.shape[free] - near, cells))
+        line = np.broadcast_to(
+            _line_load_cells(grid, near, remainder)[..., None], (len(out), grid.shape[free] - near, cells)
+        )
         out = np.concatenate([out, line if free == 0 else line.swapaxes(1, 2)], axis=1 + free)
     return out
 
 
-def _far_cells(grid: Grid, near: int, parts: _Parts) -> FloatArray:
+def _line_load_cells(grid: Grid, near: int, remainder: _Remainder) -> FloatArray:
     """The mean along the period of cells from number `near` on along the free axis: (components, cells)."""
     free, along = _axes(grid)
     side = grid.spacing[free]
-    signs = [1.0 if parity == (1, 1) else -1.0 for parity in parts.parities]
-    table = _line_table(grid, parts, (grid.shape[free] + 1) * side)
+    signs = [1.0 if parity == (1, 1) else -1.0 for parity in remainder.parities]
+    table = _line_load_table(grid, remainder, (grid.shape[free] + 1) * side)
     # the origin is two half sides away or more: the rule errs by (2 + sqrt 3)^-32
     x = np.arange(near, grid.shape[free])[:, None] * side + 0.5 * side * _CELL_NODES
-    means = np.einsum("xgt,g->tx", table_values(table, x), 0.5 * _CELL_WEIGHTS)
-    for component, parity in enumerate(parts.parities):
+    means = np.einsum("xgt,g->tx", evaluate_table(table, x), 0.5 * _CELL_WEIGHTS)
+    for component, parity in enumerate(remainder.parities):
         if parity[along] < 0:
             means[component] = 0.0
     return means * (np.array(signs)[:, None] * (grid.cell_area / grid.lengths[along]))
 
 
-def _mirrored(half: FloatArray, grid: Grid, parities: Parities) -> FloatArray:
+def _complete_by_parity(half: FloatArray, grid: Grid, parities: Parities) -> FloatArray:
     """Fill the second half of the period by parity."""
     _, along = _axes(grid)
     cells = grid.shape[along]
@@ -241,42 +245,46 @@ def _mirrored(half: FloatArray, grid: Grid, parities: Parities) -> FloatArray:
     return clear_odd_offsets(out, parities)
 
 
-def _line_table(grid: Grid, parts: _Parts, reach: float) -> RadialTable:
+def _line_load_table(grid: Grid, remainder: _Remainder, reach: float) -> RadialTable:
     """The mean along the period, less the part in closed form, as a function of the free distance."""
     free, along = _axes(grid)
-    orders = tuple(0 if parity[free] > 0 else 1 for parity in parts.parities)
-    decay = min(parts.kernels.decay, 0.5 * grid.lengths[along]) if parts.step.any() else parts.kernels.decay
+    orders = tuple(0 if parity[free] > 0 else 1 for parity in remainder.parities)
+    decay = (
+        min(remainder.spectra.decay, 0.5 * grid.lengths[along]) if remainder.limit.any() else remainder.spectra.decay
+    )
     return radial_table(
-        Kernels(parts.mean, orders, decay, parts.kernels.smallest, parts.kernels.path), reach, line=True
+        HankelSpectra(remainder.mean_spectrum, orders, decay, remainder.spectra.smallest, remainder.spectra.path),
+        reach,
+        fourier=True,
     )
 
 
-def _long_waves(grid: Grid, near: int, cells: int, parts: _Parts) -> FloatArray:
+def _long_range(grid: Grid, near: int, cells: int, remainder: _Remainder) -> FloatArray:
     """The part below the split, averaged over the first cells: (components, ...)."""
     free, along = _axes(grid)
     period = grid.lengths[along]
     width = min(4.0 / period, 6.0 / (near * grid.spacing[free]))
-    inner = parts.kernels.path.graded(min(parts.kernels.smallest, width), width)
-    last = _LAST / period
+    inner = remainder.spectra.path.graded(min(remainder.spectra.smallest, width), width)
+    last = _SPLIT_END / period
     k, weights = gauss_rule(np.concatenate([inner, np.linspace(width, last, int(np.ceil(last / width)) + 1)[1:]]))
-    modes = 2 * np.pi / period * np.arange(int(_LAST / (2 * np.pi)) + 1, dtype=np.float64)
+    modes = 2 * np.pi / period * np.arange(int(_SPLIT_END / (2 * np.pi)) + 1, dtype=np.float64)
     along_free: FloatArray = k[:, None]
     along_period: FloatArray = modes[None, :]
     kx, ky = (along_free, along_period) if free == 0 else (along_period, along_free)
-    spectrum = parts.response(kx, ky)
-    spectrum *= 0.5 * special.erfc((np.hypot(kx, ky) * period - _SPLIT) / _WIDTH)
+    spectrum = remainder.response(kx, ky)
+    spectrum *= 0.5 * special.erfc((np.hypot(kx, ky) * period - _SPLIT) / _SPLIT_WIDTH)
     spectrum *= np.sinc(kx * grid.spacing[0] / (2 * np.pi)) * np.sinc(ky * grid.spacing[1] / (2 * np.pi))
     average = np.sinc(k * grid.spacing[free] / (2 * np.pi))
-    for component, step in enumerate(parts.step):
-        if step:
-            spectrum[component, :, 0] -= step * np.exp(-0.5 * period * k) / k * average
+    for component, limit in enumerate(remainder.limit):
+        if limit:
+            spectrum[component, :, 0] -= limit * np.exp(-0.5 * period * k) / k * average
     spectrum *= weights[:, None] * np.where(modes > 0, 2.0, 1.0) * (grid.cell_area / (np.pi * period))
     phase_free = np.arange(near)[:, None] * grid.spacing[free] * k
     phase_along = np.arange(cells)[:, None] * grid.spacing[along] * modes
     waves_free = {1: np.cos(phase_free), -1: np.sin(phase_free)}
     waves_along = {1: np.cos(phase_along), -1: np.sin(phase_along)}
-    out = np.empty((len(parts.parities), near, cells))
-    for component, parity in enumerate(parts.parities):
+    out = np.empty((len(remainder.parities), near, cells))
+    for component, parity in enumerate(remainder.parities):
         sign = 1.0 if parity == (1, 1) else -1.0  # i from an odd spectrum, i from each sine
         # without BLAS, see `apply`
         modes_at = np.einsum("xk,km->xm", waves_free[parity[free]], sign * spectrum[component])
@@ -285,7 +293,7 @@ def _long_waves(grid: Grid, near: int, cells: int, parts: _Parts) -> FloatArray:
 
 
 @dataclass(frozen=True)
-class _Panel:
+class _BesselPanel:
     """Nodes in r and q and the products of Bessel functions and weights on them, in units of the period.
 
     real [order][node, q]: the same q for all nodes; ray [order][node, point] at q = ray_q[node, point].
@@ -298,41 +306,47 @@ class _Panel:
 
 
 @lru_cache(maxsize=96)
-def _panel(a: float, b: float, path: Path) -> _Panel:
+def _bessel_panel(a: float, b: float, path: Path) -> _BesselPanel:
     r = panel_nodes(a, b)[:, None]
     # real axis to where the window ends and q r has reached TURN; near the origin until exp(-q d) ends, d >= 8 b
     last = END / (8 * b) if a == 0 else TURN / b
-    edges = np.linspace(0.0, _LAST, 25)
-    if last > _LAST:
-        panels = path.cuts * int(np.ceil(np.log2(last / _LAST)))
-        edges = np.concatenate([edges, np.geomspace(_LAST, last, panels + 1)[1:]])
+    edges = np.linspace(0.0, _SPLIT_END, 25)
+    if last > _SPLIT_END:
+        panels = path.cuts * int(np.ceil(np.log2(last / _SPLIT_END)))
+        edges = np.concatenate([edges, np.geomspace(_SPLIT_END, last, panels + 1)[1:]])
     q, weights = gauss_rule(edges)
-    window = 0.5 * special.erfc((_SPLIT - q) / _WIDTH)
+    window = 0.5 * special.erfc((_SPLIT - q) / _SPLIT_WIDTH)
     real = tuple(special.jv(order, r * q) * (q * weights * window / (2 * np.pi)) for order in range(4))
     if a == 0:
-        return _Panel(q, real, np.zeros((NODES, 0), dtype=np.complex128), ())
+        return _BesselPanel(q, real, np.zeros((PANEL_NODES, 0), dtype=np.complex128), ())
     t, weights = gauss_rule(np.array(path.ray_edges))
-    ray_q: ComplexArray = np.asarray(max(last, _LAST) + path.slope * t / r, dtype=np.complex128)
+    ray_q: ComplexArray = np.asarray(max(last, _SPLIT_END) + path.slope * t / r, dtype=np.complex128)
     s = ray_q * r
     hankel = [special.hankel1(0, s), special.hankel1(1, s)]
     for order in (1, 2):
         hankel.append(2 * order / s * hankel[order] - hankel[order - 1])
     factor = ray_q * path.slope * weights / r / (2 * np.pi)
-    return _Panel(q, real, ray_q, tuple(h * factor for h in hankel))
+    return _BesselPanel(q, real, ray_q, tuple(h * factor for h in hankel))
 
 
-def _windowed_table(kernels: Kernels, period: float) -> RadialTable:
+def _short_range_table(spectra: HankelSpectra, period: float) -> RadialTable:
     """Hankel transforms of the part above the split, up to 1.5 periods."""
-    decay = kernels.decay / period
-    inner = kernels.path.graded(decay / 8, _PANEL)
-    edges = np.concatenate([inner, _PANEL * np.arange(2, int(_REACH / _PANEL) + 1)])
-    values = np.empty((edges.size - 1, NODES, len(kernels.orders)))
+    decay = spectra.decay / period
+    inner = spectra.path.graded(decay / 8, _PANEL_WIDTH)
+    edges = np.concatenate([inner, _PANEL_WIDTH * np.arange(2, int(_SHORT_RANGE / _PANEL_WIDTH) + 1)])
+    values = np.empty((edges.size - 1, PANEL_NODES, len(spectra.orders)))
     for number in range(edges.size - 1):
-        panel = _panel(float(edges[number]), float(edges[number + 1]), kernels.path)
-        f = kernels.spectra(panel.real_q / period)
-        f_ray = kernels.spectra(panel.ray_q.ravel() / period).reshape(-1, *panel.ray_q.shape) if panel.ray else None
-        for table, order in enumerate(kernels.orders):
-            values[number, :, table] = apply(panel.real[order], f[table])
+        panel = _bessel_panel(float(edges[number]), float(edges[number + 1]), spectra.path)
+        f = spectra.values(panel.real_q / period)
+        f_ray = spectra.values(panel.ray_q.ravel() / period).reshape(-1, *panel.ray_q.shape) if panel.ray else None
+        for table, order in enumerate(spectra.orders):
+            values[number, :, table] = matrix_product(panel.real[order], f[table])
             if f_ray is not None:
                 values[number, :, table] += np.einsum("np,np->n", f_ray[table], panel.ray[order]).real
-    return RadialTable(edges * period, fit(values) / period**2, kernels.decay, _SPLIT / period, _WIDTH / (2 * period))
+    return RadialTable(
+        edges * period,
+        interpolate_panels(values) / period**2,
+        spectra.decay,
+        _SPLIT / period,
+        _SPLIT_WIDTH / (2 * period),
+    )

@@ -388,7 +388,7 @@ def _depth_factors(q, above, thickness, inside, carried, c):
 
 
 @compiled
-def fill(q, above, medium, media, remainder, pressed, sheared, out):
+def fill_response(q, above, medium, media, remainder, pressed, sheared, out):
     """Fill `out` (ROWS, n) for the wavenumbers q (n,) at the distance `above` below the top of a medium.
 
     `pressed`: fill the rows under pressure; `sheared`: fill the rows under tractions. Other rows are unchanged.
