@@ -15,9 +15,10 @@ and in the plane, under traction along x and y,
 
     xx = I0 - cos(2 phi) I2        yy = I0 + cos(2 phi) I2        xy = yx = -sin(2 phi) I2.
 
-They are analytic on the scale D = hypot(r, d) (`Kernels.decay`): a cell takes the Gauss rule that reaches 1e-13 for
-its D over half a side, from 2 x 2 points far away to 16 x 16, and is quartered where that is not enough. Near the
-origin of a layer much thinner than a cell the quarters shrink geometrically, so any ratio of thickness to cell works.
+The functions are analytic on the scale D = hypot(r, d), d the decay length of the table. A cell takes the smallest
+Gauss rule whose error is below 1e-13 for its ratio of D to half a side, from 2 x 2 points far away to 16 x 16. If none
+is accurate enough, the cell is cut in halves along the sides that are too long. Near the origin of a layer much thinner
+than a cell the pieces shrink geometrically, so any ratio of thickness to cell works.
 """
 
 from __future__ import annotations
@@ -39,11 +40,11 @@ from bem.kernels.loads import IN_PLANE_PARITY, STRESS_PARITY, SURFACE_PARITY, Lo
 from bem.kernels.subsurface import BLOCK, Six, add_six
 from bem.materials import Body
 
-# points, and the least D over half a side: (R + sqrt(R^2 - 1))^(-2 n) is 1e-15 for the large ones (the order of the
-# singularity costs a factor), 1e-13 for the small ones, which serve where the response is small
+# points n of each rule, and the least ratio R of D to half a side: (R + sqrt(R^2 - 1))^(-2 n) is 1e-15 for large n (the
+# order of the singularity costs a factor), 1e-13 for small n, used where the response is small
 _POINTS = np.array([2, 3, 4, 5, 6, 8, 10, 12, 16])
 _MIN_RATIO = np.array([900.0, 100.0, 30.0, 15.0, 8.9, 4.4, 2.9, 2.2, 1.64])
-# and the most wavenumber times half a side of ripples, for an error of 1e-12 of them:
+# largest product kappa of half a side and the wavenumber of ripples: a rule errs by 1e-12 of the ripples there,
 # 4^n n!^4 / ((2n+1) (2n)!^3) kappa^(2n)
 _MAX_RIPPLE = np.array([4e-3, 0.055, 0.22, 0.54, 1.02, 2.3, 4.1, 6.1, 10.7])
 _MAX_POINTS = int(_POINTS.max())
@@ -53,25 +54,28 @@ for _row, _n in enumerate(_POINTS):
     _NODES[_row, :_n], _WEIGHTS[_row, :_n] = np.polynomial.legendre.leggauss(int(_n))
 
 SURFACE_NORMAL, SURFACE_TANGENTIAL, STRESS_NORMAL, STRESS_TANGENTIAL, IN_PLANE = range(5)
+"""Kind of response: its number of tables, and the angular terms of its components (see the module)."""
 SURFACE_KIND = {Load.NORMAL: SURFACE_NORMAL, Load.TANGENTIAL: SURFACE_TANGENTIAL}
 STRESS_KIND = {Load.NORMAL: STRESS_NORMAL, Load.TANGENTIAL: STRESS_TANGENTIAL}
 
 
 @compiled
 def _direction(x: float, y: float, r: float) -> tuple[float, float]:
-    """Return cosine and sine of the angle from x; their factors vanish at the origin."""
+    """Return cosine and sine of the angle of (x, y) from x; zero at the origin, where their factors vanish."""
     r = max(r, 1e-300)
     return x / r, y / r
 
 
 @compiled
 def _stress_under_pressure(c: float, s: float, g0: float, g1: float, g2: float, g3: float) -> Six:
+    """Return the six stresses under pressure from the direction and the tables A0, B1, C0, D2."""
     c2, s2 = (c - s) * (c + s), 2.0 * s * c
     return g2 - c2 * g3, g2 + c2 * g3, g0, -s * g1, -c * g1, -s2 * g3
 
 
 @compiled
 def _stress_under_traction(c: float, s: float, g0: float, g1: float, g2: float, g3: float, g4: float, g5: float) -> Six:
+    """Return the six stresses under traction from the direction and the tables A1, B0, B2, X1, Y1, W3."""
     c2, s2 = (c - s) * (c + s), 2.0 * s * c
     c3, s3 = c2 * c - s2 * s, s2 * c + c2 * s
     xy = s3 * g5 - 0.5 * s * (g3 - g4)
@@ -80,7 +84,7 @@ def _stress_under_traction(c: float, s: float, g0: float, g1: float, g2: float, 
 
 @compiled
 def _add_point(kind: int, x: float, y: float, r: float, g: FloatArray, weight: float, out: FloatArray) -> None:
-    """Add `weight` times the response at (x, y) to `out` (components,)."""
+    """Add `weight` times the response at (x, y) to `out` (components,); `g` (tables,): the tables at r."""
     if kind == SURFACE_NORMAL:
         out[0] += weight * g[0]
         return
@@ -102,9 +106,10 @@ def _add_point(kind: int, x: float, y: float, r: float, g: FloatArray, weight: f
         out[component] += weight * stress[component]
 
 
-# Cells of a row under one rule go through it side by side, in vector registers: the operations of `_add_cell`, in the
-# same order for each. One array holds, `BLOCK` numbers each (a distance that the compiler has to know), the sums of
-# six components, y of the cells, y, r and place in the panel of a point, and six tables there.
+# Cells of a row that share a Gauss rule are integrated together in vector registers, with the operations of `_add_cell`
+# in the same order for each cell. `scratch` holds rows of `BLOCK` numbers (a constant, so that the compiler
+# vectorises): sums of six components, y of the cells; y, r and t (position in the panel) of the points; six tables at
+# the points.
 _CELL, _Y, _R, _T, _G = 6 * BLOCK, 7 * BLOCK, 8 * BLOCK, 9 * BLOCK, 10 * BLOCK
 _SUM = 16 * BLOCK
 _SCRATCH = 17 * BLOCK
@@ -114,7 +119,11 @@ _SCRATCH = 17 * BLOCK
 def _add_points_of_panel(
     kind: int, x: float, count: int, tables: int, panel: FloatArray, weight: float, scratch: FloatArray
 ) -> None:
-    """Add `weight` times the response at `count` points (x, `_Y`) that share a panel; `panel` (powers, tables)."""
+    """Add `weight` times the response at `count` points that share x and a panel of r to their sums.
+
+    panel : (powers, tables), coefficients of the panel.
+    scratch : rows of a block, see above; y, r and t of the points are read.
+    """
     highest = panel.shape[0] - 1
     for table in range(tables):
         value = panel[highest, table]
@@ -192,7 +201,7 @@ def _add_block(
                     lower, upper = edges[low], edges[low + 1]
                     while stop < count and lower <= scratch[_R + stop] < upper:
                         stop += 1
-                    part = scratch[start:]  # counted from zero: what may be negative is not vectorised
+                    part = scratch[start:]  # loops that count from zero are vectorised
                     for k in range(stop - start):
                         part[_T + k] = (2.0 * part[_R + k] - lower - upper) / (upper - lower)
                     tables = coefficients.shape[2]
@@ -202,7 +211,12 @@ def _add_block(
 
 @compiled
 def _gauss_rule_for(ratio: float, ripple: float, fall: float) -> int:
-    """Return the row of the rule to use, or the number of rules if none suffices; ripples are exp(-fall) high."""
+    """Return the row of the smallest Gauss rule that is accurate enough; the number of rules if none is.
+
+    ratio : D over half a side.
+    ripple : wavenumber of the table's ripples times half a side; 0 without ripples.
+    fall : the ripples have an amplitude of exp(-fall).
+    """
     row = 0
     while row < _POINTS.size and ratio < _MIN_RATIO[row]:
         row += 1
@@ -214,7 +228,10 @@ def _gauss_rule_for(ratio: float, ripple: float, fall: float) -> int:
 
 @compiled
 def _gauss_rules(x: float, y: float, a: float, b: float, table: RadialTable) -> tuple[int, int]:
-    """Return the rules along x and y for a piece of half sides a, b at (x, y); (-1, -1) where its response vanishes."""
+    """Return the Gauss rules along x and y for a piece of half sides a, b at (x, y).
+
+    (-1, -1) where the whole piece lies beyond the end of the table.
+    """
     gap_x, gap_y = max(abs(x) - a, 0.0), max(abs(y) - b, 0.0)
     decay, wavenumber, width, end = table.decay, table.wavenumber, table.width, table.edges[-1]
     if gap_x * gap_x + gap_y * gap_y >= end * end:
@@ -237,7 +254,10 @@ def _add_cell(
     g: FloatArray,
     out: FloatArray,
 ) -> None:
-    """Add the integral over the cell centred at (x, y) to `out`."""
+    """Add the integral over the cell centred at (x, y), cut in pieces where needed, to `out` (components,).
+
+    stack : (pieces, 4), scratch for pieces; g : (tables,), scratch.
+    """
     end = table.edges[-1]
     stack[0, 0], stack[0, 1], stack[0, 2], stack[0, 3] = x, y, half_x, half_y
     height = 1
@@ -248,7 +268,7 @@ def _add_cell(
         if along_x < 0:
             continue
         split_x, split_y = along_x == _POINTS.size, along_y == _POINTS.size
-        if split_x or split_y:  # halve the side that is too long; both where both are
+        if split_x or split_y:  # halve each side that is too long
             parts_x, parts_y = (2 if split_x else 1), (2 if split_y else 1)
             for i in range(parts_x):
                 for j in range(parts_y):
@@ -315,17 +335,20 @@ def _add_cells(
 
 
 def add_cells(out: FloatArray, grid: Grid, table: RadialTable, kind: int, images: tuple[int, int] = (0, 0)) -> None:
-    """Add the integrals of the response over the cells, and their images on either side, to `out`.
+    """Add the integrals of a response over the cells, and over their images on either side, to `out`.
 
-    out: (components, n, m), offsets from 0 along both axes; it may cover a part of the grid.
+    out : (components, n, m), offsets from 0 along both axes; it may cover a part of the grid.
+    kind : kind of response.
+    images : number of images on either side along x and y.
     """
     _add_cells(kind, grid.spacing, grid.shape, images, table, out)
 
 
 def surface_remainder(grid: Grid, body: Body, load: Load) -> FloatArray:
-    """Compute the surface coefficients of a layered body less those of a half-space of its outermost material.
+    """Compute the remainder of the normal surface displacement: (nx, ny) [m/Pa].
 
-    (nx, ny) [m/Pa]; see `coefficients.surface_coefficients`.
+    It is the displacement of the layered body less that of a half-space of the outermost material; see
+    `coefficients.surface_coefficients`.
     """
     out = np.zeros((1, *grid.shape))
     add_cells(out, grid, radial_table(surface_spectra(body, load), _diagonal(grid)), SURFACE_KIND[load])
@@ -333,18 +356,22 @@ def surface_remainder(grid: Grid, body: Body, load: Load) -> FloatArray:
 
 
 def in_plane_remainder(grid: Grid, body: Body) -> FloatArray:
-    """Compute the same remainder of the in-plane displacements: (3, nx, ny) [m/Pa]."""
+    """Compute the remainder of the in-plane displacements: (3, nx, ny) [m/Pa]; see `coefficients`."""
     out = np.zeros((3, *grid.shape))
     add_cells(out, grid, radial_table(in_plane_spectra(body), _diagonal(grid)), IN_PLANE)
     return clear_odd_offsets(out, IN_PLANE_PARITY)
 
 
 def stress_remainder(grid: Grid, body: Body, depth: float, load: Load) -> FloatArray:
-    """Compute the remainder of the six stresses at `depth`; below the outermost layer the whole: (6, nx, ny)."""
+    """Compute the six stresses at `depth` [m]: the remainder in the outermost layer, else the whole.
+
+    (6, nx, ny) [Pa/Pa]; see `coefficients`.
+    """
     out = np.zeros((6, *grid.shape))
     add_cells(out, grid, radial_table(stress_spectra(body, depth, load), _diagonal(grid)), STRESS_KIND[load])
     return clear_odd_offsets(out, STRESS_PARITY[load])
 
 
 def _diagonal(grid: Grid) -> float:
+    """Return the largest distance between two points of the grid [m]."""
     return float(np.hypot(*grid.lengths))

@@ -14,17 +14,17 @@ units of 2 G q. In the sums and differences p = u + w, n = u - w, P = tau + sigm
 - waves that decay upwards: n, p - 2 s n / kappa, P = p, N = n / kappa, all times exp(-s).
 
 So the impedances (tau, sigma) = Z (u, w) of the two kinds, Zd = -diag(1/kappa, 1) and Zu = diag(1, 1/kappa) in (p, n),
-differ by the same number in both. From the half-space, whose impedance is Zd, the impedance Z of what lies below is
-carried up through layer after layer: through one of q h >= 1 by the reflection at its lower interface,
-R = (Zu - Z)^-1 (Z - Zd), which comes back on top as R' = P^T R P with P = exp(-q h) [[1, 0], [-2 q h / kappa, 1]];
-through a thinner one by exp(-M q h), because there the waves of different moduli cancel. Then displacements are
-carried down from the load. Only decaying exponentials occur and nothing overflows. With one layer the closed form of
-the literature for the normal displacement comes out of it. Across the plane (anti-plane shear) all is positive sums of
-the kind Z = G (Z + G tanh q h)/(G + Z tanh q h). This module and `layer_waves` alone know how many layers there are.
+differ by the same number in both. The solution at one wavenumber (`waves`) starts with the impedance Zd of the
+half-space. The impedance Z of the media below is carried up through layer after layer. A layer of q h >= 1 reflects the
+waves at its lower interface by R = (Zu - Z)^-1 (Z - Zd), which is R' = P^T R P on its top, with P = exp(-q h) [[1, 0],
+[-2 q h / kappa, 1]]. A thinner layer takes exp(-M q h), because the waves in it cancel if moduli differ much. Then
+displacements are carried down from the load. Only decaying exponentials occur and nothing overflows. With one layer the
+result is the closed form of O'Sullivan and King (1988) for the normal displacement. Across the plane (anti-plane shear)
+every impedance is a sum of positive terms, Z = G (Z + G tanh q h)/(G + Z tanh q h).
 
-Everything here is analytic in q, and the core takes complex q: the free-space coefficients turn the path of integration
-into the complex plane. The largest stress and displacement are right to some 1e-13 (`tests/kernels/test_layered.py`,
-`tests/kernels/test_stacks.py`).
+All responses are analytic in q, and `wave_frame_response` takes complex q: `hankel` moves the path of integration into
+the complex plane. Error: 1e-13 of the largest stress and displacement (tests/kernels/test_layered.py,
+tests/kernels/test_stacks.py).
 """
 
 from __future__ import annotations
@@ -44,15 +44,14 @@ FloatArray = NDArray[np.float64]
 
 @dataclass(frozen=True)
 class QuadratureScales:
-    """Scales that an integral over a response has to resolve.
+    """Scales that the quadrature of a response over q has to resolve.
 
     Attributes
     ----------
-    remainder : True if the response is that of the body less that of a half-space of the outermost material, as at
-        depths in the outermost layer.
-    decay : d, it falls like exp(-q d) [m].
-    smallest : wavenumber below which it is smooth [1/m].
-    angle : no pole lies within this angle of the real axis of q [rad].
+    remainder : True in the outermost layer, where the half-space of its material is left out of the response.
+    decay : d [m]; the response decays like exp(-q d).
+    smallest : wavenumber [rad/m] below which the response is smooth.
+    angle : angle [rad] from the real axis of q within which the response has no pole.
     """
 
     remainder: bool
@@ -62,10 +61,10 @@ class QuadratureScales:
 
 
 def quadrature_scales(body: Body, depth: float) -> QuadratureScales:
-    """Return the features of the response of a layered body at a depth [m].
+    """Return the scales of the response of a layered body at a depth [m].
 
-    A stiff layer varies the response down to q = G_below / (G h), the stretch that it shares with the softest medium
-    below it. Poles: 52 degrees from the real axis or more for every ratio of moduli with one layer (a stiff plate on a
+    A stiff layer changes the response down to wavenumbers of q = G_below / (G h), G_below the lowest modulus below the
+    layer. Poles: 52 degrees from the real axis or more for every ratio of moduli with one layer (a stiff plate on a
     half-space has them at 60). In the limit of thin layers the energy of a stack is a sum of powers of q from -2 (a
     soft, incompressible film between stiff media) to 4 (bending) with positive coefficients, which cannot vanish within
     180 / (4 + 2) = 30 degrees; a stiff plate on such a film on a stiff base comes near that.
@@ -73,16 +72,16 @@ def quadrature_scales(body: Body, depth: float) -> QuadratureScales:
     outermost = body.medium_at(depth) == 0
     moduli = [solid.shear_modulus for solid in body.media]
     below = [min(moduli[number + 1 :]) for number in range(len(body.layers))]
-    stretch = sum(
+    length = sum(
         layer.thickness * max(1.0, modulus / softest)
         for layer, modulus, softest in zip(body.layers, moduli, below, strict=False)
     )
     decay = 2 * body.interfaces[0] - depth if outermost else depth
-    return QuadratureScales(outermost, decay, 1 / (8 * stretch), np.deg2rad(52.0 if len(body.layers) == 1 else 30.0))
+    return QuadratureScales(outermost, decay, 1 / (8 * length), np.deg2rad(52.0 if len(body.layers) == 1 else 30.0))
 
 
 def _media(body: Body) -> FloatArray:
-    """Return thickness, modulus over the outermost one's, and kappa of each medium: (layers + 1, 3)."""
+    """Return thickness [m], modulus over that of the outermost medium, and kappa of each medium: (layers + 1, 3)."""
     thicknesses = [*(layer.thickness for layer in body.layers), 0.0]
     first = body.surface_material.shear_modulus
     return np.array(
@@ -103,15 +102,16 @@ def wave_frame_response(
     wavenumber : (n,) q [rad/m], real and not negative, or complex with a positive real part.
     body : with any number of layers.
     depth : z [m], not negative; an interface itself counts as the layer above it.
-    remainder : leave out the half-space of the outermost material (only for depths in it). What is left decays like
-        exp(-q (2 h - z)), is computed without cancellation, and vanishes for identical materials.
-    load : only the rows under pressure, or only those under tractions; the others are then zero.
+    remainder : subtract the response of a half-space of the outermost material (only for depths in that layer). The
+        remainder decays like exp(-q (2 h - z)), is computed without cancellation, and vanishes for identical materials.
+    load : compute the rows under pressure only, or the rows under tractions only; the other rows are zero.
 
     Returns
     -------
-    (15, n) of the type of `wavenumber`; the names of the rows stand in `layer_waves`. Rows 0-5 are u, w, tau, sigma,
-    sigma_ee, sigma_tt under a unit pressure; rows 6-11 the same under tau = 1 on the surface; rows 12-14 are V,
-    sigma_et / i and sigma_tz under sigma_tz = -1. Displacements are multiplied by 2 G1 q, G1 of the surface.
+    (15, n) of the type of `wavenumber`; `waves` names the rows. Rows 0-5: u, w, tau, sigma, sigma_ee, sigma_tt under a
+    unit pressure. Rows 6-11: these six under tau = 1 on the surface. Rows 12-14: transverse displacement,
+    sigma_et / i and sigma_tz under sigma_tz = -1 on the surface. Displacements are multiplied by 2 G1 q, G1 the modulus
+    of the outermost material; stresses are per unit load.
 
     Raises
     ------
@@ -132,10 +132,10 @@ def wave_frame_response(
 
 
 def surface_response(kx: ArrayLike, ky: ArrayLike, body: Body, load: Load, *, remainder: bool = False) -> FloatArray:
-    """Compute normal surface displacement [m/Pa] under a unit traction exp(i k.x): pressure, or traction along +x.
+    """Compute the normal surface displacement [m/Pa] under a unit load exp(i k.x): pressure, or traction along +x.
 
-    kx and ky [rad/m] broadcast. Under pressure the spectrum is the result; under a tangential traction it is i times
-    the result (odd in kx). Zero where k = 0: there is no limit. `remainder` as in `wave_frame_response`.
+    kx and ky [rad/m] broadcast. The spectrum is the result under pressure, and i times the result (odd in kx) under
+    traction. Zero at k = 0, where the response has no limit. `remainder` as in `wave_frame_response`.
     """
     cosine, _, q = _directions(kx, ky)
     functions = wave_frame_response(q, body, 0.0, remainder=remainder, load=load)
@@ -147,10 +147,11 @@ def surface_response(kx: ArrayLike, ky: ArrayLike, body: Body, load: Load, *, re
 
 
 def in_plane_response(kx: ArrayLike, ky: ArrayLike, body: Body, *, remainder: bool = False) -> FloatArray:
-    """Compute in-plane surface displacements [m/Pa] under unit tractions exp(i k.x): (3, ...), real.
+    """Compute the in-plane surface displacements [m/Pa] under unit tractions exp(i k.x): (3, ...), real.
 
-    ux under traction along x, uy under traction along y, and of one under the other. kx and ky [rad/m] broadcast. Zero
-    where k = 0: there is no limit. `remainder` as in `wave_frame_response`.
+    Components: ux under traction along x, uy under traction along y, ux under traction along y (equal to uy under
+    traction along x). kx and ky [rad/m] broadcast. Zero at k = 0, where the response has no limit. `remainder` as in
+    `wave_frame_response`.
     """
     cosine, sine, q = _directions(kx, ky)
     functions = wave_frame_response(q, body, 0.0, remainder=remainder, load=Load.TANGENTIAL).reshape(
@@ -171,11 +172,12 @@ def in_plane_response(kx: ArrayLike, ky: ArrayLike, body: Body, *, remainder: bo
 def stress_response(
     kx: ArrayLike, ky: ArrayLike, body: Body, depth: float, load: Load, *, remainder: bool = False
 ) -> FloatArray:
-    """Compute six stresses at `depth` under a unit traction exp(i k.x): pressure, or a traction along +x.
+    """Compute the six stresses at `depth` [m] under a unit load exp(i k.x): pressure, or traction along +x.
 
-    kx and ky [rad/m] broadcast; -> (6, ...) in the order xx yy zz yz xz xy, real. The spectrum is the result where the
-    stress is even under (x, y) -> (-x, -y), and i times the result where it is odd: yz and xz under pressure, the other
-    four under traction. At k = 0: the laterally constrained uniform state. `remainder` as in `wave_frame_response`.
+    kx and ky [rad/m] broadcast. Returns (6, ...), real, in the order xx yy zz yz xz xy. The spectrum is the result of a
+    stress that is even under (x, y) -> (-x, -y), and i times the result of an odd one: yz and xz under pressure, the
+    other four under traction. At k = 0: the laterally constrained uniform state. `remainder` as in
+    `wave_frame_response`.
     """
     cosine, sine, q = _directions(kx, ky)
     f = wave_frame_response(q, body, depth, remainder=remainder, load=load).reshape(waves.ROWS, *q.shape)

@@ -1,18 +1,24 @@
-"""Radial tables: Hankel transforms of layered responses, g(r) = 1/(2 pi) integral of f(q) J_n(q r) q dq.
+"""Hankel transforms of layered responses, g(r) = 1/(2 pi) integral of f(q) J_n(q r) q dq, as tables over r.
 
 The spectrum f decays like exp(-q d) and is analytic to the right of the imaginary axis except for poles at some angle
-from the real axis; `frequency_response.quadrature_scales` says which, and on what scale it varies near q = 0. So:
+from the real axis. `frequency_response.quadrature_scales` gives the decay, the angle, and the scale near q = 0.
 
-- g is smooth on the scale of hypot(r, d): panels of doubling width from d/8 on, a polynomial on each;
-- for r > d/8, J_n is integrated on the real axis up to q r = 4, on panels halved towards 0, and the rest as the real
-  part of the Hankel function: along an arc about 0, then a ray from 0 at 30 degrees, where it decays like
-  exp(-|q| r/2), or at 15 where poles are near, with twice as many panels everywhere (`Path`). No oscillation is left to
-  resolve;
-- panels of r and of q r grow by the same factor, so that all r ask for the spectrum at the same q, but for the arc: it
-  is computed once on each panel of q, eight times less often than on each of q r (a spectrum of 50 layers is dear);
-- for r < d/8, exp(-q d) ends the real axis first.
+1. Table. g is smooth on the scale of hypot(r, d): the panels of r double in width from d/8 on. Each has a polynomial
+   through 20 Chebyshev nodes (`interpolate_panels`).
+2. Nodes with r < d/8 (`_transform_near`): Gauss quadrature on the real axis of q, on panels halved towards 0, as far as
+   exp(-q d) = exp(-40).
+3. Nodes with r > d/8 (`_transform_far`): on the real axis as far as q r = 4, on panels halved towards 0. The rest of
+   J_n is the real part of the Hankel function H_n, which decays above the real axis, so its path leaves the axis
+   (Cauchy): along an arc about 0, then along a ray from 0 at 30 degrees, where H_n decays like exp(-|q| r / 2), as far
+   as exp(-40). If poles are near, the ray is at 15 degrees and all panels are half as wide (`Path`). No oscillation is
+   left to resolve.
+4. Panels of r and of q r grow by the same factor, so that all r need the spectrum at common values of q. Only the arc
+   has values of q of its own. So f is computed once for each panel of q, an eighth of the evaluations.
 
-Nothing is cut off or aliased; the tables are good to some 1e-14 of the largest value on a panel.
+No part of the integral is cut off or aliased. Error: 1e-14 of the largest value on a panel.
+
+A load that is uniform along one axis needs a Fourier integral over the other in place of the Hankel transform: cos(q r)
+or sin(q r) replaces J_n and exp(i q r) replaces H_n (`fourier`).
 """
 
 from __future__ import annotations
@@ -36,10 +42,16 @@ from bem.materials import Body
 
 ComplexArray = NDArray[np.complex128]
 SpectrumFunction = Callable[[NDArray], NDArray]
+"""Spectra at wavenumbers: (n,) -> (tables, n), for real or complex q."""
 
-PANEL_NODES = 20  # per panel of r; an interpolant on [b/2, b] with singularities at 0 converges like 5.8^-PANEL_NODES
-END = 40.0  # exponentials are cut at exp(-END)
-TURN = 4.0  # q r where the path leaves the real axis
+PANEL_NODES = 20
+"""Chebyshev nodes in a panel of r: an interpolant on [b/2, b] with singularities at 0 errs by 5.8^-20 = 5e-16."""
+
+CUTOFF_EXPONENT = 40.0
+"""Exponentials are integrated as far as exp(-40) = 4e-18."""
+
+TURN = 4.0
+"""Value of q r at which the path of integration leaves the real axis."""
 
 _ABSCISSAE, _GAUSS_WEIGHTS = np.polynomial.legendre.leggauss(14)
 
@@ -50,9 +62,9 @@ class Path:
 
     Attributes
     ----------
-    angle : of the ray that leaves the real axis [rad].
-    cuts : panels a doubling, along the real axis and of r.
-    ray_edges : of the panels along the ray, in lengths of 1/r: to where exp(-END) is left.
+    angle : angle of the ray from the real axis [rad].
+    cuts : number of panels in a doubling of q on the real axis, and of r.
+    ray_edges : edges of the panels along a ray that starts on the real axis, in units of 1/r.
     """
 
     angle: float
@@ -65,25 +77,25 @@ class Path:
         return complex(np.exp(1j * self.angle))
 
     def doubling(self, first: float, last: float) -> FloatArray:
-        """Edges from `first` to `last` or a little beyond, `cuts` panels a doubling."""
+        """Return edges from `first` to `last` or a little beyond, with `cuts` panels in each doubling."""
         doublings = max(0, int(np.ceil(np.log2(last / first))))
         return np.asarray(first * 2.0 ** (np.arange(doublings * self.cuts + 1) / self.cuts), dtype=np.float64)
 
     def graded(self, smallest: float, end: float) -> FloatArray:
-        """Edges from 0 to `end`, each panel 1/cuts as wide as its distance from 0, down to about `smallest`."""
+        """Return edges from 0 to `end`; a panel is 1/cuts as wide as its distance from 0, down to about `smallest`."""
         halvings = max(0, int(np.ceil(np.log2(end / smallest))))
         return np.concatenate([[0.0], end * 2.0 ** (np.arange(-halvings * self.cuts, 1) / self.cuts)])
 
 
 _RAY_AT_30_DEGREES = Path(np.pi / 6, 1, (0.0, 2.0, 4.0, 8.0, 14.0, 22.0, 34.0, 50.0, 80.0))
-# a quarter of the distance from the origin wide: half of that from poles at 30 degrees, 14 nodes reach round-off
+# a panel is a quarter of its distance from the origin wide; a pole at 30 degrees is as far, so 14 nodes reach round-off
 _RAY_AT_15_DEGREES = Path(
-    np.pi / 12, 2, (0.0, *np.cumsum(1.25 ** np.arange(16)).tolist(), END / np.sin(np.pi / 12))
+    np.pi / 12, 2, (0.0, *np.cumsum(1.25 ** np.arange(16)).tolist(), CUTOFF_EXPONENT / np.sin(np.pi / 12))
 )  # fmt: skip
 
 
 def path_for(angle: float) -> Path:
-    """The path for a spectrum without poles within `angle` of the real axis [rad]."""
+    """Return the path for a spectrum without poles within `angle` [rad] of the real axis."""
     return _RAY_AT_30_DEGREES if angle > np.deg2rad(45) else _RAY_AT_15_DEGREES
 
 
@@ -93,12 +105,12 @@ class HankelSpectra:
 
     Attributes
     ----------
-    values : (n,) wavenumbers -> (tables, n).
-    orders : order of the Bessel function of each.
-    decay : d, they decay like exp(-q d) [m].
-    smallest : wavenumber below which they are smooth [1/m].
-    path : of their integration.
-    key : what they are made of, by which a table that was made before is found; None: it is made anew.
+    values : spectra at (n,) wavenumbers: (tables, n).
+    orders : order of the Bessel function of each spectrum.
+    decay : d [m]; the spectra decay like exp(-q d).
+    smallest : wavenumber [rad/m] below which the spectra are smooth.
+    path : path of integration.
+    key : response, body, depth and load, which identify the spectra in the cache of tables; None: not cached.
     """
 
     values: SpectrumFunction = field(compare=False)
@@ -110,20 +122,24 @@ class HankelSpectra:
 
 
 class RadialTable(NamedTuple):
-    """Piecewise polynomials: coefficients [panel, power, table] of t in (-1, 1) between `edges`; 0 beyond the last.
+    """Functions of r as piecewise polynomials; zero beyond the last edge.
 
-    A tuple, which compiled code takes whole.
+    edges : (panels + 1,), edges of the panels of r [m].
+    coefficients : (panels, powers, tables), of powers of t in (-1, 1) on each panel.
+    decay : d [m]; the functions are smooth on the scale of hypot(r, d).
+    wavenumber : wavenumber [rad/m] of ripples that a window in q leaves; 0 without a window.
+    width : the ripples decay like exp(-(width r)^2) [1/m].
     """
 
     edges: FloatArray
     coefficients: FloatArray
     decay: float
-    wavenumber: float = 0.0  # where a window left ripples: theirs,
-    width: float = 0.0  # and they fall off like exp(-(width r)^2)
+    wavenumber: float = 0.0
+    width: float = 0.0
 
 
 def surface_spectra(body: Body, load: Load) -> HankelSpectra:
-    """Normal surface displacement less that of a half-space of the outermost material; signs: see `layered_cells`."""
+    """Return the spectra of the remainder of the normal surface displacement; angular terms: see `cells`."""
     row = waves.NORMAL_W if load is Load.NORMAL else waves.TANGENTIAL_W
     scale = 0.5 / body.surface_material.shear_modulus
 
@@ -136,7 +152,7 @@ def surface_spectra(body: Body, load: Load) -> HankelSpectra:
 
 
 def in_plane_spectra(body: Body) -> HankelSpectra:
-    """In-plane surface displacements less those of a half-space of the outermost material, see `layered_cells`."""
+    """Return the spectra of the remainder of the in-plane surface displacements; angular terms: see `cells`."""
     scale = 0.25 / body.surface_material.shear_modulus
 
     def values(q: NDArray) -> NDArray:
@@ -148,7 +164,7 @@ def in_plane_spectra(body: Body) -> HankelSpectra:
 
 
 def stress_spectra(body: Body, depth: float, load: Load) -> HankelSpectra:
-    """Six stresses: in the outermost layer less those of a half-space of its material, below it whole."""
+    """Return the spectra of the six stresses at a depth: the remainder in the outermost layer, the whole below it."""
     scales = quadrature_scales(body, depth)
 
     def normal(q: NDArray) -> NDArray:
@@ -184,16 +200,16 @@ def _with_scales(
 
 
 def radial_table(spectra: HankelSpectra, r_max: float, *, fourier: bool = False) -> RadialTable:
-    """Table of the Hankel transforms for 0 <= r <= r_max.
+    """Return the table of the Hankel transforms for 0 <= r <= r_max [m], from the cache if the spectra have a key.
 
-    `fourier`: of 1/pi integral of f cos(q r) dq (order 0) or of sin (order 1) instead.
+    fourier : tabulate 1/pi integral of f(q) cos(q r) dq (order 0) or of f(q) sin(q r) dq (order 1) instead.
     """
     panels = len(spectra.path.doubling(spectra.decay / 8, max(r_max, spectra.decay / 8)))
     return (_tabulate if spectra.key is None else _cached_table)(spectra, panels, fourier)
 
 
 def _tabulate(spectra: HankelSpectra, panels: int, fourier: bool) -> RadialTable:
-    """Compute a table of so many panels: a whole number of doublings, so that grids of similar size share it."""
+    """Compute a table with a number of panels (a whole number of doublings, so that grids of similar size share it)."""
     cuts = spectra.path.cuts
     edges = np.concatenate([[0.0], spectra.decay / 8 * 2.0 ** (np.arange(panels) / cuts)])
     nodes = [panel_nodes(a, b) for a, b in itertools.pairwise(edges)]
@@ -204,11 +220,11 @@ def _tabulate(spectra: HankelSpectra, panels: int, fourier: bool) -> RadialTable
 
 
 _cached_table = lru_cache(maxsize=64)(_tabulate)
-"""Cached tables, some 40 kB each: coarser grids of a contact are as long and use the same table."""
+"""`_tabulate` with a cache of 64 tables of about 40 kB: coarser grids of a contact need the same table."""
 
 
 def panel_nodes(a: float, b: float) -> FloatArray:
-    """Return the sample points of a panel of r."""
+    """Return the Chebyshev nodes of the panel (a, b)."""
     return 0.5 * (a + b) + 0.5 * (b - a) * _CHEBYSHEV
 
 
@@ -222,33 +238,38 @@ for _k in range(PANEL_NODES):
 
 
 def interpolate_panels(values: FloatArray) -> FloatArray:
-    """Values [panel, node, table] -> coefficients [panel, power, table].
+    """Return the coefficients (panels, powers, tables) of the polynomials through values (panels, nodes, tables).
 
-    In two steps: the entries of `_TO_POWERS` reach 1e5 and must meet the small coefficients, not the values.
+    In two steps, by Chebyshev coefficients: the entries of `_TO_POWERS` reach 1e5, so they multiply the decaying
+    coefficients and not the values.
     """
     chebyshev = np.einsum("kn,pnt->pkt", _TO_CHEBYSHEV, values)
     return np.ascontiguousarray(np.einsum("jk,pkt->pjt", _TO_POWERS, chebyshev))
 
 
 def gauss_rule(edges: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Gauss points and weights on consecutive panels."""
+    """Return the points and weights of a 14-point Gauss rule on each of consecutive panels."""
     middle, half = 0.5 * (edges[1:] + edges[:-1]), 0.5 * np.diff(edges)
     return (middle[:, None] + half[:, None] * _ABSCISSAE).ravel(), (half[:, None] * _GAUSS_WEIGHTS).ravel()
 
 
 def graded(smallest: float, end: float) -> FloatArray:
-    """Edges from 0 to `end`, each panel as wide as its distance from 0, down to about `smallest`."""
+    """Return edges from 0 to `end`; a panel is as wide as its distance from 0, down to about `smallest`."""
     return _RAY_AT_30_DEGREES.graded(smallest, end)
 
 
 def matrix_product(matrix: NDArray, vector: NDArray) -> NDArray:
-    """matrix @ vector without BLAS, whose sums depend on the number of threads."""
+    """Return matrix @ vector without BLAS, whose rounding depends on the number of threads."""
     product: NDArray = np.einsum("ij,j->i", matrix, vector)
     return product
 
 
 def _transform_kernel(order: int, s: FloatArray, fourier: bool) -> FloatArray:
-    """Return the kernel of the integral transform on the real axis over q (and over r^2; r for a Fourier integral)."""
+    """Return the kernel of the transform at s = q r on the real axis.
+
+    It is J_n(s) s / 2 pi of g = r^-2 integral f ds; of a Fourier integral, cos(s) / pi or sin(s) / pi of
+    g = r^-1 integral f ds.
+    """
     if fourier:
         return (np.sin(s) if order else np.cos(s)) / np.pi
     values: FloatArray = special.jv(order, s) * s / (2 * np.pi)
@@ -256,8 +277,8 @@ def _transform_kernel(order: int, s: FloatArray, fourier: bool) -> FloatArray:
 
 
 def _transform_near(spectra: HankelSpectra, r: FloatArray, fourier: bool) -> FloatArray:
-    """Transforms at r <= d/8, all on the real axis: (nodes, tables)."""
-    edges = spectra.path.graded(min(spectra.smallest, 1 / spectra.decay), END / spectra.decay)
+    """Return the transforms at r <= d/8, by quadrature on the real axis alone: (nodes, tables)."""
+    edges = spectra.path.graded(min(spectra.smallest, 1 / spectra.decay), CUTOFF_EXPONENT / spectra.decay)
     q, weights = gauss_rule(edges)
     f = spectra.values(q) * weights
     scale = (1 / r if not fourier else np.ones_like(r))[:, None]
@@ -266,7 +287,7 @@ def _transform_near(spectra: HankelSpectra, r: FloatArray, fourier: bool) -> Flo
 
 
 class _PathPart(NamedTuple):
-    """Part of a path in s = q r: nodes (panels, 14), and for every order what is integrated there with the spectrum."""
+    """Part of the path in s = q r: nodes (panels, 14), and for each order the transform's kernel times the weights."""
 
     nodes: NDArray[Any]
     kernels: tuple[NDArray[Any], ...]
@@ -274,12 +295,12 @@ class _PathPart(NamedTuple):
 
 @lru_cache(maxsize=8)
 def _path_parts(path: Path, fourier: bool, panels: int) -> tuple[_PathPart, _PathPart, _PathPart]:
-    """So many panels of the real axis from TURN towards 0, the arc, and the ray, whose panels are half as wide."""
+    """Return the parts of the path: real axis (so many panels from TURN towards 0), arc, ray (panels half as wide)."""
     falling = TURN * 2.0 ** (-np.arange(panels + 1) / path.cuts)
     s, weights = gauss_rule(falling[::-1])
     axis = _PathPart(s, tuple(_transform_kernel(order, s, fourier) * weights for order in range(2 if fourier else 4)))
     turn, angles = gauss_rule(np.array([0.0, path.angle]))
-    doublings = np.log2(END / np.sin(path.angle) / TURN)
+    doublings = np.log2(CUTOFF_EXPONENT / np.sin(path.angle) / TURN)
     rising = TURN * 2.0 ** (np.arange(int(np.ceil(2 * path.cuts * doublings)) + 1) / (2 * path.cuts))
     along, steps = gauss_rule(rising)
     bent = np.asarray(TURN * np.exp(1j * turn), dtype=np.complex128)
@@ -296,7 +317,7 @@ def _path_parts(path: Path, fourier: bool, panels: int) -> tuple[_PathPart, _Pat
 
 
 def _off_axis_part(s: NDArray[Any], weights: NDArray[Any], fourier: bool) -> _PathPart:
-    """Off the real axis, where the Hankel function or exp(i s) stands for the wave."""
+    """Return a part of the path off the real axis, with the Hankel function (Fourier: exp(i s)) as the kernel."""
     if fourier:
         wave = np.exp(1j * s) * weights / np.pi
         return _PathPart(s, (wave, -1j * wave))
@@ -304,9 +325,12 @@ def _off_axis_part(s: NDArray[Any], weights: NDArray[Any], fourier: bool) -> _Pa
 
 
 def _transform_far(spectra: HankelSpectra, r: FloatArray, fourier: bool) -> FloatArray:
-    """Transforms at r (panels, nodes) from d/8 on, panels growing by 2^(1/cuts): (panels, nodes, tables)."""
+    """Return the transforms at r > d/8: (panels, nodes, tables).
+
+    r : (panels, nodes), each panel 2^(1/cuts) times as far as the one before.
+    """
     (panels, _), cuts, first = r.shape, spectra.path.cuts, r[0][:, None]
-    # to the same smallest q for every r, and for the largest r to q r = 1
+    # the smallest q is common to all r; for the largest r it is q r = 1 or less
     down = int(np.ceil(cuts * np.log2(TURN / (spectra.smallest * r[0].min()))))
     axis, arc, ray = _path_parts(spectra.path, fourier, max(down, panels + 2 * cuts))
     rest, weights = gauss_rule(np.array([0.0, TURN * 2.0 ** (-len(axis.nodes) / cuts)]))
@@ -330,13 +354,13 @@ def _transform_far(spectra: HankelSpectra, r: FloatArray, fourier: bool) -> Floa
 
 
 def _spectrum(spectra: HankelSpectra, q: NDArray[Any]) -> NDArray[Any]:
-    """(tables, *q.shape)."""
+    """Return the spectra at q of any shape: (tables, *q.shape)."""
     return spectra.values(np.ascontiguousarray(q).ravel()).reshape(-1, *q.shape)
 
 
 @compiled
 def panel_of(r: float, edges: FloatArray) -> int:
-    """Number of the panel that r lies in, the last one beyond them."""
+    """Return the number of the panel that contains r; beyond the last edge, the last panel."""
     low, high = 0, edges.size - 1
     while high - low > 1:
         middle = (low + high) // 2
@@ -349,7 +373,7 @@ def panel_of(r: float, edges: FloatArray) -> int:
 
 @compiled
 def evaluate(r: float, edges: FloatArray, coefficients: FloatArray, out: FloatArray) -> None:
-    """Values of every table at r into `out` (tables,)."""
+    """Evaluate all tables at r into `out` (tables,), by Horner's rule."""
     low = panel_of(r, edges)
     t = (2.0 * r - edges[low] - edges[low + 1]) / (edges[low + 1] - edges[low])
     powers = coefficients.shape[1]
@@ -367,7 +391,7 @@ def _evaluate_all(r: FloatArray, edges: FloatArray, coefficients: FloatArray, ou
 
 
 def evaluate_table(table: RadialTable, r: FloatArray) -> FloatArray:
-    """Values at every r: (*r.shape, tables)."""
+    """Return the values of all tables at r of any shape: (*r.shape, tables)."""
     out = np.empty((r.size, table.coefficients.shape[2]))
     _evaluate_all(np.ascontiguousarray(r).ravel(), table.edges, table.coefficients, out)
     return out.reshape(*r.shape, -1)

@@ -1,20 +1,25 @@
-"""Remainder of the influence coefficients of a layered body on a grid with one periodic axis: a sum over images.
+"""Remainder of the influence coefficients of a layered body on a grid with one periodic axis, by Ewald's splitting.
 
-The spectrum is split smoothly at q0 = 48 / period by chi(q) = erfc((q - q0) / w) / 2, w = 8 / period:
+The spectrum is split at q0 = 48 / period by the smooth window chi(q) = erfc((q - q0) / w) / 2, w = 8 / period (Ewald
+1921 splits a Coulomb sum in this way, with a Gaussian window):
 
-- f (1 - chi) is smooth at q = 0 (where chi = 1 to round-off), so its Hankel transform falls off like exp(-(r w / 2)^2),
-  below round-off beyond 1.5 periods: the cell and its two neighbouring images, integrated as in `layered_cells`;
-- f chi ends at 96 / period: a sum over at most 16 wavenumbers along the periodic axis of an integral along the free
-  one, with the exact averages over the cell.
+1. Short-range part f (1 - chi), of large wavenumbers (`_short_range_table`). Near q = 0, where 1 - chi is below
+   round-off, it is smooth, so its Hankel transform decays like exp(-(r w / 2)^2), below round-off beyond 1.5 periods.
+   The loaded cell and its two neighbouring images are integrated as in `cells`. It is below round-off altogether for a
+   decay length of 1.6 periods and more.
+2. Long-range part f chi, of small wavenumbers (`_long_range`). It ends at 96 / period: a sum over at most 16
+   wavenumbers along the period, each integrated over the wavenumber along the free axis, with the exact average over a
+   cell.
+3. Mean along the period (`_add_long_wave_limits`). The remainder of a displacement behaves like limit / k at small k.
+   The part limit exp(-k s) / k, s half a period, is left out of the integrals and added in closed form, with the datum.
+4. Cells more than 8 periods away along the free axis (`_line_load_cells`) see a line load: the mean along the period
+   alone, from a table of a Fourier integral (`hankel`).
 
-Cells more than 8 periods away along the free axis see a line load: the mean along the periodic axis only, from a table
-like the radial ones.
+The cost does not depend on the thickness. The error is round-off of the largest value.
 
-The cost does not depend on the thickness, and nothing is cut off above round-off.
-
-Datum of the displacement under pressure, as in `semi_periodic`: its mean along the period is zero at one length of the
-grid's free axis from a line load. This holds for the half-space of the layer's material and for the remainder.
-So a vanishing layer leaves the numbers of the substrate, a very thick one those of its own material, and identical
+Datum of the displacement under pressure, as in `bem.kernels.semi_periodic`: its mean along the period is zero at one
+length of the grid's free axis from a line load, for the half-space of the layer's material and for the remainder. So a
+vanishing layer has the coefficients of the substrate, a very thick one those of its own material, and identical
 materials change nothing. Another reference length adds a constant to the displacement, proportional to the load.
 """
 
@@ -32,7 +37,7 @@ from bem.grid import FloatArray, Grid
 from bem.kernels.layered import frequency_response, waves
 from bem.kernels.layered.cells import IN_PLANE, STRESS_KIND, SURFACE_KIND, add_cells
 from bem.kernels.layered.hankel import (
-    END,
+    CUTOFF_EXPONENT,
     PANEL_NODES,
     TURN,
     HankelSpectra,
@@ -54,21 +59,27 @@ from bem.materials import Body
 
 ComplexArray = NDArray[np.complex128]
 ResponseFunction = Callable[[FloatArray, FloatArray], FloatArray]
+"""Frequency response: (kx, ky) [rad/m], broadcast -> (components, ...)."""
 
-# in units of the period, or 1 over it
+# wavenumbers in units of 1 / period, lengths in periods
 _SPLIT, _SPLIT_WIDTH = 48.0, 8.0
-_SPLIT_END = _SPLIT + 6 * _SPLIT_WIDTH  # erfc(6) = 2e-17
+"""Centre and width of the window chi."""
+_SPLIT_END = _SPLIT + 6 * _SPLIT_WIDTH
+"""Wavenumber from which chi is below round-off: erfc(6) = 2e-17."""
 _SHORT_RANGE = 1.5
-_PANEL_WIDTH = 0.125  # width of the outer panels of r
-_NEGLIGIBLE_DECAY = 1.6  # decay from which the first part is below round-off
-_LINE_LOAD_DISTANCE = 8.0  # free distance from which only the mean is left: exp(-2 pi 8) = 1e-22
-
+"""Distance from which the short-range part is below round-off."""
+_PANEL_WIDTH = 0.125
+"""Width of the outer panels of r."""
+_NEGLIGIBLE_DECAY = 1.6
+"""Decay length from which the whole short-range part is below round-off."""
+_LINE_LOAD_DISTANCE = 8.0
+"""Distance along the free axis from which only the mean along the period is left: exp(-2 pi 8) = 1e-22."""
 
 _CELL_NODES, _CELL_WEIGHTS = np.polynomial.legendre.leggauss(16)
 
 
 def surface_remainder(grid: Grid, body: Body, load: Load) -> FloatArray:
-    """Compute the surface coefficients less those of a half-space of the outermost material: (nx, ny) [m/Pa]."""
+    """Compute the remainder of the normal surface displacement: (nx, ny) [m/Pa]; see `coefficients`."""
     tangential = load is Load.TANGENTIAL
     parities = (SURFACE_PARITY[load],)
     free, along = _axes(grid)
@@ -91,7 +102,7 @@ def surface_remainder(grid: Grid, body: Body, load: Load) -> FloatArray:
 
 
 def in_plane_remainder(grid: Grid, body: Body) -> FloatArray:
-    """Compute the same remainder of the in-plane displacements: (3, nx, ny) [m/Pa]."""
+    """Compute the remainder of the in-plane displacements: (3, nx, ny) [m/Pa]; see `coefficients`."""
     free, along = _axes(grid)
     decay = 0.5 * grid.lengths[along]
     in_plane, across = _long_wave_limits(body)
@@ -115,14 +126,17 @@ def in_plane_remainder(grid: Grid, body: Body) -> FloatArray:
 
 
 def _long_wave_limits(body: Body) -> FloatArray:
-    """Return the limits of q times the remainder for q -> 0, plane and antiplane strain [1/Pa]: base less surface."""
+    """Return the limits of q times the remainder for q -> 0 [1/Pa], in plane and in anti-plane strain.
+
+    Long waves see the half-space at the bottom in place of the outermost material: the limits are their difference.
+    """
     one, two = body.surface_material, body.material
     plane = (1 - two.poissons_ratio) / two.shear_modulus - (1 - one.poissons_ratio) / one.shear_modulus
     return np.array([plane, 1 / two.shear_modulus - 1 / one.shear_modulus])
 
 
 def _add_long_wave_limits(half: FloatArray, grid: Grid, remainder: _Remainder) -> None:
-    """Add the parts in closed form, and the datum, of the components that have a limit."""
+    """Add the part of the mean that is in closed form, and its datum, to the components that have a limit."""
     free, along = _axes(grid)
     height, reference = 0.5 * grid.lengths[along], grid.lengths[free]
     limited = [component for component in range(len(half)) if remainder.limit[component]]
@@ -140,7 +154,10 @@ def _add_long_wave_limits(half: FloatArray, grid: Grid, remainder: _Remainder) -
 
 
 def stress_remainder(grid: Grid, body: Body, depth: float, load: Load) -> FloatArray:
-    """Compute the remainder of the six stresses at `depth`; below the outermost layer the whole: (6, nx, ny)."""
+    """Compute the six stresses at `depth` [m]: the remainder in the outermost layer, else the whole.
+
+    (6, nx, ny) [Pa/Pa]; see `coefficients`.
+    """
     tangential = load is Load.TANGENTIAL
     parities = STRESS_PARITY[load]
     free, _ = _axes(grid)
@@ -167,7 +184,7 @@ def stress_remainder(grid: Grid, body: Body, depth: float, load: Load) -> FloatA
 
 
 def _mean_log(cells: int, side: float, height: float, reference: float) -> FloatArray:
-    """Mean of ln(hypot(x, height)/reference) over cells 0, 1, ...: (cells,)."""
+    """Return the mean of ln(hypot(x, height) / reference) over each of the cells 0, 1, ...: (cells,)."""
     offsets = np.arange(cells)
     ends = (offsets[:, None] + np.array([-0.5, 0.5])) * (side / height)
     primitive = ends * (np.log(np.hypot(ends, 1.0) * (height / reference)) - 1) + np.arctan(ends)
@@ -179,10 +196,17 @@ def _mean_log(cells: int, side: float, height: float, reference: float) -> Float
 
 @dataclass(frozen=True)
 class _Remainder:
-    """Quantities of one response that all parts of the sum share.
+    """Remainder of one response, as all parts of the sum need it.
 
-    response: (kx, ky) -> (components, ...) as in `layered`; mean: the same along the free axis, complex k, less
-    limit exp(-k s)/k, (components,), s half a period, whose transform is added in closed form.
+    Attributes
+    ----------
+    spectra : spectra of its Hankel transforms.
+    kind : kind of response, see `cells`.
+    parities : parity of each component.
+    response : frequency response, see `frequency_response`.
+    mean_spectrum : spectrum of the mean along the period, at complex k along the free axis: (components, n), less
+        limit exp(-k s) / k, s half a period.
+    limit : (components,), limit of k times the spectrum of the mean for k -> 0; zero for all but displacements.
     """
 
     spectra: HankelSpectra
@@ -194,12 +218,12 @@ class _Remainder:
 
 
 def _axes(grid: Grid) -> tuple[int, int]:
-    """(free axis, periodic axis)."""
+    """Return the numbers of the free axis and of the periodic axis."""
     return (1, 0) if grid.periodic[0] else (0, 1)
 
 
 def _half_period(grid: Grid, remainder: _Remainder) -> FloatArray:
-    """Offsets up to half a period along the periodic axis: (components, ...)."""
+    """Compute the coefficients at offsets up to half a period along the periodic axis: (components, ...)."""
     free, along = _axes(grid)
     period, side = grid.lengths[along], grid.spacing[free]
     cells = grid.shape[along] // 2 + 1
@@ -217,7 +241,7 @@ def _half_period(grid: Grid, remainder: _Remainder) -> FloatArray:
 
 
 def _line_load_cells(grid: Grid, near: int, remainder: _Remainder) -> FloatArray:
-    """The mean along the period of cells from number `near` on along the free axis: (components, cells)."""
+    """Compute the mean along the period of the cells from `near` on along the free axis: (components, cells)."""
     free, along = _axes(grid)
     side = grid.spacing[free]
     signs = [1.0 if parity == (1, 1) else -1.0 for parity in remainder.parities]
@@ -232,7 +256,7 @@ def _line_load_cells(grid: Grid, near: int, remainder: _Remainder) -> FloatArray
 
 
 def _complete_by_parity(half: FloatArray, grid: Grid, parities: Parities) -> FloatArray:
-    """Fill the second half of the period by parity."""
+    """Return the coefficients of the whole period, (components, nx, ny), from the first half by parity."""
     _, along = _axes(grid)
     cells = grid.shape[along]
     out = np.empty((len(parities), *grid.shape))
@@ -246,7 +270,7 @@ def _complete_by_parity(half: FloatArray, grid: Grid, parities: Parities) -> Flo
 
 
 def _line_load_table(grid: Grid, remainder: _Remainder, reach: float) -> RadialTable:
-    """The mean along the period, less the part in closed form, as a function of the free distance."""
+    """Return the table of the mean along the period, less the closed form, over distances up to `reach` [m]."""
     free, along = _axes(grid)
     orders = tuple(0 if parity[free] > 0 else 1 for parity in remainder.parities)
     decay = (
@@ -260,7 +284,10 @@ def _line_load_table(grid: Grid, remainder: _Remainder, reach: float) -> RadialT
 
 
 def _long_range(grid: Grid, near: int, cells: int, remainder: _Remainder) -> FloatArray:
-    """The part below the split, averaged over the first cells: (components, ...)."""
+    """Compute the long-range part of the first `near` cells along the free axis, `cells` along the period.
+
+    (components, near, cells), or transposed where the free axis is y. The average over a cell is a product of sinc.
+    """
     free, along = _axes(grid)
     period = grid.lengths[along]
     width = min(4.0 / period, 6.0 / (near * grid.spacing[free]))
@@ -294,9 +321,14 @@ def _long_range(grid: Grid, near: int, cells: int, remainder: _Remainder) -> Flo
 
 @dataclass(frozen=True)
 class _BesselPanel:
-    """Nodes in r and q and the products of Bessel functions and weights on them, in units of the period.
+    """Bessel functions times quadrature weights for one panel of r, in units of the period.
 
-    real [order][node, q]: the same q for all nodes; ray [order][node, point] at q = ray_q[node, point].
+    Attributes
+    ----------
+    real_q : (points,), wavenumbers on the real axis, common to all nodes of r.
+    real : for each order (nodes, points), J_n and the window 1 - chi.
+    ray_q : (nodes, points), wavenumbers on the ray of each node.
+    ray : for each order (nodes, points), H_n (1 - chi is 1 there).
     """
 
     real_q: FloatArray
@@ -307,9 +339,10 @@ class _BesselPanel:
 
 @lru_cache(maxsize=96)
 def _bessel_panel(a: float, b: float, path: Path) -> _BesselPanel:
+    """Return the Bessel functions for the panel (a, b) of r; cached, because they depend on no body."""
     r = panel_nodes(a, b)[:, None]
     # real axis to where the window ends and q r has reached TURN; near the origin until exp(-q d) ends, d >= 8 b
-    last = END / (8 * b) if a == 0 else TURN / b
+    last = CUTOFF_EXPONENT / (8 * b) if a == 0 else TURN / b
     edges = np.linspace(0.0, _SPLIT_END, 25)
     if last > _SPLIT_END:
         panels = path.cuts * int(np.ceil(np.log2(last / _SPLIT_END)))
@@ -330,7 +363,7 @@ def _bessel_panel(a: float, b: float, path: Path) -> _BesselPanel:
 
 
 def _short_range_table(spectra: HankelSpectra, period: float) -> RadialTable:
-    """Hankel transforms of the part above the split, up to 1.5 periods."""
+    """Return the Hankel transforms of the short-range part over 0 <= r <= 1.5 periods."""
     decay = spectra.decay / period
     inner = spectra.path.graded(decay / 8, _PANEL_WIDTH)
     edges = np.concatenate([inner, _PANEL_WIDTH * np.arange(2, int(_SHORT_RANGE / _PANEL_WIDTH) + 1)])

@@ -1,18 +1,19 @@
-"""Waves in a stack of bonded layers on a half-space at one wavenumber: impedances upward, displacements downward.
+"""Elastic waves in a stack of layers at one wavenumber: impedances upward, then displacements downward.
 
-The equations are derived in `layered`. In each medium the state (u, w, tau, sigma) is in units of its own 2 G q; `g` is
-a modulus over that of the outermost layer. All 2 x 2 matrices that relate displacement to traction are symmetric
-(reciprocity) and are stored as three numbers (uu, uw, ww).
+The equations are derived in `frequency_response`. In each medium the state (u, w, tau, sigma) is in units of its own 2
+G q; `g` is a modulus over that of the outermost layer. All 2 x 2 matrices that relate displacement to traction are
+symmetric (reciprocity) and are stored as three numbers (uu, uw, ww). `fill_response` takes these steps for each
+wavenumber:
 
-- `_impedances_upward` computes the impedance Z below each layer, (tau, sigma) = Z (u, w), from the half-space up. A
-  layer with q h < 1 uses the matrix exponential (`_impedance_on_thin_layer`). A thicker layer uses the reflection at
-  its lower interface and a round trip of decaying waves (`_impedance_on_thick_layer`).
-- `_through_loaded_layer` and `_through_layer` carry the displacement from the loaded surface down to the interface
-  below the medium of the requested depth. Only displacements are carried: (Zu - Z)^-1 of two definite matrices cannot
-  cancel, whatever the moduli.
-- `_state_at_depth` gives the state at the depth: carried up from the interface by the matrix exponential within 1/q of
-  it, where the waves of a soft layer cancel; else the sum of the waves of both directions.
-- `_anti_plane` gives the response across the plane from sums of positive terms.
+1. `_impedances_upward` computes the impedance Z below each layer, (tau, sigma) = Z (u, w), from the half-space up. A
+   layer with q h < 1 uses the matrix exponential (`_impedance_on_thin_layer`). A thicker layer uses the reflection at
+   its lower interface and a round trip of decaying waves (`_impedance_on_thick_layer`).
+2. `_through_loaded_layer` and `_through_layer` carry the displacement from the loaded surface down to the interface
+   below the medium of the requested depth. Only displacements are carried: (Zu - Z)^-1 of two definite matrices cannot
+   cancel, whatever the moduli.
+3. `_state_at_depth` gives the state at the depth: carried up from the interface by the matrix exponential within 1/q of
+   it, where the waves of a soft layer cancel; else the sum of the waves of both directions.
+4. `_anti_plane` gives the response across the plane from sums of positive terms.
 """
 
 from __future__ import annotations
@@ -86,7 +87,10 @@ def _s_cosh_less_sinh(s):
 
 @compiled
 def _exponential(s, c):
-    """Return the terms of exp(-M s), |s| <= 1: sinh, cosh, c/2 s sinh s, c/2 (s cosh s - sinh s)."""
+    """Return the terms of the matrix exponential exp(-M s), |s| <= 1.
+
+    These are sinh s, cosh s, gamma = c/2 s sinh s and delta = c/2 (s cosh s - sinh s).
+    """
     sinh = np.sinh(s)
     return sinh, np.cosh(s), 0.5 * c * s * sinh, 0.5 * c * _s_cosh_less_sinh(s)
 
@@ -136,9 +140,10 @@ def _impedance_on_thin_layer(x, c, number, layers):
 def _reflect(kappa, number, layers):
     """Compute transmission and reflection of the waves of a thick layer at the impedance below it.
 
-    With Zd, Zu the impedances of waves that decay downwards and upwards, Zu - Zd = 1 + 1/kappa (times the unit
-    matrix): the displacement on the interface is (1 + 1/kappa) (Zu - Z)^-1 of the incoming one, reflected is
-    (Zu - Z)^-1 (Z - Zd) of it, and a layer that continues below itself reflects nothing, to the last digit.
+    Zd and Zu are the impedances of waves that decay downwards and upwards, Z the impedance of the media below, and
+    Zu - Zd = (1 + 1/kappa) times the unit matrix. Transmission: the displacement on the interface is
+    (1 + 1/kappa) (Zu - Z)^-1 times the incoming one. Reflection: (Zu - Z)^-1 (Z - Zd) times the incoming one. The
+    reflection is exactly zero where the medium below is the layer's own.
     """
     uu, uw, ww = layers[number, _BELOW_UU], layers[number, _BELOW_UW], layers[number, _BELOW_WW]
     zeta, eta = 0.5 * (1.0 + 1.0 / kappa), 0.5 * (1.0 - 1.0 / kappa)  # Zd = [[-zeta, eta], ..], Zu = [[zeta, eta], ..]
@@ -163,7 +168,7 @@ def _reflect(kappa, number, layers):
 
 @compiled
 def _impedance_on_thick_layer(x, kappa, number, layers):
-    """Return the impedance on top of a thick layer of known reflection; store the round trip of its waves."""
+    """Return the impedance on top of a thick layer from its reflection; store the round-trip matrix of its waves."""
     pp, pn, nn = layers[number, _REFLECTION_PP], layers[number, _REFLECTION_PN], layers[number, _REFLECTION_NN]
     square = layers[number, _DECAY] * layers[number, _DECAY]
     turn = (2.0 / kappa) * x
@@ -336,7 +341,11 @@ def _even_odd(decay, sinh, small):
 
 @compiled
 def _anti_plane(q, medium, remainder, media, factors, layers, impedances, out):
-    """Compute shear across the plane by sums of positive terms only, at any thickness and ratio of moduli."""
+    """Compute the anti-plane response (last three rows) by sums of positive terms only.
+
+    impedances : (media,), scratch.
+    out : (ROWS,), receives the rows `ACROSS_*`.
+    """
     bottom = media.shape[0] - 1
     impedance = media[bottom, MODULUS] + q * 0.0
     for number in range(bottom - 1, 0, -1):
@@ -389,9 +398,15 @@ def _depth_factors(q, above, thickness, inside, carried, c):
 
 @compiled
 def fill_response(q, above, medium, media, remainder, pressed, sheared, out):
-    """Fill `out` (ROWS, n) for the wavenumbers q (n,) at the distance `above` below the top of a medium.
+    """Compute the rows of the response at a depth for each wavenumber.
 
-    `pressed`: fill the rows under pressure; `sheared`: fill the rows under tractions. Other rows are unchanged.
+    q : (n,), real or complex [rad/m].
+    above : distance of the depth below the top of its medium [m].
+    medium : number of the medium of the depth.
+    media : (layers + 1, 3), see `frequency_response`.
+    remainder : subtract the half-space of the outermost material.
+    pressed, sheared : compute the rows under pressure; under tractions. Other rows of `out` are unchanged.
+    out : (ROWS, n).
     """
     bottom = media.shape[0] - 1
     layers = np.zeros((media.shape[0], _COLUMNS), out.dtype)
