@@ -1,8 +1,8 @@
-"""Gauss rules chosen by distance, and logarithms without cancellation, for all kernels of a rectangle.
+"""Gauss rules by distance, and corner terms without cancellation, for the closed forms of a loaded rectangle.
 
-A cell seen from a distance is integrated by Gauss points of the point-force solution: closed forms are second
-differences over the corners and lose (distance / cell)^2 of their digits. A rule of n points on a cell of half side a
-seen from distance d errs by about (2 d / a)^(-2 n), so few points do far away.
+Closed forms are second differences over the corners: their relative error grows like (distance / cell)^2. Far cells are
+therefore integrated by a Gauss rule of the point-force solution. A rule of n points on a cell of half side a at a
+distance d errs by about (2 d / a)^(-2 n), so few points suffice far away.
 """
 
 from __future__ import annotations
@@ -81,7 +81,10 @@ def chi_xx(u: float, v: float, z: float, r: float) -> float:
 
 @compiled
 def rule(x: float, y: float, z: float, a: float, b: float) -> int:
-    """Select the rule for |x'| < a, |y'| < b seen from (x, y, z): n > 0 Gauss points a side, 0 corner sums, -1 cut."""
+    """Return the rule for the rectangle |x'| < a, |y'| < b at the point (x, y, z).
+
+    n > 0: n Gauss points a side. 0: corner sums. -1: cut the rectangle, which is too long for either.
+    """
     long = max(a, b)
     short = min(a, b)
     ratio = np.sqrt(x * x + y * y + z * z) / long

@@ -1,8 +1,8 @@
-"""Influence coefficients on a grid: selects the kernel by the grid's periodicity and the body.
+"""Influence coefficients on a grid: the kernel is selected by the periodicity of the grid and by the body.
 
-A coefficient belongs to an offset of (i dx, j dy) between a loaded cell and the centre of another one. Free axes are
-bare; along a periodic axis the images of the loaded cell are summed. Doubly periodic grids have no coefficients: their
-operator is diagonal, see `spectral`.
+A coefficient is the response at the centre of one cell to a unit load on another, at an offset of (i dx, j dy). Along a
+periodic axis the images of the loaded cell are summed. Doubly periodic grids have no coefficients: their operator is
+diagonal in Fourier space, see `spectral`.
 """
 
 from __future__ import annotations
@@ -29,7 +29,7 @@ __all__ = [
 
 
 def surface_coefficients(grid: Grid, body: Body, load: Load) -> FloatArray:
-    """Normal surface displacement [m/Pa] of a unit load on the cell at the origin, shape (nx, ny).
+    """Return the normal surface displacement [m/Pa] of a unit load on the cell at the origin, shape (nx, ny).
 
     Entry [i, j] belongs to the offset (i dx, j dy), i = 0..nx-1, j = 0..ny-1. Other offsets follow from
     `SURFACE_PARITY`. On a grid with one periodic axis the datum is that of `semi_periodic`.
@@ -49,9 +49,10 @@ def surface_coefficients(grid: Grid, body: Body, load: Load) -> FloatArray:
 
 
 def in_plane_coefficients(grid: Grid, body: Body) -> FloatArray:
-    """In-plane surface displacements [m/Pa] of unit tractions on the cell at the origin, shape (3, nx, ny).
+    """Return the in-plane surface displacements [m/Pa] of unit tractions on the cell at the origin, shape (3, nx, ny).
 
-    ux under traction along x, uy under traction along y, and of one under the other (the same both ways). Entry
+    Components: ux under traction along x, uy under traction along y, ux under traction along y (equal to uy under
+    traction along x). Entry
     [:, i, j] belongs to the offset (i dx, j dy); others follow from `IN_PLANE_PARITY`. On a grid with one periodic axis
     the datum is that of `semi_periodic`.
 
@@ -70,9 +71,10 @@ def in_plane_coefficients(grid: Grid, body: Body) -> FloatArray:
 
 
 def stress_coefficients(grid: Grid, body: Body, depth: float, load: Load) -> FloatArray:
-    """Six stresses (xx yy zz yz xz xy) at `depth` [m] of a unit load on the cell at the origin, shape (6, nx, ny).
+    """Return the stresses (xx yy zz yz xz xy) at `depth` [m] of a unit load on the cell at the origin: (6, nx, ny).
 
-    Dimensionless [Pa/Pa]. Entry [:, i, j] belongs to the offset (i dx, j dy); others follow from `STRESS_PARITY`.
+    Stress per unit load [Pa/Pa]. Entry [:, i, j] belongs to the offset (i dx, j dy); others follow from
+    `STRESS_PARITY`.
 
     Raises
     ------
@@ -81,7 +83,7 @@ def stress_coefficients(grid: Grid, body: Body, depth: float, load: Load) -> Flo
     _refuse_doubly_periodic(grid)
     if not (np.isfinite(depth) and depth >= 0):
         raise InputError(f"depth: {depth!r} must be finite and not negative [m]")
-    if body.medium_at(depth) > 0:  # below the outermost layer the remainder is the whole
+    if body.medium_at(depth) > 0:  # below the outermost layer nothing is split off
         whole: FloatArray = _layered(grid).stress_remainder(grid, body, float(depth), load)
         return whole
     nu = body.surface_material.poissons_ratio

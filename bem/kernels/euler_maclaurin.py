@@ -1,4 +1,4 @@
-"""Sums of smooth terms as integrals: the Euler-Maclaurin terms of the midpoint rule, from samples, not derivatives."""
+"""Euler-Maclaurin summation with the midpoint rule, with samples of the summand in place of its derivatives."""
 
 from __future__ import annotations
 
@@ -10,7 +10,7 @@ from bem.grid import FloatArray
 
 
 def _bernoulli_half(order: int) -> list[Fraction]:
-    """Bernoulli polynomials at 1/2: B_n(1/2) = (2^(1-n) - 1) B_n."""
+    """Return the Bernoulli polynomials at 1/2 up to an order: B_n(1/2) = (2^(1-n) - 1) B_n."""
     numbers = [Fraction(1)]
     for n in range(1, order + 1):
         row = Fraction(1)
@@ -23,9 +23,13 @@ def _bernoulli_half(order: int) -> list[Fraction]:
 
 
 def euler_maclaurin(points: int, span: int) -> tuple[FloatArray, FloatArray]:
-    """Positive nodes t and weights w: sum of g(k + 1/2), k >= 0, = integral of g from 0 + sum w (g(t) - g(-t)).
+    """Return the positive nodes t and weights w of the end correction of the midpoint rule.
 
-    Exact where g is a polynomial of degree below `points`: on t^p the correction is -B_{p+1}(1/2) / (p + 1).
+    The sum of g(k + 1/2) over k >= 0 is the integral of g from 0 plus the sum of w (g(t) - g(-t)). It is exact if g is
+    a polynomial of degree below `points`: for t^p the correction is -B_{p+1}(1/2) / (p + 1).
+
+    points : number of Chebyshev nodes on (-span, span), an even number.
+    span : half width of the interval of the nodes, in terms of the sum.
     """
     halves = _bernoulli_half(points + 1)
     angles = (np.arange(points) + 0.5) * np.pi / points

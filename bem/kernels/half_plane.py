@@ -1,6 +1,7 @@
-"""Plane strain: a strip |x| < a of uniform load, endless along y, on an elastic half-space.
+"""Plane strain: uniform load on a strip |x| < a of infinite length along y on an elastic half-space.
 
-The limits of the rectangle's formulas for b -> infinity; Johnson (1985), sections 2.2-2.5. Unit pressure gives
+The formulas are the limits of those of the rectangle for b -> infinity; Johnson (1985), sections 2.2-2.5. Unit pressure
+gives
 
     pi xx = X z / s^2 - atan(X/z)     pi zz = -X z / s^2 - atan(X/z)     pi xz = z^2 / s^2      s^2 = X^2 + z^2
     pi E* uz = -2 X (ln|X / reference| - 1)                                                     on the surface
@@ -34,7 +35,7 @@ from bem.materials import Material
 
 @compiled
 def _wedge(x0: float, x1: float, z: float) -> float:
-    """atan(x1/z) - atan(x0/z): the angle under which the strip is seen; on z = 0 the limit from inside."""
+    """Return atan(x1/z) - atan(x0/z), the angle that the strip subtends; on z = 0 the limit from inside."""
     if z == 0.0:
         return 0.5 * np.pi * (np.sign(x1) - np.sign(x0))
     return np.arctan2((x1 - x0) * z, z * z + x0 * x1)
@@ -42,7 +43,7 @@ def _wedge(x0: float, x1: float, z: float) -> float:
 
 @compiled
 def log_strip(x: float, a: float) -> float:
-    """Integral of ln|x - x'| over |x'| < a, accurate at any distance (x and a in units of the reference length)."""
+    """Return the integral of ln|x - x'| over |x'| < a, accurate at any distance; x, a in reference lengths."""
     ratio = abs(x) / a
     if ratio >= NEAR:
         n = points_needed(ratio)
@@ -61,9 +62,9 @@ def log_strip(x: float, a: float) -> float:
 def add_strip(
     x: float, z: float, a: float, nu: float, pressure: float, traction: float, along: float, out: FloatArray
 ) -> None:
-    """Add pi times the six stresses at (x, z) of a strip |x'| < a endless along y.
+    """Add pi times the six stresses at (x, z) of a loaded strip |x'| < a to `out` (6,).
 
-    `pressure`, `traction` (across the strip, along +x) and `along` (traction along +y, the strip's length).
+    pressure, traction, along : loads into the body, along +x (across the strip) and along +y.
     """
     zz = z * z
     ratio = np.sqrt(x * x + zz) / a

@@ -46,7 +46,7 @@ def _point(x: float, y: float, z: float, nu: float, tangential: bool, weight: fl
 
 @compiled
 def _chi_x(x0: float, x1: float, y0: float, y1: float, z: float) -> float:
-    """Integral of d/dx ln(R + z) over the rectangle whose corner differences are (x0, x1) x (y0, y1)."""
+    """Return chi_x, the integral of d/dx ln(R + z) over the rectangle, from the corner differences."""
     total = 0.0
     for j in range(2):
         v = y1 if j else y0
@@ -64,7 +64,7 @@ def _chi_x(x0: float, x1: float, y0: float, y1: float, z: float) -> float:
 
 @compiled
 def _edge(far: float, near: float, side: float, z: float) -> float:
-    """Integral of 1/R along an edge; on the edge's own line it is multiplied by 0 or cancels, and counts as 0."""
+    """Return the integral of 1/R along an edge; 0 on the line of the edge, where its factor is 0 or it cancels."""
     across = np.sqrt(side * side + z * z)
     return log_ratio(far, near, across) if across > 0.0 else 0.0
 
@@ -116,6 +116,7 @@ def _corners(x: float, y: float, z: float, a: float, b: float, nu: float, tangen
 def _piece(
     n: int, x: float, y: float, z: float, a: float, b: float, nu: float, tangential: bool, out: FloatArray
 ) -> None:
+    """Add 4 pi G u of unit load on |x| < a, |y| < b by rule n: corner sums (0), or n Gauss points a side."""
     if n == 0:
         _corners(x, y, z, a, b, nu, tangential, out)
         return
@@ -158,7 +159,7 @@ def _many(
 def _surface_table(
     nx: int, ny: int, dx: float, dy: float, nu: float, tangential: bool, first: int, out: FloatArray
 ) -> None:
-    """4 pi G uz on the surface at offsets (i dx, (j + first) dy)."""
+    """Compute 4 pi G uz on the surface at offsets (i dx, (j + first) dy) into `out` (nx, ny)."""
     scale = max(dx, dy)
     local = np.zeros(3)
     for i in range(nx):
@@ -172,7 +173,7 @@ def _surface_table(
 
 @compiled
 def _in_plane_table(nx: int, ny: int, dx: float, dy: float, nu: float, out: FloatArray) -> None:
-    """4 pi G times ux under traction along x, uy under traction along y, uy under traction along x: (3, nx, ny)."""
+    """Compute 4 pi G times ux, uy under traction along x, y, and uy under traction along x into `out` (3, nx, ny)."""
     scale = max(dx, dy)
     a, b = 0.5 * dx / scale, 0.5 * dy / scale
     local = np.zeros(3)
@@ -191,7 +192,12 @@ def _in_plane_table(nx: int, ny: int, dx: float, dy: float, nu: float, out: Floa
 def check_points(
     x: ArrayLike, y: ArrayLike, depth: ArrayLike, sides: tuple[float, ...], poissons_ratio: float = 0.0
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Broadcast coordinates; refuse what is not finite or above the surface, empty sides and impossible nu."""
+    """Broadcast coordinates [m] and check them, the sides [m] and Poisson's ratio.
+
+    Raises
+    ------
+    InputError : coordinates that are not finite, negative depths, sides that are not positive, nu outside (-1, 0.5].
+    """
     messages = []
     arrays = []
     for name, values in (("x", x), ("y", y), ("depth", depth)):
@@ -255,7 +261,7 @@ def rectangle_displacement(
 def surface_table(
     shape: tuple[int, int], spacing: tuple[float, float], material: Material, load: Load, first: int = 0
 ) -> FloatArray:
-    """Normal surface displacement [m/Pa] at offsets (i dx, (j + first) dy) from the centre of a loaded cell."""
+    """Return the normal surface displacement [m/Pa] at offsets (i dx, (j + first) dy) from a loaded cell: (nx, ny)."""
     out = np.empty(shape)
     tangential = load is Load.TANGENTIAL
     _surface_table(shape[0], shape[1], spacing[0], spacing[1], material.poissons_ratio, tangential, first, out)
@@ -266,7 +272,10 @@ def surface_table(
 
 
 def in_plane_table(shape: tuple[int, int], spacing: tuple[float, float], material: Material) -> FloatArray:
-    """In-plane surface displacements [m/Pa] at offsets (i dx, j dy) from a loaded cell, see `coefficients`."""
+    """Return the in-plane surface displacements [m/Pa] at offsets (i dx, j dy) from a loaded cell: (3, nx, ny).
+
+    Components as in `coefficients.in_plane_coefficients`.
+    """
     out = np.empty((3, *shape))
     _in_plane_table(shape[0], shape[1], spacing[0], spacing[1], material.poissons_ratio, out)
     out /= 4 * np.pi * material.shear_modulus

@@ -39,7 +39,11 @@ STRESS_PARITY: dict[Load, Parities] = {
 
 
 def clear_odd(values: FloatArray, x: ArrayLike, y: ArrayLike, parities: Parities) -> FloatArray:
-    """Set components odd in x (y) to exactly zero at x = 0 (y = 0), in place; `values` (parts, ...)."""
+    """Set components odd in x (y) to exactly zero at x = 0 (y = 0), in place.
+
+    values : (parts, ...), at the points (x, y), which broadcast to its last axes.
+    parities : parity of each part.
+    """
     for index, (along_x, along_y) in enumerate(parities):
         part = values[index, ...]
         if along_x < 0:

@@ -1,21 +1,28 @@
-"""Free along one axis, periodic along the other: a loaded cell and all its images, summed to round-off.
+"""Homogeneous half-space with one free and one periodic axis: a loaded cell and all its images, summed to round-off.
 
-The image at the origin (and its two neighbours, where a period has few cells) is summed as it is. The other images
-form a function of the position that is smooth on the scale of the period: it is sampled at Chebyshev nodes along the
-periodic axis, and along the free axis at Chebyshev nodes of panels or, where cells are as large as a period, at Gauss
-nodes over each cell. Each sample is a sum over k = 1 (or 2), 2, 3, ... of point forces at +-k periods: the first few
-explicitly, the rest as an integral from half a period before (Gauss, in a variable in which it is analytic up to
-infinity) plus the Euler-Maclaurin terms of the midpoint rule, taken from samples around the lower end instead of
-derivatives.
+Lengths are in periods; f is the offset along the free axis, a the offset along the period.
 
-Where a part of the cell is more than `_LINE` periods away (along the free axis or in depth), its images act as a
-line load to exp(-2 pi _LINE). There the plane-strain forms of `half_plane` are used.
+1. Near images: the loaded cell, and its two neighbours if a period has few cells, in closed form (`half_space`,
+   `subsurface`).
+2. Tail: the other images form a function of (f, a) that is smooth on the scale of the period. It is sampled at
+   Chebyshev nodes along the period (`_interpolation_along_period`), and along the free axis at Chebyshev nodes of
+   panels (`_panels_along_free_axis`) or, if cells are as large as a period, at Gauss nodes over each cell. Weights turn
+   the samples into means over cells.
+3. A sample of the tail is a sum over k = 1 (or 2), 2, 3, ... of point forces at +-k periods (`_add_tail`): explicit up
+   to k = 9, then the integral from k = 9.5 to infinity by a Gauss rule in a variable in which the integrand is
+   analytic, plus the Euler-Maclaurin terms of the midpoint rule, from samples around the lower end in place of
+   derivatives (`euler_maclaurin`).
+4. Far away: parts of a cell more than 6.5 periods away, along the free axis or in depth, act as a line load, with an
+   error of exp(-2 pi 6.5) = 2e-18. There the plane-strain forms of `half_plane` are used.
+5. Offsets beyond half a period follow by parity (`_coefficients`).
+
+Cost: a closed form or Gauss rule for each cell and near image, and a fixed number of samples for each panel.
 
 Datum of the displacement. Under pressure the mean along the periodic axis is that of a line load, -2 P / (pi E*) ln|x /
 reference|, P per unit length: it grows without bound and has no natural zero. The reference length taken here is the
 length of the grid along its free axis, so that scaling a problem scales its answer, and the operator stays positive
 definite. A different reference length adds a constant to the displacement, proportional to the load. Under traction the
-free axis' mean is symmetric (a step from -c to c for a cell of traction across a free x axis, 0 along a free y axis).
+mean is antisymmetric about the cell (it rises from -c to c across the cell if x is free, and is 0 if y is free).
 """
 
 from __future__ import annotations
@@ -27,19 +34,23 @@ import numpy as np
 from bem.compiled import compiled
 from bem.grid import FloatArray, Grid
 from bem.kernels import half_space, subsurface
+from bem.kernels.blocks import BLOCK, X_AT, Y_AT, begin_block
 from bem.kernels.cell_rules import NODES, WEIGHTS
 from bem.kernels.euler_maclaurin import euler_maclaurin
 from bem.kernels.half_plane import add_strip, log_strip
 from bem.kernels.loads import IN_PLANE_PARITY, STRESS_PARITY, SURFACE_PARITY, Load, clear_odd_offsets
-from bem.kernels.subsurface import BLOCK, X_AT, Y_AT
 from bem.materials import Material
 
-_LINE = 6.5  # exp(-2 pi 6.5) = 2e-18
-_EXPLICIT = 10  # first image that is not summed explicitly
-_SPAN = 2.0  # half width, in periods, of the samples for Euler-Maclaurin
+_LINE_LOAD_DISTANCE = 6.5
+"""Distance in periods from which the images act as a line load: exp(-2 pi 6.5) = 2e-18."""
+_FIRST_INTEGRATED = 10
+"""Number of the first image that is summed by the integral."""
+_SPAN = 2.0
+"""Half width, in periods, of the samples for the Euler-Maclaurin terms."""
 _EULER_POINTS = 16
 _GAUSS_POINTS = 24
-_MANY = 16  # cells in a period from which even the neighbouring images belong to the tail
+_MANY_CELLS = 16
+"""Number of cells in a period from which the neighbouring images belong to the tail."""
 
 
 _EULER_NODES, _EULER_WEIGHTS = euler_maclaurin(_EULER_POINTS, int(_SPAN))
@@ -47,16 +58,20 @@ _LEGENDRE = np.polynomial.legendre.leggauss(_GAUSS_POINTS)
 _TAIL_NODES = 0.5 * (_LEGENDRE[0] + 1)
 _TAIL_WEIGHTS = 0.5 * _LEGENDRE[1]
 
-# what is summed: six stresses, one displacement, or with f along the free axis and a along the period the integrals of
-# f^2 / r^3 and f a / r^3, of which (with that of 1 / r) in-plane displacements are made
 _STRESS, _PRESSURE_DISPLACEMENT, _TRACTION_DISPLACEMENT, _IN_PLANE = 0, 1, 2, 3
+"""Kind of summand: 2 pi times six stresses; V, integral of 1/r; chi_x (see `half_space`); integrals of f^2/r^3 and
+f a/r^3, of which, with V, in-plane displacements are combined."""
 
 
-class _Response(NamedTuple):
-    """Response that is summed, and its load; lengths in periods.
+class _Summand(NamedTuple):
+    """Response that is summed over images, and its load; lengths in periods.
 
-    swap: the periodic axis is x. reference: length at which a line load displaces nothing. first: the nearest image
-    that belongs to the tail.
+    kind : kind of summand.
+    swap : True if the periodic axis is x.
+    z, nu : depth, and Poisson's ratio.
+    pressure, traction : load.
+    reference : distance at which the displacement of a line load is zero.
+    first : number of the nearest image that belongs to the tail.
     """
 
     kind: int
@@ -70,7 +85,7 @@ class _Response(NamedTuple):
 
 
 class _Cells(NamedTuple):
-    """Cells of the grid, in periods: steps along the free axis and along the period, Gauss points over a piece."""
+    """Cells of the grid: sides along the free axis and along the period [periods], Gauss points over a piece."""
 
     step: float
     step_along: float
@@ -78,8 +93,11 @@ class _Cells(NamedTuple):
 
 
 class _Means(NamedTuple):
-    """From samples along the period to means over cells: nodes, weights (node, cell) of even and odd, parity of each
-    part.
+    """Weights that turn samples along the period into means over cells.
+
+    nodes : (nodes,), positions of the samples along the period.
+    even, odd : (nodes, cells), weights for even and for odd functions.
+    parity : (parts,), parity of each part along the period.
     """
 
     nodes: FloatArray
@@ -89,27 +107,27 @@ class _Means(NamedTuple):
 
 
 @compiled
-def _add_pair(what: _Response, shift: float, weight: float, count: int, scratch: FloatArray) -> None:
-    """Add `weight` times the point forces at +-`shift` along the periodic axis to a block of points."""
-    if what.kind == _STRESS:
-        pressure, traction = weight * what.pressure, weight * what.traction
+def _add_pair(summand: _Summand, shift: float, weight: float, count: int, scratch: FloatArray) -> None:
+    """Add `weight` times the responses to point forces at +-`shift` along the period to the sums of a block."""
+    if summand.kind == _STRESS:
+        pressure, traction = weight * summand.pressure, weight * summand.traction
         for side in (-1.0, 1.0):
             at = -side * shift
-            right, on = (at, 0.0) if what.swap else (0.0, at)
-            subsurface.add_points(right, on, what.z, what.nu, pressure, traction, count, scratch)
+            right, on = (at, 0.0) if summand.swap else (0.0, at)
+            subsurface.add_points(right, on, summand.z, summand.nu, pressure, traction, count, scratch)
         return
     for k in range(count):
         x, y = scratch[X_AT + k], scratch[Y_AT + k]
-        free, along = (y, x) if what.swap else (x, y)
+        free, along = (y, x) if summand.swap else (x, y)
         plus = (along + shift) ** 2 + free * free
         minus = (along - shift) ** 2 + free * free
-        if what.kind == _PRESSURE_DISPLACEMENT:
+        if summand.kind == _PRESSURE_DISPLACEMENT:
             scratch[k] += weight * (1.0 / np.sqrt(plus) + 1.0 / np.sqrt(minus))
-        elif what.kind == _IN_PLANE:
+        elif summand.kind == _IN_PLANE:
             one, other = weight * free / (plus * np.sqrt(plus)), weight * free / (minus * np.sqrt(minus))
             scratch[k] += free * (one + other)
             scratch[BLOCK + k] += one * (along + shift) + other * (along - shift)
-        elif what.swap:
+        elif summand.swap:
             scratch[k] += weight * 2.0 * along * (along * along + free * free - shift * shift) / (plus * minus)
         else:
             scratch[k] += weight * free * (1.0 / plus + 1.0 / minus)
@@ -117,24 +135,27 @@ def _add_pair(what: _Response, shift: float, weight: float, count: int, scratch:
 
 @compiled
 def _add_tail(
-    what: _Response, free: float, along: FloatArray, weight: float, scratch: FloatArray, out: FloatArray
+    summand: _Summand, free: float, along: FloatArray, weight: float, scratch: FloatArray, out: FloatArray
 ) -> None:
-    """Add all point forces at +-k periods, k >= first, to `out` (parts, points along)."""
+    """Add the responses to the point forces at +-k periods, k >= first, to `out` (parts, points).
+
+    free, along : offset along the free axis, and (points,) offsets along the period.
+    """
     count = along.size
     across = np.full(count, free)
-    if what.swap:
-        subsurface.block_of(along, across, scratch)
+    if summand.swap:
+        begin_block(along, across, scratch)
     else:
-        subsurface.block_of(across, along, scratch)
-    for k in range(what.first, _EXPLICIT):
-        _add_pair(what, float(k), weight, count, scratch)
-    start = _EXPLICIT - 0.5
+        begin_block(across, along, scratch)
+    for k in range(summand.first, _FIRST_INTEGRATED):
+        _add_pair(summand, float(k), weight, count, scratch)
+    start = _FIRST_INTEGRATED - 0.5
     for i in range(_EULER_NODES.size):
         t = _EULER_NODES[i]
         w = weight * _EULER_WEIGHTS[i]
-        _add_pair(what, start + t, w, count, scratch)
-        _add_pair(what, start - t, -w, count, scratch)
-    _add_integral(what, start, free, along, weight, scratch)
+        _add_pair(summand, start + t, w, count, scratch)
+        _add_pair(summand, start - t, -w, count, scratch)
+    _add_integral(summand, start, free, along, weight, scratch)
     for c in range(out.shape[0]):
         for k in range(count):
             out[c, k] += scratch[c * BLOCK + k]
@@ -142,47 +163,49 @@ def _add_tail(
 
 @compiled
 def _add_integral(
-    what: _Response, start: float, free: float, along: FloatArray, weight: float, scratch: FloatArray
+    summand: _Summand, start: float, free: float, along: FloatArray, weight: float, scratch: FloatArray
 ) -> None:
-    """Add the integral of the pairs of point forces from `start` on to a block of points."""
-    if what.kind == _PRESSURE_DISPLACEMENT:
+    """Add the integral of the pairs of point forces over k from `start` to infinity to the sums of a block."""
+    if summand.kind == _PRESSURE_DISPLACEMENT:
         for k in range(along.size):
             for t in (start + along[k], start - along[k]):
-                scratch[k] -= weight * np.log((t + np.sqrt(t * t + free * free)) / what.reference)
+                scratch[k] -= weight * np.log((t + np.sqrt(t * t + free * free)) / summand.reference)
         return
-    stretch = np.sqrt(start * start + free * free + what.z * what.z)
+    stretch = np.sqrt(start * start + free * free + summand.z * summand.z)
     for i in range(_TAIL_NODES.size):
         left = 1.0 - _TAIL_NODES[i]
         w = weight * _TAIL_WEIGHTS[i] * stretch / (left * left)
-        _add_pair(what, start + stretch * _TAIL_NODES[i] / left, w, along.size, scratch)
+        _add_pair(summand, start + stretch * _TAIL_NODES[i] / left, w, along.size, scratch)
 
 
 @compiled
-def _add_line(what: _Response, free: float, half: float, fraction: float, out: FloatArray, strip: FloatArray) -> None:
+def _add_line_load(
+    summand: _Summand, free: float, half: float, fraction: float, out: FloatArray, strip: FloatArray
+) -> None:
     """Add 2 pi times the stress (or V, or chi_x) of a strip |free'| < half; `fraction`: loaded fraction of a period."""
-    if what.kind == _STRESS:
+    if summand.kind == _STRESS:
         strip[:] = 0.0
-        across = 0.0 if what.swap else what.traction
-        add_strip(free, what.z, half, what.nu, what.pressure, across, what.traction - across, strip)
+        across = 0.0 if summand.swap else summand.traction
+        add_strip(free, summand.z, half, summand.nu, summand.pressure, across, summand.traction - across, strip)
         # the strip's x is the free axis
-        x, y = (1, 0) if what.swap else (0, 1)
+        x, y = (1, 0) if summand.swap else (0, 1)
         out[0] += 2.0 * fraction * strip[x]
         out[1] += 2.0 * fraction * strip[y]
         out[2] += 2.0 * fraction * strip[2]
         out[3] += 2.0 * fraction * strip[3 + x]
         out[4] += 2.0 * fraction * strip[3 + y]
         out[5] += 2.0 * fraction * strip[5]
-    elif what.kind == _PRESSURE_DISPLACEMENT:
-        out[0] -= 2.0 * fraction * what.reference * log_strip(free / what.reference, half / what.reference)
-    elif what.kind == _IN_PLANE:
+    elif summand.kind == _PRESSURE_DISPLACEMENT:
+        out[0] -= 2.0 * fraction * summand.reference * log_strip(free / summand.reference, half / summand.reference)
+    elif summand.kind == _IN_PLANE:
         out[0] += 4.0 * fraction * half
-    elif not what.swap:
+    elif not summand.swap:
         out[0] += fraction * np.pi * 2.0 * min(max(free, -half), half)
 
 
 @compiled
 def _add_cell(
-    what: _Response,
+    summand: _Summand,
     free: float,
     along: FloatArray,
     half: float,
@@ -190,41 +213,44 @@ def _add_cell(
     scratch: FloatArray,
     out: FloatArray,
 ) -> None:
-    """Add one uniformly loaded cell to `out` (parts, points along)."""
+    """Add the response to one uniformly loaded cell of half sides `half`, `half_along` to `out` (parts, points)."""
     across = np.full(along.size, free)
-    x, y, a, b = (along, across, half_along, half) if what.swap else (across, along, half, half_along)
-    if what.kind == _STRESS:
-        subsurface.add_rectangles(x, y, what.z, a, b, what.nu, what.pressure, what.traction, scratch, out)
+    x, y, a, b = (along, across, half_along, half) if summand.swap else (across, along, half, half_along)
+    if summand.kind == _STRESS:
+        subsurface.add_rectangles(x, y, summand.z, a, b, summand.nu, summand.pressure, summand.traction, scratch, out)
         return
     displacement = np.zeros(3)
-    if what.kind == _IN_PLANE:
+    if summand.kind == _IN_PLANE:
         for k in range(along.size):
             # at nu = 1, traction along the free axis: 4 pi G u = 2 (integral of f^2 / r^3, of f a / r^3)
             displacement[:] = 0.0
-            half_space.add_rectangle(free, along[k], what.z, half, half_along, 1.0, True, displacement)
+            half_space.add_rectangle(free, along[k], summand.z, half, half_along, 1.0, True, displacement)
             out[0, k] += 0.5 * displacement[0]
             out[1, k] += 0.5 * displacement[1]
         return
     for k in range(along.size):
         # at nu = 0: 4 pi G uz = 2 V under pressure, chi_x under traction
         displacement[:] = 0.0
-        half_space.add_rectangle(x[k], y[k], what.z, a, b, 0.0, what.kind == _TRACTION_DISPLACEMENT, displacement)
-        out[0, k] += 0.5 * displacement[2] if what.kind == _PRESSURE_DISPLACEMENT else displacement[2]
+        half_space.add_rectangle(x[k], y[k], summand.z, a, b, 0.0, summand.kind == _TRACTION_DISPLACEMENT, displacement)
+        out[0, k] += 0.5 * displacement[2] if summand.kind == _PRESSURE_DISPLACEMENT else displacement[2]
 
 
 @compiled
-def _within_reach(what: _Response, free: float, half: float) -> tuple[float, float]:
-    """Return the part of the cell at -`free` within `_LINE` periods; empty where its ends coincide."""
-    reach = np.sqrt(max(_LINE * _LINE - what.z * what.z, 0.0))
+def _part_of_cell_near(summand: _Summand, free: float, half: float) -> tuple[float, float]:
+    """Return the ends of the part of a cell within `_LINE_LOAD_DISTANCE`; no part if the ends coincide.
+
+    free : offset from the cell. half : half side. The ends are positions in the cell, from -half to half.
+    """
+    reach = np.sqrt(max(_LINE_LOAD_DISTANCE * _LINE_LOAD_DISTANCE - summand.z * summand.z, 0.0))
     return min(max(free - reach, -half), half), min(max(free + reach, -half), half)
 
 
 @compiled
-def _sample_cell(
-    what: _Response, cells: _Cells, free: float, ends: tuple[float, float], nodes: FloatArray, scratch: FloatArray,
+def _sample_tail_over_cell(
+    summand: _Summand, cells: _Cells, free: float, ends: tuple[float, float], nodes: FloatArray, scratch: FloatArray,
     out: FloatArray,
 ) -> None:  # fmt: skip
-    """Add the tail over the part of a cell between `ends` at the nodes to `out` (parts, nodes)."""
+    """Add the integral of the tail over the part of a cell between `ends`, at the nodes, to `out` (parts, nodes)."""
     low, high = ends
     pieces = int(np.ceil((high - low) / 0.5))
     width = (high - low) / pieces
@@ -232,12 +258,12 @@ def _sample_cell(
         centre = low + (piece + 0.5) * width
         for g in range(cells.points):
             source = centre + 0.5 * width * NODES[cells.points, g]
-            _add_tail(what, free - source, nodes, width * WEIGHTS[cells.points, g], scratch, out)
+            _add_tail(summand, free - source, nodes, width * WEIGHTS[cells.points, g], scratch, out)
 
 
 @compiled
 def _add_means(means: _Means, samples: FloatArray, row: FloatArray) -> None:
-    """Add the means over the cells of what was sampled at the nodes to `row` (parts, cells)."""
+    """Add the means over cells of a function sampled at the nodes, (parts, nodes), to `row` (parts, cells)."""
     for c in range(row.shape[0]):
         for n in range(means.nodes.size):
             value = samples[c, n]
@@ -247,10 +273,12 @@ def _add_means(means: _Means, samples: FloatArray, row: FloatArray) -> None:
 
 
 @compiled
-def _fill(what: _Response, cells: _Cells, means: _Means, tail: FloatArray, out: FloatArray) -> None:
-    """Fill out[component, free offset, offset along] for offsets along up to half a period.
+def _fill_coefficients(summand: _Summand, cells: _Cells, means: _Means, tail: FloatArray, out: FloatArray) -> None:
+    """Compute the coefficients at offsets up to half a period.
 
-    `tail` : the tail at [component, free offset, node along], or nothing (sampled here, then, over each cell).
+    tail : (parts, free offsets, nodes), integrals of the tail over cells; no free offsets if they are to be sampled
+    here.
+    out : (parts, free offsets, offsets along the period).
     """
     parts = out.shape[0]
     half = 0.5 * cells.step
@@ -262,11 +290,13 @@ def _fill(what: _Response, cells: _Cells, means: _Means, tail: FloatArray, out: 
     offsets = np.arange(out.shape[2]) * cells.step_along
     for i in range(out.shape[1]):
         free = i * cells.step
-        low, high = _within_reach(what, free, half)
+        low, high = _part_of_cell_near(summand, free, half)
         line[:] = 0.0
         for start, stop in ((-half, low), (high, half)):  # strips on either side
             if stop > start:
-                _add_line(what, free - 0.5 * (start + stop), 0.5 * (stop - start), cells.step_along, line, strip)
+                _add_line_load(
+                    summand, free - 0.5 * (start + stop), 0.5 * (stop - start), cells.step_along, line, strip
+                )
         for c in range(parts):
             out[c, i, :] = line[c]
         if not high > low:
@@ -275,11 +305,11 @@ def _fill(what: _Response, cells: _Cells, means: _Means, tail: FloatArray, out: 
             samples[:] = tail[:, i, :]
         else:
             samples[:] = 0.0
-            _sample_cell(what, cells, free, (low, high), means.nodes, scratch, samples)
+            _sample_tail_over_cell(summand, cells, free, (low, high), means.nodes, scratch, samples)
         middle = 0.5 * (low + high)
         row[:] = 0.0
-        for k in range(1 - what.first, what.first):
-            _add_cell(what, free - middle, offsets + k, 0.5 * (high - low), 0.5 * cells.step_along, scratch, row)
+        for k in range(1 - summand.first, summand.first):
+            _add_cell(summand, free - middle, offsets + k, 0.5 * (high - low), 0.5 * cells.step_along, scratch, row)
         _add_means(means, samples, row)
         for c in range(parts):
             for j in range(row.shape[1]):
@@ -287,16 +317,21 @@ def _fill(what: _Response, cells: _Cells, means: _Means, tail: FloatArray, out: 
 
 
 @compiled
-def _sample(
-    what: _Response, free_nodes: FloatArray, free_means: FloatArray, nodes: FloatArray, out: FloatArray
+def _sample_tail(
+    summand: _Summand, free_nodes: FloatArray, free_means: FloatArray, nodes: FloatArray, out: FloatArray
 ) -> None:
-    """The tail over each cell along the free axis, (parts, free offsets, nodes), from samples at `free_nodes`."""
+    """Add the integrals of the tail over each cell along the free axis to `out` (parts, free offsets, nodes).
+
+    free_nodes : (samples,), positions of the samples along the free axis.
+    free_means : (free offsets, samples), weights from `_panels_along_free_axis`.
+    nodes : (nodes,), positions along the period.
+    """
     parts = out.shape[0]
     samples = np.zeros((parts, nodes.size))
     scratch = np.zeros(8 * BLOCK)
     for s in range(free_nodes.size):
         samples[:] = 0.0
-        _add_tail(what, free_nodes[s], nodes, 1.0, scratch, samples)
+        _add_tail(summand, free_nodes[s], nodes, 1.0, scratch, samples)
         for i in range(out.shape[1]):
             w = free_means[i, s]
             if w != 0.0:
@@ -305,10 +340,10 @@ def _sample(
                         out[c, i, n] += w * samples[c, n]
 
 
-def _panels(cells: int, step: float, points: int, first: int) -> tuple[FloatArray, FloatArray]:
-    """Chebyshev nodes of panels along the free axis, and weights (cells, nodes) of the mean over each cell times step.
+def _panels_along_free_axis(cells: int, step: float, points: int, first: int) -> tuple[FloatArray, FloatArray]:
+    """Return Chebyshev nodes of panels along the free axis, and weights (cells, nodes) of integrals over each cell.
 
-    Panels are as long as the tail's nearest image is far, or shorter: 24 nodes reach round-off.
+    A panel is at most as long as the distance to the nearest image of the tail: 24 nodes reach round-off.
     """
     length = cells * step
     count = int(np.ceil(length / (first - 0.5 if first == 1 else 1.0)))
@@ -330,27 +365,27 @@ def _panels(cells: int, step: float, points: int, first: int) -> tuple[FloatArra
     return nodes, means.reshape(cells, -1)
 
 
-def _points(ratio: float) -> int:
-    """Gauss points for round-off on an interval whose integrand is singular `ratio` half lengths from its middle."""
+def _gauss_points(ratio: float) -> int:
+    """Return the number of Gauss points for round-off on (-1, 1) if the integrand is singular at a distance `ratio`."""
     return min(NODES.shape[1], max(2, int(np.ceil(16 / (2 * np.log10(2 * ratio))))))
 
 
-def _interpolation(cells: int, first: int) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Chebyshev nodes (positive ones) and the weights of an even or odd function's mean over each cell times its side.
+def _interpolation_along_period(cells: int, first: int) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return nodes along the period, and weights (nodes, cells // 2 + 1) of integrals of even and of odd functions.
 
-    Offsets j = 0..cells // 2, in periods; the interval reaches half a cell beyond half a period.
+    The nodes are the positive Chebyshev nodes of the interval up to half a cell beyond half a period, in periods.
     """
     half = 0.5 / cells
     length = 0.5 + half
     order = 32 if first == 1 else 24  # the nearest image is `first` periods off
     angles = (np.arange(order) + 0.5) * np.pi / order
-    points = _points((first - 0.5) / half)
+    points = _gauss_points((first - 0.5) / half)
     at = (np.arange(cells // 2 + 1)[:, None] / cells + half * NODES[points, :points]) / length
     orders = np.arange(order)
     basis = np.cos(orders * np.arccos(np.clip(at, -1, 1))[..., None])
     integrals = np.einsum("g,jgn->jn", WEIGHTS[points, :points], basis) * 2 * half
     positive = angles[: order // 2]
-    # values at -node follow by parity, so each kept node counts twice for its own parity
+    # values at -node follow by parity, so each positive node counts twice for its own parity
     scale = np.full(order, 4.0 / order)
     scale[0] *= 0.5
     cardinal = np.cos(orders[:, None] * positive) * scale[:, None]
@@ -359,10 +394,10 @@ def _interpolation(cells: int, first: int) -> tuple[FloatArray, FloatArray, Floa
     return length * np.cos(positive), np.ascontiguousarray(even.T), np.ascontiguousarray(odd.T)
 
 
-def _table(
+def _coefficients(
     grid: Grid, kind: int, depth: float, nu: float, pressure: float, traction: float, parities: list[int]
 ) -> FloatArray:
-    """All offsets of the grid, (parts, nx, ny); lengths in periods."""
+    """Compute the sums over images at all offsets of the grid, (parts, nx, ny); lengths in periods."""
     swap = grid.periodic[0]
     free, along = (1, 0) if swap else (0, 1)
     cells, period = grid.shape[along], grid.lengths[along]
@@ -372,15 +407,15 @@ def _table(
     half = 0.5 * step
     z = depth / period
     # whole cells within reach, and none so wide that a panel is no gain
-    smooth = half <= 0.25 and (grid.shape[free] * step) ** 2 + z * z <= _LINE**2
-    first = 1 if smooth and cells >= _MANY and step <= 1 / _MANY else 2
-    what = _Response(kind, swap, z, nu, pressure, traction, grid.lengths[free] / period, first)
-    means = _Means(*_interpolation(cells, first), parity)
-    points = _points((first - 0.5 if first == 1 else 1.0) / min(half, 0.25))
+    smooth = half <= 0.25 and (grid.shape[free] * step) ** 2 + z * z <= _LINE_LOAD_DISTANCE**2
+    first = 1 if smooth and cells >= _MANY_CELLS and step <= 1 / _MANY_CELLS else 2
+    summand = _Summand(kind, swap, z, nu, pressure, traction, grid.lengths[free] / period, first)
+    means = _Means(*_interpolation_along_period(cells, first), parity)
+    points = _gauss_points((first - 0.5 if first == 1 else 1.0) / min(half, 0.25))
     tail = np.zeros((len(parities), grid.shape[free] if smooth else 0, means.nodes.size))
     if smooth:
-        _sample(what, *_panels(grid.shape[free], step, points, first), means.nodes, tail)
-    _fill(what, _Cells(step, 1.0 / cells, points), means, tail, quarter)
+        _sample_tail(summand, *_panels_along_free_axis(grid.shape[free], step, points, first), means.nodes, tail)
+    _fill_coefficients(summand, _Cells(step, 1.0 / cells, points), means, tail, quarter)
     odd_parts = parity < 0
     quarter[odd_parts, :, 0] = 0.0
     if cells % 2 == 0:
@@ -393,11 +428,11 @@ def _table(
 
 
 def surface_table(grid: Grid, material: Material, load: Load) -> FloatArray:
-    """Normal surface displacement [m/Pa] of a loaded cell and its images, shape (nx, ny); datum: see the module."""
+    """Return the normal surface displacement of a loaded cell and its images, (nx, ny) [m/Pa]; for its datum see above."""
     along = 0 if grid.periodic[0] else 1
     traction = load is Load.TANGENTIAL
     kind = _TRACTION_DISPLACEMENT if traction else _PRESSURE_DISPLACEMENT
-    table: FloatArray = _table(grid, kind, 0.0, 0.0, 1.0, 1.0, [SURFACE_PARITY[load][along]])[0]
+    table: FloatArray = _coefficients(grid, kind, 0.0, 0.0, 1.0, 1.0, [SURFACE_PARITY[load][along]])[0]
     nu = material.poissons_ratio
     factor = (1 - 2 * nu) if traction else 2 * (1 - nu)
     table *= factor * grid.lengths[along] / (4 * np.pi * material.shear_modulus)
@@ -407,16 +442,18 @@ def surface_table(grid: Grid, material: Material, load: Load) -> FloatArray:
 
 
 def in_plane_table(grid: Grid, material: Material) -> FloatArray:
-    """In-plane surface displacements [m/Pa] of a loaded cell and its images, (3, nx, ny): see `coefficients`.
+    """Return the in-plane surface displacements of a loaded cell and its images, (3, nx, ny) [m/Pa].
 
-    With V, E and S the sums of the integrals of 1/r, f^2/r^3 and f a/r^3, f along the free axis and a along the period:
-    2 pi G u = (1 - nu) V + nu E under traction along f, V - nu E under traction along a, nu S of one under the other.
-    Datum: as under pressure, the means along the period are those of lines of load, zero at the reference length; so E,
-    whose mean is the same everywhere, counts without it.
+    Components as in `coefficients.in_plane_coefficients`.
+
+    With V, E and S the sums of the integrals of 1/r, f^2/r^3 and f a/r^3:
+    2 pi G u = (1 - nu) V + nu E under traction along f, V - nu E under traction along a, nu S across the traction.
+    Datum: as under pressure, the means along the period are those of line loads, zero at the reference length. The mean
+    of E is uniform, so it is subtracted.
     """
     along = 0 if grid.periodic[0] else 1
-    newton = _table(grid, _PRESSURE_DISPLACEMENT, 0.0, 0.0, 1.0, 1.0, [1])[0]
-    even, odd = _table(grid, _IN_PLANE, 0.0, 0.0, 1.0, 1.0, [1, -1])
+    newton = _coefficients(grid, _PRESSURE_DISPLACEMENT, 0.0, 0.0, 1.0, 1.0, [1])[0]
+    even, odd = _coefficients(grid, _IN_PLANE, 0.0, 0.0, 1.0, 1.0, [1, -1])
     even -= 2.0 * grid.cell_area / grid.lengths[along] ** 2
     nu = material.poissons_ratio
     out = np.empty((3, *grid.shape))
@@ -428,10 +465,10 @@ def in_plane_table(grid: Grid, material: Material) -> FloatArray:
 
 
 def stress_table(grid: Grid, depth: float, poissons_ratio: float, load: Load) -> FloatArray:
-    """Six stresses at `depth` [m] of a loaded cell and its images, shape (6, nx, ny), [Pa/Pa]."""
+    """Return the six stresses at `depth` [m] of a loaded cell and its images, (6, nx, ny) [Pa/Pa]."""
     along = 0 if grid.periodic[0] else 1
     normal = load is Load.NORMAL
     parities = [parity[along] for parity in STRESS_PARITY[load]]
-    table: FloatArray = _table(grid, _STRESS, depth, poissons_ratio, float(normal), float(not normal), parities)
+    table: FloatArray = _coefficients(grid, _STRESS, depth, poissons_ratio, float(normal), float(not normal), parities)
     table /= 2 * np.pi
     return clear_odd_offsets(table, STRESS_PARITY[load])

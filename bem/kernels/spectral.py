@@ -5,8 +5,8 @@ at the cell centres and loads are their trigonometric interpolants: the response
 with no average over a cell. Arrays follow the real transform over y (`numpy.fft.rfft2`): kx in the order of
 `fftfreq`, ky >= 0.
 
-Every response is real or purely imaginary, by the parity of its kernel in real space; the array returned is the real
-number that is left (spectrum = array, or i x array where the kernel is odd). At the highest wavenumber of an even
+Every response is real or purely imaginary, by the parity of its kernel in real space. The array returned is its real or
+its imaginary part (spectrum = array, or i x array where the kernel is odd). At the highest wavenumber of an even
 number of cells the sign of a derivative is undefined: responses odd in that wavenumber are 0 there.
 
 Mean mode (q = 0): the displacement is 0 (a mean pressure moves the datum only: a half-space has no finite answer);
@@ -31,7 +31,7 @@ def _check(grid: Grid) -> None:
 
 
 def _wavevectors(grid: Grid) -> tuple[FloatArray, FloatArray, FloatArray, FloatArray, FloatArray]:
-    """kx, ky, q (with 1 in place of the mean), and kx, ky with the ambiguous highest wavenumber zeroed."""
+    """Return kx, ky, q (1 at the mean mode), and kx, ky with the ambiguous highest wavenumber set to zero."""
     kx, ky = grid.wavevectors()
     q = np.hypot(kx, ky)
     q[0, 0] = 1.0
@@ -45,7 +45,7 @@ def _wavevectors(grid: Grid) -> tuple[FloatArray, FloatArray, FloatArray, FloatA
 
 
 def _mirrored(rows: FloatArray, count: int, parities: Parities) -> FloatArray:
-    """All `count` rows of kx from the first count // 2 + 1 of (parts, ...), by parity in x."""
+    """Return all `count` rows of kx from the first count // 2 + 1, (parts, rows, ...), by parity in x."""
     out = np.empty((len(rows), count, *rows.shape[2:]))
     out[:, : count // 2 + 1] = rows
     for part, (along_x, _) in enumerate(parities):
@@ -54,7 +54,7 @@ def _mirrored(rows: FloatArray, count: int, parities: Parities) -> FloatArray:
 
 
 def surface_response(grid: Grid, body: Body, load: Load) -> FloatArray:
-    """Normal surface displacement of a harmonic unit load, shape (nx, ny//2 + 1) [m/Pa].
+    """Return the normal surface displacement of a harmonic unit load, shape (nx, ny//2 + 1) [m/Pa].
 
     Pressure: 2 / (E* q), the spectrum itself. Traction along +x: -(1-2nu) kx / (2 G q^2), its imaginary part.
     Mean mode 0. Johnson (1985), section 13.2, and the transform of Cerruti's solution. With layers: see `layered`.
@@ -79,7 +79,7 @@ def surface_response(grid: Grid, body: Body, load: Load) -> FloatArray:
 
 
 def in_plane_response(grid: Grid, body: Body) -> FloatArray:
-    """In-plane surface displacements under harmonic unit tractions, shape (3, nx, ny//2 + 1) [m/Pa].
+    """Return the in-plane surface displacements under harmonic unit tractions, shape (3, nx, ny//2 + 1) [m/Pa].
 
     ux under traction along x, uy under traction along y: (1 - nu cos^2) / (G q) and (1 - nu sin^2) / (G q) with the
     angle of the wavevector from x, the transform of Cerruti's solution; of one under the other: -nu cos sin / (G q).
@@ -103,7 +103,7 @@ def in_plane_response(grid: Grid, body: Body) -> FloatArray:
 
 
 def stress_response(grid: Grid, body: Body, depth: float, load: Load) -> FloatArray:
-    """Six stresses (xx yy zz yz xz xy) at `depth` [m] of a harmonic unit load, shape (6, nx, ny//2 + 1) [Pa/Pa].
+    """Return the stresses (xx yy zz yz xz xy) at `depth` [m] of a harmonic unit load: (6, nx, ny//2 + 1) [Pa/Pa].
 
     The spectrum where the kernel is even, its imaginary part where it is odd (see `coefficients.STRESS_PARITY`).
 

@@ -27,6 +27,7 @@ from numpy.typing import ArrayLike
 
 from bem.compiled import compiled
 from bem.grid import FloatArray
+from bem.kernels.blocks import BLOCK, X_AT, Y_AT, Six, add_block, add_six, begin_block
 from bem.kernels.cell_rules import NODES, WEIGHTS, angle, chi_xx, cut, log_ratio, powers, rule
 from bem.kernels.half_space import check_points
 from bem.kernels.loads import STRESS_PARITY, Load, clear_odd, clear_odd_offsets
@@ -34,12 +35,9 @@ from bem.kernels.loads import STRESS_PARITY, Load, clear_odd, clear_odd_offsets
 _TWO_PI = 2.0 * np.pi
 
 
-Six = tuple[float, float, float, float, float, float]
-
-
 @compiled
 def _pressure_point(x: float, y: float, z: float, nu: float) -> Six:
-    """2 pi times the six stresses of a unit point force into the body."""
+    """Return 2 pi times the six stresses of a unit point force into the body."""
     _, inv, inv3, s, curl = powers(x, y, z)
     plane = inv * s  # chi_xx = plane - x^2 curl, chi_xy = -x y curl
     shear = 3.0 * z * inv3 * inv * inv  # z V_xy = x y shear
@@ -52,7 +50,7 @@ def _pressure_point(x: float, y: float, z: float, nu: float) -> Six:
 
 @compiled
 def _traction_point(x: float, y: float, z: float, nu: float) -> Six:
-    """2 pi times the six stresses of a unit point force along +x."""
+    """Return 2 pi times the six stresses of a unit point force along +x."""
     r, inv, inv3, s, curl = powers(x, y, z)
     xx, yy = x * x, y * y
     plane = inv * s
@@ -90,53 +88,17 @@ def add_point(x: float, y: float, z: float, nu: float, pressure: float, traction
             out[component] += traction * stress[component]
 
 
-# Points side by side go through a rule in vector registers: the very operations of `add_point`, in the same order for
-# each. What belongs to a block of points is held in one array: six sums, x and y, each `BLOCK` numbers, a distance that
-# the compiler has to know.
-BLOCK = 64
-X_AT = 6 * BLOCK
-Y_AT = 7 * BLOCK
-
-
-@compiled
-def block_of(x: FloatArray, y: FloatArray, scratch: FloatArray) -> None:
-    """Begin a block of at most `BLOCK` points (x, y) in `scratch` (8 BLOCK,): no sums yet."""
-    scratch[:X_AT] = 0.0
-    for k in range(x.size):
-        scratch[X_AT + k] = x[k]
-        scratch[Y_AT + k] = y[k]
-
-
-@compiled
-def add_six(weight: float, stress: Six, k: int, scratch: FloatArray) -> None:
-    """Add `weight` times six stresses to the sums of point k of a block."""
-    scratch[k] += weight * stress[0]
-    scratch[BLOCK + k] += weight * stress[1]
-    scratch[2 * BLOCK + k] += weight * stress[2]
-    scratch[3 * BLOCK + k] += weight * stress[3]
-    scratch[4 * BLOCK + k] += weight * stress[4]
-    scratch[5 * BLOCK + k] += weight * stress[5]
-
-
 @compiled
 def add_points(
     right: float, on: float, z: float, nu: float, pressure: float, traction: float, count: int, scratch: FloatArray
 ) -> None:
-    """`add_point` of point forces at (right, on) to the sums of each of the first `count` points of a block."""
+    """Add 2 pi times the stresses of point forces at (right, on) to the sums of the first `count` points of a block."""
     if pressure != 0.0:
         for k in range(count):
             add_six(pressure, _pressure_point(scratch[X_AT + k] - right, scratch[Y_AT + k] - on, z, nu), k, scratch)
     if traction != 0.0:
         for k in range(count):
             add_six(traction, _traction_point(scratch[X_AT + k] - right, scratch[Y_AT + k] - on, z, nu), k, scratch)
-
-
-@compiled
-def end_block(count: int, scratch: FloatArray, out: FloatArray) -> None:
-    """Add the sums of a block to `out` (6, count)."""
-    for c in range(6):
-        for k in range(count):
-            out[c, k] += scratch[c * BLOCK + k]
 
 
 @compiled
@@ -251,9 +213,9 @@ def add_rectangles(
     scratch: FloatArray,
     out: FloatArray,
 ) -> None:
-    """`add_rectangle` at each of the points (x, y), (n,) each, to `out` (6, n); `scratch` (8 BLOCK,) is written over.
+    """Add 2 pi times the six stresses of a loaded rectangle at the points (x, y), (n,) each, to `out` (6, n).
 
-    Far points in a row that are served by the same rule go through it side by side.
+    Consecutive far points with the same Gauss rule form a block (`blocks`). scratch : (8 BLOCK,).
     """
     area = 4.0 * a * b
     start = 0
@@ -266,13 +228,13 @@ def add_rectangles(
             continue
         while stop < min(x.size, start + BLOCK) and rule(x[stop], y[stop], z, a, b) == n:
             stop += 1
-        block_of(x[start:stop], y[start:stop], scratch)
+        begin_block(x[start:stop], y[start:stop], scratch)
         for i in range(n):
             for j in range(n):
                 w = area * WEIGHTS[n, i] * WEIGHTS[n, j]
                 right, on = a * NODES[n, i], b * NODES[n, j]
                 add_points(right, on, z, nu, w * pressure, w * traction, stop - start, scratch)
-        end_block(stop - start, scratch, out[:, start:stop])
+        add_block(stop - start, scratch, out[:, start:stop])
         start = stop
 
 
@@ -354,7 +316,7 @@ def stress_table(
     load: Load,
     first: int = 0,
 ) -> FloatArray:
-    """Six stresses at offsets (i dx, (j + first) dy) and `depth` from the centre of a loaded cell, (6, nx, ny)."""
+    """Return the six stresses at offsets (i dx, (j + first) dy) and `depth` [m] from a loaded cell: (6, nx, ny)."""
     out = np.empty((6, *shape))
     normal = load is Load.NORMAL
     _table(spacing[0], spacing[1], depth, poissons_ratio, float(normal), float(not normal), first, out)

@@ -27,6 +27,7 @@ import numpy as np
 
 from bem.compiled import compiled
 from bem.grid import FloatArray, Grid
+from bem.kernels.blocks import BLOCK, Six, add_six
 from bem.kernels.layered.hankel import (
     RadialTable,
     evaluate,
@@ -37,7 +38,6 @@ from bem.kernels.layered.hankel import (
     surface_spectra,
 )
 from bem.kernels.loads import IN_PLANE_PARITY, STRESS_PARITY, SURFACE_PARITY, Load, clear_odd_offsets
-from bem.kernels.subsurface import BLOCK, Six, add_six
 from bem.materials import Body
 
 # points n of each rule, and the least ratio R of D to half a side: (R + sqrt(R^2 - 1))^(-2 n) is 1e-15 for large n (the
