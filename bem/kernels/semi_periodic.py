@@ -428,7 +428,7 @@ def _coefficients(
 
 
 def surface_table(grid: Grid, material: Material, load: Load) -> FloatArray:
-    """Return the normal surface displacement of a loaded cell and its images, (nx, ny) [m/Pa]; for its datum see above."""
+    """Return the normal surface displacement of a loaded cell and its images, (nx, ny) [m/Pa]; datum: above."""
     along = 0 if grid.periodic[0] else 1
     traction = load is Load.TANGENTIAL
     kind = _TRACTION_DISPLACEMENT if traction else _PRESSURE_DISPLACEMENT
