@@ -44,4 +44,4 @@ def check_column(dtype, length, parities):
 def _one_column(factor, number, given, target, scale, length):
     """From the fourth row of `given` into the second of `target`."""
     source, result = given.ctypes.data + 3 * given.strides[0], target.ctypes.data + target.strides[0]
-    loops.multiply_column(loops.rows_of(factor), number, source, result, scale, length)
+    loops.multiply_column(loops.factor_rows(factor), number, source, result, scale, length)

@@ -19,7 +19,7 @@ from bem.compiled import compiled
 from bem.contact import reductions
 from bem.grid import FloatArray
 from bem.threads import share
-from bem.transforms.addresses import fetch
+from bem.transforms.addresses import prefetch
 
 _LEAST_COSINE = 0.24
 """Least cosine between link and normal for which the crossing law is fitted."""
@@ -288,11 +288,11 @@ def _write_crossings(first, last, links, starts, field, blurred, where, law, cro
             for link in range(starts[i, axis], starts[i + 1, axis]):
                 j, later = columns[link], columns[min(link + _PREFETCH, starts[i + 1, axis] - 1)]
                 for address in addresses:
-                    fetch(address + 8 * (here + later))
+                    prefetch(address + 8 * (here + later))
                     if axis == 0:
-                        fetch(address + 8 * (beyond + later))
+                        prefetch(address + 8 * (beyond + later))
                 if axis == 0:
-                    fetch(addresses[2] + 8 * (behind + later))
+                    prefetch(addresses[2] + 8 * (behind + later))
                 left, right = wrapped_index(j - 1, ny, wraps_y), wrapped_index(j + 1, ny, wraps_y)
                 if axis == 0:
                     previous, first_cell, second_cell, following = before + j, here + j, beyond + j, behind + j

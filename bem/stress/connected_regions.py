@@ -94,7 +94,9 @@ def connected_stress(
         _transform_along_x(load, request.depths[index], squares, stress[index])
         passes += 1
         rows = requested[index], computed[index], exceeding
-        done, beside = _follow_rows(transform.plan, transform.singles, squares, stress[index], limit, wraps, *rows)
+        done, beside = _follow_rows(
+            transform.plan, transform.single_column_plans, squares, stress[index], limit, wraps, *rows
+        )
         TRANSFORM_COUNT.rows += done * _TERMS
         for other in range(max(index - depths_beside, 0), min(index + depths_beside + 1, number)):
             requested[other] |= beside

@@ -1,21 +1,27 @@
-"""Convolutions by real transforms of zero-padded fields: pruned, in one or two precisions.
+"""Convolutions by real fast Fourier transforms of zero-padded fields, in double or single precision.
 
-A two-dimensional real transform is two passes of one-dimensional transforms. A convolution takes these steps:
+A field (nx, ny) is padded to (px, py). A two-dimensional real transform is a pass of one-dimensional transforms of rows
+along y and a pass of columns along x. The passes are pruned: they leave out rows and columns that are zero or not
+needed. A convolution takes these steps:
 
-1. `kernel` chooses the padded lengths and computes the spectrum of a kernel that is even or odd along each axis, from a
-   quarter of its values; `products` adds kernels to one `Multiplier`. Cost: once per kernel, cached by its owners.
-2. `cache` returns the `PaddedTransform` of a shape, with its plans and buffers.
-3. Forward along y: only the rows that are not known to be zero are transformed, real to complex, and written transposed
-   to the array of row spectra, so that columns are contiguous (`loops.rows_forward`).
-4. Along x: columns are transformed, multiplied and transformed back in blocks that stay in cache
-   (`loops.columns_through`). For an even kernel the real rows are packed as complex rows of half the length, and
-   columns go in pairs (`packed_real_fft`): FFTW has vector instructions for complex rows only. Cost: 0.7 of real rows
-   in single precision, 0.8 to 0.9 in double.
-5. Back along y: only the wanted rows (`loops.rows_back`).
+1. `padding` chooses the padded lengths: at least 2 n - 1 on a free axis, n on a periodic one.
+2. `kernel_spectra` computes the real spectrum of a kernel that is even or odd along each axis, from a quarter of its
+   values. `multipliers` adds kernels to one `Multiplier`. Cost: one transform for each kernel; the caller caches it.
+3. `cache` returns the `PaddedTransform` of a shape (`padded`), with its plans (`plans`) and buffers.
+4. Rows forward (`loops.rows_forward`): the nx rows of the field, not the px - nx rows of padding, are transformed along
+   y in blocks, and written transposed to the array of row spectra, so that columns are contiguous. For a field on a few
+   cells (`loops.rows_forward_of_cells`), blocks of rows without a cell are left out.
+5. Columns (`loops.columns_through`): the py // 2 + 1 columns are padded, transformed along x, multiplied, and
+   transformed back, in blocks that stay in cache. The padded spectrum as a whole is not stored.
+6. Rows back (`loops.rows_back`): the nx rows of the field are transformed back along y, and cut to ny.
 
-A convolution is one call of compiled code on one thread; threads share the blocks of each pass, never one transform.
-`plans` makes FFTW's plans without timing, so a result does not depend on the load of the machine; the transposed layout
-with row lengths off the powers of two makes up for the slower plans. `count` counts transforms.
+Cost of a convolution: 2 nx transforms of length py and py of length px (real or half-complex), n log n each. An even
+kernel needs less (`packed_real_fft`): real rows are packed as complex rows of half the length and columns go in pairs
+in 4 to 6, because FFTW has vector instructions for complex rows only.
+
+`addresses` has pointers for these loops. A convolution is one call of compiled code on one thread; several threads
+share the blocks of each pass, so a result does not depend on their number. `plans` creates FFTW's plans without timing,
+so a result does not depend on the load of the machine. `count` counts transforms.
 
 Layout of a spectrum: `spectrum[iy, ix]`, shape (py // 2 + 1, px), wavenumbers of `numpy.fft.rfft2(...).T`. The forward
 transform has no factor, the inverse one 1/(px py): `inverse(forward(field)) == field`.
@@ -26,9 +32,10 @@ and scipy's transforms.
 
 from bem.transforms.cache import set_transform_memory, transform_memory, transform_of
 from bem.transforms.count import COUNT, TransformCount
-from bem.transforms.kernel import kernel_spectrum, narrowed_lengths, offset_cosines, padded_length, padded_shape
+from bem.transforms.kernel_spectra import kernel_spectrum, offset_cosines
+from bem.transforms.multipliers import Multiplier, multiplier
 from bem.transforms.padded import PaddedTransform
-from bem.transforms.products import Multiplier, multiplier
+from bem.transforms.padding import narrowed_lengths, padded_length, padded_shape
 
 __all__ = [
     "COUNT",

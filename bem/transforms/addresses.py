@@ -1,7 +1,7 @@
-"""Numbers by their address in compiled loops.
+"""Pointers in compiled loops, in place of array views.
 
-An array that is made for a column, or a part of one, is counted up and down by its holders, atomically: in a loop over
-short columns that costs as much as half the products. A pointer is not counted. Who takes one keeps the array.
+Numba counts the references to an array view atomically, which costs half as much as the products in a loop over short
+columns. A pointer has no reference count. The caller keeps the array alive.
 """
 
 from __future__ import annotations
@@ -13,12 +13,12 @@ from numba import types
 from numba.extending import intrinsic
 
 LINE = 64
-"""Bytes that `fetch` brings."""
+"""Size of a cache line [bytes], which one `prefetch` loads."""
 
 
 @intrinsic
-def numbers(typing: Any, address: Any, like: Any) -> Any:
-    """A pointer to numbers of the type of the scalar `like`."""
+def pointer_to(typing: Any, address: Any, like: Any) -> Any:
+    """Return the address as a pointer to numbers of the type of the scalar `like`."""
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         return builder.inttoptr(arguments[0], context.get_value_type(signature.return_type))
@@ -27,8 +27,8 @@ def numbers(typing: Any, address: Any, like: Any) -> Any:
 
 
 @intrinsic
-def fetch(typing: Any, address: Any) -> Any:
-    """Ask for a line of memory that will be read soon; any address will do."""
+def prefetch(typing: Any, address: Any) -> Any:
+    """Prefetch the cache line of an address, which need not be valid."""
 
     def generate(context: Any, builder: Any, signature: Any, arguments: Any) -> Any:
         byte, whole = ir.IntType(8).as_pointer(), ir.IntType(32)

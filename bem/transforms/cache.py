@@ -19,10 +19,10 @@ def transform_of(
     lengths: tuple[int, ...] | None = None,
     worker: int = 0,
 ) -> PaddedTransform:
-    """The cached transform of fields of `shape` padded to `padded`, in float64 or float32.
+    """Return the transform of fields of `shape` padded to `padded`, in float64 or float32, from the cache.
 
     lengths : (py // 2 + 1,), of the transforms along x for each wavenumber along y; px for all by default.
-    worker : whose it is, where several threads transform at the same time: each has its own buffers.
+    worker : number of the thread that uses it, if several threads transform at a time; each has its own buffers.
 
     Raises
     ------
@@ -37,11 +37,12 @@ def transform_of(
     if lengths is not None and not (len(lengths) == waves and shape[0] <= min(lengths) <= max(lengths) <= padded[0]):
         raise InputError(f"transform_of: lengths {lengths!r} must be {waves}, from {shape[0]} to {padded[0]}")
     shapes = (int(shape[0]), int(shape[1])), (int(padded[0]), int(padded[1]))
-    found = _CACHE.of((*shapes, lengths, worker), lambda: _made(*shapes, lengths))
+    found = _CACHE.of((*shapes, lengths, worker), lambda: _create(*shapes, lengths))
     return found if kind == np.float64 else found.single
 
 
-def _made(shape: tuple[int, int], padded: tuple[int, int], lengths: tuple[int, ...] | None) -> PaddedTransform:
+def _create(shape: tuple[int, int], padded: tuple[int, int], lengths: tuple[int, ...] | None) -> PaddedTransform:
+    """Return a new transform in double precision; its `single` is the one in single precision."""
     keep_freed_memory()  # solvers allocate fields of the same size again and again
     return PaddedTransform(shape, padded, np.float64, lengths)
 

@@ -14,7 +14,7 @@ class TransformCount:
     forward, inverse : two-dimensional transforms.
     rows, columns : one-dimensional transforms along y and along x in them.
     numbers : sum of the lengths of the transforms along x.
-    kernels : spectra of kernels.
+    kernels : spectra of kernels computed.
     """
 
     forward: int = 0

@@ -1,6 +1,7 @@
-"""Compiled passes of a padded transform over blocks of rows or columns, with their one-dimensional transforms.
+"""Compiled passes of a padded transform over blocks of rows (along y) or columns (along x).
 
-A whole convolution is one call of compiled code (`convolve`), which other compiled loops may call. Threads share the
+The row spectra lie transposed between both passes, [wavenumber along y, x], so that columns are contiguous. A whole
+convolution is one call of compiled code (`convolve`), which other compiled loops may call. Threads share the
 blocks of each pass; the result of a block does not depend on the thread.
 """
 
@@ -12,7 +13,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.compiled import compiled
-from bem.transforms.addresses import LINE, fetch, numbers
+from bem.transforms.addresses import LINE, pointer_to, prefetch
 from bem.transforms.packed_real_fft import packed_columns_through
 from bem.transforms.plans import ALIGNMENT, execute
 
@@ -60,7 +61,12 @@ class TransformPlan(NamedTuple):
 
 
 class Scratch(NamedTuple):
-    """Buffers of one thread: blocks of rows in (zero beyond the field) and out, of their spectra, and of columns."""
+    """Buffers of one thread.
+
+    rows, rows_out : block of rows before the transform (zero beyond the field), and after the inverse transform.
+    rows_spectrum : spectra of a block of rows.
+    columns, columns_out : block of columns, source and target of a transform.
+    """
 
     rows: NDArray[Any]
     rows_out: NDArray[Any]
@@ -69,28 +75,41 @@ class Scratch(NamedTuple):
     columns_out: NDArray[Any]
 
 
-class Singles(NamedTuple):
-    """The way back in small portions: `columns`, `lengths`, `scales` : (py // 2 + 1,), plans, lengths and scales of one
-    column each. `numbers` : (py // 2 + 2,), how many in the first so many columns. `rows` : (2,), plans for `GROUP`
-    rows, and for the last group."""
+class SingleColumnPlans(NamedTuple):
+    """Plans of inverse transforms in small portions: single columns, and groups of rows.
+
+    Attributes
+    ----------
+    columns : (py // 2 + 1,), plan of each column.
+    lengths, scales : (py // 2 + 1,), length of each column's transform, and scale of the inverse.
+    cumulative_lengths : (py // 2 + 2,), sum of the lengths of the first k columns.
+    rows : (2,), plans for `GROUP` rows, and for the last group.
+    """
 
     columns: NDArray[Any]
     lengths: NDArray[Any]
     scales: NDArray[Any]
-    numbers: NDArray[Any]
+    cumulative_lengths: NDArray[Any]
     rows: NDArray[Any]
 
 
 GROUP = 8
-"""Rows in a group: whole cache lines of the half-way array."""
+"""Rows in a group: whole cache lines of the row spectra."""
 
 
 class Squares(NamedTuple):
-    """A root of a sum of squares of fields, on its way: half-way arrays (terms, py // 2 + 1, stride), how many columns
-    of each count, weights (terms,), and scratch for a group's rows. `begun` : groups whose rows are added term by term.
+    """Buffers for the root of a weighted sum of squares of fields, computed for some groups of rows only.
+
+    Attributes
+    ----------
+    row_spectra : (terms, py // 2 + 1, stride), row spectra of each term.
+    columns : (terms,), number of columns of each term that are not zero.
+    weights : (terms,), weight of each square.
+    rows : (GROUP, stride), scratch for the rows of a group.
+    begun : (groups,), True for groups whose rows are transformed and added term by term in `terms_back`.
     """
 
-    halves: NDArray[Any]
+    row_spectra: NDArray[Any]
     columns: NDArray[Any]
     weights: NDArray[Any]
     rows: NDArray[Any]
@@ -98,7 +117,10 @@ class Squares(NamedTuple):
 
 
 class Factor(NamedTuple):
-    """Parts of a multiplier; parity 0 means that the part is zero, `ONE` that it is one, and its array is empty."""
+    """Multiplier in one precision, as compiled code takes it (see `Multiplier`).
+
+    A parity of 0 means that the part is zero, `ONE` that it is one everywhere; its array is empty then.
+    """
 
     real: NDArray[Any]
     imaginary: NDArray[Any]
@@ -130,7 +152,7 @@ def rows_forward_of_cells(plan, scratch, cells, values, first, last):
 
     The field itself is not stored, and blocks of rows without a cell are not transformed.
     """
-    half, rows, ny = plan.row_spectra, scratch.rows, plan.ny
+    row_spectra, rows, ny = plan.row_spectra, scratch.rows, plan.ny
     for block in range(first, last):
         start = block * plan.row_block
         count = min(plan.nx, start + plan.row_block) - start
@@ -138,7 +160,7 @@ def rows_forward_of_cells(plan, scratch, cells, values, first, last):
         end = first_from(cells, (start + count) * ny, begin, cells.size)
         if begin == end:
             for j in range(plan.spectra):
-                half[j, start : start + count] = 0
+                row_spectra[j, start : start + count] = 0
             continue
         rows[:count, :ny] = 0
         i, stop = 0, (start + 1) * ny
@@ -147,7 +169,7 @@ def rows_forward_of_cells(plan, scratch, cells, values, first, last):
                 i += 1
                 stop += ny
             rows[i, cells[k] - stop + ny] = values[k]
-        _rows_out(plan, scratch, rows.ctypes.data, start, count)
+        _transform_row_block(plan, scratch, rows.ctypes.data, start, count)
 
 
 @compiled
@@ -163,7 +185,7 @@ def first_from(cells, value, low, high):
 
 
 @compiled
-def _rows_out(plan, scratch, source, start, count):
+def _transform_row_block(plan, scratch, source, start, count):
     """Transform a block of rows at an address along y and write it transposed, in whole cache lines.
 
     FFTW's own strided writes take a third longer.
@@ -188,15 +210,16 @@ def rows_forward(plan, scratch, values, first, last):
                 for j in range(plan.ny):
                     rows[i, j] = values[start + i, j]
             source = rows.ctypes.data
-        _rows_out(plan, scratch, source, start, count)
+        _transform_row_block(plan, scratch, source, start, count)
 
 
 @compiled
-def _transpose(spectra, half, start, rows, length):
+def _transpose(spectra, row_spectra, start, rows, length):
+    """Write the spectra of a block of rows, (rows, length), transposed into the row spectra."""
     for block in range(0, length, 8):
         for j in range(block, min(length, block + 8)):
             for i in range(rows):
-                half[j, start + i] = spectra[i, j]
+                row_spectra[j, start + i] = spectra[i, j]
 
 
 @compiled
@@ -255,7 +278,7 @@ def columns_through(plan, scratch, factor, first, last):
         return
     for block in range(first, last):
         _columns_forward(plan, scratch, block)
-        multiply(plan, factor, scratch.columns_out, scratch.columns, block, 0)
+        multiply_block(plan, factor, scratch.columns_out, scratch.columns, block, 0)
         _columns_back(plan, scratch, block)
 
 
@@ -274,46 +297,58 @@ def columns_out(plan, scratch, spectrum, first, last):
 def columns_in(plan, scratch, factor, spectrum, first, last):
     """Multiply blocks of columns of a spectrum by the factor and transform them back along x."""
     for block in range(first, last):
-        multiply(plan, factor, spectrum, scratch.columns, block, plan.columns[block])
+        multiply_block(plan, factor, spectrum, scratch.columns, block, plan.columns[block])
         _columns_back(plan, scratch, block)
 
 
 @compiled
-def terms_back(plan, singles, scratch, factors, spectrum, squares, terms, share, out):
-    """The terms (first, last) of a spectrum times `factors` along x, into half-way arrays of their own, and along y in
-    the groups that are begun, while they are near. share : this thread's number, and of how many."""
-    given, source, done = spectrum.ctypes.data, scratch.columns[0].ctypes.data, scratch.columns_out[0]
-    result, (stride, itemsize), line = done.ctypes.data, spectrum.strides, squares.halves.shape[2]
-    columns, lengths, scales, executor = singles.columns, singles.lengths, singles.scales, plan.executors[1]
+def terms_back(plan, single_columns, scratch, factors, spectrum, squares, terms, share, out):
+    """Transform terms of a sum of squares back along x into their row spectra; add the rows of the groups begun.
+
+    terms : (first, last), range of the terms.
+    factors : one multiplier for each term.
+    share : number of this thread, and of threads; a thread takes a share of the columns.
+    """
+    spectrum_at, source, column_out = spectrum.ctypes.data, scratch.columns[0].ctypes.data, scratch.columns_out[0]
+    result, (stride, itemsize), line = column_out.ctypes.data, spectrum.strides, squares.row_spectra.shape[2]
+    columns, lengths, scales, executor = (
+        single_columns.columns,
+        single_columns.lengths,
+        single_columns.scales,
+        plan.executors[1],
+    )
     for term in range(terms[0], terms[1]):
-        half, count, rows = squares.halves[term], squares.columns[term], rows_of(factors[term])
-        begin, end = half.ctypes.data, (share[0] + 1) * count // share[1]
+        row_spectra, count, rows = squares.row_spectra[term], squares.columns[term], factor_rows(factors[term])
+        row_spectra_at, end = row_spectra.ctypes.data, (share[0] + 1) * count // share[1]
         for number in range(share[0] * count // share[1], end):
             length = lengths[number]
-            multiply_column(rows, number, given + number * stride, source, scales[number], length)
-            _fetch_rows(rows, number + 1, (length // 2 + 1) * itemsize // 2)
+            multiply_column(rows, number, spectrum_at + number * stride, source, scales[number], length)
+            _prefetch_rows(rows, number + 1, (length // 2 + 1) * itemsize // 2)
             if length <= (end - number) * line:
-                # what goes beyond the field lies where this thread writes its next columns
-                execute(executor, columns[number], source, begin + number * line * itemsize)
+                # entries beyond the field fall on columns that this thread writes next
+                execute(executor, columns[number], source, row_spectra_at + number * line * itemsize)
                 continue
             execute(executor, columns[number], source, result)
             for j in range(plan.nx):
-                half[number, j] = done[j]
+                row_spectra[number, j] = column_out[j]
         if share[0] == 0:
-            half[count:] = 0
+            row_spectra[count:] = 0
         for group in range(squares.begun.size):
             if squares.begun[group]:
-                term_of_group(plan, singles, squares, term, group, out)
+                term_of_group(plan, single_columns, squares, term, group, out)
 
 
 @compiled
-def term_of_group(plan, singles, squares, term, group, out):
-    """Rows of a group from a half-way array, destroyed there, added as `rows_back_squared` does."""
+def term_of_group(plan, single_columns, squares, term, group, out):
+    """Transform a group of rows of one term back along y and add their weighted squares to the sum in `out`.
+
+    The group's row spectra are destroyed.
+    """
     start = group * GROUP
     count = min(plan.nx, start + GROUP) - start
     rows, weight, last = squares.rows, squares.weights[term], squares.weights.size - 1
-    fftw_plan = singles.rows[0 if count == GROUP else 1]
-    execute(plan.executors[2], fftw_plan, squares.halves[term, 0, start:].ctypes.data, rows.ctypes.data)
+    fftw_plan = single_columns.rows[0 if count == GROUP else 1]
+    execute(plan.executors[2], fftw_plan, squares.row_spectra[term, 0, start:].ctypes.data, rows.ctypes.data)
     for i in range(count):
         if term == 0:
             for j in range(plan.ny):
@@ -328,7 +363,7 @@ def term_of_group(plan, singles, squares, term, group, out):
 
 @compiled
 def _columns_forward(plan, scratch, block):
-    """Transform a block of columns of the row spectra along x into `columns_out`."""
+    """Transform a block of columns of the row spectra along x into `scratch.columns_out`."""
     start, fftw_plan = plan.columns[block], plan.column_plans[0, block]
     if plan.unpadded_columns:
         source = plan.row_spectra[start:].ctypes.data
@@ -345,7 +380,7 @@ def _columns_forward(plan, scratch, block):
 
 @compiled
 def _columns_back(plan, scratch, block):
-    """Transform a block of `columns` back along x into the row spectra."""
+    """Transform a block of `scratch.columns` back along x into the row spectra."""
     start, fftw_plan = plan.columns[block], plan.column_plans[1, block]
     if plan.unpadded_columns:
         execute(plan.executors[1], fftw_plan, scratch.columns.ctypes.data, plan.row_spectra[start:].ctypes.data)
@@ -357,9 +392,9 @@ def _columns_back(plan, scratch, block):
 
 
 @compiled
-def multiply(plan, factor, given, target, block, offset):
-    """Multiply a block of columns, from `offset` on in `given`, by the factor and the inverse transform's scale."""
-    start, count, rows = plan.columns[block], plan.columns[block + 1] - plan.columns[block], rows_of(factor)
+def multiply_block(plan, factor, given, target, block, offset):
+    """Multiply a block of columns of `given`, from column `offset` on, by the factor and the scale of the inverse."""
+    start, count, rows = plan.columns[block], plan.columns[block + 1] - plan.columns[block], factor_rows(factor)
     source, result, scale, length = given.ctypes.data, target.ctypes.data, plan.scales[block], plan.lengths[block]
     for i in range(count):
         own = source + (offset + i) * given.strides[0], result + i * target.strides[0]
@@ -367,7 +402,7 @@ def multiply(plan, factor, given, target, block, offset):
 
 
 @compiled
-def rows_of(factor):
+def factor_rows(factor):
     """Return the addresses of a factor's parts, bytes from row to row, and parities, for `multiply_column`."""
     real, imaginary = factor.real, factor.imaginary
     begins, strides = (real.ctypes.data, imaginary.ctypes.data), (real.strides[0], imaginary.strides[0])
@@ -375,25 +410,28 @@ def rows_of(factor):
 
 
 @compiled
-def _fetch_rows(rows, number, size):
-    """Ask for a column's row of both parts, of so many bytes."""
+def _prefetch_rows(rows, number, size):
+    """Prefetch `size` bytes of a column's row of both parts of a factor."""
     begins, strides, parities = rows
     for part in range(2):
         if parities[part] == 1 or parities[part] == -1:
             begin = begins[part] + number * strides[part]
             for line in range(begin, begin + size, LINE):
-                fetch(line)
+                prefetch(line)
 
 
 @compiled
 def multiply_column(rows, number, given, target, scale, length):
-    """Multiply the column `number` by a factor (given by `rows_of`) and a scale; `given`, `target` are addresses.
+    """Multiply the column `number` by a factor (given by `factor_rows`) and a scale; `given`, `target` are addresses.
 
     The loop runs over real numbers, two for each complex number: a third less time than complex arithmetic.
     """
     begins, strides, parities = rows
-    real, imaginary = numbers(begins[0] + number * strides[0], scale), numbers(begins[1] + number * strides[1], scale)
-    source, result = numbers(given, scale), numbers(target, scale)
+    real, imaginary = (
+        pointer_to(begins[0] + number * strides[0], scale),
+        pointer_to(begins[1] + number * strides[1], scale),
+    )
+    source, result = pointer_to(given, scale), pointer_to(target, scale)
     half = length // 2 + 1
     first = scale if parities[0] > 0 else -scale
     second = scale if parities[1] > 0 else -scale

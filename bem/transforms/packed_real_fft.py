@@ -7,8 +7,7 @@ is, with s, d = (K[k, l] +- K[m - k, l]) / 2 and t = pi k / m,
     Z'[k, l] = (s - d sin t) Z[k, l] + i d cos t conj(Z[m - k, -l]).
 
 The real field's spectrum is X[k] = E + O, conj(X[m - k]) = E - O with Z[k] = E + i exp(i t) O. Unpacking, product and
-packing are one step. FFTW has vector instructions for complex rows only: a convolution takes 0.7 of the time of one
-with real rows in single precision, 0.8 to 0.9 in double (128 to 2048 cells a side).
+packing are one step. FFTW has vector instructions for complex rows only, so packed rows are faster than real ones.
 
 Knows a plan and scratch (`loops`). Verified in tests/test_transforms.py against transforms of real rows.
 """
@@ -16,19 +15,25 @@ Knows a plan and scratch (`loops`). Verified in tests/test_transforms.py against
 from __future__ import annotations
 
 from bem.compiled import compiled
-from bem.transforms.addresses import numbers
+from bem.transforms.addresses import pointer_to
 from bem.transforms.plans import execute
 
 
 @compiled
 def packed_columns_through(plan, scratch, kernel, first, last):
     """Transform the pairs of columns k and m - k (first <= k < last) along x, multiply, and transform back."""
-    waves, half, whole, nx, length = plan.spectra, plan.row_spectra, plan.unpadded_columns, plan.nx, plan.lengths[0]
+    waves, row_spectra, whole, nx, length = (
+        plan.spectra,
+        plan.row_spectra,
+        plan.unpadded_columns,
+        plan.nx,
+        plan.lengths[0],
+    )
     sines, cosines, scale = plan.twiddles[0], plan.twiddles[1], plan.scales[0]
-    there, back = (plan.executors[1], plan.column_plans[0, 0]), (plan.executors[1], plan.column_plans[1, 0])
-    given, done = scratch.columns, scratch.columns_out
-    begin, line, rows, row = half.ctypes.data, half.strides[0], kernel.ctypes.data, kernel.strides[0]
-    spectra, results = done.ctypes.data, given.ctypes.data
+    forward, backward = (plan.executors[1], plan.column_plans[0, 0]), (plan.executors[1], plan.column_plans[1, 0])
+    columns, columns_out = scratch.columns, scratch.columns_out
+    begin, line, rows, row = row_spectra.ctypes.data, row_spectra.strides[0], kernel.ctypes.data, kernel.strides[0]
+    spectra, results = columns_out.ctypes.data, columns.ctypes.data
     for k in range(first, last):
         other = waves - k if k > 0 else 0
         number = 1 if other == k else 2
@@ -37,23 +42,23 @@ def packed_columns_through(plan, scratch, kernel, first, last):
             source = begin + column * line
             if not whole:
                 for j in range(nx):
-                    given[place, j] = half[column, j]
+                    columns[place, j] = row_spectra[column, j]
                 for j in range(nx, length):
-                    given[place, j] = 0
-                source = results + place * given.strides[0]
-            execute(there[0], there[1], source, spectra + place * done.strides[0])
-        partner = (number - 1) * done.strides[0], (number - 1) * given.strides[0]
+                    columns[place, j] = 0
+                source = results + place * columns.strides[0]
+            execute(forward[0], forward[1], source, spectra + place * columns_out.strides[0])
+        partner = (number - 1) * columns_out.strides[0], (number - 1) * columns.strides[0]
         own, beside = (spectra, results), (spectra + partner[0], results + partner[1])
         pair = rows + k * row, rows + (waves - k) * row
         _multiply_pair(pair, own, beside, length, (sines[k], cosines[k]), scale)
         for place in range(number):
-            column, source = other if place else k, results + place * given.strides[0]
+            column, source = other if place else k, results + place * columns.strides[0]
             if whole:
-                execute(back[0], back[1], source, begin + column * line)
+                execute(backward[0], backward[1], source, begin + column * line)
                 continue
-            execute(back[0], back[1], source, spectra + place * done.strides[0])
+            execute(backward[0], backward[1], source, spectra + place * columns_out.strides[0])
             for j in range(nx):
-                half[column, j] = done[place, j]
+                row_spectra[column, j] = columns_out[place, j]
 
 
 @compiled
@@ -62,15 +67,16 @@ def _multiply_pair(rows, here, there, length, turn, scale):
 
     Parameters
     ----------
-    rows : addresses of the kernel's two rows.
-    here, there : addresses of each column and its result; equal where a column is its own partner.
-    length : of the columns.
-    turn : sine and cosine.
+    rows : addresses of the kernel's rows k and m - k.
+    here, there : (address of the column, address of its result) for k and for m - k; equal if a column is its own
+        partner.
+    length : length of the columns.
+    turn : (sin t, cos t).
     scale : half the scale of the inverse transform.
     """
-    first, second = numbers(rows[0], scale), numbers(rows[1], scale)
-    one, other = numbers(here[0], scale), numbers(there[0], scale)
-    own, partner = numbers(here[1], scale), numbers(there[1], scale)
+    first, second = pointer_to(rows[0], scale), pointer_to(rows[1], scale)
+    one, other = pointer_to(here[0], scale), pointer_to(there[0], scale)
+    own, partner = pointer_to(here[1], scale), pointer_to(there[1], scale)
     arrays, turned = (one, other, own, partner), (turn[0], turn[1], scale)
     _multiply_at(first[0], second[0], arrays, 0, 0, turned)
     half = length // 2 + 1

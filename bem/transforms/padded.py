@@ -1,4 +1,8 @@
-"""Padded real transforms and convolutions: a pass of rows along y and a pass of columns along x, in cached blocks."""
+"""Transforms and convolutions of real fields padded with zeros: a pass over rows along y, a pass over columns along x.
+
+`PaddedTransform` owns the plans and buffers of one shape, and shares the blocks of each pass among threads. The passes
+are compiled (`loops`).
+"""
 
 from __future__ import annotations
 
@@ -15,16 +19,17 @@ from numpy.typing import DTypeLike, NDArray
 from bem.threads import ForkSafeLock, share, threads_for
 from bem.transforms import loops
 from bem.transforms.count import COUNT
-from bem.transforms.loops import GROUP, Factor, Scratch, Singles, Squares, TransformPlan
+from bem.transforms.loops import GROUP, Factor, Scratch, SingleColumnPlans, Squares, TransformPlan
+from bem.transforms.multipliers import Multiplier, unit_factor
 from bem.transforms.plans import ALIGNMENT, aligned_empty, aligned_zeros, library
-from bem.transforms.products import Multiplier, unit_factor
 
 FloatArray = NDArray[Any]
 ComplexArray = NDArray[Any]
 
 _BLOCK_BYTES = 1 << 18
+"""Size of a block of rows or columns [bytes]: it stays in the cache of a core."""
 _PIECES = 2
-"""Pieces of a pass per thread, so that a thread that begins late does less."""
+"""Pieces of a pass per thread, so that a thread that begins late takes fewer."""
 _COUNTING = ForkSafeLock()
 COMPLEX: dict[np.dtype[Any], np.dtype[Any]] = {
     np.dtype(np.float64): np.dtype(np.complex128),
@@ -34,7 +39,10 @@ COMPLEX: dict[np.dtype[Any], np.dtype[Any]] = {
 
 
 def _stride(length: int, itemsize: int) -> int:
-    """Return the row length in memory: whole cache lines, not a multiple of 2 kB (rows would share cache sets)."""
+    """Return the distance of rows in memory, in entries: whole cache lines, but no multiple of 2 kB.
+
+    Rows at multiples of 2 kB would share cache sets.
+    """
     line = ALIGNMENT // itemsize
     stride = -(-length // line) * line
     if stride * itemsize % 2048 == 0 and stride > line:
@@ -43,13 +51,13 @@ def _stride(length: int, itemsize: int) -> int:
 
 
 def _block(rows: int, row_bytes: int, granule: int) -> int:
-    """Return the rows in a block: about a quarter of a megabyte, in whole cache lines of the transposed array."""
-    wanted = max(1, _BLOCK_BYTES // max(1, row_bytes))
-    return min(rows, max(granule, wanted // granule * granule))
+    """Return the number of rows in a block of about `_BLOCK_BYTES`: a multiple of `granule`, at most `rows`."""
+    rows_in_budget = max(1, _BLOCK_BYTES // max(1, row_bytes))
+    return min(rows, max(granule, rows_in_budget // granule * granule))
 
 
 def _blocks_of_columns(lengths: Sequence[int], largest: int) -> NDArray[np.int64]:
-    """Return the edges of blocks of columns: at most `largest` columns each, all of one length."""
+    """Return the edges of blocks of columns, (blocks + 1,): blocks of at most `largest` columns of one length."""
     edges = [0]
     for end in [*(k for k in range(1, len(lengths)) if lengths[k] != lengths[k - 1]), len(lengths)]:
         edges += [*range(edges[-1] + largest, end, largest), end]
@@ -57,11 +65,14 @@ def _blocks_of_columns(lengths: Sequence[int], largest: int) -> NDArray[np.int64
 
 
 class PaddedTransform:
-    """Transforms of fields of one shape, padded with zeros to another, in one precision. Get it from `transform_of`.
+    """Transforms of fields of one shape, padded with zeros to another, in one precision; made by `transform_of`.
 
-    beside : the double-precision transform whose `single` this is; both share one buffer.
-    lengths : of the transforms along x, for each wavenumber along y, where not all are padded alike (`narrow`). Of a
-        spectrum's row (px,) only the first so many numbers mean something then, and of a multiplier's half of them.
+    shape : (nx, ny), shape of the field.
+    padded : (px, py), lengths of the transforms.
+    lengths : (py // 2 + 1,), lengths of the transforms along x for each wavenumber along y, if they differ
+        (`narrowed_lengths`). Only the first entries of a spectrum's row (px,) are defined then, as many as its length,
+        and half as many of a multiplier's row.
+    double : double-precision transform whose `single` this is; both share one buffer of row spectra.
     """
 
     def __init__(
@@ -70,7 +81,7 @@ class PaddedTransform:
         padded: tuple[int, int],
         dtype: DTypeLike = np.float64,
         lengths: tuple[int, ...] | None = None,
-        beside: PaddedTransform | None = None,
+        double: PaddedTransform | None = None,
     ) -> None:
         self.shape = shape
         self.padded = padded
@@ -78,28 +89,31 @@ class PaddedTransform:
         self.dtype: np.dtype[Any] = np.dtype(dtype)
         self.complex_dtype: np.dtype[Any] = COMPLEX[self.dtype]
         self.spectrum_shape = (padded[1] // 2 + 1, padded[0])
-        self._half_stride = _stride(shape[0], self.complex_dtype.itemsize)
+        self._row_spectra_stride = _stride(shape[0], self.complex_dtype.itemsize)
         self._spectrum_stride = _stride(padded[0], self.complex_dtype.itemsize)
         self._real_stride = -(-padded[1] * self.dtype.itemsize // ALIGNMENT) * (ALIGNMENT // self.dtype.itemsize)
         line = ALIGNMENT // self.complex_dtype.itemsize
         self._row_block = _block(shape[0], self._real_stride * self.dtype.itemsize, line)
         self._column_block = _block(self.spectrum_shape[0], self._spectrum_stride * self.complex_dtype.itemsize, 1)
         self._row_blocks = -(-shape[0] // self._row_block)
-        given = (padded[0],) * self.spectrum_shape[0] if lengths is None else lengths
-        columns = _blocks_of_columns(given, self._column_block)
+        column_lengths = (padded[0],) * self.spectrum_shape[0] if lengths is None else lengths
+        columns = _blocks_of_columns(column_lengths, self._column_block)
         self._column_blocks = len(columns) - 1
-        self._ends: list[int] = columns.tolist()
-        """Columns in the first so many blocks, none first; and below how many numbers they are together."""
-        self._numbers = [0, *np.cumsum(np.diff(columns) * [given[start] for start in columns[:-1]]).tolist()]
-        self.lock: ForkSafeLock = ForkSafeLock() if beside is None else beside.lock
-        self._unit = unit_factor(self.dtype)
+        self._column_edges: list[int] = columns.tolist()
+        """Number of columns in the first k blocks, k = 0, 1, ...; and below, of entries in these columns."""
+        self._column_entries = [
+            0,
+            *np.cumsum(np.diff(columns) * [column_lengths[start] for start in columns[:-1]]).tolist(),
+        ]
+        self.lock: ForkSafeLock = ForkSafeLock() if double is None else double.lock
+        self._unit_factor = unit_factor(self.dtype)
         self._scratch: list[Scratch] = []
         self._prepared = 0
-        half = self._half_way(beside)
-        block_lengths = np.array([given[start] for start in columns[:-1]], np.int64)
-        self.nbytes = int(half.nbytes) if beside is None else 0
-        """Memory of buffers, those of `single` included."""
-        self._beside, self.lengths = beside, lengths
+        row_spectra = self._allocate_row_spectra(double)
+        block_lengths = np.array([column_lengths[start] for start in columns[:-1]], np.int64)
+        self.nbytes = int(row_spectra.nbytes) if double is None else 0
+        """Memory of the buffers [bytes], with those of `single`."""
+        self._double, self.lengths = double, lengths
         self.plan = TransformPlan(
             nx=shape[0],
             ny=shape[1],
@@ -113,25 +127,25 @@ class PaddedTransform:
             column_plans=np.zeros((2, self._column_blocks), np.int64),
             lengths=block_lengths,
             scales=(1.0 / (block_lengths * padded[1])).astype(self.dtype),
-            row_spectra=half,
+            row_spectra=row_spectra,
             twiddles=np.empty((2, 0), self.dtype),
         )
-        self._packed_plan = self._plan_of_packed_rows() if lengths is None and padded[1] % 2 == 0 else None
+        self._packed_plan = self._packed_rows_plan() if lengths is None and padded[1] % 2 == 0 else None
 
     @cached_property
     def single(self) -> PaddedTransform:
-        """The transform in single precision; it shares this transform's buffer."""
+        """Transform in single precision; it shares the buffer of row spectra with this one."""
         return PaddedTransform(self.shape, self.padded, np.float32, self.lengths, self)
 
-    def _half_way(self, beside: PaddedTransform | None) -> ComplexArray:
-        """Return the array of row spectra: a new one, or the memory of the double-precision transform's."""
-        shape = (self.spectrum_shape[0], self._half_stride)
-        if beside is None:
+    def _allocate_row_spectra(self, double: PaddedTransform | None) -> ComplexArray:
+        """Return the array of row spectra, (py // 2 + 1, stride): new, or in the memory of the double-precision one."""
+        shape = (self.spectrum_shape[0], self._row_spectra_stride)
+        if double is None:
             return aligned_empty(shape, self.complex_dtype)
-        return beside.plan.row_spectra.reshape(-1).view(self.complex_dtype)[: shape[0] * shape[1]].reshape(shape)
+        return double.plan.row_spectra.reshape(-1).view(self.complex_dtype)[: shape[0] * shape[1]].reshape(shape)
 
-    def _plan_of_packed_rows(self) -> TransformPlan:
-        """Return the plan for even kernels: rows are complex of half the length, columns go in pairs."""
+    def _packed_rows_plan(self) -> TransformPlan:
+        """Return the plan for even kernels: complex rows of half the length, columns in pairs (`packed_real_fft`)."""
         waves = self.padded[1] // 2
         number, most = waves // 2 + 1, max(1, self._column_block // 2)
         columns = np.array([*range(0, number, most), number], np.int64)
@@ -150,7 +164,7 @@ class PaddedTransform:
         )
 
     def plan_for(self, factor: Factor) -> TransformPlan:
-        """Return the plan that `loops.convolve` and `loops.convolve_cells` take, by the parity of the multiplier."""
+        """Return the plan for `loops.convolve` and `loops.convolve_cells`: packed rows if the multiplier is even."""
         even = factor.real_parity == 1 and factor.imaginary_parity == 0
         return self.plan if self._packed_plan is None or not even else self._packed_plan
 
@@ -172,8 +186,8 @@ class PaddedTransform:
         out = self.empty_spectrum() if out is None else out
         with self.lock:
             self.ready(threads_for(self.entries))
-            self._each(loops.rows_forward, self._row_blocks, self._plain(values))
-            self._each(loops.columns_out, self._column_blocks, out)
+            self._run_pass(loops.rows_forward, self._row_blocks, self._contiguous(values))
+            self._run_pass(loops.columns_out, self._column_blocks, out)
         self._count(forward=1, blocks=self._column_blocks)
         return out
 
@@ -187,21 +201,22 @@ class PaddedTransform:
     ) -> FloatArray:
         """Return the first (nx, ny) of the field whose spectrum is `spectrum` times `factor`; `spectrum` is kept.
 
-        columns : how many wavenumbers along y count, from zero on; the others' columns are left out, by whole blocks.
+        columns : number of wavenumbers along y, from zero on, that are not zero; other columns are left out, by whole
+            blocks. Default: all.
         """
         out = np.empty(self.shape, self.dtype) if out is None else out
-        plain = out if self._is_plain(out) else np.empty(self.shape, self.dtype)
-        parts = self._unit if factor is None else factor.factor(self.dtype)
+        contiguous = out if self._is_contiguous(out) else np.empty(self.shape, self.dtype)
+        parts = self._unit_factor if factor is None else factor.factor(self.dtype)
         with self.lock:
             self.ready(threads_for(self.entries))
-            wanted = self.spectrum_shape[0] if columns is None else columns
-            blocks = bisect_left(self._ends, wanted)
-            self._each(loops.columns_in, blocks, parts, spectrum)
-            self.plan.row_spectra[self._ends[blocks] :] = 0
-            self._each(loops.rows_back, self._row_blocks, plain)
+            kept = self.spectrum_shape[0] if columns is None else columns
+            blocks = bisect_left(self._column_edges, kept)
+            self._run_pass(loops.columns_in, blocks, parts, spectrum)
+            self.plan.row_spectra[self._column_edges[blocks] :] = 0
+            self._run_pass(loops.rows_back, self._row_blocks, contiguous)
         self._count(inverse=1, blocks=blocks)
-        if plain is not out:
-            out[...] = plain
+        if contiguous is not out:
+            out[...] = contiguous
         return out
 
     def inverse_squared(
@@ -214,23 +229,27 @@ class PaddedTransform:
         stage: int,
         columns: int | None,
     ) -> None:
-        """The square of what `inverse` gives, times a weight: `stage` says whether it begins the sum in `out`, goes on
-        with it, or ends it with its root (`loops.BEGINS`, `GOES_ON`, `ENDS`). The field itself is nowhere stored."""
+        """Add the weighted square of an inverse transform to a sum of squares, without storing the field.
+
+        spectrum, factor, columns : as in `inverse`.
+        out : (nx, ny), the sum.
+        stage : role of the term: first, middle, or last with the square root (`loops.BEGINS`, `GOES_ON`, `ENDS`).
+        """
         parts, threads = factor.factor(self.dtype), threads_for(self.entries)
         with self.lock:
             scratch = self.ready(threads)
-            blocks = bisect_left(self._ends, self.spectrum_shape[0] if columns is None else columns)
+            blocks = bisect_left(self._column_edges, self.spectrum_shape[0] if columns is None else columns)
             if threads == 1:
                 loops.inverse_squared(self.plan, scratch, parts, spectrum, blocks, weight, stage, out)
             else:
-                self._each(loops.columns_in, blocks, parts, spectrum)
-                self.plan.row_spectra[self._ends[blocks] :] = 0
-                self._each(loops.rows_back_squared, self._row_blocks, weight, stage, out)
+                self._run_pass(loops.columns_in, blocks, parts, spectrum)
+                self.plan.row_spectra[self._column_edges[blocks] :] = 0
+                self._run_pass(loops.rows_back_squared, self._row_blocks, weight, stage, out)
         self._count(inverse=1, blocks=blocks)
 
     def empty_squares(self, weights: FloatArray) -> Squares:
-        """TransformPlan for the root of a sum of squares of so many fields, of which no group is begun."""
-        shape = (len(weights), self.spectrum_shape[0], self._half_stride)
+        """Return empty buffers for the root of a sum of squares of fields, one for each weight; no group is begun."""
+        shape = (len(weights), self.spectrum_shape[0], self._row_spectra_stride)
         halves = aligned_empty(shape, self.complex_dtype)
         rows = aligned_empty((GROUP, self._real_stride), self.dtype)
         columns, begun = np.zeros(len(weights), np.int64), np.zeros(-(-self.shape[0] // GROUP), np.bool_)
@@ -244,15 +263,21 @@ class PaddedTransform:
         terms: tuple[int, int],
         out: FloatArray,
     ) -> None:
-        """The first of the two passes of `inverse` for the terms (first, last) of a sum of squares, one factor each;
-        the second one in the groups that are begun. `loops.term_of_group` does it in the others."""
-        threads, singles = threads_for(self.entries), self.singles
+        """Transform terms of a sum of squares back along x, and along y in the groups of rows that are begun.
+
+        The other groups are transformed along y by `loops.term_of_group`.
+
+        spectrum : spectrum of all terms, to be multiplied by one of the `factors` for each term.
+        terms : (first, last), range of the terms.
+        out : (nx, ny), the sum; only the rows of begun groups are written.
+        """
+        threads, single_columns = threads_for(self.entries), self.single_column_plans
         own = (factors, spectrum, squares, terms)
         with self.lock:
             self.ready(threads)
 
             def work(number: int, block: int) -> None:
-                loops.terms_back(self.plan, singles, self._scratch[number], *own, (block, threads), out)
+                loops.terms_back(self.plan, single_columns, self._scratch[number], *own, (block, threads), out)
 
             if threads == 1:
                 work(0, 0)
@@ -261,57 +286,61 @@ class PaddedTransform:
         for count in squares.columns[slice(*terms)].tolist():
             COUNT.inverse += 1
             COUNT.columns += count
-            COUNT.numbers += int(singles.numbers[count])
+            COUNT.numbers += int(single_columns.cumulative_lengths[count])
 
     @cached_property
-    def singles(self) -> Singles:
-        """Plans for the way back in small portions, made when they are first asked for."""
+    def single_column_plans(self) -> SingleColumnPlans:
+        """Plans of single columns and of groups of rows, created on first use."""
         with self.lock:
             scratch, fftw = self.ready(1), library(self.dtype)
             each = np.diff(self.plan.columns)
             lengths, stride = np.repeat(self.plan.lengths, each), self._spectrum_stride
             data = (scratch.columns.ctypes.data, scratch.columns_out.ctypes.data)
-            made = {
+            plans_by_length = {
                 length: fftw.complex(length, 1, (1, 1, stride, stride), data, back=True)
                 for length in set(lengths.tolist())
             }
-            across = (self._half_stride, 1, 1, self._real_stride)
+            across = (self._row_spectra_stride, 1, 1, self._real_stride)
             data = (self.plan.row_spectra.ctypes.data, self.empty_squares(np.ones(1)).rows.ctypes.data)
             rows = [
                 fftw.complex_to_real(self.padded[1], count, across, data)
                 for count in (min(GROUP, self.shape[0]), self.shape[0] % GROUP or GROUP)
             ]
-            weakref.finalize(self, fftw.destroy, [*made.values(), *rows])
-            plans = np.array([made[length] for length in lengths.tolist()], np.int64)
+            weakref.finalize(self, fftw.destroy, [*plans_by_length.values(), *rows])
+            plans = np.array([plans_by_length[length] for length in lengths.tolist()], np.int64)
             scales, numbers = np.repeat(self.plan.scales, each), np.append(0, np.cumsum(lengths))
-            return Singles(plans, lengths, scales, numbers, np.array(rows, np.int64))
+            return SingleColumnPlans(plans, lengths, scales, numbers, np.array(rows, np.int64))
 
     def convolve(self, values: FloatArray, factor: Multiplier, out: FloatArray | None = None) -> FloatArray:
-        """Convolve a field without storing a whole padded spectrum; `out` may be `values`."""
+        """Return the field (nx, ny) convolved with the kernel of a multiplier; `out` may be `values`.
+
+        The padded spectrum as a whole is not stored.
+        """
         out = np.empty(self.shape, self.dtype) if out is None else out
-        values = self._plain(values)
-        plain = out if self._is_plain(out) else np.empty(self.shape, self.dtype)
+        values = self._contiguous(values)
+        contiguous = out if self._is_contiguous(out) else np.empty(self.shape, self.dtype)
         parts = factor.factor(self.dtype)
         threads, plan = threads_for(self.entries), self.plan_for(parts)
         with self.lock:
             scratch = self.ready(threads)
             if threads == 1:
-                loops.convolve(plan, scratch, parts, values, plain)
+                loops.convolve(plan, scratch, parts, values, contiguous)
             else:
-                self._each(loops.rows_forward, self._row_blocks, values, plan=plan)
-                self._each(loops.columns_through, plan.lengths.size, parts, plan=plan)
-                self._each(loops.rows_back, self._row_blocks, plain, plan=plan)
+                self._run_pass(loops.rows_forward, self._row_blocks, values, plan=plan)
+                self._run_pass(loops.columns_through, plan.lengths.size, parts, plan=plan)
+                self._run_pass(loops.rows_back, self._row_blocks, contiguous, plan=plan)
         self.counted(1)
-        if plain is not out:
-            out[...] = plain
+        if contiguous is not out:
+            out[...] = contiguous
         return out
 
     def convolve_cells(
         self, cells: NDArray[np.int64], values: FloatArray, factor: Multiplier, out: FloatArray
     ) -> FloatArray:
-        """Convolve a field with these values on some cells (flat indices, ascending) and zero elsewhere.
+        """Return the convolution of a field that is zero except for `values` (n,) on `cells`.
 
-        `out` is a contiguous field of this precision.
+        cells : (n,), flat indices, ascending. Blocks of rows without a cell are not transformed along y.
+        out : contiguous field (nx, ny) of this precision.
         """
         parts, threads = factor.factor(self.dtype), threads_for(self.entries)
         plan = self.plan_for(parts)
@@ -320,23 +349,27 @@ class PaddedTransform:
             if threads == 1:
                 loops.convolve_cells(plan, scratch, parts, cells, values, out)
             else:
-                self._each(loops.rows_forward_of_cells, self._row_blocks, cells, values, plan=plan)
-                self._each(loops.columns_through, plan.lengths.size, parts, plan=plan)
-                self._each(loops.rows_back, self._row_blocks, out, plan=plan)
+                self._run_pass(loops.rows_forward_of_cells, self._row_blocks, cells, values, plan=plan)
+                self._run_pass(loops.columns_through, plan.lengths.size, parts, plan=plan)
+                self._run_pass(loops.rows_back, self._row_blocks, out, plan=plan)
         self.counted(1)
         return out
 
     def counted(self, convolutions: int) -> None:
-        """Add convolutions to this process's count: here, or by a compiled loop that called `loops.convolve`."""
+        """Add a number of convolutions to the count of this process; for callers of `loops.convolve`."""
         self._count(forward=convolutions, inverse=convolutions, blocks=self._column_blocks)
 
     def ready(self, threads: int) -> Scratch:
-        """Prepare plans, and scratch for every thread; return the first thread's. The caller holds `lock`."""
+        """Return the scratch of the first thread after preparing plans, and scratch for all threads.
+
+        The caller holds `lock`.
+        """
         if self._prepared < threads:
             self._prepare(threads)
         return self._scratch[0]
 
     def _prepare(self, threads: int) -> None:
+        """Allocate scratch for the threads that have none; create the plans with the first."""
         while len(self._scratch) < threads:
             rows = (self._row_block, self._real_stride)
             spectra = (self._row_block, _stride(self.spectrum_shape[0], self.complex_dtype.itemsize))
@@ -349,43 +382,48 @@ class PaddedTransform:
                 aligned_zeros(columns, self.complex_dtype),
             )
             if not self._scratch:
-                self._plan(scratch)
+                self._make_plans(scratch)
             self._scratch.append(scratch)
-            (self._beside or self).nbytes += sum(array.nbytes for array in scratch)
+            (self._double or self).nbytes += sum(array.nbytes for array in scratch)
         self._prepared = len(self._scratch)
 
-    def _plan(self, scratch: Scratch) -> None:
-        """Plans for whole blocks of rows, for the last one, and for each kind of blocks of columns; they go when this
-        transform does."""
+    def _make_plans(self, scratch: Scratch) -> None:
+        """Create plans for whole blocks of rows, for the last block, and for each shape of a block of columns.
+
+        They are destroyed with this transform.
+        """
         fftw, plan = library(self.dtype), self.plan
         half, columns = plan.row_spectra.ctypes.data, scratch.columns.ctypes.data
         rows_in, rows_out = scratch.rows.ctypes.data, scratch.rows_out.ctypes.data
-        real, spectra, stride = self._real_stride, scratch.rows_spectrum.shape[1], self._half_stride
+        real, spectra, stride = self._real_stride, scratch.rows_spectrum.shape[1], self._row_spectra_stride
         for last in range(2):
             rows = self.shape[0] - (self._row_blocks - 1) * self._row_block if last else self._row_block
             out = scratch.rows_spectrum.ctypes.data
             plan.row_plans[0, last] = fftw.real_to_complex(self.padded[1], rows, (1, 1, real, spectra), (rows_in, out))
             plan.row_plans[1, last] = fftw.complex_to_real(self.padded[1], rows, (stride, 1, 1, real), (half, rows_out))
-        # from one array into another: plans made without timing are a quarter faster so than in place
+        # from one array into another: plans without timing are a quarter faster than in place
         along = (1, 1, self._spectrum_stride, self._spectrum_stride)
         done = (columns, scratch.columns_out.ctypes.data)
-        made: dict[tuple[int, int], list[int]] = {}
+        plans_by_length: dict[tuple[int, int], list[int]] = {}
         for block, own in enumerate(zip(plan.lengths.tolist(), np.diff(plan.columns).tolist(), strict=True)):
-            if own not in made:
-                made[own] = [fftw.complex(*own, along, done, back=back) for back in (False, True)]
-            plan.column_plans[:, block] = made[own]
-        plans = [*plan.row_plans.ravel().tolist(), *(fftw_plan for pair in made.values() for fftw_plan in pair)]
+            if own not in plans_by_length:
+                plans_by_length[own] = [fftw.complex(*own, along, done, back=back) for back in (False, True)]
+            plan.column_plans[:, block] = plans_by_length[own]
+        plans = [
+            *plan.row_plans.ravel().tolist(),
+            *(fftw_plan for pair in plans_by_length.values() for fftw_plan in pair),
+        ]
         if self._packed_plan is not None:
-            plans += self._plan_pairs(self._packed_plan, scratch)
+            plans += self._make_packed_plans(self._packed_plan, scratch)
         weakref.finalize(self, fftw.destroy, plans)
 
-    def _plan_pairs(self, plan: TransformPlan, scratch: Scratch) -> list[int]:
-        """Make plans for complex rows of half the length, and for one column."""
+    def _make_packed_plans(self, plan: TransformPlan, scratch: Scratch) -> list[int]:
+        """Create plans for packed rows (complex, half the length) and for one column; return their addresses."""
         fftw, half, columns = library(self.dtype), plan.row_spectra.ctypes.data, scratch.columns.ctypes.data
         rows_in, rows_out, spectra = (
             array.ctypes.data for array in (scratch.rows, scratch.rows_out, scratch.rows_spectrum)
         )
-        row, stride, across = self._real_stride // 2, self._half_stride, scratch.rows_spectrum.shape[1]
+        row, stride, across = self._real_stride // 2, self._row_spectra_stride, scratch.rows_spectrum.shape[1]
         for last in range(2):
             rows = self.shape[0] - (self._row_blocks - 1) * self._row_block if last else self._row_block
             plan.row_plans[0, last] = fftw.complex(
@@ -396,8 +434,8 @@ class PaddedTransform:
         plan.column_plans[:, 0] = [fftw.complex(self.padded[0], 1, along, done, back=back) for back in (False, True)]
         return [*plan.row_plans.ravel().tolist(), *plan.column_plans.ravel().tolist()]
 
-    def _each(self, loop: Any, blocks: int, *arguments: Any, plan: TransformPlan | None = None) -> None:
-        """Run a compiled pass over blocks shared by threads, several blocks a call to spare calls of Python."""
+    def _run_pass(self, loop: Any, blocks: int, *arguments: Any, plan: TransformPlan | None = None) -> None:
+        """Run a compiled pass over blocks that threads share, several blocks in each call."""
         own, threads = self.plan if plan is None else plan, threads_for(self.entries)
         pieces = min(blocks, _PIECES * threads)
         if pieces <= 1 or threads == 1:
@@ -409,19 +447,20 @@ class PaddedTransform:
 
         share(work, pieces, self.entries)
 
-    def _is_plain(self, values: FloatArray) -> bool:
+    def _is_contiguous(self, values: FloatArray) -> bool:
+        """Return True if a field is contiguous, writeable and of this precision."""
         return values.dtype == self.dtype and values.flags.c_contiguous and values.flags.writeable
 
-    def _plain(self, values: FloatArray) -> FloatArray:
-        """Return the field contiguous and in this precision."""
-        return values if self._is_plain(values) else np.array(values, self.dtype, order="C")
+    def _contiguous(self, values: FloatArray) -> FloatArray:
+        """Return the field, or a contiguous copy of it in this precision."""
+        return values if self._is_contiguous(values) else np.array(values, self.dtype, order="C")
 
     def _count(self, *, blocks: int, forward: int = 0, inverse: int = 0) -> None:
-        """Add transforms whose columns are those of the first so many blocks."""
+        """Add transforms to the count, with the columns of the first `blocks` blocks."""
         times = forward + inverse
         with _COUNTING:
             COUNT.forward += forward
             COUNT.inverse += inverse
             COUNT.rows += times * self.shape[0]
-            COUNT.columns += times * self._ends[blocks]
-            COUNT.numbers += times * self._numbers[blocks]
+            COUNT.columns += times * self._column_edges[blocks]
+            COUNT.numbers += times * self._column_entries[blocks]

@@ -1,4 +1,4 @@
-"""FFTW's plans by address, executed by compiled loops without a Python call for each, and memory aligned for them.
+"""FFTW plans that compiled loops execute by address, and aligned memory.
 
 The library is the one that comes with pyfftw, whose Python side is not imported; the functions are found through its
 extension module. Plans are made without timing (FFTW_ESTIMATE), so a result does not depend on the load of the machine.
@@ -49,7 +49,7 @@ class _Axis(ctypes.Structure):
 
 
 class Library:
-    """FFTW's functions of one precision."""
+    """FFTW functions of one precision."""
 
     def __init__(self, dtype: np.dtype[Any]) -> None:
         letter = "" if dtype == np.float64 else "f"
@@ -60,26 +60,30 @@ class Library:
         self._destroy = self._function("destroy_plan", None, 1)
 
     def executors(self) -> NDArray[np.int64]:
-        """Addresses of the functions that execute a plan on given arrays: real to complex, complex, complex to real."""
+        """Return the addresses of the functions that execute a plan: real to complex, complex, complex to real."""
         names = ("execute_dft_r2c", "execute_dft", "execute_dft_c2r")
         addresses = [ctypes.cast(getattr(self._handle, self._prefix + name), ctypes.c_void_p).value for name in names]
         return np.array(addresses, np.int64)
 
     def real_to_complex(self, length: int, rows: int, strides: tuple[int, int, int, int], data: tuple[int, int]) -> int:
-        """Plan `rows` transforms; strides of input and output along a row, and from row to row, in elements."""
+        """Return the address of a plan of `rows` transforms of a length.
+
+        strides : of input and output along a row, then of input and output from row to row [elements].
+        data : addresses of input and output.
+        """
         return self._plan("plan_guru64_dft_r2c", length, rows, strides, data, (_ESTIMATE,))
 
     def complex_to_real(self, length: int, rows: int, strides: tuple[int, int, int, int], data: tuple[int, int]) -> int:
-        """Plan the inverse of `real_to_complex`; it destroys its input."""
+        """Return the address of a plan of the inverse of `real_to_complex`; it destroys its input."""
         return self._plan("plan_guru64_dft_c2r", length, rows, strides, data, (_ESTIMATE | _DESTROY_INPUT,))
 
     def complex(
         self, length: int, rows: int, strides: tuple[int, int, int, int], data: tuple[int, int], *, back: bool
     ) -> int:
-        """Plan transforms between complex rows that keep their input.
+        """Return the address of a plan of transforms between complex rows; it keeps its input.
 
-        There is only one kind of these plans: FFTW reuses parts of earlier plans, so plans of two kinds would depend on
-        what was planned before.
+        All such plans are of one kind. FFTW reuses parts of earlier plans, so plans of two kinds would depend on the
+        order of planning.
         """
         direction = _BACKWARD if back else _FORWARD
         return self._plan("plan_guru64_dft", length, rows, strides, data, (direction, _ESTIMATE))
@@ -122,7 +126,7 @@ class Library:
 
 @cache
 def library(dtype: np.dtype[Any]) -> Library:
-    """FFTW's functions for float64 or float32.
+    """Return the FFTW functions for float64 or float32.
 
     Raises
     ------
@@ -132,7 +136,7 @@ def library(dtype: np.dtype[Any]) -> Library:
 
 
 def _handles() -> Iterator[Any]:
-    """Libraries with FFTW's functions: pyfftw's extension module, or (Windows) the libraries beside it."""
+    """Yield the libraries with FFTW's functions: pyfftw's extension module, or (Windows) the libraries beside it."""
     spec = find_spec("pyfftw")
     for name in [] if spec is None else spec.submodule_search_locations or []:
         folder = Path(name)

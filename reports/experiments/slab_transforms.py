@@ -31,7 +31,7 @@ import scipy.fft
 
 from bem.threads import set_threads
 from bem.transforms import transform_of
-from bem.transforms.products import Multiplier
+from bem.transforms.multipliers import Multiplier
 
 RESULT = Path(__file__).resolve().parents[1] / "results" / "slab_transforms.json"
 REPEATS = 5

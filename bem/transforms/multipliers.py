@@ -1,4 +1,4 @@
-"""Multipliers of spectra: sums of even and odd kernels, stored as a quarter of their values."""
+"""Multipliers of spectra: transforms of sums of even and odd kernels, stored as a quarter of their values."""
 
 from __future__ import annotations
 
@@ -18,12 +18,12 @@ ComplexArray = NDArray[Any]
 
 @dataclass(frozen=True)
 class Multiplier:
-    """Spectrum `real + i imaginary`, each part on non-negative wavenumbers with its parity along x.
+    """Spectrum `real + i imaginary`; each part is stored on non-negative wavenumbers, with its parity along x.
 
     Attributes
     ----------
     real, imaginary : (py // 2 + 1, px // 2 + 1), or None for zero.
-    real_parity, imaginary_parity : the part at wavenumber px - k is its parity times the part at k.
+    real_parity, imaginary_parity : +1 or -1; the part at wavenumber px - k is its parity times the part at k.
     """
 
     real: FloatArray | None = None
@@ -33,7 +33,7 @@ class Multiplier:
 
     @property
     def nbytes(self) -> int:
-        """Memory of the arrays."""
+        """Memory of the arrays [bytes]."""
         return sum(part.nbytes for part in (self.real, self.imaginary) if part is not None)
 
     def factor(self, dtype: np.dtype[Any]) -> Factor:
@@ -66,7 +66,9 @@ class Multiplier:
 
 
 def multiplier(parts: list[tuple[FloatArray, tuple[int, int], float]]) -> Multiplier:
-    """Add kernels `(spectrum from kernel_spectrum, parity, factor)` to one multiplier.
+    """Return the multiplier of a sum of kernels.
+
+    parts : (spectrum from `kernel_spectrum`, parity along x and y, factor) of each kernel.
 
     Raises
     ------
