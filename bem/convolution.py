@@ -1,20 +1,23 @@
-"""Displacement operator: normal surface displacement of one body or a pair under pressure, as a convolution.
+"""Displacement operator: normal surface displacement of one body or a pair under pressure, as a discrete convolution.
 
-One operator serves free and periodic axes, homogeneous and layered bodies, and friction:
+One operator serves free and periodic axes, homogeneous and layered bodies, and friction. Source: discrete convolution
+with zero padding (Liu, Wang and Liu 2000); the kernels have sources of their own.
 
-1. `displacement_operator` checks the arguments.
-2. The kernel is the sum of both bodies' influence coefficients (`bem.kernels`), padded with zeros along free axes. A
-   doubly periodic grid has the response to harmonic loads instead; its mean displacement is zero. Homogeneous bodies
-   have proportional kernels, so one is computed.
-3. The traction friction x pressure adds the kernel of the tangential load, lower body minus upper, where traction
-   changes the normal gap (Dundurs' beta is not zero).
-4. Every kernel is even or odd along each axis: its spectrum is a quarter array of reals. Spectra are cached by grid and
-   elastic constants, within a limit on memory, and shared by all operators.
-5. The spectrum is divided by `unit`, a power of two [m/Pa], so that it is of order one: single precision cannot
-   overflow, and results have the same digits in every system of units.
-6. An application costs one transform forward and one back (`bem.transforms`), in double or single precision.
-7. `coarsened`, `near_field`, `smooth_part` and `scaled_inverse` give the contact solver coarser grids and parts for
-   its preconditioners.
+1. Arguments. `displacement_operator` checks them. Nothing is computed before the first application.
+2. Influence coefficients (`bem.kernels.coefficients`) of each body, summed over both (`_spectrum_of_pair`). A doubly
+   periodic grid takes the response to harmonic loads instead (`bem.kernels.spectral`); its mean displacement is zero.
+   Homogeneous bodies have proportional kernels, so one kernel is computed; with a layer, one for each body.
+3. Friction. The traction friction x pressure adds the coefficients of the tangential load, lower body minus upper, if
+   traction changes the normal gap (`couples`: Dundurs' beta is not zero, or layers differ).
+4. Spectrum (`bem.transforms.kernel_spectra`), padded with zeros along free axes. Every kernel is even or odd along each
+   axis, so its spectrum is a quarter array of real numbers. Spectra are cached by grid and elastic constants, within a
+   limit on memory, and shared by all operators (`cached_spectra`). Cost: one kernel and one transform, once.
+5. Scaling. The spectrum is divided by `unit`, a power of two [m/Pa], so that it is of order one: single precision
+   cannot overflow, and results have the same digits in every system of units.
+6. Application (`ScaledConvolution`): one transform forward and one back (`bem.transforms`), in double or single
+   precision. Cost: n log n.
+7. Parts for the contact solver: `coarsened`, `near_field`, `smooth_part` and `scaled_inverse` give coarser grids and
+   parts for its preconditioners.
 """
 
 from __future__ import annotations
@@ -54,23 +57,29 @@ FloatArray = NDArray[np.float64]
 _SAME = 1e-14
 """Relative difference of moduli below which two bodies count as elastically equal (round-off of input)."""
 
+SMALLEST_GRID = 16
+"""Cells along the longer side of the coarsest grid of `coarsened`."""
+
 
 class ConvolutionCount(threading.local):
-    """Number of applications of an operator, and the same weighted by cells with coarser grids included.
+    """Number of applications of an operator and of its coarser grids.
 
-    Each thread has its own counts, so that contacts solved concurrently on one operator do not share them.
+    Each thread has counts of its own, so that contacts solved concurrently on one operator do not share them.
+
+    applications : number of applications.
+    weighted : the same, each weighted by its number of cells over that of the finest grid.
     """
 
     applications: int = 0
     weighted: float = 0.0
 
     def __reduce__(self) -> tuple[type[ConvolutionCount], tuple[()]]:
-        return ConvolutionCount, ()  # an operator read back has done nothing yet
+        return ConvolutionCount, ()  # the count of an unpickled operator starts at zero
 
     @staticmethod
-    def share(of: float) -> float:
+    def round_weight(weight: float) -> float:
         """Round a weight to a multiple of 2^-32, so that sums up to two million are exact in any order."""
-        return round(of * 2.0**32) / 2.0**32
+        return round(weight * 2.0**32) / 2.0**32
 
 
 @dataclass
@@ -90,11 +99,17 @@ COUNT = KernelCount()
 """Kernels evaluated by this process (spectra taken from the cache are not counted)."""
 
 EVEN, ODD_IN_X = (1, 1), (-1, 1)
+"""Parity (in x, in y) of the kernel of pressure, and of that of traction along x."""
 
 
 @dataclass(frozen=True)
-class Spectra:
-    """Kernel spectra of a pair of bodies on a grid, divided by `unit`."""
+class KernelSpectra:
+    """Kernel spectra of a pair of bodies on a grid, as quarter arrays (py // 2 + 1, px // 2 + 1), divided by `unit`.
+
+    even : spectrum of the kernel of pressure, with the local compliance.
+    odd : imaginary part of the spectrum of the kernel of friction x traction; None if it does not couple.
+    unit : power of two [m/Pa].
+    """
 
     even: FloatArray
     odd: FloatArray | None
@@ -110,7 +125,7 @@ _SPECTRA = KeptValues()
 
 
 def set_spectra_memory(limit: int) -> None:
-    """Bound the memory that cached kernel spectra may hold [bytes]; default 512 MiB, 0 keeps none.
+    """Set the memory [bytes] that cached kernel spectra may hold; default 512 MiB, 0 caches none.
 
     Raises
     ------
@@ -120,20 +135,23 @@ def set_spectra_memory(limit: int) -> None:
 
 
 def spectra_memory() -> int:
-    """Memory held by cached kernel spectra [bytes]."""
+    """Return the memory held by cached kernel spectra [bytes]."""
     return _SPECTRA.nbytes
 
 
-_Kept = TypeVar("_Kept", bound=Sized)
+_Cached = TypeVar("_Cached", bound=Sized)
 
 
-def shared(key: tuple[Any, ...], make: Callable[[], _Kept]) -> _Kept:
-    """Return the spectra of a key from the cache, computed where it does not have them."""
+def cached_spectra(key: tuple[Any, ...], make: Callable[[], _Cached]) -> _Cached:
+    """Return the spectra of a key from the cache of this process; `make` computes them if they are not there."""
     return _SPECTRA.of(key, make)
 
 
-def elastic(body: Body) -> tuple[float, ...]:
-    """Properties that determine the elastic response: moduli and Poisson's ratios of all media, interface depths."""
+def elastic_constants(body: Body) -> tuple[float, ...]:
+    """Return the properties that determine the elastic response of a body.
+
+    Young's modulus and Poisson's ratio of each medium, then the depths of the interfaces.
+    """
     return (*(value for solid in body.media for value in _moduli(solid)), *body.interfaces)
 
 
@@ -142,23 +160,26 @@ def _moduli(material: Material) -> tuple[float, float]:
 
 
 def _coupling(body: Body) -> float:
-    """(1 - 2 nu)/2G [1/Pa]: normal displacement of a homogeneous body under traction is proportional to it."""
+    """Return (1 - 2 nu)/2G [1/Pa], the factor of the normal displacement of a homogeneous body under traction."""
     return (1 - 2 * body.material.poissons_ratio) / (2 * body.material.shear_modulus)
 
 
 def couples(bodies: tuple[Body, ...]) -> bool:
     """Return True if traction changes the normal gap: Dundurs' beta is not zero, or layered bodies differ."""
     if not all(body.homogeneous for body in bodies):
-        return len(bodies) == 1 or elastic(bodies[0]) != elastic(bodies[1])
+        return len(bodies) == 1 or elastic_constants(bodies[0]) != elastic_constants(bodies[1])
     total = sum((-1) ** i * _coupling(body) for i, body in enumerate(bodies))
     return abs(total) > _SAME * sum(abs(_coupling(body)) + 1 / body.material.shear_modulus for body in bodies)
 
 
-def _kernel(grid: Grid, bodies: tuple[Body, ...], load: Load) -> FloatArray:
-    """Compute the spectrum of the kernel of both bodies: the sum for pressure, lower minus upper for traction."""
+def _spectrum_of_pair(grid: Grid, bodies: tuple[Body, ...], load: Load) -> FloatArray:
+    """Compute the spectrum [m/Pa] of the kernel of both bodies: the sum for pressure, lower minus upper for traction.
+
+    (py // 2 + 1, px // 2 + 1); the imaginary part for traction.
+    """
     signs = (1.0, 1.0) if load is Load.NORMAL else (1.0, -1.0)
     if all(body.homogeneous for body in bodies):
-        # every homogeneous half-space has the same kernel up to a factor: one is enough
+        # kernels of homogeneous half-spaces are proportional to each other: one is computed
         factors = [1 / b.material.plane_strain_modulus if load is Load.NORMAL else _coupling(b) for b in bodies]
         first = max(range(len(bodies)), key=lambda i: abs(factors[i]))
         scale = sum(s * f for s, f in zip(signs, factors, strict=False)) / factors[first]
@@ -186,26 +207,34 @@ def _kernel(grid: Grid, bodies: tuple[Body, ...], load: Load) -> FloatArray:
     return total
 
 
-def _spectra(grid: Grid, bodies: tuple[Body, ...], friction: float, compliance: float) -> Spectra:
+def _spectra(grid: Grid, bodies: tuple[Body, ...], friction: float, compliance: float) -> KernelSpectra:
+    """Return the kernel spectra of the pair from the cache, or compute them."""
     coupled = friction != 0 and couples(bodies)
 
-    def make() -> Spectra:
-        even = _kernel(grid, bodies, Load.NORMAL)
+    def make() -> KernelSpectra:
+        even = _spectrum_of_pair(grid, bodies, Load.NORMAL)
         if compliance > 0:
-            # the local compliance is the same for every wave; the mean of a doubly periodic grid is no displacement
+            # the local compliance is the same for every wave; the mean displacement of a doubly periodic grid is zero
             even = np.where(even == 0, 0.0, even + compliance) if all(grid.periodic) else even + compliance
         largest = float(np.abs(even).max())
         unit = 2.0 ** round(math.log2(largest)) if largest > 0 else 1.0
         even /= unit
-        odd = _kernel(grid, bodies, Load.TANGENTIAL) * (friction / unit) if coupled else None
-        return Spectra(even, odd, unit)
+        odd = _spectrum_of_pair(grid, bodies, Load.TANGENTIAL) * (friction / unit) if coupled else None
+        return KernelSpectra(even, odd, unit)
 
-    return shared((grid, tuple(elastic(body) for body in bodies), friction if coupled else 0.0, compliance), make)
+    constants = tuple(elastic_constants(body) for body in bodies)
+    key = (grid, constants, friction if coupled else 0.0, compliance)
+    return cached_spectra(key, make)
 
 
 @dataclass(frozen=True)
 class ScaledConvolution:
-    """The operator divided by its unit, in one precision; `apply` writes into preallocated arrays."""
+    """Displacement operator divided by its unit, in one precision; `apply` writes into preallocated arrays.
+
+    transform, multiplier : of the convolution.
+    count : applications so far, shared with the operator.
+    weight : number of cells over that of the finest grid.
+    """
 
     transform: PaddedTransform
     multiplier: Multiplier
@@ -214,7 +243,7 @@ class ScaledConvolution:
 
     @property
     def dtype(self) -> np.dtype[Any]:
-        """Precision."""
+        """Precision of fields."""
         return self.transform.dtype
 
     def apply(self, values: NDArray[Any], out: NDArray[Any]) -> NDArray[Any]:
@@ -224,18 +253,24 @@ class ScaledConvolution:
         return self.transform.convolve(values, self.multiplier, out)
 
     def apply_to_cells(self, cells: NDArray[np.int64], values: FloatArray, out: NDArray[Any]) -> NDArray[Any]:
-        """Convolve `values` on some cells (flat indices, ascending), zero elsewhere, into `out` (nx, ny)."""
+        """Convolve a field that is zero except for `values` (n,) on `cells` (n,) into `out` (nx, ny).
+
+        cells : flat indices, ascending.
+        """
         self.count.applications += 1
         self.count.weighted += self.weight
         return self.transform.convolve_cells(cells, values, self.multiplier, out)
 
     def compiled(self) -> tuple[TransformPlan, Scratch, Factor]:
-        """Arguments of `transforms.loops.convolve`; the caller holds the transform's lock while it runs."""
+        """Return the arguments of `transforms.loops.convolve` for compiled loops that convolve themselves.
+
+        The caller holds the transform's lock while such a loop runs, and reports its applications to `counted`.
+        """
         factor = self.multiplier.factor(self.transform.dtype)
         return self.transform.plan_for(factor), self.transform.ready(1), factor
 
     def counted(self, applications: int) -> None:
-        """Add applications that a compiled loop made by itself, with `transforms.loops.convolve`."""
+        """Add the number of applications of a compiled loop that called `transforms.loops.convolve`."""
         self.count.applications += applications
         self.count.weighted += applications * self.weight
         self.transform.counted(applications)
@@ -246,28 +281,30 @@ class DisplacementOperator:
     """Callable: pressure (nx, ny) [Pa] -> normal surface displacement (nx, ny) [m], the sum over both bodies.
 
     On a doubly periodic grid the mean displacement is zero by definition: the mean pressure moves the datum only.
-    `unit` is the power of two [m/Pa] that scales the kernel inside; `count` the applications so far, of the thread that
-    asks. `compliance` is what each place gives way besides, in proportion to its own pressure [m/Pa]. `kernel` returns
-    the spectra on a grid in place of those of normal displacement under pressure.
+
+    grid, bodies, friction, compliance : see `displacement_operator`.
+    spectra_on : returns the spectra on a grid, in place of those of normal displacement under pressure.
+    count : applications so far by the calling thread.
+    weight : number of cells over that of the finest grid.
     """
 
     grid: Grid
     bodies: tuple[Body, ...]
     friction: float = 0.0
     compliance: float = field(default=0.0, kw_only=True)
-    kernel: Callable[[Grid], Spectra] | None = field(default=None, kw_only=True, repr=False)
+    spectra_on: Callable[[Grid], KernelSpectra] | None = field(default=None, kw_only=True, repr=False)
     count: ConvolutionCount = field(default_factory=ConvolutionCount, compare=False, repr=False)
     weight: float = field(default=1.0, compare=False, repr=False)
 
     @cached_property
-    def _spectra(self) -> Spectra:
-        if self.kernel is not None:
-            return self.kernel(self.grid)
+    def _spectra(self) -> KernelSpectra:
+        if self.spectra_on is not None:
+            return self.spectra_on(self.grid)
         return _spectra(self.grid, self.bodies, self.friction, self.compliance)
 
     @property
     def unit(self) -> float:
-        """Power of two [m/Pa] near the largest value of the kernel's spectrum."""
+        """Power of two [m/Pa] near the largest value of the spectrum, which scales it to order one."""
         return self._spectra.unit
 
     @property
@@ -276,7 +313,7 @@ class DisplacementOperator:
         return 1 / sum(1 / body.surface_material.plane_strain_modulus for body in self.bodies)
 
     def modulus_at(self, wavenumber: float) -> float:
-        """Effective contact modulus E* [Pa] under a harmonic pressure of a wavenumber [rad/m]."""
+        """Return the effective contact modulus E* [Pa] under a harmonic pressure of a wavenumber [rad/m]."""
         if wavenumber not in self._moduli:
             response = sum(
                 float(frequency_response.surface_response(wavenumber, 0.0, body, Load.NORMAL)) for body in self.bodies
@@ -309,7 +346,7 @@ class DisplacementOperator:
         return padded_shape(self.grid.shape, self.grid.periodic)
 
     def scaled(self, dtype: DTypeLike = np.float64) -> ScaledConvolution:
-        """The operator divided by `unit`, in float64 or float32."""
+        """Return the operator divided by `unit`, in float64 or float32."""
         key = (np.dtype(dtype).char, "displacement")
         if key not in self._multipliers:
             parts = [(self._spectra.even, EVEN, 1.0)]
@@ -320,7 +357,7 @@ class DisplacementOperator:
         return ScaledConvolution(transform, self._multipliers[key], self.count, self.weight)
 
     def scaled_inverse(self, dtype: DTypeLike = np.float64) -> ScaledConvolution:
-        """The inverse on a doubly periodic grid, the coupling of friction included; the mean is dropped."""
+        """Return the inverse of the scaled operator on a doubly periodic grid, with friction; its mean mode is zero."""
         key = (np.dtype(dtype).char, "inverse")
         if key not in self._multipliers:
             even, odd = self._spectra.even, self._spectra.odd
@@ -331,15 +368,21 @@ class DisplacementOperator:
                 parts = [(np.divide(1.0, bounded, out=np.zeros_like(even), where=even != 0), EVEN, 1.0)]
             else:
                 # 1 / (S + iA) = (S - iA) / (S^2 + A^2)
-                share = np.divide(1.0, bounded**2 + odd**2, out=np.zeros_like(even), where=even != 0)
-                parts = [(share * bounded, EVEN, 1.0), (share * odd, ODD_IN_X, -1.0)]
+                inverse = np.divide(1.0, bounded**2 + odd**2, out=np.zeros_like(even), where=even != 0)
+                parts = [(inverse * bounded, EVEN, 1.0), (inverse * odd, ODD_IN_X, -1.0)]
             self._multipliers[key] = multiplier(parts).astype(dtype)
         transform = transform_of(self.grid.shape, self.padded, dtype)
         return ScaledConvolution(transform, self._multipliers[key], self.count, self.weight)
 
     def smooth_part(self, fine: DisplacementOperator, near: float) -> ScaledConvolution | None:
-        """The symmetric part less `near`, where that is positive, in single precision: from sums of a finer operator's
-        pressure over each cell of this grid to displacements in the finer one's unit. None if nothing is left.
+        """Return the symmetric part with the constant `near` taken off its spectrum, in single precision.
+
+        The constant stands for the local response, which the finer grid computes itself. The result maps the finer
+        operator's pressure, summed over each cell of this grid, to displacements in units of the finer operator.
+
+        fine : operator on the finer grid.
+        near : constant, in the finer operator's unit; values of the spectrum below it become zero. None is returned if
+            all do.
         """
         key = ("smooth", fine.unit, near)
         if key not in self._multipliers:
@@ -356,7 +399,10 @@ class DisplacementOperator:
         return {}
 
     def near_field(self, radius: int) -> FloatArray:
-        """Coefficients of the symmetric part over `unit`, (2 radius + 1, 2 radius + 1), offset zero in the middle."""
+        """Return the influence coefficients of the symmetric part over `unit` up to `radius` cells away.
+
+        (2 radius + 1, 2 radius + 1), offset zero in the middle; from the spectrum, so with the images of periodic axes.
+        """
         if radius not in self._near_fields:
             px, py = self.padded
             offsets = np.arange(-radius, radius + 1)
@@ -372,21 +418,21 @@ class DisplacementOperator:
         return {}
 
     def coarsened(self) -> DisplacementOperator | None:
-        """The same bodies on a grid of half as many cells along each axis; None where that grid is too small."""
+        """Return the operator on a grid of half as many cells along each axis; None if that grid is too small."""
         if self._coarser:
             return self._coarser[0]
         grid = self.grid.coarsened()
         coarser = (
             None
-            if max(grid.shape) < SMALLEST
+            if max(grid.shape) < SMALLEST_GRID
             else DisplacementOperator(
                 grid,
                 self.bodies,
                 self.friction,
                 self.count,
-                ConvolutionCount.share(self.weight * grid.cells / self.grid.cells),
+                ConvolutionCount.round_weight(self.weight * grid.cells / self.grid.cells),
                 compliance=self.compliance,
-                kernel=self.kernel,
+                spectra_on=self.spectra_on,
             )
         )
         self._coarser.append(coarser)
@@ -397,7 +443,7 @@ class DisplacementOperator:
         return []
 
     def __call__(self, pressure: FloatArray) -> FloatArray:
-        """Displacement [m] under `pressure` [Pa], both (nx, ny).
+        """Return the displacement [m] under a pressure [Pa], both (nx, ny).
 
         Raises
         ------
@@ -410,22 +456,18 @@ class DisplacementOperator:
         return displacement
 
 
-SMALLEST = 16
-"""Cells along the longer side below which a grid is not made coarser."""
-
-
 @one_blas_thread
 def displacement_operator(
     grid: Grid, bodies: Body | tuple[Body, Body], *, friction: float = 0.0, compliance: float = 0.0
 ) -> DisplacementOperator:
-    """The operator from pressure to normal displacement of one body (the other rigid) or a pair.
+    """Return the operator from pressure to normal displacement of one body (the other rigid) or a pair.
 
     Parameters
     ----------
-    grid : where; free or periodic along each axis.
+    grid : cells, free or periodic along each axis.
     bodies : one Body, or (lower, upper).
-    friction : f, the traction on the lower body is f x pressure along +x, on the upper one along -x. It is
-        computed only where it changes the normal gap (Dundurs' beta not zero).
+    friction : f; the traction is f x pressure, along +x on the lower body and along -x on the upper one. It is computed
+        only if it changes the normal gap (Dundurs' beta is not zero, or layers differ).
     compliance : additional local displacement per unit pressure at the same point [m/Pa]: a soft thin film, or wear in
         a step.
 

@@ -19,13 +19,13 @@ from numpy.typing import NDArray
 from bem.compiled import compiled
 from bem.convolution import (
     COUNT,
-    SMALLEST,
+    SMALLEST_GRID,
     ConvolutionCount,
     DisplacementOperator,
-    Spectra,
+    KernelSpectra,
+    cached_spectra,
     couples,
-    elastic,
-    shared,
+    elastic_constants,
 )
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
@@ -124,7 +124,7 @@ class TangentialOperator:
 
     @property
     def _key(self) -> tuple[Any, ...]:
-        return self.grid, tuple(elastic(body) for body in self.bodies)
+        return self.grid, tuple(elastic_constants(body) for body in self.bodies)
 
     @cached_property
     def spectra(self) -> InPlaneSpectra:
@@ -135,7 +135,7 @@ class TangentialOperator:
             parts = [_spectra_under_traction(self.grid, body, self.padded) for body in self.bodies]
             return InPlaneSpectra(*(np.ascontiguousarray(part) for part in np.sum(parts, axis=0)))
 
-        return shared(("in plane", *self._key), compute)
+        return cached_spectra(("in plane", *self._key), compute)
 
     @cached_property
     def _pressure_spectra(self) -> PressureSpectra | None:
@@ -150,7 +150,7 @@ class TangentialOperator:
             parts = (sum(sign * part[axis] for sign, part in zip(signs, responses, strict=False)) for axis in range(2))
             return PressureSpectra(*(np.ascontiguousarray(part) for part in parts))
 
-        return shared(("under pressure", *self._key), compute)
+        return cached_spectra(("under pressure", *self._key), compute)
 
     @property
     def displaced_by_pressure(self) -> bool:
@@ -180,14 +180,16 @@ class TangentialOperator:
         One application counts as half of an application of this operator.
         """
         kernel = DirectionalKernel(self.bodies, direction)
-        return DisplacementOperator(self.grid, self.bodies, count=self.count, weight=0.5 * self.weight, kernel=kernel)
+        return DisplacementOperator(
+            self.grid, self.bodies, count=self.count, weight=0.5 * self.weight, spectra_on=kernel
+        )
 
     def coarsened(self) -> TangentialOperator | None:
         """Return the operator on a grid of half as many cells along each axis; None if that grid is too small."""
         grid = self.grid.coarsened()
-        if max(grid.shape) < SMALLEST:
+        if max(grid.shape) < SMALLEST_GRID:
             return None
-        weight = ConvolutionCount.share(self.weight * grid.cells / self.grid.cells)
+        weight = ConvolutionCount.round_weight(self.weight * grid.cells / self.grid.cells)
         return TangentialOperator(grid, self.bodies, self.count, weight)
 
     def __call__(self, traction: FloatArray) -> FloatArray:
@@ -258,13 +260,13 @@ class DirectionalKernel:
     bodies: tuple[Body, ...]
     direction: tuple[float, float]
 
-    def __call__(self, grid: Grid) -> Spectra:
+    def __call__(self, grid: Grid) -> KernelSpectra:
         """Return its spectrum on a grid, divided by a power of two [m/Pa]."""
         x, y = self.direction
         spectra = TangentialOperator(grid, self.bodies).spectra
         even = x * x * spectra.xx + y * y * spectra.yy
         unit = 2.0 ** round(math.log2(float(np.abs(even).max())))
-        return Spectra(even / unit, None, unit)
+        return KernelSpectra(even / unit, None, unit)
 
 
 def tangential_operator(grid: Grid, bodies: Body | tuple[Body, Body]) -> TangentialOperator:

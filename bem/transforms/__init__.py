@@ -17,7 +17,7 @@ needed. A convolution takes these steps:
 
 Cost of a convolution: 2 nx transforms of length py and py of length px (real or half-complex), n log n each. An even
 kernel needs less (`packed_real_fft`): real rows are packed as complex rows of half the length and columns go in pairs
-in 4 to 6, because FFTW has vector instructions for complex rows only.
+in steps 4 to 6, because FFTW has vector instructions for complex rows only.
 
 `addresses` has pointers for these loops. A convolution is one call of compiled code on one thread; several threads
 share the blocks of each pass, so a result does not depend on their number. `plans` creates FFTW's plans without timing,
