@@ -1,6 +1,6 @@
 """Remainder of the influence coefficients of a layered body: integrals of radial tables over the cells of a grid.
 
-A unit load at the origin of a layered body gives, with S_n the Hankel transforms of `layered_hankel` and phi the angle
+A unit load at the origin of a layered body gives, with S_n the Hankel transforms of `hankel` and phi the angle
 from x to the point,
 
     pressure:   uz = S0                     traction:   uz = -cos(phi) S1
