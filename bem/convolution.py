@@ -233,7 +233,7 @@ class ScaledConvolution:
 
     transform, multiplier : of the convolution.
     count : applications so far, shared with the operator.
-    weight : number of cells over that of the finest grid.
+    weight : of an application in `count`: its number of cells over that of the finest grid.
     """
 
     transform: PaddedTransform
@@ -285,7 +285,7 @@ class DisplacementOperator:
     grid, bodies, friction, compliance : see `displacement_operator`.
     spectra_on : returns the spectra on a grid, in place of those of normal displacement under pressure.
     count : applications so far by the calling thread.
-    weight : number of cells over that of the finest grid.
+    weight : of an application in `count`: its number of cells over that of the finest grid.
     """
 
     grid: Grid

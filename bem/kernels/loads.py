@@ -60,6 +60,7 @@ def clear_odd_offsets(table: FloatArray, parities: Parities, first: int = 0) -> 
     ----------
     table : (parts, nx, ny), at offsets i along x and j + `first` along y.
     parities : parity of each part.
+    first : number of the first offset along y.
     """
     x, y = np.arange(table.shape[1])[:, None], np.arange(first, first + table.shape[2])[None, :]
     return clear_odd(table, x, y, parities)

@@ -57,7 +57,7 @@ def surface_response(grid: Grid, body: Body, load: Load) -> FloatArray:
     """Return the normal surface displacement of a harmonic unit load, shape (nx, ny//2 + 1) [m/Pa].
 
     Pressure: 2 / (E* q), the spectrum itself. Traction along +x: -(1-2nu) kx / (2 G q^2), its imaginary part.
-    Mean mode 0. Johnson (1985), section 13.2, and the transform of Cerruti's solution. With layers: see `layered`.
+    Mean mode 0. Johnson (1985), section 13.2, and the transform of Cerruti's solution. With layers: see `layered.frequency_response`.
 
     Raises
     ------
@@ -83,7 +83,7 @@ def in_plane_response(grid: Grid, body: Body) -> FloatArray:
 
     ux under traction along x, uy under traction along y: (1 - nu cos^2) / (G q) and (1 - nu sin^2) / (G q) with the
     angle of the wavevector from x, the transform of Cerruti's solution; of one under the other: -nu cos sin / (G q).
-    Mean mode 0. With layers: see `layered`.
+    Mean mode 0. With layers: see `layered.frequency_response`.
 
     Raises
     ------
