@@ -57,7 +57,8 @@ def surface_response(grid: Grid, body: Body, load: Load) -> FloatArray:
     """Return the normal surface displacement of a harmonic unit load, shape (nx, ny//2 + 1) [m/Pa].
 
     Pressure: 2 / (E* q), the spectrum itself. Traction along +x: -(1-2nu) kx / (2 G q^2), its imaginary part.
-    Mean mode 0. Johnson (1985), section 13.2, and the transform of Cerruti's solution. With layers: see `layered.frequency_response`.
+    Mean mode 0. Johnson (1985), section 13.2, and the transform of Cerruti's solution. With layers: see
+    `layered.frequency_response`.
 
     Raises
     ------

@@ -49,8 +49,10 @@ def narrowed_lengths(cells: int, padded: tuple[int, int], decay: float) -> tuple
     padded : (px, py), lengths of the transforms; py is the period, and px >= 2 nx - 1.
     decay : 2 pi spacing_x / (py spacing_y), the decay exponent of the first wave across one cell along x.
 
-    Returns ------- (py // 2 + 1,), never rising, at most px. Each length is at least nx, plus `_ROUND_OFF_EXPONENT`
-    over the wave's decay exponent (the range of its kernel), plus one cell for the load.
+    Returns
+    -------
+    (py // 2 + 1,), never rising, at most px. Each length is at least nx, plus `_ROUND_OFF_EXPONENT` over the decay
+    exponent of the wave (the range of its kernel), plus one cell for the load.
     """
     lengths = [padded[0]]
     for wave in range(1, padded[1] // 2 + 1):
