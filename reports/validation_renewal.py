@@ -120,13 +120,18 @@ def lacks_files(job: Job) -> bool:
 
 
 def is_needed(job: Job | Script) -> bool:
-    """Return True if a result is not stored, failed to reproduce, or is of another scene text or other settings."""
+    """Return True if a result is not stored, failed to reproduce, or is of another scene text or other settings.
+
+    The settings of a scene on measured surfaces name the user's files; without them they are not compared.
+    """
     if isinstance(job, Script):
         return not kept.result_of(job.name).exists() or bool(reproduced.outside(job.name))
     if not job.target.exists() or job.name in reproduced.outside(VALIDATION):
         return True
     summary = json.loads(job.target.read_text("utf-8"))
-    return bool(stale(job.scene, summary)) or summary["origin"]["settings"] != shown(job.settings)
+    if stale(job.scene, summary):
+        return True
+    return not lacks_files(job) and summary["origin"]["settings"] != shown(job.settings)
 
 
 def is_of_this_commit(job: Job | Script) -> bool:

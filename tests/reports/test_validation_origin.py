@@ -179,6 +179,25 @@ def test_measured_surfaces_without_their_files_are_left_alone(tmp_path):
     assert not job.target.exists()
 
 
+def test_a_stored_result_of_measured_surfaces_is_not_due_for_want_of_their_files(tmp_path):
+    settings = ["lower.surface.path=/a/disk.al3d", "upper.surface.path=/a/pin.opd"]
+    job = Job("stribeck-measured", "stribeck-measured", (), tmp_path / "kept.json")
+    job.target.write_text(json.dumps({"origin": origin("stribeck-measured", settings)}))
+    assert not is_needed(job)
+    assert is_needed(Job(job.name, job.scene, ("lower.surface.path=/a/other.al3d",), job.target))
+    job.target.write_text(json.dumps({"origin": {**origin("stribeck-measured", settings), "scene_hash": "0"}}))
+    assert is_needed(job)
+
+
+def test_experiments_whose_results_are_stored_are_not_due():
+    script = validation_renewal.Script("separation_datum")
+    assert not is_needed(script)
+    reproduced.add(script.name, {"34 um, 0.8 GPa": "undeformed_planes 53.2, stored 53.0, bar 0.1"}, 6)
+    assert is_needed(script)
+    reproduced.add(script.name, {"34 um, 0.8 GPa": reproduced.INSIDE}, 6)
+    assert not is_needed(script)
+
+
 def test_a_script_that_fails_does_not_stop_the_others(monkeypatch):
     ran = []
 
