@@ -7,7 +7,7 @@ from typing import Any
 
 from reports.builder import table, text
 from reports.experiments import kept
-from reports.validation_values import SCATTER
+from reports.validation_values import SLIGHT
 
 NAME = "piece_shapes"
 SOURCE = {10.0: (442.0, 245.0, 197.0), 2.5: (267.0, 161.0, 151.0)}
@@ -31,7 +31,7 @@ def body() -> str:
             "by volume."
         )
         + table(
-            ("length and width", "neighbours", "mean by", "10 N (nm)", "2.5 N (nm)", "all within 1.26"),
+            ("length and width", "neighbours", "mean by", "10 N (nm)", "2.5 N (nm)", f"all within {SLIGHT:.2f}"),
             list(_lines(found)),
             caption="Length / width / thickness of one surface, last 50 of 200 cycles; the source's model: "
             "442 / 245 / 197 at 10 N, 267 / 161 / 151 at 2.5 N.",
@@ -60,4 +60,4 @@ def _lines(found: list[dict[str, Any]]) -> Iterator[tuple[str, ...]]:
 
 def is_within(values: Any, wanted: tuple[float, ...]) -> bool:
     """Return True if each size lies within the factor that lines on sizes accept."""
-    return all(one / SCATTER < value < one * SCATTER for value, one in zip(values, wanted, strict=True))
+    return all(one / SLIGHT < value < one * SLIGHT for value, one in zip(values, wanted, strict=True))

@@ -3,8 +3,9 @@
 Figures 5 and 6 of the thesis' paper A compare coupled and uncoupled asperities so: both have the same constant
 separation h, the film thickness, and the surfaces repeat along x and y. No volume of oil is kept.
 
-A periodic half-space has no displacement of its mean plane. The source's surfaces end at the square patch, which sinks
-in as a whole under its mean pressure p. At the middle of a rectangle a x b the displacement is
+A periodic half-space has no displacement of its mean plane. The source has periodic boundary conditions and influence
+coefficients of a half-space (its appendix A). Cut off at the patch, they let it sink in as a whole under its mean
+pressure p; that the source cuts them so is our reading. At the middle of a rectangle a x b the displacement is
 
     s(p) = 2 p (a asinh(b/a) + b asinh(a/b)) / (pi E*)        (Johnson (1985), eq. 3.25),
 

@@ -1,4 +1,4 @@
-"""Particles on a plate, from a height map of any microscope (thesis, paper B, section 2.6).
+"""Particles on a plate, from a height map of any microscope (thesis, paper B, section 2.5).
 
 The plate is levelled, what stands out of it is labelled (by watershed where touching particles are to be separated) and
 measured. Knows maps, no contact. Verified in tests/particles/test_particle_height_map.py on synthetic maps whose

@@ -14,7 +14,7 @@ STANDARD_GRAVITY = 9.80665
 def relative_centrifugal_force(radius: float, revolutions_per_minute: float) -> float:
     """RCF = r omega^2 / g: acceleration at `radius` [m] in units of standard gravity.
 
-    The thesis' 10947 at 10000 rpm belongs to r = 97.9 mm, the far end of the tube.
+    The thesis' 10947 at 10000 rpm belongs to r = 97.9 mm, which it does not print.
     """
     check_positive(radius=radius, revolutions_per_minute=revolutions_per_minute)
     return radius * (2 * math.pi * revolutions_per_minute / 60) ** 2 / STANDARD_GRAVITY
@@ -34,8 +34,9 @@ def sedimentation_time(
     t = 9 L mu / (2 RCF g (rho_p - rho_l) R^2): drag 6 pi mu R v against weight less buoyancy, RCF g taken as constant
     along the tube (it is less nearer to the axle, so the true time is longer). RCF = 1 is a tube at rest.
 
-    The thesis' "at least 12 hours" in oil of 55 cP and "15 minutes" in water, for 25 nm at RCF 10947, come out for
-    distances of 83 and 93 mm: the source gives none, but both are lengths of its 40 ml tube.
+    The thesis has "at least 12 hours" in oil of 55 cP and 800 kg/m^3 and "only 15 minutes" in water of 1 cP, for
+    particles of 25 nm and 7900 kg/m^3 at RCF 10947. The distance is not printed: 83 mm and more take 12 hours in oil,
+    93 mm take 15 minutes in water.
 
     Parameters
     ----------

@@ -69,8 +69,9 @@ class ReducedModel:
 
     Wear depths alone leave two films: the steady wear rate `alpha h exp(-C1 h)` of the substrate has its maximum at
     h = 1/C1 (81 nm in paper E), so that each lower rate belongs to a thin film and to a thick one. The 86.3 nm of the
-    paper between 45 and 120 minutes belong to 55 nm and to 113 nm. Only the thicker film lets the wear fall from 60 to
-    80 to 100 degrees Celsius, as the paper says. Measured thicknesses, or a start on the right side, decide.
+    paper between 45 and 120 minutes at 60 degrees Celsius belong to 55 nm and to 113 nm. Only the thicker film lets the
+    wear fall from 60 to 80 to 100 degrees Celsius: the paper has the highest wear at 60 and prints none for
+    80. Measured thicknesses, or a start on the right side, decide.
     """
 
     activation_energy_eV: float = 0.665

@@ -35,7 +35,8 @@ class GrowthLaw(Law):
 class StressActivatedGrowth(GrowthLaw):
     """Growth rate `prefactor * exp(-(activation_energy - shear_stress * activation_volume) / (k_B T))` [m/s].
 
-    Gosvami et al., Science 348 (2015) 102; thesis, paper E, eq. 3 (its prefactor is 1e-2 m/s, not nm/s).
+    Gosvami et al., Science 348 (2015) 102; thesis, paper E, eq. 3, with a prefactor of 1e-2 m/s. Erratum of the
+    thesis: the nomenclature of its part A has nm/s and degrees Celsius; the law needs kelvin.
 
     Attributes
     ----------

@@ -130,7 +130,7 @@ def find_particles(
     """Wear particles of one cycle: regions above yield that reach the free surface, with the cap above them.
 
     Parameters as in `segment`; `von_mises` may be any equivalent stress (nz, nx, ny) [Pa] on `grid`, whose periodic
-    axes particles go on across. Thesis, paper C, section on particles.
+    axes particles go on across. Thesis, paper C, section 2.4.
 
     Returns
     -------

@@ -3,8 +3,13 @@
 from __future__ import annotations
 
 import math
+from typing import TYPE_CHECKING, cast
 
+from bem.scenes.load import load_scene
 from reports.validation_values import READING, Rule, Summary, at, echo, experiment, falling, listed, quoted
+
+if TYPE_CHECKING:
+    from bem.scenes.kinds.tribofilm import TribofilmScene
 
 STIFF = "tribofilm-modulus-130-gpa"
 AS_STEEL = "tribofilm-modulus-210-gpa"
@@ -27,6 +32,14 @@ def _rougher(summary: Summary) -> str:
         return f"{_percent(_changes(experiment(ROUGHER), ROUGHER_AS_STEEL))} %"
     except FileNotFoundError:
         return "not run"
+
+
+def _constants(scene: str) -> str:
+    """Activation energy [eV], activation volume [A^3] and wear coefficient of a built-in scene."""
+    film = cast("TribofilmScene", load_scene(scene)).film
+    return (
+        f"{film.activation_energy / 1.602177e-19:.3g}, {1e30 * film.activation_volume:.3g}, {film.wear_coefficient:.2g}"
+    )
 
 
 def _films(summary: Summary) -> str:
@@ -153,7 +166,7 @@ RULES: dict[str, Rule] = {
     ),
     "afm_tip_pressure_over_film": Rule(_pressure_line, _pressure_drops_early),
     "constants_of_growth": Rule(
-        lambda s: "as in table 2",
+        lambda s: "; ".join(_constants(scene) for scene in ("tribofilm-afm-tip", "tribofilm-macro")),
         echo,
     ),
     "concentration_falls_with_temperature": Rule(

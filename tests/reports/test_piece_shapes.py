@@ -46,5 +46,5 @@ def test_a_piece_across_the_periodic_edge_is_in_one_part():
 
 def test_all_three_sizes_must_lie_within_the_factor():
     assert section.is_within((442, 245, 197), section.SOURCE[10.0])
-    assert section.is_within((442 * 1.25, 245 / 1.25, 197), section.SOURCE[10.0])
-    assert not section.is_within((442, 245 * 1.27, 197), section.SOURCE[10.0])
+    assert section.is_within((442 * 1.16, 245 / 1.16, 197), section.SOURCE[10.0])
+    assert not section.is_within((442, 245 * 1.18, 197), section.SOURCE[10.0])

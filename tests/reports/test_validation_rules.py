@@ -6,9 +6,9 @@ import math
 import pytest
 
 from reports.validation import CHECKS, rows
-from reports.validation_rules import tribofilm, wear
+from reports.validation_rules import film, running_in, tribofilm, wear
 from reports.validation_values import (
-    SCATTER,
+    SLIGHT,
     Check,
     Rule,
     Value,
@@ -86,8 +86,8 @@ def test_only_lines_without_counterpart_or_stored_cycles_are_not_judged():
     assert [item for item in open_lines if not item.startswith(without + axes)] == []
 
 
-def test_a_line_by_construction_that_does_not_hold_is_judged():
-    """What is put in or calibrated has no verdict; what follows from the model must still follow."""
+def test_a_line_by_construction_or_calibrated_that_does_not_hold_is_judged():
+    """What is put in has no verdict; what follows from the model or from a choice must still follow."""
 
     def verdict(basis, agrees):
         rule = Rule(lambda summary: "", lambda summary: agrees)
@@ -97,6 +97,8 @@ def test_a_line_by_construction_that_does_not_hold_is_judged():
     assert verdict("by construction", True) == "by construction"
     assert verdict("by construction", False) == "differs"
     assert verdict("input", None) == "input"
+    assert verdict("calibrated", True) == "calibrated"
+    assert verdict("calibrated", False) == "differs"
     assert verdict("", True) == "agrees"
 
 
@@ -132,6 +134,94 @@ def test_contact_and_film_load_are_one_figure_and_no_film_is_not_the_source_s():
     for load, agrees in ((0.0, False), (0.224, False), (0.225, True), (0.226, False)):
         summary = {"speed_m_s": [0.001], "film_load_N": [load], "contact_load_N": [5.5 - load]}
         assert RULES["film load at 0.001 m/s (N)"].agrees(summary) is agrees
+
+
+def two_curves(length, coupled, alone, load=10.0):
+    """Friction of three surfaces at one speed, coupled and uncoupled."""
+    each = {"elastic": coupled, "uncoupled_elastic": alone}
+    return [
+        {"variant": length, "model": model, "load_N": load, "friction": [sum(f) / 3], "friction_each": [[v] for v in f]}
+        for model, f in each.items()
+    ]
+
+
+def test_longer_waves_must_lie_below_the_shorter_by_more_than_their_scatter():
+    (rule,) = [check.rule for check in LINES if check.item.endswith("L = 57 um (%)") and check.item.startswith("unc")]
+    shorter = two_curves("34 um", (0.07, 0.07, 0.07), (0.10, 0.10, 0.10))  # d = 30 %
+    for coupled, agrees in (((0.08, 0.08, 0.08), True), ((0.06, 0.08, 0.10), False), ((0.06, 0.06, 0.06), False)):
+        longer = two_curves("57 um", coupled, (0.10, 0.10, 0.10))
+        assert rule.agrees({"curves": shorter + longer}) is agrees
+
+
+def test_friction_is_settled_only_if_the_whole_second_half_is():
+    (rule,) = [check.rule for check in LINES if check.item.startswith("largest difference of ten cycles' friction")]
+    settled = [0.15] * 100 + [0.10] * 100
+    drifting = [0.15] * 100 + [0.112] * 50 + [0.104] * 40 + [0.10] * 10  # within 5 % of the end from cycle 151 only
+    assert rule.agrees({"cycle_friction": [settled]}) is True
+    assert rule.agrees({"cycle_friction": [settled, drifting]}) is False
+    assert rule.agrees({}) is None
+
+
+def test_run_in_friction_is_independent_of_roughness_within_the_scatter_of_the_scene(monkeypatch):
+    (rule,) = [check.rule for check in LINES if check.item.startswith("run-in friction over hardness with a disk")]
+    scene = {"friction_run_in": [0.100, 0.120], "friction_run_in_spread": [0.001, 0.0]}
+    monkeypatch.setattr(running_in, "stored", lambda name: scene)
+    monkeypatch.setattr(running_in, "experiment", lambda name: scene)
+    for friction, agrees in ((0.1005, True), (0.102, False)):
+        assert rule.agrees({"friction_run_in": [friction, 0.120]}) is agrees
+
+
+def test_a_mesh_series_by_volume_must_fall_up_to_320_cells(monkeypatch):
+    (rule,) = [check.rule for check in LINES if check.item.startswith("mesh: mean radius by volume")]
+
+    def series(*radii):
+        values = {f"{key}_equivalent_radius_nm": list(radii) for key in ("particle", "volume_mean")}
+        return {"load_N": [10.0] * len(radii), **values}
+
+    for radii, agrees in (((200, 180, 172, 170), True), ((219, 167, 172, 179), False), ((220, 200, 190, 170), False)):
+        monkeypatch.setattr(wear, "stored", lambda name, radii=radii: series(*radii))
+        assert rule.agrees(series(170, 170)) is agrees
+
+
+def test_thickness_of_film_pieces_hardly_varies_with_load():
+    (rule,) = [check.rule for check in LINES if check.item.startswith("brass film, thickness at 10 N")]
+    for thick, agrees in ((94.0, True), (88.0, True), (90.0, True), (110.0, False), (75.0, False)):
+        assert rule.agrees({"load_N": [2.5, 10.0], "particle_thickness_nm": [88.0, thick]}) is agrees
+
+
+def test_worn_volume_must_be_stable_in_the_end():
+    (rule,) = [check.rule for check in LINES if check.item.startswith("volume worn per cycle")]
+    for middle, agrees in ((3.0, True), (3.5, False)):
+        row = [90.0] + [4.0] * 99 + [middle] * 50 + [3.0] * 50
+        assert rule.agrees({"load_N": [10.0], "cycle_volume_um3": [row]}) is agrees
+
+
+def test_regimes_follow_the_limits_of_lambda():
+    (rule,) = [check.rule for check in LINES if check.item.startswith("part of the load on the surfaces over Lambda")]
+    speeds = [0.001, 0.05, 0.4]  # Lambda 0.06, 1.0, 4.3
+    for contact, own, agrees in (
+        ([5.4, 2.7, 0.0], [0.0002, 0.01, 0.04], True),
+        ([5.4, 2.7, 0.1], [0.0002, 0.01, 0.04], False),
+        ([5.0, 2.7, 0.0], [0.0100, 0.01, 0.04], False),
+        ([5.4, 0.0, 0.0], [0.0002, 0.01, 0.04], False),
+    ):
+        parts = {"contact_load_N": contact, "film_friction_part": own, "friction": [0.09, 0.05, 0.04]}
+        curve = {"model": "capped", **parts}
+        assert rule.agrees({"speed_m_s": speeds, "curves": [curve]}) is agrees
+
+
+def test_pressure_viscosity_plays_a_minor_role_below_five_per_cent(monkeypatch):
+    (rule,) = [check.rule for check in LINES if check.item.startswith("oil without pressure-viscosity")]
+    monkeypatch.setattr(film, "experiment", lambda name: {"film_friction_part": [0.02, 0.04]})
+    assert rule.agrees({"film_friction_part": [0.0195, 0.039]}) is True
+    assert rule.agrees({"film_friction_part": [0.0180, 0.039]}) is False
+
+
+def test_what_was_chosen_by_a_statement_does_not_agree_with_it():
+    """The choices of paper D's scenes, and the branch of the film at 60 degrees, were taken for their statements."""
+    for start in ("initial less run-in friction at", "initial less run-in friction on half", "substrate wear between"):
+        (check,) = [check for check in LINES if check.item.startswith(start)]
+        assert check.basis == "calibrated"
 
 
 def test_elastic_contact_must_overestimate_friction_visibly():
@@ -170,16 +260,17 @@ def test_light_scattering_is_compared_with_the_mean_that_it_reports():
     assert running_in.agrees(found) is None
 
 
-def test_sizes_lie_within_the_source_s_scatter():
+def test_sizes_differ_by_less_than_a_change_that_the_source_calls_slight():
     sizes = {"load_N": 10.0, **{f"particle_{q}_nm": v for q, v in (("length", 100), ("width", 50), ("thickness", 20))}}
     assert near_sizes(10, 100, 50, 20)(sizes)
-    assert not near_sizes(10, 100, 50, 20 * 1.01 * SCATTER)(sizes)
+    assert not near_sizes(10, 100, 50, 20 * 1.01 * SLIGHT)(sizes)
 
 
 def test_a_plateau_is_looked_for_in_the_cycles():
     settled = [100.0] * 200
     assert plateau_from(settled) == 0
     assert plateau_from([650.0] * 40 + [100.0] * 160) == 40
+    assert plateau_from([106.0] * 40 + [100.0] * 160) == 40
     assert plateau_from([650.0] * 60 + [100.0] * 140) == 60
     assert plateau_from([300 - i for i in range(200)]) is None or plateau_from([300 - i for i in range(200)]) > 50
     assert plateau_from([None if i % 2 else 100.0 for i in range(200)]) == 0
@@ -195,7 +286,7 @@ def test_trends():
     assert not falling([Value(3), Value(3)])
     assert unchanged([Value(100), Value(116)])
     assert not unchanged([Value(100), Value(118)])
-    assert math.isclose(SCATTER, 1.2613, rel_tol=1e-4)  # by hand
+    assert math.isclose(SLIGHT, 1.1673, rel_tol=1e-4)  # by hand: the box of table 1 at 10 N over that at 2.5 N
 
 
 def test_substrate_wear_that_is_highest_at_80_degrees_is_not_the_source_s():

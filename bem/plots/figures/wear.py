@@ -17,7 +17,7 @@ from bem.plots.style import BLACK, BLUE, GREEN, ORANGE, PINK, SKY, VERMILION, la
 
 _LONG = 2.0
 """Length of a map over its width from which two of them are one above the other."""
-_DLS_STEEL = (110e-9, 175e-9)  # dynamic light scattering, both materials; thesis, papers B and C
+_DLS_STEEL = (110e-9, 175e-9)  # dynamic light scattering, both materials; thesis, paper B
 
 
 def _over_cycles(axes: Axes, run: Any, found: list[tuple[str, Array]], text: str, unit: str) -> float:
@@ -236,7 +236,7 @@ FIGURES = (
     ),
     FigureKind(
         "radius-over-load",
-        "Settled radius over load; a band is what dynamic light scattering found of this pair (thesis, paper C).",
+        "Settled radius over load; a band is what dynamic light scattering found of this pair (thesis, paper B).",
         ("radius", "load"),
         _over_load,
         (5.0, 3.4),
