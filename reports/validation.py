@@ -110,9 +110,10 @@ def build() -> Page:
             )
             + text(
                 "What is accepted is the source's words, its printed digits or its scatter. Where it gives none of "
-                "these, the line says so: window of ours, with the reason. Our spread widens no window; where the source "
-                "calls a trend clear, ours must exceed it. Sizes are means by volume; where the source measured by light scattering, ours is the mean that such an "
-                "instrument reports (z-average, sum R^6 / sum R^5, ISO 22412). Lines on these radii show the means by "
+                "these, the line says so: window of ours, with the reason. Our spread widens no window; where the "
+                "source calls a trend clear, ours must exceed it. Sizes are means by volume; where the source measured "
+                "by light scattering, ours is the mean that such an instrument reports (z-average, sum R^6 / sum R^5, "
+                "ISO 22412). Lines on these radii show the means by "
                 "number, area, volume and light scattering beside each other. The source is not at one with itself on "
                 "light scattering: 110 to 175 nm in the abstract and the conclusions of paper B, 265 nm at 10 N in its "
                 "section 3.4."

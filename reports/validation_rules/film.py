@@ -287,7 +287,7 @@ RULES: dict[str, Rule] = {
     "the_size_of_d_grows_with_load_l_57_um": Rule(
         lambda s: ", ".join(f"{abs(d):.1f}" for d in differences(s, "57 um")) + " %",
         lambda s: all(abs(a) < abs(b) for a, b in itertools.pairwise(differences(s, "57 um"))),
-        lambda s: f"{quoted(_longer_waves, SLOWER_LONG)(s)}; {_by_datum(57)}",
+        lambda s: f"{quoted(_longer_waves, SLOWER_LONG)(s)}. Of the load carried, {_by_datum(57)}",
     ),
     "regimes_by_lambda": Rule(_regimes_line, _regimes_by_lambda),
     "pressure_viscosity_plays_a_minor_role": Rule(

@@ -60,6 +60,12 @@ def _contact_load_falls(summary: Summary) -> bool:
     return before.mean - after.mean > (after.spread or 0.0)
 
 
+def _contact_loads(summary: Summary) -> str:
+    """Contact load at 0.01 m/s before and after running-in [N]."""
+    before, after = (at(summary, key, speed(0.01)(summary)) for key in ("contact_load_initial_N", "contact_load_N"))
+    return f"{before.mean:.3f} to {after.mean:.3f} N"
+
+
 def _early_and_late(summary: Summary) -> tuple[float, float] | None:
     """Radius [nm] of a cycle's mean piece volume at 0.01 m/s: mean of the first five and of the last 50 cycles."""
     row = cycles_of(summary, "cycle_radius_nm", speed(0.01)(summary))
@@ -104,6 +110,11 @@ def _scatter_over_hardness() -> float:
 
 
 SMOOTHER, ROUGHER = "hardness-disk-sq-60-nm", "hardness-disk-sq-240-nm"
+CHOICES = {
+    "drop-cylinder-90-patch": "with a moving disk",
+    "drop-disk-0-patch": "without a skin",
+    "drop-disk-90-hertz": "with oil counted over Hertz' contact",
+}
 CYCLES = {"running-in-cells-of-450-nm": "in the first five and the last 50 cycles"}
 CELLS = {f"running-in-cells-of-{cell}-nm": f"with cells of {cell} nm" for cell in (450, 225, 113)}
 DROPS = {
@@ -134,7 +145,10 @@ RULES: dict[str, Rule] = {
             f"{at(s, 'contact_load_N', speed(0.01)(s)).mean:.3f} ± {at(s, 'contact_load_N', speed(0.01)(s)).spread:.3f}"
         ),
         _contact_load_falls,
-        lambda s: f"{at(s, 'contact_load_initial_N', speed(0.05)(s))} to {at(s, 'contact_load_N', speed(0.05)(s))} N",
+        lambda s: (
+            f"{at(s, 'contact_load_initial_N', speed(0.05)(s))} to {at(s, 'contact_load_N', speed(0.05)(s))} N. Other "
+            f"choices, one surface at 0.01 m/s: {quoted(_contact_loads, CHOICES)(s)}"
+        ),
     ),
     "radius_over_cycles_at_0_01_m_s": Rule(
         _cycles_line,
