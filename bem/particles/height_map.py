@@ -54,8 +54,8 @@ def particles_from_height_map(
         particles where the pass between them is lower than (1 - s) times the lower summit (watershed); 0.3 is a good
         start.
     border : "exclude" leaves out particles that touch the edge of the map, "include" keeps them, marked `truncated`.
-    rectangle : length and width from the bounding rectangle along x and y ("axis_aligned", as the source), or from the
-        one of smallest area at any angle ("minimum_area").
+    rectangle : length and width from the bounding rectangle along x and y ("axis_aligned"), or from the one of
+        smallest area at any angle ("minimum_area"). The source has "the square which encompasses the particle".
     smallest_columns, smallest_radius : smaller ones (in grid columns; in equivalent radius [m]) are left out as noise.
     connectivity : 8 (corners connect) or 4.
 
