@@ -14,7 +14,7 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from bem.notes import Note, as_note
-from bem.notes.general import VALUE_UNUSUAL, VALUE_UNUSUAL_TYPICAL
+from bem.notes.general import VALUE_UNUSUAL
 
 ATOM = 2e-10
 """Distance of neighbouring atoms in a metal [m]."""
@@ -77,12 +77,11 @@ class UsualRange:
             return None
         ends = f"{with_unit(self.low, self.unit)} to {with_unit(self.high, self.unit)}"
         likely = self._likely_unit(value) or "check it"
-        return (VALUE_UNUSUAL if self.about == "" else VALUE_UNUSUAL_TYPICAL)(
+        return VALUE_UNUSUAL(
             key,
             quantity=self.quantity,
             value=with_unit(value, self.unit),
-            usual=ends,
-            typical=self.about,
+            usual=f"{ends}: {self.about}" if self.about else ends,
             check=likely[0].upper() + likely[1:],
         )
 

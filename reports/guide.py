@@ -66,7 +66,7 @@ def notes() -> Section:
     for part in PARTS:
         kinds_of_part = [kind for kind in vars(part).values() if isinstance(kind, NoteKind)]
         for kind in kinds_of_part:
-            said = kind.sentence or " ".join(kind.reasons.values())
+            said = " / ".join(f"{one.sentence} {one.action}".strip() for one in kind.reasons.values()) or kind.sentence
             words = " ".join(_blank(text) for text in (kind.headline, said, kind.action) if text)
             link = f'<a id="{kind.anchor}"></a>'
             rows.append((kind.code, _LEVELS[kind.level], words, link))

@@ -23,7 +23,7 @@ from scipy import stats
 
 from bem.accuracy.bars import GRID, ErrorBars
 from bem.grid import FloatArray
-from bem.notes.accuracy import BARS_OF_LARGE_PARTICLES, NoBar, no_error_bar
+from bem.notes.accuracy import BARS_PARTIAL, NoBar, no_error_bar
 from bem.particles import particle_statistics, particles_from_height_map
 from bem.particles.particle import Particle
 
@@ -86,7 +86,7 @@ def particle_bars(
     scatter = _scatter(found, figures)
     larger = _Logarithms.of(np.array([p.equivalent_radius for p in found])).large_ones_are_frequent
     parts = {GRID: {name: pixels[name] for name in scatter}, SAMPLE: scatter}
-    bars = ErrorBars.together(parts, (BARS_OF_LARGE_PARTICLES(),) if larger else ())
+    bars = ErrorBars.together(parts, (BARS_PARTIAL(reason="large-particles"),) if larger else ())
     beyond = [name for name, bar in bars.values.items() if bar > _MOST * abs(figures[name])]
     if not beyond:
         return bars

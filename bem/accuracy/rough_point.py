@@ -29,8 +29,8 @@ from bem.lubrication.point.linear import BoolArray
 from bem.lubrication.point.moving import Heights
 from bem.materials import Body
 from bem.notes import Note
-from bem.notes.accuracy import BARS_OF_HALF_CELLS, NoBar
-from bem.notes.scenes import RIM_NARROW
+from bem.notes.accuracy import BARS_PARTIAL, NoBar
+from bem.notes.lubrication import FILM_CELLS_FEW
 from bem.reference_solutions.hertz import PointContact, ellipse_contact
 
 FACTORS = {"minimum_thickness": 3.5, "mean_thickness": 3.0, "contact_load_share": 1.5, "contact_area_share": 1.5}
@@ -141,7 +141,7 @@ def rough_point_bars(case: RoughPointCase, film: RoughPointFilm, hertz_area: flo
     there = rough_point_figures(case, other, hertz_area)
     grid = _grid(case, film, figures, there, hertz_area)
     residual = {name: _ALGEBRAIC * film.residual * abs(value) for name, value in figures.items()}
-    bars = ErrorBars.together({GRID: grid, RESIDUAL: residual}, notes=(BARS_OF_HALF_CELLS(),))
+    bars = ErrorBars.together({GRID: grid, RESIDUAL: residual}, notes=(BARS_PARTIAL(reason="half-cells"),))
     return bars | ErrorBars.unknown(missing, NoBar.ONE_PLACE_AMONG_BUMPS)
 
 
@@ -185,4 +185,4 @@ def narrow_notes(case: RoughPointCase, film: RoughPointFilm) -> list[Note]:
         max(n, math.ceil(n * NARROW * step / width))
         for n, step, width in zip(film.pressure.shape, steps, widths, strict=True)
     )
-    return [RIM_NARROW(cells=cells, wanted=" x ".join(str(n) for n in wanted))]
+    return [FILM_CELLS_FEW(cells=cells, wanted=" x ".join(str(n) for n in wanted), reason="rim")]

@@ -13,7 +13,7 @@ from bem.campaigns.cases import REPETITION, Campaign, Case, campaign_of
 from bem.campaigns.refine import told_in_summary
 from bem.errors import Status
 from bem.notes import Note
-from bem.notes.accuracy import BARS_OF_SCATTER, NoBar, no_error_bar
+from bem.notes.accuracy import BARS_PARTIAL, NoBar, no_error_bar
 from bem.scenes.axes import Axis
 from bem.scenes.common import SceneModel
 from bem.scenes.context import Outcome, Variable
@@ -159,7 +159,7 @@ def words_of_bars(campaign: Campaign, records: Sequence[Record | None]) -> list[
     if record.scatters and repeated > 1:
         judged = [told[name] for name in record.scatters if name in told and name in _barred(records)]
         but = f" (but for {', '.join(judged)})" if judged else ""
-        found.append(BARS_OF_SCATTER(repetitions=repeated, but=but))
+        found.append(BARS_PARTIAL(repetitions=repeated, but=but, reason="scatter"))
     return found
 
 

@@ -22,7 +22,7 @@ from numpy.typing import NDArray
 from bem.campaigns.cases import Campaign
 from bem.errors import Status
 from bem.notes import Note, as_note, unpacked
-from bem.notes.accuracy import ACCURACY_LEFT_OUT, ACCURACY_REACHED, named
+from bem.notes.accuracy import ACCURACY, named
 from bem.scenes.asked import ALL, ANY, figures_of_chance, relative_error, shortfall, wanted
 from bem.scenes.common import SceneModel
 from bem.scenes.context import Context
@@ -253,7 +253,7 @@ def _left_to_chance(campaign: Campaign) -> list[Note]:
         return []
     left = figures_of_chance(kind.record, kind.headline)
     by_reason = {why: [name for name in left if left[name] == why] for why in left.values()}
-    return [ACCURACY_LEFT_OUT(figures=named(names), why=why) for why, names in by_reason.items()]
+    return [ACCURACY(figures=named(names), why=why, reason="left-out") for why, names in by_reason.items()]
 
 
 def _reached(campaign: Campaign, found: Sequence[Mapping[str, Any]]) -> Note:
@@ -262,17 +262,20 @@ def _reached(campaign: Campaign, found: Sequence[Mapping[str, Any]]) -> Note:
         (only,) = found
         *_, last = only["levels"]
         steps = "; ".join(f"{level['resolution']}: {_of_asked(level['worst'])}" for level in only["levels"])
-        return ACCURACY_REACHED(
+        return ACCURACY(
             asked=_asked_words(only["asked"]),
             met=f"{'met' if only['met'] else 'not met'} on {last['resolution']}{_worst(campaign.kind.record, last)}",
             steps=f"Largest error over what is asked, level by level: {steps}.",
+            reason="reached",
         )
     met = sum(item["met"] for item in found)
     finest = dict.fromkeys(item["levels"][-1]["resolution"] for item in found)
     on = " and ".join(finest) if len(finest) <= 2 else f"{len(finest)} choices such as {next(iter(finest))}"
     several = {_asked_words(item["asked"]) for item in found}
     asked = several.pop() if len(several) == 1 else "as each case asks"
-    return ACCURACY_REACHED(asked=asked, met=f"met in {met} of {len(campaign.cases)} cases, on {on}", steps="")
+    return ACCURACY(
+        asked=asked, met=f"met in {met} of {len(campaign.cases)} cases, on {on}", steps="", reason="reached"
+    )
 
 
 def _worst(record: type[Record], level: Mapping[str, Any]) -> str:

@@ -67,7 +67,7 @@ class Terminal:
         if not isinstance(text, Note):
             self.say(f"note: {text}")
             return
-        keys = {identity(text), (text.code, text.texts)}
+        keys = {identity(text), (text.code, text.texts), (text.code, text.headline)}
         if text.level is Level.INFO or keys & self._noted:
             return
         self._noted |= keys

@@ -39,7 +39,7 @@ def element(
     cases: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Rows of keys to change, .csv with units: a line for each.")
     ] = None,
-    remarks: Annotated[bool, typer.Option("--remarks", help="Show remarks on what is left out, too.")] = False,
+    remarks: Annotated[bool, typer.Option("--remarks", help="Show the whole text of remarks, too.")] = False,
 ) -> None:
     """Show the contacts of a machine element: load, radii, speeds, Hertz contact, film; the worst one, and where
     half-space and line film do not carry.
@@ -187,6 +187,8 @@ def _show(found: Element, chosen: ElementContact) -> None:
     head += [_BY_FORMULA[name] for name in _BY_FORMULA if name in columns]
     title = f"{found.model.name}: {found.model.element}"
     table(head, rows, title=title, right=range(2, len(head)), leading=2)
+    for sentence in found.found.geometry:
+        print(sentence)
 
 
 def _letters(found: Element) -> list[str]:

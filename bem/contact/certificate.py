@@ -21,7 +21,7 @@ from bem.contact.solution import ContactSolution
 from bem.errors import Status
 from bem.grid import Grid
 from bem.notes import Note
-from bem.notes.contact import CONTACT_REACHES_EDGE, CONTACT_SPOTS_SMALL, MEAN_GAP_IMPOSSIBLE, MEAN_GAP_NOT_FOUND
+from bem.notes.contact import CONTACT_AT_EDGE, MEAN_GAP_NOT_MET, SPOTS_SMALL
 
 FloatArray = NDArray[np.float64]
 
@@ -128,7 +128,7 @@ def _regions(
     least = load / cap  # the pressure is nowhere above the cap
     doubt: tuple[Note, ...] = ()
     if contact.elastic_edge_area < _SHORT * least and contact.counted_area > _MANY * least:
-        doubt = (CONTACT_SPOTS_SMALL(times=contact.counted_area / least),)
+        doubt = (SPOTS_SMALL(times=contact.counted_area / least, of=""),)
     if not capped:
         return contact, Region(0.0, 0.0, 0.0, 0.0, 0.0), doubt
     plastic = plastic_region(pressure, deformed, request.gap, cap, grid, modulus)
@@ -153,7 +153,7 @@ def _notes(grid: Grid, pressure: FloatArray) -> tuple[Note, ...]:
     reached = " and ".join("xy"[axis] for axis in free_edges_reached(grid.periodic, pressure))
     if not reached:
         return ()
-    return (CONTACT_REACHES_EDGE(axes=reached),)
+    return (CONTACT_AT_EDGE(axes=reached, reason="pressed"),)
 
 
 def _why(request: Request, units: Units, result: GridResult, status: Status, opening: float) -> tuple[Note, ...]:
@@ -161,9 +161,11 @@ def _why(request: Request, units: Units, result: GridResult, status: Status, ope
     if request.mean_gap is None:
         return ()
     if result.least_mean_gap is not None:
-        return (MEAN_GAP_IMPOSSIBLE(asked=request.mean_gap, least=result.least_mean_gap * units.length),)
+        return (
+            MEAN_GAP_NOT_MET(asked=request.mean_gap, least=result.least_mean_gap * units.length, reason="impossible"),
+        )
     if result.least_found is None and status is not Status.STALLED:
         return ()
     least = None if result.least_found is None else result.least_found * units.length
     has = f"{opening:.4g} m" if least is None else f"the least that was found, {least:.4g} m"
-    return (MEAN_GAP_NOT_FOUND(asked=request.mean_gap, found=has),)
+    return (MEAN_GAP_NOT_MET(asked=request.mean_gap, found=has, reason="not-found"),)

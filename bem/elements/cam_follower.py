@@ -3,7 +3,8 @@
 With the lift s over the angle theta, primes for d/d theta: the cam bends at the contact with rho = R_b + s + s'', and
 its surface comes with omega rho; the contact wanders on the follower with omega s'', so that the follower's surface
 leaves it with that. Their mean, omega (R_b + s + 2 s'') / 2, entrains the oil. The spring and the follower's inertia
-press: F = k (s_0 + s) + m omega^2 s''.
+press: F = k (s_0 + s) + m omega^2 s''. The follower does not turn; both bodies are as long as the cam is wide, without
+edges.
 """
 
 from __future__ import annotations
@@ -17,7 +18,7 @@ from pydantic import Field, model_validator
 from bem.elements.contact import ElementContact
 from bem.elements.model import Contacts, ElementModel
 from bem.notes import Note
-from bem.notes.elements import ENTRAINMENT_TURNS, FOLLOWER_LEAVES, FOLLOWER_PASSED_OFTEN, FOLLOWER_STILL
+from bem.notes.elements import CONTACT_LOST, FILM_BY_SQUEEZE, FOLLOWER_PASSED_OFTEN
 from bem.scenes.common import PositiveLength, problem
 from bem.scenes.units import Angle, Dimension, Force, RotationSpeed
 
@@ -92,10 +93,10 @@ class CamModel(ElementModel):
     def _notes(self, found: list[ElementContact], lost: int) -> tuple[Note, ...]:
         notes = []
         if lost:
-            notes.append(FOLLOWER_LEAVES(lost=lost, all=self.points))
+            notes.append(CONTACT_LOST(lost=lost, all=self.points, reason="follower"))
         turns = [b.name for a, b in pairwise(found) if (a.mean_speed > 0) != (b.mean_speed > 0)]
         if turns:
-            notes.append(ENTRAINMENT_TURNS(angles=", ".join(turns)))
+            notes.append(FILM_BY_SQUEEZE(angles=", ".join(turns), reason="follower"))
         if self.specific_wear_rate:
             notes.append(FOLLOWER_PASSED_OFTEN())
-        return (*notes, FOLLOWER_STILL())
+        return tuple(notes)

@@ -26,8 +26,9 @@ from bem.elements.rough_scenes import BOUNDARY_FRICTION, mixed_scene, rubbing_sc
 from bem.errors import InputError
 from bem.materials import Body, Material, contact_modulus
 from bem.notes import Note
-from bem.notes.elements import CONFORMING as CONFORMING_CONTACTS
-from bem.notes.elements import FILM_THIN, NO_HEAT, YIELDS
+from bem.notes.checks import CONTACT_WIDE, YIELDS
+from bem.notes.elements import NO_HEAT
+from bem.notes.scenes import FILM_THINNER_THAN_ROUGHNESS
 from bem.scenes.checks.hertz import smooth_contact
 from bem.scenes.checks.plausible import notes_on_table
 from bem.scenes.template import without_description
@@ -188,7 +189,7 @@ class Element:
         notes = [*notes_on_table(self.model), *self.found.notes]
         conforming = [one.name for one in self.found.contacts if one.conforming(self.modulus)]
         if conforming:
-            notes.append(CONFORMING_CONTACTS(places=len(conforming), first=conforming[0], limit=CONFORMING))
+            notes.append(CONTACT_WIDE(places=len(conforming), first=conforming[0], limit=CONFORMING, reason="element"))
         if (soft := self._yielding()) is not None:
             notes.append(soft)
         cold = [one.name for one in self._bodies() if not one.thermal_diffusivity]
@@ -196,7 +197,7 @@ class Element:
             notes.append(NO_HEAT(bodies=" and ".join(dict.fromkeys(cold))))
         ratios = self.columns().get("film_over_roughness", [])
         if touching := sum(ratio < 1 for ratio in ratios):
-            notes.append(FILM_THIN(places=touching, all=len(ratios)))
+            notes.append(FILM_THINNER_THAN_ROUGHNESS(where=f" at {touching} of {len(ratios)} places"))
         return tuple(notes)
 
     def _yielding(self) -> Note | None:
@@ -214,7 +215,7 @@ class Element:
             return None
         ratio, onset, one = max(found, key=lambda each: each[0])
         everywhere = len(self.found.contacts)
-        return YIELDS(places=len(found), all=everywhere, ratio=ratio, onset=onset, place=one.name)
+        return YIELDS(places=len(found), all=everywhere, ratio=ratio, onset=onset, place=one.name, reason="element")
 
     def _bodies(self) -> tuple[Material, Material]:
         return self.model.first.build(), self.model.second.build()

@@ -9,7 +9,11 @@ carries F = T / r_b1 alone between B and D; where two pairs carry, the share ris
 Of helical gears all this is the transverse section's, tan(alpha_t) = tan(alpha_n) / cos(beta), and lines of contact lie
 at beta_b to the axes in the plane of action, sin(beta_b) = sin(beta) cos(alpha_n). Across a line the flanks bend with
 s / cos(beta_b) and move over it with omega s (both have the same speed along it). The force F / cos(beta_b) presses
-evenly on all lines that lie in the plane of action at a time, whose length is exact: no share of a standard's.
+evenly on all lines that lie in the plane of action at a time, whose length is exact: no share of a standard's. Stiffer
+ends of helical teeth are left out.
+
+At A and E a tip's edge touches, whose pressure is higher than that of the flanks' curvature; tip relief, bending of
+teeth and dynamic load are left out. A scene takes each place as steady.
 """
 
 from __future__ import annotations
@@ -25,8 +29,6 @@ from bem.elements.contact import ElementContact
 from bem.elements.model import Contacts, ElementModel
 from bem.errors import InputError
 from bem.grid import FloatArray
-from bem.notes import Note
-from bem.notes.elements import GEAR_EDGES, GEAR_HELIX, GEAR_PATH, GEAR_STEADY
 from bem.scenes.common import PositiveLength, problem
 from bem.scenes.units import Angle, Dimension, Ratio, RotationSpeed
 
@@ -92,8 +94,15 @@ class GearModel(ElementModel):
                     (omega[0] * distances[0], omega[1] * distances[1]), length=self.face_width / inclined,
                 )
             )  # fmt: skip
-        told = _notes(self, path)
-        return Contacts(tuple(found), "position", "m", told, path.contact_ratio, _turns(omega), path.marks)
+        return Contacts(
+            tuple(found),
+            "position",
+            "m",
+            at_once=path.contact_ratio,
+            passes=_turns(omega),
+            marks=path.marks,
+            geometry=_geometry(self, path),
+        )
 
 
 @dataclass(frozen=True)
@@ -208,25 +217,23 @@ def _turns(omega: tuple[float, float]) -> tuple[float, float]:
     return omega[0] / (2 * math.pi), omega[1] / (2 * math.pi)
 
 
-def _notes(model: GearModel, path: Path) -> tuple[Note, ...]:
+def _geometry(model: GearModel, path: Path) -> tuple[str, ...]:
+    """Return sentences with the figures of the path of contact."""
     marks = path.marks
-    about = GEAR_PATH(
-        marks=", ".join(f"{name} {1e3 * place:.4g} mm" for name, place in marks.items()),
-        helical="" if "B" in marks else "; helical teeth have no points B and D of single contact",
-        ratio=path.contact_ratio,
-        angle=math.degrees(path.working_angle),
-        centre=1e3 * path.centre_distance,
-    )
-    passing = 1e3 * (path.end - path.start) / (model.speed * path.base_radii[0])
-    notes = [about, GEAR_EDGES(), GEAR_STEADY(time=passing)]
+    named = ", ".join(f"{name} {1e3 * place:.4g} mm" for name, place in marks.items())
+    helical = "" if "B" in marks else "; helical teeth have no points B and D of single contact"
+    said = [
+        f"On the path {named} from C{helical}. Contact ratio {path.contact_ratio:.4g}, working pressure angle "
+        f"{math.degrees(path.working_angle):.4g} deg, centre distance {1e3 * path.centre_distance:.6g} mm; teeth pass "
+        f"the path in {1e3 * (path.end - path.start) / (model.speed * path.base_radii[0]):.3g} ms."
+    ]
     if path.base_helix:
         lengths = path.lines(path.base_pitch * np.arange(_ACROSS) / _ACROSS)
-        helix = GEAR_HELIX(
-            helix=math.degrees(path.base_helix),
-            overlap=path.overlap / path.base_pitch,
-            shortest=float(lengths.min()),
-            longest=float(lengths.max()),
-            above=float(path.contact_ratio / lengths.min() - 1),
+        shortest, longest = float(lengths.min()), float(lengths.max())
+        said.append(
+            f"Helix {math.degrees(path.base_helix):.4g} deg on the base circles, overlap ratio "
+            f"{path.overlap / path.base_pitch:.4g}. The load lies evenly on lines of contact {shortest:.4g} to "
+            f"{longest:.4g} faces long together; a place's load is the mean over the face, and "
+            f"{path.contact_ratio / shortest - 1:.2g} more where they are shortest."
         )
-        notes.insert(1, helix)
-    return tuple(notes)
+    return tuple(said)

@@ -24,6 +24,7 @@ class Contacts:
     passes : how often a place of either body comes through the contact [1/s]; None of one where that is no single
         number.
     marks : places of the path that have a name, in its order: "A" to "E" of a gear pair.
+    geometry : sentences with the element's own figures: path of contact, load sharing.
     """
 
     contacts: tuple[ElementContact, ...]
@@ -33,6 +34,7 @@ class Contacts:
     at_once: float = 1.0
     passes: tuple[float | None, float | None] = (None, None)
     marks: Mapping[str, float] = field(default_factory=dict)
+    geometry: tuple[str, ...] = ()
 
 
 class ElementModel(Table):

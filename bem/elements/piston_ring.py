@@ -4,6 +4,8 @@ The piston is r (1 - cos t) + l - sqrt(l^2 - r^2 sin^2 t) below its upper turnin
 rod, t the angle; the liner comes over the ring with the piston's speed, of which one half entrains. The ring's tension
 F presses with 2 F / D on every length around the bore D (balance of half a ring). Gas, p over what is below, stands
 behind the whole height b and on the face above the line of contact, which lies c b over the lower edge: c p b is left.
+The face is full of oil to its leading edge. Less oil on the liner, gas pressure at the film's ends, the ring's gap,
+tilt and a bore that is not round are left out.
 """
 
 from __future__ import annotations
@@ -19,7 +21,7 @@ from bem.elements.contact import ElementContact
 from bem.elements.model import Contacts, ElementModel
 from bem.materials import contact_modulus
 from bem.notes import Note
-from bem.notes.elements import RING_AT_EDGE, RING_EXIT, RING_FULL, RING_LIFTED, RING_SQUEEZE
+from bem.notes.elements import CONTACT_LOST, FILM_BY_SQUEEZE, RING_AT_EDGE
 from bem.reference_solutions.line_film import InletFilm
 from bem.scenes.common import PositiveLength, Table, problem
 from bem.scenes.tables.along import columns_or_file
@@ -128,19 +130,19 @@ class PistonRingModel(ElementModel):
     def _notes(self, found: list[ElementContact], lost: int) -> tuple[Note, ...]:
         notes = []
         if lost:
-            notes.append(RING_LIFTED(lost=lost, all=self.points))
+            notes.append(CONTACT_LOST(lost=lost, all=self.points, reason="ring"))
         modulus = contact_modulus(self.first.build(), self.second.build())
         wide = [one for one in found if one.half_width(modulus) >= min(one.inlet, self.height - one.inlet)]
         if wide:
-            notes.append(RING_AT_EDGE(places=len(wide), all=self.points, first=wide[0].name))
+            notes.append(RING_AT_EDGE(places=len(wide), all=self.points, first=wide[0].name, reason="contact"))
         films = [] if self.oil is None else [self._film(one) for one in found]
         sinking = [one for one, film in zip(found, films, strict=False) if self._lags(one, film.minimum_thickness)]
         if sinking:
-            notes.append(RING_SQUEEZE(places=len(sinking), all=self.points, first=sinking[0].name))
+            notes.append(FILM_BY_SQUEEZE(places=len(sinking), all=self.points, first=sinking[0].name, reason="ring"))
         beyond = [one for one, film in zip(found, films, strict=False) if film.exit_position > self.height - one.inlet]
         if beyond:
-            notes.append(RING_EXIT(places=len(beyond), all=self.points, first=beyond[0].name))
-        return (*notes, RING_FULL())
+            notes.append(RING_AT_EDGE(places=len(beyond), all=self.points, first=beyond[0].name, reason="film"))
+        return tuple(notes)
 
     def _film(self, one: ElementContact) -> InletFilm:
         assert self.oil is not None

@@ -4,6 +4,10 @@ Load share: each element is pressed in by delta cos(psi) - c/2 on radial shift d
 times that to the power n (Stribeck 1901, Sjovall 1933; Harris, *Rolling Bearing Analysis*, ch. 7). Of balls K and
 n = 1.5 are Hertz' for both rings, exact; of rollers they are Palmgren's, 3.84e-5 Q^0.9 / l^0.8 in mm and N for each
 steel ring (n = 10/9). Both surfaces roll at omega d_m (1 - gamma^2) / 4 over either ring, gamma = D / d_m.
+
+Spin and differential slip of balls are left out, as are edges, crowning and skew of rollers, whose load is even along
+the length. The line film of a scene takes the middle of a ball's ellipse, and no oil that leaves sideways. The
+centrifugal force is in the loads of the outer ring, not in how the radial load is shared.
 """
 
 from __future__ import annotations
@@ -18,8 +22,6 @@ from pydantic import Field, model_validator
 from bem.elements.contact import ElementContact
 from bem.elements.model import Contacts, ElementModel
 from bem.materials import contact_modulus
-from bem.notes import Note
-from bem.notes.elements import BALLS_ROLL, BEARING_LOADS, CENTRIFUGAL, ROLLERS_EVEN
 from bem.reference_solutions.hertz import ellipse_contact
 from bem.scenes.common import PositiveLength, problem
 from bem.scenes.units import Force, Length, Ratio, RotationSpeed
@@ -88,7 +90,9 @@ class BearingModel(ElementModel):
                             (race.radius, 0.5 * self.diameter), (rolling, rolling), race.across, self.length,
                         )
                     )  # fmt: skip
-        return Contacts(tuple(found), "angle", "rad", _notes(self, shared, pressed_out), float(len(found)))
+        return Contacts(
+            tuple(found), "angle", "rad", geometry=_load_sharing(self, shared, pressed_out), at_once=float(len(found))
+        )
 
 
 @dataclass(frozen=True)
@@ -162,12 +166,16 @@ def _centrifugal(model: BearingModel) -> float:
     return density * volume * 0.5 * model.pitch * cage**2
 
 
-def _notes(model: BearingModel, shared: Sequence[float], pressed_out: float) -> tuple[Note, ...]:
+def _load_sharing(model: BearingModel, shared: Sequence[float], pressed_out: float) -> tuple[str, ...]:
+    """Return sentences with the figures of the load sharing."""
     highest = max(shared)
-    ratio = highest * model.count / model.radial_load
-    carrying = sum(q > 0 for q in shared)
-    notes = [BEARING_LOADS(carrying=carrying, all=model.count, highest=highest, ratio=ratio)]
+    said = [
+        f"{sum(q > 0 for q in shared)} of {model.count} elements carry; the most loaded one {highest:.4g} N, "
+        f"{highest * model.count / model.radial_load:.3g} times radial load over number of elements."
+    ]
     if pressed_out > 0.05 * highest:
-        notes.append(CENTRIFUGAL(force=pressed_out))
-    notes.append(BALLS_ROLL() if model.rolling == "ball" else ROLLERS_EVEN())
-    return tuple(notes)
+        said.append(
+            f"Centrifugal force presses each element outwards with {pressed_out:.3g} N, which is in the loads of the "
+            "outer ring and not in how the radial load is shared."
+        )
+    return tuple(said)

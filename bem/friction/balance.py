@@ -31,7 +31,7 @@ from bem.friction.rough_contact import Pressed, RoughContact
 from bem.grid import FloatArray
 from bem.lubrication.validity import THINNEST_FILM
 from bem.notes import Note
-from bem.notes.friction import BOUNDARY_LUBRICATION, FILM_MODEL_ENDS, NO_FILM
+from bem.notes.friction import BOUNDARY_LUBRICATION, FILM_MODEL_ENDS
 
 MAX_TRIALS = 60
 ONE_LOAD = 0.1
@@ -379,12 +379,12 @@ def _certified(
     if contact is not None and regime is Regime.MIXED:
         oil_imbalance, held = contact.opening / rough.oil(film) - 1, _holds_oil(trial, rough, tolerance)
     if regime is Regime.BOUNDARY:
-        left = BOUNDARY_LUBRICATION(share=float(film.load / load))
-        notes.append(NO_FILM(limit=THINNEST_FILM) if short else left)
+        left = BOUNDARY_LUBRICATION(share=float(film.load / load), reason="load")
+        notes.append(BOUNDARY_LUBRICATION(limit=THINNEST_FILM, reason="thin") if short else left)
         if contact is not None:
             film = film.left_in(contact.opening, rough.oil(film))
     elif short:
-        notes.append(FILM_MODEL_ENDS(load=float(film.load)))
+        notes.append(FILM_MODEL_ENDS(load=float(film.load), reason="balance"))
     status = Status.CONVERGED
     if film.status is not Status.CONVERGED:
         status = film.status

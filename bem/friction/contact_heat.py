@@ -26,7 +26,6 @@ from bem.heat.solution import TemperatureSolution
 from bem.heat.steady import surface_temperature
 from bem.lubrication.with_heat import FilmHeat
 from bem.notes import Note
-from bem.notes.lubrication import BODY_AT_REST
 
 TOLERANCE = 1e-6
 """Difference of both surfaces over the rise; and of the coefficient of friction."""
@@ -90,8 +89,7 @@ def contact_heat(film: PatchFilm, contact: Pressed, setup: MixedSetup, speeds: t
         law=law,
         coefficient=coefficient,
         status=found.status,
-        notes=found.notes
-        + ((BODY_AT_REST(distance="the cylinder's radius"),) if moving != speeds and 0 in speeds else ()),
+        notes=found.notes,
     )
 
 

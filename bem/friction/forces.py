@@ -23,7 +23,8 @@ from bem.friction.solution import sliding_sign
 from bem.grid import FloatArray
 from bem.materials import Body
 from bem.notes import Note
-from bem.notes.friction import COUPLING_DIFFERS, FILM_WITHOUT_LAYERS, FRICTION_UNPHYSICAL, WHOLE_FILM_BEYOND_MODEL
+from bem.notes.contact import FRICTION_ON_PRESSURE
+from bem.notes.friction import FILM_MODEL_ENDS, FILM_WITHOUT_LAYERS, FRICTION_UNPHYSICAL
 
 LARGEST_FRICTION = 1.0
 """Coefficient of friction that neither a boundary layer nor an oil under pressure reaches."""
@@ -91,7 +92,7 @@ def validity_notes(
         reason = "shear" if stressed else "drag"
         notes.append(FRICTION_UNPHYSICAL(friction=float(friction), limit=LARGEST_FRICTION, reason=reason))
     if whole.load < setup.load * (1 - 1e-12):
-        notes.append(WHOLE_FILM_BEYOND_MODEL(load=float(whole.load)))
+        notes.append(FILM_MODEL_ENDS(load=float(whole.load), reason="whole-load"))
     return (*notes, *coating_notes(setup))
 
 
@@ -116,4 +117,4 @@ def coupling_notes(forces: Forces, traction: float, setup: MixedSetup) -> tuple[
     bodies = (setup.bodies,) if isinstance(setup.bodies, Body) else setup.bodies
     if not couples(bodies):
         return ()
-    return (COUPLING_DIFFERS(used=float(used), found=float(found)),)
+    return (FRICTION_ON_PRESSURE(used=float(used), found=float(found), reason="other-friction"),)

@@ -11,14 +11,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from bem.friction.oil_volume import OilVolume
-from bem.notes import Note
-from bem.notes.friction import (
-    OIL_BESIDE_DECIDES,
-    OIL_BESIDE_FOLLOWS,
-    OIL_BESIDE_UNKNOWN,
-    OIL_IN_HERTZ_DECIDES,
-    OIL_IN_HERTZ_FOLLOWS,
-)
+from bem.notes import Level, Note
+from bem.notes.friction import OIL_COUNTED
 
 LOAD_CHANGES = 0.1
 """Change of the surfaces' share of the load, relative to it, from which a note says so."""
@@ -93,6 +87,7 @@ def oil_notes(oils: Sequence[OilBeside]) -> tuple[Note, ...]:
     notes = []
     if known:
         oil = max(known, key=lambda one: one.change)
+        level = Level.OUTSIDE_MODEL if oil.decides else None
         values: dict[str, Any] = {
             "contact_share": float(oil.contact_share),
             "friction": float(oil.friction),
@@ -101,10 +96,10 @@ def oil_notes(oils: Sequence[OilBeside]) -> tuple[Note, ...]:
             "most": ", where that differs most" if len(known) > 1 else "",
         }
         if all(one.counted is OilVolume.HERTZ for one in following):
-            notes.append((OIL_IN_HERTZ_DECIDES if oil.decides else OIL_IN_HERTZ_FOLLOWS)(**values))
+            notes.append(OIL_COUNTED(level=level, reason="hertz", **values))
         else:
             share = float(max(one.share for one in following))
-            notes.append((OIL_BESIDE_DECIDES if oil.decides else OIL_BESIDE_FOLLOWS)(share=share, **values))
+            notes.append(OIL_COUNTED(level=level, reason="patch", share=share, **values))
     if len(known) < len(following):
-        notes.append(OIL_BESIDE_UNKNOWN(count=len(following) - len(known)))
+        notes.append(OIL_COUNTED(count=len(following) - len(known), reason="unknown"))
     return tuple(notes)

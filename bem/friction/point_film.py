@@ -25,7 +25,7 @@ from bem.lubrication.point.solve import MOES_LOADS
 from bem.lubrication.point.validity import but_unknown
 from bem.lubrication.supply import OilLayer
 from bem.lubrication.validity import THINNEST_FILM
-from bem.notes.friction import POINT_FILM_LAYER, POINT_FILM_THIN
+from bem.notes.friction import POINT_FILM_SCALED
 from bem.numerics.cache import KeptValues
 from bem.plausibility import without_argument_notes
 from bem.reference_solutions.hertz import ellipse_contact
@@ -216,7 +216,7 @@ def thin_film(
     dry = ellipse_contact(radii=contact.radii, contact_modulus=contact.film_modulus(solved), load=solved)
     opening = contact.parabola(film.x, film.y) + dry.displacement(film.x[:, None], film.y[None, :]) - dry.approach
     opening = np.maximum(opening, 0.0)
-    least, kind = thinner * film.minimum_thickness, POINT_FILM_LAYER if solved > load else POINT_FILM_THIN
+    least, reason = thinner * film.minimum_thickness, "layer" if solved > load else "thin"
     made = replace(
         film,
         x=stretch * film.x,
@@ -228,7 +228,10 @@ def thin_film(
         central_thickness_error=None,
         minimum_thickness_error=None,
         load=film.load * (load / solved),
-        notes=(*film.notes, kind(factors="" if contact.flow_factors == "off" else _FACTORS)),
+        notes=(
+            *film.notes,
+            POINT_FILM_SCALED(reason=reason, factors="" if contact.flow_factors == "off" else _FACTORS),
+        ),
     )
     forces, rolling = made.forces()
     return replace(made, shear_force=forces, rolling_force=rolling)

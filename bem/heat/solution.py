@@ -11,7 +11,7 @@ from bem.errors import Status
 from bem.grid import FloatArray
 from bem.heat.bodies import Conductor
 from bem.notes import Note
-from bem.notes.heat import BULK_HOT, RISE_TRANSFORMS, SURFACE_SOFTENS, SURFACE_TRANSFORMS
+from bem.notes.heat import SURFACE_HOT
 from bem.representation import readable
 
 _ZERO_CELSIUS = 273.15
@@ -96,11 +96,11 @@ def _notes(maximum: float, bulk: float) -> Iterator[Note]:
     """Yield notes on a maximum temperature and the larger bulk temperature [K] at which the model's constants fail."""
     if bulk < _ABSOLUTE_BULK:
         if maximum > _TRANSFORMATION:
-            yield RISE_TRANSFORMS(rise=maximum)
+            yield SURFACE_HOT(rise=maximum, reason="rise")
         return
     if bulk > _HOT_BULK:
-        yield BULK_HOT(bulk=bulk - _ZERO_CELSIUS, limit=_HOT_BULK - _ZERO_CELSIUS)
+        yield SURFACE_HOT(bulk=bulk - _ZERO_CELSIUS, limit=_HOT_BULK - _ZERO_CELSIUS, reason="bulk")
     if maximum > _TRANSFORMATION:
-        yield SURFACE_TRANSFORMS(temperature=maximum - _ZERO_CELSIUS)
+        yield SURFACE_HOT(temperature=maximum - _ZERO_CELSIUS, reason="transforms")
     elif maximum > _SOFTENING >= bulk:
-        yield SURFACE_SOFTENS(temperature=maximum - _ZERO_CELSIUS)
+        yield SURFACE_HOT(temperature=maximum - _ZERO_CELSIUS, reason="softens")

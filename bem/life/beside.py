@@ -15,8 +15,8 @@ from bem.life.fatigue import RollingFatigue, pitted_share
 from bem.life.march import LifeState
 from bem.life.pieces import PieceSizes, carried_away
 from bem.life.surfaces import LifeCase
-from bem.notes import Note
-from bem.notes.wear import LIFE_WITHOUT_PIECES, MICROPITTING_ASSUMPTIONS
+from bem.notes import Level, Note
+from bem.notes.checks import NOTHING_CAME_OFF
 from bem.wear.setup import LOWER
 
 FIGURES = (
@@ -68,13 +68,12 @@ class Beside:
         return now
 
     def notes(self) -> tuple[Note, ...]:
-        """Return notes on particles and micropitting."""
-        notes = []
-        if self.sizes is not None and not (self.pieces[:, 1] > 0).any():
-            notes.append(LIFE_WITHOUT_PIECES())
-        if self.fatigue is not None:
-            notes.append(MICROPITTING_ASSUMPTIONS(residual=float(self.fatigue.limit.residual)))
-        return tuple(notes)
+        """Return a note where the criterion finds no piece in any pass, so that particles have no size."""
+        if self.sizes is None or (self.pieces[:, 1] > 0).any():
+            return ()
+        law = self.sizes.model.law.name
+        takes = "Wear goes on by its law; particles have no sizes and numbers."
+        return (NOTHING_CAME_OFF("particles", level=Level.INFO, law=law, takes=takes),)
 
     def figures(self, cycle: FloatArray, end: LifeState) -> dict[str, Any]:
         """Figures of a record at its cycles (n,); None of what was not counted."""

@@ -23,7 +23,7 @@ from bem.lubrication.shear_profile import middle_stress
 from bem.lubrication.steady import lowest_film
 from bem.lubrication.time_steps import Derivative, Reached
 from bem.lubrication.validity import Case, notes_on, why_no_line_film
-from bem.notes.lubrication import FIRST_FILM_LOAD
+from bem.notes.lubrication import FIRST_FILM
 
 SETTLING = (0.3, 0.03, 1e-3)
 """Times that a first film is given to settle on the march's mesh where its steady film is not found, in the time that
@@ -148,7 +148,7 @@ def given_start(march: March, film: Film, time: float) -> tuple[Reached[Film], F
     solution = solution_at(march, film, time)
     missed = solution.load / march.operation.load(time) - 1
     if solution.load > 0 and abs(missed) > march.tolerance:
-        note = FIRST_FILM_LOAD(origin="the one given", missed=100 * missed)
+        note = FIRST_FILM(origin="the one given", missed=100 * missed, reason="load")
         solution = replace(solution, notes=(*solution.notes, note))
     return Reached(time, film), solution
 

@@ -20,7 +20,8 @@ import numpy as np
 from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.notes import Note
-from bem.notes.lubrication import FACTORS_CONTACT, FACTORS_EXTRAPOLATED
+from bem.notes.contact import FLOW_BARRED
+from bem.notes.lubrication import FACTORS_EXTRAPOLATED
 
 Curve = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
 LEAST_FACTOR = 1e-4
@@ -149,7 +150,7 @@ def notes_on_factors(factors: WallFactors | str, thinnest: float) -> tuple[Note,
     if isinstance(factors, str):
         return ()
     if float(factors.pressure_x_curve(np.array([thinnest]))[0][0]) <= LEAST_FACTOR:
-        return (FACTORS_CONTACT(thinnest=float(thinnest), least=LEAST_FACTOR),)
+        return (FLOW_BARRED(thinnest=float(thinnest), least=LEAST_FACTOR, reason="film"),)
     least = float(np.min(factors.separations))
     if thinnest >= least:
         return ()

@@ -20,17 +20,15 @@ from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.shear import LimitedShear
 from bem.notes import Level, Note
 from bem.notes.lubrication import (
-    FILM_HEATING,
     FILM_MOLECULAR,
     FILM_NOT_FOUND,
     FILM_SLIPS,
     FILM_SPIKE,
     FILM_THICK,
-    INLET_HEATING,
+    HEAT_LEFT_OUT,
     SHEAR_BEYOND_MEASURED,
     SHEAR_LIMITED,
     VISCOSITY_EXTRAPOLATED,
-    VISCOSITY_GLASS,
 )
 
 LARGEST_SHEAR_COEFFICIENT = 0.12
@@ -177,7 +175,7 @@ def viscosity_beyond_range(case: Case) -> Note | None:
 
 
 def _glass(oil: Lubricant) -> Note:
-    return VISCOSITY_GLASS(law=oil.viscosity_law.name, glass=GLASS)
+    return VISCOSITY_EXTRAPOLATED(law=oil.viscosity_law.name, glass=GLASS, reason="glass")
 
 
 def check_oil(lubricant: Lubricant, unit: float) -> None:
@@ -218,7 +216,7 @@ def inlet_heating(case: Case) -> Note | None:
     heating = inlet_heating_factor(case.lubricant.viscosity, OIL_SOFTENING, OIL_CONDUCTIVITY, case.speeds, hertz)
     if heating.factor >= LEAST_INLET_FACTOR * case.reduction:
         return None
-    return INLET_HEATING(factor=1 / heating.factor)
+    return HEAT_LEFT_OUT(factor=1 / heating.factor, reason="inlet")
 
 
 def film_heating(case: Case) -> Note | None:
@@ -240,7 +238,7 @@ def film_heating(case: Case) -> Note | None:
     flash = 2 * heat * math.sqrt(length / math.pi) / (STEEL_EFFUSIVITY * root)
     if film + flash <= LARGEST_HEATING:
         return None
-    return FILM_HEATING(limit=LARGEST_HEATING, rise=film + flash)
+    return HEAT_LEFT_OUT(limit=LARGEST_HEATING, rise=film + flash, reason="sliding")
 
 
 def molecular_film(case: Case) -> Note | None:

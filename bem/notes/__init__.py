@@ -3,7 +3,8 @@
 `note` has the types and `merge` one list of several. The other modules are the catalogue, a file for each part of the
 program, gathered in `catalogue`. A solver calls a kind of note with its values, `FILM_MOLECULAR(thickness=1e-9)`; views
 show `headline`, `line` or the whole text. To add a note, define its kind in the file of its part: a headline of at most
-12 words that says what is wrong or uncertain, one sentence with the numbers, and what to do.
+12 words that says what is wrong or uncertain, one sentence with the numbers, and what to do. Causes of one uncertainty
+are reasons of one kind, each with its sentence; a simplification that always holds belongs to the guide.
 """
 
 from bem.notes.note import (
@@ -11,6 +12,7 @@ from bem.notes.note import (
     Level,
     Note,
     NoteKind,
+    Reason,
     Span,
     as_note,
     define,
@@ -26,6 +28,7 @@ __all__ = [
     "Level",
     "Note",
     "NoteKind",
+    "Reason",
     "Span",
     "as_note",
     "define",

@@ -35,6 +35,8 @@ class NoBar(StrEnum):
     REPEATED_CELL = "repeated-cell"
     FEW_PARTICLES = "few-particles"
     SCATTERED_PARTICLES = "scattered-particles"
+    NO_COARSE_FILM = "no-coarse-film"
+    SINGLE_LOOP = "single-loop"
     OF_KIND = "of-kind"
 
 
@@ -88,39 +90,42 @@ NO_ERROR_BAR = define(
         NoBar.REPEATED_CELL: "The error of a cell that repeats is not known; compare with half the spacing.",
         NoBar.FEW_PARTICLES: "There are fewer than two particles.",
         NoBar.SCATTERED_PARTICLES: "{count} particles leave more than {most:.0f} times the figure open.",
+        NoBar.NO_COARSE_FILM: "On half as many cells there is no film to compare with.",
+        NoBar.SINGLE_LOOP: (
+            "A single loop has none: cycles.coarser_grid = true makes it once more on the grid of twice the cell; "
+            "repetitions show how figures scatter with the surface."
+        ),
         NoBar.OF_KIND: "{why}.",
     },
 )
-BARS_OF_HALF_CELLS = define(
-    "error-bars-of-half-cells",
+BARS_PARTIAL = define(
+    "error-bars-partial",
     INFO,
-    "Error bars of rough films come from half as many cells.",
-    "Bumps show no order of convergence there; on random balls the bars covered about nine errors in ten.",
+    "Error bars do not cover every error.",
+    reasons={
+        "half-cells": (
+            "Those of rough films come from half as many cells, and bumps show no order of convergence there; on "
+            "random balls they covered about nine errors in ten."
+        ),
+        "large-particles": (
+            "Those of weighted particle means may be too small: large particles are more frequent than in a log-normal "
+            "distribution; of such samples half to two thirds were covered."
+        ),
+        "scatter": (
+            "They are standard errors of the mean over {repetitions} repetitions alone{but}; errors of cells, depths "
+            "and tolerances are not in them."
+        ),
+        "life": "Figures are means over {positions} positions, and bars hold {hold}.",
+    },
 )
-BARS_OF_LARGE_PARTICLES = define(
-    "error-bars-of-large-particles",
+ACCURACY = define(
+    "accuracy",
     INFO,
-    "Error bars of weighted particle means may be too small.",
-    "Large particles are more frequent than in a log-normal distribution; of such samples half to two "
-    "thirds were covered.",
-)
-BARS_OF_SCATTER = define(
-    "error-bars-of-scatter",
-    INFO,
-    "Errors are the scatter over {repetitions} repetitions alone.",
-    "They are standard errors of the mean{but}; errors of cells, depths and tolerances are not in them.",
-)
-ACCURACY_REACHED = define(
-    "accuracy-reached",
-    INFO,
-    "The accuracy asked for, {asked}, is {met}.",
-    "{steps}",
-)
-ACCURACY_LEFT_OUT = define(
-    "accuracy-left-out",
-    INFO,
-    "The accuracy is not asked of {figures:few}.",
-    "{why}.",
+    "The accuracy asked for is {met}.",
+    reasons={
+        "reached": "Asked for is {asked}.{steps}",
+        "left-out": "{why}.",
+    },
 )
 
 

@@ -1,6 +1,6 @@
 """Notes of checks on scenes, before a run and after it."""
 
-from bem.notes.note import Level, define
+from bem.notes.note import Level, Reason, define
 
 OUTSIDE_MODEL, CAUTION, INFO = Level.OUTSIDE_MODEL, Level.CAUTION, Level.INFO
 
@@ -29,39 +29,32 @@ LAYER_INCOMPRESSIBLE = define(
 HARDNESS_UNLIKELY = define(
     "hardness-unlikely",
     CAUTION,
-    "The hardness does not fit Young's modulus.",
+    "The hardness does not fit Young's modulus or yield stress.",
+    "",
+    "Check the values and their units.",
     reasons={
-        "low": (
-            "{hardness:si Pa} is {share:.2g} of Young's modulus, below that of annealed metals (5e-4 to 0.2): "
-            "check both units."
-        ),
-        "high": (
-            "{hardness:si Pa} is {share:.2g} of Young's modulus, above that of a perfect solid (5e-4 to 0.2): "
-            "check both units."
+        "low": "{hardness:si Pa} is {share:.2g} of Young's modulus, below that of annealed metals (5e-4 to 0.2).",
+        "high": "{hardness:si Pa} is {share:.2g} of Young's modulus, above that of a perfect solid (5e-4 to 0.2).",
+        "yield": Reason(
+            "The yield stress {stress:si Pa} is hardness / {ratio:.2g}; metals have hardness / 2.6 to / 3, brittle"
+            " solids down to / 1.5.",
+            "Leave yield_stress out (hardness / 2.8 is taken), or check both.",
         ),
     },
 )
-CAP_OF_STIFFER = define(
-    "cap-of-stiffer",
+CAP_NOT_OF_SOFTER = define(
+    "cap-not-of-softer",
     CAUTION,
-    "The contact is capped at the hardness of the stiffer body.",
-    "{material} has neither hardness nor yield stress, so that pressures are capped at the {cap:si Pa} of {stiff}.",
+    "The pressure is capped by another value than the softer body's hardness.",
+    "",
     "Give {material} a hardness of its own.",
-)
-YIELD_UNLIKELY = define(
-    "yield-stress-unlikely",
-    CAUTION,
-    "The yield stress does not fit the hardness.",
-    "{stress:si Pa} is hardness / {ratio:.2g}; metals have hardness / 2.6 to / 3, brittle solids down to / 1.5.",
-    "Leave yield_stress out (hardness / 2.8 is taken), or check both.",
-)
-TENSILE_CAP = define(
-    "tensile-strength-as-cap",
-    CAUTION,
-    "The pressure is capped at 2.8 times a tensile strength.",
-    "wear.criterion maximum_tension takes the yield stress of {material}, {stress:si Pa}, as its tensile "
-    "strength; without a hardness the pressure is capped at 2.8 times that, {cap:si Pa}.",
-    "Give {material} a hardness.",
+    reasons={
+        "stiffer": "{material} has neither hardness nor yield stress: the cap is the {cap:si Pa} of {stiff}.",
+        "tensile": (
+            "wear.criterion maximum_tension takes the yield stress of {material}, {stress:si Pa}, as its tensile "
+            "strength; without a hardness the cap is 2.8 times that, {cap:si Pa}."
+        ),
+    },
 )
 
 # Operation
@@ -88,27 +81,21 @@ SURFACE_IS_FORM = define(
     "Sq {height:si m} is {share:%} of the patch's side.",
     "Check height_unit and rms_height, or remove form.",
 )
-MAP_MUCH_FILLED = define(
-    "map-much-filled",
-    CAUTION,
-    "Many points of the map were missing.",
-    "{share:%} are filled smoothly; instruments lose the steep ones, so the real surface is rougher.",
-    "Crop to a whole part, or measure again.",
-)
-MAP_FEW_POINTS = define(
-    "map-few-points",
-    CAUTION,
-    "What touches is interpolated, not measured.",
-    "the grid lies on {points} measured points {apart} apart.",
-    "Take a larger grid, or a finer map.",
-)
 MAP_COARSE = define(
     "map-coarse",
     CAUTION,
-    "The cells are finer than the measured points.",
-    "Cells are {finer:.2g} times finer than the points ({apart}): contact area and pressures are those of a"
-    " smoothed surface.",
-    "Take larger cells, or a finer map.",
+    "The map has too few measured points for this grid.",
+    reasons={
+        "points": Reason(
+            "The whole grid lies on {points} measured points {apart} apart: roughness in the contact is interpolated.",
+            "Take a larger grid, or a finer map.",
+        ),
+        "cells": Reason(
+            "Cells are {finer:.2g} times finer than the points ({apart}): contact area and pressures are those of a"
+            " smoothed surface.",
+            "Take larger cells, or a finer map.",
+        ),
+    },
 )
 MAP_SCALED = define(
     "map-scaled",
@@ -123,45 +110,60 @@ CONTACT_WIDE = define(
     "contact-wide",
     CAUTION,
     "The contact is wide for the radius of its bodies.",
-    "contact radius {ratio:.2g} of the body's: half-spaces and small strains hold below about 0.2; strains "
-    "are of order {strain:%}.",
-    "Expect errors of several per cent, or use finite elements with large deformations.",
+    reasons={
+        "hertz": Reason(
+            "Its radius is {ratio:.2g} of the body's: half-spaces and small strains hold below about 0.2; strains are"
+            " of order {strain:%}.",
+            "Expect errors of several per cent, or use finite elements with large deformations.",
+        ),
+        "element": Reason(
+            "At {places} places ({first}, ...) it reaches over {limit:g} of a body's radius: the gap of conforming"
+            " bodies is up to 7 % and more over the parabola of Hertz and of scenes.",
+            "Take the pressures there as estimates.",
+        ),
+        "worn": Reason(
+            "The bodies are worn {depth:si m} deep at a radius of {radius:si m}{of}: the scar's edge has a slope of"
+            " {slope:.2g}, where half-spaces hold below about {limit:g}, and pressure, depth and width are not those of"
+            " such bodies.",
+            "Take less wear (a shorter wear.criterion.distance, fewer cycles.count), or the volume by load and distance"
+            " alone.",
+        ),
+    },
 )
-PRESSURE_ABOVE_HARDNESS = define(
-    "pressure-above-hardness",
+ABOVE_HARDNESS = define(
+    "above-hardness",
     CAUTION,
-    "The elastic contact exceeds the hardness; a real one would flow.",
-    "Hertz pressure {pressure:si Pa} is {ratio:.2g} times the softer hardness.",
-    "To stay below the hardness, {action}.",
+    "The contact is elastic above the hardness; a real one would flow.",
+    reasons={
+        "hertz": Reason(
+            "Hertz' pressure {pressure:si Pa} is {ratio:.2g} times the softer hardness.",
+            "To stay below the hardness, {action}.",
+            foreseen=True,
+        ),
+        "solved": Reason(
+            "Pressures reach {pressure:si Pa}, {ratio:.2g} times the softer hardness, and {share:%} of the load is"
+            " carried above it.",
+            "To stay below the hardness, {action}.",
+        ),
+    },
 )
-YIELD_BELOW_SURFACE = define(
-    "yield-below-surface",
+YIELDS = define(
+    "yields",
     CAUTION,
-    "The softer body begins to yield below its surface.",
-    "Hertz pressure {pressure:si Pa} is {ratio:.3g} times that at which it begins to yield, {onset:si Pa}: "
-    "elastic stresses there are too high, and the first loadings leave residual stresses.",
-    "Lower the load, or expect residual stresses.",
-)
-LOAD_NEAR_HARDNESS = define(
-    "load-near-hardness",
-    CAUTION,
-    "Most of the patch would be at the hardness.",
-    "The load is {ratio:.2g} of hardness x area of the grid.",
-    "Take a smaller load or a larger grid.",
-)
-GRID_SMALLER_THAN_HERTZ = define(
-    "grid-smaller-than-hertz",
-    CAUTION,
-    "The contact would reach the grid's edge and end there.",
-    "The grid is {length:si m} along {axis} for a Hertz contact of {size:si m}.",
-    "Take {wanted:si m} or more.",
-)
-PATCH_IS_PUNCH = define(
-    "patch-is-punch",
-    CAUTION,
-    "The flat patch is a punch with pressure peaks along its edges.",
-    "It is nominally flat and free along {axes}.",
-    "Set grid.periodic = true to make it part of a larger contact.",
+    "The softer body yields below its surface.",
+    "",
+    "Lower the load, take a harder material, or expect residual stresses.",
+    reasons={
+        "hertz": (
+            "Hertz' pressure {pressure:si Pa} is {ratio:.3g} times that at which it begins to yield, {onset:si Pa}: "
+            "elastic stresses there are too high, and the first loadings leave residual stresses."
+        ),
+        "element": (
+            "It does at {places} of {all} places: Hertz' pressure is {ratio:.3g} times that at which yield begins, "
+            "{onset:si Pa}, at {place}; contacts here and in scenes are elastic."
+        ),
+        "solved": "Elastic von Mises stresses reach {stress:si Pa} and are too high in {volume:.3g} um^3.",
+    },
 )
 BODY_REPEATS = define(
     "body-repeats",
@@ -199,91 +201,108 @@ CELLS_ACROSS_CONTACT = define(
     "There are {across:.2g} cells; {fewest} give the pressure within 1.5 % and the area within 13 %, and 40 give maps.",
     "Take {fewest} or more: spacing {spacing:si m} gives 20.",
 )
-WAVES_OF_TWO_CELLS = define(
-    "waves-of-two-cells",
+ROUGHNESS_UNRESOLVED = define(
+    "roughness-unresolved",
     CAUTION,
-    "Slope, contact area and pressures change with every mesh.",
-    "Without cutoff_wavelength the waves go down to two cells, {wave:si m}.",
-    "Give cutoff_wavelength, 4 to 8 cells or more.",
-)
-CELLS_PER_WAVE = define(
-    "cells-per-wave",
-    CAUTION,
-    "The grid has few cells to the shortest wave.",
-    "There are {cells:.2g} cells to the shortest wave of the {body} surface ({wave:si m}): contact spots "
-    "come down to single cells.",
-    "Take a spacing of {spacing:si m}, or {average:si m} for averages.",
-)
-CELLS_PER_CORRELATION_LENGTH = define(
-    "cells-per-correlation-length",
-    CAUTION,
-    "The grid hardly resolves the asperities.",
-    "The correlation length of the {body} surface, {length:si m}, is {cells:.2g} cells.",
-    "Take a spacing of {spacing:si m} or less.",
+    "The cells do not resolve the roughness; pressures follow the mesh.",
+    reasons={
+        "cutoff": Reason(
+            "Without cutoff_wavelength the waves go down to two cells, {wave:si m}.",
+            "Give cutoff_wavelength, 4 to 8 cells or more.",
+        ),
+        "wave": Reason(
+            "There are {cells:.2g} cells to the shortest wave of the {body} surface ({wave:si m}): contact spots come"
+            " down to single cells.",
+            "Take a spacing of {spacing:si m}, or {average:si m} for averages.",
+        ),
+        "correlation": Reason(
+            "The correlation length of the {body} surface, {length:si m}, is {cells:.2g} cells.",
+            "Take a spacing of {spacing:si m} or less.",
+        ),
+        "film": Reason(
+            "Heights in the film change from cell to cell by {change:.1f} of their rms, as waves of {cells:.2g} cells"
+            " do.",
+            "Take {fewest:g} cells of the film to a wave, or filter the surface.",
+        ),
+        "film-wave": Reason(
+            "The film has about {cells:.2g} cells to the surface's shortest wave; load shares in contact change by"
+            " tenths below {fewest:g}.",
+            "Take more cells of the film.",
+        ),
+    },
 )
 PATCH_SHORT = define(
     "patch-short",
     CAUTION,
-    "The patch is short, and a handful of summits decides.",
+    "The patch is short; its figures hang on a handful of summits.",
+    "",
+    "Take a larger patch or several repetitions, or remove form with detrend or high_pass.",
     reasons={
-        "unknown": (
-            "The autocorrelation of the {body} surface does not fall to 1/e within half of the patch: take a "
-            "larger patch or several repetitions, or remove form with detrend or high_pass."
-        ),
-        "few": (
-            "The patch is {lengths:.2g} correlation lengths of the {body} surface long: take a larger patch or "
-            "several repetitions, or remove form with detrend or high_pass."
-        ),
+        "unknown": "The autocorrelation of the {body} surface does not fall to 1/e within half of the patch.",
+        "few": "The patch is {lengths:.2g} correlation lengths of the {body} surface long.",
     },
 )
-LAYER_THIN = define(
-    "layer-thin",
+LAYER_MESH = define(
+    "layer-mesh",
     CAUTION,
-    "The cells do not resolve the layer's bending and stresses.",
-    "It is {thickness:si m} thick on cells of {cell:si m}: only its compliance is found.",
-    "Take cells of its thickness, or leave it out.",
-)
-LAYER_THICK = define(
-    "layer-thick",
-    CAUTION,
-    "The layer is so thick that the substrate is hardly felt.",
-    "It is {thickness:si m} thick over a grid of {length:si m}.",
-    "Make the layer the body's material, which is faster.",
+    "The layer's thickness does not suit the grid.",
+    reasons={
+        "thin": Reason(
+            "It is {thickness:si m} thick on cells of {cell:si m}: its compliance is found, its bending and stresses"
+            " are not.",
+            "Take cells of its thickness, or leave it out.",
+        ),
+        "thick": Reason(
+            "It is {thickness:si m} thick over a grid of {length:si m}, and the substrate is hardly felt.",
+            "Make the layer the body's material, which is faster.",
+        ),
+    },
 )
 DEPTHS_MISS_STRESS = define(
     "depths-miss-stress",
     CAUTION,
-    "outputs.depths miss the largest von Mises stress.",
-    "It lies {at:si m} below the surface; the nearest depth is {nearest:si m}.",
-    "Take depths every {step:si m} around {at:si m}.",
+    "outputs.depths may miss the largest stress.",
+    reasons={
+        "hertz": Reason(
+            "The largest von Mises stress lies {at:si m} below the surface; the nearest depth is {nearest:si m}.",
+            "Take depths every {step:si m} around {at:si m}.",
+        ),
+        "layers": Reason(
+            "{found} of the {body} body.",
+            "Set {fewest} or more in every layer, and one just above and just below every interface.",
+        ),
+        "deepest": Reason(
+            "The largest von Mises stress lies in the deepest depth, {depth:si m}, and may grow further down.",
+            "Take deeper outputs.depths.",
+        ),
+    },
 )
-DEPTHS_IN_LAYER_FEW = define(
-    "depths-in-layer-few",
+PARTICLES_OF_MESH = define(
+    "particles-of-mesh",
     CAUTION,
-    "outputs.depths may miss the largest stresses of a layered body.",
-    "{found} of the {body} body.",
-    "Set {fewest} or more in every layer, and one just above and just below every interface.",
-)
-DEPTHS_COARSER_THAN_CELLS = define(
-    "depths-coarser-than-cells",
-    CAUTION,
-    "The thickness of particles follows depths.spacing.",
-    "It is {ratio:.2g} cells.",
-    "Take the cell, {cell:si m}, or less.",
-)
-CRITERION_UNRESOLVED = define(
-    "criterion-unresolved",
-    CAUTION,
-    "Particle sizes follow the mesh.",
-    "The length of wear.criterion {law}, {length:si m}, is {cells:.2g} cells.",
-    "Take cells of {cell:si m} or less.",
-)
-LAYER_OF_ONE_DEPTH = define(
-    "layer-of-one-depth",
-    CAUTION,
-    "Particles of the layer are one depth thick.",
-    "depths.spacing {step:si m} is more than the {body} layer's thickness, {thickness:si m}.",
-    "Take a third of the thickness.",
+    "Sizes and numbers of particles follow the mesh.",
+    reasons={
+        "criterion": Reason(
+            "The length of wear.criterion {law}, {length:si m}, is {cells:.2g} cells.",
+            "Take cells of {cell:si m} or less.",
+        ),
+        "depths": Reason(
+            "Depths are {ratio:.2g} cells apart.", "Take depths.spacing = the cell, {cell:si m}, or less."
+        ),
+        "layer": Reason(
+            "depths.spacing {step:si m} is more than the {body} layer's thickness, {thickness:si m}.",
+            "Take a third of the thickness.",
+        ),
+        "mean": Reason(
+            "The mean by number is smaller than two cells of {cell:si m} in {few} of {all} runs (radius {radius:si m}):"
+            " most are one cell.",
+            "Take a finer grid, or the mean by volume.",
+        ),
+        "one-cell": Reason(
+            "{share:%} of the particles, with {volume:%} of their volume, are one cell wide ({cell}).",
+            "Take a finer grid, or means by volume where their share is small.",
+        ),
+    },
 )
 NOTHING_SLIDES = define(
     "nothing-slides",
@@ -301,26 +320,12 @@ SLIDES_DIFFER = define(
 )
 
 # Results of a contact
-CONTACT_AT_EDGE = define(
-    "contact-at-edge",
-    CAUTION,
-    "The contact ends at the free edge of the grid.",
-    "It reaches the edge along {axes}: the outermost cells carry {share:%} of the load.",
-    "Take a larger grid, or a periodic one for a part of a larger contact.",
-)
 PRESSURE_AT_SEAM = define(
     "pressure-at-seam",
     CAUTION,
     "The highest pressure lies on a seam of a mirrored surface.",
-    "It is the mirror's (along {axes}), and so are the stress and the particles below it.",
+    "The ridge there is the mirror's (along {axes}), and so are the stress and the particles below it.",
     "Leave mirror out; the seams are then closed without ridges.",
-)
-ELASTIC_ABOVE_HARDNESS = define(
-    "elastic-above-hardness",
-    CAUTION,
-    "Elastic pressures exceed the softer hardness; real summits would flow.",
-    "They reach {pressure:si Pa}, {ratio:.2g} times that hardness, and {share:%} of the load is carried above it.",
-    "Take {action}.",
 )
 STRAIN_LARGE = define(
     "strain-large",
@@ -333,28 +338,28 @@ STRAIN_LARGE = define(
 CONTACT_AT_CAP = define(
     "contact-at-cap",
     INFO,
-    "Pressures at the cap are an input, not a result.",
-    "{cells} are at the hardness, {cap:si Pa}; nothing hardens there.",
-)
-CAP_WITHIN_ERROR = define(
-    "cap-within-error",
-    INFO,
-    "On finer cells a part of the contact may be at the hardness.",
-    "Nothing is at the hardness here, {cap:si Pa}, but it lies within the error of the highest pressure.",
+    "Highest pressures are the hardness that was given.",
+    reasons={
+        "reached": "{cells} are at the hardness, {cap:si Pa}; nothing hardens there.",
+        "within-error": (
+            "On finer cells a part of the contact may be: nothing is at the hardness, {cap:si Pa}, but it lies within "
+            "the error of the highest pressure."
+        ),
+    },
 )
 CAPPED_NEARLY_FULL = define(
     "capped-nearly-full",
     CAUTION,
-    "The capped contact is nearly full, and valleys would resist.",
-    "{share:%} of the patch is in contact; a cap leaves the resistance out above about half.",
-    "Take a smaller load or a larger patch.",
-)
-STRESS_AT_DEEPEST_DEPTH = define(
-    "stress-at-deepest-depth",
-    CAUTION,
-    "The largest von Mises stress lies in the deepest depth.",
-    "That depth is {depth:si m}; the stress may grow further down.",
-    "Take deeper outputs.depths.",
+    "Most of the patch is at the hardness, where valleys would resist.",
+    "",
+    "Take a smaller load or a larger grid.",
+    reasons={
+        "load": Reason(
+            "The load is {ratio:.2g} of hardness x area of the grid; a cap leaves the resistance out above about half.",
+            foreseen=True,
+        ),
+        "area": "{share:%} of the patch is in contact; a cap leaves the resistance out above about half.",
+    },
 )
 STRESS_ABOVE_YIELD = define(
     "stress-above-yield",
@@ -362,14 +367,6 @@ STRESS_ABOVE_YIELD = define(
     "Elastic von Mises stresses exceed the yield stress.",
     "They reach {stress:si Pa} and are too high in {volume:.3g} um^3.",
     "Lower the load, or read the stresses as a sign of where yield begins.",
-)
-SPOTS_SMALL = define(
-    "spots-small",
-    CAUTION,
-    "Spots of contact are too small for these cells.",
-    "The contact area lies between the least that carries the load at the hardness{of} and the cells in "
-    "contact, {times:.2f} times as many in the last cycle.",
-    "Take a finer grid.",
 )
 
 # Results of wear loops
@@ -397,77 +394,36 @@ NOT_SETTLED = define(
     "the figures of the end are those of this number of cycles.",
     "Take more cycles.count, or read the curves over cycles.",
 )
-WORN_STEEP = define(
-    "worn-steep",
-    CAUTION,
-    "The worn scar is too steep for half-spaces.",
-    "The bodies are worn {depth:si m} deep at a radius of {radius:si m}{of}: the scar's edge has a slope of"
-    " {slope:.2g}, where half-spaces hold below about {limit:g}, and pressure, depth and width are not "
-    "those of such bodies.",
-    "Take less wear (a shorter wear.criterion.distance, fewer cycles.count), or the volume by load and distance alone.",
-)
-PARTICLES_OF_UNWORN = define(
-    "particles-of-unworn",
-    CAUTION,
-    "Particles are asked for of a body that does not wear.",
-    "sizes.particles_of names the {asked} body, and only the {worn} one wears: sizes and numbers, 0, are no result.",
-    "Set sizes.particles_of to the body that wears.",
-)
-BOTH_BODIES_WEAR = define(
-    "both-bodies-wear",
+PARTICLES_OF_BODY = define(
+    "particles-of-body",
     INFO,
-    "Heights and sizes are of one body, volumes of both.",
-    "Heights, Sq and worn depth are those of the {first} one, volumes of both{particles}.",
-)
-WEAR_STEPS_OVERSHOOT = define(
-    "wear-steps-overshoot",
-    OUTSIDE_MODEL,
-    "The wear law's steps overshoot.",
-    "A cycle takes {give:.3g} m/Pa off, more than twice the {most:.3g} m/Pa by which the bodies give way "
-    "from cell to cell: depths, roughness and contact are those of the steps.",
-    "Take {share:.2g} times the wear.criterion.distance, in more cycles.count.",
+    "Figures of particles, heights and volumes are not of the same bodies.",
+    reasons={
+        "unworn": Reason(
+            "sizes.particles_of names the {asked} body, and only the {worn} one wears: sizes and numbers of particles,"
+            " 0, are no result.",
+            "Set sizes.particles_of to the body that wears.",
+            CAUTION,
+        ),
+        "both": "Heights, Sq and worn depth are those of the {first} one, volumes of both{particles}.",
+    },
 )
 WEAR_STEPS_LONG = define(
     "wear-steps-long",
     CAUTION,
-    "The wear law's steps are long, which no error bar counts.",
-    "They leave up to {step:si m} open of a mean depth of {depth:si m}{of}.",
-    "Take a shorter wear.criterion.distance, and as many more cycles.count.",
-)
-NO_PARTICLES_BY_PRESSURE = define(
-    "no-particles-by-pressure",
-    INFO,
-    "A law that wears by pressure makes no particles.",
-    "Their sizes and numbers, 0, are no result.",
-)
-LOOP_WITHOUT_BARS = define(
-    "loop-without-error-bars",
-    INFO,
-    "A single loop has no error bars.",
-    "With cycles.coarser_grid = true it is made once more on the grid of twice the cell, which shows the "
-    "error of the cells; repetitions show how figures scatter with the surface.",
-)
-PARTICLES_SMALL = define(
-    "particles-small",
-    CAUTION,
-    "The mean size of particles is the mesh's.",
-    "By number it is smaller than two cells of {cell:si m} in {few} of {all} runs (radius {radius:si m}): "
-    "most are one cell.",
-    "Take a finer grid, or the mean by volume.",
-)
-PARTICLES_OF_ONE_CELL = define(
-    "particles-of-one-cell",
-    CAUTION,
-    "Number and mean by number of particles are the mesh's.",
-    "{share:%} of the particles, with {volume:%} of their volume, are one cell wide ({cell}).",
-    "Take a finer grid, or means by volume where their share is small.",
-)
-PARTICLES_AS_LARGE_AS_GRID = define(
-    "particles-as-large-as-grid",
-    CAUTION,
-    "The grid decides the size of the largest particle.",
-    "It is {largest:si m} long on a grid of {side:si m}.",
-    "Take a larger grid, or read the particle as wear of the whole surface.",
+    "The wear law's steps are too long, which no error bar counts.",
+    reasons={
+        "overshoot": Reason(
+            "A cycle takes {give:.3g} m/Pa off, more than twice the {most:.3g} m/Pa by which the bodies give way from"
+            " cell to cell: depths, roughness and contact are those of the steps.",
+            "Take {share:.2g} times the wear.criterion.distance, in more cycles.count.",
+            OUTSIDE_MODEL,
+        ),
+        "error": Reason(
+            "They leave up to {step:si m} open of a mean depth of {depth:si m}{of}.",
+            "Take a shorter wear.criterion.distance, and as many more cycles.count.",
+        ),
+    },
 )
 NOTHING_CAME_OFF = define(
     "nothing-came-off",
@@ -478,7 +434,15 @@ NOTHING_CAME_OFF = define(
 PARTICLES_CUT = define(
     "particles-cut",
     CAUTION,
-    "Particles reach the deepest depth, and their volume is too small.",
-    "{share:%} of the settled particles go on below it{unless}.",
-    "Take more or wider depths.",
+    "The largest particles end where grid or depths end.",
+    reasons={
+        "depths": Reason(
+            "{share:%} of the settled particles go on below the deepest depth{unless}; their volume is too small.",
+            "Take more or wider depths.",
+        ),
+        "grid": Reason(
+            "The largest is {largest:si m} long on a grid of {side:si m}.",
+            "Take a larger grid, or read the particle as wear of the whole surface.",
+        ),
+    },
 )

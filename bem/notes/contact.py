@@ -1,64 +1,108 @@
 """Notes on dry contacts, on partial slip and on flow factors."""
 
-from bem.notes.note import Level, define
+from bem.notes.note import Level, Reason, define
 
-CAUTION, INFO = Level.CAUTION, Level.INFO
+OUTSIDE_MODEL, CAUTION, INFO = Level.OUTSIDE_MODEL, Level.CAUTION, Level.INFO
 
-CONTACT_REACHES_EDGE = define(
-    "contact-reaches-edge",
+CONTACT_AT_EDGE = define(
+    "contact-at-edge",
     CAUTION,
-    "The contact reaches the edge of the grid along {axes}.",
-    "For this solver the bodies end there.",
-    "If the bodies go on there, make the grid longer or periodic along {axes}.",
+    "The contact reaches a free edge of the grid and ends there.",
+    reasons={
+        "grid": Reason(
+            "The grid is {length:si m} along {axis} for a Hertz contact of {size:si m}.",
+            "Take {wanted:si m} or more.",
+            foreseen=True,
+        ),
+        "punch": Reason(
+            "The flat patch is free along {axes}: it is a punch with pressure peaks along its edges.",
+            "Set grid.periodic = true to make it part of a larger contact.",
+            foreseen=True,
+        ),
+        "pressed": Reason(
+            "Cells at the ends of {axes} carry pressure: the bodies are solved as if they ended there.",
+            "Take a larger grid, or a periodic one for a part of a larger contact.",
+        ),
+        "share": Reason(
+            "It reaches the ends of {axes}, whose outermost cells carry {share:%} of the load: the bodies are solved"
+            " as if they ended there.",
+            "Take a larger grid, or a periodic one for a part of a larger contact.",
+        ),
+    },
 )
-CONTACT_SPOTS_SMALL = define(
-    "contact-spots-small",
+SPOTS_SMALL = define(
+    "spots-small",
     CAUTION,
-    "Spots of contact are too small for these cells.",
-    "The contact area lies between the least that carries the load at the hardness and the cells in "
-    "contact, {times:.2f} times as many.",
+    "Contact spots are one or two cells wide; their area is uncertain.",
+    "The area lies between the least that carries the load at the hardness{of} and that of the cells in contact,"
+    " {times:.2f} times as large.",
     "Take a finer grid.",
 )
-MEAN_GAP_IMPOSSIBLE = define(
-    "mean-gap-impossible",
+MEAN_GAP_NOT_MET = define(
+    "mean-gap-not-met",
     CAUTION,
-    "No approach gives a mean gap of {asked:.4g} m.",
-    "The bodies cannot be pressed flat, and {least:.4g} m is a lower bound on every mean gap.",
+    "No contact with a mean gap of {asked:.4g} m was found.",
+    "",
     "Ask for a larger mean gap, or give a load.",
-)
-MEAN_GAP_NOT_FOUND = define(
-    "mean-gap-not-found",
-    CAUTION,
-    "A mean gap of {asked:.4g} m was not found.",
-    "It is not proved not to exist; this contact has {found}.",
-    "Ask for a larger mean gap, or give a load.",
+    reasons={
+        "impossible": "The bodies cannot be pressed flat, and {least:.4g} m is a lower bound on every mean gap.",
+        "not-found": "It is not proved not to exist; this contact has {found}.",
+    },
 )
 MEAN_GAP_AMBIGUOUS = define(
     "mean-gap-ambiguous",
     CAUTION,
-    "The prescribed mean gap has several answers.",
+    "Several contacts have the prescribed mean gap; this is one of them.",
     "The one found carries {load:si N}, and another lies between {first:si N} and {last:si N}, {place}: the"
     " layer stands off beside the contact.",
     "Prescribe a load to choose.",
 )
-SLIP_PRESSED_AT_ONCE = define(
-    "slip-pressed-at-once",
+PRESSING_PATH = define(
+    "pressing-path",
     CAUTION,
-    "The bodies differ in elasticity, and their whole pressure came at once.",
-    "Surfaces slip while pressure grows, so that the stick area depends on how it grew: a ball's stick radius comes "
-    "out half as large (Spence 1968).",
-    "Give the contact in steps, each with the solution before it as `previous`.",
+    "Unlike bodies slip while pressed; what sticks depends on the loading.",
+    reasons={
+        "at-once": Reason(
+            "The whole pressure came at once: a ball's stick radius comes out half as large (Spence 1968).",
+            "Give the contact in steps, each with the solution before it as `previous`.",
+        ),
+        "one-step": Reason(
+            "The whole load comes at once, and far too little sticks.",
+            "Leave push.pressing_steps out ({usual}), or raise it.",
+        ),
+        "steps": Reason(
+            "The load comes in {steps} steps, and the stick area is known to about 1/{steps}.",
+            "Take twice push.pressing_steps to see the difference.",
+            INFO,
+        ),
+        "cycle": Reason("Each cycle's pressure comes at once; the stick area is less certain.", level=INFO),
+    },
 )
-PATCH_REPEATS = define(
-    "flow-patch-repeats",
+FRICTION_ON_PRESSURE = define(
+    "friction-on-pressure",
     INFO,
-    "The patch is taken to repeat along both axes.",
-    "The grid did not say so, and seams may have steps.",
+    "Unlike bodies: the effect of friction on the pressure is approximate.",
+    reasons={
+        "left-out": "The pressure is that of the contact without friction.",
+        "other-friction": (
+            "Normal displacements feel a boundary friction of {used:.3g}, its value at the pressure of a rough contact"
+            " by itself; the mean of this contact is {found:.3g}."
+        ),
+    },
 )
 FLOW_BARRED = define(
     "flow-barred",
     CAUTION,
-    "Contact bars all flow along x at small separations.",
-    "At {separations} the pressure factor is zero.",
-    "Take larger separations, or a smoother patch.",
+    "The surfaces in contact bar all pressure flow of the oil.",
+    reasons={
+        "table": Reason(
+            "At separations of {separations} the pressure flow factor along x is zero.",
+            "Take larger separations, or a smoother patch.",
+        ),
+        "film": Reason(
+            "The film's thinnest place, {thinnest:si m}, does not carry this load between these walls; the thickness"
+            " is that of a least flow factor, {least:g}.",
+            "Raise the speed or lower the load.",
+        ),
+    },
 )

@@ -1,6 +1,6 @@
 """Notes on mixed lubrication: the balance of film and rough contact, and what follows from it."""
 
-from bem.notes.note import Level, define
+from bem.notes.note import Level, Reason, define
 
 OUTSIDE_MODEL, CAUTION, INFO = Level.OUTSIDE_MODEL, Level.CAUTION, Level.INFO
 
@@ -13,11 +13,23 @@ FRICTION_UNPHYSICAL = define(
         "drag": "So small a load does not hold surfaces together against the drag of the oil: raise the load.",
     },
 )
-WHOLE_FILM_BEYOND_MODEL = define(
-    "whole-load-film-beyond-model",
-    INFO,
-    "lambda_ratio is an upper bound.",
-    "A film under the whole load is outside the film's model, which ends at {load:si N} at this speed and viscosity.",
+FILM_MODEL_ENDS = define(
+    "film-model-ends",
+    CAUTION,
+    "The film's model ends at a smaller load than this one.",
+    reasons={
+        "balance": Reason(
+            "It ends at {load:si N}, where the film is thicker than the surfaces leave open under the rest: film and"
+            " surfaces do not balance.",
+            "Raise speed or viscosity, or lower the load.",
+        ),
+        "whole-load": Reason(
+            "It ends at {load:si N} at this speed and viscosity: lambda_ratio, of a film under the whole load, is an"
+            " upper bound.",
+            "Take friction and load shares, which do not rest on lambda_ratio.",
+            INFO,
+        ),
+    },
 )
 FILM_WITHOUT_LAYERS = define(
     "film-without-layers",
@@ -25,93 +37,66 @@ FILM_WITHOUT_LAYERS = define(
     "The film is that between uncoated bodies.",
     "Only the rough contact feels the layers, which are {ratio:.2g} of the contact's half-width thick.",
 )
-COUPLING_DIFFERS = define(
-    "boundary-friction-coupling",
-    INFO,
-    "Normal displacements feel another boundary friction than the contact has.",
-    "They feel {used:.3g}, its value at the pressure of a rough contact by itself; the mean of this contact"
-    " is {found:.3g}.",
-)
 OIL_ON_CONTACT = define(
     "oil-on-contact",
     INFO,
     "Oil on cells in contact adds no friction here.",
     "With the film's shear stress on them friction would be {with_oil:.3g}, here {friction:.3g}{most}.",
 )
-OIL_BESIDE_DECIDES = define(
-    "oil-beside-decides",
-    OUTSIDE_MODEL,
-    "The length of the patch decides the load sharing.",
-    "{share:%} of the oil lies beside Hertz' contact: the surfaces have {contact_share:%} of the load at a "
-    "friction of {friction:.3g}, but {loaded_contact_share:%} at {loaded_friction:.3g} with the oil counted"
-    " where the film carries{most}.",
-    'Set oil_volume = "loaded".',
-)
-OIL_BESIDE_FOLLOWS = define(
-    "oil-beside-follows",
+OIL_COUNTED = define(
+    "oil-counted",
     INFO,
-    "Load share and friction depend on where oil is counted.",
-    "{share:%} of the oil lies beside Hertz' contact: the surfaces have {contact_share:%} of the load at a "
-    "friction of {friction:.3g}, and {loaded_contact_share:%} at {loaded_friction:.3g} with the oil counted"
-    " where the film carries{most}.",
-)
-OIL_BESIDE_UNKNOWN = define(
-    "oil-beside-unknown",
-    INFO,
-    "How far results depend on the counted oil is unknown.",
-    "{count} of the balances with the oil counted where the film carries was not met.",
-)
-OIL_IN_HERTZ_DECIDES = define(
-    "oil-in-hertz-decides",
-    OUTSIDE_MODEL,
-    "The area where oil is counted decides the load sharing.",
-    "Counted over the nominal Hertz contact the surfaces have {contact_share:%} of the load at a friction "
-    "of {friction:.3g}; with oil_volume loaded they have {loaded_contact_share:%} at "
-    "{loaded_friction:.3g}{most}.",
+    "Load share and friction depend on the area where oil is counted.",
+    "",
     'Compare oil_volume = "loaded".',
+    reasons={
+        "patch": (
+            "{share:%} of the oil lies beside Hertz' contact: the surfaces have {contact_share:%} of the load at a "
+            "friction of {friction:.3g}, and {loaded_contact_share:%} at {loaded_friction:.3g} with the oil counted "
+            "where the film carries{most}."
+        ),
+        "hertz": (
+            "Counted over the nominal Hertz contact the surfaces have {contact_share:%} of the load at a friction "
+            "of {friction:.3g}; with oil_volume loaded they have {loaded_contact_share:%} at "
+            "{loaded_friction:.3g}{most}."
+        ),
+        "unknown": "By how much is unknown: {count} balances with oil counted where the film carries failed.",
+        "particles": (
+            "By how much is unknown: particles bear load, and the balance with the oil counted where the film carries "
+            "is one without particles."
+        ),
+    },
 )
-OIL_IN_HERTZ_FOLLOWS = define(
-    "oil-in-hertz-follows",
-    INFO,
-    "Load share and friction depend on where oil is counted.",
-    "Counted over the nominal Hertz contact the surfaces have {contact_share:%} of the load at a friction "
-    "of {friction:.3g}; with oil_volume loaded they have {loaded_contact_share:%} at "
-    "{loaded_friction:.3g}{most}.",
-)
+"""Outside the model where the counted oil and not film and roughness shares the load (`bem.friction.oil_beside`)."""
 BOUNDARY_LUBRICATION = define(
     "boundary-lubrication",
     INFO,
     "Boundary lubrication: the surfaces carry the load.",
-    "The film is left with less than {share:.1g} of the load.",
+    reasons={
+        "load": "The film is left with less than {share:.1g} of the load.",
+        "thin": (
+            "At the end of the film's range it is thinner than {limit:si m}, and yet thicker than the surfaces leave "
+            "open; it is taken for none, so friction jumps at the speed from which such films are found."
+        ),
+    },
 )
-NO_FILM = define(
-    "no-film",
-    INFO,
-    "Boundary lubrication: the film would be too thin for its model.",
-    "At the end of the film's range it is thinner than {limit:si m}, and yet thicker than the surfaces "
-    "leave open; it is taken for none, so friction jumps at the speed from which such films are found.",
-)
-FILM_MODEL_ENDS = define(
-    "film-model-ends",
+POINT_FILM_SCALED = define(
+    "point-film-scaled",
     CAUTION,
-    "The film's model ends before film and surfaces balance.",
-    "It ends at a load of {load:si N}, where the film is thicker than the surfaces leave open under the rest.",
-    "Raise speed or viscosity, or lower the load.",
-)
-POINT_FILM_THIN = define(
-    "point-film-thin",
-    CAUTION,
-    "The film is thinner than its cells can show.",
-    "It is scaled from a smaller load by Hertz' pressure and the fit of Nijenbanning, Venner and Moes: 12 %"
-    " too thick at 2.5 times that load, up to 40 % at 6 times; its minimum is not to be used{factors}.",
-    "Take more cells of the film.",
-)
-POINT_FILM_LAYER = define(
-    "point-film-layer",
-    INFO,
-    "A thin layer's film is scaled from a larger load.",
-    "No film was found under so light a load; pressure goes on as Hertz', and the film is as thick as the "
-    "layer leaves it{factors}.",
+    "The film is scaled from that under another load, not solved.",
+    reasons={
+        "thin": Reason(
+            "It is thinner than its cells can show and scaled from a smaller load by Hertz' pressure and the fit of"
+            " Nijenbanning, Venner and Moes: 12 % too thick at 2.5 times that load, up to 40 % at 6 times; its minimum"
+            " is not to be used{factors}.",
+            "Take more cells of the film.",
+        ),
+        "layer": Reason(
+            "No film of a thin layer of oil was found under so light a load; pressure goes on as Hertz', and the film"
+            " is as thick as the layer leaves it{factors}.",
+            level=INFO,
+        ),
+    },
 )
 CELL_LONG = define(
     "repeated-cell-long",

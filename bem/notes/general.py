@@ -1,4 +1,4 @@
-"""Notes of no part in particular: values outside their usual range, pictures, and checks that failed."""
+"""Notes of no part in particular: values outside their usual range, and side tasks that failed."""
 
 from bem.notes.note import Level, define
 
@@ -9,24 +9,10 @@ VALUE_UNUSUAL = define(
     "Usual are {usual}.",
     "{check}.",
 )
-VALUE_UNUSUAL_TYPICAL = define(
-    "value-unusual-typical",
+SIDE_TASK_FAILED = define(
+    "side-task-failed",
     Level.CAUTION,
-    "{quantity} {value} is outside its usual range.",
-    "Usual are {usual}: {typical}.",
-    "{check}.",
-)
-CHECK_FAILED = define(
-    "check-failed",
-    Level.CAUTION,
-    "The check {check} could not be made.",
+    "{task} failed; the results are complete without it.",
     "It ended with {error}.",
-    "Report this message; the results do not depend on it.",
-)
-FIGURE_MISSING = define(
-    "figure-missing",
-    Level.CAUTION,
-    "Figure {figure} could not be drawn.",
-    "It ended with {error}.",
-    "Report this message; the results are complete without it.",
+    "Report this message.",
 )

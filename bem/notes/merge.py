@@ -35,6 +35,18 @@ def merge(by_result: Sequence[Iterable[str]], place: Place) -> list[Note]:
     return found
 
 
+def without_foreseen(notes: Sequence[Note]) -> list[Note]:
+    """Return the notes without those made before a run that others of their code, made from its results, confirm."""
+    confirmed = {note.code for note in notes if not _foreseen(note)}
+    return [note for note in notes if not (_foreseen(note) and note.code in confirmed)]
+
+
+def _foreseen(note: Note) -> bool:
+    """Return True for a note of a reason that is known before the run."""
+    kind = known_kinds().get(note.code)
+    return kind is not None and bool(kind.reasons) and kind.reasons[note.values["reason"]].foreseen
+
+
 def identity(note: Note) -> Hashable:
     """Return the key under which notes of several results are one: code, place, and values other than numbers."""
     if note.code == PLAIN:

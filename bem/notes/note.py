@@ -38,6 +38,21 @@ class Span(NamedTuple):
     high: float
 
 
+class Reason(NamedTuple):
+    """One cause of a kind of note: its sentence, and what differs from the kind.
+
+    sentence : by how much, with the numbers, in place of the kind's own.
+    action : what to do, in place of the kind's own; empty for the kind's.
+    level : in place of the kind's own; None for the kind's.
+    foreseen : whether the note is made before the run and gives way to one of its code that the results confirm.
+    """
+
+    sentence: str
+    action: str = ""
+    level: Level | None = None
+    foreseen: bool = False
+
+
 _FEW = 3
 """Words of a long list that are shown, the number of the others included."""
 
@@ -79,7 +94,7 @@ class NoteKind:
     headline : what is wrong or uncertain, at most 12 words.
     sentence : by how much, with the numbers; a template over the values; empty for none.
     action : what to do; empty for none.
-    reasons : of a kind with a value `reason`: the sentence of each reason, in place of `sentence`.
+    reasons : of a kind with a value `reason`: sentence, action and level of each reason.
     """
 
     code: str
@@ -87,7 +102,7 @@ class NoteKind:
     headline: str
     sentence: str = ""
     action: str = ""
-    reasons: Mapping[str, str] = field(default_factory=dict)
+    reasons: Mapping[str, Reason] = field(default_factory=dict)
 
     @property
     def anchor(self) -> str:
@@ -96,12 +111,13 @@ class NoteKind:
 
     def __call__(self, where: str = "", /, level: Level | None = None, **values: Any) -> Note:
         """Return the note with these values, on the place `where`; `level` replaces the kind's own."""
-        return Note(self.code, self.level if level is None else level, values, where, self.texts(values))
+        own = self.reasons[values["reason"]].level if self.reasons else None
+        return Note(self.code, level or own or self.level, values, where, self.texts(values))
 
     def texts(self, values: Mapping[str, Any]) -> tuple[str, str, str]:
         """Return headline, sentence and action with the values filled in."""
-        sentence = self.reasons[values["reason"]] if self.reasons else self.sentence
-        templates = (self.headline, sentence, self.action)
+        reason = self.reasons[values["reason"]] if self.reasons else Reason(self.sentence)
+        templates = (self.headline, reason.sentence, reason.action or self.action)
         headline, said, action = (_FORMATTER.vformat(template, (), values) for template in templates)
         return headline, said, action
 
@@ -116,7 +132,7 @@ def define(
     sentence: str = "",
     action: str = "",
     *,
-    reasons: Mapping[str, str] | None = None,
+    reasons: Mapping[str, str | Reason] | None = None,
 ) -> NoteKind:
     """Enter a kind of note into the catalogue and return it.
 
@@ -126,7 +142,8 @@ def define(
     """
     if code in _KINDS:
         raise ValueError(f"note {code!r} is in the catalogue already")
-    _KINDS[code] = kind = NoteKind(code, level, headline, sentence, action, reasons or {})
+    causes = {name: one if isinstance(one, Reason) else Reason(one) for name, one in (reasons or {}).items()}
+    _KINDS[code] = kind = NoteKind(code, level, headline, sentence, action, causes)
     return kind
 
 
@@ -225,10 +242,12 @@ def outside(notes: Iterable[str]) -> tuple[str, ...]:
     return tuple(dict.fromkeys(note.headline for note in found if note.level is Level.OUTSIDE_MODEL))
 
 
-def has_code(notes: Iterable[str], *kinds: NoteKind) -> bool:
-    """Return True if any of the notes is of one of the kinds."""
+def has_code(notes: Iterable[str], *kinds: NoteKind, reason: str | None = None) -> bool:
+    """Return True if any of the notes is of one of the kinds, and of this reason where one is given."""
     codes = {kind.code for kind in kinds}
-    return any(isinstance(note, Note) and note.code in codes for note in notes)
+    return any(
+        isinstance(note, Note) and note.code in codes and reason in (None, note.values.get("reason")) for note in notes
+    )
 
 
 def without(notes: Iterable[Note], *kinds: NoteKind) -> tuple[Note, ...]:

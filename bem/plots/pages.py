@@ -21,7 +21,7 @@ from typing import Any
 
 from bem.errors import ResultsError
 from bem.notes import Note
-from bem.notes.general import FIGURE_MISSING
+from bem.notes.general import SIDE_TASK_FAILED
 from bem.plots.draw import draw_all, draw_for_nobody, load_what_draws
 from bem.plots.figures import all_figures
 from bem.plots.report import write_report
@@ -68,7 +68,7 @@ def make(pages: Pages, arrays: Arrays) -> list[Note]:
     failed: list[Note] = []
 
     def failure(name: str, error: Exception) -> None:
-        failed.append(FIGURE_MISSING(figure=name, error=repr(error)))
+        failed.append(SIDE_TASK_FAILED(task=f"Figure {name}", error=repr(error)))
 
     run = FinishedRun(pages.path, pages.scene, pages.summary)
     run.__dict__["arrays"] = arrays  # no need to look whether the file is sound

@@ -15,6 +15,7 @@ from bem.campaigns.context import Silent, Watcher
 from bem.campaigns.jobs import Staff
 from bem.errors import ConvergenceError, InputError, Status
 from bem.notes import Level, Note, outside
+from bem.notes.merge import without_foreseen
 from bem.results.arrays import LEFT_OUT, stacks_of_maps, to_arrays
 from bem.results.directory import RESULTS, RunDirectory, plain
 from bem.results.read import FinishedRun, check_data, open_run
@@ -177,6 +178,7 @@ def run_planned(
     for note in outcome_warnings(facts, computed.outcome):
         computed.notes.append(note)
         watcher.note(note)
+    computed.notes[:] = without_foreseen(computed.notes)
     computed.notes.sort(key=lambda note: list(Level).index(note.level))  # the most serious ones first
     left_out = [] if fields else stacks_of_maps(computed.outcome.variables)
     return _write(directory, scene, computed, formats, watcher, staff.workers, ahead, left_out)

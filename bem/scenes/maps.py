@@ -9,21 +9,14 @@ import warnings
 from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
 from bem.notes import Note
-from bem.notes.scenes import (
-    MAP_CONTINUED,
-    MAP_FILLED,
-    MAP_MIRRORED,
-    MAP_RESAMPLED,
-    MAP_SPACING_GIVEN,
-    MAP_SPIKES,
-)
+from bem.notes.scenes import MAP_FILLED, MAP_PERIODIC, MAP_SPACING_GIVEN
 from bem.numerics.cache import KeptValues
 from bem.scenes.common import MeasuredSurface
 from bem.scenes.paths import checksum_of
@@ -101,7 +94,6 @@ def map_size(surface: MeasuredSurface) -> tuple[tuple[int, int], tuple[float, fl
 
 def fitted(surface: MeasuredSurface, found: Surface, grid: Grid, note: Callable[[Note], None]) -> FloatArray:
     """A measured surface, as `read_map` gives it, on the grid; what had to be done to it is noted."""
-    from bem.scenes.checks.words import times
     from bem.surfaces import (
         MirrorWarning,
         close_seams,
@@ -115,13 +107,13 @@ def fitted(surface: MeasuredSurface, found: Surface, grid: Grid, note: Callable[
     name = Path(surface.path).name
     missing = int(found.metadata.get("missing_points", 0) or 0)
     if missing:
-        note(MAP_FILLED(name, missing=missing))
+        note(MAP_FILLED(name, points=missing, reason="missing"))
     if told := found.metadata.get("spacing_in_file"):
         own, other = (f"{1e6 * side[0]:.4g} x {1e6 * side[1]:.4g} um" for side in (found.spacing, told))
         note(MAP_SPACING_GIVEN(name, own=own, other=other))
     spikes = int(found.metadata.get("spikes", 0) or 0)
     if spikes:
-        note(MAP_SPIKES(name, spikes=spikes))
+        note(MAP_FILLED(name, points=spikes, reason="spikes"))
     if surface.low_pass is not None:
         found = low_pass(found, surface.low_pass)
     if surface.high_pass is not None:
@@ -135,24 +127,17 @@ def fitted(surface: MeasuredSurface, found: Surface, grid: Grid, note: Callable[
     if not same:
         centre = (0.0, 0.0) if surface.crop is not None else surface.centre
         resampled = _resampled(found, part, centre, name)
-        sizes: dict[str, Any] = {
-            "points": f"{found.shape[0]} x {found.shape[1]}",
-            "spacing": times(found.spacing, "m"),
-            "cells": f"{part.shape[0]} x {part.shape[1]}",
-            "cell": times(part.spacing, "m"),
-        }
-        note(MAP_RESAMPLED(name, **sizes))
         found = resampled.replace(detrend(resampled.heights, part.spacing, surface.detrend))
     if any(axes):
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", MirrorWarning)
             found = mirror_to_periodic(found, axes=axes)
-        note(MAP_MIRRORED(name))
+        note(MAP_PERIODIC(name, reason="mirror"))
     open_x, open_y = (wraps and not mirrored for wraps, mirrored in zip(grid.periodic, axes, strict=True))
     if open_x or open_y:
         found = close_seams(found, axes=(open_x, open_y))
         along = " and ".join(axis for axis, is_open in zip("xy", (open_x, open_y), strict=True) if is_open)
-        note(MAP_CONTINUED(name, along=along, change=float(found.metadata["seams_closed"])))
+        note(MAP_PERIODIC(name, along=along, change=float(found.metadata["seams_closed"]), reason="seams"))
     if surface.rms_height is not None:
         found = scale_to_rms(found, surface.rms_height)
     return np.ascontiguousarray(found.heights - found.heights.mean())

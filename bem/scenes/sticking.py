@@ -13,7 +13,7 @@ import numpy as np
 
 from bem.grid import FloatArray, Grid
 from bem.notes.accuracy import NoBar
-from bem.notes.scenes import PRESSURE_WITHOUT_FRICTION
+from bem.notes.contact import FRICTION_ON_PRESSURE
 from bem.scenes import build, plans
 from bem.scenes.context import Context, tell
 from bem.scenes.planner import Plan, Step, padded_points
@@ -170,7 +170,7 @@ def coupled(scene: StressedScene) -> bool:
 def tell_coupled(scene: StressedScene, context: Context) -> None:
     """A note that it is not followed, where it does."""
     if coupled(scene):
-        context.note(PRESSURE_WITHOUT_FRICTION())
+        context.note(FRICTION_ON_PRESSURE(reason="left-out"))
 
 
 def plan_around(scene: PushedScene | RolledScene, steps: Callable[[Grid, float], Iterable[Step]], again: float) -> Plan:

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.grid import FloatArray, Grid
-from bem.notes.scenes import THIRD_BODIES_BEAR_LOAD
+from bem.notes.wear import THIRD_BODIES_MANY
 from bem.scenes.context import Context
 from bem.scenes.records import Figure, Record, Series
 from bem.scenes.tables.third_bodies import ThirdBodiesScene
@@ -79,4 +79,4 @@ def third_body_figures(
 def tell_of_third_bodies(context: Context, share: float | None) -> None:
     """What the reader must know of particles that bear most of the load."""
     if share is not None and share > 0.5:
-        context.note(THIRD_BODIES_BEAR_LOAD(share=share))
+        context.note(THIRD_BODIES_MANY(share=share, reason="load"))

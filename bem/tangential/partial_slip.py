@@ -17,7 +17,7 @@ from bem.errors import ConvergenceError, InputError, Status
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
 from bem.notes import Note
-from bem.notes.contact import SLIP_PRESSED_AT_ONCE
+from bem.notes.contact import PRESSING_PATH
 from bem.tangential.certificate import certify, stick_area
 from bem.tangential.initial_tractions import jaeger_start, start_from_coarser
 from bem.tangential.operator import TangentialOperator, tangential_operator
@@ -179,7 +179,7 @@ def solve_step(
             traction = None if previous is None else previous.traction
             start = start_from_coarser(problem, traction, budget) if jaeger is None else jaeger
         result = solve_slip(problem, start, SAFETY * tolerance, budget)
-    notes = (SLIP_PRESSED_AT_ONCE(),) if previous is None and under_pressure.any() else ()
+    notes = (PRESSING_PATH(reason="at-once"),) if previous is None and under_pressure.any() else ()
     return _solution(step, problem, result, under_pressure, tolerance, budget, notes)
 
 

@@ -34,8 +34,7 @@ from bem.grid import FloatArray
 from bem.lubrication.validity import THINNEST_FILM
 from bem.materials import Body
 from bem.notes import Note
-from bem.notes.friction import BOUNDARY_LUBRICATION, NO_FILM
-from bem.notes.wear import OIL_WITH_PARTICLES_UNKNOWN
+from bem.notes.friction import BOUNDARY_LUBRICATION, OIL_COUNTED
 from bem.wear.cycle import ContactOutcome, rows_of_contact
 from bem.wear.state import pack_table, unpack_table
 from bem.wear.third_bodies import ThirdBodies
@@ -241,8 +240,8 @@ class MixedContact:
         last, notes = self.last, []
         if last is None:
             return ()
-        left = BOUNDARY_LUBRICATION(share=NEGLIGIBLE * self.setup.tolerance)
-        none = NO_FILM(limit=THINNEST_FILM)
+        left = BOUNDARY_LUBRICATION(share=NEGLIGIBLE * self.setup.tolerance, reason="load")
+        none = BOUNDARY_LUBRICATION(limit=THINNEST_FILM, reason="thin")
         for regime, note in ((REGIMES.index(Regime.BOUNDARY), left), (_TAKEN_FOR_NONE, none)):
             if number := int(np.sum(self.rows["regime"] == regime)):
                 notes.append(note.at(f"{number} of {len(self.rows)} cycles"))
@@ -251,7 +250,7 @@ class MixedContact:
         oil = self.oil()
         hanging = () if oil is None else tuple(note.at(LAST_CYCLE) for note in oil_notes([oil]))
         if last.borne > FEW and self.setup.counted is not OilVolume.LOADED:
-            hanging = (OIL_WITH_PARTICLES_UNKNOWN(),)
+            hanging = (OIL_COUNTED(reason="particles"),)
         covered = covered_notes([(float(self.rows["friction"][-1]), last.forces.covered / self.setup.load)])
         shape = self._follower.notes(self.worn, len(self.rows)) if self.film_shape == "worn" else ()
         return (*notes, *last.coupling, *hanging, *(note.at(LAST_CYCLE) for note in covered), *shape)

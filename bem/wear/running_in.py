@@ -21,7 +21,7 @@ from bem.errors import ConvergenceError, InputError, Status
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
 from bem.notes import Note
-from bem.notes.wear import THIRD_BODIES_FULL
+from bem.notes.wear import THIRD_BODIES_MANY
 from bem.plausibility import body_arguments, notes_on_arguments
 from bem.representation import tabled
 from bem.wear.criterion import Detachment, LocalWear
@@ -271,7 +271,7 @@ def _crowded(particles: ThirdBodies | None, state: RunningInState) -> tuple[Note
     if particles is None or particles.shed == 0:
         return ()
     full = int((state.cycles["third_bodies_per_area"] >= particles.most_per_area * (1 - 1e-9)).sum())
-    return (THIRD_BODIES_FULL(full=full, cycles=len(state.cycles)),) if full else ()
+    return (THIRD_BODIES_MANY(full=full, cycles=len(state.cycles), reason="area"),) if full else ()
 
 
 def advance(state: RunningInState, setup: WearSetup, model: WearModel, contact_step: ContactStep) -> RunningInState:

@@ -28,14 +28,7 @@ from bem.friction.worn_film import SearchedWornFilms, ShapeChange, ShapeSolver, 
 from bem.grid import FloatArray
 from bem.lubrication.line_shaped import ShapedStart
 from bem.notes import Note
-from bem.notes.wear import (
-    FILM_HAS_WORN_SHAPE,
-    FILM_KEEPS_SHAPE,
-    WORN_FILM_AT_OTHER_LOAD,
-    WORN_FILM_NOT_FOUND,
-    WORN_SHAPE_REACHES_END,
-    WORN_SHAPE_WITHOUT_HEAT,
-)
+from bem.notes.wear import FILM_OF_OTHER_SHAPE
 
 FILM_SHAPES = ("worn", "unworn")
 """Macroscopic shapes that the film of a wear loop may have."""
@@ -163,20 +156,16 @@ class ShapeFollower:
             if worn.behind <= RESOLUTION:
                 return ()
             film = "the film of a ball" if self.setup.radii is not None else "a film with a limited supply of oil"
-            return (FILM_KEEPS_SHAPE(film=film, behind=worn.behind),)
+            return (FILM_OF_OTHER_SHAPE(film=film, behind=worn.behind, reason="unworn"),)
         notes = []
-        if worn.shape is not None:
-            notes.append(FILM_HAS_WORN_SHAPE(depth=float(np.ptp(worn.shape)), shapes=worn.updates))
-        if worn.shape is not None and self.setup.thermal != "off":
-            notes.append(WORN_SHAPE_WITHOUT_HEAT())
         if worn.shape is not None:
             end, deepest = _end_and_deepest(worn.shape)
             if end > END_SHARE * deepest:
-                notes.append(WORN_SHAPE_REACHES_END(depth=end))
+                notes.append(FILM_OF_OTHER_SHAPE(depth=end, reason="end"))
         if worn.kept:
-            notes.append(WORN_FILM_NOT_FOUND(kept=worn.kept, cycles=cycles, behind=worn.behind))
+            notes.append(FILM_OF_OTHER_SHAPE(kept=worn.kept, cycles=cycles, behind=worn.behind, reason="earlier"))
         if worn.clamped:
-            notes.append(WORN_FILM_AT_OTHER_LOAD(clamped=worn.clamped, cycles=cycles))
+            notes.append(FILM_OF_OTHER_SHAPE(clamped=worn.clamped, cycles=cycles, reason="other-load"))
         return tuple(notes)
 
     def _behind(self, depth: FloatArray, worn: WornShape, film: PatchFilm) -> float:

@@ -9,7 +9,7 @@ from error_bar_ratios import ratios_of
 
 from bem.accuracy import TribofilmCase, particle_bars, tribofilm_bars
 from bem.notes import has_code
-from bem.notes.accuracy import BARS_OF_LARGE_PARTICLES
+from bem.notes.accuracy import BARS_PARTIAL
 from bem.particles import particles_from_height_map
 from reports.experiments import flow_error_bars, particle_error_bars, rubbing_error_bars, tribofilm_error_bars
 
@@ -80,7 +80,9 @@ def test_particles_whose_large_ones_are_more_frequent_than_log_normal_say_so():
     for sizes in (3 + np.minimum(3 * rng.pareto(1.2, 40), 30), 5 * np.exp(0.3 * rng.standard_normal(40))):
         heights = particle_error_bars.plate(rng, 320, 1, sizes)
         found = particles_from_height_map(heights, (pixel, pixel), **seen)
-        told.append(has_code(particle_bars(found, heights, (pixel, pixel), seen).notes, BARS_OF_LARGE_PARTICLES))
+        told.append(
+            has_code(particle_bars(found, heights, (pixel, pixel), seen).notes, BARS_PARTIAL, reason="large-particles")
+        )
     assert told == [True, False]
 
 

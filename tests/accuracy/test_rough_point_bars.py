@@ -89,7 +89,7 @@ def test_contact_in_constrictions_narrower_than_a_cell_is_said():
     coarse, fine = case.on((48, 48)), case.on((128, 128))
     assert 0 < fine.contact_share < 0.7 * coarse.contact_share < SMALL
     (note,) = narrow_notes(case, coarse)
-    assert note.code == "rim-narrow"
+    assert (note.code, note.values.get("reason")) == ("film-cells-few", "rim")
     assert at_rim(case, coarse) > 0.7
     # on as many cells as it says the opening has one of them, and a fortieth fewer do not
     wanted = (int(n) for n in note.values["wanted"].split(" x "))

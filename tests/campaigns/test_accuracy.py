@@ -298,7 +298,7 @@ def test_loops_of_wear_are_refined_as_a_whole_but_for_what_is_chance(tmp_path):
     assert (done.summary["status"], done.summary["accuracy"]["met"]) == ("converged", True)
     assert levels(done)[0] == "54 x 54 cells, 10 depths"  # four to a correlation length of 0.3 um
     assert levels(done)[1:] == ["108 x 108 cells, 19 depths"]
-    left = [note["text"] for note in done.summary["notes"] if note["code"] == "accuracy-left-out"]
+    left = [note["text"] for note in done.summary["notes"] if note["code"] == "accuracy"]
     assert any("repetitions narrow that" in text for text in left)
     (case,) = done.summary["accuracy"]["cases"]
     assert set(case["levels"][0]["errors"]) == {

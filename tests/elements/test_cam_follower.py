@@ -74,12 +74,12 @@ def test_the_envelope_touches_where_and_as_the_model_says():
 
 def test_entrainment_turns_round_and_is_said_to():
     notes = load_element(CAM).notes()
-    assert any(note.code == "entrainment-turns" for note in notes)
+    assert any((note.code, note.values.get("reason")) == ("film-by-squeeze", "follower") for note in notes)
 
 
 def test_a_follower_that_floats_is_said_to():
     slow, fast = load_element(CAM), load_element(CAM | {"speed": "9000 rpm"})
-    assert any(note.code == "follower-leaves" for note in fast.notes())
+    assert any((note.code, note.values.get("reason")) == ("contact-lost", "follower") for note in fast.notes())
     # what it does not press it neither heats nor wears: means over the places left count for so much of a turn
     places = [len(one.found.contacts) for one in (slow, fast)]
     assert places[1] < places[0]

@@ -66,7 +66,7 @@ def test_the_marks_of_the_fzg_gears_by_closed_forms():
         assert path.share(s - 1e-6 * side) == pytest.approx(2 / 3, abs=1e-3)
     scene = load_scene(element.path_scene())
     assert scene.along.marks.places() == pytest.approx(dict(element.found.marks))
-    assert "B -3.685 mm" in element.notes()[0]
+    assert "B -3.685 mm" in element.found.geometry[0]
 
 
 def test_contact_ratios_without_single_contact_have_no_marks_of_it():
@@ -78,7 +78,7 @@ def test_contact_ratios_without_single_contact_have_no_marks_of_it():
     for more in (high, {"face_width": "9 mm", "tip_diameters": ["48.34 mm", "94.55 mm"]}):
         element = made(helix_angle="30 deg", points=9, **more)
         assert list(element.found.marks) == ["A", "C", "E"]
-        assert "no points B and D" in element.notes()[0]
+        assert "no points B and D" in element.found.geometry[0]
     assert path_of_contact(made(helix_angle="30 deg", **high).model).contact_ratio > 1.3
 
 
@@ -278,7 +278,7 @@ def test_load_of_helical_gears():
     # without lean they are the lines of spur gears, one or two
     nearly = path_of_contact(made(helix_angle="1e-4 deg").model)
     assert set(np.round(nearly.lines(nearly.start + nearly.base_pitch * np.array([0.3, 0.9])), 3)) == {1.0, 2.0}
-    assert "Helix 11.2" in " ".join(element.notes())
+    assert "Helix 11.2" in " ".join(element.found.geometry)
 
 
 @pytest.mark.internal
@@ -307,4 +307,6 @@ def test_flanks_that_yield_are_told_with_where_and_how_far():
                 for c in heavy.found.contacts)  # fmt: skip
     assert 0 < above < len(heavy.found.contacts)
     assert (told.values["places"], told.values["all"]) == (above, len(heavy.found.contacts))
-    assert not [text for text in made(second=soft).notes() if text.code == "element-yields"]
+    assert not [
+        text for text in made(second=soft).notes() if (text.code, text.values.get("reason")) == ("yields", "element")
+    ]

@@ -117,17 +117,18 @@ def test_over_the_cycle():
     assert "body 2 not known" in said["wear by hour"]
     assert "of 0.1 um^3 each" in said["particles by hour"]
     notes = element.notes()
-    assert any(note.code == "ring-squeeze" for note in notes)
-    assert any(note.code == "ring-face-full" for note in notes)
-    assert not any(note.code == "ring-film-exit" for note in notes)
-    assert any(note.code == "ring-film-exit" for note in ring(crown=0.95).notes())
-    assert not any(note.code == "ring-at-edge" for note in notes)
+    assert any((note.code, note.values.get("reason")) == ("film-by-squeeze", "ring") for note in notes)
+    assert not any((note.code, note.values.get("reason")) == ("ring-at-edge", "film") for note in notes)
+    assert any((note.code, note.values.get("reason")) == ("ring-at-edge", "film") for note in ring(crown=0.95).notes())
+    assert not any((note.code, note.values.get("reason")) == ("ring-at-edge", "contact") for note in notes)
     flat = ring(face_radius="20 m", gas={"crank_angle": [0.0, 2 * math.pi], "pressure": ["20 MPa", "20 MPa"]})
     assert any(
-        note.code == "ring-at-edge" and note.values["places"] == note.values["all"] == 12 for note in flat.notes()
+        (note.code, note.values.get("reason")) == ("ring-at-edge", "contact")
+        and note.values["places"] == note.values["all"] == 12
+        for note in flat.notes()
     )
     dry = ring(oil=None)
-    assert not any(note.code == "ring-squeeze" for note in dry.notes())
+    assert not any((note.code, note.values.get("reason")) == ("film-by-squeeze", "ring") for note in dry.notes())
     lifted = ring(gas={"crank_angle": ["0 deg", "360 deg"], "pressure": ["-1 MPa", "-1 MPa"]}, tension="1 N")
     with pytest.raises(InputError, match="no contact"):
         lifted.worst()
@@ -189,6 +190,6 @@ def test_films_without_heat_and_below_the_roughness_are_said():
     )
     warm = ring()
     assert not any(text.code == "element-without-heat" for text in warm.notes())
-    (thin,) = [note for note in ring(speed="1 rpm").notes() if note.code == "element-film-thin"]
-    assert thin.values["places"] == thin.values["all"] == 12
-    assert not any(text.code == "element-film-thin" for text in warm.notes())
+    (thin,) = [note for note in ring(speed="1 rpm").notes() if note.code == "film-thinner-than-roughness"]
+    assert thin.values["where"] == " at 12 of 12 places"
+    assert not any(text.code == "film-thinner-than-roughness" for text in warm.notes())

@@ -30,7 +30,7 @@ from bem.friction.film import PatchFilm
 from bem.friction.rough_contact import boundary_traction
 from bem.friction.setup import MixedSetup
 from bem.notes import has_code
-from bem.notes.friction import BOUNDARY_LUBRICATION, FILM_MODEL_ENDS, NO_FILM, WHOLE_FILM_BEYOND_MODEL
+from bem.notes.friction import BOUNDARY_LUBRICATION, FILM_MODEL_ENDS
 from bem.wear import mixed as mixed_cycles
 from bem.wear.mixed import MixedContact, pack_balance, unpack_balance
 
@@ -80,7 +80,7 @@ def test_boundary_lubrication_is_an_answer(speed, rms_height, oil):
     dry = solve_contact(parabola - height, operator, load=5.5 * GRID.lengths[1] / 6e-3, hardness=1.08e9, tolerance=1e-6)
     # cells touch or not: ten of some hundred may differ between tolerances of 1e-4 and 1e-6 and gaps 1e-4 apart
     assert point.contact_area == pytest.approx(dry.contact_area * 6e-3 / GRID.lengths[1], rel=0.02)
-    assert has_code(point.notes, BOUNDARY_LUBRICATION, NO_FILM)
+    assert has_code(point.notes, BOUNDARY_LUBRICATION)
     assert any(note.code == BOUNDARY_LUBRICATION.code and note.where == "1 of 1 cycles" for note in step.notes)
     # few trials: the whole load's film, one in between, the end (coarse and fine alike with 200 nodes)
     assert point.evaluations <= 4
@@ -93,13 +93,13 @@ def test_cycles_whose_film_is_taken_for_none_say_so_as_one_speed_does(speed, rms
     """They said that the film is left with less than a share of the load, which no balance had found."""
     height = rms_height / HEIGHT.std() * HEIGHT
     step, _, point = both(height, (speed, 0.0), lubricant=THIN_OIL)
-    assert has_code(point.notes, NO_FILM) == by_rule
+    assert has_code(point.notes, BOUNDARY_LUBRICATION, reason="thin") == by_rule
     resumed = MixedContact(step.setup, (speed, 0.0), **unpack_balance(pack_balance(step)))
     resumed(height, None)
     for cycles, found in ((1, step), (2, resumed)):
-        (told,) = [note for note in found.notes if has_code([note], BOUNDARY_LUBRICATION, NO_FILM)]
+        (told,) = [note for note in found.notes if has_code([note], BOUNDARY_LUBRICATION)]
         assert told.where == f"{cycles} of {cycles} cycles"
-        assert (told.code == NO_FILM.code) == by_rule
+        assert (told.values["reason"] == "thin") == by_rule
 
 
 @pytest.mark.internal
@@ -305,7 +305,10 @@ def test_beyond_film_and_yielded_surfaces_together_is_infeasible(constant):
     assert balance.status is Status.INFEASIBLE
     assert balance.contact.load == pytest.approx(rough.largest_load, rel=1e-9)
     assert balance.imbalance == pytest.approx((20 + rough.largest_load) / 400 - 1, rel=1e-9)
-    assert any(note.code == FILM_MODEL_ENDS.code and note.values["load"] == pytest.approx(20) for note in balance.notes)
+    assert any(
+        has_code([note], FILM_MODEL_ENDS, reason="balance") and note.values["load"] == pytest.approx(20)
+        for note in balance.notes
+    )
 
 
 @pytest.mark.internal
@@ -320,8 +323,8 @@ def test_boundary_where_the_films_model_ends_in_a_film_thinner_than_molecules():
     assert point.regime is Regime.BOUNDARY
     assert point.contact_load + point.film_load == pytest.approx(1300, rel=5e-4)  # the tolerance
     assert point.friction == pytest.approx(0.15, rel=1e-3)  # a tenth of the tolerance is the film's
-    assert has_code(point.notes, WHOLE_FILM_BEYOND_MODEL)
-    assert has_code(step.notes, WHOLE_FILM_BEYOND_MODEL)
+    assert has_code(point.notes, FILM_MODEL_ENDS, reason="whole-load")
+    assert has_code(step.notes, FILM_MODEL_ENDS, reason="whole-load")
 
 
 @pytest.mark.internal
@@ -412,4 +415,4 @@ def test_a_slow_soft_roller_has_no_hole_in_its_friction_curve():
     )  # fmt: skip
     assert found.status is Status.CONVERGED
     assert abs(found.imbalance) <= 1e-3
-    assert not has_code(found.notes, FILM_MODEL_ENDS, WHOLE_FILM_BEYOND_MODEL)
+    assert not has_code(found.notes, FILM_MODEL_ENDS)

@@ -28,7 +28,7 @@ from bem.friction.point_film import SolvedPointFilm, sampled_point, solved_point
 from bem.friction.setup import MixedSetup
 from bem.friction.smooth import PointContact
 from bem.notes import has_code
-from bem.notes.friction import FILM_WITHOUT_LAYERS, POINT_FILM_THIN
+from bem.notes.friction import FILM_WITHOUT_LAYERS, POINT_FILM_SCALED
 from bem.notes.lubrication import FILM_MOLECULAR
 from bem.reference_solutions.hertz import ellipse_contact
 
@@ -212,7 +212,7 @@ def test_thin_film_goes_on_from_a_solved_one(counted):
     assert -made.shear_force[0, 0] == pytest.approx(-whole.shear_force[0, 0], rel=0.03)
     cell = np.diff(made.x)[0] * np.diff(made.y)[0]
     assert made.pressure.sum() * cell == pytest.approx(20.0, rel=0.01)  # the far inlet carries the rest
-    assert has_code(made.notes, POINT_FILM_THIN)
+    assert has_code(made.notes, POINT_FILM_SCALED, reason="thin")
 
 
 def test_a_film_that_its_cells_cannot_show_is_no_boundary_lubrication():

@@ -23,7 +23,7 @@ from bem.friction.setup import MixedSetup
 from bem.laws import parameter, unregister
 from bem.lubrication.shear import Newtonian
 from bem.notes import has_code
-from bem.notes.friction import COUPLING_DIFFERS
+from bem.notes.contact import FRICTION_ON_PRESSURE
 from bem.scenes import load_scene
 from bem.wear.mixed import MixedContact
 
@@ -120,8 +120,8 @@ def test_traction_in_the_gap_takes_one_number_and_says_so():
     assert law.contact_load == pytest.approx(number.contact_load, rel=1e-9)
     assert (law.notes, number.notes) == (number.notes, law.notes)
     strong = solve_mixed(**case, boundary_friction=PressureDependentShear(20e6, 0.0))
-    assert has_code(strong.notes, COUPLING_DIFFERS)
-    assert not has_code(solve_mixed(**CASE, boundary_friction=LAW).notes, COUPLING_DIFFERS)
+    assert has_code(strong.notes, FRICTION_ON_PRESSURE, reason="other-friction")
+    assert not has_code(solve_mixed(**CASE, boundary_friction=LAW).notes, FRICTION_ON_PRESSURE, reason="other-friction")
 
 
 def test_reference_pressure_is_that_of_a_rough_contact():

@@ -21,15 +21,7 @@ from bem.friction.oil_volume import OilVolume, mean_where_counted
 from bem.friction.setup import MixedSetup
 from bem.friction.smooth import LineContact, PointContact
 from bem.notes import Level, has_code, outside
-from bem.notes.friction import (
-    BOUNDARY_LUBRICATION,
-    FILM_MODEL_ENDS,
-    NO_FILM,
-    OIL_BESIDE_DECIDES,
-    OIL_BESIDE_FOLLOWS,
-    OIL_BESIDE_UNKNOWN,
-    OIL_IN_HERTZ_FOLLOWS,
-)
+from bem.notes.friction import BOUNDARY_LUBRICATION, FILM_MODEL_ENDS, OIL_COUNTED
 from bem.wear.mixed import MixedContact, film_table
 
 STEEL = Body(Material("steel", youngs_modulus=207e9, poissons_ratio=0.3))
@@ -92,7 +84,7 @@ def test_one_volume_of_oil_follows_the_patch_and_says_so():
     loaded = solve_mixed(**bearing(112, oil_volume=OilVolume.LOADED), speeds=(1e-4, 0.0))
     for point in points:
         assert point.oil.matters
-        (note,) = (note for note in point.notes if note.code == OIL_BESIDE_DECIDES.code)
+        (note,) = (note for note in point.notes if note.code == OIL_COUNTED.code)
         assert note.level is Level.OUTSIDE_MODEL
         assert note.values["share"] == point.oil.share
         assert note.values["contact_share"] == shares[points.index(point)]
@@ -170,10 +162,10 @@ def test_wear_cycles_take_it_too():
     assert outcome.status is Status.CONVERGED
     # a table of films is good to 1e-4 of the thickness
     assert step.rows["contact_load"][0] == pytest.approx(point.contact_load, rel=2e-3)
-    assert not has_code(step.notes, OIL_BESIDE_DECIDES, OIL_BESIDE_FOLLOWS)
+    assert not has_code(step.notes, OIL_COUNTED)
     patch = MixedContact(setup_of(bearing(64)), (0.01, 0.0))
     patch(case["height"], None)
-    (note,) = (note for note in patch.notes if has_code([note], OIL_BESIDE_DECIDES, OIL_BESIDE_FOLLOWS))
+    (note,) = (note for note in patch.notes if has_code([note], OIL_COUNTED, reason="patch"))
     assert note.where == "last cycle"
 
 
@@ -236,7 +228,7 @@ def test_where_the_films_model_ends_before_the_oil_fits_it_is_infeasible(counted
     balance = share_load(film, rough, load, 1e-4, film.under(0.1 * load, 0, None), BalanceStart(0.05 * load))
     assert balance.status is Status.INFEASIBLE
     assert balance.oil_imbalance < -1e-3  # of the contact and the film that are returned
-    assert has_code(balance.notes, FILM_MODEL_ENDS)
+    assert has_code(balance.notes, FILM_MODEL_ENDS, reason="balance")
 
 
 @pytest.mark.internal
@@ -249,8 +241,8 @@ def test_a_film_taken_for_none_is_told_apart_from_one_that_is_left_with_none(thi
     balance = share_load(film, rough, load, 1e-4, film.under(0.1 * load, 0, None), BalanceStart(0.05 * load))
     assert balance.status is Status.CONVERGED
     assert balance.regime is Regime.BOUNDARY
-    assert has_code(balance.notes, NO_FILM) == by_rule == balance.film_neglected
-    assert has_code(balance.notes, BOUNDARY_LUBRICATION) != by_rule
+    assert has_code(balance.notes, BOUNDARY_LUBRICATION, reason="thin") == by_rule == balance.film_neglected
+    assert has_code(balance.notes, BOUNDARY_LUBRICATION, reason="load") != by_rule
 
 
 @pytest.mark.internal
@@ -419,11 +411,11 @@ def test_what_is_said_of_one_result_and_of_a_curve():
     assert [oil.matters for oil in (alike, load, friction, small, unknown)] == [False, True, True, False, True]
     assert oil_notes([alike, small]) == ()
     (note,) = oil_notes([alike, friction, load])
-    assert (note.code, note.level) == (OIL_BESIDE_FOLLOWS.code, Level.INFO)
+    assert (note.values["reason"], note.level) == ("patch", Level.INFO)
     assert (note.values["share"], note.values["loaded_contact_share"]) == (0.8, 0.56)
     assert "where that differs most" in note
-    assert [one.code for one in oil_notes([load, unknown])] == [OIL_BESIDE_FOLLOWS.code, OIL_BESIDE_UNKNOWN.code]
-    assert [one.code for one in oil_notes([unknown])] == [OIL_BESIDE_UNKNOWN.code]
+    assert [one.values["reason"] for one in oil_notes([load, unknown])] == ["patch", "unknown"]
+    assert [one.values["reason"] for one in oil_notes([unknown])] == ["unknown"]
     decided = OilBeside(0.99, 0.24, 0.085, 0.99, 0.119)
     assert [oil.decides for oil in (alike, load, unknown, decided)] == [False, False, False, True]
     rubbed = OilBeside(0.98, 0.0375, 0.0634, 0.1366, 0.0403)  # share by less than a tenth, friction by a third
@@ -435,7 +427,7 @@ def test_what_is_said_of_one_result_and_of_a_curve():
     assert outside(oil_notes([alike, load])) == ()
     short = oil_notes([load, decided, unknown])[0]
     assert outside([short]) == (short.headline,)
-    assert "24 % of the load at a friction of 0.085, but 99 % at 0.119" in short
+    assert "24 % of the load at a friction of 0.085, and 99 % at 0.119" in short
 
 
 def test_refuses_other_volumes():
@@ -520,10 +512,10 @@ def test_a_ball_counts_the_oil_over_its_hertz_circle():
 def test_the_note_on_the_hertz_area_names_it_and_compares_with_loaded():
     follows = OilBeside(0.7, 0.5, 0.1, 0.5, 0.102, counted=OilVolume.HERTZ)
     (note,) = oil_notes([follows])
-    assert note.code == OIL_IN_HERTZ_FOLLOWS.code
+    assert has_code([note], OIL_COUNTED, reason="hertz")
     assert note.values["loaded_friction"] == 0.102
     assert outside([note]) == ()
     decided = dataclasses.replace(follows, loaded_contact_share=0.99)
     assert outside(oil_notes([decided, follows]))
     unknown = OilBeside(0.7, 0.5, 0.1, counted=OilVolume.HERTZ)
-    assert [one.code for one in oil_notes([unknown])] == [OIL_BESIDE_UNKNOWN.code]
+    assert [one.values["reason"] for one in oil_notes([unknown])] == ["unknown"]

@@ -23,7 +23,7 @@ from bem.lubrication.thermal.made import Made
 from bem.lubrication.thermal.strip import Strip
 from bem.materials import CATALOGUE, Body, Material
 from bem.notes import has_code
-from bem.notes.lubrication import EXPANSION_UNKNOWN, FULL_HEAT_NOT_FOUND
+from bem.notes.lubrication import HEAT_NOT_FOUND, OIL_DATA_SHORT
 
 MODULUS = 115.5e9
 STEEL = Body(CATALOGUE["steel-52100"].material)
@@ -417,7 +417,7 @@ def test_an_oil_that_heat_does_not_thin_has_the_isothermal_film():
     assert found.temperature.max() > 340
     assert found.central_thickness == pytest.approx(cold.central_thickness, rel=1e-9)
     assert found.shear_force == pytest.approx(cold.shear_force, rel=1e-9)
-    assert has_code(found.notes, EXPANSION_UNKNOWN)
+    assert has_code(found.notes, OIL_DATA_SHORT, reason="expansion")
 
 
 @pytest.mark.internal
@@ -481,7 +481,7 @@ def test_what_is_not_met_is_not_converged(monkeypatch):
     found = film(5.0, 0.5)
     assert found.residual > 1e-3
     assert found.status is Status.STALLED
-    assert has_code(found.notes, FULL_HEAT_NOT_FOUND)
+    assert has_code(found.notes, HEAT_NOT_FOUND, reason="full")
     assert found.as_film().status is Status.STALLED
     assert np.isnan(found.temperature).all()
     assert np.isnan(found.surface_temperatures).all()

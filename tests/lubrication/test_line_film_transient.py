@@ -7,7 +7,7 @@ import pytest
 
 from bem import InputError, Lubricant, Status, march_line_film, solve_line_film
 from bem.notes import has_code
-from bem.notes.lubrication import FIRST_FILM_LOAD
+from bem.notes.lubrication import FIRST_FILM
 from bem.reference_solutions.line_film import squeeze_load, squeeze_thickness
 
 OIL = {"radius": 2e-3, "contact_modulus": 115.5e9, "lubricant": Lubricant(0.36, pressure_viscosity=25e-9)}
@@ -210,4 +210,4 @@ def test_a_given_first_film_says_by_how_much_it_misses_the_load():
         np.array([0.0, 1e-3]), load=lambda t: 900.0, speeds=lambda t: (0.1, 0.0), initial=steady, **contact
     )
     assert any(note.values.get("missed") == pytest.approx(-11, abs=0.5) for note in films[0].notes)
-    assert not has_code(films[1].notes, FIRST_FILM_LOAD)
+    assert not has_code(films[1].notes, FIRST_FILM, reason="load")

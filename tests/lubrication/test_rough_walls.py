@@ -18,7 +18,8 @@ from bem import (
 from bem.flow import FlowFactors
 from bem.lubrication.rough_walls import RoughWalls
 from bem.notes import has_code
-from bem.notes.lubrication import FACTORS_CONTACT, FACTORS_EXTRAPOLATED
+from bem.notes.contact import FLOW_BARRED
+from bem.notes.lubrication import FACTORS_EXTRAPOLATED
 
 CASE = {"load": 5e4, "radius": 0.01, "contact_modulus": 1.1e11, "points": 400, "tolerance": 1e-9}
 
@@ -115,8 +116,8 @@ def test_a_film_below_percolation_says_so(table):
     shut = replace(table, pressure_x=np.where(table.separations < 3e-7, 0.0, table.pressure_x))
     thin = film(speeds=(0.02, 0.01), factors=shut)
     assert thin.minimum_thickness < 3e-7
-    assert has_code(thin.notes, FACTORS_CONTACT)
-    assert not has_code(film(speeds=(20.0, 10.0), factors=shut).notes, FACTORS_CONTACT)
+    assert has_code(thin.notes, FLOW_BARRED, reason="film")
+    assert not has_code(film(speeds=(20.0, 10.0), factors=shut).notes, FLOW_BARRED, reason="film")
 
 
 def test_what_is_no_table():

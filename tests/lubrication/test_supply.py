@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 from bem import Cavitation, InputError, Lubricant, Status, march_line_film, solve_line_film
 from bem.lubrication.supply import InletDistance, OilLayer
 from bem.notes import has_code
-from bem.notes.lubrication import INLET_HEATING
+from bem.notes.lubrication import HEAT_LEFT_OUT
 
 RIGID = {
     "load": 200.0,
@@ -238,7 +238,7 @@ def test_heat_of_the_inlet_is_said_of_films_that_have_one():
     """Starved by more than heat takes, a film is as thick as the oil that comes."""
     fast = BEARING | {"speeds": (8.0, 7.2)}
     notes = [solve_line_film(**fast, supply=supply).notes for supply in (None, OilLayer(1e-7), OilLayer(1.0))]
-    heats = [has_code(said, INLET_HEATING) for said in notes]
+    heats = [has_code(said, HEAT_LEFT_OUT, reason="inlet") for said in notes]
     assert heats == [True, False, True]
 
 

@@ -27,7 +27,7 @@ from bem.lubrication.thermal.conductors import moving_bodies
 from bem.lubrication.thermal.lumped_point import point_heat, thinning
 from bem.lubrication.with_heat import FilmHeat
 from bem.notes import has_code
-from bem.notes.lubrication import FILM_HEATING, HEAT_NOT_FOUND, HEAT_SPREADS
+from bem.notes.lubrication import HEAT_LEFT_OUT, HEAT_NOT_FOUND, LUMPED_HEAT_LIMIT
 from bem.reference_solutions.hertz import ellipse_contact
 
 ELASTIC = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
@@ -101,7 +101,7 @@ def test_heat_that_is_not_found_is_not_shown(monkeypatch):
     assert np.isnan([found.mean_temperature, found.maximum_temperature, found.friction]).all()
     assert np.isnan(found.temperature).all()
     assert found.central_thickness > 0
-    assert has_code(found.notes, HEAT_NOT_FOUND)
+    assert has_code(found.notes, HEAT_NOT_FOUND, reason="lumped")
 
 
 @pytest.mark.internal
@@ -120,7 +120,7 @@ def test_surfaces_beside_heat_that_spreads_across(radii, speeds, most, told):
         whole = float((surface_temperature(flux, grid, STEEL, speeds=speed).temperature * film.pressure).sum())
         lines = float(((surface - 333.15) * film.pressure).sum())
         assert 0.02 < lines / whole - 1 < most
-    assert has_code(film.notes, HEAT_SPREADS) is told
+    assert has_code(film.notes, LUMPED_HEAT_LIMIT, reason="spreads") is told
 
 
 @pytest.mark.internal
@@ -165,7 +165,7 @@ def test_load_sharing_has_it():
     assert hot.friction < cold.friction
     assert 333.15 < hot.film.mean_temperature < hot.film.maximum_temperature
     assert 333.15 < hot.contact_temperature < hot.flash_temperature
-    assert not has_code(hot.notes, FILM_HEATING)
+    assert not has_code(hot.notes, HEAT_LEFT_OUT, reason="sliding")
 
 
 def test_a_ball_at_rest_has_its_own_heat():

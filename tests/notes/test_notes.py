@@ -6,7 +6,7 @@ import string
 
 import pytest
 
-from bem.notes import OUTSIDE, Level, Note, Span, as_note, has_code, of_summary, outside, unpacked, without
+from bem.notes import OUTSIDE, Level, Note, Reason, Span, as_note, has_code, of_summary, outside, unpacked, without
 from bem.notes.catalogue import known_kinds
 from bem.notes.friction import FRICTION_UNPHYSICAL
 from bem.notes.lubrication import FACTORS_EXTRAPOLATED, FILM_MOLECULAR, FILM_NOT_FOUND, OIL_CREATED
@@ -23,13 +23,15 @@ def example(template):
 
 @pytest.mark.parametrize("kind", known_kinds().values(), ids=known_kinds())
 def test_every_kind_of_the_catalogue_says_what_is_wrong_in_a_line(kind):
-    for reason, sentence in (kind.reasons or {"": kind.sentence}).items():
-        values = example(kind.headline) | example(sentence) | example(kind.action) | {"reason": reason}
+    for name, reason in (kind.reasons or {"": Reason(kind.sentence)}).items():
+        templates = (kind.headline, reason.sentence, reason.action or kind.action)
+        values = {key: value for text in templates for key, value in example(text).items()} | {"reason": name}
         note = kind("there", **values)
         assert note.startswith("there: ")
         assert "{" not in note
         assert note.line.startswith("there: ")
-        assert (note.code, note.level, note.where) == (kind.code, kind.level, "there")
+        assert (note.code, note.level, note.where) == (kind.code, reason.level or kind.level, "there")
+        assert reason.sentence or reason.action or kind.action or not kind.reasons
 
 
 def test_a_note_is_a_string_with_numbers_in_their_units():

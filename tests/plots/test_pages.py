@@ -79,7 +79,7 @@ def test_what_the_copy_does_not_do_is_done_here(tmp_path, what):
 done = run(sys.argv[1] + "/run")
 assert "matplotlib" in sys.modules
 assert none_left()
-assert not [note for note in done.summary["notes"] if note["code"] == "figure-missing"]
+assert not [note for note in done.summary["notes"] if note["code"] == "side-task-failed"]
 """
     told(code, tmp_path)
     assert len(os.listdir(tmp_path / "run" / "figures")) >= 5

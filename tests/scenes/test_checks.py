@@ -773,7 +773,7 @@ def test_one_warning_is_said_once_and_a_check_that_fails_says_so(monkeypatch):
     monkeypatch.setitem(SCENE_CHECKS, "broken", broken)
     found = scene_warnings(facts_of(BALL))
     (note,) = found
-    assert note.values == {"check": "broken", "error": "ZeroDivisionError('nothing to divide by')"}
+    assert note.values == {"task": "The check broken", "error": "ZeroDivisionError('nothing to divide by')"}
 
 
 def test_a_run_notes_what_was_warned_of_before_and_after(tmp_path):
@@ -881,16 +881,24 @@ def test_a_scar_as_wide_as_its_body_is_outside_the_model():
         (scar_outcome(626e-6), "0.5", True),
         (scar_outcome(620e-6), "0.5", False),
     ):
-        (text,) = [note for note in outcome_warnings(facts, outcome) if note.code == "worn-steep"]
+        (text,) = [
+            note
+            for note in outcome_warnings(facts, outcome)
+            if (note.code, note.values.get("reason")) == ("contact-wide", "worn")
+        ]
         assert f"slope of {slope}," in text
         assert text.startswith(OUTSIDE) == beyond
     facts = scar_facts("cylinder.radius=1 mm")
     (text,) = [
-        note for note in outcome_warnings(facts, scar_outcome(5e-6, half_width=250e-6)) if note.code == "worn-steep"
+        note
+        for note in outcome_warnings(facts, scar_outcome(5e-6, half_width=250e-6))
+        if (note.code, note.values.get("reason")) == ("contact-wide", "worn")
     ]
     assert "slope of 0.25," in text
     assert not [
-        note for note in outcome_warnings(facts, scar_outcome(0.0, half_width=250e-6)) if note.code == "worn-steep"
+        note
+        for note in outcome_warnings(facts, scar_outcome(0.0, half_width=250e-6))
+        if (note.code, note.values.get("reason")) == ("contact-wide", "worn")
     ]
 
 
@@ -903,7 +911,7 @@ def test_a_cylinder_worn_through_says_so_in_its_run(tmp_path):
     run = run_scene("wear-cylinder-scar", tmp_path / "run", settings=settings, figures=False)
     assert run.summary["status"] == "converged"
     assert len(run.summary["outside_model"]) == 1
-    (text,) = [note["text"] for note in run.summary["notes"] if note["code"] == "worn-steep"]
+    (text,) = [note["text"] for note in run.summary["notes"] if note["code"] == "contact-wide"]
     assert "slope of 2.6," in text
 
 

@@ -238,7 +238,7 @@ def test_where_the_oil_is_counted_is_a_key_and_said_once_for_all_speeds(counted)
     _, outcome, result = run(scene_with(FRICTION, speeds=speeds, sharing=sharing) | {"outputs": {"errors": False}})
     summary = outcome.summary
     assert all(0 < share < 1 for share in summary["oil_beside_contact"])
-    said = [note for note in result.notes if note.code.startswith("oil-beside")]
+    said = [note for note in result.notes if note.code == "oil-counted"]
     changed = np.array(summary["loaded_friction"]) / np.array(summary["friction"]) - 1
     if counted == "loaded":
         assert said == []
@@ -263,7 +263,7 @@ def test_notes_of_several_speeds_are_told_once_with_the_speeds_that_have_them():
     _, _, computed = run(scene)
     summits = [note for note in computed.notes if note.values.get("reason") == "other-summits"]
     assert [note.where for note in summits] == ["speeds 1e-06 to 0.02 m/s"]  # the last is a full film
-    hot = [note for note in computed.notes if note.code == "film-heating"]
+    hot = [note for note in computed.notes if (note.code, note.values.get("reason")) == ("heat-left-out", "sliding")]
     assert [note.where for note in hot] == ["speed 5 m/s, film"]
 
 
@@ -486,7 +486,7 @@ def test_boundary_lubrication_is_said_and_lambda_ratio_is_one_in_both_kinds():
         assert outcome.status is Status.CONVERGED
         assert summary["contact_load_N"][0] + summary["film_load_N"][0] == pytest.approx(5.5, rel=5e-4)
         assert summary["friction"][0] == pytest.approx(0.15, rel=1e-3)  # the tolerance's tenth is the film's
-        assert any(note.code == "boundary-lubrication" for note in context.notes)
+        assert any((note.code, note.values.get("reason")) == ("boundary-lubrication", "load") for note in context.notes)
     # the first cycle's surfaces are unworn; both films are solved on 200 nodes
     assert cycles.summary["lambda_ratio"][0] == pytest.approx(sharing.summary["lambda_ratio"][0], rel=1e-6)
     for summary in (sharing.summary, cycles.summary):

@@ -89,15 +89,15 @@ def test_what_bounds_the_figures_is_said(tmp_path):
     thin = scene(contact={"boundary_friction": 0.1, "least_film": "50 nm"})
     notes = run_scene(thin, tmp_path / "thin", figures=False).summary["notes"]
     assert any(note["code"] == "least-film-decides" for note in notes)
-    assert any(note["code"] == "error-bars-of-half-cells" for note in notes)
+    assert any(note["code"] == "error-bars-partial" for note in notes)
     short = scene(patch={"shape": 32, "lengths": "150 um"}, outputs={"errors": False})
     notes = run_scene(short, tmp_path / "short", figures=False).summary["notes"]
     assert any(note["code"] == "patch-smaller-than-hertz" for note in notes)
     coarse = scene(film={"cells": 32}, outputs={"errors": False})
     notes = run_scene(coarse, tmp_path / "coarse", figures=False).summary["notes"]
-    assert any(note["code"] == "film-cells-per-wave" for note in notes)
+    assert any(note["code"] == "roughness-unresolved" for note in notes)
     # of the film, whether bars are asked for or not
-    assert any(note["code"] == "rim-narrow" for note in notes)
+    assert any(note["code"] == "film-cells-few" for note in notes)
 
 
 @pytest.mark.internal
@@ -110,7 +110,7 @@ def test_a_film_that_is_not_found_is_not_converged_and_says_what_to_do(tmp_path,
     assert run.summary["status"] == "stalled"
     assert REMEDY in run.summary["where"]
     assert "contact_load_share_error" not in run.summary
-    assert any(note["code"] == "rough-film-not-found" for note in run.summary["notes"])
+    assert any(note["code"] == "film-not-found" for note in run.summary["notes"])
 
 
 def test_oil_comes_at_any_angle(tmp_path):

@@ -7,7 +7,7 @@ import pytest
 
 from bem import CATALOGUE, InfeasibleError, InputError, plan_scene
 from bem.notes import has_code
-from bem.notes.heat import SURFACE_TRANSFORMS
+from bem.notes.heat import SURFACE_HOT
 from bem.reference_solutions.heat_sources import tian_kennedy
 from bem.reference_solutions.hertz import ellipse_contact
 from bem.scenes import PlainContext, get_kind, load_scene
@@ -74,7 +74,7 @@ def test_rolling_alone_makes_no_heat():
 
 def test_what_no_steel_stands_is_noted():
     _, context = run(heat__lower_speed=100.0, contact__friction=0.5)
-    assert has_code(context.notes, SURFACE_TRANSFORMS)
+    assert has_code(context.notes, SURFACE_HOT, reason="transforms")
 
 
 def planned(changes):

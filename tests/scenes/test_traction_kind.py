@@ -169,7 +169,7 @@ def test_without_heat_it_is_the_isothermal_film(tmp_path):
     found = solve_line_film(speeds=(7.5, 2.5), **line(load_scene(scene())))
     assert run.summary["traction_coefficient"] == pytest.approx(found.shear_force / found.load, rel=1e-12)
     assert run.summary.get("film_temperature_C") is None
-    assert any(note["code"] == "inlet-heating" for note in run.summary["notes"])
+    assert any(note["code"] == "heat-left-out" for note in run.summary["notes"])
 
 
 @pytest.mark.parametrize(

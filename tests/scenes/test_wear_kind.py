@@ -250,7 +250,11 @@ def test_what_is_listed_where_both_bodies_wear_says_of_which_it_is(scene_file):
         assert outcome.summary["particles_of"] == name
         assert set(values["particle_body"]) == {("lower", "upper").index(name)}
         share = values["particle_volume"].sum() / values["volume"].sum()
-        (note,) = [one for one in outcome_warnings(examine(scene), outcome) if one.code == "both-bodies-wear"]
+        (note,) = [
+            one
+            for one in outcome_warnings(examine(scene), outcome)
+            if (one.code, one.values.get("reason")) == ("particles-of-body", "both")
+        ]
         assert "worn depth are those of the lower one, volumes of both" in note
         assert f"are those of the {name} body, {percent(share)} of the volume" in note
     volumes = [outcome.variables["particle_volume"].values.sum() for outcome in found.values()]
@@ -300,7 +304,7 @@ def test_particles_that_bear_all_of_the_load_are_told(scene_file):
     assert outcome.summary["contact_area_fraction"] == 0
     assert np.isnan(outcome.summary["mean_contact_pressure_Pa"])
     assert outcome.summary["third_body_load_share"] == pytest.approx(1, abs=1e-5)  # BALANCE, and a little
-    assert any(note.code == "third-bodies-bear-load" for note in result.notes)
+    assert any((note.code, note.values.get("reason")) == ("third-bodies-many", "load") for note in result.notes)
 
 
 def test_as_many_particles_lie_there_as_wear_makes_within_their_residence(scene_file):

@@ -21,7 +21,7 @@ from bem import (
 )
 from bem.convolution import COUNT
 from bem.notes import has_code
-from bem.notes.contact import SLIP_PRESSED_AT_ONCE
+from bem.notes.contact import PRESSING_PATH
 from bem.reference_solutions.partial_slip import PushedBall, spence_stick_share
 from bem.tangential import tangential_operator
 from bem.tangential.friction_discs import project_to_friction_discs, project_with_force
@@ -212,7 +212,7 @@ def test_pressure_alone_makes_unlike_bodies_slip_as_spence_has_it(nu):
     assert 2 * found[16] - found[8] == pytest.approx(exact, abs=1 / 28)
     assert found[1] < 0.5 * exact
     _, at_once = stick_radius(nu, 1)
-    assert has_code(at_once.notes, SLIP_PRESSED_AT_ONCE)
+    assert has_code(at_once.notes, PRESSING_PATH, reason="at-once")
     assert not stick_radius(nu, 2)[1].notes
 
 

@@ -7,7 +7,8 @@ from mixed_case import mixed_case
 from bem import Body, InputError, Lubricant, Material, run_in
 from bem.friction.setup import MixedSetup
 from bem.notes import has_code
-from bem.notes.wear import OIL_WITH_PARTICLES_UNKNOWN, THIRD_BODIES_FULL
+from bem.notes.friction import OIL_COUNTED
+from bem.notes.wear import THIRD_BODIES_MANY
 from bem.wear import WearModel
 from bem.wear.mixed import MixedContact
 from bem.wear.third_bodies import ThirdBodies
@@ -78,7 +79,7 @@ def test_what_hangs_on_the_oil_beside_the_contact_is_said_with_particles_too():
     # so few that they count for nothing: judged as without them
     assert few.oil().contact_share == pytest.approx(alone.oil().contact_share, rel=1e-2)
     assert many.oil() is None
-    assert has_code(many.notes, OIL_WITH_PARTICLES_UNKNOWN)
+    assert has_code(many.notes, OIL_COUNTED, reason="particles")
 
 
 @pytest.mark.parametrize("counted", ["patch", "loaded"])
@@ -144,7 +145,7 @@ def test_what_wears_feeds_them_and_some_leave_every_cycle(contact):
 def test_they_cover_the_area_once_at_most_and_that_is_said():
     found = loop(3, contact=False, removed=1e-4, shed=1.0, leaving=0.0, number_per_area=(1 - 1e-9) * 4 / (np.pi * D**2))
     assert found.cycles["third_bodies_per_area"][-1] == pytest.approx(4 / (np.pi * D**2), rel=1e-12)
-    assert has_code(found.notes, THIRD_BODIES_FULL)
+    assert has_code(found.notes, THIRD_BODIES_MANY, reason="area")
 
 
 @pytest.mark.parametrize("changes", [{"shed": 1.5}, {"leaving": -0.1}])

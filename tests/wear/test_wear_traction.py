@@ -9,7 +9,8 @@ from test_cycle import ARGUMENTS, GRID, SOFT, setup, surfaces
 from wear_loops import goes_on
 
 from bem import Body, Grid, InputError, Material, contact_modulus, run_in
-from bem.notes.wear import LOOP_ALL_SLIPS, LOOP_PRESSED_AT_ONCE
+from bem.notes.contact import PRESSING_PATH
+from bem.notes.wear import LOOP_ALL_SLIPS
 from bem.reference_solutions.partial_slip import PushedBall
 from bem.stress import subsurface_stress
 from bem.wear import WearModel, dry_contact, pack_state, unpack_state, wear_cycle, yielded_pieces
@@ -140,7 +141,7 @@ def test_what_should_not_be_believed_is_said():
     assert near.notes == (LOOP_ALL_SLIPS(),)
     brass = Body(Material("brass", youngs_modulus=88e9, poissons_ratio=0.3))
     unlike, _ = worn_ball(OscillatingForce(share=0.6), cells=32, bodies=(Body(STEEL), brass))
-    assert unlike.notes == (LOOP_PRESSED_AT_ONCE(),)
+    assert unlike.notes == (PRESSING_PATH(reason="cycle"),)
 
 
 def test_what_does_not_go_together_is_refused():

@@ -10,12 +10,7 @@ from bem.errors import InputError
 from bem.lubrication.oils.over_temperature import CELSIUS, OverTemperature
 from bem.lubrication.oils.pressure import PressureViscosity
 from bem.notes import Note
-from bem.notes.lubrication import (
-    OIL_ABOVE_FLASH_POINT,
-    OIL_ABOVE_SERVICE_LIMIT,
-    OIL_TOO_THICK,
-    OIL_VISCOSITY_EXTRAPOLATED,
-)
+from bem.notes.lubrication import OIL_DATA_SHORT, OIL_TOO_HOT, OIL_TOO_THICK
 
 if TYPE_CHECKING:
     from bem.lubrication.lubricant import Lubricant
@@ -126,13 +121,15 @@ class Oil:
         mu = self.dynamic_viscosity(temperature)
         if not law.lowest - EXTRAPOLATED <= temperature <= law.highest + EXTRAPOLATED:
             low, high = law.lowest - CELSIUS, law.highest - CELSIUS
-            found.append(OIL_VISCOSITY_EXTRAPOLATED(self.name, temperature=temperature - CELSIUS, low=low, high=high))
+            found.append(
+                OIL_DATA_SHORT(self.name, temperature=temperature - CELSIUS, low=low, high=high, reason="viscosity")
+            )
         if mu > FLOWS:
             found.append(OIL_TOO_THICK(self.name, viscosity=mu, limit=FLOWS))
         if self.flash_point is not None and temperature > self.flash_point:
-            found.append(OIL_ABOVE_FLASH_POINT(self.name, flash_point=self.flash_point - CELSIUS))
+            found.append(OIL_TOO_HOT(self.name, limit=self.flash_point - CELSIUS, reason="flash-point"))
         if self.largest_service is not None and temperature > self.largest_service:
-            found.append(OIL_ABOVE_SERVICE_LIMIT(self.name, limit=self.largest_service - CELSIUS))
+            found.append(OIL_TOO_HOT(self.name, limit=self.largest_service - CELSIUS, reason="service"))
         if self.pressure_viscosity is not None:
             note = self.pressure_viscosity.note(mu, self.density(temperature), temperature)
             found += [] if note is None else [note.at(self.name)]

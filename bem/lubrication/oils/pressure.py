@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from bem.notes import Note
-from bem.notes.lubrication import OIL_ALPHA_EXTRAPOLATED
+from bem.notes.lubrication import OIL_DATA_SHORT
 
 GPA = 1e-9
 """One 1/GPa in 1/Pa."""
@@ -59,4 +59,6 @@ class PressureViscosity:
         if thin / _REACH <= value <= _REACH * thick and not outside:
             return None
         at = f" at {cold - 273.15:.0f} to {hot - 273.15:.0f} degC" if outside else ""
-        return OIL_ALPHA_EXTRAPOLATED(correlation=self.name, thin=thin, thick=thick, unit=unit, at=at)
+        return OIL_DATA_SHORT(
+            correlation=self.name, thin=thin, thick=thick, unit=unit, at=at, reason="pressure-viscosity"
+        )

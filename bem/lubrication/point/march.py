@@ -24,7 +24,7 @@ from bem.lubrication.point.setting import Frame, Operators, Rectangle, Setting, 
 from bem.lubrication.point.solve import Request, entrainment, result_of, vectors
 from bem.lubrication.point.validity import coarse_heights
 from bem.lubrication.time_steps import Derivative, Reached
-from bem.notes.lubrication import FIRST_FILM_LOAD, FIRST_SURFACES_UNDEFORMED
+from bem.notes.lubrication import FIRST_FILM
 from bem.reference_solutions.hertz import ellipse_contact
 
 LOADED = 0.02
@@ -211,14 +211,14 @@ def _with_heights(
     """The first film with the surfaces (nx, ny) in it, in films, and what a reader must know of it."""
     missed = solution.load / march.operation.load(solution.time or 0.0) - 1
     if abs(missed) > march.tolerance:
-        note = FIRST_FILM_LOAD(origin=words, missed=100 * missed)
+        note = FIRST_FILM(origin=words, missed=100 * missed, reason="load")
         solution = replace(solution, notes=(*solution.notes, note))
     if heights is None:
         return moment, solution
     film, unit = moment.film - heights, march.scales.film
     loaded = moment.pressure > LOADED * moment.pressure.max()
     if loaded.any() and (np.abs(heights) > NOTED * moment.film)[loaded].any():
-        note = FIRST_SURFACES_UNDEFORMED()
+        note = FIRST_FILM(reason="surfaces")
         solution = replace(solution, notes=(*solution.notes, note))
     x, y = solution.x, solution.y
     middle = bilinear(heights, -x[0] / (x[1] - x[0]), -y[0] / (y[1] - y[0]))

@@ -31,7 +31,8 @@ from bem.lubrication.point.touching_start import reached
 from bem.lubrication.point.validity import coarse_heights
 from bem.materials import Body
 from bem.notes import Note
-from bem.notes.lubrication import CONTACT_SHARE_ERROR_UNKNOWN, OIL_CREATED, ROUGH_FILM_NOT_FOUND
+from bem.notes.accuracy import NoBar, no_error_bar
+from bem.notes.lubrication import FILM_NOT_FOUND, OIL_CREATED
 from bem.representation import readable
 from bem.threads import one_blas_thread
 
@@ -199,7 +200,7 @@ def solve_rough_point_film(
         if coarse.status is Status.CONVERGED:
             found = replace(found, contact_share_error=abs(found.contact_share - coarse.contact_share))
         else:
-            found = replace(found, notes=(*found.notes, CONTACT_SHARE_ERROR_UNKNOWN()))
+            found = replace(found, notes=(*found.notes, no_error_bar(["contact_share"], NoBar.NO_COARSE_FILM)))
     return found
 
 
@@ -325,7 +326,7 @@ def _judged(level: Level, state: TouchingState, least: float, tolerance: float) 
 def _notes(judged: _Judged, created: float) -> tuple[Note, ...]:
     notes = []
     if not judged.right:
-        notes.append(ROUGH_FILM_NOT_FOUND(residual=judged.residual))
+        notes.append(FILM_NOT_FOUND(residual=judged.residual, reason="rough"))
     if created > CREATED:
         notes.append(OIL_CREATED(created=created))
     return tuple(notes)

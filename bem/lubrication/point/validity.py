@@ -20,17 +20,14 @@ from bem.lubrication.point.levels import Level
 from bem.lubrication.point.scales import PointScales, point_scales
 from bem.lubrication.point.setting import Setting
 from bem.notes import Note, without
+from bem.notes.checks import ROUGHNESS_UNRESOLVED
 from bem.notes.lubrication import (
     BODIES_NOT_RIGID,
-    CELLS_LARGE_FOR_FILM,
-    CONSTRICTION_NARROW,
+    FILM_CELLS_FEW,
     FILM_ERROR_UNKNOWN,
-    FILM_HEATING,
     FILM_NOT_FOUND,
-    FILM_UNCERTAIN,
-    HEIGHTS_COARSE,
+    HEAT_LEFT_OUT,
     INLET_FRICTION,
-    INLET_HEATING,
     INLET_TOO_SHORT,
 )
 
@@ -69,7 +66,7 @@ def coarse_heights(heights: FloatArray) -> tuple[Note, ...]:
     cells = math.pi / math.asin(min(change / 2, 1.0))
     if cells >= FEWEST_CELLS:
         return ()
-    return (HEIGHTS_COARSE(change=change, cells=cells, fewest=FEWEST_CELLS),)
+    return (ROUGHNESS_UNRESOLVED(change=change, cells=cells, fewest=FEWEST_CELLS, reason="film"),)
 
 
 @dataclass(frozen=True)
@@ -95,7 +92,7 @@ def inlet_heating(case: PointCase) -> Note | None:
     )
     if heating.factor >= validity.LEAST_INLET_FACTOR * case.reduction:
         return None
-    return INLET_HEATING(factor=1 / heating.factor)
+    return HEAT_LEFT_OUT(factor=1 / heating.factor, reason="inlet")
 
 
 def bodies_not_rigid(case: PointCase) -> Note | None:
@@ -133,7 +130,7 @@ def film_heating(case: PointCase) -> Note | None:
     flash = 2 * heat * math.sqrt(case.length / math.pi) / (validity.STEEL_EFFUSIVITY * root)
     if film + flash <= validity.LARGEST_HEATING:
         return None
-    return FILM_HEATING(limit=validity.LARGEST_HEATING, rise=film + flash)
+    return HEAT_LEFT_OUT(limit=validity.LARGEST_HEATING, rise=film + flash, reason="sliding")
 
 
 CHECKS: list[Callable[[PointCase], Note | None]] = [
@@ -240,7 +237,7 @@ def _unresolved(film: PointFilmSolution, setting: Setting, level: Level) -> list
         return []
     length = " x ".join(f"{step * scales.length:.2g}" for step in frame.pair(level.spacing))
     size = " x ".join(f"{room * scales.length:.2g}" for room in frame.pair(rooms))
-    return [CELLS_LARGE_FOR_FILM(cell=length, size=size)]
+    return [FILM_CELLS_FEW(cell=length, size=size, reason="contact")]
 
 
 def _on_grid(film: PointFilmSolution, thickness: FloatArray, setting: Setting, level: Level) -> tuple[Note, ...]:
@@ -254,7 +251,7 @@ def _on_grid(film: PointFilmSolution, thickness: FloatArray, setting: Setting, l
         notes.append(INLET_TOO_SHORT(limit=SHORTEST_INLET))
     notes += _unresolved(film, setting, level)
     if film.status is Status.CONVERGED and rise_beside_lowest(thickness) > STEEPEST:
-        notes.append(CONSTRICTION_NARROW(limit=STEEPEST))
+        notes.append(FILM_CELLS_FEW(limit=STEEPEST, reason="constriction"))
     added = inlet_shear(film, setting)
     if added > LARGEST_ERROR * film.friction * film.load:
         notes.append(INLET_FRICTION(added=added / film.load, friction=float(film.friction)))
@@ -263,7 +260,7 @@ def _on_grid(film: PointFilmSolution, thickness: FloatArray, setting: Setting, l
         (film.minimum_thickness_error, film.minimum_thickness),
     )
     if any(error is not None and error > LARGEST_ERROR * value for error, value in errors):
-        notes.append(FILM_UNCERTAIN(limit=LARGEST_ERROR))
+        notes.append(FILM_CELLS_FEW(limit=LARGEST_ERROR, reason="error"))
     unknown = film.time is None and film.status is Status.CONVERGED and errors[0][0] is None
     if unknown and len(shapes_up_to(level.shape)) > 1:
         notes.append(FILM_ERROR_UNKNOWN(reason="no-film"))

@@ -33,7 +33,7 @@ from bem.lubrication.thermal.layers import Oil, expansion_of
 from bem.lubrication.thermal.notes import notes_of_film, notes_of_heat
 from bem.materials import Body
 from bem.notes import Note
-from bem.notes.lubrication import EXPANSION_UNKNOWN, FULL_HEAT_NOT_FOUND
+from bem.notes.lubrication import HEAT_NOT_FOUND, OIL_DATA_SHORT
 from bem.representation import readable
 from bem.threads import one_blas_thread
 
@@ -232,9 +232,9 @@ def _result(found: Heated, cold: FilmSolution, tolerance: float, reversed_: bool
     made = known * sources.made.sum(axis=1)
     oil, surfaces, stress, into = known * oil, known * surfaces, known * stress, known * into
     couette, taken, power = known * couette, known * taken, known * power
-    notes = notes_of_heat(lubricant, known * float(field.temperature.max()), film.speeds)
+    notes = notes_of_heat(lubricant, known * float(field.temperature.max()))
     if expansion_of(lubricant) is None:
-        notes += (EXPANSION_UNKNOWN(),)
+        notes += (OIL_DATA_SHORT(reason="expansion"),)
     return FullThermalFilm(
         film=without_equations(film),
         isothermal=without_equations(cold),
@@ -265,4 +265,4 @@ def _not_followed(lubricant: Lubricant) -> Note:
     """Return the note on a film that was not found, with a remedy for a pressure spike without limit."""
     incompressible = lubricant.density_law.name == "incompressible"
     blunter = 'Take density_law = "dowson_higginson": it blunts the pressure spike, whose heat has no limit.'
-    return FULL_HEAT_NOT_FOUND(remedy=blunter if incompressible else "")
+    return HEAT_NOT_FOUND(remedy=blunter if incompressible else "", reason="full")

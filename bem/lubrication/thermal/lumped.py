@@ -395,7 +395,7 @@ def _result(
     status = film.status if film.status is not Status.CONVERGED or right else Status.STALLED
     order = slice(None, None, -1) if kept.reversed else slice(None)
     lost: tuple[Note, ...]
-    known, lost = (1.0, ()) if status is Status.CONVERGED else (math.nan, (HEAT_NOT_FOUND(),))
+    known, lost = (1.0, ()) if status is Status.CONVERGED else (math.nan, (HEAT_NOT_FOUND(reason="lumped"),))
     hottest = known * max(float(found.oil.max()), float(found.surfaces.max()))
     couette, power = known * couette, known * power
     return ThermalFilm(
@@ -420,7 +420,7 @@ def _result(
         films=len(thinned.films),
         iterations=thinned.steps,
         status=status,
-        notes=(*notes_of_heat(lubricant, hottest, film.speeds), *lost),
+        notes=(*notes_of_heat(lubricant, hottest), *lost),
     )
 
 

@@ -29,7 +29,7 @@ from bem.lubrication.thermal.lumped import FACTOR_TOLERANCE, MOST_FILMS, thinned
 from bem.lubrication.thermal.notes import LARGEST_RISE, heat_limits, notes_of_heat
 from bem.materials import Body
 from bem.notes import without
-from bem.notes.lubrication import FILM_HEATING, HEAT_NOT_FOUND, HEAT_SPREADS, INLET_HEATING
+from bem.notes.lubrication import HEAT_LEFT_OUT, HEAT_NOT_FOUND, LUMPED_HEAT_LIMIT
 
 LEAST_PRESSURE = 1e-3
 """Of the largest, on a line of cells that has temperatures."""
@@ -41,7 +41,6 @@ LARGEST_SPREAD = 0.5
 """How far heat spreads in a body while it crosses the contact, over the half-axis across, up to which surfaces were
 within 10 % as warm as `surface_temperature` has them under the same heat: 5 % too warm at 0.3, 12 % at 0.54, 22 % at
 0.76 (balls), 18 % at 0.68, 42 % at 1.2 and 66 % at 1.4 (Rx/Ry 10); bodies at rest 10 % too cool to 21 % too warm."""
-HALF_AXIS = "the contact's half-axis across the flow"
 
 
 @dataclass(frozen=True)
@@ -118,7 +117,7 @@ def with_heat(
     hottest = max(float(heat.temperature.max()), float(heat.surfaces.max()))
     mean = float((weights * heat.temperature).sum())
     rise = mean - float(lubricant.temperature or 0.0)
-    notes = without(film.notes, INLET_HEATING, FILM_HEATING)
+    notes = without(film.notes, HEAT_LEFT_OUT)
     right = heat.residual <= RESIDUAL and missed <= FACTOR_TOLERANCE
     status = film.status if film.status is not Status.CONVERGED or right else Status.STALLED
     known = 1.0 if status is Status.CONVERGED else math.nan  # as of a line
@@ -132,9 +131,13 @@ def with_heat(
         notes=(
             *notes,
             *heat_limits(inlet, (first, second), rise),
-            *((HEAT_SPREADS(),) if rise > LARGEST_RISE and _spread(conductors, half_axes) > LARGEST_SPREAD else ()),
-            *notes_of_heat(lubricant, known * hottest, (first, second), HALF_AXIS),
-            *(() if status is Status.CONVERGED else (HEAT_NOT_FOUND(),)),
+            *(
+                (LUMPED_HEAT_LIMIT(reason="spreads"),)
+                if rise > LARGEST_RISE and _spread(conductors, half_axes) > LARGEST_SPREAD
+                else ()
+            ),
+            *notes_of_heat(lubricant, known * hottest),
+            *(() if status is Status.CONVERGED else (HEAT_NOT_FOUND(reason="lumped"),)),
         ),
     )
     forces, rolling = made.forces()

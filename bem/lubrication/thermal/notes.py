@@ -13,17 +13,7 @@ from bem.lubrication.oils.oil import EXTRAPOLATED, HOTTEST, Oil
 from bem.lubrication.oils.over_temperature import CELSIUS
 from bem.lubrication.validity import Case, notes_on, why_no_line_film
 from bem.notes import Note, without
-from bem.notes.lubrication import (
-    BODY_AT_REST,
-    FILM_HEATING,
-    INLET_FAST,
-    INLET_FORMULA_EXTRAPOLATED,
-    INLET_HEATING,
-    OIL_BOILS,
-    OIL_CRACKS,
-    OIL_HOT_EXTRAPOLATED,
-    SLOW_SURFACE_WARMS,
-)
+from bem.notes.lubrication import HEAT_LEFT_OUT, LUMPED_HEAT_LIMIT, OIL_DATA_SHORT, OIL_TOO_HOT
 
 LARGEST_LOADING = 0.05
 """Thermal loading of the inlet up to which film and friction were within 5 % of full heat's at slide-to-roll ratios
@@ -59,29 +49,27 @@ def notes_of_film(
         hot_stress=stress,
         not_found=None if found else why_no_line_film(lubricant, load, radius, contact_modulus),
     )
-    return without(notes_on(case), INLET_HEATING, FILM_HEATING)
+    return without(notes_on(case), HEAT_LEFT_OUT)
 
 
-def notes_of_heat(
-    lubricant: Lubricant, hottest: float, speeds: tuple[float, float], cool_at: str = "the cylinder's radius"
-) -> tuple[Note, ...]:
-    """Of the highest temperature of oil and surfaces [K], and of where a body at rest is taken as cool."""
+def notes_of_heat(lubricant: Lubricant, hottest: float) -> tuple[Note, ...]:
+    """Of the highest temperature of oil and surfaces [K]."""
     notes = []
     if hottest > HOTTEST:
-        notes.append(OIL_CRACKS(limit=HOTTEST - CELSIUS))
+        notes.append(OIL_TOO_HOT(limit=HOTTEST - CELSIUS, reason="cracks"))
     elif lubricant.oil is not None:
         notes += _hot_oil(lubricant.oil, hottest)
-    if min(abs(speed) for speed in speeds) == 0:
-        notes.append(BODY_AT_REST(distance=cool_at))
     return tuple(notes)
 
 
 def _hot_oil(oil: Oil, hottest: float) -> list[Note]:
     """Return a note where the oil's properties are not known at its highest temperature [K]."""
     if oil.boiling_point is not None and hottest > oil.boiling_point:
-        return [OIL_BOILS(oil=oil.name)]
+        return [OIL_TOO_HOT(oil=oil.name, reason="boils")]
     if hottest > oil.viscosity.highest + EXTRAPOLATED:
-        return [OIL_HOT_EXTRAPOLATED(oil=oil.name, beyond=EXTRAPOLATED, highest=oil.viscosity.highest - CELSIUS)]
+        return [
+            OIL_DATA_SHORT(oil=oil.name, beyond=EXTRAPOLATED, highest=oil.viscosity.highest - CELSIUS, reason="hot")
+        ]
     return []
 
 
@@ -91,9 +79,9 @@ def heat_limits(inlet: InletHeating, speeds: tuple[float, float], rise: float) -
     slides = abs(first - second) > LARGEST_SLIDE * 0.5 * abs(first + second) and rise > LARGEST_RISE
     notes = []
     if inlet.extrapolated:
-        notes.append(INLET_FORMULA_EXTRAPOLATED())
+        notes.append(LUMPED_HEAT_LIMIT(reason="formula"))
     if inlet.loading > LARGEST_LOADING:
-        notes.append(INLET_FAST(loading=inlet.loading, limit=LARGEST_LOADING))
+        notes.append(LUMPED_HEAT_LIMIT(loading=inlet.loading, limit=LARGEST_LOADING, reason="fast"))
     if slides:
-        notes.append(SLOW_SURFACE_WARMS())
+        notes.append(LUMPED_HEAT_LIMIT(reason="slides"))
     return tuple(notes)

@@ -30,7 +30,7 @@ from typing import Any
 
 from bem.errors import InputError
 from bem.notes import Note, as_note
-from bem.notes.general import CHECK_FAILED
+from bem.notes.general import SIDE_TASK_FAILED
 from bem.scenes.checks import contact, cycles, materials, mesh, operation, outcome, plausible, surfaces
 from bem.scenes.checks.facts import Case, Facts, examine
 from bem.scenes.checks.refusals import refusals
@@ -71,7 +71,7 @@ def _sentences(checks: Mapping[str, Callable[..., Iterator[str]]], *subject: Any
         except InputError:  # such as a measured map that is smaller than the grid: refused before any work
             raise
         except Exception as error:  # advice must not cost anybody a run; the tests see to it that none of these is met
-            found.append(CHECK_FAILED(check=name, error=repr(error)))
+            found.append(SIDE_TASK_FAILED(task=f"The check {name}", error=repr(error)))
     return list(dict.fromkeys(found))
 
 

@@ -7,17 +7,16 @@ from collections.abc import Iterator
 
 from bem.notes import Note
 from bem.notes.checks import (
+    ABOVE_HARDNESS,
     BODY_REPEATS,
+    CAPPED_NEARLY_FULL,
     CONTACT_WIDE,
     CYLINDER_NARROW,
-    GRID_SMALLER_THAN_HERTZ,
-    LOAD_NEAR_HARDNESS,
-    PATCH_IS_PUNCH,
     PATCH_SINKS,
-    PRESSURE_ABOVE_HARDNESS,
     WAVE_DOES_NOT_FIT,
-    YIELD_BELOW_SURFACE,
+    YIELDS,
 )
+from bem.notes.contact import CONTACT_AT_EDGE
 from bem.scenes.checks.facts import Case, Facts, worst
 from bem.scenes.checks.hertz import LARGEST_SLOPE
 from bem.scenes.checks.registry import scene_check
@@ -36,7 +35,7 @@ def contact_large_for_its_radius(facts: Facts) -> Iterator[Note]:
     found = worst((case.smooth.ratio, case) for case in facts.cases if case.smooth is not None)
     if found is not None and found[0] > LARGEST_SLOPE:
         ratio, case = found
-        yield CONTACT_WIDE(case.label, ratio=ratio, strain=0.2 * ratio)
+        yield CONTACT_WIDE(case.label, ratio=ratio, strain=0.2 * ratio, reason="hertz")
 
 
 @scene_check
@@ -54,7 +53,7 @@ def hertz_pressure_above_hardness(facts: Facts) -> Iterator[Note]:
         capped = {"contact": 'behaviour = "capped"', "friction": 'sharing.models = ["capped"]'}.get(facts.scene.kind)
         how = "take a smaller load" if capped is None else f"take {capped} or a smaller load"
         pressure = case.smooth.maximum_pressure
-        yield PRESSURE_ABOVE_HARDNESS(case.label, pressure=pressure, ratio=ratio, action=how)
+        yield ABOVE_HARDNESS(case.label, pressure=pressure, ratio=ratio, action=how, reason="hertz")
 
 
 @scene_check
@@ -74,7 +73,7 @@ def yield_below_the_surface(facts: Facts) -> Iterator[Note]:
         ratio, case = found
         assert case.smooth is not None
         pressure = case.smooth.maximum_pressure
-        yield YIELD_BELOW_SURFACE(case.label, pressure=pressure, ratio=ratio, onset=pressure / ratio)
+        yield YIELDS(case.label, pressure=pressure, ratio=ratio, onset=pressure / ratio, reason="hertz")
 
 
 def _elastic(facts: Facts) -> Iterator[Case]:
@@ -89,7 +88,7 @@ def mean_pressure_near_hardness(facts: Facts) -> Iterator[Note]:
     found = worst((pressure / limit, case) for pressure, limit, case in limits if limit)
     if found is not None and found[0] > 0.5:
         ratio, case = found
-        yield LOAD_NEAR_HARDNESS(case.label, ratio=ratio)
+        yield CAPPED_NEARLY_FULL(case.label, ratio=ratio, reason="load")
 
 
 @scene_check
@@ -104,8 +103,13 @@ def grid_smaller_than_hertz(facts: Facts) -> Iterator[Note]:
         assert case.smooth is not None
         assert case.grid is not None
         size = 2 * case.smooth.semi_axes[axis]
-        yield GRID_SMALLER_THAN_HERTZ(
-            case.note_place("grid"), length=case.grid.lengths[axis], axis="xy"[axis], size=size, wanted=1.5 * size
+        yield CONTACT_AT_EDGE(
+            case.note_place("grid"),
+            length=case.grid.lengths[axis],
+            axis="xy"[axis],
+            size=size,
+            wanted=1.5 * size,
+            reason="grid",
         )
 
 
@@ -131,7 +135,7 @@ def flat_patch_with_free_edges(facts: Facts) -> Iterator[Note]:
     for case in facts.cases:
         free = [name for name, wraps in zip("xy", case.grid.periodic, strict=True) if not wraps] if case.grid else []
         if case.shape == "flat" and free and case.load is not None:
-            yield PATCH_IS_PUNCH(case.note_place("grid"), axes=" and ".join(free))
+            yield CONTACT_AT_EDGE(case.note_place("grid"), axes=" and ".join(free), reason="punch")
             return
 
 

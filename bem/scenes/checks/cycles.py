@@ -13,19 +13,16 @@ import numpy as np
 
 from bem.grid import FloatArray, Grid
 from bem.notes import Level, Note
+from bem.notes.accuracy import NoBar, no_error_bar
 from bem.notes.checks import (
-    BOTH_BODIES_WEAR,
-    LOOP_WITHOUT_BARS,
-    NO_PARTICLES_BY_PRESSURE,
+    CONTACT_WIDE,
     NO_WEAR_RATE,
     NOT_SETTLED,
-    PARTICLES_OF_UNWORN,
-    SPOTS_SMALL,
+    PARTICLES_OF_BODY,
     SURFACE_ROUGHENED,
     WEAR_STEPS_LONG,
-    WEAR_STEPS_OVERSHOOT,
-    WORN_STEEP,
 )
+from bem.notes.contact import SPOTS_SMALL
 from bem.notes.note import joined, percent, si
 from bem.scenes.checks.facts import Facts
 from bem.scenes.checks.hertz import LARGEST_SLOPE, STEEP
@@ -165,13 +162,14 @@ def worn_beyond_small_slopes(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     # of a contact too wide before any wear it is said there
     if largest <= (STEEP if unworn > LARGEST_SLOPE else LARGEST_SLOPE):
         return
-    yield WORN_STEEP(
+    yield CONTACT_WIDE(
         level=Level.OUTSIDE_MODEL if largest > STEEP else None,
         depth=max(depths),
         radius=radius,
         of=_of(sum(slope > LARGEST_SLOPE for slope in slopes), len(slopes)),
         slope=largest,
         limit=LARGEST_SLOPE,
+        reason="worn",
     )
 
 
@@ -210,11 +208,11 @@ def particles_and_heights_of_one_of_two(facts: Facts, outcome: Outcome) -> Itera
     if worn is None or not worn.values.sum() > 0:  # that nothing comes off is said by itself
         return
     if pieces and named not in wearing:
-        yield PARTICLES_OF_UNWORN(asked=BODIES[named], worn=BODIES[wearing[0]])
+        yield PARTICLES_OF_BODY(asked=BODIES[named], worn=BODIES[wearing[0]], reason="unworn")
     if len(wearing) < 2:
         return
     if not pieces:
-        yield BOTH_BODIES_WEAR(first=BODIES[wearing[0]], particles="")
+        yield PARTICLES_OF_BODY(first=BODIES[wearing[0]], particles="", reason="both")
         return
     listed = outcome.variables.get("particle_volume")
     share = "" if listed is None else f", {percent(float(listed.values.sum() / worn.values.sum()))} of the volume"
@@ -222,7 +220,7 @@ def particles_and_heights_of_one_of_two(facts: Facts, outcome: Outcome) -> Itera
         f"; particles, their sizes and numbers are those of the {BODIES[named]} body{share}, and "
         f'sizes.particles_of = "{BODIES[1 - named]}" tells those of the other'
     )
-    yield BOTH_BODIES_WEAR(first=BODIES[wearing[0]], particles=particles)
+    yield PARTICLES_OF_BODY(first=BODIES[wearing[0]], particles=particles, reason="both")
 
 
 @outcome_check
@@ -247,7 +245,7 @@ def steps_of_wear_in_oil_that_overshoot(facts: Facts, outcome: Outcome) -> Itera
         )
         most = cell_to_cell_compliance(grid, pair)
         if give > 2 * most:
-            yield WEAR_STEPS_OVERSHOOT(case.label, give=give, most=most, share=0.99 * most / give)
+            yield WEAR_STEPS_LONG(case.label, give=give, most=most, share=0.99 * most / give, reason="overshoot")
             return
 
 
@@ -258,16 +256,14 @@ _STEPS = 0.1
 @outcome_check
 def long_steps_of_wear_by_pressure(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """Bars are those of the cells: the same distances stand in the loop on the coarser ones. What a law that wears by
-    pressure leaves open over its distance is `bem.wear.halved.step_error`; and it makes no particles."""
+    pressure leaves open over its distance is `bem.wear.halved.step_error`."""
     if not facts.of_kind("wear", "running-in") or with_pieces(facts):
         return
     steps, depths = (numbers(outcome.summary.get(name)) for name in ("step_error_nm", "worn_depth_nm"))
     long = [(step, depth) for step, depth in zip(steps, depths, strict=False) if step > _STEPS * depth > 0]
     if long:
         step, depth = max(long, key=lambda pair: pair[0] / pair[1])
-        yield WEAR_STEPS_LONG(step=1e-9 * step, depth=1e-9 * depth, of=_of(len(long), len(steps)))
-    if facts.of_kind("running-in"):
-        yield NO_PARTICLES_BY_PRESSURE()
+        yield WEAR_STEPS_LONG(step=1e-9 * step, depth=1e-9 * depth, of=_of(len(long), len(steps)), reason="error")
 
 
 @outcome_check
@@ -275,7 +271,7 @@ def loop_without_error_bars(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """One loop on one grid says nothing of its errors: no finer cells, no other surfaces to compare it with."""
     told = outcome.summary
     if facts.of_kind("wear", "running-in") and "Sq_final_nm" in told and "Sq_final_nm_error" not in told:
-        yield LOOP_WITHOUT_BARS()
+        yield no_error_bar(["worn surfaces"], NoBar.SINGLE_LOOP)
 
 
 def _of(number: int, all_: int) -> str:

@@ -5,15 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from bem.notes import Note
-from bem.notes.checks import (
-    CAP_OF_STIFFER,
-    FATIGUE_CONSTANTS,
-    HARDNESS_UNLIKELY,
-    LAYER_INCOMPRESSIBLE,
-    TENSILE_CAP,
-    VISCOELASTIC,
-    YIELD_UNLIKELY,
-)
+from bem.notes.checks import CAP_NOT_OF_SOFTER, FATIGUE_CONSTANTS, HARDNESS_UNLIKELY, LAYER_INCOMPRESSIBLE, VISCOELASTIC
 from bem.plausibility import BY_NAME
 from bem.scenes.checks.facts import Case, Facts
 from bem.scenes.checks.registry import scene_check
@@ -97,7 +89,9 @@ def softer_body_without_hardness(facts: Facts) -> Iterator[Note]:
         for name, body, other in (("lower", case.lower, case.upper), ("upper", case.upper, case.lower)):
             own, stiff = body.surface_material, other.surface_material
             if own.indentation_hardness is None and own.youngs_modulus < stiff.youngs_modulus:
-                told[name] = CAP_OF_STIFFER(f"{name}.material", material=own.name, cap=case.cap, stiff=stiff.name)
+                told[name] = CAP_NOT_OF_SOFTER(
+                    f"{name}.material", material=own.name, cap=case.cap, stiff=stiff.name, reason="stiffer"
+                )
     yield from told.values()
 
 
@@ -114,7 +108,7 @@ def yield_against_hardness(facts: Facts) -> Iterator[Note]:
             continue
         ratio = material.hardness / material.yield_stress
         if not 1.95 <= ratio <= 4.0:
-            yield YIELD_UNLIKELY(key, stress=material.yield_stress, ratio=ratio)
+            yield HARDNESS_UNLIKELY(key, stress=material.yield_stress, ratio=ratio, reason="yield")
 
 
 def _by_tension(case: Case) -> bool:
@@ -128,4 +122,6 @@ def tensile_strength_as_a_cap(facts: Facts) -> Iterator[Note]:
     told = {m.name: m for case in facts.cases if _by_tension(case) for m in case.wearing if m.hardness is None}
     for name, material in told.items():
         if material.yield_stress is not None and material.indentation_hardness is not None:
-            yield TENSILE_CAP(material=name, stress=material.yield_stress, cap=material.indentation_hardness)
+            yield CAP_NOT_OF_SOFTER(
+                material=name, stress=material.yield_stress, cap=material.indentation_hardness, reason="tensile"
+            )

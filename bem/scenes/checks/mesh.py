@@ -10,19 +10,13 @@ from bem.materials import Body
 from bem.notes import Note
 from bem.notes.checks import (
     CELLS_ACROSS_CONTACT,
-    CELLS_PER_CORRELATION_LENGTH,
-    CELLS_PER_WAVE,
-    CRITERION_UNRESOLVED,
-    DEPTHS_COARSER_THAN_CELLS,
-    DEPTHS_IN_LAYER_FEW,
     DEPTHS_MISS_STRESS,
-    LAYER_OF_ONE_DEPTH,
-    LAYER_THICK,
-    LAYER_THIN,
+    LAYER_MESH,
     NOTHING_SLIDES,
+    PARTICLES_OF_MESH,
     PATCH_SHORT,
+    ROUGHNESS_UNRESOLVED,
     SLIDES_DIFFER,
-    WAVES_OF_TWO_CELLS,
 )
 from bem.notes.note import joined, si
 from bem.scenes.checks.facts import Case, Facts, worst
@@ -63,16 +57,17 @@ def few_cells_per_wave(facts: Facts) -> Iterator[Note]:
     for _, case, surface in facts.worst_surfaces(lambda s: max(s.grid.spacing) / (s.shortest_wave or 1.0)):
         spacing = max(surface.grid.spacing)
         if getattr(surface.table, "hurst", None) is not None and surface.shortest_wave is None:
-            yield WAVES_OF_TWO_CELLS(case.note_place(f"{surface.body}.surface"), wave=2 * spacing)
+            yield ROUGHNESS_UNRESOLVED(case.note_place(f"{surface.body}.surface"), wave=2 * spacing, reason="cutoff")
         elif surface.shortest_wave is not None and surface.shortest_wave / spacing < _CELLS_PER_WAVE:
             wave = surface.shortest_wave
-            yield CELLS_PER_WAVE(
+            yield ROUGHNESS_UNRESOLVED(
                 case.note_place("grid"),
                 cells=wave / spacing,
                 body=surface.body,
                 wave=wave,
                 spacing=wave / 8,
                 average=wave / 4,
+                reason="wave",
             )
 
 
@@ -88,8 +83,13 @@ def few_cells_per_correlation_length(facts: Facts) -> Iterator[Note]:
         cells, length = 1 / inverse, surface.correlation_lengths[of_lengths(surface).index(inverse)]
         wave = surface.shortest_wave
         if cells < _CELLS_PER_WAVE and (wave is None or wave >= _CELLS_PER_WAVE * max(surface.grid.spacing)):
-            yield CELLS_PER_CORRELATION_LENGTH(
-                case.note_place("grid"), body=surface.body, length=length, cells=cells, spacing=length / 6
+            yield ROUGHNESS_UNRESOLVED(
+                case.note_place("grid"),
+                body=surface.body,
+                length=length,
+                cells=cells,
+                spacing=length / 6,
+                reason="correlation",
             )
 
 
@@ -128,10 +128,12 @@ def layer_against_the_mesh(facts: Facts) -> Iterator[Note]:
             thickness, spacing = body.layer.thickness, max(case.grid.spacing)
             if thickness < 0.5 * spacing and (name, "thin") not in seen:
                 seen.add((name, "thin"))
-                yield LAYER_THIN(case.note_place(f"{name}.layer"), thickness=thickness, cell=spacing)
+                yield LAYER_MESH(case.note_place(f"{name}.layer"), thickness=thickness, cell=spacing, reason="thin")
             if thickness > 2 * max(case.grid.lengths) and not all(case.grid.periodic) and (name, "thick") not in seen:
                 seen.add((name, "thick"))
-                yield LAYER_THICK(case.note_place(f"{name}.layer"), thickness=thickness, length=max(case.grid.lengths))
+                yield LAYER_MESH(
+                    case.note_place(f"{name}.layer"), thickness=thickness, length=max(case.grid.lengths), reason="thick"
+                )
 
 
 @scene_check
@@ -149,7 +151,7 @@ def depths_miss_the_largest_stress(facts: Facts) -> Iterator[Note]:
         at = 0.0 if case.friction >= 0.3 else at
         nearest = min(case.depths, key=lambda depth: abs(depth - at))
         if abs(nearest - at) > 0.2 * size and not rough:
-            yield DEPTHS_MISS_STRESS(case.label, at=at, nearest=nearest, step=0.1 * size)
+            yield DEPTHS_MISS_STRESS(case.label, at=at, nearest=nearest, step=0.1 * size, reason="hertz")
 
 
 _FEWEST_DEPTHS = 3
@@ -184,7 +186,7 @@ def few_depths_in_a_layer(facts: Facts) -> Iterator[Note]:
         if missed:
             found.append(f"no depths lie close on both sides of the interface at {joined(missed)}")
         if found:
-            yield DEPTHS_IN_LAYER_FEW(case.label, found=joined(found), body=name, fewest=_FEWEST_DEPTHS)
+            yield DEPTHS_MISS_STRESS(case.label, found=joined(found), body=name, fewest=_FEWEST_DEPTHS, reason="layers")
             return
 
 
@@ -214,7 +216,7 @@ def depths_coarser_than_cells(facts: Facts) -> Iterator[Note]:
     if found is not None and found[0] > 2:
         ratio, case = found
         cell = min(case.grid.spacing if case.grid else (0.0,))
-        yield DEPTHS_COARSER_THAN_CELLS(case.label, ratio=ratio, cell=cell)
+        yield PARTICLES_OF_MESH(case.label, ratio=ratio, cell=cell, reason="depths")
 
 
 @scene_check
@@ -229,8 +231,13 @@ def few_cells_per_length_of_the_criterion(facts: Facts) -> Iterator[Note]:
             from bem.wear.criterion.base import FEWEST_CELLS
 
             cells = min(coarse) / max(case.grid.spacing)
-            yield CRITERION_UNRESOLVED(
-                case.label, law=law.name, length=min(coarse), cells=cells, cell=min(coarse) / FEWEST_CELLS
+            yield PARTICLES_OF_MESH(
+                case.label,
+                law=law.name,
+                length=min(coarse),
+                cells=cells,
+                cell=min(coarse) / FEWEST_CELLS,
+                reason="criterion",
             )
 
 
@@ -240,7 +247,9 @@ def layer_of_one_depth(facts: Facts) -> Iterator[Note]:
     for step, case in _depth_steps(facts):
         for name, body in case.bodies.items():
             if body.layer is not None and step > body.layer.thickness:
-                yield LAYER_OF_ONE_DEPTH(case.label, step=step, body=name, thickness=body.layer.thickness)
+                yield PARTICLES_OF_MESH(
+                    case.label, step=step, body=name, thickness=body.layer.thickness, reason="layer"
+                )
                 return
 
 

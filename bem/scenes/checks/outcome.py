@@ -11,21 +11,18 @@ from numpy.typing import NDArray
 from bem.grid import Grid
 from bem.notes import Level, Note
 from bem.notes.checks import (
-    CAP_WITHIN_ERROR,
+    ABOVE_HARDNESS,
     CAPPED_NEARLY_FULL,
     CONTACT_AT_CAP,
-    CONTACT_AT_EDGE,
-    ELASTIC_ABOVE_HARDNESS,
+    DEPTHS_MISS_STRESS,
     NOTHING_CAME_OFF,
-    PARTICLES_AS_LARGE_AS_GRID,
     PARTICLES_CUT,
-    PARTICLES_OF_ONE_CELL,
-    PARTICLES_SMALL,
+    PARTICLES_OF_MESH,
     PRESSURE_AT_SEAM,
     STRAIN_LARGE,
-    STRESS_ABOVE_YIELD,
-    STRESS_AT_DEEPEST_DEPTH,
+    YIELDS,
 )
+from bem.notes.contact import CONTACT_AT_EDGE
 from bem.notes.note import joined, percent, si
 from bem.scenes.checks.contact import hertz_pressure_above_hardness, yield_below_the_surface
 from bem.scenes.checks.facts import Case, Facts
@@ -33,6 +30,7 @@ from bem.scenes.checks.registry import outcome_check
 from bem.scenes.checks.roughened import roughened
 from bem.scenes.checks.words import numbers, times
 from bem.scenes.context import Outcome
+from bem.scenes.cut_off import edge_share, is_cut_off
 
 _AT_EDGE = 1e-4
 _AT_CAP = 0.1
@@ -64,6 +62,8 @@ def _capped(facts: Facts, outcome: Outcome) -> Case | None:
 def contact_at_free_edges(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """A contact that reaches a free edge of its grid ends there because the grid does.
 
+    Of a body that is curved along that axis the edge cuts off a part of the contact: the result is outside the model.
+
     Of kind `contact` the solver says so itself; here it is read off the maps that the other kinds keep.
     """
     if facts.of_kind("contact"):
@@ -72,18 +72,18 @@ def contact_at_free_edges(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     if len(grids) != 1:
         return
     free = [axis for axis, wraps in enumerate(grids.pop()) if not wraps]
+    curved = [
+        axis for axis in free if any(one.smooth and math.isfinite(one.smooth.semi_axes[axis]) for one in facts.cases)
+    ]
     for maps in _pressures(outcome):
         for plane in maps:
-            total = float(plane.sum())
-            shares = {
-                "xy"[axis]: float((plane.take([0, -1], axis=axis)).sum()) / total
-                for axis in free
-                if total > 0 and plane.shape[axis] > 2
-            }
-            touched = [name for name, share in shares.items() if share > _AT_EDGE]
+            shares = {axis: edge_share(plane, axis) for axis in free if plane.shape[axis] > 2}
+            touched = [axis for axis, share in shares.items() if share > _AT_EDGE]
             if touched:
-                share = max(shares.values())
-                yield CONTACT_AT_EDGE(axes=joined(touched), share=share)
+                beyond = is_cut_off(plane, [axis for axis in curved if axis in touched])
+                axes, share = joined(["xy"[axis] for axis in touched]), max(shares.values())
+                level = Level.OUTSIDE_MODEL if beyond else None
+                yield CONTACT_AT_EDGE(level=level, axes=axes, share=share, reason="share")
                 return
 
 
@@ -120,7 +120,9 @@ def elastic_pressure_above_hardness(facts: Facts, outcome: Outcome) -> Iterator[
     if highest > hardness and (beyond or not list(hertz_pressure_above_hardness(facts))):
         level = Level.OUTSIDE_MODEL if beyond else None
         how = 'behaviour = "capped"' if facts.of_kind("contact") else "a smaller load"
-        yield ELASTIC_ABOVE_HARDNESS(level=level, pressure=highest, ratio=highest / hardness, share=share, action=how)
+        yield ABOVE_HARDNESS(
+            level=level, pressure=highest, ratio=highest / hardness, share=share, action=how, reason="solved"
+        )
 
 
 @outcome_check
@@ -150,7 +152,7 @@ def contact_at_the_cap(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """Where the pressure is the cap, it is an input and no result; said from a tenth of the contact on."""
     cells, cap = at_the_cap(facts, outcome)
     if cells and not roughened(facts, outcome).grown:  # which says it too
-        yield CONTACT_AT_CAP(cells=cells, cap=cap)
+        yield CONTACT_AT_CAP(cells=cells, cap=cap, reason="reached")
 
 
 def at_the_cap(facts: Facts, outcome: Outcome) -> tuple[str, float]:
@@ -178,7 +180,7 @@ def cap_within_the_error_of_the_pressure(facts: Facts, outcome: Outcome) -> Iter
     if case is None or case.cap is None or not len(plastic) == len(highest) == len(errors):
         return
     if any(p == 0 and h < case.cap < h + e for p, h, e in zip(plastic, highest, errors, strict=True)):
-        yield CAP_WITHIN_ERROR(cap=case.cap)
+        yield CONTACT_AT_CAP(cap=case.cap, reason="within-error")
 
 
 @outcome_check
@@ -190,7 +192,7 @@ def capped_contact_nearly_full(facts: Facts, outcome: Outcome) -> Iterator[Note]
         return
     largest = max(numbers(fraction), default=0.0)
     if largest > _CONTACT and all(case.cap for case in facts.cases) and _anything_at_the_cap(facts, outcome):
-        yield CAPPED_NEARLY_FULL(share=largest)
+        yield CAPPED_NEARLY_FULL(share=largest, reason="area")
 
 
 def _anything_at_the_cap(facts: Facts, outcome: Outcome) -> bool:
@@ -211,7 +213,7 @@ def largest_stress_at_the_deepest_depth(facts: Facts, outcome: Outcome) -> Itera
     depth = outcome.variables.get("depth")
     found = outcome.summary.get("max_von_mises_depth_m")
     if depth is not None and found is not None and len(depth.values) > 1 and found >= float(depth.values[-1]):
-        yield STRESS_AT_DEEPEST_DEPTH(depth=found)
+        yield DEPTHS_MISS_STRESS(depth=found, reason="deepest")
 
 
 @outcome_check
@@ -221,7 +223,7 @@ def elastic_stress_above_yield(facts: Facts, outcome: Outcome) -> Iterator[Note]
     if not volume or highest is None or facts.cases[0].cap is not None:
         return
     if not (list(yield_below_the_surface(facts)) or list(hertz_pressure_above_hardness(facts))):
-        yield STRESS_ABOVE_YIELD(stress=highest, volume=volume * 1e18)
+        yield YIELDS(stress=highest, volume=volume * 1e18, reason="solved")
 
 
 @outcome_check
@@ -237,7 +239,9 @@ def particles_of_one_cell(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     # two cells as deep as wide have an equivalent radius of 0.78 of a cell
     small = [value for value in numbers(radius) if 0 < value < 0.78 * cell]
     if small:
-        yield PARTICLES_SMALL(cell=1e-9 * cell, few=len(small), all=len(numbers(radius)), radius=1e-9 * min(small))
+        yield PARTICLES_OF_MESH(
+            cell=1e-9 * cell, few=len(small), all=len(numbers(radius)), radius=1e-9 * min(small), reason="mean"
+        )
 
 
 def _counted(facts: Facts, outcome: Outcome) -> Iterator[Note]:
@@ -250,7 +254,7 @@ def _counted(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     if one.mean() > 0.5:
         cell = min((grid.spacing for grid in grids), key=math.prod)
         share = float(volume[one].sum() / volume.sum())
-        yield PARTICLES_OF_ONE_CELL(share=float(one.mean()), volume=share, cell=times(cell, "m"))
+        yield PARTICLES_OF_MESH(share=float(one.mean()), volume=share, cell=times(cell, "m"), reason="one-cell")
 
 
 def _grids_of_particles(facts: Facts, outcome: Outcome) -> list[Grid]:
@@ -277,7 +281,7 @@ def particles_as_large_as_the_grid(facts: Facts, outcome: Outcome) -> Iterator[N
         zip(lengths, (min(grid.lengths) for grid in grids), strict=True), key=lambda pair: pair[0] / pair[1]
     )
     if largest > _WIDE * side:
-        yield PARTICLES_AS_LARGE_AS_GRID(largest=float(largest), side=side)
+        yield PARTICLES_CUT(largest=float(largest), side=side, reason="grid")
 
 
 @outcome_check
@@ -347,4 +351,4 @@ def particles_cut_by_the_depths(facts: Facts, outcome: Outcome) -> Iterator[Note
         coated = any("layer" in key for key in facts.materials)
         held = any(case.wear is not None and case.wear.within_layer for case in facts.cases)
         ends = "unless they end at the interface, where wear.within_layer ends them"
-        yield PARTICLES_CUT(share=max(shares), unless=f", {ends}" if coated and held else "")
+        yield PARTICLES_CUT(share=max(shares), unless=f", {ends}" if coated and held else "", reason="depths")

@@ -6,14 +6,8 @@ import math
 from collections.abc import Iterator
 
 from bem.notes import Note
-from bem.notes.checks import (
-    MAP_COARSE,
-    MAP_FEW_POINTS,
-    MAP_MUCH_FILLED,
-    MAP_SCALED,
-    SURFACE_IS_FORM,
-    SURFACE_STEEP,
-)
+from bem.notes.checks import MAP_COARSE, MAP_SCALED, SURFACE_IS_FORM, SURFACE_STEEP
+from bem.notes.scenes import MAP_FILLED
 from bem.scenes.checks.facts import Facts
 from bem.scenes.checks.hertz import STEEP
 from bem.scenes.checks.registry import scene_check
@@ -48,7 +42,7 @@ def much_of_the_map_is_filled(facts: Facts) -> Iterator[Note]:
     """Missing points are filled smoothly from their neighbours, and steep flanks are what instruments miss."""
     for filled, _, surface in facts.worst_surfaces(lambda surface: surface.filled):
         if filled > _FILLED:
-            yield MAP_MUCH_FILLED(f"{surface.body}.surface", share=filled)
+            yield MAP_FILLED(f"{surface.body}.surface", share=filled, reason="much")
 
 
 @scene_check
@@ -61,10 +55,10 @@ def surface_interpolated_from_few_points(facts: Facts) -> Iterator[Note]:
         finer = max(d / h for d, h in zip(surface.source_spacing, surface.grid.spacing, strict=True))
         if min(surface.source_points) < _POINTS * (1 - _ROUND_OFF):
             apart = times(surface.source_spacing, "m")
-            yield MAP_FEW_POINTS(case.note_place(f"{surface.body}.surface"), points=points, apart=apart)
+            yield MAP_COARSE(case.note_place(f"{surface.body}.surface"), points=points, apart=apart, reason="points")
         elif finer > 2:
             apart = times(surface.source_spacing, "m")
-            yield MAP_COARSE(case.note_place(f"{surface.body}.surface"), finer=finer, apart=apart)
+            yield MAP_COARSE(case.note_place(f"{surface.body}.surface"), finer=finer, apart=apart, reason="cells")
 
 
 def _counted(points: float) -> str:

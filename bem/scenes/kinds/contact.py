@@ -12,11 +12,13 @@ from numpy.typing import NDArray
 
 from bem.errors import Status
 from bem.grid import FloatArray, Grid
-from bem.notes import Note
+from bem.notes import Level, Note, has_code
+from bem.notes.contact import CONTACT_AT_EDGE
 from bem.notes.scenes import BODIES_APART
 from bem.numerics.blocks import deviation
 from bem.scenes import build, plans
 from bem.scenes.context import Context, error_bars, release, set_aside, tell
+from bem.scenes.cut_off import is_cut_off
 from bem.scenes.kind import Kind
 from bem.scenes.packing import keep, kept, kept_coarser
 from bem.scenes.planner import Plan
@@ -134,7 +136,7 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
     del lower, upper
     with context.timer("contact"):
         solution, history = _solve(scene, grid, undeformed, context)
-    tell(context, solution.notes)
+    tell(context, _cut_off(scene, grid, solution))
     tell(context, _standing_off(solution))
     below: StressSummary | None = None
     if scene.outputs.wanted_depths():
@@ -187,6 +189,23 @@ def _solve(
     solved = solution, np.array(history, dtype=np.float64).reshape(-1, 2)
     keep(context, solved)
     return solved
+
+
+def _cut_off(scene: ContactScene, grid: Grid, solution: ContactSolution) -> tuple[Note, ...]:
+    """Return the solver's notes, outside the model where the grid's edge cuts off the contact of a curved body.
+
+    A flat patch with a free edge is a punch, which ends there.
+    """
+    notes, periodic = solution.notes, grid.periodic
+    curved = [axis for axis in range(2) if not periodic[axis] and math.isfinite(scene.shape.radii[axis])]
+    if not has_code(notes, CONTACT_AT_EDGE) or not is_cut_off(solution.pressure, curved):
+        return notes
+    return tuple(
+        CONTACT_AT_EDGE(note.where, level=Level.OUTSIDE_MODEL, **note.values)
+        if note.code == CONTACT_AT_EDGE.code
+        else note
+        for note in notes
+    )
 
 
 def _standing_off(solution: ContactSolution) -> tuple[Note, ...]:

@@ -17,7 +17,7 @@ from bem.accuracy.bars import POINTS, ErrorBars, table
 from bem.errors import Status
 from bem.grid import FloatArray, Grid
 from bem.notes import Note
-from bem.notes.scenes import FLOW_FACTORS_UNSOLVED
+from bem.notes.scenes import PART_UNSOLVED
 from bem.scenes import build, film_plans, plans
 from bem.scenes.axes import Axis, listed, over_last, variants
 from bem.scenes.common import OutputsScene, Repetitions
@@ -233,7 +233,14 @@ def _flow_factors(
         table = factors_for_films(lower, upper, grid, scene.bodies, hardness=scene.cap)
     tell(context, table.notes, "flow factors")
     if table.status is not Status.CONVERGED:
-        context.note(FLOW_FACTORS_UNSOLVED(message=table.status.message, residual=float(table.residual.max())))
+        context.note(
+            PART_UNSOLVED(
+                part="table of flow factors",
+                message=table.status.message,
+                residual=float(table.residual.max()),
+                action='Take more cells, or flow_factors = "off"',
+            )
+        )
     return table
 
 

@@ -13,7 +13,8 @@ import numpy as np
 from bem.errors import InfeasibleError, Status
 from bem.grid import FloatArray, Grid
 from bem.notes import Note
-from bem.notes.scenes import JOINT_CLOSED, PRESSING_AT_ONCE, PRESSING_IN_STEPS, STIFFNESS_UNSOLVED
+from bem.notes.contact import PRESSING_PATH
+from bem.notes.scenes import JOINT_CLOSED, PART_UNSOLVED
 from bem.scenes import build, sticking
 from bem.scenes.context import Context, error_bars
 from bem.scenes.kind import Kind
@@ -157,7 +158,10 @@ def _tell(scene: PartialSlipScene, steps: int, context: Context) -> None:
         return
     if not answers(scene):
         sticking.tell_coupled(scene, context)
-    context.note(PRESSING_IN_STEPS(steps=steps) if steps > 1 else PRESSING_AT_ONCE(usual=PRESSING_STEPS))
+    if steps > 1:
+        context.note(PRESSING_PATH(steps=steps, reason="steps"))
+    else:
+        context.note(PRESSING_PATH(usual=PRESSING_STEPS, reason="one-step"))
 
 
 def _bars(
@@ -218,7 +222,14 @@ def _stiffness(
         near.append(contact)
     for found in near:
         if found.status is not Status.CONVERGED:
-            note(STIFFNESS_UNSOLVED(message=found.status.message, residual=found.residual))
+            note(
+                PART_UNSOLVED(
+                    part="contact for the normal stiffness",
+                    message=found.status.message,
+                    residual=found.residual,
+                    action="Take a larger tolerance, or more iterations",
+                )
+            )
     stuck = tangential_stiffness(contact, site.grid, build.bodies_of(scene), tolerance=scene.push.tolerance)
     return {
         "normal_stiffness": (near[1].load - near[0].load) / (near[1].approach - near[0].approach),

@@ -172,7 +172,7 @@ def run(scene: PointFilmScene, context: Context) -> PointFilmRecord:
     assert film.state is not None
     tell(context, but_unknown(film.notes))  # bars are of grids of their own, and say where they are unknown
     if scene.roughness is not None and film.minimum_thickness < scene.roughness:
-        context.note(FILM_THINNER_THAN_ROUGHNESS())
+        context.note(FILM_THINNER_THAN_ROUGHNESS(where=""))
     wanted = scene.outputs.errors and film.status is Status.CONVERGED
     return filled(
         PointFilmRecord,

@@ -15,7 +15,6 @@ from typing import TYPE_CHECKING, Annotated, Any, ClassVar, Literal
 import numpy as np
 
 from bem.grid import FloatArray
-from bem.notes.scenes import GROSS_SLIDING_ASSUMED
 from bem.scenes import build, film_plans, pieces, plans, wearing
 from bem.scenes.axes import Axis, changed, over_last, with_keys
 from bem.scenes.common import PositivePressure, Repetitions
@@ -277,8 +276,6 @@ def wear_down(
     found = _record(scene, initial, result, step, film_table_error=film_error, pressure_frames=np.array(frames))
     tell_of_third_bodies(context, found.third_body_load_share)
     tell(context, notes_of_balance(step.notes, step.film_notes))
-    if not scene.wear.traction.slides:
-        context.note(GROSS_SLIDING_ASSUMED())
     return found
 
 

@@ -15,7 +15,8 @@ import numpy as np
 from pydantic import model_validator
 
 from bem.grid import FloatArray
-from bem.notes.wear import LIFE_DISTANCE_DIFFERS, LIFE_FRAME, LIFE_MEANS
+from bem.notes.accuracy import BARS_PARTIAL
+from bem.notes.wear import LIFE_DISTANCE_DIFFERS
 from bem.scenes import build, film_plans, lives, plans
 from bem.scenes.axes import Axis
 from bem.scenes.common import Repetitions, problem
@@ -262,20 +263,11 @@ def _with_body(figures: Mapping[str, Any]) -> dict[str, Any]:
     return {**figures, **{f"lower_{name}": figures[name] for name in names if name in figures}}
 
 
-_FRAMES = {
-    "lower": "the contact is fixed in space with the upper body (frame cylinder of kind running-in)",
-    "upper": "the contact is fixed to the lower body (frame disk of kind running-in)",
-    "both": "the contact is fixed in space and both bodies pass through it, neither frame of kind running-in",
-}
-"""Which body stands still with the contact, by the bodies that pass through it."""
-
-
 def _tell(scene: RunningInLifeScene, context: Context, setup: MixedSetup, contact: MixedPasses) -> None:
     """What the reader must know."""
     wear, (speeds,) = scene.wear, scene.speeds.build()
-    context.note(LIFE_FRAME(passes=wear.passes, frame=_FRAMES[wear.passes]))
     hold = "cycle jumps, positions, cells and points of the films" if scene.life.coarser_lives else _JUMPS_ALONE
-    context.note(LIFE_MEANS(positions=wear.positions, hold=hold))
+    context.note(BARS_PARTIAL(positions=wear.positions, hold=hold, reason="life"))
     mean, slide = 0.5 * abs(sum(speeds)), abs(speeds[0] - speeds[1])
     passing = wear.passes == "both" and mean > 0
     length = setup.grid.lengths[0]

@@ -189,7 +189,7 @@ def run(scene: TractionScene, context: Context) -> TractionRecord:
     film = film_of(found)
     tell(context, found.notes)
     if scene.roughness is not None and film.minimum_thickness < scene.roughness:
-        context.note(FILM_THINNER_THAN_ROUGHNESS())
+        context.note(FILM_THINNER_THAN_ROUGHNESS(where=""))
     part = "film" if film.status is not Status.CONVERGED else "heat"
     wanted = scene.outputs.errors and found.status is Status.CONVERGED
     return filled(

@@ -15,7 +15,6 @@ from pydantic import Field, model_validator
 
 from bem.accuracy.bars import REUSE, STEPS
 from bem.grid import FloatArray, Grid
-from bem.notes.scenes import TRIBOFILM_SHARES_AS_BEFORE
 from bem.scenes import build, film_plans, plans
 from bem.scenes.axes import Axis, listed, variants
 from bem.scenes.common import OutputsScene, Repetitions, problem
@@ -223,7 +222,7 @@ def _contact(
 
     with context.timer("oil film"):
         contact, shared = under_oil(contact, lower + upper, scene.shape.radii, scene.oil.build(), scene.oil_cells)
-    tell(context, notes_of_balance((*shared.notes, TRIBOFILM_SHARES_AS_BEFORE()), shared.film.notes))
+    tell(context, notes_of_balance(shared.notes, shared.film.notes))
     rms = float((lower + upper).std())
     mixed = shared.minimum_film / rms if rms > 0 else math.inf
     values = (shared.contact_load, shared.film_load, shared.minimum_film, shared.lambda_ratio, mixed)

@@ -11,7 +11,8 @@ from pydantic import Field
 
 from bem.grid import Grid
 from bem.notes import Note
-from bem.notes.scenes import FILM_CELLS_PER_WAVE, PATCH_SMALLER_THAN_HERTZ
+from bem.notes.checks import ROUGHNESS_UNRESOLVED
+from bem.notes.scenes import PATCH_SMALLER_THAN_HERTZ
 from bem.scenes.common import PositiveLength, Table, problem
 from bem.scenes.units import Ratio
 
@@ -91,5 +92,5 @@ def rough_notes(scene: Any, grid: Grid, semi_axes: tuple[float, float], film: Ro
     shortest = getattr(surface, "cutoff_wavelength", None)
     cell = max(film.x[1] - film.x[0], film.y[1] - film.y[0])
     if shortest is not None and shortest < FEWEST_CELLS * cell:
-        notes.append(FILM_CELLS_PER_WAVE(cells=float(shortest / cell), fewest=FEWEST_CELLS))
+        notes.append(ROUGHNESS_UNRESOLVED(cells=float(shortest / cell), fewest=FEWEST_CELLS, reason="film-wave"))
     return notes

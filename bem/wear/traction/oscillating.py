@@ -11,7 +11,8 @@ import numpy as np
 from bem.errors import Status
 from bem.grid import FloatArray
 from bem.laws import parameter, register
-from bem.notes.wear import LOOP_ALL_SLIPS, LOOP_PRESSED_AT_ONCE
+from bem.notes.contact import PRESSING_PATH
+from bem.notes.wear import LOOP_ALL_SLIPS
 from bem.wear.criterion import Detachment, LocalWear
 from bem.wear.traction.base import Rubbing, TractionLaw
 
@@ -96,7 +97,7 @@ def _loop(pressure: FloatArray, steps: list[TangentialSolution]) -> Rubbing:
         energy=back.dissipated_energy + forth.dissipated_energy,
         residual=max(step.residual for step in steps),
         status=failed[0] if failed else Status.CONVERGED,
-        notes=(LOOP_PRESSED_AT_ONCE(),) if steps[0].notes else (),
+        notes=(PRESSING_PATH(reason="cycle"),) if steps[0].notes else (),
     )
 
 

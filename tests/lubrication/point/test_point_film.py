@@ -17,8 +17,7 @@ from bem.lubrication.point.validity import inlet_shear
 from bem.notes import has_code
 from bem.notes.lubrication import (
     BODIES_NOT_RIGID,
-    CELLS_LARGE_FOR_FILM,
-    CONSTRICTION_NARROW,
+    FILM_CELLS_FEW,
     FILM_ERROR_UNKNOWN,
     FILM_NOT_FOUND,
     INLET_FRICTION,
@@ -397,7 +396,7 @@ def test_an_error_that_no_coarser_grid_gives_is_said_to_be_unknown(monkeypatch):
     assert film.status == "converged"
     assert film.minimum_thickness_error is None
     assert has_code(film.notes, FILM_ERROR_UNKNOWN)
-    assert has_code(film.notes, CONSTRICTION_NARROW)
+    assert has_code(film.notes, FILM_CELLS_FEW, reason="constriction")
 
 
 @pytest.mark.internal
@@ -499,7 +498,7 @@ def test_notes_say_where_the_model_ends():
     film = solve_point_film(**heavy, shape=(64, 64))
     assert has_code(film.notes, VISCOSITY_EXTRAPOLATED)
     plain = solve_point_film(**moes(60, 4), shape=(64, 64))
-    assert not has_code(plain.notes, CONSTRICTION_NARROW)
+    assert not has_code(plain.notes, FILM_CELLS_FEW, reason="constriction")
     assert not has_code(plain.notes, INLET_TOO_SHORT)
     x = 1.1 * ellipse_contact(radii=(RADIUS, RADIUS), contact_modulus=MODULUS, load=plain.load).semi_axes[0]
     short = solve_point_film(**moes(60, 4), shape=(64, 64), extent=(-x, x, -2 * x, 2 * x))
@@ -562,11 +561,11 @@ def test_cells_that_a_rigid_film_falls_between_are_said():
     ball = {"radii": (0.01, 0.01), "speeds": (0.5, 0.5), "shape": (48, 48), "contact_modulus": math.inf}
     ball |= {"lubricant": Lubricant(0.04), "load": 5.0}
     right = solve_point_film(**ball)
-    assert not has_code(right.notes, CELLS_LARGE_FOR_FILM)
+    assert not has_code(right.notes, FILM_CELLS_FEW, reason="contact")
     for half in (1e-5, 3e-4):
         film = solve_point_film(**ball, extent=(-2 * half, half, -1.5 * half, 1.5 * half))
         off = abs(film.central_thickness / right.central_thickness - 1)
-        said = has_code(film.notes, CELLS_LARGE_FOR_FILM)
+        said = has_code(film.notes, FILM_CELLS_FEW, reason="contact")
         assert said == (half > 1e-5)
         assert said or off < 0.01
 

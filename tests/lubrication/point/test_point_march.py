@@ -10,12 +10,8 @@ from bem.lubrication.point.moving import Travel
 from bem.lubrication.point.validity import coarse_heights
 from bem.lubrication.point.waviness import amplitude_in_centre, amplitude_reduction
 from bem.notes import has_code
-from bem.notes.lubrication import (
-    CELLS_LARGE_FOR_FILM,
-    FIRST_FILM_LOAD,
-    FIRST_SURFACES_UNDEFORMED,
-    HEIGHTS_COARSE,
-)
+from bem.notes.checks import ROUGHNESS_UNRESOLVED
+from bem.notes.lubrication import FILM_CELLS_FEW, FIRST_FILM
 
 RADIUS, LOAD, SPEED = 12.5e-3, 15.0, 0.09
 HALF = 136.7e-6
@@ -130,7 +126,7 @@ def test_it_stops_and_the_film_is_left_behind():
 def test_it_starts_from_a_gap_at_rest():
     films = all_found(march(np.linspace(0, 4e-3, 21), speeds=lambda t: (SPEED * t / 4e-3,) * 2, initial_thickness=3e-7))
     note = films[0].notes[0]
-    assert (note.code, note.values["origin"]) == (FIRST_FILM_LOAD.code, "a gap full of oil")
+    assert (note.code, note.values["origin"]) == (FIRST_FILM.code, "a gap full of oil")
     assert note.values["missed"] == pytest.approx(-100.0, abs=0.5)
     steady = march([0, 1e-5])[0]
     # the speed has only just come, and the outlet is still thinner
@@ -244,7 +240,7 @@ def test_a_first_film_has_the_surfaces_in_it_and_says_so():
     # linear between 12 um wide cells, of a dent that is round there
     assert first.central_thickness - smooth.central_thickness == pytest.approx(5e-8, rel=0.05)
     assert first.thickness == pytest.approx(smooth.thickness - first.heights, rel=1e-9)
-    assert first.notes == (FIRST_SURFACES_UNDEFORMED(),)
+    assert first.notes == (FIRST_FILM(reason="surfaces"),)
 
 
 @pytest.mark.internal
@@ -261,7 +257,7 @@ def test_heights_that_the_cells_do_not_resolve_are_told(cells, said):
 def test_a_measured_map_finer_than_the_cells_is_told_at_every_time():
     heights = 1e-8 * np.random.default_rng(1).standard_normal((400, 400))
     films = march([0, 1e-5], roughness=MovingSurface(MeasuredHeights(heights, (1e-6, 1e-6))))
-    assert all(sum(note.code == HEIGHTS_COARSE.code for note in film.notes) == 1 for film in films)
+    assert all(sum(has_code([note], ROUGHNESS_UNRESOLVED, reason="film") for note in film.notes) == 1 for film in films)
 
 
 def test_a_film_goes_on_from_one_that_is_given():
@@ -408,5 +404,5 @@ def test_a_ball_that_falls_onto_cells_larger_than_the_contact_says_so_and_its_ce
     assert all(film.central_thickness > 0 for film in films)
     last = films[-1]
     assert last.central_thickness < last.thickness[24, 24]  # surfaces that are pressed towards each other
-    assert has_code(last.notes, CELLS_LARGE_FOR_FILM)
-    assert not has_code(films[0].notes, CELLS_LARGE_FOR_FILM)
+    assert has_code(last.notes, FILM_CELLS_FEW, reason="contact")
+    assert not has_code(films[0].notes, FILM_CELLS_FEW, reason="contact")

@@ -18,7 +18,7 @@ from bem import (
 )
 from bem.lubrication.point import newton, touching_newton, touching_start
 from bem.notes import has_code
-from bem.notes.lubrication import OIL_CREATED, ROUGH_FILM_NOT_FOUND
+from bem.notes.lubrication import FILM_NOT_FOUND, OIL_CREATED
 
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
 MODULUS = contact_modulus(STEEL, STEEL)
@@ -216,7 +216,7 @@ def test_of_a_film_that_is_not_found_the_least_wrong_is_shown():
     assert film.residual < 1
     assert film.thickness.min() > 0
     assert film.contact_share == pytest.approx(1.0, abs=1e-3)
-    assert has_code(film.notes, ROUGH_FILM_NOT_FOUND)
+    assert has_code(film.notes, FILM_NOT_FOUND, reason="rough")
 
 
 @pytest.mark.parametrize(
