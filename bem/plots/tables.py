@@ -63,6 +63,7 @@ _LABELS = {
     "upper_Sq_final": "Sq of the upper surface, final",
     "upper_worn_depth": "worn depth of the upper surface",
     "combined_Sq": "Sq of both surfaces",
+    "minimum_film": "minimum film (under the film's own load)",
     "lambda_ratio": "lambda ratio (film under the whole load)",
     "lambda_ratio_initial": "lambda ratio (film under the whole load), initial",
     "lambda_ratio_mixed": "lambda ratio (film beside contact)",

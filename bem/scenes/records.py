@@ -135,6 +135,8 @@ class Series:
     rows: bool = False
 
 
+MINIMUM_FILM = "minimum film under its part of the load, beside contact"
+"""What the minimum film of mixed lubrication is; over Sq it is the ratio `LAMBDA_MIXED`, not `LAMBDA_WHOLE`."""
 LAMBDA_WHOLE = "lambda ratio: minimum film under the whole load, over Sq of both surfaces"
 LAMBDA_MIXED = "lambda ratio: minimum film under its part of the load, beside contact, over Sq of both surfaces"
 """The two lambda ratios. Where film and contact share the load, the film that carries its part alone is thicker than

@@ -85,7 +85,9 @@ def test_both_lambda_ratios_stand_under_their_own_keys(friction):
     assert mixed[1] == pytest.approx(whole[1], rel=1e-9)  # in full film it carries all
     assert "whole load" in friction.variables["lambda_ratio"].description
     assert "part of the load" in friction.variables["lambda_ratio_mixed"].description
-    heads = [head for table in figure_tables(summary, ["lambda_ratio", "lambda_ratio_mixed"]) for head in table.head]
+    names = ["minimum_film_nm", "lambda_ratio", "lambda_ratio_mixed"]
+    heads = [head for table in figure_tables(summary, names) for head in table.head]
+    assert any("minimum film (under the film's own load)" in head for head in heads)
     assert [head for head in heads if "lambda" in head] == [
         "lambda ratio (film under the whole load)",
         "lambda ratio (film beside contact)",

@@ -95,7 +95,7 @@ def _sharing(run: Any, figure: Figure) -> None:
     film = _curves(run, "minimum_film")[0][1]
     factor, unit = prefix(film, "m")
     _band(lower, speed, film * factor, BLUE, "")
-    lower.set_ylabel(label("minimum film", unit))
+    lower.set_ylabel(label("minimum film, own load", unit))
     speed_axis(lower, speed)
     _name_first_curve(run, figure)
 

@@ -26,7 +26,18 @@ from bem.scenes.kind import Kind
 from bem.scenes.lubrication import in_words_of_the_scene, notes_of_balance
 from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step
-from bem.scenes.records import LAMBDA_MIXED, LAMBDA_WHOLE, Figure, Record, Series, columns, filled, mean, spread
+from bem.scenes.records import (
+    LAMBDA_MIXED,
+    LAMBDA_WHOLE,
+    MINIMUM_FILM,
+    Figure,
+    Record,
+    Series,
+    columns,
+    filled,
+    mean,
+    spread,
+)
 from bem.scenes.resolutions import CELLS, counted, of_either
 from bem.scenes.tables.sharing import BAR_OF_HEAT, BASELINE, CurveScene, SurfaceVariant
 
@@ -129,7 +140,7 @@ class CurveRecord(Record):
     film_part: Annotated[FloatArray, _curve("", "film part of the friction", name="film_friction_part")]
     contact_load: Annotated[FloatArray, _curve("N", "load carried by contact", headline=True, part_of=_LOADS)]
     film_load: Annotated[FloatArray, _curve("N", "load carried by the film", headline=True, part_of=_LOADS)]
-    minimum_film: Annotated[FloatArray, _curve("nm", "minimum film thickness", headline=True)]
+    minimum_film: Annotated[FloatArray, _curve("nm", MINIMUM_FILM, headline=True)]
     lambda_ratio: Annotated[FloatArray, _curve("", LAMBDA_WHOLE, headline=True)]
     lambda_ratio_mixed: Annotated[FloatArray, _curve("", LAMBDA_MIXED)]
     contact_area_fraction: Annotated[FloatArray, _curve("", "real contact area over patch")]

@@ -23,7 +23,16 @@ from bem.scenes.kind import Kind
 from bem.scenes.lubrication import notes_of_balance
 from bem.scenes.packing import packed, unpacked
 from bem.scenes.planner import Plan, Step
-from bem.scenes.records import LAMBDA_MIXED, LAMBDA_WHOLE, Figure, GridRecord, Series, filled, without_bars
+from bem.scenes.records import (
+    LAMBDA_MIXED,
+    LAMBDA_WHOLE,
+    MINIMUM_FILM,
+    Figure,
+    GridRecord,
+    Series,
+    filled,
+    without_bars,
+)
 from bem.scenes.resolutions import CELLS, of_loop
 from bem.scenes.tables.sharing import TEMPERATURES, OneLoadScene, RunningInCycles, WearingSharing
 from bem.scenes.tables.wear_model import WearScenePart
@@ -132,7 +141,7 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
     boundary_friction_part: Annotated[float, Figure("", "boundary part of the run-in friction")]
     film_friction_part: Annotated[float, Figure("", "film part of the run-in friction")]
     contact_load_initial: Annotated[float, Figure("N", "load carried by contact in the first cycle")]
-    minimum_film: Annotated[float, Figure("nm", "minimum film thickness, run in")]
+    minimum_film: Annotated[float, Figure("nm", f"{MINIMUM_FILM}, run in")]
     contact_area_fraction: Annotated[float, Figure("", "real contact area over patch, run in")]
     worn_depth: Annotated[float, Figure("nm", "mean depth worn in the contact region (Hertz' contact)")]
     step_error: Annotated[
@@ -162,7 +171,7 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
     ]
     friction_over_cycles: Annotated[FloatArray, _over("1", "coefficient of friction")]
     film_load_over_cycles: Annotated[FloatArray, _over("N", "load carried by the film")]
-    minimum_film_over_cycles: Annotated[FloatArray, _over("m", "minimum film thickness")]
+    minimum_film_over_cycles: Annotated[FloatArray, _over("m", MINIMUM_FILM)]
     contact_share: Annotated[FloatArray, _over("1", "share of the load carried by contact")]
     rms_height_over_cycles: Annotated[FloatArray, _over("m", "Sq of the worn surface in the contact region")]
     volume_over_cycles: Annotated[FloatArray, _over("m^3", "volume worn per cycle, of all bodies that wear")]

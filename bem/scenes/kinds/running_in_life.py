@@ -24,7 +24,7 @@ from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.kind import Kind
 from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step, padded_points
-from bem.scenes.records import LAMBDA_WHOLE, Figure, GridRecord, Series, filled, grid_map
+from bem.scenes.records import LAMBDA_WHOLE, MINIMUM_FILM, Figure, GridRecord, Series, filled, grid_map
 from bem.scenes.tables.film_defect import film_defect
 from bem.scenes.tables.life import LifeCycles, LifeFatigue, LifeFilm, LifeParticles, LifeWear
 from bem.scenes.tables.sharing import TEMPERATURES, OneLoadScene, RunningInSharing, heated
@@ -169,7 +169,7 @@ class RunningInLifeRecord(GridRecord):
     contact_share_initial: Annotated[float, Figure("", "share of the load on contact, unworn")]
     contact_share_final: Annotated[float, Figure("", "share of the load on contact, at the end")]
     contact_area_fraction: Annotated[float, Figure("", "real contact area over the patch, at the end")]
-    minimum_film: Annotated[float, Figure("nm", "minimum film thickness at the end")]
+    minimum_film: Annotated[float, Figure("nm", f"{MINIMUM_FILM}, at the end")]
     wear_volume: Annotated[float, Figure("um3", "volume worn of both surfaces of the patch")]
     contact_temperature: Annotated[float | None, heated("surfaces in contact, mean by pressure, at the end")]
     flash_temperature: Annotated[float | None, heated("surfaces in contact, highest, at the end")]
@@ -201,7 +201,7 @@ class RunningInLifeRecord(GridRecord):
     friction_over_cycles: Annotated[FloatArray, _over("1", "coefficient of friction")]
     boundary_friction_over_cycles: Annotated[FloatArray, _over("1", "boundary part of the friction")]
     contact_share: Annotated[FloatArray, _over("1", "share of the load carried by contact")]
-    minimum_film_over_cycles: Annotated[FloatArray, _over("m", "minimum film thickness")]
+    minimum_film_over_cycles: Annotated[FloatArray, _over("m", MINIMUM_FILM)]
     lambda_over_cycles: Annotated[FloatArray, _over("1", LAMBDA_WHOLE)]
     lower_rms_over_cycles: Annotated[FloatArray, _over("m", "Sq of the lower surface, its film on it")]
     upper_rms_over_cycles: Annotated[FloatArray, _over("m", "Sq of the upper surface")]
