@@ -338,12 +338,12 @@ STRAIN_LARGE = define(
 CONTACT_AT_CAP = define(
     "contact-at-cap",
     INFO,
-    "Highest pressures are the hardness that was given.",
+    "Pressures are limited by the hardness that was given.",
     reasons={
         "reached": "{cells} are at the hardness, {cap:si Pa}; nothing hardens there.",
         "within-error": (
-            "On finer cells a part of the contact may be: nothing is at the hardness, {cap:si Pa}, but it lies within "
-            "the error of the highest pressure."
+            "Nothing is at the hardness here, {cap:si Pa}, but it lies within the error of the highest pressure: on "
+            "finer cells a part of the contact may be."
         ),
     },
 )

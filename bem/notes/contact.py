@@ -34,7 +34,7 @@ SPOTS_SMALL = define(
     "spots-small",
     CAUTION,
     "Contact spots are one or two cells wide; their area is uncertain.",
-    "The area lies between the least that carries the load at the hardness{of} and that of the cells in contact,"
+    "The area lies between the least that carries the load at the hardness and that of the cells in contact{of},"
     " {times:.2f} times as large.",
     "Take a finer grid.",
 )

@@ -136,7 +136,7 @@ def least_area_of_worn_surfaces(facts: Facts, outcome: Outcome) -> Iterator[Note
     counted = [float((plane > 0).mean()) for plane in planes]
     many = [c / low for area, low, c in zip(areas, least, counted, strict=True) if area <= _MANY * low < c]
     if many:
-        yield SPOTS_SMALL(of=_of(len(many), len(areas)), times=max(many))
+        yield SPOTS_SMALL(of=" in the last cycle" + _of(len(many), len(areas)), times=max(many))
 
 
 @outcome_check

@@ -119,7 +119,7 @@ def elastic_pressure_above_hardness(facts: Facts, outcome: Outcome) -> Iterator[
     beyond = share > _MOST
     if highest > hardness and (beyond or not list(hertz_pressure_above_hardness(facts))):
         level = Level.OUTSIDE_MODEL if beyond else None
-        how = 'behaviour = "capped"' if facts.of_kind("contact") else "a smaller load"
+        how = 'take behaviour = "capped"' if facts.of_kind("contact") else "take a smaller load"
         yield ABOVE_HARDNESS(
             level=level, pressure=highest, ratio=highest / hardness, share=share, action=how, reason="solved"
         )
