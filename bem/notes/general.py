@@ -12,7 +12,7 @@ VALUE_UNUSUAL = define(
 SIDE_TASK_FAILED = define(
     "side-task-failed",
     Level.CAUTION,
-    "{task} failed; the results are complete without it.",
+    "{task} failed; the results are complete.",
     "It ended with {error}.",
     "Report this message.",
 )

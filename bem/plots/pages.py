@@ -68,7 +68,7 @@ def make(pages: Pages, arrays: Arrays) -> list[Note]:
     failed: list[Note] = []
 
     def failure(name: str, error: Exception) -> None:
-        failed.append(SIDE_TASK_FAILED(task=f"Figure {name}", error=repr(error)))
+        failed.append(SIDE_TASK_FAILED(task=f"Drawing figure {name}", error=repr(error)))
 
     run = FinishedRun(pages.path, pages.scene, pages.summary)
     run.__dict__["arrays"] = arrays  # no need to look whether the file is sound

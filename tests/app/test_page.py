@@ -101,9 +101,9 @@ def test_from_a_file_to_results_and_back(serve, chrome, tmp_path):
     tab.go(f"{server.base}/surfaces")
     tab.wait_text("statistics")
     tab.drop(own)
-    tab.wait_text("40 missing points are filled")
+    tab.wait_text("40 points were missing")
     tab.type("despike", "6")
-    tab.wait_text("spikes were removed")
+    tab.wait_text("were removed as spikes")
     tab.type("crop", "60 um")
     tab.wait_text("75 x 75")
     for detrend in ("none", "curvature"):  # levelled anew, and the statistics are those of the same from Python

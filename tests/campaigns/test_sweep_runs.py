@@ -511,9 +511,9 @@ def test_notes_of_points_are_told_once_with_how_many_have_them(tmp_path):
     """A contact that leaves its grid was a row like others: only its own summary said so."""
     told = Telling()
     run_sweep("hertz-sphere", ["contact.load=1 N,1000 N"], tmp_path / "s", settings=["grid.shape=32"], watcher=told)
-    edge = [text for text in told.notes if "reaches the edge of the grid along x" in text]
+    edge = [text for text in told.notes if "contact reaches a free edge of the grid" in text]
     assert len(edge) == 1
-    assert edge[0].startswith("1 of 2 points: ")
+    assert edge[0].startswith(f"1 of 2 points: {OUTSIDE}")
 
 
 @pytest.mark.internal
