@@ -22,7 +22,7 @@ FATIGUE_CONSTANTS = define(
 LAYER_INCOMPRESSIBLE = define(
     "layer-incompressible",
     CAUTION,
-    "The layer's stiffness hangs on the last digit of Poisson's ratio.",
+    "The layer is nearly incompressible; Poisson's ratio decides its stiffness.",
     "Poisson's ratio {ratio:g} makes the bonded layer {stiffer:.0f} times as stiff in compression as its modulus.",
     "Measure Poisson's ratio, or bracket it with two runs.",
 )
@@ -61,7 +61,7 @@ CAP_NOT_OF_SOFTER = define(
 GROWTH_WITHOUT_BARRIER = define(
     "growth-without-barrier",
     CAUTION,
-    "The tribofilm grows at its prefactor, whatever the temperature.",
+    "The tribofilm grows at its largest rate, whatever the temperature.",
     "Shear stress {stress:si Pa} x activation volume is {lowered:.2g} eV, above the barrier of {barrier:.2g} eV.",
     "Check activation_volume and its unit.",
 )
@@ -234,7 +234,7 @@ ROUGHNESS_UNRESOLVED = define(
 PATCH_SHORT = define(
     "patch-short",
     CAUTION,
-    "The patch is short; its figures hang on a handful of summits.",
+    "The patch is short; a few summits decide its figures.",
     "",
     "Take a larger patch or several repetitions, or remove form with detrend or high_pass.",
     reasons={
@@ -307,14 +307,14 @@ PARTICLES_OF_MESH = define(
 NOTHING_SLIDES = define(
     "nothing-slides",
     CAUTION,
-    "Every cycle meets the same asperities.",
+    "The surfaces do not slide on; every cycle meets the same asperities.",
     "wear.shift = 0: the surfaces do not slide on.",
     "Take 1 or more.",
 )
 SLIDES_DIFFER = define(
     "slides-differ",
     CAUTION,
-    "Meshes are compared at different sliding.",
+    "Variants with other meshes slide another distance and do not compare.",
     "Variants slide {shortest} to {longest} in a cycle.",
     "Take shifts in proportion to the cells.",
 )
@@ -360,13 +360,6 @@ CAPPED_NEARLY_FULL = define(
         ),
         "area": "{share:%} of the patch is in contact; a cap leaves the resistance out above about half.",
     },
-)
-STRESS_ABOVE_YIELD = define(
-    "stress-above-yield",
-    CAUTION,
-    "Elastic von Mises stresses exceed the yield stress.",
-    "They reach {stress:si Pa} and are too high in {volume:.3g} um^3.",
-    "Lower the load, or read the stresses as a sign of where yield begins.",
 )
 
 # Results of wear loops

@@ -7,7 +7,7 @@ CAUTION, INFO = Level.CAUTION, Level.INFO
 NO_HEAT = define(
     "element-without-heat",
     INFO,
-    "Films have no heat, here or in scenes.",
+    "Heat of the film cannot be computed: thermal constants are missing.",
     "{bodies} without thermal_conductivity, heat_capacity and density.",
 )
 CONTACT_LOST = define(

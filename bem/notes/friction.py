@@ -40,7 +40,7 @@ FILM_WITHOUT_LAYERS = define(
 OIL_ON_CONTACT = define(
     "oil-on-contact",
     INFO,
-    "Oil on cells in contact adds no friction here.",
+    "Friction of the oil between touching surfaces is left out.",
     "With the film's shear stress on them friction would be {with_oil:.3g}, here {friction:.3g}{most}.",
 )
 OIL_COUNTED = define(

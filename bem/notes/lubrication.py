@@ -169,7 +169,7 @@ FACTORS_EXTRAPOLATED = define(
 FIRST_FILM = define(
     "first-film",
     INFO,
-    "The march does not begin in equilibrium.",
+    "The film in time does not begin in equilibrium.",
     reasons={
         "load": "The first film is {origin} and carries the load {missed:+.2g} %.",
         "surfaces": "Surfaces in the contact at first lie undeformed in its film.",
