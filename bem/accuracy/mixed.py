@@ -22,10 +22,10 @@ from bem.accuracy.traction import DIFFERENCE, FILM_SHARE
 from bem.contact.nested_iteration import sample
 from bem.errors import Status
 from bem.friction import MixedSolution
-from bem.friction.balance import BalanceStart, Regime, share_load
-from bem.friction.choose_contact import rough_contact
-from bem.friction.films import films_of
-from bem.friction.forces import friction_forces, lambda_ratio, unrubbed
+from bem.friction.balance import BalanceStart, Regime
+from bem.friction.forces import lambda_ratio, oil_temperature
+from bem.friction.load_sharing import LoadSharing
+from bem.friction.models import films_of
 from bem.friction.setup import FEWEST_CELLS, MixedSetup
 from bem.grid import FloatArray, Grid
 from bem.notes.accuracy import NoBar
@@ -141,7 +141,7 @@ def mixed_bars(case: MixedCase, coarser: CoarserShares) -> ErrorBars:
     """Bars of the figures of load sharing, their parts by origin."""
     if coarser.contact is None or coarser.both is None:
         return ErrorBars.unknown(mixed_figures(case.solution), coarser.why)
-    found, cool = mixed_figures(case.solution), unrubbed(case.setup)
+    found, cool = mixed_figures(case.solution), oil_temperature(case.setup)
     found |= {name: found[name] - cool for name in TEMPERATURES if name in found}
     one, two = coarser.contact.figures, coarser.both.figures
     resolved, uncoupled = surface_is_resolved(case.height, case.setup.grid), case.setup.contact_model == "uncoupled"
@@ -242,26 +242,25 @@ def _shares(case: MixedCase, points: int, heat_mesh: float = 1.0) -> Shares:
         for whole, own, periodic in zip((old.x, old.y), (grid.x, grid.y), old.periodic, strict=True)
     )
     film = films_of(setup, solution.speeds, at=(x, y), initial=solution.film)
-    rough = rough_contact(setup, height, solution.speeds)
-    whole = film.under(min(setup.load, film.largest_load), len(film.errors) - 1, solution.continuation.whole)
+    whole = film.under(min(setup.load, film.largest_load), len(film.errors) - 1, solution.continuation.whole_film)
     pressure = None
     if solution.contact is not None:
         pressure = np.clip(sample(solution.contact_pressure, grid.shape, grid.periodic), 0.0, setup.hardness)
     start = BalanceStart(max(solution.film_load, 1e-12 * setup.load), solution.balance_slope, pressure)
-    balance = share_load(film, rough, setup.load, setup.tolerance, whole, start)
-    forces = friction_forces(balance.film, balance.contact, setup, film.speeds)
+    shared = LoadSharing(setup, film, film.speeds, whole).solve(height, start)
+    balance, forces = shared.balance, shared.forces
     figures = {
-        "friction": (forces.boundary + forces.film) / setup.load,
+        "friction": shared.friction,
         "boundary_part": forces.boundary / setup.load,
         "film_part": forces.film / setup.load,
-        "contact_load": 0.0 if balance.contact is None else balance.contact.load,
+        "contact_load": shared.contact_load,
         "film_load": balance.film.load,
         "minimum_film": balance.film.minimum_thickness,
         "lambda_ratio": lambda_ratio(whole, case.height),
-        "contact_area_fraction": 0.0 if balance.contact is None else balance.contact.area / setup.slices / grid.area,
+        "contact_area_fraction": shared.contact_area_fraction,
         # rises over the oil; a contact that does not touch has none
-        "contact_temperature": 0.0 if forces.heat is None else forces.heat.mean - unrubbed(setup),
-        "flash_temperature": 0.0 if forces.heat is None else forces.heat.maximum - unrubbed(setup),
+        "contact_temperature": 0.0 if forces.heat is None else forces.heat.mean - oil_temperature(setup),
+        "flash_temperature": 0.0 if forces.heat is None else forces.heat.maximum - oil_temperature(setup),
     }
     return Shares(figures, balance.status, film.solved_load)
 

@@ -16,17 +16,17 @@ from typing import TYPE_CHECKING
 from bem.startup.lazy import loader
 
 if TYPE_CHECKING:
-    from bem.friction.load_share import fit_load_share
-    from bem.friction.load_sharing import largest_difference, solve_mixed, stribeck_curve
+    from bem.friction.share_fit import fit_load_share
     from bem.friction.solution import MixedSolution
+    from bem.friction.solve import largest_difference, solve_mixed, stribeck_curve
 
 __all__ = ["MixedSolution", "fit_load_share", "largest_difference", "solve_mixed", "stribeck_curve"]
 
 __getattr__ = loader(
     __name__,
     {
-        "load_share": ["fit_load_share"],
-        "load_sharing": ["largest_difference", "solve_mixed", "stribeck_curve"],
+        "share_fit": ["fit_load_share"],
+        "solve": ["largest_difference", "solve_mixed", "stribeck_curve"],
         "solution": ["MixedSolution"],
     },
 )

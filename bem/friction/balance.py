@@ -1,20 +1,27 @@
-"""The one balance of load sharing: the film load at which the rough surfaces, under the rest, hold the film's oil.
+"""Balance of load between film and rough contact: the film load at which the rough surfaces hold the film's oil.
 
-The more a film carries the thinner it is, and the more the surfaces open under what it leaves them, so that what they
-hold over the film's oil rises with its load. The ends are looked at by one rule each:
+Unknown: x = ln(F_film / (F - F_film)), the log odds of the film load. Equation: the volume mismatch
 
-- *full film*: a film under the whole load that clears the roughness, or is thicker than what the surfaces leave open
-  under next to no load; nothing else is to be done;
-- *boundary*: a film that is left with a negligible share of the load, a tenth of the tolerance, and is even then
-  thinner than what the surfaces leave open when they carry all the rest. It would be left with less still, and the
-  rest is known to within the tolerance: the contact under that load is the answer. So it is where the film's model
-  ends before the oil fits, the film there being thinner than a few molecules: it is none.
+    m(x) = ln(mean film thickness under F_film / mean opening of the rough surfaces under F - F_film) = 0.
 
-Between them a secant within a bracket, in ln(film load / rest): next to either end one of them changes by its own size.
-Where the opening jumps with the load (cells at the hardness) the surfaces are pressed to an approach in between. A
-contact under a load is one solve; pressing surfaces together until they hold a volume, and looking for the film load at
-which both carry the load, took four to five times its convolutions. Nothing here knows what a film or a contact is made
-of.
+A film that carries more is thinner, and surfaces that carry less are farther apart, so m decreases with x. In this
+variable m is nearly linear: next to either end only one of both changes.
+
+1. Full film: the film under the whole load clears the roughness. Return it; no contact is solved.
+2. For each level of the film's accuracy, coarse to fine, find the root of m with `find_decreasing_root`. Each trial
+   solves one film and one contact under a prescribed load. On coarse levels the contact is solved only as accurately as
+   the balance needs, and the last trial is left to the next level where a secant predicts that it meets the goal.
+3. Where the opening jumps with the load (cells at the hardness), two trials bracket one load. Keep the film and press
+   the surfaces to an approach between those of the two contacts.
+4. If the contact's own tolerance hides the root, tighten that tolerance a hundredfold and repeat.
+5. Boundary lubrication: a film with a negligible fraction of the load (a tenth of the tolerance) is thinner than the
+   opening under the rest. Return this film with the contact under the rest.
+6. The largest film load that the film model covers may be too small. If the film there is thinner than a few molecules,
+   the contact carries the whole load (boundary lubrication); else the case is infeasible.
+7. Certify: recompute both imbalances, of load and of oil, from the film and the contact that are returned.
+
+Cost of a mixed point that starts from its neighbour: two or three coarse films and two fine ones, with a contact for
+each. Nothing here depends on the kind of film or contact. Verified in tests/friction/test_balance.py.
 """
 
 from __future__ import annotations
@@ -25,41 +32,40 @@ from dataclasses import dataclass, replace
 from enum import StrEnum
 
 from bem.errors import Status
-from bem.friction.falling_zero import falling_zero
 from bem.friction.film import Film, PatchFilm
 from bem.friction.rough_contact import Pressed, RoughContact
 from bem.grid import FloatArray
 from bem.lubrication.validity import THINNEST_FILM
 from bem.notes import Note
 from bem.notes.friction import BOUNDARY_LUBRICATION, FILM_MODEL_ENDS
+from bem.numerics.bracketed_root import find_decreasing_root
 
 MAX_TRIALS = 60
-ONE_LOAD = 0.1
-"""Of the tolerance: how far apart film loads are one."""
+LOAD_RESOLUTION = 0.1
+"""Two film loads closer than this fraction of the tolerance count as equal."""
 COARSE_TRIALS, FINEST_CONTACT = 20, 1e-9
-"""Films after which a contact is solved more finely, down to that tolerance: openings that jump with its own tolerance
-keep film and contact from their balance."""
+"""Trials after which the contact's tolerance is tightened, and the tightest one."""
 CONTACT_SHARE = 0.1
-"""Of the goal with coarse films: what their contacts are solved to, relative to the gap that they flatten."""
-AHEAD = 0.3
-"""Of the goal with coarse films: what a secant must be expected to leave, the product of the mismatches it is through,
-for its place to be tried with finer ones at once."""
-KNOWN_SLOPE = 0.1
-"""How well a slope is known from a similar balance."""
+"""Error of the opening that a contact on coarse levels may have, as a fraction of the goal of the balance."""
+SECANT_MARGIN = 0.3
+"""Fraction of the goal that a secant must predict for its trial to be left to the next level. The prediction is the
+product of the two mismatches that the secant passes through."""
+SLOPE_ERROR = 0.1
+"""Relative error of a slope that is known from a similar balance."""
 NEGLIGIBLE = 0.1
-"""Share of the load, over the tolerance of the balance, below which a film is left with nothing that counts."""
-KEPT_FILMS = 3
-"""As starts for others, besides the one under the whole load."""
+"""Fraction of the load, over the tolerance of the balance, below which a film is negligible."""
+STORED_FILMS = 3
+"""Films that are stored as warm starts for others, besides the film under the whole load."""
 LEAST_REST = 1e-12
-"""Share of the load left to the surfaces, below which nothing is looked for."""
-_LEAST_BEGUN = 1e-6
-"""Share of the load left to the surfaces where a search begins."""
-_SAME = 1e-9
-"""Logarithms of loads that are one and the same."""
+"""Smallest fraction of the load left to the surfaces that the log odds resolve."""
+_LEAST_STARTING_REST = 1e-6
+"""Smallest fraction of the load left to the surfaces in a first trial."""
+_EQUAL_LOGARITHMS = 1e-9
+"""Difference below which two logarithms of loads are equal."""
 
 
 class Regime(StrEnum):
-    """Which end of the balance, or neither, a solution is at."""
+    """Regime of lubrication: one of both ends of the balance, or between them."""
 
     FULL_FILM = "full film"
     MIXED = "mixed"
@@ -68,37 +74,67 @@ class Regime(StrEnum):
 
 @dataclass(frozen=True, eq=False)
 class BalanceStart:
-    """Where to look first: film load [N], slope of ln(opening / film thickness) with ln(film load), and a pressure [Pa]
-    nearby. known : whether the slope is that of a similar balance. refinement : as of `Balance`, of that one."""
+    """Warm start of a balance; affects cost and rounding only.
 
-    film_load: float
+    Attributes
+    ----------
+    film_load : load of the first film [N]; None for half of the load.
+    slope : of ln(opening / film thickness) over ln(film load), at `film_load`.
+    pressure : contact pressure of a similar case [Pa].
+    slope_known : whether the slope is that of a similar balance.
+    refinement : as of `Balance`, of a similar balance.
+    speed_power : power of the speed with which the odds of the film load changed between the last two speeds.
+    whole_film : coarse film of a similar case under the whole load; None of a ball.
+    """
+
+    film_load: float | None = None
     slope: float = 1.0
     pressure: FloatArray | None = None
-    known: bool = False
+    slope_known: bool = False
     refinement: float = 0.0
+    speed_power: float = 1.0
+    whole_film: PatchFilm | None = None
 
     @classmethod
-    def after(
+    def from_similar(
         cls, share: float, slope: float, load: float, film_load: float, pressure: FloatArray | None
     ) -> BalanceStart:
-        """At a film load [N], from the slope where films had another share of the load: that with ln(film load / rest)
-        is about the same from full film to contact, that with ln(film load) goes like the inverse of the rest."""
+        """Return a start from a similar balance, with its slope converted to another film load.
+
+        The slope over the log odds is about constant from full film to contact; that over ln(film load) is inversely
+        proportional to the rest of the load.
+
+        Parameters
+        ----------
+        share : film load over load in the similar balance.
+        slope : of the similar balance.
+        load : on the whole contact [N].
+        film_load : of the first film [N].
+        pressure : contact pressure of the similar balance [Pa].
+        """
         rest, before = max(1 - film_load / load, LEAST_REST), max(1 - share, LEAST_REST)
-        return cls(film_load, slope * before / rest, pressure, known=True)
+        return cls(film_load, slope * before / rest, pressure, slope_known=True)
 
 
 @dataclass(frozen=True, eq=False)
 class Balance:
-    """Film and contact that carry the load together.
+    """Film and contact that carry a load together.
 
-    contact : None in full film. imbalance : (film + contact - load) / load, of these two. slope : of ln(opening / film
-    thickness) with ln(film load). refinement : of ln(film load / rest), what the last films changed in the coarser
-    ones' balance. oil_imbalance : (mean opening of the surfaces - mean thickness of the film) / the
-    latter, where oil is counted; 0 at the ends. films,
-    contacts : evaluated on the way; convolutions : of the contacts. status : converged where both imbalances are within
-    the tolerance (that of the oil, or what the contact's own tolerance leaves of it) and film and contact are converged
-    themselves. notes : what to tell the user. film_neglected : whether the film's model ends before the balance, where
-    the film is so thin that the contact was solved under all the load.
+    Attributes
+    ----------
+    film : film under its part of the load.
+    contact : rough contact under the rest; None in full film.
+    imbalance : (film load + contact load - load) / load, of these two.
+    slope : of ln(opening / film thickness) over ln(film load).
+    regime : end of the balance that it is at, or mixed.
+    films, contacts : solved in the search.
+    convolutions : of the contacts.
+    status : converged where film and contact are converged, the load imbalance is within the tolerance, and so is the
+        oil imbalance or the part of it that the contact's own tolerance does not explain.
+    notes : of film, contact and balance.
+    oil_imbalance : (mean opening - mean film thickness) / mean film thickness where oil is counted; 0 at the ends.
+    refinement : change of the log odds of the film load from the coarse to the fine level.
+    film_neglected : whether the film model ends before the balance, with a film so thin that it is neglected.
     """
 
     film: PatchFilm
@@ -115,68 +151,92 @@ class Balance:
     refinement: float = 0.0
     film_neglected: bool = False
 
+    @property
+    def next_start(self) -> BalanceStart:
+        """Warm start of a balance of nearly the same surfaces."""
+        pressure = None if self.contact is None else self.contact.pressure
+        return BalanceStart(self.film.load, self.slope, pressure, refinement=self.refinement)
+
 
 def share_load(
     film: Film, rough: RoughContact, load: float, tolerance: float, whole: PatchFilm, start: BalanceStart
 ) -> Balance:
-    """The balance of a load [N] to `tolerance`; `whole` is the film under all of it, or under the largest there is."""
-    effort = _Effort(films_known=(whole,), pressure=start.pressure)
+    """Find the balance of a load between film and rough contact.
+
+    Parameters
+    ----------
+    film : films as a function of their load.
+    rough : contact of the rough surfaces.
+    load : on the whole contact [N].
+    tolerance : largest imbalance, of the load and of the oil.
+    whole : film under the whole load, or under the largest load of the film model.
+    start : warm start.
+    """
+    history = _SearchHistory(films_known=(whole,), pressure=start.pressure)
     if whole.load >= load and rough.clears(whole):
-        trial = _Trial(math.log(load), whole, None, _excess(whole, None, load))
-        return _certified(trial, rough, load, tolerance, Regime.FULL_FILM, effort, start.slope)
+        trial = _Trial(math.log(load), whole, None, _load_excess(whole, None, load))
+        return _certified(trial, rough, load, tolerance, Regime.FULL_FILM, history, start.slope)
     top = math.log(min(load, film.largest_load))
     bottom = min(math.log(NEGLIGIBLE * tolerance * load), top)
-    at, slope = min(max(math.log(start.film_load), bottom), top, math.log(load) - _LEAST_BEGUN), start.slope
-    if at <= bottom + _SAME and top < math.log(load):
-        at = top  # where the last one was at the boundary since the film's model ends, its end says so again
+    first = 0.5 * load if start.film_load is None else start.film_load
+    at, slope = min(max(math.log(first), bottom), top, math.log(load) - _LEAST_STARTING_REST), start.slope
+    if at <= bottom + _EQUAL_LOGARITHMS and top < math.log(load):
+        at = top  # the start may be at the boundary because the film model ended there: its end decides again
     regime = Regime.MIXED
     for level, error in enumerate(film.errors):
-        search = _Search(film, rough, load, max(tolerance, error), level, bottom, top, effort)
-        effort.contact_tolerance = min(effort.contact_tolerance, search.contact_tolerance)
+        search = _LevelSearch(film, rough, load, max(tolerance, error), level, bottom, top, history)
+        history.contact_tolerance = min(history.contact_tolerance, search.contact_tolerance)
         coarse = at
         if level > 0 and regime is Regime.MIXED:
-            at = search.under_odds(search.odds(at) + start.refinement)
-        found = search.run(at, slope, known=start.known and level == 0)
-        trial, slope, regime, at = found.trial, found.slope, found.regime, found.ahead
-        if search.too_little(trial):
-            at = trial.logarithm
-            effort.contact_tolerance = min(effort.contact_tolerance, rough.tolerance)
-            finest = replace(search, level=len(film.errors) - 1)  # a film as good as was asked for
-            if search.is_no_film(trial):
-                probe = finest.under_the_rest()
-                return _certified(probe, rough, load, tolerance, Regime.BOUNDARY, effort, slope, short=True)
-            return _certified(finest.under_the_rest(at), rough, load, tolerance, regime, effort, slope, short=True)
-    balance = _certified(trial, rough, load, tolerance, regime, effort, slope)
+            at = search.log_load(search.log_odds(at) + start.refinement)
+        found = search.find(at, slope, slope_known=start.slope_known and level == 0)
+        trial, slope, regime, at = found.trial, found.slope, found.regime, found.next_log_load
+        if search.film_model_ends(trial):
+            at = trial.log_load
+            history.contact_tolerance = min(history.contact_tolerance, rough.tolerance)
+            finest = replace(search, level=len(film.errors) - 1)
+            if search.film_is_molecular(trial):
+                probe = finest.solve_trial()
+                return _certified(probe, rough, load, tolerance, Regime.BOUNDARY, history, slope, model_ends=True)
+            return _certified(finest.solve_trial(at), rough, load, tolerance, regime, history, slope, model_ends=True)
+    balance = _certified(trial, rough, load, tolerance, regime, history, slope)
     if regime is not Regime.MIXED or len(film.errors) == 1 or balance.status is not Status.CONVERGED:
         return balance
-    return replace(balance, refinement=search.odds(at) - search.odds(coarse))
+    return replace(balance, refinement=search.log_odds(at) - search.log_odds(coarse))
 
 
 @dataclass(frozen=True, eq=False)
 class _Trial:
-    """A film load, by its logarithm, its film and contact, and what they carry beyond the load, relative to it."""
+    """One film load with its film and contact.
 
-    logarithm: float
+    log_load : logarithm of the film load. excess : load of film and contact beyond the load, relative to it.
+    """
+
+    log_load: float
     film: PatchFilm
     contact: Pressed | None
     excess: float
 
 
 @dataclass(frozen=True, eq=False)
-class _Found:
-    """Last trial of a level, slope there, regime, and logarithm of the film load where the next level begins."""
+class _LevelResult:
+    """Result of the search at one level of accuracy.
+
+    trial : the last one. slope : over ln(film load) there. next_log_load : logarithm of the film load at which the next
+    level starts.
+    """
 
     trial: _Trial
     slope: float
     regime: Regime
-    ahead: float
+    next_log_load: float
 
 
 @dataclass
-class _Effort:
-    """What all levels share: films and the last pressure as starts, the contact's tolerance, and counts.
+class _SearchHistory:
+    """Films and pressure that later trials start from, tolerance of the contact, and counts; shared by all levels.
 
-    films_known : that under the whole load and the last `KEPT_FILMS`.
+    films_known : the film under the whole load and the last `STORED_FILMS` films.
     """
 
     films_known: tuple[PatchFilm, ...]
@@ -186,25 +246,32 @@ class _Effort:
     contacts: int = 0
     convolutions: float = 0.0
 
-    def keep(self, film: PatchFilm) -> None:
-        """A film that was solved, to start others from."""
+    def add_film(self, film: PatchFilm) -> None:
+        """Count a solved film and store it as a warm start."""
         self.films += 1
-        self.films_known = (self.films_known[0], *self.films_known[1:][1 - KEPT_FILMS :], film)
+        self.films_known = (self.films_known[0], *self.films_known[1:][1 - STORED_FILMS :], film)
 
-    def nearest(self, load: float) -> PatchFilm:
-        """The known film under a load nearest to one [N], the latest of several: the last trial may lie at the other
-        end."""
+    def nearest_film(self, load: float) -> PatchFilm:
+        """Return the stored film whose load is nearest to a load [N], the latest of several.
+
+        The last trial may lie at the other end of the range.
+        """
         return min(reversed(self.films_known), key=lambda one: abs(math.log(load / one.load)))
 
-    def count(self, contact: Pressed) -> None:
+    def add_contact(self, contact: Pressed) -> None:
+        """Count a solved contact and store its pressure as the next warm start."""
         self.contacts += 1
         self.convolutions += contact.convolutions
         self.pressure = contact.pressure
 
 
 @dataclass
-class _Search:
-    """The balance at one level of the film's accuracy."""
+class _LevelSearch:
+    """Search for the balance at one level of the film's accuracy.
+
+    load : on the whole contact [N]. goal : largest volume mismatch. bottom, top : range of the logarithm of the film
+    load.
+    """
 
     film: Film
     rough: RoughContact
@@ -213,145 +280,160 @@ class _Search:
     level: int
     bottom: float
     top: float
-    effort: _Effort
+    history: _SearchHistory
+
+    @property
+    def is_finest(self) -> bool:
+        """Whether no finer level follows."""
+        return self.level == len(self.film.errors) - 1
 
     @property
     def contact_tolerance(self) -> float:
-        """What a contact is solved to at first: as was asked for with the last films, before them no better than the
-        balance needs of an opening as small as the film's oil."""
-        asked, film = self.rough.tolerance, self.effort.films_known[-1]
-        if self.level == len(self.film.errors) - 1 or asked == 0:
-            return asked
-        share = self.rough.oil(film) / max(float(film.gap.std()), 1e-300)
-        return max(asked, CONTACT_SHARE * self.goal * min(share, 1.0))
+        """Tolerance of the contact at the start of the search.
 
-    def run(self, at: float, slope: float, *, known: bool = False) -> _Found:
-        """From a film load by its logarithm and `BalanceStart.slope`, and whether that is `BalanceStart.known`."""
-        beyond = self.load - self.rough.largest_load  # what surfaces that yield everywhere leave to the film at least
+        On the finest level the tolerance that was asked for. On coarse levels only what the balance needs: the goal
+        times the film thickness, relative to the gap that the contact flattens.
+        """
+        asked, film = self.rough.tolerance, self.history.films_known[-1]
+        if self.is_finest or asked == 0:
+            return asked
+        flatness = self.rough.oil(film) / max(float(film.gap.std()), 1e-300)
+        return max(asked, CONTACT_SHARE * self.goal * min(flatness, 1.0))
+
+    def find(self, at: float, slope: float, *, slope_known: bool = False) -> _LevelResult:
+        """Find the root of the volume mismatch from a logarithm of the film load; arguments as of `BalanceStart`."""
+        beyond = self.load - self.rough.largest_load  # load that yielding surfaces leave to the film at least
         yielded = math.log(beyond) + 1e-9 if beyond > 0 else -math.inf
-        ends = self.odds(max(self.bottom, yielded)), self.odds(self.top)
+        ends = self.log_odds(max(self.bottom, yielded)), self.log_odds(self.top)
         last: list[tuple[_Trial, bool]] = []
         sides: dict[bool, _Trial] = {}
-        missed: list[float] = [KNOWN_SLOPE] if known else []
+        mismatches: list[float] = [SLOPE_ERROR] if slope_known else []
 
-        def evaluate(place: float) -> tuple[float, bool]:
-            trial = self.under_the_rest(self.under_odds(place))
+        def evaluate(log_odds: float) -> tuple[float, bool]:
+            trial = self.solve_trial(self.log_load(log_odds))
             value = self.mismatch(trial)
-            met = _holds_oil(trial, self.rough, self.goal) or self.next_will_do(value, missed)
-            missed.append(value)
+            met = _volumes_agree(trial, self.rough, self.goal) or self.next_level_will_do(value, mismatches)
+            mismatches.append(value)
             last[:], sides[value > 0] = [(trial, met)], trial
-            return value, met or self.one_load(sides)
+            return value, met or self.brackets_one_load(sides)
 
         while True:
-            coarse = self.effort.contact_tolerance > FINEST_CONTACT
-            rest = -math.expm1(at - math.log(self.load))
-            found = falling_zero(evaluate, self.odds(at), slope * rest, ends, COARSE_TRIALS if coarse else MAX_TRIALS)
+            coarse = self.history.contact_tolerance > FINEST_CONTACT
+            rest = -math.expm1(at - math.log(self.load))  # slope over ln(film load) times rest: slope over the log odds
+            trials = COARSE_TRIALS if coarse else MAX_TRIALS
+            root = find_decreasing_root(evaluate, self.log_odds(at), slope * rest, ends, trials)
             ((trial, met),) = last
-            if not met and self.one_load(sides):
-                pressed = self.between(sides[True], sides[False])
-                if _holds_oil(pressed, self.rough, self.goal) or not coarse:
-                    return _Found(pressed, slope, Regime.MIXED, pressed.logarithm)
+            if not met and self.brackets_one_load(sides):
+                pressed = self.press_between(sides[True], sides[False])
+                if _volumes_agree(pressed, self.rough, self.goal) or not coarse:
+                    return _LevelResult(pressed, slope, Regime.MIXED, pressed.log_load)
                 sides.clear()
-            at, inside = trial.logarithm, ends[0] < self.odds(trial.logarithm) < ends[1]
+            at, inside = trial.log_load, ends[0] < self.log_odds(trial.log_load) < ends[1]
             if met or not (coarse and inside):
                 break
-            self.effort.contact_tolerance *= 0.01  # what it makes of the opening may be too much
-            missed.clear()
-        slope = found.slope / max(1 - trial.film.load / self.load, LEAST_REST)
-        if at >= math.log(self.load) - _SAME and self.mismatch(trial) > self.goal:
-            return _Found(self.trial(at, trial.film, None), slope, Regime.FULL_FILM, at)
-        at_bottom = at <= self.bottom + _SAME and self.is_boundary(trial)
-        ahead = self.under_odds(found.ahead) if met and inside else at
-        return _Found(trial, slope, Regime.BOUNDARY if at_bottom else Regime.MIXED, ahead)
+            self.history.contact_tolerance *= 0.01  # its effect on the opening may hide the root
+            mismatches.clear()
+        slope = root.slope / max(1 - trial.film.load / self.load, LEAST_REST)
+        if at >= math.log(self.load) - _EQUAL_LOGARITHMS and self.mismatch(trial) > self.goal:
+            return _LevelResult(self.with_excess(at, trial.film, None), slope, Regime.FULL_FILM, at)
+        at_bottom = at <= self.bottom + _EQUAL_LOGARITHMS and self.is_boundary(trial)
+        next_log_load = self.log_load(root.next_trial) if met and inside else at
+        return _LevelResult(trial, slope, Regime.BOUNDARY if at_bottom else Regime.MIXED, next_log_load)
 
-    def next_will_do(self, mismatch: float, before: Sequence[float]) -> bool:
-        """Whether, by a secant, the next trial would meet the goal; with finer films to come it is made with those."""
-        finest = self.level == len(self.film.errors) - 1
-        return not finest and any(abs(mismatch * one) <= AHEAD * self.goal for one in before)
+    def next_level_will_do(self, mismatch: float, before: Sequence[float]) -> bool:
+        """Whether a secant predicts that the next trial meets the goal, and a finer level can make that trial."""
+        return not self.is_finest and any(abs(mismatch * one) <= SECANT_MARGIN * self.goal for one in before)
 
-    def under_odds(self, place: float) -> float:
-        """Logarithm of the film load of a place of `odds`."""
-        return math.log(self.load) - math.log1p(math.exp(-place))
+    def log_load(self, log_odds: float) -> float:
+        """Return the logarithm of the film load from its log odds."""
+        return math.log(self.load) - math.log1p(math.exp(-log_odds))
 
-    def one_load(self, sides: Mapping[bool, _Trial]) -> bool:
-        """Whether trials with films that are too thick (True) and too thin are under loads as good as one: the opening
-        jumps there, cells that yield sinking under one load until the next ones touch."""
+    def log_odds(self, log_load: float) -> float:
+        """Return ln(film load / rest) from the logarithm of the film load."""
+        share = math.exp(min(log_load - math.log(self.load), 0.0))
+        return math.log(share / max(1 - share, LEAST_REST))
+
+    def brackets_one_load(self, sides: Mapping[bool, _Trial]) -> bool:
+        """Whether a trial with too thick a film (True) and one with too thin a film have equal film loads.
+
+        The opening jumps there: cells at the hardness sink under one load until their neighbours touch.
+        """
         if len(sides) < 2:
             return False
         one, other = sides[True].film.load, sides[False].film.load
-        return abs(one - other) <= ONE_LOAD * self.goal * min(one, other)
+        return abs(one - other) <= LOAD_RESOLUTION * self.goal * min(one, other)
 
-    def between(self, thick: _Trial, thin: _Trial) -> _Trial:
-        """The film of one of two trials under one load, and the surfaces as near as they hold its oil."""
+    def press_between(self, thick: _Trial, thin: _Trial) -> _Trial:
+        """Press the surfaces to the approach at which they hold the oil, between two trials under one load."""
         assert thick.contact is not None
         assert thin.contact is not None
         nearest, farthest = thick.contact.approach, thin.contact.approach
         last = [thick]
 
-        def evaluate(place: float) -> tuple[float, bool]:
+        def evaluate(fraction: float) -> tuple[float, bool]:
             contact = self.rough.at_approach(
                 thick.film,
-                nearest + place * (farthest - nearest),
-                self.effort.contact_tolerance,
-                self.effort.pressure,
+                nearest + fraction * (farthest - nearest),
+                self.history.contact_tolerance,
+                self.history.pressure,
             )
-            self.effort.count(contact)
-            last[:] = [self.trial(thick.logarithm, thick.film, contact)]
-            return self.mismatch(last[0]), _holds_oil(last[0], self.rough, self.goal)
+            self.history.add_contact(contact)
+            last[:] = [self.with_excess(thick.log_load, thick.film, contact)]
+            return self.mismatch(last[0]), _volumes_agree(last[0], self.rough, self.goal)
 
-        falling_zero(evaluate, 0.5, self.mismatch(thick) - self.mismatch(thin), (0.0, 1.0), COARSE_TRIALS)
+        slope = self.mismatch(thick) - self.mismatch(thin)
+        find_decreasing_root(evaluate, 0.5, slope, (0.0, 1.0), COARSE_TRIALS)
         return last[0]
 
-    def odds(self, logarithm: float) -> float:
-        """ln(film load / rest) of a film load, by its logarithm."""
-        share = math.exp(min(logarithm - math.log(self.load), 0.0))
-        return math.log(share / max(1 - share, LEAST_REST))
+    def solve_trial(self, log_load: float | None = None) -> _Trial:
+        """Solve a film, by default one with a negligible load, and the contact under the rest of the load.
 
-    def under_the_rest(self, logarithm: float | None = None) -> _Trial:
-        """A film, by default one with a negligible load, and the surfaces under what it leaves them, or as much of that
-        as they can carry."""
-        logarithm = self.bottom if logarithm is None else logarithm
-        film = self.film_at(logarithm)
+        Surfaces that cannot carry the rest carry as much as they can.
+        """
+        log_load = self.bottom if log_load is None else log_load
+        film = self.solve_film(log_load)
         rest = min(self.load - film.load, self.rough.largest_load)
-        contact = self.rough.at_load(film, rest, self.effort.contact_tolerance, self.effort.pressure)
-        self.effort.count(contact)
-        return self.trial(logarithm, film, contact)
+        contact = self.rough.at_load(film, rest, self.history.contact_tolerance, self.history.pressure)
+        self.history.add_contact(contact)
+        return self.with_excess(log_load, film, contact)
 
-    def film_at(self, logarithm: float) -> PatchFilm:
-        load = math.exp(logarithm)
-        film = self.film.under(load, self.level, self.effort.nearest(load))
-        self.effort.keep(film)
+    def solve_film(self, log_load: float) -> PatchFilm:
+        """Solve a film from the nearest stored one, and store it."""
+        load = math.exp(log_load)
+        film = self.film.under(load, self.level, self.history.nearest_film(load))
+        self.history.add_film(film)
         return film
 
-    def trial(self, logarithm: float, film: PatchFilm, contact: Pressed | None) -> _Trial:
-        return _Trial(logarithm, film, contact, _excess(film, contact, self.load))
+    def with_excess(self, log_load: float, film: PatchFilm, contact: Pressed | None) -> _Trial:
+        """Return a trial with the load that film and contact carry beyond the load."""
+        return _Trial(log_load, film, contact, _load_excess(film, contact, self.load))
 
-    def too_little(self, trial: _Trial) -> bool:
-        """Whether the largest film that the model has is thicker than what the surfaces leave open under the rest."""
-        at_end = trial.logarithm >= self.top - _SAME and self.top < math.log(self.load)
+    def film_model_ends(self, trial: _Trial) -> bool:
+        """Whether the film under the largest load of its model is still thicker than the opening under the rest."""
+        at_end = trial.log_load >= self.top - _EQUAL_LOGARITHMS and self.top < math.log(self.load)
         return at_end and self.mismatch(trial) > self.goal
 
-    def is_no_film(self, trial: _Trial) -> bool:
-        """Whether a film is so thin that the surfaces carry the load without it, and can."""
+    def film_is_molecular(self, trial: _Trial) -> bool:
+        """Whether the film is thinner than a few molecules, and the surfaces can carry the load without it."""
         return trial.film.carrying_thickness < THINNEST_FILM and self.load <= self.rough.largest_load
 
     def is_boundary(self, probe: _Trial) -> bool:
-        """Whether the film, negligible as it is, is thinner than the surfaces leave open."""
+        """Whether a film with a negligible load is thinner than the opening of the surfaces."""
         return self.mismatch(probe) <= 0
 
     def mismatch(self, trial: _Trial) -> float:
-        """ln(film thickness / opening of the surfaces). Thin films go like the inverse of their load: that much is
-        about what ln(film load) lacks."""
+        """Return the volume mismatch ln(film thickness / opening) where oil is counted."""
         assert trial.contact is not None
         return math.log(self.rough.oil(trial.film) / max(trial.contact.opening, 1e-300))
 
 
-def _excess(film: PatchFilm, contact: Pressed | None, load: float) -> float:
+def _load_excess(film: PatchFilm, contact: Pressed | None, load: float) -> float:
+    """Return the load of film and contact beyond a load [N], relative to it."""
     return (film.load + (0.0 if contact is None else contact.load) - load) / load
 
 
-def _holds_oil(trial: _Trial, rough: RoughContact, goal: float) -> bool:
-    """Whether the surfaces hold the film's oil, to a goal or to what is known of their opening."""
+def _volumes_agree(trial: _Trial, rough: RoughContact, goal: float) -> bool:
+    """Whether the opening holds the film's oil, to a goal or to the error of the opening itself."""
     assert trial.contact is not None
     oil, opening = rough.oil(trial.film), trial.contact.opening
     if abs(opening - oil) <= trial.contact.opening_error * (1 + 1e-9):
@@ -365,25 +447,28 @@ def _certified(
     load: float,
     tolerance: float,
     regime: Regime,
-    effort: _Effort,
+    history: _SearchHistory,
     slope: float,
     *,
-    short: bool = False,
+    model_ends: bool = False,
 ) -> Balance:
-    """Judge film and contact by themselves, and whether they carry the load and hold the same oil; `short` where they
-    carry too little at the end of the film's range, or, at the boundary, where the film there is taken for none."""
+    """Build the balance of the last trial, with imbalances, status and notes recomputed from its film and contact.
+
+    In boundary lubrication the film is sheared across the opening of the surfaces. `model_ends` says that the film
+    model ended before the balance: the case is infeasible, or in boundary lubrication its film is neglected.
+    """
     film, contact = trial.film, trial.contact
-    imbalance = _excess(film, contact, load)
+    imbalance = _load_excess(film, contact, load)
     notes = [*film.notes, *(() if contact is None else contact.notes)]
     oil_imbalance, held = 0.0, True
     if contact is not None and regime is Regime.MIXED:
-        oil_imbalance, held = contact.opening / rough.oil(film) - 1, _holds_oil(trial, rough, tolerance)
+        oil_imbalance, held = contact.opening / rough.oil(film) - 1, _volumes_agree(trial, rough, tolerance)
     if regime is Regime.BOUNDARY:
         left = BOUNDARY_LUBRICATION(share=float(film.load / load), reason="load")
-        notes.append(BOUNDARY_LUBRICATION(limit=THINNEST_FILM, reason="thin") if short else left)
+        notes.append(BOUNDARY_LUBRICATION(limit=THINNEST_FILM, reason="thin") if model_ends else left)
         if contact is not None:
-            film = film.left_in(contact.opening, rough.oil(film))
-    elif short:
+            film = film.sheared_in(contact.opening, rough.oil(film))
+    elif model_ends:
         notes.append(FILM_MODEL_ENDS(load=float(film.load), reason="balance"))
     status = Status.CONVERGED
     if film.status is not Status.CONVERGED:
@@ -391,18 +476,18 @@ def _certified(
     elif contact is not None and contact.status is not Status.CONVERGED:
         status = contact.status
     elif abs(imbalance) > tolerance or not held:
-        status = Status.INFEASIBLE if short and regime is not Regime.BOUNDARY else Status.STALLED
+        status = Status.INFEASIBLE if model_ends and regime is not Regime.BOUNDARY else Status.STALLED
     return Balance(
         film=film,
         contact=contact,
         imbalance=imbalance,
         slope=slope,
         regime=regime,
-        films=effort.films,
-        contacts=effort.contacts,
-        convolutions=effort.convolutions,
+        films=history.films,
+        contacts=history.contacts,
+        convolutions=history.convolutions,
         status=status,
         notes=tuple(notes),
         oil_imbalance=oil_imbalance,
-        film_neglected=short and regime is Regime.BOUNDARY,
+        film_neglected=model_ends and regime is Regime.BOUNDARY,
     )

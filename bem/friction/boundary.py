@@ -298,6 +298,11 @@ def boundary_law(value: BoundaryFrictionGiven) -> BoundaryFriction:
     return cast(BoundaryFriction, made[BoundaryFriction.family])
 
 
+def sliding_sign(speeds: tuple[float, float]) -> float:
+    """Return 1 where the flat moves faster along x than the cylinder, or as fast; else -1."""
+    return 1.0 if speeds[0] >= speeds[1] else -1.0
+
+
 def filled_part(pressure: FloatArray, area: float, grid: Grid) -> float:
     """Real contact area [m^2] of a patch over the area of its cells in contact; 1 where there are none."""
     cells = int(np.count_nonzero(pressure > 0))

@@ -1,6 +1,7 @@
-"""What the load sharing at one speed leaves to the next: where its balance is looked for, and films to start from.
+"""Warm start of a balance from the solution at another speed, and of the next speed from a balance.
 
-Starts decide nothing but the effort. Knows solutions of load sharing; no solver. Verified in
+The log odds of the film load, ln(film load / contact load), change about in proportion to the logarithm of the speed.
+The factor (`speed_power`) is that of the last two speeds. Starts affect cost and rounding only. Verified in
 tests/friction/test_continuation.py.
 """
 
@@ -12,54 +13,71 @@ import math
 from bem.friction.balance import Balance, BalanceStart, Regime
 from bem.friction.film import PatchFilm
 from bem.friction.setup import MixedSetup
-from bem.friction.solution import Continuation, MixedSolution
+from bem.friction.solution import MixedSolution
 from bem.lubrication import FilmSolution
 from bem.lubrication.line_kept import without_equations
 
-MOST_BEGUN = 0.999
-"""Share of the load with which a film is looked for first."""
-LEAST_APART, HIGHEST_POWER = 0.05, 2.5
-"""Logarithms of two speeds that tell how shares of the load go with the speed; and the highest power that is taken:
-next to full film there is none."""
+LARGEST_START = 0.999
+"""Largest fraction of the load with which a first film is solved."""
+LEAST_DISTANCE, LARGEST_POWER = 0.05, 2.5
+"""Smallest difference of two logarithms of speeds from which the power is computed, and the largest power. Next to full
+film the odds tend to infinity, and so does the power."""
 
 
-def first_trial(setup: MixedSetup, speeds: tuple[float, float], initial: MixedSolution | None) -> BalanceStart:
-    """Where the balance is looked for first, by a solution at another speed or of other heights."""
-    if initial is None or initial.grid != setup.grid or initial.contact is None:
-        return BalanceStart(0.5 * setup.load)
-    before = min(initial.film_load / initial.load, MOST_BEGUN)
-    odds = before / (1 - before) * _faster(speeds, initial) ** initial.continuation.speed_power
-    share = min(odds / (1 + odds), MOST_BEGUN)
+def start_from_solution(setup: MixedSetup, speeds: tuple[float, float], initial: MixedSolution | None) -> BalanceStart:
+    """Return the warm start of a balance from a solution at another speed or of other heights."""
+    if initial is None:
+        return BalanceStart()
+    whole = initial.continuation.whole_film
+    if initial.grid != setup.grid or initial.contact is None:
+        return BalanceStart(whole_film=whole)
+    before = min(initial.film_load / initial.load, LARGEST_START)
+    odds = before / (1 - before) * _speed_ratio(speeds, initial) ** initial.continuation.speed_power
+    share = min(odds / (1 + odds), LARGEST_START)
     pressure = None if setup.repeated_cell else initial.contact_pressure
-    start = BalanceStart.after(before, initial.balance_slope, setup.load, share * setup.load, pressure)
-    return dataclasses.replace(start, refinement=initial.continuation.refinement)
+    start = BalanceStart.from_similar(before, initial.balance_slope, setup.load, share * setup.load, pressure)
+    return dataclasses.replace(start, refinement=initial.continuation.refinement, whole_film=whole)
 
 
-def continuation(
+def start_for_next_speed(
     speeds: tuple[float, float], balance: Balance, load: float, whole: PatchFilm, initial: MixedSolution | None
-) -> Continuation:
-    """What a balance under a load [N], found from a solution, leaves to the next speed."""
+) -> BalanceStart:
+    """Return the parts of the next speed's warm start that a solution does not have.
+
+    Parameters
+    ----------
+    speeds : (u1, u2) of the balance [m/s].
+    balance : balance at these speeds.
+    load : its load [N].
+    whole : coarse film under the whole load at these speeds.
+    initial : solution at the speed before.
+    """
     power = _speed_power(speeds, balance, load, initial)
+    start = BalanceStart(balance.film.load, balance.slope, refinement=balance.refinement, speed_power=power)
     solution = whole.solution
     if not isinstance(solution, FilmSolution):
-        return Continuation(power, balance.refinement)
-    return Continuation(power, balance.refinement, dataclasses.replace(whole, solution=without_equations(solution)))
+        return start
+    film = dataclasses.replace(whole, solution=without_equations(solution))
+    return dataclasses.replace(start, whole_film=film)
 
 
-def _faster(speeds: tuple[float, float], initial: MixedSolution) -> float:
-    """Entrainment over that of a solution."""
+def _speed_ratio(speeds: tuple[float, float], initial: MixedSolution) -> float:
+    """Return the entrainment over that of a solution."""
     return abs(sum(speeds)) / abs(sum(initial.speeds))
 
 
 def _speed_power(speeds: tuple[float, float], balance: Balance, load: float, initial: MixedSolution | None) -> float:
-    """Where two speeds do not tell, that of the solution before. At a given thickness a film carries in proportion to
-    the speed: one is the first guess."""
+    """Return the power of the speed that the odds of the film load follow, from the last two mixed speeds.
+
+    Where these do not determine it, the power of the solution before. The first guess is 1, because a film of given
+    thickness carries a load in proportion to the speed.
+    """
     if initial is None:
         return 1.0
     shares = initial.film_load / initial.load, balance.film.load / load
-    apart = math.log(_faster(speeds, initial))
+    distance = math.log(_speed_ratio(speeds, initial))
     mixed = balance.regime is Regime.MIXED and initial.regime is Regime.MIXED
-    if not mixed or abs(apart) < LEAST_APART or max(shares) >= MOST_BEGUN:
+    if not mixed or abs(distance) < LEAST_DISTANCE or max(shares) >= LARGEST_START:
         return initial.continuation.speed_power
     change = math.log(shares[1] / (1 - shares[1])) - math.log(shares[0] / (1 - shares[0]))
-    return min(max(change / apart, 0.0), HIGHEST_POWER)
+    return min(max(change / distance, 0.0), LARGEST_POWER)

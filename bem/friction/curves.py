@@ -1,6 +1,6 @@
-"""Friction curves, speed by speed: the numbers of each point, what is kept of a curve on the way, how two differ.
+"""Friction curves, speed by speed: figures of each speed, state of an unfinished curve, difference of two curves.
 
-Knows solved points of load sharing. Verified in tests/friction/test_load_sharing.py.
+Verified in tests/friction/test_load_sharing.py.
 """
 
 from __future__ import annotations
@@ -13,7 +13,7 @@ import numpy as np
 from numpy.typing import ArrayLike
 
 from bem.errors import Status
-from bem.friction.oil_beside import OilBeside
+from bem.friction.oil_sensitivity import OilVolumeSensitivity
 from bem.friction.oil_volume import OilVolume
 from bem.notes import Note
 
@@ -23,12 +23,31 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class CurvePoint:
-    """The numbers of one speed: [m/s], forces on the whole width [N], parts of the coefficient of friction, lengths
-    [m], ratios, counts; what was loaded is with the oil counted where the film carries (`OilBeside`). With a supply of
-    oil: the film over the flooded one, and the meniscus [m], not-a-number where that is nowhere. With heat: of the oil,
-    mean of the surfaces in contact and their highest [K], not-a-number where nothing is in contact or slides. What the
-    film's shear stress on cells in contact would add to friction. The area over which oil was counted. What is noted of
-    this speed."""
+    """Figures of one speed of a friction curve; forces on the whole width.
+
+    Attributes
+    ----------
+    speed : of the flat [m/s].
+    friction : coefficient of friction.
+    boundary_part, film_part : parts of the coefficient of friction.
+    contact_load, film_load : [N].
+    minimum_film : minimum thickness of the film under its part of the load [m].
+    lambda_ratio : minimum of the film under the whole load over the rms height.
+    contact_area_fraction : real contact area over the area of the grid.
+    film_solves, contact_solves : counts.
+    oil_beside_contact : fraction of the film's oil on the patch beside the Hertz contact.
+    loaded_contact_load, loaded_friction : with the oil counted where the film carries load (`OilVolumeSensitivity`).
+    load : [N].
+    status : outcome.
+    film_reduction : film over the flooded one; 1 without a supply of oil.
+    meniscus_position : [m]; not-a-number without a meniscus.
+    oil_temperature : mean over the film [K]; not-a-number without heat.
+    contact_temperature, flash_temperature : mean and maximum over the contact [K]; not-a-number without heat, without
+        contact or without sliding.
+    oil_on_contact : friction that the film's shear stress on cells in contact would add.
+    oil_volume : area over which oil was counted.
+    notes : on this speed.
+    """
 
     speed: float
     friction: float
@@ -56,9 +75,9 @@ class CurvePoint:
     notes: tuple[Note, ...] = ()
 
     @property
-    def oil(self) -> OilBeside:
-        """As of the solution."""
-        return OilBeside(
+    def oil(self) -> OilVolumeSensitivity:
+        """Sensitivity to the area over which oil is counted."""
+        return OilVolumeSensitivity(
             share=self.oil_beside_contact,
             contact_share=self.contact_load / self.load,
             friction=self.friction,
@@ -69,7 +88,7 @@ class CurvePoint:
 
     @classmethod
     def of(cls, solution: MixedSolution, notes: tuple[Note, ...] = ()) -> CurvePoint:
-        """Those of a solution, and what is noted of it."""
+        """Return the figures of a solution, with notes on it."""
         area = 0.0 if solution.contact is None else solution.contact.contact_area
         starved = solution.film.starvation
         return cls(
@@ -106,15 +125,17 @@ def _or_nan(value: float | None) -> float:
 
 @dataclass(frozen=True)
 class Curve:
-    """A curve so far: the numbers of its speeds, the solution that makes pictures, and the one the next starts from."""
+    """State of an unfinished curve: figures of its speeds, solution that is plotted, and solution of the last speed."""
 
     points: tuple[CurvePoint, ...] = ()
     shown: MixedSolution | None = None
     last: MixedSolution | None = None
 
     def then(self, solution: MixedSolution, notes: tuple[Note, ...] = ()) -> Curve:
-        """With one speed more, of which that is noted; shown is where film and contact share most evenly, or the first
-        of full films."""
+        """Return the curve with one more speed and notes on it.
+
+        The plotted solution is the one whose film and contact share the load most evenly, or the first full film.
+        """
         shown = solution if self.shown is None or _evenness(solution) < _evenness(self.shown) else self.shown
         return Curve((*self.points, CurvePoint.of(solution, notes)), shown, solution)
 
@@ -124,7 +145,7 @@ def _evenness(solution: MixedSolution) -> float:
 
 
 def relative_difference(coupled: ArrayLike, uncoupled: ArrayLike) -> float:
-    """d = |f_u - f_c| / f_u at the speed where |f_u - f_c| is largest, of two friction curves (n,) at the same speeds.
+    """Return |f_u - f_c| / f_u at the speed where |f_u - f_c| is largest, of two friction curves (n,).
 
     Eq. (13) of the thesis' paper A.
     """

@@ -1,9 +1,9 @@
-"""Friction of a balance, and what both load sharings report of it: one definition each.
+"""Friction forces of a balance.
 
 Friction is (boundary part + film part) / load, positive where it resists the sliding. The boundary part is the boundary
-shear stress summed over the contact, zero without sliding; the film part the shear force of the film on the flat
-outside the real contact. The lambda ratio is the minimum of the smooth film under the *whole* load over the rms
-height of both surfaces together: of the conditions, not of how the load came to be shared.
+shear stress summed over the contact; without sliding it is zero. The film part is the shear force of the film on the
+flat outside the real contact. The lambda ratio is the minimum of the smooth film under the *whole* load over the rms
+height of both surfaces together, so it does not depend on how the load is shared.
 """
 
 from __future__ import annotations
@@ -13,28 +13,26 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bem.convolution import couples
-from bem.friction.boundary import filled_part
+from bem.friction.boundary import filled_part, sliding_sign
 from bem.friction.contact_heat import ContactHeat, contact_heat
 from bem.friction.film import PatchFilm
 from bem.friction.rough_contact import Pressed
 from bem.friction.setup import MixedSetup
-from bem.friction.solution import sliding_sign
 from bem.grid import FloatArray
-from bem.materials import Body
-from bem.notes import Note
-from bem.notes.contact import FRICTION_ON_PRESSURE
-from bem.notes.friction import FILM_MODEL_ENDS, FILM_WITHOUT_LAYERS, FRICTION_UNPHYSICAL
-
-LARGEST_FRICTION = 1.0
-"""Coefficient of friction that neither a boundary layer nor an oil under pressure reaches."""
 
 
 @dataclass(frozen=True)
 class Forces:
-    """Friction forces on the whole contact [N], and the boundary part over the contact's load, 0 without a contact;
-    temperatures of the contact where they were asked for and there is one that slides. covered : shear force of the
-    film on cells in contact, which is not in `film`."""
+    """Friction forces on the whole contact.
+
+    Attributes
+    ----------
+    boundary : boundary part [N].
+    film : film part [N].
+    coefficient : boundary part over contact load; 0 without a contact.
+    heat : temperatures of the contact; None without heat, contact or sliding.
+    covered : shear force of the film on cells in contact [N], which is not in `film`.
+    """
 
     boundary: float
     film: float
@@ -44,7 +42,7 @@ class Forces:
 
 
 def friction_forces(film: PatchFilm, contact: Pressed | None, setup: MixedSetup, speeds: tuple[float, float]) -> Forces:
-    """Both parts of friction at a pair of speeds (u1, u2) [m/s]."""
+    """Return both parts of friction at a pair of speeds (u1, u2) [m/s]."""
     slide, heat = abs(speeds[0] - speeds[1]), None
     if setup.smooth.heat is not None and contact is not None and slide > 0 and contact.pressure.any():
         heat = contact_heat(film, contact, setup, speeds)
@@ -58,13 +56,8 @@ def friction_forces(film: PatchFilm, contact: Pressed | None, setup: MixedSetup,
     return Forces(boundary, sign * (film.shear_force - covered), coefficient, heat, sign * covered)
 
 
-def unrubbed(setup: MixedSetup) -> float:
-    """Temperature of surfaces that do not rub [K]: the oil's; 0 where no heat was asked for."""
-    oil = setup.lubricant.temperature
-    return 0.0 if setup.thermal == "off" or oil is None else oil
-
-
 def _boundary_coefficient(contact: Pressed | None, setup: MixedSetup, sliding_speed: float) -> float:
+    """Return the boundary shear force over the contact load."""
     law = setup.boundary_law
     if law.constant is not None:
         return law.constant
@@ -76,45 +69,13 @@ def _boundary_coefficient(contact: Pressed | None, setup: MixedSetup, sliding_sp
     return law.mean_coefficient(contact.pressure, filled, sliding_speed)
 
 
+def oil_temperature(setup: MixedSetup) -> float:
+    """Return the temperature of surfaces without frictional heat [K]: that of the oil; 0 without `thermal`."""
+    oil = setup.lubricant.temperature
+    return 0.0 if setup.thermal == "off" or oil is None else oil
+
+
 def lambda_ratio(whole: PatchFilm, height: FloatArray) -> float:
-    """Minimum of the film under the whole load over the rms height (nx, ny) [m]; infinite for smooth surfaces."""
+    """Return the minimum of the film under the whole load over the rms height (nx, ny) [m]; inf for smooth surfaces."""
     rms = float(height.std())
     return whole.minimum_thickness / rms if rms > 0 else math.inf
-
-
-def validity_notes(
-    friction: float, forces: Forces, film: PatchFilm, whole: PatchFilm, setup: MixedSetup
-) -> tuple[Note, ...]:
-    """Return notes on an unphysical friction, on a film under the whole load beyond its model, and on coatings."""
-    notes = []
-    if friction > max(LARGEST_FRICTION, 1.01 * forces.coefficient):
-        stressed = float(np.abs(film.shear_stress).max()) > float(film.pressure.max())
-        reason = "shear" if stressed else "drag"
-        notes.append(FRICTION_UNPHYSICAL(friction=float(friction), limit=LARGEST_FRICTION, reason=reason))
-    if whole.load < setup.load * (1 - 1e-12):
-        notes.append(FILM_MODEL_ENDS(load=float(whole.load), reason="whole-load"))
-    return (*notes, *coating_notes(setup))
-
-
-def coating_notes(setup: MixedSetup) -> tuple[Note, ...]:
-    """Return a note on coated bodies, whose layers only the rough contact feels."""
-    bodies = (setup.bodies,) if isinstance(setup.bodies, Body) else setup.bodies
-    thickest = max((body.interfaces[-1] for body in bodies if body.layers), default=0.0)
-    if thickest == 0:
-        return ()
-    return (FILM_WITHOUT_LAYERS(ratio=float(thickest / setup.smooth.half_axes(setup.load)[0])),)
-
-
-def coupling_notes(forces: Forces, traction: float, setup: MixedSetup) -> tuple[Note, ...]:
-    """Return a note where the normal gap felt another boundary friction than the contact has.
-
-    `traction` over pressure and the mean coefficient differ by more than a tenth, and elastically different bodies
-    couple them.
-    """
-    used, found = abs(traction), forces.coefficient
-    if setup.boundary_law.constant is not None or used == 0 or found == 0 or abs(used - found) <= 0.1 * found:
-        return ()
-    bodies = (setup.bodies,) if isinstance(setup.bodies, Body) else setup.bodies
-    if not couples(bodies):
-        return ()
-    return (FRICTION_ON_PRESSURE(used=float(used), found=float(found), reason="other-friction"),)

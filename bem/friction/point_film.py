@@ -16,7 +16,7 @@ from scipy.interpolate import RectBivariateSpline
 from scipy.optimize import brentq
 
 from bem.errors import Status
-from bem.friction.film import BALANCE_CELLS, PatchFilm, smooth_gap
+from bem.friction.film import PatchFilm, smooth_gap
 from bem.friction.smooth import PointContact
 from bem.grid import FloatArray
 from bem.lubrication import Lubricant, PointFilmSolution, solve_point_film
@@ -34,8 +34,10 @@ if TYPE_CHECKING:
     from bem.lubrication.inlet_heating import InletHeating
     from bem.lubrication.thermal.lumped_point import Thinning
 
+BALANCE_CELLS = 64
+"""Cells along an axis of the coarse grid, on which the balance is first looked for."""
 COARSE_FILM = 0.03
-"""Relative error of films of so many cells."""
+"""Relative error of films on `BALANCE_CELLS` cells."""
 LARGEST_MOES_LOAD, GROWTH = 2500.0, 1.25
 """Moes' load M up to which a film is solved on `BALANCE_CELLS`, and the power of the cells that it goes with: films
 above stall, their constrictions narrower than a cell (tried with L 1 to 5, Rx/Ry 0.2 and 1, 64 to 128 cells)."""
@@ -93,6 +95,10 @@ class SolvedPointFilm:
     def errors(self) -> tuple[float, ...]:
         """As `Film`: few cells and those asked for, or these alone if they are no more."""
         return (COARSE_FILM, 0.0) if self.cells > BALANCE_CELLS else (0.0,)
+
+    def coarse_alone(self) -> SolvedPointFilm:
+        """Return the same films at the coarse level alone."""
+        return replace(self, cells=min(self.cells, BALANCE_CELLS), thinnings={})
 
     def under(self, load: float, level: int, start: PatchFilm | None) -> PatchFilm:
         """As `Film`; each film begins from the dry contact, whatever `start` is."""

@@ -1,7 +1,7 @@
-"""The smooth contact under a rough patch, and its oil: a cylinder on a flat, or a ball or ellipsoid on one.
+"""Smooth contact under the rough patch, and its oil: a cylinder, ball or ellipsoid on a flat.
 
-Load sharing asks both for the same things (`SmoothContact`); films know more of their own. Forces are on the whole
-contact: on the width of the cylinder, of which the patch is a slice; under a ball the patch holds the contact.
+Load sharing uses both through the protocol `SmoothContact`. Forces are on the whole contact: on the width of a
+cylinder, of which the patch is a slice; under a ball the patch holds the contact.
 """
 
 from __future__ import annotations
@@ -22,7 +22,7 @@ from bem.reference_solutions.hertz import ellipse_contact
 
 
 class SmoothContact(Protocol):
-    """A smooth contact and its oil, loads [N] on the whole of it."""
+    """Smooth contact and its oil; loads are on the whole contact [N]."""
 
     @property
     def contact_modulus(self) -> float:
@@ -34,30 +34,32 @@ class SmoothContact(Protocol):
 
     @property
     def deforming_load(self) -> float | None:
-        """Load [N] that deforms the bodies where a film has a part of it (`OilVolume.LOADED`), None where the film's
-        own does."""
+        """Load [N] that deforms the bodies, of which a film carries a part (`OilVolume.LOADED`).
+
+        None where the bodies are deformed by the film's own load.
+        """
 
     @property
     def heat(self) -> FilmHeat | None:
-        """Of the film; None where it has none."""
+        """Model of the film's heat; None for an isothermal film."""
 
     def film_modulus(self, load: float) -> float:
-        """E* [Pa] of the bodies as a film feels it that carries a load [N]."""
+        """Return E* [Pa] that gives a film under a load [N] the deflection by the deforming load."""
 
     def slices(self, grid: Grid) -> float:
-        """How many patches side by side make the contact."""
+        """Return the number of patches side by side that make the contact."""
 
     def half_axes(self, load: float) -> tuple[float, float]:
-        """Of Hertz' contact along x and y [m]; infinite along a cylinder."""
+        """Return the half-axes of the Hertz contact along x and y [m]; infinite along a cylinder."""
 
     def mean_pressure(self, load: float) -> float:
-        """Of Hertz' contact [Pa]."""
+        """Return the mean pressure of the Hertz contact [Pa]."""
 
     def parabola(self, x: FloatArray, y: FloatArray) -> FloatArray:
-        """The undeformed gap [m] at x (nx,) and y (ny,) [m]: (nx, ny), or (nx, 1) where it is the same along y."""
+        """Return the undeformed gap [m] at x (nx,) and y (ny,) [m]: (nx, ny), or (nx, 1) of a line contact."""
 
     def beside(self, grid: Grid, load: float) -> NDArray[np.bool_]:
-        """Cells of a patch beside Hertz' contact: (nx, ny), or (nx, 1) where it is the same along y."""
+        """Return the cells of a patch outside the Hertz contact: (nx, ny), or (nx, 1) of a line contact."""
 
     def hertz_fraction(self, grid: Grid, load: float) -> FloatArray:
         """Return the fraction of each cell within the Hertz contact under a load [N]: (nx, ny), or (nx, 1) of a line
@@ -66,8 +68,11 @@ class SmoothContact(Protocol):
 
 @dataclass(frozen=True)
 class LineContact:
-    """A cylinder on a flat, and the oil: radius and width [m], E* of the pair [Pa]; how roughness changes the flow;
-    how much oil there is, None where the inlet is flooded; otherwise as `SmoothContact`."""
+    """Cylinder on a flat, and its oil; a `SmoothContact`.
+
+    radius, width : of the cylinder [m]. contact_modulus : E* of the pair [Pa]. flow_factors : of the rough walls.
+    supply : of oil; None for a flooded inlet.
+    """
 
     radius: float
     width: float
@@ -79,35 +84,35 @@ class LineContact:
     heat: FilmHeat | None = None
 
     def film_modulus(self, load: float) -> float:
-        """As `SmoothContact`."""
-        return _felt_modulus(self, load)
+        """See `SmoothContact`."""
+        return _scaled_modulus(self, load)
 
     def slices(self, grid: Grid) -> float:
-        """As `SmoothContact`."""
+        """See `SmoothContact`."""
         return self.width / grid.lengths[1]
 
     def half_width(self, load: float) -> float:
-        """Hertz' half-width [m] under a load on the whole width [N]; Johnson (1985), eq. 4.43."""
+        """Return the Hertz half-width [m] under a load on the whole width [N]; Johnson (1985), eq. 4.43."""
         return math.sqrt(4 * load / self.width * self.radius / (math.pi * self.contact_modulus))
 
     def half_axes(self, load: float) -> tuple[float, float]:
-        """As `SmoothContact`."""
+        """See `SmoothContact`."""
         return self.half_width(load), math.inf
 
     def mean_pressure(self, load: float) -> float:
-        """As `SmoothContact`."""
+        """See `SmoothContact`."""
         return load / (2 * self.half_width(load) * self.width)
 
     def parabola(self, x: FloatArray, y: FloatArray) -> FloatArray:
-        """As `SmoothContact`."""
+        """See `SmoothContact`."""
         return x[:, None] ** 2 / (2 * self.radius)
 
     def beside(self, grid: Grid, load: float) -> NDArray[np.bool_]:
-        """As `SmoothContact`."""
+        """See `SmoothContact`."""
         return np.abs(grid.x[:, None]) > self.half_width(load)
 
     def hertz_fraction(self, grid: Grid, load: float) -> FloatArray:
-        """As `SmoothContact`."""
+        """See `SmoothContact`."""
         half_width, half_cell = self.half_width(load), 0.5 * grid.spacing[0]
         start = np.maximum(grid.x - half_cell, -half_width)
         end = np.minimum(grid.x + half_cell, half_width)
@@ -116,8 +121,11 @@ class LineContact:
 
 @dataclass(frozen=True)
 class PointContact:
-    """A ball or ellipsoid on a flat, and the oil: radii (Rx, Ry) [m], E* of the pair [Pa]; how roughness changes the
-    flow; the layer of oil that reaches it, None where the inlet is flooded; otherwise as `SmoothContact`."""
+    """Ball or ellipsoid on a flat, and its oil; a `SmoothContact`.
+
+    radii : (Rx, Ry) [m]. contact_modulus : E* of the pair [Pa]. flow_factors : of the rough walls. supply : layer of
+    oil; None for a flooded inlet.
+    """
 
     radii: tuple[float, float]
     contact_modulus: float
@@ -128,32 +136,32 @@ class PointContact:
     heat: FilmHeat | None = None
 
     def film_modulus(self, load: float) -> float:
-        """As `SmoothContact`: Hertz' ellipse keeps its size, too, where load and modulus change alike."""
-        return _felt_modulus(self, load)
+        """See `SmoothContact`. The Hertz ellipse keeps its size where load and modulus change in proportion."""
+        return _scaled_modulus(self, load)
 
     def slices(self, grid: Grid) -> float:
-        """As `SmoothContact`: the patch holds it."""
+        """See `SmoothContact`: one, because the patch holds the contact."""
         return 1.0
 
     def half_axes(self, load: float) -> tuple[float, float]:
-        """As `SmoothContact`."""
+        """See `SmoothContact`."""
         return ellipse_contact(radii=self.radii, contact_modulus=self.contact_modulus, load=load).semi_axes
 
     def mean_pressure(self, load: float) -> float:
-        """As `SmoothContact`."""
+        """See `SmoothContact`."""
         return ellipse_contact(radii=self.radii, contact_modulus=self.contact_modulus, load=load).mean_pressure
 
     def parabola(self, x: FloatArray, y: FloatArray) -> FloatArray:
-        """As `SmoothContact`."""
+        """See `SmoothContact`."""
         return x[:, None] ** 2 / (2 * self.radii[0]) + y[None, :] ** 2 / (2 * self.radii[1])
 
     def beside(self, grid: Grid, load: float) -> NDArray[np.bool_]:
-        """As `SmoothContact`."""
+        """See `SmoothContact`."""
         a, b = self.half_axes(load)
         return np.asarray((grid.x[:, None] / a) ** 2 + (grid.y[None, :] / b) ** 2 > 1)
 
     def hertz_fraction(self, grid: Grid, load: float) -> FloatArray:
-        """As `SmoothContact`."""
+        """See `SmoothContact`."""
         a, b = self.half_axes(load)
         corners = _quarter_disc(_edges(grid.x, grid.spacing[0])[:, None] / a, _edges(grid.y, grid.spacing[1]) / b)
         inside = corners[1:, 1:] - corners[:-1, 1:] - corners[1:, :-1] + corners[:-1, :-1]
@@ -176,6 +184,7 @@ def _quarter_disc(x: FloatArray, y: FloatArray) -> FloatArray:
     return np.asarray(np.sign(x) * np.sign(y) * (leaves * along + below_circle(across) - below_circle(leaves)))
 
 
-def _felt_modulus(contact: SmoothContact, load: float) -> float:
+def _scaled_modulus(contact: SmoothContact, load: float) -> float:
+    """Return the modulus scaled by load over deforming load, so that the film under `load` has the whole deflection."""
     modulus, deforming = contact.contact_modulus, contact.deforming_load
     return modulus if deforming is None else modulus * load / deforming

@@ -10,10 +10,10 @@ import numpy as np
 from bem.contact import ContactSolution
 from bem.errors import Status
 from bem.friction.asperities import AsperityContact
-from bem.friction.balance import Regime
-from bem.friction.boundary import BoundaryFrictionGiven, boundary_law, filled_part
+from bem.friction.balance import BalanceStart, Regime
+from bem.friction.boundary import BoundaryFrictionGiven, boundary_law, filled_part, sliding_sign
 from bem.friction.film import PatchFilm, middle_line
-from bem.friction.oil_beside import OilBeside
+from bem.friction.oil_sensitivity import OilVolumeSensitivity
 from bem.grid import FloatArray, Grid
 from bem.lubrication import FilmSolution, PointFilmSolution
 from bem.notes import Note
@@ -21,19 +21,6 @@ from bem.representation import readable
 
 if TYPE_CHECKING:
     from bem.friction.rough_contact import SpreadContact
-
-
-@dataclass(frozen=True, eq=False)
-class Continuation:
-    """Parts of a balance from which the balance at the next speed starts.
-
-    speed_power : power of the speed with which the film's load over the contact's went from the solution before.
-    refinement : as of `Balance`. whole : the film under the whole load on the coarsest mesh; None of a ball.
-    """
-
-    speed_power: float = 1.0
-    refinement: float = 0.0
-    whole: PatchFilm | None = None
 
 
 @readable
@@ -96,10 +83,10 @@ class MixedSolution:
     grid: Grid
     boundary_friction: BoundaryFrictionGiven
     oil_imbalance: float
-    oil: OilBeside
+    oil: OilVolumeSensitivity
     patch_film: PatchFilm
     regime: Regime = Regime.MIXED
-    continuation: Continuation = field(default_factory=Continuation, repr=False, compare=False)
+    continuation: BalanceStart = field(default_factory=BalanceStart, repr=False, compare=False)
     contact_temperature: float | None = None
     flash_temperature: float | None = None
     oil_on_contact: float = 0.0
@@ -150,8 +137,3 @@ class MixedSolution:
             return sign * self.boundary_friction * self.contact.pressure
         filled = filled_part(self.contact.pressure, self.contact.contact_area, self.grid)
         return sign * boundary_law(self.boundary_friction).cell_stress(self.contact.pressure, filled, speed)
-
-
-def sliding_sign(speeds: tuple[float, float]) -> float:
-    """1 where the flat moves faster along x or both alike, else -1."""
-    return 1.0 if speeds[0] >= speeds[1] else -1.0

@@ -137,7 +137,7 @@ class ShapedFilm:
 class ShapeSolver:
     """Films with and without a worn shape at the loads of the lattice.
 
-    unworn : films of the unworn contact. contact, speeds, position : as of `SolvedFilm`.
+    unworn : films of the unworn contact. contact, speeds, position : as of `SolvedLineFilm`.
     """
 
     unworn: UnwornFilms

@@ -15,8 +15,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from bem.errors import ConvergenceError
+from bem.friction.balance import BalanceStart
 from bem.grid import FloatArray
-from bem.life.passes import Pass, PassStart, mean_over
+from bem.life.passes import Pass, mean_over
 from bem.life.surfaces import LifeCase, Round, Surfaces, round_of
 from bem.wear.setup import LOWER, UPPER
 
@@ -94,7 +95,7 @@ def begun(case: LifeCase, lower: FloatArray, upper: FloatArray) -> LifeState:
     """Before the first cycle, with the friction of unworn surfaces (rows, ny) [m]."""
     film = None if case.film is None else np.full(np.shape(lower), case.film.balance.initial_thickness)
     heights = (np.array(lower, dtype=np.float64), np.array(upper, dtype=np.float64))
-    unworn = Surfaces(heights, film, (PassStart(),) * case.passing.positions)
+    unworn = Surfaces(heights, film, (BalanceStart(),) * case.passing.positions)
     found = round_of(case, unworn, 0.0)
     row = _row(found, heights, 0.0, 0.0, (0.0, 0.0))
     return LifeState(

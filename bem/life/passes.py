@@ -15,11 +15,10 @@ from numpy.typing import NDArray
 from bem.contact import solve_contact
 from bem.convolution import displacement_operator
 from bem.errors import ConvergenceError, Status
-from bem.friction.balance import BalanceStart, share_load
-from bem.friction.choose_contact import rough_contact
-from bem.friction.film import PatchFilm
+from bem.friction.balance import BalanceStart
 from bem.friction.film_table import FilmTable
-from bem.friction.forces import friction_forces, lambda_ratio, unrubbed
+from bem.friction.forces import oil_temperature
+from bem.friction.load_sharing import LoadSharing
 from bem.friction.rough_contact import CoupledContact
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray, Grid
@@ -64,16 +63,6 @@ def facing(offset: int, rows: int, whole: int) -> NDArray[np.int_]:
 
 
 @dataclass(frozen=True, eq=False)
-class PassStart:
-    """Where the contact of a position starts from: last pressure (nx, ny) [Pa], film load on the whole width [N] and
-    slope of the balance. It decides nothing but the effort, and the last bits."""
-
-    pressure: FloatArray | None = None
-    film_load: float | None = None
-    slope: float = 1.0
-
-
-@dataclass(frozen=True, eq=False)
 class Pass:
     """A contact that was solved: pressure (nx, ny) [Pa]; friction over the load, and of it the boundary part; shares of
     the load and of the grid's area in contact; minimum film [m] and that of the whole load over the rms height;
@@ -88,14 +77,14 @@ class Pass:
     minimum_film: float
     lambda_ratio: float
     convolutions: float
-    start: PassStart
+    start: BalanceStart
     film_pressure: FloatArray
     temperature: FloatArray | None = None
     contact_temperature: float = 0.0
     flash_temperature: float = 0.0
 
 
-PassContact = Callable[[FloatArray, PassStart, float], Pass]
+PassContact = Callable[[FloatArray, BalanceStart, float], Pass]
 """(sum of the heights of both bodies (nx, ny) [m], start, compliance [m/Pa] by which each place wears) -> Pass"""
 
 
@@ -111,7 +100,7 @@ class DryPasses:
     hardness: float | None = None
     tolerance: float = 1e-6
 
-    def __call__(self, heights: FloatArray, start: PassStart, compliance: float) -> Pass:
+    def __call__(self, heights: FloatArray, start: BalanceStart, compliance: float) -> Pass:
         """As `PassContact`.
 
         Raises
@@ -137,7 +126,7 @@ class DryPasses:
             minimum_film=0.0,
             lambda_ratio=0.0,
             convolutions=found.convolutions,
-            start=PassStart(found.pressure),
+            start=BalanceStart(pressure=found.pressure),
             film_pressure=np.zeros((self.grid.shape[0], 1)),
         )
 
@@ -152,52 +141,41 @@ class MixedPasses:
     def __init__(self, setup: MixedSetup, table: FilmTable) -> None:
         self.setup, self.table = setup, table
         self.film_notes: tuple[Note, ...] = ()
-        self._whole: PatchFilm | None = None
+        self._sharing: LoadSharing | None = None
 
-    def __call__(self, heights: FloatArray, start: PassStart, compliance: float) -> Pass:
+    def __call__(self, heights: FloatArray, start: BalanceStart, compliance: float) -> Pass:
         """As `PassContact`.
 
         Raises
         ------
         ConvergenceError : a balance that did not converge.
         """
-        setup, speeds = self.setup, self.table.speeds
-        if self._whole is None:
-            self._whole = self.table.under(self.table.largest_load)
-        rough = rough_contact(setup, heights, speeds)
+        setup, table = self.setup, self.table
+        if self._sharing is None:
+            self._sharing = LoadSharing(setup, table, table.speeds, table.under(table.largest_load))
+        rough = self._sharing.contact_of(heights)
         assert isinstance(rough, CoupledContact)
-        first = 0.5 * setup.load if start.film_load is None else start.film_load
-        balance = share_load(
-            self.table,
-            replace(rough, compliance=compliance),
-            setup.load,
-            setup.tolerance,
-            self._whole,
-            BalanceStart(first, start.slope, start.pressure),
-        )
+        shared = self._sharing.solve(heights, start, replace(rough, compliance=compliance))
+        balance, forces = shared.balance, shared.forces
         _check(balance.status, abs(balance.imbalance))
-        film, contact = balance.film, balance.contact
+        film, contact, heat = balance.film, balance.contact, forces.heat
         self.film_notes = film.notes
-        forces = friction_forces(film, contact, setup, speeds)
-        pressure = np.zeros(setup.grid.shape) if contact is None else contact.pressure
-        again = start if contact is None else PassStart(pressure, film.load, balance.slope)
-        heat = forces.heat
         if heat is not None:
             _check(heat.status, math.nan)
         return Pass(
-            pressure=pressure,
+            pressure=np.zeros(setup.grid.shape) if contact is None else contact.pressure,
             boundary_friction=forces.boundary / setup.load,
             film_friction=forces.film / setup.load,
-            contact_share=0.0 if contact is None else contact.load / setup.load,
-            area_share=0.0 if contact is None else contact.area / setup.slices / setup.grid.area,
+            contact_share=shared.contact_load / setup.load,
+            area_share=shared.contact_area_fraction,
             minimum_film=film.minimum_thickness,
-            lambda_ratio=lambda_ratio(self._whole, heights),
+            lambda_ratio=shared.lambda_ratio,
             convolutions=balance.convolutions,
-            start=again,
+            start=start if contact is None else BalanceStart(film.load, balance.slope, contact.pressure),
             film_pressure=film.pressure[:, :1],
             temperature=None if heat is None else heat.temperature,
-            contact_temperature=unrubbed(setup) if heat is None else heat.mean,
-            flash_temperature=unrubbed(setup) if heat is None else heat.maximum,
+            contact_temperature=oil_temperature(setup) if heat is None else heat.mean,
+            flash_temperature=oil_temperature(setup) if heat is None else heat.maximum,
         )
 
 

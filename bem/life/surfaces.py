@@ -13,8 +13,9 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from bem.errors import InputError
+from bem.friction.balance import BalanceStart
 from bem.grid import FloatArray, Grid
-from bem.life.passes import Pass, PassContact, Passing, PassStart, facing
+from bem.life.passes import Pass, PassContact, Passing, facing
 from bem.tribofilm.balance import FilmBalance
 from bem.tribofilm.growth import GrowthLaw
 from bem.wear.film_defect import FilmDefect
@@ -123,7 +124,7 @@ class Surfaces:
 
     heights: tuple[FloatArray, FloatArray]
     film: FloatArray | None
-    starts: tuple[PassStart, ...]
+    starts: tuple[BalanceStart, ...]
     volume: tuple[float, float] = (0.0, 0.0)
 
 
@@ -177,7 +178,7 @@ def _passed(
     return Surfaces((heights[LOWER], heights[UPPER]), films, starts, (volume[LOWER], volume[UPPER])), found
 
 
-def _rubbed(case: LifeCase, heights: FloatArray, start: PassStart, slid: float) -> tuple[Pass, list[FloatArray]]:
+def _rubbed(case: LifeCase, heights: FloatArray, start: BalanceStart, slid: float) -> tuple[Pass, list[FloatArray]]:
     """The pass of heights (nx, ny) [m] at the end of its step of so far a slide [m], and what wears of both bodies.
 
     With a boundary film the largest share of any place makes the step's compliance, so that none wears beyond what

@@ -24,7 +24,7 @@ from bem.scenes.context import Variable
 if TYPE_CHECKING:
     import xarray
 
-    from bem.friction.load_share import LoadShare
+    from bem.friction.share_fit import LoadShare
 
 SWEEP = "sweep.nc"
 _ROW = "point"
@@ -76,7 +76,7 @@ class Points:
         ------
         InputError : a table without lambda ratios and loads, or too few points where film and contact both carry.
         """
-        from bem.friction.load_share import fit_load_share
+        from bem.friction.share_fit import fit_load_share
 
         def column(*names: str) -> np.ndarray[Any, Any]:
             found = [self.columns[name] for name in names if name in self.columns]

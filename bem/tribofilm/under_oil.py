@@ -38,8 +38,8 @@ def under_oil(
     InfeasibleError : an oil film that carries all of the load, so that no tribofilm grows.
     ConvergenceError : a load that was not shared.
     """
-    from bem.friction.load_sharing import solve_setup
     from bem.friction.setup import MixedSetup
+    from bem.friction.solve import solve_setup
 
     substrate = Body(contact.substrate)
     setup = MixedSetup(

@@ -17,17 +17,16 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.contact import ContactSolution
-from bem.errors import InputError, Status
-from bem.friction.balance import NEGLIGIBLE, Balance, BalanceStart, Regime, share_load
-from bem.friction.choose_contact import rough_contact
+from bem.errors import InputError
+from bem.friction.balance import NEGLIGIBLE, Balance, BalanceStart, Regime
 from bem.friction.film import Film, PatchFilm, middle_line
 from bem.friction.film_table import FilmTable
-from bem.friction.films import films_of
-from bem.friction.forces import Forces, coupling_notes, friction_forces, lambda_ratio, unrubbed, validity_notes
-from bem.friction.oil_beside import OilBeside, oil_notes
-from bem.friction.oil_on_contact import covered_notes
-from bem.friction.oil_sensitivity import oil_beside
+from bem.friction.forces import Forces, oil_temperature
+from bem.friction.load_sharing import LoadSharing
+from bem.friction.models import films_of, rough_contact
+from bem.friction.oil_sensitivity import OilVolumeSensitivity, oil_volume_sensitivity
 from bem.friction.oil_volume import OilVolume
+from bem.friction.result_notes import coupling_notes, covered_notes, oil_notes, validity_notes
 from bem.friction.rough_contact import CoupledContact, RoughContact, boundary_traction
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray
@@ -70,14 +69,6 @@ LAST_CYCLE = "last cycle"
 """Place of notes on the last cycle."""
 FEW = 0.01
 """Share of the load on particles up to which the oil beside the contact is judged without them."""
-
-
-@dataclass(frozen=True)
-class MixedState:
-    """Where the next balance starts: film load on the whole width [N] and slope of ln(carried) with its logarithm."""
-
-    film_load: float
-    slope: float = 1.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -131,7 +122,7 @@ class MixedContact:
         *,
         table: FilmTable | None = None,
         film_shape: str = "worn",
-        state: MixedState | None = None,
+        state: BalanceStart | None = None,
         rows: NDArray[np.void] | None = None,
         last: LastCycle | None = None,
         worn: WornShape | None = None,
@@ -141,7 +132,7 @@ class MixedContact:
         self.setup = setup
         self.table = table if table is not None else film_table(setup, speeds)
         self.speeds = self.table.speeds
-        self.state = state if state is not None else MixedState(0.5 * setup.load)
+        self.state = state if state is not None else BalanceStart(0.5 * setup.load)
         self.rows = rows if rows is not None else np.zeros(0, MIXED_FIELDS)
         self.contact_solves = 0
         self.last = last
@@ -157,6 +148,11 @@ class MixedContact:
     def films(self) -> Film:
         """The films of the last cycle's shape over the load they carry."""
         return self._follower.films(self.worn)
+
+    @property
+    def _sharing(self) -> LoadSharing:
+        """Load sharing with the films of the last cycle's shape."""
+        return LoadSharing(self.setup, self.films, self.speeds)
 
     @property
     def _whole(self) -> PatchFilm:
@@ -201,15 +197,14 @@ class MixedContact:
         be particles."""
         balance = self._balance(rough, last_pressure)
         if balance.contact is not None:
-            self.state = MixedState(balance.film.load, balance.slope)
+            self.state = BalanceStart(balance.film.load, balance.slope)
         return self._outcome(balance, rough, heights, slide)
 
     def _balance(self, rough: RoughContact, pressure: FloatArray | None) -> Balance:
         """Return the balance, repeated while it needs films of the worn shape at other loads."""
-        setup = self.setup
         start = BalanceStart(self.state.film_load, self.state.slope, pressure)
         while True:
-            balance = share_load(self.films, rough, setup.load, setup.tolerance, self._whole, start)
+            balance = self._sharing.balance(rough, self._whole, start)
             known = len(self.worn.changes)
             self.worn = self._follower.completed(self.worn, balance)
             if len(self.worn.changes) == known:
@@ -255,13 +250,13 @@ class MixedContact:
         shape = self._follower.notes(self.worn, len(self.rows)) if self.film_shape == "worn" else ()
         return (*notes, *last.coupling, *hanging, *(note.at(LAST_CYCLE) for note in covered), *shape)
 
-    def oil(self) -> OilBeside | None:
+    def oil(self) -> OilVolumeSensitivity | None:
         """How far the last cycle's load sharing hangs on the oil beside Hertz' contact; one more balance."""
         last = self.last
         if last is None or last.borne > FEW:
             return None  # with particles it would be another contact's
         friction = float(self.rows["friction"][-1])
-        return oil_beside(
+        return oil_volume_sensitivity(
             self.setup,
             last.heights,
             last.balance,
@@ -273,7 +268,8 @@ class MixedContact:
 
     def _outcome(self, balance: Balance, rough: RoughContact, heights: FloatArray, slide: float) -> ContactOutcome:
         setup, film, contact = self.setup, balance.film, balance.contact
-        forces = friction_forces(film, contact, setup, self.speeds)
+        shared = self._sharing.with_forces(balance, heights, rough, self._whole)
+        forces = shared.forces
         heat, bodies, slides = forces.heat, None, self.speeds[0] != self.speeds[1]
         if isinstance(rough, ContactWithBodies):
             forces = rough.rolling(forces, contact, slides)
@@ -288,11 +284,11 @@ class MixedContact:
             0.0 if contact is None else contact.load - (0.0 if bodies is None else bodies.load * setup.slices),
             film.load,
             film.minimum_thickness,
-            lambda_ratio(self._whole, heights),
-            0.0 if contact is None else contact.area,
+            shared.lambda_ratio,
+            shared.contact_area,
             shift,
             balance.imbalance,
-            *((unrubbed(setup),) * 2 if heat is None else (heat.mean, heat.maximum)),
+            *((oil_temperature(setup),) * 2 if heat is None else (heat.mean, heat.maximum)),
             max(balance.films, 1),
             _TAKEN_FOR_NONE if balance.film_neglected else REGIMES.index(balance.regime),
         )
@@ -313,7 +309,7 @@ class MixedContact:
             friction=boundary_traction(self.speeds, forces.coefficient),
             residual=getattr(solution, "residual", 0.0),
             convolutions=balance.convolutions,
-            status=balance.status if heat is None or balance.status is not Status.CONVERGED else heat.status,
+            status=shared.status,
             minimum_film=film.minimum_thickness,
             third_bodies=bodies,
             temperature=None if heat is None else heat.temperature,
@@ -362,7 +358,7 @@ def pack_balance(step: MixedContact) -> dict[str, Any]:
 def unpack_balance(packed: dict[str, Any]) -> dict[str, Any]:
     """The arguments `state`, `rows` and `worn` of the `MixedContact` that was packed."""
     return {
-        "state": MixedState(packed["film_load"], packed["slope"]),
+        "state": BalanceStart(packed["film_load"], packed["slope"]),
         "rows": unpack_table(packed["rows"], MIXED_FIELDS),
         "worn": unpack_worn(packed["worn"]),
     }
@@ -392,7 +388,6 @@ __all__ = [
     "BearingContact",
     "LastCycle",
     "MixedContact",
-    "MixedState",
     "film_table",
     "pack_balance",
     "shared_film_table",

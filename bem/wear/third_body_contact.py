@@ -14,8 +14,8 @@ import numpy as np
 from bem.contact import ContactSolution, solve_contact
 from bem.convolution import displacement_operator
 from bem.errors import InputError, Status
-from bem.friction.falling_zero import falling_zero
 from bem.grid import FloatArray
+from bem.numerics.bracketed_root import find_decreasing_root
 from bem.wear.cycle import ContactOutcome, ContactStep, dry_contact, outcome_of
 from bem.wear.setup import LOWER, UPPER, WearSetup
 from bem.wear.third_bodies import ThirdBodies, ThirdBodyLoad
@@ -161,7 +161,7 @@ class BodiesAndContact:
         def jumps() -> bool:
             return len(sides) == 2 and sides[False][0] - sides[True][0] <= 0.3 * self.goal
 
-        falling_zero(under, 1.0, 1.0, (0.0, 1.0), _TRIALS)
+        find_decreasing_root(under, 1.0, 1.0, (0.0, 1.0), _TRIALS)
         if not jumps():
             return
         (_, far), (_, near) = sides[True], sides[False]
@@ -169,4 +169,4 @@ class BodiesAndContact:
         def pressed(place: float) -> tuple[float, bool]:
             return self._missing(self.solve(approach=far.approach + place * (near.approach - far.approach)))
 
-        falling_zero(pressed, 0.5, 1.0, (0.0, 1.0), _TRIALS)
+        find_decreasing_root(pressed, 0.5, 1.0, (0.0, 1.0), _TRIALS)

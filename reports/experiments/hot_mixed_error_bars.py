@@ -21,8 +21,8 @@ from bem.accuracy import MixedCase, mixed_bars, mixed_figures, solve_coarser_mix
 from bem.accuracy.bars import POINTS
 from bem.accuracy.mixed import BALANCE
 from bem.errors import InputError, Status
-from bem.friction.load_sharing import solve_setup
 from bem.friction.setup import MixedSetup
+from bem.friction.solve import solve_setup
 from bem.materials import CATALOGUE
 from bem.surfaces import generate_surface
 from reports.experiments.judging import Comparison, Experiment, main

@@ -17,7 +17,7 @@ from typing import Any
 import numpy as np
 
 from bem import Body, Grid, Lubricant, Material, generate_surface, solve_line_film, solve_mixed
-from bem.friction.load_share import fit_load_share
+from bem.friction.share_fit import fit_load_share
 from reports.experiments.kept import keep
 
 RESULT = Path(__file__).resolve().parents[1] / "results" / "load_share_curves.json"

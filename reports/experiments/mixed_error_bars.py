@@ -20,9 +20,9 @@ import numpy as np
 from bem import Body, Grid, Lubricant, Material, solve_line_film
 from bem.accuracy import MixedCase, mixed_bars, mixed_figures, solve_coarser_mixed
 from bem.errors import InputError, Status
-from bem.friction.films import films_of
-from bem.friction.load_sharing import solve_setup
+from bem.friction.models import films_of
 from bem.friction.setup import MixedSetup
+from bem.friction.solve import solve_setup
 from bem.surfaces import generate_surface
 from reports.experiments.contact_error_bars import FloatArray, waves_through
 from reports.experiments.judging import Comparison, Experiment, main

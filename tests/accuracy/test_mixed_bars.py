@@ -12,9 +12,9 @@ from bem.accuracy import MixedCase, mixed_bars, mixed_figures, solve_coarser_mix
 from bem.accuracy.mixed import CoarserShares, half_grid
 from bem.errors import Status
 from bem.friction.balance import Regime
-from bem.friction.films import films_of
-from bem.friction.load_sharing import solve_setup
+from bem.friction.models import films_of
 from bem.friction.setup import MixedSetup
+from bem.friction.solve import solve_setup
 from bem.notes.accuracy import NoBar
 from reports.experiments.mixed_error_bars import EXPERIMENT
 

@@ -21,17 +21,16 @@ from bem import (
     stribeck_curve,
 )
 from bem.friction import balance as balance_model
-from bem.friction import film as film_model
-from bem.friction import oil_sensitivity
+from bem.friction import line_film as film_model
+from bem.friction import load_sharing
 from bem.friction import rough_contact as rough_model
 from bem.friction.balance import BalanceStart, Regime, share_load
-from bem.friction.choose_contact import rough_contact
 from bem.friction.film import PatchFilm
+from bem.friction.models import rough_contact
 from bem.friction.rough_contact import boundary_traction
 from bem.friction.setup import MixedSetup
 from bem.notes import has_code
 from bem.notes.friction import BOUNDARY_LUBRICATION, FILM_MODEL_ENDS
-from bem.wear import mixed as mixed_cycles
 from bem.wear.mixed import MixedContact, pack_balance, unpack_balance
 
 POLYMER = Body(Material("polymer", youngs_modulus=3e9, poissons_ratio=0.38))
@@ -113,7 +112,7 @@ def test_the_regime_of_a_cycle_does_not_hang_on_the_words_of_notes(speed, rms_he
         return step.rows["regime"][0]
 
     found = regime()
-    monkeypatch.setattr(mixed_cycles, "share_load", lambda *given: dataclasses.replace(share_load(*given), notes=()))
+    monkeypatch.setattr(load_sharing, "share_load", lambda *given: dataclasses.replace(share_load(*given), notes=()))
     assert regime() == found
 
 
@@ -394,7 +393,6 @@ def test_what_lies_on_the_way_is_solved_no_better_than_the_balance_needs(monkeyp
         found.append((point, dict(spent)))
         spent |= {"steps": 0.0, "convolutions": 0.0}
         monkeypatch.setattr(film_model, "COARSE_TOLERANCE", film_model.TOLERANCE)
-        monkeypatch.setattr(oil_sensitivity, "COARSE_TOLERANCE", film_model.TOLERANCE)
         monkeypatch.setattr(balance_model, "CONTACT_SHARE", 0.0)
     (point, fewer), (exact, more) = found
     assert point.film_load == pytest.approx(exact.film_load, rel=1e-5)

@@ -23,7 +23,7 @@ from bem import (
 from bem.convolution import displacement_operator
 from bem.errors import InputError, Status
 from bem.friction.film_table import FilmTable
-from bem.friction.films import films_of
+from bem.friction.models import films_of
 from bem.friction.point_film import SolvedPointFilm, sampled_point, solved_point_film, thin_film
 from bem.friction.setup import MixedSetup
 from bem.friction.smooth import PointContact

@@ -11,7 +11,7 @@ from bem import Body, Grid, Lubricant, Material, Status, generate_surface, solve
 from bem.friction import point_film
 from bem.friction.balance import BalanceStart, Regime
 from bem.friction.film_table import FilmTable
-from bem.friction.films import films_of
+from bem.friction.models import films_of
 from bem.friction.setup import MixedSetup
 from bem.lubrication import line_kernel, line_linear
 from bem.lubrication.line_case import LineCase
@@ -75,9 +75,9 @@ def test_next_to_full_film_no_film_of_next_to_no_load_is_tried():
 
 @pytest.mark.internal
 def test_a_slope_is_moved_with_the_odds():
-    start = BalanceStart.after(0.8, 2.0, 10.0, 9.0, None)
+    start = BalanceStart.from_similar(0.8, 2.0, 10.0, 9.0, None)
     assert start.slope * (1 - 0.9) == pytest.approx(2.0 * (1 - 0.8), rel=1e-12)
-    assert start.known
+    assert start.slope_known
 
 
 @pytest.mark.internal
@@ -118,7 +118,7 @@ def test_equations_are_not_kept_with_a_curve(curve):
     for point in curve:
         assert point.film.state.state.linear is None
         assert point.film.state.flooded.linear is None
-        assert point.continuation.whole.solution.state.state.linear is None
+        assert point.continuation.whole_film.solution.state.state.linear is None
 
 
 @pytest.mark.internal

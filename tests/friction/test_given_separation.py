@@ -9,7 +9,7 @@ from bem import Body, Grid, InputError, Lubricant, Material, Status, displacemen
 from bem.friction.asperities import asperity_loads, find_summits
 from bem.friction.balance import Regime
 from bem.friction.given_separation import sinking_compliance
-from bem.friction.load_sharing import largest_difference, solve_mixed, stribeck_curve
+from bem.friction.solve import largest_difference, solve_mixed, stribeck_curve
 
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
 MODULUS = STEEL.plane_strain_modulus / 2

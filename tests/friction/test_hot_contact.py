@@ -10,8 +10,8 @@ from small_scenes import PATCH
 from bem import Body, InputError, Lubricant, Material, Status, load_scene, solve_line_film, solve_mixed, stribeck_curve
 from bem.accuracy import MixedCase, mixed_bars, solve_coarser_mixed
 from bem.friction.balance import Regime
-from bem.friction.load_sharing import solve_setup
 from bem.friction.setup import MixedSetup
+from bem.friction.solve import solve_setup
 from bem.heat.steady import surface_temperature
 from bem.runs import run_scene
 

@@ -9,7 +9,7 @@ from hypothesis import strategies as st
 from scipy.optimize import curve_fit
 
 from bem import InputError
-from bem.friction.load_share import curves_load_share, fit_load_share
+from bem.friction.share_fit import curves_load_share, fit_load_share
 
 
 class CurveRows(NamedTuple):

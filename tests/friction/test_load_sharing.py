@@ -133,7 +133,7 @@ def test_the_last_coarse_trial_is_made_with_the_finer_film(monkeypatch):
     """Once a secant will do, its place is tried on the mesh asked for: fewer films and contacts, the same balances."""
     case, speeds = {**CASE, "film_points": 800, "tolerance": 1e-4}, (0.001, 0.03, 0.05)
     points = [solve_mixed(**case, speeds=(speed, 0.0)) for speed in speeds]
-    monkeypatch.setattr(balance, "AHEAD", 0.0)
+    monkeypatch.setattr(balance, "SECANT_MARGIN", 0.0)
     plain = [solve_mixed(**case, speeds=(speed, 0.0)) for speed in speeds]
     for one, other in zip(points, plain, strict=True):
         assert one.status is other.status is Status.CONVERGED

@@ -5,7 +5,7 @@ import pytest
 from mixed_case import mixed_case
 
 from bem import Lubricant, solve_mixed
-from bem.friction.oil_on_contact import MATTERS, covered_notes
+from bem.friction.result_notes import MATTERS, covered_notes
 from bem.notes import Level
 from bem.notes.friction import OIL_ON_CONTACT
 

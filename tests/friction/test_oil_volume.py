@@ -5,19 +5,19 @@ import math
 
 import numpy as np
 import pytest
-from hypothesis import given, settings
-from hypothesis import strategies as st
 from mixed_case import BALL, rough_patch
 
 from bem import Body, Grid, InputError, Lubricant, Material, Status, generate_surface, solve_mixed, stribeck_curve
 from bem.benchmarks.lubricated_cases import mixed_case
-from bem.friction import load_sharing, oil_sensitivity
+from bem.friction import oil_sensitivity
+from bem.friction import solve as solve_module
 from bem.friction.balance import BalanceStart, Regime, share_load
-from bem.friction.choose_contact import rough_contact
-from bem.friction.falling_zero import _parabola, falling_zero
 from bem.friction.film import PatchFilm
-from bem.friction.oil_beside import OilBeside, oil_notes
+from bem.friction.load_sharing import LoadSharing
+from bem.friction.models import rough_contact
+from bem.friction.oil_sensitivity import OilVolumeSensitivity
 from bem.friction.oil_volume import OilVolume, mean_where_counted
+from bem.friction.result_notes import oil_notes
 from bem.friction.setup import MixedSetup
 from bem.friction.smooth import LineContact, PointContact
 from bem.notes import Level, has_code, outside
@@ -313,16 +313,15 @@ def test_what_that_oil_decides_costs_about_as_much_as_a_curve_without_telling(mo
     spent = {}
 
     def counted(module, name):
-        inner = module.share_load
+        class Counted(LoadSharing):
+            def balance(self, *given):
+                found = super().balance(*given)
+                spent[name] = spent.get(name, 0.0) + found.convolutions
+                return found
 
-        def balance(*arguments):
-            found = inner(*arguments)
-            spent[name] = spent.get(name, 0.0) + found.convolutions
-            return found
+        monkeypatch.setattr(module, "LoadSharing", Counted)
 
-        monkeypatch.setattr(module, "share_load", balance)
-
-    counted(load_sharing, "own")
+    counted(solve_module, "own")
     counted(oil_sensitivity, "other")
     curve = stribeck_curve([(0.1, 0.09), (0.3, 0.27), (1.0, 0.9)], **bearing(64))
     assert all(point.oil.known for point in curve)
@@ -345,44 +344,16 @@ def test_means_where_the_oil_is_counted():
 
 
 @pytest.mark.internal
-@settings(max_examples=80, deadline=None)
-@given(st.floats(-9, 9), st.floats(-9, 9), st.floats(0.1, 4.0), st.floats(0.2, 3.0))
-def test_zero_of_a_falling_function(zero, start, steepness, slope):
-    """Arcus tangent plus a line: its slope at the zero is up to eleven times that far away."""
-    tried = []
-
-    def evaluate(place):
-        value = -math.atan(steepness * (place - zero)) - 0.1 * (place - zero)
-        tried.append((place, value))
-        return value, abs(value) < 1e-9
-
-    found = falling_zero(evaluate, start, slope, (-10.0, 10.0), 60)
-    assert tried[-1][0] == pytest.approx(zero, abs=1e-8)
-    # what would be tried next is no worse than what will do, whatever the arc's curvature
-    assert found.ahead == pytest.approx(zero, abs=1e-7)
-    assert len(tried) < 30
-
-
-@pytest.mark.internal
-@pytest.mark.parametrize("place", [-1.0, 0.4, 2.0])
-def test_a_parabola_of_the_value_is_met_at_once_and_a_jump_between_two_places_as_before(place):
-    def root(value):
-        return place - value - 0.1 * value**2
-
-    points = [(root(value), value) for value in (0.7, -0.4, 0.2)]
-    assert _parabola(points, points[1][0]) == pytest.approx(place, abs=1e-12)
-    # three places of which two have one side's value: the parabola would lie anywhere
-    assert _parabola([(0.0, 1.0), (1.0, -0.2), (0.9, 1.0)], 1.0) is None
-    assert _parabola([(0.0, 1.01), (1.0, -0.2), (0.9, 1.0)], 1.0) is None
-    assert _parabola(points[:2], points[0][0]) is None
-
-
-@pytest.mark.internal
 def test_the_balance_compared_with_begins_with_the_slope_found(monkeypatch):
     """Two films and contacts, where a balance to a thousandth takes three: the rest is by its slope, as near."""
     tried = []
-    inner = oil_sensitivity.share_load
-    monkeypatch.setattr(oil_sensitivity, "share_load", lambda *given: tried.append(inner(*given)) or tried[-1])
+
+    class Recorded(LoadSharing):
+        def balance(self, *given):
+            tried.append(super().balance(*given))
+            return tried[-1]
+
+    monkeypatch.setattr(oil_sensitivity, "LoadSharing", Recorded)
     for speed in (0.01, 0.03, 0.05, 0.1):
         point = solve_mixed(**mixed_case(60, 400, 1e-4), speeds=(speed, 0.0), oil_volume="patch")
         own = solve_mixed(**mixed_case(60, 400, 1e-4), speeds=(speed, 0.0), oil_volume="loaded")
@@ -393,21 +364,10 @@ def test_the_balance_compared_with_begins_with_the_slope_found(monkeypatch):
 
 
 @pytest.mark.internal
-@pytest.mark.parametrize(("zero", "end"), [(-20, -10.0), (20, 10.0)])
-def test_a_zero_beyond_the_ends_gives_the_end(zero, end):
-    tried = []
-    found = falling_zero(lambda x: (tried.append(x) or zero - x, False), 1.0, 1.0, (-10.0, 10.0), 60)
-    assert tried[-1] == end
-    assert len(tried) <= 6
-    assert found.slope == pytest.approx(1.0, rel=1e-12)
-    assert found.ahead == end
-
-
-@pytest.mark.internal
 def test_what_is_said_of_one_result_and_of_a_curve():
-    alike = OilBeside(0.9, 0.5, 0.1, 0.52, 0.1005)
-    load, friction = OilBeside(0.8, 0.5, 0.1, 0.56, 0.1), OilBeside(0.7, 0.5, 0.1, 0.5, 0.102)
-    small, unknown = OilBeside(0.6, 0.02, 0.1, 0.029, 0.1), OilBeside(0.95, 0.5, 0.1)
+    alike = OilVolumeSensitivity(0.9, 0.5, 0.1, 0.52, 0.1005)
+    load, friction = OilVolumeSensitivity(0.8, 0.5, 0.1, 0.56, 0.1), OilVolumeSensitivity(0.7, 0.5, 0.1, 0.5, 0.102)
+    small, unknown = OilVolumeSensitivity(0.6, 0.02, 0.1, 0.029, 0.1), OilVolumeSensitivity(0.95, 0.5, 0.1)
     assert [oil.matters for oil in (alike, load, friction, small, unknown)] == [False, True, True, False, True]
     assert oil_notes([alike, small]) == ()
     (note,) = oil_notes([alike, friction, load])
@@ -416,14 +376,16 @@ def test_what_is_said_of_one_result_and_of_a_curve():
     assert "where that differs most" in note
     assert [one.values["reason"] for one in oil_notes([load, unknown])] == ["patch", "unknown"]
     assert [one.values["reason"] for one in oil_notes([unknown])] == ["unknown"]
-    decided = OilBeside(0.99, 0.24, 0.085, 0.99, 0.119)
+    decided = OilVolumeSensitivity(0.99, 0.24, 0.085, 0.99, 0.119)
     assert [oil.decides for oil in (alike, load, unknown, decided)] == [False, False, False, True]
-    rubbed = OilBeside(0.98, 0.0375, 0.0634, 0.1366, 0.0403)  # share by less than a tenth, friction by a third
+    rubbed = OilVolumeSensitivity(
+        0.98, 0.0375, 0.0634, 0.1366, 0.0403
+    )  # share by less than a tenth, friction by a third
     assert rubbed.decides
     (short,) = oil_notes([decided, rubbed])  # what changes most: 75 % of the load
     assert (short.level, short.values["contact_share"]) == (Level.OUTSIDE_MODEL, 0.24)
     assert oil_notes([rubbed, load])[0].values["contact_share"] == 0.0375
-    assert not OilBeside(0.9, 0.0, 0.0, 0.0, 0.0).decides
+    assert not OilVolumeSensitivity(0.9, 0.0, 0.0, 0.0, 0.0).decides
     assert outside(oil_notes([alike, load])) == ()
     short = oil_notes([load, decided, unknown])[0]
     assert outside([short]) == (short.headline,)
@@ -437,7 +399,7 @@ def test_refuses_other_volumes():
 
 @pytest.mark.internal
 def test_the_default_counts_oil_where_the_film_is_loaded_and_pays_no_second_balance(monkeypatch):
-    monkeypatch.setattr(oil_sensitivity, "share_load", lambda *given: pytest.fail("a second balance was solved"))
+    monkeypatch.setattr(oil_sensitivity, "LoadSharing", lambda *_: pytest.fail("a second balance was solved"))
     case = {name: value for name, value in bearing(64).items() if name != "oil_volume"}
     point = solve_mixed(**case, speeds=(0.01, 0.0))
     assert setup_of(case).counted is OilVolume.LOADED
@@ -510,12 +472,12 @@ def test_a_ball_counts_the_oil_over_its_hertz_circle():
 
 @pytest.mark.internal
 def test_the_note_on_the_hertz_area_names_it_and_compares_with_loaded():
-    follows = OilBeside(0.7, 0.5, 0.1, 0.5, 0.102, counted=OilVolume.HERTZ)
+    follows = OilVolumeSensitivity(0.7, 0.5, 0.1, 0.5, 0.102, counted=OilVolume.HERTZ)
     (note,) = oil_notes([follows])
     assert has_code([note], OIL_COUNTED, reason="hertz")
     assert note.values["loaded_friction"] == 0.102
     assert outside([note]) == ()
     decided = dataclasses.replace(follows, loaded_contact_share=0.99)
     assert outside(oil_notes([decided, follows]))
-    unknown = OilBeside(0.7, 0.5, 0.1, counted=OilVolume.HERTZ)
+    unknown = OilVolumeSensitivity(0.7, 0.5, 0.1, counted=OilVolume.HERTZ)
     assert [one.values["reason"] for one in oil_notes([unknown])] == ["unknown"]

@@ -11,12 +11,11 @@ from bem.accuracy import MixedCase, solve_coarser_mixed
 from bem.convolution import displacement_operator
 from bem.errors import InputError, Status
 from bem.friction.cell_law import CellLaw, SolvedCell
-from bem.friction.choose_contact import rough_contact
-from bem.friction.films import films_of
 from bem.friction.forces import friction_forces
-from bem.friction.load_sharing import solve_setup
-from bem.friction.repeated_cell import spread_pressure
+from bem.friction.homogenised_contact import spread_pressure
+from bem.friction.models import films_of, rough_contact
 from bem.friction.setup import MixedSetup
+from bem.friction.solve import solve_setup
 from bem.notes.accuracy import NoBar
 from bem.reference_solutions.hertz import ellipse_contact
 from bem.wear.mixed import MixedContact

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from bem import Lubricant, Status
-from bem.friction.film import SolvedFilm
 from bem.friction.film_table import FilmTable
+from bem.friction.line_film import SolvedLineFilm
 from bem.friction.smooth import LineContact
 from bem.friction.worn_film import LATTICE_STEP, SearchedWornFilms, ShapeSolver, neighbours
 
@@ -18,7 +18,7 @@ SPEEDS = (0.05, 0.0)
 
 def table_of(radius=2e-3, deforming=None):
     contact = LineContact(radius, 6e-3, 115.5e9, OIL, deforming_load=deforming)
-    return FilmTable(SolvedFilm(contact, SPEEDS, POSITION, 800), load=5.5)
+    return FilmTable(SolvedLineFilm(contact, SPEEDS, POSITION, 800), load=5.5)
 
 
 def solver_of(table):
@@ -43,7 +43,7 @@ def test_the_shape_of_another_radius_makes_its_films(load, deforming):
 
     def table(radius):
         contact = LineContact(radius, 6e-3, 115.5e9, oil, deforming_load=deforming)
-        return FilmTable(SolvedFilm(contact, speeds, x, 800), load=600.0)
+        return FilmTable(SolvedLineFilm(contact, speeds, x, 800), load=600.0)
 
     unworn, other = table(5e-3), table(6e-3)
     shape = x**2 * (1 / 12e-3 - 1 / 10e-3)

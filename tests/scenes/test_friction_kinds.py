@@ -12,10 +12,10 @@ from bem.campaigns import campaign_of, compute
 from bem.campaigns.context import Silent
 from bem.contact import solve_contact
 from bem.errors import InputError, Status
-from bem.friction import load_sharing, solve_mixed
+from bem.friction import solve, solve_mixed
 from bem.friction.asperity_array import SQUARE_LATTICE
-from bem.friction.film import SolvedFilm
 from bem.friction.film_table import FilmTable
+from bem.friction.line_film import SolvedLineFilm
 from bem.friction.setup import MixedSetup
 from bem.friction.smooth import LineContact
 from bem.grid import Grid
@@ -125,7 +125,7 @@ def test_pressures_give_the_load():
 @pytest.mark.internal
 def test_film_table_is_the_film():
     position = (np.arange(64) - 31.5) * 0.8e-6
-    table = FilmTable(SolvedFilm(LineContact(2e-3, 1.0, 115e9, OIL), (0.02, 0.0), position, 300), load=900.0)
+    table = FilmTable(SolvedLineFilm(LineContact(2e-3, 1.0, 115e9, OIL), (0.02, 0.0), position, 300), load=900.0)
     # ten times below the 0.3 % asked of the film, but at the exit's constriction, where films are steep
     assert max(table.error(load) for load in (850.0, 300.0, 60.0)) < 4e-3
     exact = table.films.solve(300.0, table.entry(8))
@@ -141,7 +141,7 @@ def test_film_table_does_not_depend_on_what_was_asked_first():
     position = (np.arange(16) - 7.5) * 2e-6
     values = []
     for loads in ((100.0, 700.0), (700.0, 100.0)):
-        table = FilmTable(SolvedFilm(LineContact(2e-3, 1.0, 115e9, OIL), (0.02, 0.0), position, 200), load=900.0)
+        table = FilmTable(SolvedLineFilm(LineContact(2e-3, 1.0, 115e9, OIL), (0.02, 0.0), position, 200), load=900.0)
         found = {load: table.under(load).thickness for load in loads}
         values.append(found)
     for load in (100.0, 700.0):
@@ -280,8 +280,8 @@ def test_a_curve_killed_between_speeds_goes_on_to_the_same_bits(tmp_path, model,
     data = scene_with(FRICTION, speeds=speeds, sharing={"models": [model]}, contact={"boundary_friction": friction})
     scene, outcome, whole = run(data)
     solved = []
-    solve = load_sharing.solve_setup
-    monkeypatch.setattr(load_sharing, "solve_setup", lambda *given: solved.append(0) or solve(*given))
+    solve_setup = solve.solve_setup
+    monkeypatch.setattr(solve, "solve_setup", lambda *given: solved.append(0) or solve_setup(*given))
     for done in (1, 3):
         with pytest.raises(StopHereError):
             compute(campaign_of(scene), tmp_path, watcher=Interrupting("speeds", done))

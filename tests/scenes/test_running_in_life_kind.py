@@ -5,7 +5,7 @@ import pytest
 from small_scenes import PATCH
 
 from bem import InputError
-from bem.friction.load_sharing import solve_setup
+from bem.friction.solve import solve_setup
 from bem.scenes import PlainContext, build, get_kind, lives, load_scene
 from bem.wear import WearModel
 

@@ -181,9 +181,8 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
     """One curve, speed by speed, with a checkpoint after each."""
     from bem.accuracy.mixed import ORIGINS, RULES
     from bem.friction.curves import Curve
-    from bem.friction.load_sharing import solve_setup
-    from bem.friction.oil_beside import oil_notes
-    from bem.friction.oil_on_contact import covered_notes
+    from bem.friction.result_notes import covered_notes, oil_notes
+    from bem.friction.solve import solve_setup
 
     grid, pairs = build.grid_of(scene.grid), scene.speeds.build()
     lower, upper = build.both_heights(scene, grid, context)
@@ -214,8 +213,7 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
 
 def _notes(solution: MixedSolution) -> tuple[Note, ...]:
     """What is noted of one speed; what the oil says is told of all of them together."""
-    from bem.friction.oil_beside import oil_notes
-    from bem.friction.oil_on_contact import covered_notes
+    from bem.friction.result_notes import covered_notes, oil_notes
 
     of_oil = oil_notes([solution.oil]) + covered_notes([(solution.friction, solution.oil_on_contact)])
     return notes_of_balance([note for note in solution.notes if note not in of_oil], solution.film.notes)
@@ -262,7 +260,7 @@ def _record(
     evenly."""
     from bem.accuracy.bars import from_tables
     from bem.accuracy.mixed import ORIGINS, RULES
-    from bem.friction.solution import sliding_sign
+    from bem.friction.boundary import sliding_sign
 
     bars, parts = from_tables(errors, RULES, ORIGINS)
     shown = curve.shown
@@ -315,7 +313,7 @@ def summarise(
     """How far each model is from its baseline [%], eq. (13) of paper A: mean and spread over the repetitions; and each
     model's share of the load on the surfaces over the lambda ratio, fitted."""
     from bem.friction.curves import relative_difference
-    from bem.friction.load_share import curves_load_share
+    from bem.friction.share_fit import curves_load_share
 
     (loads, names, models, _), table = over_last(4, axes, records)
     found = []

@@ -50,7 +50,7 @@ crossed waves, the surfaces' share was within 1 % of a patch's (tests)."""
 
 
 @dataclass(frozen=True, eq=False)
-class RepeatedCell(OfPatch):
+class HomogenisedContact(OfPatch):
     """Many of one cell; a `RoughContact`. patch : one of them, within which traction acts."""
 
     @property
@@ -277,7 +277,7 @@ def _conjugate_gradients(
     return unit * found, steps
 
 
-def at_centre(film: PatchFilm) -> PatchFilm:
+def film_at_centre(film: PatchFilm) -> PatchFilm:
     """A film as a cell at its centre sees it, everywhere alike: fields (1, 1)."""
     i, j = (n // 2 for n in film.thickness.shape)
     middle = {name: getattr(film, name)[i : i + 1, j : j + 1] for name in ("thickness", "pressure", "shear_stress")}

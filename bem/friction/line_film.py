@@ -1,0 +1,239 @@
+"""Film model of a line contact: every film is solved when the balance requests it, on a coarse or on the wanted mesh.
+
+Films come from `bem.lubrication.steady.line_film`, with heat from `bem.lubrication.with_heat`. Warm starts: the film of
+the nearest load of the same balance, or a film of a similar case. Verified in tests/friction/test_balance.py and
+test_continuation.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+
+import numpy as np
+
+from bem.errors import InputError
+from bem.friction.film import PatchFilm, smooth_gap
+from bem.friction.smooth import LineContact
+from bem.grid import FloatArray
+from bem.lubrication import FilmSolution, PointFilmSolution
+from bem.lubrication.line_case import MOES_LOADS, LineCase, load_range
+from bem.lubrication.line_kept import without_equations
+from bem.lubrication.line_scales import line_scales
+from bem.lubrication.line_starts import on_mesh_of
+from bem.lubrication.steady import line_film
+from bem.lubrication.validity import THINNEST_FILM
+from bem.lubrication.with_heat import film_with_heat
+
+BALANCE_POINTS = 400
+"""Nodes of the coarse mesh, on which the balance is first looked for."""
+MOLECULAR_LOAD = 1e4
+"""Moes' load parameter M up to which line films are solved, however thin they are."""
+LEAST_FILM = 0.5 * THINNEST_FILM
+"""Smallest film thickness [m] above `MOLECULAR_LOAD`: half of the thickness below which the film model is not valid."""
+HOT_FRACTION = 0.9
+"""Fraction of the largest load that is used with heat: heating of the inlet thins the oil by less than a fifth."""
+COARSE_FILM = 1e-3
+"""Relative error of films on `BALANCE_POINTS` nodes; the balance is not solved more accurately with them."""
+TOLERANCE, COARSE_TOLERANCE = 1e-8, 1e-5
+"""Largest residual of films on the wanted and on the coarse mesh; the latter is a hundredth of the mesh's own error."""
+
+
+def solved_line_film(
+    contact: LineContact,
+    speeds: Sequence[float],
+    load: float,
+    points: int,
+    *,
+    initial: FilmSolution | None = None,
+    position: FloatArray | None = None,
+    tolerance: float = TOLERANCE,
+) -> FilmSolution:
+    """Solve the line film under a load.
+
+    Bodies are rigid where the load is too small for the elastic film's range: such pressures deflect the surfaces by
+    less than 1e-5 of the film thickness.
+
+    Parameters
+    ----------
+    contact : the smooth contact and its oil.
+    speeds : (u1, u2) of flat and cylinder [m/s].
+    load : on the whole width [N], at most `largest_film_load`.
+    points : nodes of the mesh.
+    initial : warm start.
+    position : abscissae of the solution [m]; its own mesh by default.
+    tolerance : largest residual without heat; the iterations of heat have their own.
+    """
+    modulus, heat = contact.film_modulus(load), contact.heat
+    lowest, _ = load_range(contact.radius, modulus, speeds, contact.lubricant)
+    case = LineCase(
+        load=load / contact.width,
+        radius=contact.radius,
+        contact_modulus=math.inf if load / contact.width < lowest else modulus,
+        speeds=speeds,
+        lubricant=contact.lubricant,
+        points=points,
+        initial=initial,
+        flow_factors=contact.flow_factors,
+    )
+    if heat is None:
+        return line_film(replace(case, tolerance=tolerance), position=position, supply=contact.supply)
+    unheated = {"position": position is not None, "supply": contact.supply is not None and heat.model == "full"}
+    return film_with_heat(case, heat, contact.supply, unheated)
+
+
+@dataclass(frozen=True, eq=False)
+class SolvedLineFilm:
+    """Films of a line contact, each solved when it is requested; a `Film` and a `TabulatedFilms`.
+
+    Attributes
+    ----------
+    contact : the smooth contact and its oil.
+    speeds : (u1, u2) of flat and cylinder [m/s].
+    position : (nx,) abscissae of the patch [m].
+    points : nodes of the wanted mesh; a coarse mesh has `BALANCE_POINTS`.
+    striated_exit : whether the oil behind the exit adds to the shear force.
+    initial : film of a similar case, the warm start of the first film.
+    tolerance : largest residual on the wanted mesh.
+    """
+
+    contact: LineContact
+    speeds: tuple[float, float]
+    position: FloatArray
+    points: int
+    striated_exit: bool = False
+    initial: FilmSolution | None = None
+    tolerance: float = TOLERANCE
+
+    step = 0.125  # cubic interpolation is then good to about 1e-4 of the film (tested)
+    growth = 0.5
+    continued = True
+
+    @property
+    def largest_load(self) -> float:
+        """Load [N] up to which films are solved."""
+        return largest_film_load(self.contact, self.speeds)
+
+    solved_load = math.inf
+    """Load [N] beyond which films are extrapolated (see `SolvedPointFilm`): line films never are."""
+
+    @property
+    def errors(self) -> tuple[float, ...]:
+        """Errors of the coarse and the wanted mesh, or of the latter alone if it is no finer; see `Film`."""
+        return (COARSE_FILM, 0.0) if self.points > BALANCE_POINTS else (0.0,)
+
+    def coarse_alone(self) -> SolvedLineFilm:
+        """Return the same films at the coarse level alone."""
+        return replace(self, points=min(self.points, BALANCE_POINTS), tolerance=COARSE_TOLERANCE)
+
+    def under(self, load: float, level: int, start: PatchFilm | None) -> PatchFilm:
+        """Solve the film under a load at a level of accuracy; see `Film`."""
+        points = self.points if level == len(self.errors) - 1 else BALANCE_POINTS
+        initial = self.initial if start is None else line_solution(start.solution)
+        tolerance = self.tolerance if level == len(self.errors) - 1 else COARSE_TOLERANCE
+        on_known_mesh = None if self.contact.heat is not None else self.initial
+        if (
+            initial is not None
+            and on_known_mesh is not None
+            and len(on_known_mesh.position) == points != len(initial.position)
+        ):
+            initial = on_mesh_of(initial, on_known_mesh)
+        film = solved_line_film(self.contact, self.speeds, load, points, initial=initial, tolerance=tolerance)
+        return self.sampled(film, load)
+
+    @property
+    def parabola(self) -> FloatArray:
+        """Undeformed gap on the patch; see `TabulatedFilms`."""
+        return self.contact.parabola(self.position, self.position[:0])
+
+    def solve(self, load: float, initial: FilmSolution | None) -> FilmSolution:
+        """Solve a film for a table; see `TabulatedFilms`.
+
+        The factorised equations are dropped, because the entries of a table are too far apart to start from them.
+        """
+        return without_equations(solved_line_film(self.contact, self.speeds, load, self.points, initial=initial))
+
+    def solved(self, load: float) -> FilmSolution:
+        """Solve the film under a load [N] on the wanted mesh."""
+        return self.solve(load, self.initial)
+
+    def sampled(self, film: FilmSolution, load: float, stretch: float = 1.0) -> PatchFilm:
+        """Sample a film at stretched abscissae of the patch; see `TabulatedFilms`."""
+        return sampled(film, stretch * self.position, load, self.contact, striated_exit=self.striated_exit)
+
+    def resampled(self, film: PatchFilm, position: FloatArray, *, negligible: bool) -> FilmSolution:
+        """Return a film's solution at other abscissae [m]; a negligible film may reach beyond them.
+
+        Raises
+        ------
+        InputError : a film that is not negligible reaches beyond the positions.
+        """
+        solution = line_solution(film.solution)
+        assert solution is not None
+        if self.contact.heat is not None:
+            pressure, thickness = solution.at(position)
+            return replace(solution, position=position, pressure=pressure, thickness=thickness)
+        try:
+            return solved_line_film(
+                self.contact, self.speeds, film.load, self.points, initial=solution, position=position
+            )
+        except InputError:
+            if not negligible:
+                raise
+        pressure, thickness = solution.at(position)
+        return replace(solution, position=position, pressure=pressure, thickness=thickness)
+
+
+def largest_film_load(contact: LineContact, speeds: Sequence[float]) -> float:
+    """Return the load on the whole width [N] up to which films are solved.
+
+    The limit is one of Moes' load parameter M, `MOLECULAR_LOAD`. Above it films are solved as long as their asymptotes
+    are thicker than `LEAST_FILM`. M goes with the load over the root of the modulus; where the modulus itself goes with
+    the load (`OilVolume.LOADED`), M goes with the root of the load.
+    """
+    largest = contact.width * load_range(contact.radius, contact.contact_modulus, speeds, contact.lubricant)[1]
+    if math.isfinite(largest):
+        largest *= min(max(_load_of_least_film(contact, speeds), MOLECULAR_LOAD) / MOES_LOADS[1], 1.0)
+    if contact.heat is not None:
+        largest *= HOT_FRACTION
+    return largest if contact.deforming_load is None else largest**2 / contact.deforming_load * (1 - 1e-9)
+
+
+def _load_of_least_film(contact: LineContact, speeds: Sequence[float]) -> float:
+    """Return Moes' load parameter M under which the film is `LEAST_FILM` thick.
+
+    The thicker one of two asymptotes of the minimum film counts: 1.98 M^(-1/5), elastic and isoviscous (Herrebrugh
+    1968: 2.05), and 0.98 L^(3/4) M^(-1/8), elastic and piezoviscous (Moes 2000; central film 1.31).
+    """
+    oil = contact.lubricant
+    scales = line_scales(1.0, contact.radius, contact.contact_modulus, abs(sum(speeds)), oil.viscosity)
+    material = float(oil.log_viscosity_ratio(np.zeros(1))[1][0]) * scales.pressure
+    films = scales.film / LEAST_FILM
+    return max((1.98 * films) ** 5, (0.98 * material**0.75 * films) ** 8)
+
+
+def sampled(
+    film: FilmSolution, position: FloatArray, load: float, contact: LineContact, *, striated_exit: bool = False
+) -> PatchFilm:
+    """Sample a solved film at the abscissae (nx,) [m] of a patch; `load` and forces are on the whole width [N]."""
+    pressure, thickness = film.at(position)
+    force = film.striated_shear_force if striated_exit else film.shear_force
+    return PatchFilm(
+        load=load,
+        thickness=thickness[:, None],
+        pressure=pressure[:, None],
+        shear_stress=film.shear_stress(position)[:, None],
+        shear_force=force * contact.width,
+        minimum_thickness=film.minimum_thickness,
+        status=film.status,
+        notes=film.notes,
+        solution=film,
+        smooth_gap=smooth_gap(thickness[:, None], contact.parabola(position, position[:0]), load, contact),
+    )
+
+
+def line_solution(film: FilmSolution | PointFilmSolution | None) -> FilmSolution | None:
+    """Narrow the type of a solution that belongs to a line contact."""
+    assert film is None or isinstance(film, FilmSolution)
+    return film

@@ -1,0 +1,116 @@
+"""Notes on results of load sharing: friction, films beyond their model, coatings, and oil that friction depends on.
+
+Functions take numbers or finished results and solve nothing. Notes of film and contact models come with the balance.
+Verified in tests/friction/test_load_sharing.py, test_oil_volume.py and test_oil_on_contact.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from bem.convolution import couples
+from bem.friction.film import PatchFilm
+from bem.friction.forces import Forces
+from bem.friction.oil_sensitivity import OilVolumeSensitivity
+from bem.friction.oil_volume import OilVolume
+from bem.friction.setup import MixedSetup
+from bem.materials import Body
+from bem.notes import Level, Note
+from bem.notes.contact import FRICTION_ON_PRESSURE
+from bem.notes.friction import FILM_MODEL_ENDS, FILM_WITHOUT_LAYERS, FRICTION_UNPHYSICAL, OIL_COUNTED, OIL_ON_CONTACT
+
+LARGEST_FRICTION = 1.0
+"""Coefficient of friction that neither a boundary layer nor an oil under pressure reaches."""
+MATTERS = 0.05
+"""Fraction of friction that oil on cells in contact would add, from which a note reports it.
+
+The film model counts no shear stress on cells in contact, as in the thesis. The comparison with the roughness in
+Reynolds' equation itself is in `reports/experiments/rough_films.py`.
+"""
+DECIDES = 0.2
+"""The same fraction, from which the note is a caution."""
+
+
+def validity_notes(
+    friction: float, forces: Forces, film: PatchFilm, whole: PatchFilm, setup: MixedSetup
+) -> tuple[Note, ...]:
+    """Return notes on an unphysical friction, on a film under the whole load beyond its model, and on coatings."""
+    notes = []
+    if friction > max(LARGEST_FRICTION, 1.01 * forces.coefficient):
+        stressed = float(np.abs(film.shear_stress).max()) > float(film.pressure.max())
+        reason = "shear" if stressed else "drag"
+        notes.append(FRICTION_UNPHYSICAL(friction=float(friction), limit=LARGEST_FRICTION, reason=reason))
+    if whole.load < setup.load * (1 - 1e-12):
+        notes.append(FILM_MODEL_ENDS(load=float(whole.load), reason="whole-load"))
+    return (*notes, *coating_notes(setup))
+
+
+def coating_notes(setup: MixedSetup) -> tuple[Note, ...]:
+    """Return a note on coated bodies, whose layers only the rough contact feels."""
+    bodies = (setup.bodies,) if isinstance(setup.bodies, Body) else setup.bodies
+    thickest = max((body.interfaces[-1] for body in bodies if body.layers), default=0.0)
+    if thickest == 0:
+        return ()
+    return (FILM_WITHOUT_LAYERS(ratio=float(thickest / setup.smooth.half_axes(setup.load)[0])),)
+
+
+def coupling_notes(forces: Forces, traction: float, setup: MixedSetup) -> tuple[Note, ...]:
+    """Return a note where friction coupled into the normal gap with another coefficient than the contact has.
+
+    The traction over pressure and the mean coefficient differ by more than a tenth, and elastically different bodies
+    couple them.
+    """
+    used, found = abs(traction), forces.coefficient
+    if setup.boundary_law.constant is not None or used == 0 or found == 0 or abs(used - found) <= 0.1 * found:
+        return ()
+    bodies = (setup.bodies,) if isinstance(setup.bodies, Body) else setup.bodies
+    if not couples(bodies):
+        return ()
+    return (FRICTION_ON_PRESSURE(used=float(used), found=float(found), reason="other-friction"),)
+
+
+def covered_notes(points: Sequence[tuple[float, float]]) -> tuple[Note, ...]:
+    """Return a note on the speed at which oil on cells in contact would add most friction; none where it adds little.
+
+    Parameters
+    ----------
+    points : (friction, friction that the film's own shear stress on cells in contact would add) at each speed.
+    """
+    following = [(friction, more) for friction, more in points if abs(more) > MATTERS * abs(friction)]
+    if not following:
+        return ()
+    friction, more = max(following, key=lambda one: abs(one[1] / one[0]) if one[0] else math.inf)
+    most = ", where that differs most" if len(following) > 1 else ""
+    level = Level.CAUTION if abs(more) > DECIDES * abs(friction) else None
+    return (OIL_ON_CONTACT(level=level, with_oil=float(friction + more), friction=float(friction), most=most),)
+
+
+def oil_notes(oils: Sequence[OilVolumeSensitivity]) -> tuple[Note, ...]:
+    """Return notes on results, at one speed or several, that depend on the area where oil is counted."""
+    following = [oil for oil in oils if oil.matters]
+    if not following:
+        return ()
+    known = [oil for oil in following if oil.known]
+    notes = []
+    if known:
+        oil = max(known, key=lambda one: one.change)
+        level = Level.OUTSIDE_MODEL if oil.decides else None
+        values: dict[str, Any] = {
+            "contact_share": float(oil.contact_share),
+            "friction": float(oil.friction),
+            "loaded_contact_share": float(oil.loaded_contact_share),
+            "loaded_friction": float(oil.loaded_friction),
+            "most": ", where that differs most" if len(known) > 1 else "",
+        }
+        if all(one.counted is OilVolume.HERTZ for one in following):
+            notes.append(OIL_COUNTED(level=level, reason="hertz", **values))
+        else:
+            share = float(max(one.share for one in following))
+            notes.append(OIL_COUNTED(level=level, reason="patch", share=share, **values))
+    if len(known) < len(following):
+        notes.append(OIL_COUNTED(count=len(following) - len(known), reason="unknown"))
+    return tuple(notes)
