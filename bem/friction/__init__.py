@@ -1,14 +1,42 @@
-"""Mixed lubrication: load sharing between film and rough contact, the Stribeck curve, boundary friction.
+"""Mixed lubrication: load sharing between oil film and rough contact, the Stribeck curve, boundary friction.
 
-`load_sharing` solves one speed or many on a `setup`, whose contact is `smooth`: of a cylinder, a ball or an ellipsoid.
-`balance` finds the film's share of the load, `film`, `point_film` and `film_table` give films, solved or tabulated
-(`films` asks which), `rough_contact` the contact: the rough half-space or uncoupled `asperities`; `forces` sums both
-parts of friction, `boundary` holds the laws of boundary friction. Names are loaded when first used, so that the laws
-cost no solver.
+Film and rough contact carry the load in parallel (Johnson, Greenwood and Poon, *Wear* 19, 1972, 91; papers A and D of
+the thesis). The film is that between smooth surfaces under its part of the load F_film. The rough surfaces are pressed
+together by the rest. Their mean opening must equal the mean film thickness, both taken over the area where oil is
+counted. One point of a Stribeck curve, `solve.solve_mixed`, in order:
 
-Sees films (`lubrication`), contacts and operators; no wear, no scene. Verified in tests/friction: the balance against
-its parts solved apart, limits of full film and boundary lubrication, random cases; against the thesis' papers A and D
-in the validation page.
+1. `setup.MixedSetup` checks the arguments. `smooth` has the contact of the smooth bodies: half-axes and undeformed gap.
+   `oil_volume` averages film and opening where the film carries load (default), over the patch (the thesis), or over
+   the Hertz contact.
+2. `models` chooses the film model and the contact model. A film model gives the film under any load, at a coarse and at
+   the wanted accuracy (protocol `film.Film`): `line_film` and `point_film` solve films when they are requested,
+   `film_table` interpolates them in load, `worn_film` corrects them for worn bodies.
+3. The contact model gives the opening under any load (protocol `rough_contact.RoughContact`): the rough half-space or
+   uncoupled `asperities`; `homogenised_contact` with `cell_law` for a cell that repeats over the contact of a ball
+   (Greenwood and Tripp 1967); `given_separation` for mean planes at the central film thickness (figures 5 and 6 of
+   paper A).
+4. `continuation` predicts the film load from the solution at the last speed: the log odds of the film load change in
+   proportion to the logarithm of the speed.
+5. `load_sharing.LoadSharing.solve` is the one driver; wear cycles, lives and error bars use it too. It first solves the
+   film under the whole load, for the lambda ratio. Cost: one coarse film; one more in full film.
+6. `balance.share_load` finds the film load, a root in the log odds of the film load (`numerics.bracketed_root`), on the
+   coarse film first. It recognises full film and boundary lubrication as ends of the range. Cost in mixed lubrication:
+   three or four films, coarse and fine, each with one rough contact; six to eight without a solution at another speed.
+7. `forces` sums boundary and film friction. `boundary` has the laws of boundary friction, one class each.
+   `contact_heat` adds frictional heat (Jaeger 1942) with `thermal`. Cost: one or a few heat conductions.
+8. `oil_sensitivity` repeats the balance with the default area of oil, only where another one was asked for. Cost: a
+   third of the convolutions of step 6, up to as many.
+9. `result_notes` reports what is outside the models' validity; `solution.MixedSolution` is the result.
+
+`curves` collects the speeds of a curve, and `share_fit` fits the contact share over the lambda ratio. `asperity_array`
+(figures 3 and 4 of paper A) presses an array of equal asperities and has no film.
+
+Terms: the *whole* film is the film under the whole load; the *opening* is the mean gap between the rough surfaces where
+oil is counted; the *rest* is the load less the film load; the *odds* of a film load are film load over rest.
+
+Names are loaded at first use, so that laws of boundary friction need no solver. The package knows films, contacts and
+operators, but no wear and no scene. Verified in tests/friction: the balance against its parts solved separately, the
+limits of full film and boundary lubrication, random cases; and against papers A and D in the validation page.
 """
 
 from typing import TYPE_CHECKING

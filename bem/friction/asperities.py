@@ -49,7 +49,7 @@ class AsperityContact:
 
 
 def find_summits(height: FloatArray, grid: Grid) -> Summits:
-    """Summits of heights (nx, ny); parabolas through the neighbours along x and y give their tops and radii.
+    """Find the summits of heights (nx, ny); parabolas through the neighbours along x and y give tops and radii.
 
     Cells on the border of a free axis are left out.
     """
@@ -87,7 +87,7 @@ def find_summits(height: FloatArray, grid: Grid) -> Summits:
 def asperity_loads(
     interference: FloatArray, radius: FloatArray, contact_modulus: float, hardness: float | None
 ) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Load [N], contact area [m^2] and whether plastic, of spheres pressed in by `interference` [m] (negative: apart).
+    """Return load [N], contact area [m^2] and plastic state of spheres at an `interference` [m] (negative: apart).
 
     Elastic: Hertz, 4/3 E* sqrt(R) d^(3/2) on pi R d. Once its mean pressure 4 E* sqrt(d/R) / (3 pi) reaches the
     hardness, at d_c, the load is hardness x area on pi R (2 d - d_c): the area at constant volume of the plastic part,
@@ -108,7 +108,7 @@ def asperity_loads(
 def shift_for_load(
     separation: FloatArray, summits: Summits, load: float, *, contact_modulus: float, hardness: float | None
 ) -> float:
-    """Shift [m] of the mean planes, `separation` apart at each summit [m], at which the summits carry `load` [N]."""
+    """Return the shift [m] of mean planes `separation` [m] apart at each summit, at which these carry `load` [N]."""
 
     from scipy.optimize import brentq
 
@@ -133,7 +133,7 @@ def uncoupled_contact(
     contact_modulus: float,
     hardness: float | None,
 ) -> AsperityContact:
-    """Contact of uncoupled summits, the mean planes `separation` [m] apart at each of them, less `shift` [m]."""
+    """Return the contact of uncoupled summits at which the mean planes are `separation` less `shift` apart [m]."""
     ix, iy = summits.index
     depth = summits.height - separation + shift
     load, area, plastic = asperity_loads(depth, summits.radius, contact_modulus, hardness)

@@ -1,7 +1,7 @@
 """Equal spherical asperities in a square array, pressed by a flat: load per asperity over how deep the tops go.
 
-All asperities of an endless array carry the same, so one of them on a doubly periodic cell is the whole array. Thesis,
-paper A, figures 3 and 4. Knows the contact solver; no scene. Verified in tests/friction/test_asperity_array.py.
+All asperities of an infinite array carry the same load, so one asperity on a doubly periodic cell represents the array.
+Thesis, paper A, figures 3 and 4. Verified in tests/friction/test_asperity_array.py.
 """
 
 from __future__ import annotations
@@ -19,10 +19,10 @@ from bem.grid import FloatArray, Grid
 from bem.numerics.monotone import MonotoneCubic
 
 LOADS = 14
-"""Contacts solved for a curve; loads at depths in between are interpolated."""
+"""Number of contacts solved for a curve; loads at depths in between are interpolated."""
 SQUARE_LATTICE = 3.900264920001956
-"""Potential of a square lattice of unit charges, in a background that makes it neutral, at one of them, itself left
-out, times the spacing and -1; 4 zeta(1/2) beta(1/2)."""
+"""Minus the potential at one charge of a square lattice of unit charges in a neutralising background, times the
+spacing; the charge itself is excluded. The value is 4 zeta(1/2) beta(1/2)."""
 SQUARE_PATCH = 4 * math.asinh(1.0)
 """Integral of 1/r over a unit square, r from its centre."""
 
@@ -31,8 +31,8 @@ SQUARE_PATCH = 4 * math.asinh(1.0)
 class ArrayLoads:
     """Loads per asperity [N] at depths (n,) [m] of the tops.
 
-    alone : of an asperity alone, by Hertz. mean_plane : depths from the deformed mean plane of the endless array.
-    from_flat : depths from the undeformed flat, of an array that ends. pressure : (nx, ny) at the highest load [Pa].
+    alone : of a single asperity, by Hertz. mean_plane : depths from the deformed mean plane of the infinite array.
+    from_flat : depths from the undeformed flat, of a finite array. pressure : (nx, ny) at the highest load [Pa].
     status : the worst of the contacts.
     """
 
@@ -46,8 +46,10 @@ class ArrayLoads:
 
 @dataclass(frozen=True, eq=False)
 class ArrayState:
-    """Contacts of an array that are solved: approaches of the first loads [m], the pressure (nx, ny) of the last one
-    [Pa], and the worst status."""
+    """Checkpoint of an array.
+
+    approach : of the solved loads [m]. pressure : (nx, ny) under the last load [Pa]. status : worst of the contacts.
+    """
 
     approach: tuple[float, ...] = ()
     pressure: FloatArray | None = None
@@ -65,16 +67,16 @@ def press_array(
     state: ArrayState | None = None,
     callback: Callable[[ArrayState], None] | None = None,
 ) -> ArrayLoads:
-    """Press an asperity among its neighbours.
+    """Return the loads of an asperity of the array over the depths of the tops.
 
     Parameters
     ----------
     operator : of both bodies on the doubly periodic cell of one asperity, as wide as their spacing.
     radius, height : of the spheres, and how far they stand out of the flat [m].
     contact_modulus : E* [Pa].
-    depths : at which loads are wanted, rising [m].
-    window : side of the square array that ends [m].
-    state : of the same array, from which it goes on to the same bits.
+    depths : ascending depths of the tops [m].
+    window : side of the finite square array [m].
+    state : checkpoint of the same array; results are the same to the last bit.
     callback : called after each contact.
 
     Raises
@@ -103,13 +105,13 @@ def press_array(
 
 
 def asperity_gap(grid: Grid, radius: float, height: float) -> FloatArray:
-    """Gap (nx, ny) [m] under the parabola that Hertz' sphere is; below the foot stands the flat."""
+    """Return the gap (nx, ny) [m] of a sphere, approximated by a parabola, that stands out of a flat."""
     x, y = grid.x[:, None], grid.y[None, :]
     return np.minimum((x**2 + y**2) / (2 * radius), height)
 
 
 def _at_depths(depth: FloatArray, inward: FloatArray, loads: FloatArray, spacing: float) -> FloatArray:
-    """Loads at the depths asked for [N]; InputError for depths that the loads do not reach."""
+    """Return the loads [N] at depths [m]; InputError for depths that the loads do not reach."""
     if not (np.diff(inward) > 0).all() or inward[0] > depth[0] or inward[-1] < depth[-1]:
         raise InputError(
             f"array.interferences: {depth[0]:.3g} to {depth[-1]:.3g} m cannot be reached at a spacing of "

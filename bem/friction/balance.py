@@ -20,8 +20,9 @@ variable m is nearly linear: next to either end only one of both changes.
    the contact carries the whole load (boundary lubrication); else the case is infeasible.
 7. Certify: recompute both imbalances, of load and of oil, from the film and the contact that are returned.
 
-Cost of a mixed point that starts from its neighbour: two or three coarse films and two fine ones, with a contact for
-each. Nothing here depends on the kind of film or contact. Verified in tests/friction/test_balance.py.
+Cost in mixed lubrication from a start at a neighbouring speed: three or four films, coarse and fine, with a contact
+each; six to eight from nothing. Nothing here depends on the kind of film or contact. Verified in
+tests/friction/test_balance.py.
 """
 
 from __future__ import annotations

@@ -3,13 +3,13 @@
 To add a law, derive from `BoundaryFriction` and register it, here or in a file of your own. A number in its place is a
 constant coefficient.
 
-The force is the sum of the shear stress over the contact. The cells in contact count for the real area, which is known
-to second order in the cell while their number is not: of each the same part is in contact, under a pressure higher by
-as much, so that load and area are those of the contact.
+The force is the sum of the shear stress over the contact. The real area is known to second order in the cell size, the
+number of cells in contact only to first order. So the same fraction of every cell in contact is taken to touch, under a
+pressure that is higher in proportion; load and area are then those of the contact (`filled_part`).
 
-Where one number must stand for all of the contact there are two rules. Traction in the normal gap takes the coefficient
-at the pressure that rough contacts have by themselves (`reference_pressure`), known before any contact is solved, so
-that one operator serves all of them; stresses below the surface take the contact's own mean, force over load.
+Two rules give one coefficient for the whole contact. Coupling into the normal gap takes the coefficient at the pressure
+of a rough contact that hardly depends on its load (`reference_pressure`); it is known before any contact is solved, so
+one operator serves all contacts. Stresses below the surface take the mean of the contact, force over load.
 """
 
 from __future__ import annotations
@@ -36,8 +36,8 @@ BOLTZMANN = 1.380649e-23
 class BoundaryFriction(Law):
     """Shear stress of surfaces in contact.
 
-    needs_temperature : whether the law is one over temperature, which `at_temperature` then tells it.
-    temperature : of the surfaces [K]; None where it was not told.
+    needs_temperature : whether the law depends on temperature, which `at_temperature` sets.
+    temperature : of the surfaces [K]; None where it is not set.
     """
 
     family: ClassVar[str] = "boundary_friction"
@@ -45,11 +45,11 @@ class BoundaryFriction(Law):
     temperature: float | None = dataclasses.field(default=None, kw_only=True)
 
     def at_temperature(self, temperature: float | None) -> BoundaryFriction:
-        """The law at the temperature of the surfaces [K], where it depends on it.
+        """Return the law at the temperature of the surfaces [K], if it depends on temperature.
 
         Raises
         ------
-        InputError : a law over temperature, and none is known.
+        InputError : the law depends on temperature, and none is known.
         """
         if not self.needs_temperature:
             return self
@@ -67,23 +67,23 @@ class BoundaryFriction(Law):
 
     @property
     def constant(self) -> float | None:
-        """The coefficient where it is the same at all pressures and speeds, else None."""
+        """Coefficient of friction if it is the same at all pressures and speeds, else None."""
         return None
 
     def coefficient(self, pressure: float, sliding_speed: float) -> float:
-        """Shear stress over pressure at one pressure [Pa]."""
+        """Return shear stress over pressure at one pressure [Pa]."""
         if self.constant is not None:
             return self.constant
         return float(self.shear_stress(np.array([pressure]), sliding_speed)[0] / pressure)
 
     def mean_coefficient(self, pressure: FloatArray, filled: float, sliding_speed: float) -> float:
-        """Force over load of a contact: pressure (nx, ny) [Pa] of the cells, the part `filled` of those in contact."""
+        """Return force over load of a contact with pressure (nx, ny) [Pa], `filled` as of `filled_part`."""
         if self.constant is not None:
             return self.constant
         return float(self.cell_stress(pressure, filled, sliding_speed).sum() / pressure.sum())
 
     def cell_stress(self, pressure: FloatArray, filled: float, sliding_speed: float) -> FloatArray:
-        """Shear force over the area of each cell [Pa], as `mean_coefficient`; zero where there is no contact."""
+        """Return shear force over area of each cell [Pa]; zero without contact. Arguments as of `mean_coefficient`."""
         if self.constant is not None:
             return self.constant * pressure
         stress = np.zeros_like(pressure)
@@ -179,7 +179,9 @@ class TemperatureDependentFriction(BoundaryFriction):
 
     def shear_stress(self, pressure: FloatArray, sliding_speed: float) -> FloatArray:
         """The coefficient above times pressure."""
-        return self.friction * math.exp(-self.softening * (_told(self) - self.reference_temperature)) * pressure
+        return (
+            self.friction * math.exp(-self.softening * (_temperature_of(self) - self.reference_temperature)) * pressure
+        )
 
 
 @register
@@ -200,7 +202,7 @@ class ActivatedShear(BoundaryFriction):
 
     def shear_stress(self, pressure: FloatArray, sliding_speed: float) -> FloatArray:
         """The stress above."""
-        thermal = BOLTZMANN * _told(self) * math.log(sliding_speed / self.reference_speed)
+        thermal = BOLTZMANN * _temperature_of(self) * math.log(sliding_speed / self.reference_speed)
         stress = (self.activation_energy + self.pressure_volume * pressure + thermal) / self.shear_volume
         return np.maximum(stress, 0.0)
 
@@ -273,11 +275,11 @@ class FrictionOverTemperature(_FrictionTable):
 
     def shear_stress(self, pressure: FloatArray, sliding_speed: float) -> FloatArray:
         """The table's coefficient at the temperature, times pressure."""
-        return self._at(_told(self)) * pressure
+        return self._at(_temperature_of(self)) * pressure
 
 
-def _told(law: BoundaryFriction) -> float:
-    """The temperature that a law over temperature was told [K]; InputError where it was not."""
+def _temperature_of(law: BoundaryFriction) -> float:
+    """Return the temperature of a law [K]; InputError where it is not set."""
     return cast(float, law.at_temperature(law.temperature).temperature)
 
 
@@ -286,7 +288,7 @@ BoundaryFrictionGiven = float | str | Mapping[str, object] | BoundaryFriction
 
 
 def boundary_law(value: BoundaryFrictionGiven) -> BoundaryFriction:
-    """The law that a number, a name, a table or a law means.
+    """Return the law that a number, a name, a table or a law stands for.
 
     Raises
     ------
@@ -304,7 +306,7 @@ def sliding_sign(speeds: tuple[float, float]) -> float:
 
 
 def filled_part(pressure: FloatArray, area: float, grid: Grid) -> float:
-    """Real contact area [m^2] of a patch over the area of its cells in contact; 1 where there are none."""
+    """Return the real contact area [m^2] of a patch over the area of its cells in contact; 1 without contact."""
     cells = int(np.count_nonzero(pressure > 0))
     return area / (cells * grid.cell_area) if cells and area > 0 else 1.0
 
@@ -312,10 +314,12 @@ def filled_part(pressure: FloatArray, area: float, grid: Grid) -> float:
 def reference_pressure(
     height: FloatArray, grid: Grid, contact_modulus: float, smooth: float, hardness: float | None
 ) -> float:
-    """Mean pressure [Pa] that a rough contact has whatever its load: E* h' / 2, h' the rms slope of the height (nx, ny)
-    [m], since the real area is close to 2 W / (E* h') (1.6 to 2.5: Persson (2001); Bush, Gibson and Thomas (1975);
-    Hyun et al. (2004)); at least `smooth`, the mean
-    pressure of the smooth contact [Pa], at most the hardness."""
+    """Return the mean pressure [Pa] of a rough contact, which hardly depends on its load: E* h' / 2.
+
+    h' is the rms slope of the height (nx, ny) [m]. The real area is close to 2 W / (E* h'); the factor is 1.6 to 2.5
+    (Persson 2001; Bush, Gibson and Thomas 1975; Hyun et al. 2004). The result is at least `smooth`, the mean pressure
+    of the smooth contact [Pa], and at most the hardness.
+    """
     slopes = [
         float(np.mean((np.diff(height, axis=axis) / grid.spacing[axis]) ** 2))
         for axis in (0, 1)

@@ -1,9 +1,9 @@
-"""How a cell of the roughness that repeats gives way under a mean pressure: tabulated once, as far as it is asked for.
+"""Constitutive law of a periodic rough cell: separation, opening and real area as functions of the mean pressure.
 
-The cell is solved, periodic, under mean pressures in equal ratios; between them separation, opening and real area are
-monotone cubics over the logarithm of the pressure. Below the least of them, where there is next to no contact, the
-separation goes on as the logarithm, so that pressures fall to nothing within some separations of the roughness, and
-the real area in proportion to the pressure.
+The cell is solved under mean pressures in a geometric sequence. Between them separation, opening and the logarithm of
+the real area are monotone cubics over ln(pressure). Below the lowest pressure there is hardly any contact: the
+separation is extrapolated linearly in ln(pressure), so that the pressure decays exponentially with the separation, and
+the real area is proportional to the pressure.
 """
 
 from __future__ import annotations
@@ -21,13 +21,23 @@ from bem.grid import FloatArray, Grid
 from bem.numerics.monotone import MonotoneCubic
 
 FADES = 0.05
-"""Of the largest separation tabulated: over so much more the pressure falls by a factor e."""
+"""Smallest decay length of the pressure beyond the table, as a fraction of the largest tabulated separation."""
 
 
 @dataclass(frozen=True, eq=False)
 class SolvedCell:
-    """A cell under a mean pressure [Pa]: distance of the mean planes and mean opening [m], real contact area over that
-    of the cell, pressure and displacement (nx, ny) [Pa, m], how well the opening is known [m]."""
+    """Solution of a periodic cell under a mean pressure.
+
+    Attributes
+    ----------
+    mean_pressure : [Pa].
+    separation : distance of the mean planes [m].
+    opening : mean gap [m].
+    share : real contact area over the area of the cell.
+    pressure, displacement : (nx, ny) [Pa, m].
+    opening_error : error of the opening that the contact's tolerance leaves [m].
+    status : outcome.
+    """
 
     mean_pressure: float
     separation: float
@@ -41,7 +51,7 @@ class SolvedCell:
 
 @dataclass(frozen=True, eq=False)
 class CellLaw:
-    """Cells (at least three) in the order of their mean pressures."""
+    """Law of a periodic cell, from at least three solutions in the order of their mean pressures."""
 
     grid: Grid
     cells: tuple[SolvedCell, ...]
@@ -50,7 +60,7 @@ class CellLaw:
     def tabulated(
         cls, grid: Grid, solve: Callable[[float, FloatArray | None], SolvedCell], pressures: FloatArray
     ) -> CellLaw:
-        """Of mean pressures (n,) [Pa], each cell from the one before."""
+        """Solve the cell under mean pressures (n,) [Pa], each from the one before, and return the law."""
         cells: list[SolvedCell] = []
         for pressure in pressures:
             cells.append(solve(float(pressure), cells[-1].pressure if cells else None))
@@ -66,19 +76,19 @@ class CellLaw:
         return np.log([cell.mean_pressure for cell in self.cells])
 
     def separation(self, logarithm: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Distance of the mean planes [m] at ln(pressure), and its derivative there, below zero."""
+        """Return the distance of the mean planes [m] at ln(pressure), and its derivative, which is negative."""
         inside, beyond = self._cut(logarithm)
         slope = np.minimum(self._curves.slope(inside)[..., 0], -1e-9 * self.cells[0].separation)
         slope = np.where(beyond < 0, np.minimum(slope, -FADES * self.cells[0].separation), slope)
         return self._curves(inside)[..., 0] + beyond * slope, slope
 
     def overlap(self, logarithm: FloatArray) -> FloatArray:
-        """By how much the mean opening is more than the distance of the mean planes [m]: what has yielded."""
+        """Return mean opening less distance of the mean planes [m]: the overlap of cells that yielded."""
         values = self._curves(self._cut(logarithm)[0])
         return np.maximum(values[..., 1] - values[..., 0], 0.0)
 
     def share(self, logarithm: FloatArray) -> FloatArray:
-        """Of the cell in contact."""
+        """Return the fraction of the cell in contact at ln(pressure)."""
         inside, beyond = self._cut(logarithm)
         return np.minimum(np.exp(self._curves(inside)[..., 2] + beyond), 1.0)
 
@@ -87,7 +97,7 @@ class CellLaw:
         return inside, logarithm - inside
 
     def mean_coefficient(self, law: BoundaryFriction, pressure: FloatArray, sliding_speed: float) -> float:
-        """Force over load of boundary friction where cells are under pressures (n, m) [Pa]."""
+        """Return boundary friction force over load of cells under mean pressures (n, m) [Pa]."""
         of_cells = [
             law.mean_coefficient(one.pressure, filled_part(one.pressure, one.share * self.grid.area, self.grid), speed)
             for one, speed in ((cell, sliding_speed) for cell in self.cells)
@@ -96,8 +106,10 @@ class CellLaw:
         return float((at * pressure).sum() / pressure.sum())
 
     def shown(self, pressure: float) -> tuple[FloatArray, FloatArray]:
-        """Pressure and displacement (nx, ny) [Pa, m] of a cell under a mean pressure [Pa]: those of the two tabulated
-        beside it, in the proportion that has this mean."""
+        """Return pressure and displacement (nx, ny) [Pa, m] of a cell under a mean pressure [Pa].
+
+        They are interpolated linearly between the two neighbours in the table.
+        """
         known = np.array([cell.mean_pressure for cell in self.cells])
         first = int(np.clip(known.searchsorted(pressure) - 1, 0, len(known) - 2))
         part = float(np.clip((pressure - known[first]) / (known[first + 1] - known[first]), 0.0, 1.0))
@@ -109,5 +121,5 @@ class CellLaw:
 
     @property
     def status(self) -> Status:
-        """Of the cells."""
+        """Status of the first solution that is not converged, else converged."""
         return next((cell.status for cell in self.cells if cell.status is not Status.CONVERGED), Status.CONVERGED)

@@ -1,10 +1,10 @@
-"""How hot rubbing makes the surfaces of a contact in oil, and the boundary friction that they then have.
+"""Frictional heating of the rough contact, and boundary friction at the temperature of the contact.
 
-Friction of the contact and of the oil between its cells heats both bodies, moving half-spaces that are as warm far
-away as the oil that comes (`bem.heat`); a body at rest under a cylinder is taken as cool at its radius. Where
-the law of boundary friction knows temperature it is told the contact's mean, weighted by pressure, which depends on it
-in turn: temperatures are linear in the coefficient, and one number is looked for. Verified in
-tests/friction/test_hot_contact.py.
+Friction of the contact and of the oil between its cells heats both bodies: moving half-spaces with the temperature of
+the arriving oil far away (`bem.heat`). A body at rest under a cylinder is cool at the distance of the cylinder's
+radius. A law of boundary friction over temperature takes the mean temperature of the contact, weighted by pressure.
+That mean depends on the coefficient in turn. Temperatures are linear in the coefficient, so one bracketed root in the
+coefficient closes the loop. Verified in tests/friction/test_hot_contact.py.
 """
 
 from __future__ import annotations
@@ -28,7 +28,7 @@ from bem.lubrication.with_heat import FilmHeat
 from bem.notes import Note
 
 TOLERANCE = 1e-6
-"""Difference of both surfaces over the rise; and of the coefficient of friction."""
+"""Relative error: temperature difference of both surfaces over their rise, and coefficient of friction."""
 _HALF = 0.5
 
 
@@ -36,8 +36,8 @@ _HALF = 0.5
 class ContactHeat:
     """Temperatures of the surfaces in contact.
 
-    mean, maximum : over the cells in contact, by pressure, and the highest [K]; temperature : (nx, ny) [K]. law : of
-    boundary friction, told the mean. coefficient : of it. status, notes : of the heat conduction.
+    mean, maximum : over the cells in contact [K], the mean weighted by pressure. temperature : (nx, ny) [K]. law : of
+    boundary friction at the mean temperature. coefficient : of this law. status, notes : of the heat conduction.
     """
 
     mean: float
@@ -50,7 +50,7 @@ class ContactHeat:
 
 
 def contact_heat(film: PatchFilm, contact: Pressed, setup: MixedSetup, speeds: tuple[float, float]) -> ContactHeat:
-    """Of a contact that carries some load, between surfaces that slide at a pair of speeds [m/s], with heat."""
+    """Return the temperatures of a contact with a load, between surfaces sliding at a pair of speeds (u1, u2) [m/s]."""
     heat, law, slide = setup.smooth.heat, setup.boundary_law, abs(speeds[0] - speeds[1])
     assert heat is not None
     bulk = float(setup.lubricant.temperature or 0.0)
@@ -59,7 +59,7 @@ def contact_heat(film: PatchFilm, contact: Pressed, setup: MixedSetup, speeds: t
     filled = filled_part(pressure, contact.area / setup.slices, setup.grid)
     of_oil = np.broadcast_to(np.abs(film.shear_stress), pressure.shape) * np.where(touching, 0.0, slide)
 
-    def conducted(coefficient: float) -> TemperatureSolution:
+    def solve_heat(coefficient: float) -> TemperatureSolution:
         made = of_oil + coefficient * slide * pressure
         return surface_temperature(made, setup.grid, heat.bodies, speeds=moving, bulk=(bulk, bulk), tolerance=TOLERANCE)
 
@@ -67,21 +67,21 @@ def contact_heat(film: PatchFilm, contact: Pressed, setup: MixedSetup, speeds: t
         return float((found.temperature * pressure).sum() / pressure.sum())
 
     cold = law.mean_coefficient(pressure, filled, slide)
-    found = conducted(cold)
+    found = solve_heat(cold)
     coefficient = cold
     if law.needs_temperature:
-        at, less = mean(found), mean(conducted(_HALF * cold))
+        at, less = mean(found), mean(solve_heat(_HALF * cold))
         slope = (at - less) / (cold - _HALF * cold) if cold > 0 else 0.0
 
-        def told(value: float) -> BoundaryFriction:
+        def law_at(value: float) -> BoundaryFriction:
             return law.at_temperature(at + slope * (value - cold))
 
-        def missed(value: float) -> float:
-            return told(value).mean_coefficient(pressure, filled, slide) - value
+        def excess(value: float) -> float:
+            return law_at(value).mean_coefficient(pressure, filled, slide) - value
 
-        coefficient = _zero(missed, cold)
-        law = told(coefficient)
-        found = conducted(coefficient)
+        coefficient = _consistent_coefficient(excess, cold)
+        law = law_at(coefficient)
+        found = solve_heat(coefficient)
     return ContactHeat(
         mean=mean(found),
         maximum=float(found.temperature[touching].max()),
@@ -93,19 +93,21 @@ def contact_heat(film: PatchFilm, contact: Pressed, setup: MixedSetup, speeds: t
     )
 
 
-def _zero(missed: Callable[[float], float], near: float) -> float:
-    """Where what a coefficient makes of temperature gives itself; temperatures rise with it, so that a law that falls
-    with them has one such."""
+def _consistent_coefficient(excess: Callable[[float], float], near: float) -> float:
+    """Return the coefficient of friction that reproduces itself through the temperature.
+
+    Temperature rises with the coefficient, so a law that falls with temperature has exactly one such coefficient.
+    """
     from scipy.optimize import brentq  # a sixth of a second, for laws that temperature changes
 
     high = max(near, 1e-12)
-    while missed(high) > 0 and high < 1e3:
+    while excess(high) > 0 and high < 1e3:
         high *= 2
-    return float(brentq(missed, 0.0, high, xtol=TOLERANCE * max(near, 1e-12)))
+    return float(brentq(excess, 0.0, high, xtol=TOLERANCE * max(near, 1e-12)))
 
 
 def _moving(heat: FilmHeat, radius: float, speeds: tuple[float, float]) -> tuple[float, float]:
-    """Speeds of both bodies [m/s], one at rest moving so slowly that it is cool at the radius."""
+    """Return the speeds [m/s]; a body at rest moves just so fast that it is cool at the distance of the radius."""
     bodies = conductors_of("thermal", heat.bodies, speeds, (0.0, 0.0))
     least = [2 * body.diffusivity / radius for body in bodies]
     first, second = (

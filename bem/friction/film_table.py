@@ -1,4 +1,4 @@
-"""Films of a smooth contact interpolated in the load they carry: one table serves all cycles of a run at one speed."""
+"""Film model of a table: films of a smooth contact interpolated in load, for all cycles of a run at one speed."""
 
 from __future__ import annotations
 
@@ -14,7 +14,10 @@ from bem.grid import FloatArray
 
 
 class TabulatedFilms(Protocol):
-    """What is tabulated: the films of one contact at one pair of speeds, which lie alike in units of Hertz' contact."""
+    """Films of one contact at one pair of speeds that a table can be built from.
+
+    Profiles are nearly self-similar in x / a (a: Hertz half-width), so they are interpolated in load.
+    """
 
     @property
     def contact(self) -> SmoothContact:
@@ -22,7 +25,7 @@ class TabulatedFilms(Protocol):
 
     @property
     def speeds(self) -> tuple[float, float]:
-        """Of flat and cylinder or ball [m/s]."""
+        """(u1, u2) of flat and cylinder or ball [m/s]."""
 
     @property
     def largest_load(self) -> float:
@@ -30,40 +33,41 @@ class TabulatedFilms(Protocol):
 
     @property
     def step(self) -> float:
-        """In ln(film load), for which cubic interpolation is well within the error of the films (tested)."""
+        """Spacing of the entries in ln(film load); cubic interpolation is then well within the error of the films."""
 
     @property
     def growth(self) -> float:
-        """Power of the load that Hertz' contact grows with."""
+        """Power of the load with which the Hertz half-width grows."""
 
     @property
     def continued(self) -> bool:
-        """Whether a film starts from another, on which its last bits hang then."""
+        """Whether films start from one another, so that their rounding depends on the start."""
 
     @property
     def parabola(self) -> FloatArray:
-        """The undeformed gap on the patch [m]."""
+        """Undeformed gap on the patch [m]."""
 
     def solve(self, load: float, initial: Any) -> Any:
-        """The film at a load [N], from one nearby."""
+        """Solve the film under a load [N] from a neighbour."""
 
     def sampled(self, film: Any, load: float, stretch: float) -> PatchFilm:
-        """A solved film at the patch's abscissae times `stretch`."""
+        """Sample a solved film at the patch's abscissae times `stretch`."""
 
 
 class FilmTable:
-    """Steady films of one contact at one pair of speeds, over the load they carry; a `Film`.
+    """Table of steady films of one contact at one pair of speeds over the load that they carry; a `Film`.
 
     Parameters
     ----------
-    films : that are tabulated.
-    load : the largest load, on the whole contact [N]; more than a film is looked for is cut to that.
+    films : films that are tabulated.
+    load : largest load on the whole contact [N]; it is cut to the largest load of the films.
 
     Notes
     -----
-    A film between two entries is interpolated by cubics in ln(load) through the four nearest, at abscissae in units of
-    Hertz' contact, which moves with the load that deforms the bodies. Entries are solved as far down as is asked for,
-    each started from the one above where films start from one another: the same bits whatever is asked for first.
+    A film between two entries is interpolated by a cubic in ln(load) through the four nearest entries, at abscissae in
+    units of the Hertz half-width, which changes with the load that deforms the bodies. Entries are solved on request,
+    each started from the entry above where films start from one another. The result does not depend on the order of
+    requests.
     """
 
     def __init__(self, films: TabulatedFilms, *, load: float) -> None:
@@ -75,7 +79,7 @@ class FilmTable:
         self.entries: dict[int, Any] = {}
 
     def entry(self, index: int) -> Any:
-        """The film at largest_load * exp(-index films.step)."""
+        """Return the film under the load largest_load exp(-index films.step)."""
         missing = range(len(self.entries), index + 1) if self.films.continued else (index,)
         for at in missing:
             if at not in self.entries:
@@ -89,7 +93,7 @@ class FilmTable:
         return entry if abs(math.log(self._load(index) / load)) < 1e-9 else self.films.solve(load, entry)
 
     def under(self, load: float, level: int = 0, start: PatchFilm | None = None) -> PatchFilm:
-        """The film at a load [N] up to the largest; `level` and `start` make no difference.
+        """Interpolate the film under a load [N] up to the largest; `level` and `start` have no effect.
 
         Raises
         ------
@@ -130,8 +134,7 @@ class FilmTable:
         )
 
     def error(self, load: float) -> float:
-        """Largest difference between the interpolated thickness and that of the film solved at this very load [N],
-        relative to the latter. One film solve."""
+        """Return the largest relative error of the interpolated thickness under a load [N]. Cost: one film."""
         nearest = self.entry(max(round(math.log(self.largest_load / load) / self.films.step), 0))
         solved = self.films.sampled(self.films.solve(load, nearest), load, 1.0)
         return float(np.max(np.abs(self.under(load).thickness / solved.thickness - 1)))

@@ -76,33 +76,33 @@ class ContactAtSeparation:
 
     @property
     def traction(self) -> float:
-        """As `RoughContact`."""
+        """See `RoughContact`."""
         return self.contact.traction
 
     @property
     def tolerance(self) -> float:
-        """As `RoughContact`."""
+        """See `RoughContact`."""
         return self.contact.tolerance
 
     @property
     def largest_load(self) -> float:
-        """As `RoughContact`."""
+        """See `RoughContact`."""
         return self.contact.largest_load
 
     def oil(self, film: PatchFilm) -> float:
-        """Return the central film thickness [m], the separation that is wanted."""
+        """Return the central film thickness [m], the prescribed separation; see `RoughContact`."""
         return float(constant_film(film).thickness[0, 0])
 
     def clears(self, film: PatchFilm) -> bool:
-        """As `RoughContact`: whether planes so far apart do not touch."""
+        """Whether surfaces at that separation do not touch; see `RoughContact`."""
         return self.contact.clears(constant_film(film))
 
     def at_load(self, film: PatchFilm, load: float, tolerance: float, start: FloatArray | None) -> Pressed:
-        """As `RoughContact`."""
+        """See `RoughContact`."""
         return self._with_separation(film, self.contact.at_load(constant_film(film), load, tolerance, start))
 
     def at_approach(self, film: PatchFilm, approach: float, tolerance: float, start: FloatArray | None) -> Pressed:
-        """As `RoughContact`; the approach is that of the deformed mean planes."""
+        """See `RoughContact`. The approach is that of the deformed mean planes."""
         return self._with_separation(film, self.contact.at_approach(constant_film(film), approach, tolerance, start))
 
     def _with_separation(self, film: PatchFilm, pressed: Pressed) -> Pressed:

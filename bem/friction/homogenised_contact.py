@@ -1,15 +1,21 @@
-"""A cell of the roughness that repeats all over the contact of a ball, in place of a patch that holds the contact.
+"""Homogenised rough contact of a ball: a periodic cell of the roughness that repeats over the whole contact.
 
-Where the roughness is short against the contact, a place of it is known by the mean pressure p there: how far the mean
-planes are apart, s(p), how much oil they hold and how much of it touches are those of a periodic cell under p
-(`bem.friction.cell_law`). The pressures of all places are found as a patch's are, with s(p) for the roughness:
+Where the roughness is short compared with the contact, the mean pressure p at a place determines the separation of the
+mean planes s(p), the opening and the real area: those of a periodic cell under p (`cell_law`). The field of mean
+pressures solves
 
     gap(x, y) + u[p](x, y) - delta = s(p(x, y)),   integral of p = load,
 
-gap the film's, u the deflection of the smooth bodies. It is Greenwood and Tripp's problem (*J. Appl. Mech.* 34, 1967,
-153) with the cell's own law and the film's gap; -s rises with p, so that there is one answer. In ln p, by Newton's
-method with conjugate gradients: u and -s'(p) are symmetric and positive. Verified in tests/friction/
-test_repeated_cell.py against patches that hold the contact.
+with the film's gap, the deflection u of the smooth bodies and the approach delta. This is the problem of Greenwood and
+Tripp (*J. Appl. Mech.* 34, 1967, 153) with the cell's own law and the film's gap; s decreases with p, so the solution
+is unique.
+
+1. Tabulate the law: 28 periodic contacts, once, at the first contact.
+2. Newton's method in ln p; u and -s'(p) are symmetric and positive, so each step is solved by conjugate gradients.
+   Under a prescribed load a second solution removes the net load of the step.
+3. A step is shortened where the energy has its minimum well before the end of the step.
+
+Verified in tests/friction/test_repeated_cell.py against patches that hold the contact.
 """
 
 from __future__ import annotations
@@ -31,17 +37,17 @@ from bem.notes import Note
 from bem.notes.friction import CELL_BEYOND_TABLE, CELL_LONG
 
 LEAST, MOST, STEPS = 1e-4, 4.0, 28
-"""Mean pressures of the cells that are tabulated: from and to that many times Hertz' mean, in so many equal ratios."""
+"""Range of the tabulated mean pressures, over the mean pressure of the Hertz contact, and their number."""
 MOST_YIELDED = 0.97
-"""Of the hardness: cells above yield nearly everywhere."""
+"""Largest tabulated mean pressure over the hardness; cells above it yield nearly everywhere."""
 NEWTON_STEPS, LINEAR_STEPS = 120, 400
 LARGEST_STEP = 1.5
-"""In ln p."""
-PAST, SHORTENED = 0.5, 8
-"""Slope of the energy at a step's end, over that at its beginning, from which it went well past the least; how often it
-is shortened at most."""
+"""Largest Newton step of ln p at any place."""
+LARGEST_SLOPE, MOST_SHORTENINGS = 0.5, 8
+"""Slope of the energy at the end of a step, over minus that at its beginning, above which the step is shortened; and
+the largest number of shortenings."""
 _LEAST_SPOT = 1e-3
-"""Of a cell of the grid: real area of a contact whose edge is drawn within one."""
+"""Smallest real area, in cells of the grid: spots smaller than one cell count as this."""
 COUNTS = 1e-3
 """Of the highest pressure: places below carry nothing to speak of."""
 FEWEST_CELLS_ACROSS = 4.0
@@ -51,38 +57,41 @@ crossed waves, the surfaces' share was within 1 % of a patch's (tests)."""
 
 @dataclass(frozen=True, eq=False)
 class HomogenisedContact(OfPatch):
-    """Many of one cell; a `RoughContact`. patch : one of them, within which traction acts."""
+    """Contact of repeated cells; a `RoughContact`.
+
+    patch : one cell, within which boundary friction couples into the gap.
+    """
 
     @property
     def setup(self) -> MixedSetup:
-        """Of the contact and its cell."""
+        """Set-up of the contact and its cell."""
         return self.patch.setup
 
     @property
     def largest_load(self) -> float:
-        """As `RoughContact`: with all places as high as the cells are tabulated to."""
+        """Load with the largest tabulated pressure at every place; see `RoughContact`."""
         return float(self._pressures[-1]) * self.setup.slices * self.setup.grid.area
 
     @cached_property
     def law(self) -> CellLaw:
-        """Made when the first contact is solved."""
+        """Law of the cell, tabulated at the first contact."""
         return CellLaw.tabulated(self.setup.grid, self._solved, self._pressures)
 
     @cached_property
     def operator(self) -> DisplacementOperator:
-        """Of the smooth bodies, over the contact."""
+        """Displacement operator of the smooth bodies over the contact."""
         return displacement_operator(self.setup.film_grid, self.setup.bodies)
 
     def clears(self, film: PatchFilm) -> bool:
-        """As `RoughContact`."""
+        """See `RoughContact`."""
         return float(film.thickness.min()) >= float(self.patch.rough.max())
 
     def at_load(self, film: PatchFilm, load: float, tolerance: float, start: FloatArray | None) -> Pressed:
-        """As `RoughContact`; the pressures are the cells' means on the film's grid."""
+        """See `RoughContact`. Pressures are the cells' means on the film's grid."""
         return self._pressed(film, tolerance, start, load=load)
 
     def at_approach(self, film: PatchFilm, approach: float, tolerance: float, start: FloatArray | None) -> Pressed:
-        """As `RoughContact`."""
+        """See `RoughContact`."""
         return self._pressed(film, tolerance, start, approach=approach)
 
     def _pressed(
@@ -129,7 +138,7 @@ class HomogenisedContact(OfPatch):
         return np.geomspace(min(LEAST * mean, 0.1 * most), most, STEPS)
 
     def _solved(self, pressure: float, start: FloatArray | None) -> SolvedCell:
-        """The cell under a mean pressure [Pa]."""
+        """Solve the periodic cell under a mean pressure [Pa]."""
         grid, rough = self.setup.grid, self.patch.rough
         found: ContactSolution = solve_contact(
             -rough,
@@ -151,7 +160,7 @@ class HomogenisedContact(OfPatch):
         )
 
     def _hertz(self) -> FloatArray:
-        """A pressure [Pa] to begin with."""
+        """Return the Hertz pressure [Pa], positive everywhere, as a start."""
         grid, load = self.setup.film_grid, self.setup.load
         a, b = self.setup.smooth.half_axes(load)
         inside = 1 - (grid.x[:, None] / a) ** 2 - (grid.y[None, :] / b) ** 2
@@ -170,8 +179,17 @@ class HomogenisedContact(OfPatch):
 
 @dataclass(frozen=True, eq=False)
 class Spread:
-    """Mean pressures (n, m) [Pa] of cells over a contact, distance (n, m) of the deflected mean planes and approach of
-    the bodies [m], load of these pressures [N], applications of the operator, outcome."""
+    """Field of mean pressures over a contact.
+
+    Attributes
+    ----------
+    pressure : (n, m) mean pressures of the cells [Pa].
+    separation : (n, m) distance of the deformed mean planes [m].
+    approach : of the bodies [m].
+    load : of the pressures [N].
+    convolutions : applications of the operator.
+    status : outcome.
+    """
 
     pressure: FloatArray
     separation: FloatArray
@@ -192,13 +210,21 @@ def spread_pressure(
     load: float | None = None,
     approach: float | None = None,
 ) -> Spread:
-    """Pressures (n, m) from those to start with [Pa] whose separations are the gap (n, m) [m], deflected and less the
-    approach, to a goal [m] wherever they are above a thousandth of the highest: under a load [N], or else at an
-    approach [m].
+    """Solve for the mean pressures whose cells fill the deformed gap, under a load or at an approach.
 
-    They are where an energy is least whose slope is what separations miss; steps are shortened where they go well past
-    the least of it, else two steps take turns where the cells' separation is steep at some pressures and flat at
-    others.
+    The solution minimises an energy whose gradient is the residual of the separation. Without shortened steps Newton's
+    method alternates between two states where the law of the cell is steep at some pressures and flat at others.
+
+    Parameters
+    ----------
+    gap : (n, m) of the smooth bodies [m].
+    law : of the cell.
+    operator : deflection of the smooth bodies.
+    grid : of the field.
+    start : (n, m) pressures to start from [Pa].
+    goal : largest residual of the separation [m], where the pressure is above a thousandth of the maximum.
+    load : prescribed load [N]; None at a prescribed approach.
+    approach : prescribed approach [m].
     """
 
     def spread(pressure: FloatArray) -> _Spreading:
@@ -211,11 +237,11 @@ def spread_pressure(
 
     at, spent, status = spread(start), 1, Status.STALLED
     for _ in range(NEWTON_STEPS):
-        if float(np.abs(at.missed[at.pressure > COUNTS * at.pressure.max()]).max()) <= goal:
+        if float(np.abs(at.residual[at.pressure > COUNTS * at.pressure.max()]).max()) <= goal:
             status = Status.CONVERGED
             break
         winkler = -at.slope / at.pressure
-        change, applied = _conjugate_gradients(operator, winkler, -at.missed)
+        change, applied = _conjugate_gradients(operator, winkler, -at.residual)
         spent += applied
         if load is not None:
             deeper, applied = _conjugate_gradients(operator, winkler, np.ones_like(gap))
@@ -224,43 +250,51 @@ def spread_pressure(
         step = np.clip(change / at.pressure, -LARGEST_STEP, LARGEST_STEP)
         downhill, share, before = at.along(step, fixed=load is not None), 1.0, at
         if downhill >= 0:  # what was cut off turned it: each place by itself
-            step = np.clip(at.missed / at.slope, -LARGEST_STEP, LARGEST_STEP)
+            step = np.clip(at.residual / at.slope, -LARGEST_STEP, LARGEST_STEP)
             downhill = at.along(step, fixed=load is not None)
-        for _ in range(SHORTENED):
+        for _ in range(MOST_SHORTENINGS):
             at = spread(before.pressure * np.exp(share * step))
             spent += 1
             uphill = at.along(step, fixed=load is not None)
-            if uphill <= PAST * abs(downhill):
+            if uphill <= LARGEST_SLOPE * abs(downhill):
                 break
             share *= min(max(abs(downhill) / (abs(downhill) + uphill), 0.1), 0.5)
-    apart = np.maximum(at.missed + at.separation, 0.0)
+    apart = np.maximum(at.residual + at.separation, 0.0)
     carried = float(at.pressure.sum()) * grid.cell_area
     return Spread(at.pressure, apart, at.approach, carried, float(spent), status)
 
 
 @dataclass(frozen=True, eq=False)
 class _Spreading:
-    """Pressures (n, m) [Pa], the cells' separation there and its slope over ln p [m], approach, and by how much the
-    deflected gap less the approach is more than the separation [m]."""
+    """Iterate of the Newton method.
+
+    pressure : (n, m) [Pa]. separation, slope : of the cells, and its derivative over ln p [m]. approach : [m].
+    residual : deformed gap less approach less separation [m].
+    """
 
     pressure: FloatArray
     separation: FloatArray
     slope: FloatArray
     approach: float
-    missed: FloatArray
+    residual: FloatArray
 
     def along(self, step: FloatArray, *, fixed: bool) -> float:
-        """Slope of the energy, over a cell's area [N/m], with a share of a step (n, m) in ln p, at a `fixed` load or
-        not."""
+        """Return the slope of the energy along a step (n, m) of ln p, over a cell's area [N/m].
+
+        fixed : whether the load is prescribed.
+        """
         mean = float((self.pressure * step).sum() / self.pressure.sum()) if fixed else 0.0
-        return float((self.missed * self.pressure * (step - mean)).sum())
+        return float((self.residual * self.pressure * (step - mean)).sum())
 
 
 def _conjugate_gradients(
     operator: DisplacementOperator, winkler: FloatArray, right: FloatArray
 ) -> tuple[FloatArray, int]:
-    """x with u[x] + winkler x = right, all (n, m) [m/Pa, Pa, m], and how many applications of u it took. In units in
-    which the diagonal is one: places that carry nothing give way by orders of magnitude more."""
+    """Solve u[x] + winkler x = right by conjugate gradients; return x and the applications of u.
+
+    Scaled to a unit winkler term, because the compliance of places without load is larger by orders of magnitude.
+    Fields are (n, m): x [Pa], winkler [m/Pa], right [m].
+    """
     unit = 1 / np.sqrt(winkler)
     residual = unit * right
     found, direction = np.zeros_like(right), residual.copy()
@@ -278,7 +312,7 @@ def _conjugate_gradients(
 
 
 def film_at_centre(film: PatchFilm) -> PatchFilm:
-    """A film as a cell at its centre sees it, everywhere alike: fields (1, 1)."""
+    """Return the film at the centre of the contact, uniform over a cell: fields (1, 1)."""
     i, j = (n // 2 for n in film.thickness.shape)
     middle = {name: getattr(film, name)[i : i + 1, j : j + 1] for name in ("thickness", "pressure", "shear_stress")}
     return replace(film, **middle, smooth_gap=None)

@@ -1,6 +1,7 @@
-"""Films of a ball or ellipsoid over the load they carry, as load sharing asks for them: solved, on a rough patch.
+"""Film model of a point contact: every film is solved when the balance requests it, on coarse or on the wanted cells.
 
-Verified in tests/friction/test_ball.py.
+Films come from `bem.lubrication.solve_point_film`, each from the dry contact, without warm starts. Above the largest
+load for which a film is found, films are extrapolated (`thin_film`). Verified in tests/friction/test_ball.py.
 """
 
 from __future__ import annotations
@@ -39,28 +40,33 @@ BALANCE_CELLS = 64
 COARSE_FILM = 0.03
 """Relative error of films on `BALANCE_CELLS` cells."""
 LARGEST_MOES_LOAD, GROWTH = 2500.0, 1.25
-"""Moes' load M up to which a film is solved on `BALANCE_CELLS`, and the power of the cells that it goes with: films
-above stall, their constrictions narrower than a cell (tried with L 1 to 5, Rx/Ry 0.2 and 1, 64 to 128 cells)."""
+"""Moes' load M up to which a film is solved on `BALANCE_CELLS`, and its power of the number of cells. Above it the
+solver stalls, because the side lobes are narrower than a cell."""
 LEAST_FILM = 0.5 * THINNEST_FILM
-"""Thickness [m] at the centre to which films go on: half of what counts as none."""
+"""Smallest central thickness [m] of extrapolated films: half of the thickness below which the model is not valid."""
 THINNED = 3.0
-"""Ratio of the loads at which it is found how thin inlet heating makes the oil."""
+"""Ratio of neighbouring loads at which the thinning of the oil by inlet heating is computed."""
 _TRIED = (1.0, 0.5, 0.25)
-"""Shares of a load under which a film is looked for, one after the other."""
+"""Fractions of a load under which a film is tried, in this order."""
 _HEAVIER = tuple(2.0**k for k in range(11))
-"""The same of films whose flooded ones are `DEEP` layers thick: heavier ones are found."""
+"""The same for starved films whose flooded film is `DEEP` layers of oil thick: films under larger loads are found."""
 DEEP = 30.0
 _DECADES = 12.0
 _FACTORS = "; flow factors are those at that load"
-"""Words of the notes on scaled films with flow factors."""
+"""Addition to notes on extrapolated films with flow factors."""
 
 
 @dataclass(frozen=True, eq=False)
 class SolvedPointFilm:
-    """Films of a point contact, each solved when it is asked for, on few and on the wanted cells.
+    """Films of a point contact, each solved when it is requested; a `Film` and a `TabulatedFilms`.
 
-    x, y : (nx,), (ny,) abscissae of the patch [m]. speeds : (u1, u2) of flat and ball along x [m/s]. cells : of the
-    film's own grid, along an axis. thinnings : by inlet heating, at the loads where they were found (`point_film`).
+    Attributes
+    ----------
+    contact : the smooth contact and its oil.
+    speeds : (u1, u2) of flat and ball along x [m/s].
+    x, y : (nx,), (ny,) abscissae of the patch [m].
+    cells : along an axis of the wanted grid.
+    thinnings : of the oil by inlet heating, at the loads where they were computed (`point_film`).
     """
 
     contact: PointContact
@@ -76,12 +82,12 @@ class SolvedPointFilm:
 
     @property
     def solved_load(self) -> float:
-        """Load [N] up to which films are solved on the wanted cells; beyond it they go on from there."""
+        """Load [N] up to which films are solved on the wanted cells; beyond it they are extrapolated."""
         return largest_point_load(self.contact, self.speeds, self.cells)
 
     @cached_property
     def largest_load(self) -> float:
-        """As `Film`: to where it is so thin, by the fit, that it is none."""
+        """Load [N] at which the fitted film is `LEAST_FILM` thick; see `Film`."""
         solved = self.solved_load
 
         def thicker(decades: float) -> float:
@@ -93,7 +99,7 @@ class SolvedPointFilm:
 
     @property
     def errors(self) -> tuple[float, ...]:
-        """As `Film`: few cells and those asked for, or these alone if they are no more."""
+        """Errors of the coarse and the wanted grid, or of the latter alone if it is no finer; see `Film`."""
         return (COARSE_FILM, 0.0) if self.cells > BALANCE_CELLS else (0.0,)
 
     def coarse_alone(self) -> SolvedPointFilm:
@@ -101,27 +107,30 @@ class SolvedPointFilm:
         return replace(self, cells=min(self.cells, BALANCE_CELLS), thinnings={})
 
     def under(self, load: float, level: int, start: PatchFilm | None) -> PatchFilm:
-        """As `Film`; each film begins from the dry contact, whatever `start` is."""
+        """Solve the film under a load at a level of accuracy, from the dry contact; see `Film`."""
         cells = self.cells if level == len(self.errors) - 1 else BALANCE_CELLS
         return self.sampled(point_film(self.contact, self.speeds, load, cells, self.thinnings), load)
 
     @property
     def parabola(self) -> FloatArray:
-        """As `TabulatedFilms`."""
+        """Undeformed gap on the patch; see `TabulatedFilms`."""
         return self.contact.parabola(self.x, self.y)
 
     def solve(self, load: float, initial: PointFilmSolution | None = None) -> PointFilmSolution:
-        """As `TabulatedFilms`."""
+        """Solve a film for a table; see `TabulatedFilms`."""
         return point_film(self.contact, self.speeds, load, self.cells, self.thinnings)
 
     def sampled(self, film: PointFilmSolution, load: float, stretch: float = 1.0) -> PatchFilm:
-        """As `TabulatedFilms`."""
+        """Sample a film at stretched abscissae of the patch; see `TabulatedFilms`."""
         return sampled_point(film, stretch * self.x, stretch * self.y, load, self.contact)
 
 
 def largest_point_load(contact: PointContact, speeds: Sequence[float], cells: int) -> float:
-    """Load [N] up to which a film is solved: Moes' M goes with the load, and with the root of the fourth order of
-    the modulus downwards, which itself goes with the load where all of the load deforms the bodies."""
+    """Return the load [N] up to which films are solved.
+
+    Moes' M is proportional to the load and to the modulus to the power -1/4. The modulus is itself proportional to the
+    load where the whole load deforms the bodies.
+    """
     entrained = abs(sum(speeds))
     one = point_scales(1.0, contact.radii, contact.contact_modulus, entrained, contact.lubricant.viscosity).load
     narrow = max(contact.radii[0] / contact.radii[1], 1.0)
@@ -136,10 +145,10 @@ def point_film(
     cells: int,
     thinnings: dict[int, Thinning] | None = None,
 ) -> PointFilmSolution:
-    """The film under a load [N], with its heat where that is asked for.
+    """Return the film under a load [N], with its heat if the contact has a heat model.
 
-    How much thinner the oil must be is found at the nearest of loads `THINNED` times apart, of a flooded film, of which
-    a supply then lets as much through as there is, as of line films; `thinnings` keeps it.
+    The thinning of the oil by inlet heating is computed for a flooded film at the nearest of loads `THINNED` times
+    apart, and stored in `thinnings`. A supply then limits the film, as of line films.
     """
     if contact.heat is None:
         return cold_film(contact, speeds, load, cells)
@@ -163,12 +172,12 @@ def point_film(
 
 
 def _of_oil(contact: PointContact, lubricant: Lubricant) -> PointContact:
-    """With another oil, without heat."""
+    """Return the contact with another oil and without heat."""
     return replace(contact, lubricant=lubricant, heat=None)
 
 
 def _inlet(contact: PointContact, speeds: Sequence[float], load: float) -> InletHeating:
-    """Of line contacts, with the ellipse's Hertz pressure."""
+    """Return the inlet heating by the fit for line contacts, with the Hertz pressure of the ellipse."""
     from bem.lubrication.inlet_heating import inlet_heating_factor
 
     oil, modulus = contact.lubricant, contact.film_modulus(load)
@@ -182,14 +191,14 @@ def _inlet(contact: PointContact, speeds: Sequence[float], load: float) -> Inlet
 
 
 def _fitted_exponent(contact: PointContact, speeds: Sequence[float], load: float) -> float:
-    """Of the fitted film in the viscosity."""
+    """Return the power of the viscosity that the fitted film follows."""
     oil, share = contact.lubricant, 0.9
     thinner = _of_oil(contact, replace(oil, viscosity=share * oil.viscosity))
     return math.log(_fitted_film(thinner, speeds, load) / _fitted_film(contact, speeds, load)) / math.log(share)
 
 
 def cold_film(contact: PointContact, speeds: Sequence[float], load: float, cells: int) -> PointFilmSolution:
-    """The film under a load [N] without heat: solved, or from one under a smaller load where none is found."""
+    """Return the film under a load [N] without heat: solved, or extrapolated from one under a smaller load."""
     largest = min(load, largest_point_load(contact, speeds, cells))
     for share in _HEAVIER if _deep(contact, speeds, largest) else _TRIED:
         film = solved_point_film(contact, speeds, share * largest, cells)
@@ -199,7 +208,7 @@ def cold_film(contact: PointContact, speeds: Sequence[float], load: float, cells
 
 
 def _deep(contact: PointContact, speeds: Sequence[float], load: float) -> bool:
-    """Whether a layer of oil is so thin that under a load [N] the film is the layer, but for compression."""
+    """Whether the layer of oil is so thin that the film under a load [N] is the compressed layer."""
     if not isinstance(contact.supply, OilLayer):
         return False
     return _fitted_film(contact, speeds, load) > DEEP * contact.supply.thickness
@@ -208,13 +217,23 @@ def _deep(contact: PointContact, speeds: Sequence[float], load: float) -> bool:
 def thin_film(
     film: PointFilmSolution, contact: PointContact, speeds: Sequence[float], solved: float, load: float
 ) -> PointFilmSolution:
-    """A film under a load [N] from one solved under a smaller load: where films are so thin the bodies touch as dry
-    ones do but for it. Pressure and dry gap go on as Hertz', what the film adds to that gap as its centre by the fit
-    (`nijenbanning_film`). Against films solved on 128 cells (M 5800; 24 cases with L 4 to 15, Rx/Ry 0.3 and 1, p0 1.1
-    to 2.5 GPa): the centre within 10 % at 2.5 to 20 times the load; the mean by pressure, whose inlet stays as wide, 5
-    to 12 % too thick at 2.5, 9 to 40 % at 6, 20 to 230 % at 20 times; sliding friction within 13 %; the minimum up to
-    20 times too thick. Of a layer of oil far thinner than a flooded film the film stays as it is, also under smaller
-    loads.
+    """Extrapolate a film in load.
+
+    Films above the largest solved load are thin compared with the Hertz deflection. Pressure and dry gap follow Hertz;
+    the film that is added to the dry gap follows the fitted central film (`nijenbanning_film`). A film of a layer of
+    oil far thinner than the flooded film is unchanged, also under smaller loads.
+
+    Error against films solved on 128 cells at 2.5 to 20 times the load: central film 10 %, sliding friction 13 %. The
+    mean weighted by pressure is too thick, by 5 to 12 % at 2.5 times the load and 20 to 230 % at 20 times, because the
+    inlet keeps its width. The minimum is up to 20 times too thick.
+
+    Parameters
+    ----------
+    film : solved film.
+    contact : the smooth contact and its oil.
+    speeds : (u1, u2) of flat and ball [m/s].
+    solved : load of the solved film [N].
+    load : wanted load [N].
     """
     stretch = 1.0 if contact.deforming_load is not None else (load / solved) ** (1 / 3)
     as_it_is = solved > load or _deep(contact, speeds, solved)
@@ -244,7 +263,7 @@ def thin_film(
 
 
 def _fitted_film(contact: PointContact, speeds: Sequence[float], load: float) -> float:
-    """Central film by the fit [m]."""
+    """Return the central film by the fit [m]."""
     oil, modulus = contact.lubricant, contact.film_modulus(load)
     scales = point_scales(load, contact.radii, modulus, abs(sum(speeds)), oil.viscosity)
     return scales.film * nijenbanning_film(scales.load, oil.pressure_viscosity * scales.pressure, scales.ratio)
@@ -252,7 +271,7 @@ def _fitted_film(contact: PointContact, speeds: Sequence[float], load: float) ->
 
 @dataclass(frozen=True, eq=False)
 class _Kept:
-    """A film, and its size."""
+    """Film in the cache, with its size."""
 
     film: PointFilmSolution
 
@@ -261,7 +280,7 @@ class _Kept:
         return sum(value.nbytes for value in vars(self.film).values() if isinstance(value, np.ndarray))
 
     def own(self) -> PointFilmSolution:
-        """The film with arrays of its own: a caller may write into them."""
+        """Return the film with arrays of its own, which a caller may change."""
         arrays: dict[str, Any] = {
             name: value.copy() for name, value in vars(self.film).items() if isinstance(value, np.ndarray)
         }
@@ -269,13 +288,16 @@ class _Kept:
 
 
 KEPT = KeptValues(1 << 26)
-"""Films of this process: a film begins from the dry contact whatever was before it, so one asked for again is the same.
-Under loads beyond the largest all trials of a balance go on from one film; error bars ask for it, too."""
+"""Cache of the films of this process. Films start from the dry contact, so a cached film equals a new one. Under loads
+beyond the largest all trials of a balance, and error bars, extrapolate from one film."""
 
 
 def solved_point_film(contact: PointContact, speeds: Sequence[float], load: float, cells: int) -> PointFilmSolution:
-    """The film under a load [N] up to the largest, without the solver's state; of rigid bodies where the load is so
-    small that the elastic film is outside its range. What its error is a balance finds by itself. Solved once."""
+    """Return the film under a load [N] up to the largest, without the solver's state; cached.
+
+    Bodies are rigid where the load is too small for the elastic film's range. Notes on the film's own error are
+    dropped, because load sharing has error bars of its own.
+    """
     key = (solve_point_film, contact, tuple(map(float, speeds)), float(load), cells)
     try:
         hash(key)
@@ -305,10 +327,10 @@ def _solved(contact: PointContact, speeds: Sequence[float], load: float, cells: 
 def sampled_point(
     film: PointFilmSolution, x: FloatArray, y: FloatArray, load: float, contact: PointContact
 ) -> PatchFilm:
-    """A solved film at the abscissae (nx,), (ny,) [m] of a patch.
+    """Sample a solved film at the abscissae (nx,), (ny,) [m] of a patch.
 
-    Deflection is interpolated by cubics, pressure and stress linearly. Beyond the film's grid there is no pressure, and
-    the bodies are deflected as by the load at a point, from where the grid ends.
+    Deflection is interpolated by cubics, pressure and stress linearly. Beyond the film's grid the pressure is zero, and
+    the deflection decays from the edge of the grid as that of a point load.
     """
     inside_x, inside_y = np.clip(x, film.x[0], film.x[-1]), np.clip(y, film.y[0], film.y[-1])
     deflection = _interpolated(film, film.thickness - contact.parabola(film.x, film.y), inside_x, inside_y, 3)

@@ -1,13 +1,15 @@
-"""Rough surfaces with a film between them: what load sharing asks of a contact, and the two contacts of a patch.
+"""Protocol of a rough contact under a film, and the two contacts of a rough patch.
 
-The film is as thick as between smooth surfaces. The rough ones are pressed together until they carry what they are
-given; the film says how the smooth bodies lie apart, and where the opening between them is counted (`oil_volume`).
+A film gives the gap of the smooth bodies. The rough surfaces are pressed into that gap by a load or to an approach; the
+result is the mean opening between them where oil is counted (`oil_volume`). Implementations of `RoughContact`:
+`CoupledContact` (rough half-space) and `UncoupledAsperities` here, `ContactAtSeparation` (`given_separation`),
+`HomogenisedContact` (`homogenised_contact`), and surfaces with particles between them (`bem.wear.third_body_mixed`).
 
-Boundary friction couples into the normal gap by one rule. Where the surfaces slide, the flat (the lower body) feels the
-traction f p against its sliding over the cylinder, along -x where u1 > u2, the cylinder the opposite; f is the
-coefficient or, of a law, its value at the pressure of a rough contact by itself (`bem.friction.boundary`). Normal
-displacements follow it unless the bodies are elastically alike: there the two cancel exactly, and nothing is computed.
-Without sliding there is no traction. Uncoupled asperities are Hertz', without friction.
+Boundary friction couples into the normal gap by one rule. The flat (lower body) feels the traction f p against its
+sliding over the cylinder, along -x where u1 > u2, and the cylinder feels the opposite. f is the coefficient; of a law,
+its value at the reference pressure of a rough contact (`bem.friction.boundary`). The normal displacements of
+elastically similar bodies cancel exactly, so nothing is computed for them. Without sliding there is no traction.
+Uncoupled asperities are Hertz contacts without friction.
 """
 
 from __future__ import annotations
@@ -46,9 +48,14 @@ if TYPE_CHECKING:
 @readable
 @dataclass(frozen=True)
 class SpreadContact:
-    """Contact of a cell that repeats. pressure, displacement : (nx, ny) of the cell where the mean pressure is highest
-    [Pa, m]. mean_pressure : of the cells, on the film's grid [Pa]. load, contact_area : mean of the cells within Hertz'
-    ellipse, of one [N, m^2]."""
+    """Contact of a repeated cell of the roughness.
+
+    Attributes
+    ----------
+    pressure, displacement : (nx, ny) of the cell with the highest mean pressure [Pa, m].
+    mean_pressure : of the cells, on the film's grid [Pa].
+    load, contact_area : of one cell, mean over the cells within the Hertz ellipse [N, m^2].
+    """
 
     pressure: FloatArray
     displacement: FloatArray
@@ -59,14 +66,23 @@ class SpreadContact:
 
 @dataclass(frozen=True, eq=False)
 class Pressed:
-    """Rough surfaces pressed together.
+    """Solution of a rough contact under a film.
 
-    load : on the whole contact [N]. opening : mean distance of the surfaces that oil has to fill, where it is counted
-    [m]. pressure : (nx, ny) [Pa], of cells that repeat their means at the film's places. approach : by how much the
-    mean planes are closer than the film is thick [m]. area : real, on the whole contact [m^2]. convolutions : spent.
-    status : outcome. solution : of the patch. notes : what the solution says of itself. separation : (nx,) of the
-    undeformed mean planes, on the middle line [m]. opening_error : how well the opening is known [m]. covered : share
-    of each of the film's places that is in contact. cells : how cells that repeat give way, None of a patch.
+    Attributes
+    ----------
+    load : on the whole contact [N].
+    opening : mean gap that oil has to fill, where oil is counted [m].
+    pressure : (nx, ny) [Pa]; of repeated cells their mean pressures on the film's grid.
+    approach : decrease of the distance of the mean planes from the film thickness [m].
+    area : real contact area on the whole contact [m^2].
+    convolutions : applications of the displacement operator.
+    status : outcome.
+    solution : of the patch.
+    separation : (nx,) distance of the undeformed mean planes on the middle line [m].
+    covered : fraction in contact of each cell of the film's grid.
+    notes : of the contact solver.
+    opening_error : error of the opening that the contact's tolerance leaves [m].
+    cells : law of repeated cells, for laws of boundary friction; None of a patch.
     """
 
     load: float
@@ -85,46 +101,52 @@ class Pressed:
 
 
 class RoughContact(Protocol):
-    """A rough patch, its roughness given."""
+    """Contact of given rough surfaces under any film."""
 
     @property
     def traction(self) -> float:
-        """On the flat over the contact's pressure, as the normal gap feels it; 0 where it does not."""
+        """Shear traction on the flat over contact pressure that couples into the normal gap; 0 without coupling."""
 
     @property
     def tolerance(self) -> float:
-        """What a contact is solved to unless the balance asks for more; 0 where it is exact anyway."""
+        """Tolerance of a contact unless the balance asks for a tighter one; 0 of closed forms."""
 
     @property
     def largest_load(self) -> float:
-        """Load [N] that the surfaces can carry at all; math.inf where nothing yields."""
+        """Largest load [N] that the surfaces can carry; math.inf of elastic ones."""
 
     def oil(self, film: PatchFilm) -> float:
         """Return the mean thickness of a film over the area where oil is counted [m]."""
 
     def clears(self, film: PatchFilm) -> bool:
-        """Whether undeformed surfaces that hold the film's oil do not touch."""
+        """Whether rough surfaces that hold the film's oil do not touch, without deformation by contact."""
 
     def at_load(self, film: PatchFilm, load: float, tolerance: float, start: FloatArray | None) -> Pressed:
-        """Pressed together by a load [N] on the whole contact; `start` is a pressure nearby."""
+        """Solve the contact under a load [N] on the whole contact.
+
+        film : gives the gap of the smooth bodies. tolerance : of the contact solver. start : pressure of a similar
+        contact [Pa], a warm start.
+        """
 
     def at_approach(self, film: PatchFilm, approach: float, tolerance: float, start: FloatArray | None) -> Pressed:
-        """The same, to an approach [m] as `Pressed` has it."""
+        """Solve the contact at an approach [m], as of `Pressed`; other arguments as of `at_load`."""
 
 
 def shift_apart(film: PatchFilm, rough: FloatArray, setup: MixedSetup) -> float:
-    """Return the approach of the mean planes, from the film's thickness on, at which surfaces (nx, ny) [m] that do not
-    touch hold the film's oil [m]: zero on the whole patch, else minus the mean height where oil is counted."""
+    """Return the approach [m] at which rough surfaces (nx, ny) [m] that do not touch hold the film's oil.
+
+    It is zero where oil is counted on the whole patch, else minus the mean height where oil is counted.
+    """
     return 0.0 if setup.counted is OilVolume.PATCH else -setup.mean_counted(rough, film)
 
 
 def boundary_traction(speeds: Sequence[float], boundary_friction: float) -> float:
-    """Traction on the flat over the contact's pressure, along +x: against its sliding over the cylinder."""
+    """Return the traction on the flat over contact pressure, along +x: against its sliding over the cylinder."""
     return boundary_friction * float(np.sign(speeds[1] - speeds[0]))
 
 
 def reference_friction(setup: MixedSetup, height: FloatArray, speeds: Sequence[float]) -> float:
-    """Boundary friction at the pressure that a rough contact of these heights (nx, ny) [m] has by itself."""
+    """Return the coefficient of boundary friction at the reference pressure of heights (nx, ny) [m]."""
     law, sliding_speed = setup.boundary_law, abs(speeds[0] - speeds[1])
     if law.constant is not None:
         return law.constant
@@ -138,8 +160,11 @@ def reference_friction(setup: MixedSetup, height: FloatArray, speeds: Sequence[f
 
 @dataclass(frozen=True, eq=False)
 class CoupledContact:
-    """The rough half-space, elastic or capped at the hardness; `rough` (nx, ny) [m] without mean. compliance : what
-    each place gives way besides, by its own pressure [m/Pa]: wear in an implicit step."""
+    """Rough half-space, elastic or capped at the hardness; a `RoughContact`.
+
+    rough : (nx, ny) heights without mean [m]. traction : as of `RoughContact`. compliance : of every cell in addition
+    to the half-space [m/Pa]: wear in an implicit step.
+    """
 
     setup: MixedSetup
     rough: FloatArray
@@ -148,35 +173,35 @@ class CoupledContact:
 
     @property
     def tolerance(self) -> float:
-        """As `RoughContact`."""
+        """See `RoughContact`."""
         return self.setup.contact_tolerance
 
     @property
     def largest_load(self) -> float:
-        """As `RoughContact`: hardness times area."""
+        """Hardness times area; see `RoughContact`."""
         hardness = math.inf if self.setup.hardness is None else self.setup.hardness
         return hardness * self.setup.grid.area * self.setup.slices
 
     def oil(self, film: PatchFilm) -> float:
-        """As `RoughContact`."""
+        """See `RoughContact`."""
         return self.setup.mean_counted(film.thickness, film)
 
     @cached_property
     def operator(self) -> DisplacementOperator:
-        """Made when the first contact is solved: full film never needs it."""
+        """Displacement operator, computed for the first contact: full film needs none."""
         setup = self.setup
         return displacement_operator(setup.grid, setup.bodies, friction=self.traction, compliance=self.compliance)
 
     def clears(self, film: PatchFilm) -> bool:
-        """As `RoughContact`."""
+        """See `RoughContact`."""
         return bool((film.thickness - self.rough).min() >= shift_apart(film, self.rough, self.setup))
 
     def at_load(self, film: PatchFilm, load: float, tolerance: float, start: FloatArray | None) -> Pressed:
-        """As `RoughContact`."""
+        """See `RoughContact`."""
         return self._solve(film, tolerance, start, load=load / self.setup.slices)
 
     def at_approach(self, film: PatchFilm, approach: float, tolerance: float, start: FloatArray | None) -> Pressed:
-        """As `RoughContact`."""
+        """See `RoughContact`."""
         return self._solve(film, tolerance, start, approach=approach)
 
     def _solve(
@@ -217,28 +242,31 @@ class CoupledContact:
 
 @dataclass(frozen=True, eq=False)
 class OfPatch:
-    """What a `RoughContact` that is made of a patch has from it."""
+    """Members that a `RoughContact` built on a patch passes on to it."""
 
     patch: CoupledContact
 
     @property
     def traction(self) -> float:
-        """As `RoughContact`."""
+        """See `RoughContact`."""
         return self.patch.traction
 
     @property
     def tolerance(self) -> float:
-        """As `RoughContact`."""
+        """See `RoughContact`."""
         return self.patch.tolerance
 
     def oil(self, film: PatchFilm) -> float:
-        """As `RoughContact`."""
+        """See `RoughContact`."""
         return self.patch.oil(film)
 
 
 @dataclass(frozen=True, eq=False)
 class UncoupledAsperities:
-    """Every summit a Hertz sphere; `rough` (nx, ny) [m] without mean. Closed forms: exact."""
+    """Summits as independent Hertz spheres, in closed form; a `RoughContact`.
+
+    rough : (nx, ny) heights without mean [m].
+    """
 
     setup: MixedSetup
     rough: FloatArray
@@ -247,7 +275,7 @@ class UncoupledAsperities:
     largest_load: float = math.inf
 
     def oil(self, film: PatchFilm) -> float:
-        """As `RoughContact`."""
+        """See `RoughContact`."""
         return self.setup.mean_counted(film.thickness, film)
 
     @cached_property
@@ -255,7 +283,7 @@ class UncoupledAsperities:
         return find_summits(self.rough, self.setup.grid)
 
     def clears(self, film: PatchFilm) -> bool:
-        """As `RoughContact`; the tops of summits, between cells, count as well."""
+        """See `RoughContact`. Tops of summits between cells count as well."""
         of_planes = self._at_film
         shift = 0.0 if of_planes else shift_apart(film, self.rough, self.setup)
         if (film.thickness - self.rough).min() < shift:
@@ -263,7 +291,7 @@ class UncoupledAsperities:
         return bool((self._separation(film) - self._summits.height >= shift).all())
 
     def at_load(self, film: PatchFilm, load: float, tolerance: float, start: FloatArray | None) -> Pressed:
-        """As `RoughContact`; infeasible where the patch has no summit."""
+        """See `RoughContact`. Infeasible where the patch has no summit."""
         if not len(self._summits.height):
             return replace(self._shifted(film, 0.0), status=Status.INFEASIBLE)
         shift = shift_for_load(
@@ -276,7 +304,7 @@ class UncoupledAsperities:
         return self._shifted(film, shift)
 
     def at_approach(self, film: PatchFilm, approach: float, tolerance: float, start: FloatArray | None) -> Pressed:
-        """As `RoughContact`."""
+        """See `RoughContact`."""
         return self._shifted(film, approach)
 
     @property
@@ -314,7 +342,10 @@ class UncoupledAsperities:
 
 
 def _covered(solution: ContactSolution | AsperityContact, grid: Grid) -> FloatArray:
-    """Share of each cell (nx, ny) in contact: of those with pressure what the real area is of theirs, since a film that
-    is left out of whole cells at edges lacks by first order."""
+    """Return the fraction of each cell (nx, ny) in contact.
+
+    All cells with pressure have the same fraction, real contact area over their area: excluding the film from whole
+    cells at the edge would be an error of first order in the cell size.
+    """
     filled = filled_part(solution.pressure, solution.contact_area, grid)
     return np.where(solution.pressure > 0, filled, 0.0)

@@ -1,4 +1,4 @@
-"""What stays the same over the speeds of a Stribeck curve and the cycles of a run: contact, oil, surfaces, accuracy."""
+"""Set-up of load sharing: contact, oil, models and accuracy, constant over speeds and cycles."""
 
 from __future__ import annotations
 
@@ -30,18 +30,18 @@ if TYPE_CHECKING:
 CONTACT_MODELS = ("coupled", "uncoupled")
 SEPARATIONS = ("volume", "film")
 FEWEST_CELLS, FILM_CELLS = 32, 96
-"""Of a ball's film, along an axis: at least, and by default."""
+"""Cells of a ball's film along an axis: fewest, and default."""
 FILM_PLACES, REACH = 96, 1.5
-"""Over a contact with a cell that repeats, the film is looked at in so many places along an axis, to so many half-axes
-from its centre."""
+"""Grid of the film over a repeated cell: cells along an axis, and half-length in half-axes of the Hertz contact."""
 HEAT_NEEDS = ("temperature", "density", "heat_capacity", "thermal_conductivity", "temperature_viscosity")
-"""Of an oil."""
+"""Properties of the oil that heat needs."""
 
 
 @dataclass(frozen=True, eq=False)
 class MixedSetup:
-    """Load sharing but for roughness and speeds; the fields are those arguments of `solve_mixed`, and `heat_mesh`, by
-    how many times the usual columns and layers full heat, or cells along a line lumped heat, is found on.
+    """Arguments of `solve_mixed` without heights and speeds, checked.
+
+    One field is added: `heat_mesh`, factor on the columns and layers of full heat, or on the cells of lumped heat.
 
     Raises
     ------
@@ -100,7 +100,7 @@ class MixedSetup:
         self._check_reach()
 
     def _geometry(self) -> list[str]:
-        """A cylinder of some width, or a ball or ellipsoid, whose film has less to it."""
+        """Return messages on the geometry: a cylinder with a width, or a ball or ellipsoid with fewer film options."""
         names = ("radius", "width")
         if self.radii is None:
             missing = [name for name in names if getattr(self, name) is None]
@@ -126,7 +126,7 @@ class MixedSetup:
         return messages + self._patch_of_a_ball()
 
     def _patch_of_a_ball(self) -> list[str]:
-        """One that holds the contact, or a cell of the roughness that repeats all over it."""
+        """Return messages on the patch of a ball: one that holds the contact, or a repeated cell of the roughness."""
         if self.grid.periodic[0] is not self.grid.periodic[1]:
             return [
                 "grid: a patch that holds the contact of a ball goes on nowhere, a cell that repeats all over it goes "
@@ -259,7 +259,7 @@ class MixedSetup:
 
     @property
     def smooth(self) -> LineContact | PointContact:
-        """The smooth contact and its oil."""
+        """Smooth contact of the bodies, and its oil."""
         bodies = (self.bodies,) if isinstance(self.bodies, Body) else self.bodies
         modulus = contact_modulus(*(body.material for body in bodies))
         deforming = self.load if self.counted is OilVolume.LOADED else None
@@ -283,13 +283,15 @@ class MixedSetup:
 
     @property
     def counted(self) -> OilVolume:
-        """Area over which oil and opening are averaged; at a given separation no volume is kept, and the film is that
-        of bodies that its own pressure deforms."""
+        """Area over which oil and opening are averaged.
+
+        At a prescribed separation no volume is kept, and the film's own load deforms the bodies, as with "patch".
+        """
         return OilVolume.PATCH if self.at_film_separation else OilVolume(self.oil_volume)
 
     @property
     def at_film_separation(self) -> bool:
-        """Whether the undeformed mean planes are as far apart as the film is thick, in place of a volume of oil."""
+        """Whether the separation of the undeformed mean planes is the film thickness, in place of a volume of oil."""
         return self.separation == "film"
 
     @cached_property
@@ -304,25 +306,25 @@ class MixedSetup:
 
     @property
     def boundary_law(self) -> BoundaryFriction:
-        """The boundary friction as a law, also where it is a number."""
+        """Boundary friction as a law; a number is a constant coefficient."""
         value = self.boundary_friction
         return value if isinstance(value, BoundaryFriction) else boundary_law(value)
 
     @property
     def repeated_cell(self) -> bool:
-        """Whether the rough patch is a cell that repeats all over the contact of a ball."""
+        """Whether the rough patch is a cell that repeats over the whole contact of a ball."""
         return self.radii is not None and all(self.grid.periodic)
 
     @property
     def slices(self) -> float:
-        """How many patches side by side make the contact: of cells that repeat, as many as Hertz' ellipse holds."""
+        """Number of patches that make the contact; of repeated cells, area of the Hertz ellipse over that of a cell."""
         if self.repeated_cell:
             return math.pi * math.prod(self.smooth.half_axes(self.load)) / self.grid.area
         return self.smooth.slices(self.grid)
 
     @property
     def film_grid(self) -> Grid:
-        """Where the film is looked at: the rough patch, or all of the contact over which a cell repeats."""
+        """Grid on which the film is sampled: that of the rough patch, or one over the contact of repeated cells."""
         if not self.repeated_cell:
             return self.grid
         a, b = self.smooth.half_axes(self.load)
@@ -330,11 +332,11 @@ class MixedSetup:
 
     @property
     def film_resolution(self) -> int:
-        """Points of the film's mesh, or the cells of a ball's along an axis."""
+        """Nodes of the line film's mesh, or cells of a ball's film along an axis."""
         return self.film_points if self.radii is None else self.film_cells
 
     def with_film(self, resolution: int) -> MixedSetup:
-        """The same with a film of another resolution."""
+        """Return the set-up with a film of another resolution."""
         if self.radii is None:
             return replace(self, film_points=resolution)
         return replace(self, film_cells=resolution)

@@ -1,6 +1,6 @@
-"""Share of the load that the surfaces carry over the lambda ratio, fitted to exp(-B Lambda^C), with the fit's error.
+"""Least-squares fit of the contact share of the load over the lambda ratio, exp(-B Lambda^C), with standard errors.
 
-The film carries the rest. Knows numbers only, no contact and no film. Verified in tests/friction/test_load_share.py.
+The film carries the rest. Verified in tests/friction/test_load_share.py.
 """
 
 from __future__ import annotations
@@ -26,8 +26,8 @@ _STEPS = 100
 class LoadShare:
     """Contact share exp(-B Lambda^C); film share 1 - exp(-B Lambda^C).
 
-    b, c : the constants. b_error, c_error : their standard errors. rms : of the residuals in the share. largest : of
-    them. points : that it was fitted to.
+    b, c : the constants. b_error, c_error : their standard errors. rms, largest : of the residuals of the share.
+    points : number of points of the fit.
     """
 
     b: float
@@ -39,16 +39,16 @@ class LoadShare:
     points: int
 
     def contact(self, lambda_ratio: ArrayLike) -> FloatArray:
-        """Share of the load on the surfaces in contact."""
+        """Return the share of the load on the surfaces in contact."""
         return _share(np.array([math.log(self.b), self.c]), np.asarray(lambda_ratio, dtype=np.float64))
 
     def film(self, lambda_ratio: ArrayLike) -> FloatArray:
-        """Share of the load on the film."""
+        """Return the share of the load on the film."""
         return 1 - self.contact(lambda_ratio)
 
 
 def fit_load_share(lambda_ratio: ArrayLike, contact_share: ArrayLike) -> LoadShare:
-    """Least squares of the contact share, by Gauss and Newton from the straight line of ln(-ln share) over ln Lambda.
+    """Fit the contact share by the damped Gauss-Newton method, from the straight line of ln(-ln share) over ln Lambda.
 
     Parameters
     ----------
@@ -102,23 +102,23 @@ def fit_load_share(lambda_ratio: ArrayLike, contact_share: ArrayLike) -> LoadSha
 
 
 class SharedCurve(Protocol):
-    """A friction curve: over its speeds (n,) the lambda ratio and what surfaces and film carry [N]."""
+    """Friction curve over its speeds (n,): lambda ratio, contact load and film load [N]."""
 
     @property
     def lambda_ratio(self) -> FloatArray:
-        """Film under the whole load over roughness."""
+        """Minimum of the film under the whole load over the rms height."""
 
     @property
     def contact_load(self) -> FloatArray:
-        """On the surfaces."""
+        """Load of the rough contact [N]."""
 
     @property
     def film_load(self) -> FloatArray:
-        """On the film."""
+        """Load of the film [N]."""
 
 
 def curves_load_share(curves: Iterable[SharedCurve | None]) -> LoadShare | None:
-    """`fit_load_share` to the points of all curves together, but for those that failed; None of too few of them."""
+    """Fit the load share to the points of all curves that did not fail; None where there are too few points."""
     curves = [one for one in curves if one is not None]
     if not curves:
         return None
@@ -132,12 +132,12 @@ def curves_load_share(curves: Iterable[SharedCurve | None]) -> LoadShare | None:
 
 
 def _share(constants: FloatArray, ratio: FloatArray) -> FloatArray:
-    """exp(-B Lambda^C) of (ln B, C)."""
+    """Return exp(-B Lambda^C) from (ln B, C)."""
     return np.exp(-np.exp(np.minimum(constants[0] + constants[1] * np.log(ratio), 50.0)))
 
 
 def _jacobian(constants: FloatArray, ratio: FloatArray) -> FloatArray:
-    """Of the share in (ln B, C), (n, 2)."""
+    """Return the Jacobian (n, 2) of the share in (ln B, C)."""
     exponent = np.exp(np.minimum(constants[0] + constants[1] * np.log(ratio), 50.0))
     slope = -np.exp(-exponent) * exponent
     return np.stack([slope, slope * np.log(ratio)], axis=1)

@@ -1,4 +1,4 @@
-"""The result of load sharing."""
+"""Result of load sharing at one speed, as users see it."""
 
 from __future__ import annotations
 
@@ -26,40 +26,41 @@ if TYPE_CHECKING:
 @readable
 @dataclass(frozen=True)
 class MixedSolution:
-    """Load and friction shared between oil film and rough contact; forces on the whole width.
+    """Load and friction shared between film and rough contact; forces on the whole width.
 
     Attributes
     ----------
     speeds : (u1, u2) of flat and cylinder or ball [m/s].
     friction : coefficient, (boundary part + film part) / load, positive where it resists the sliding.
-    boundary_force, film_force : the two parts [N]; without sliding the boundary part is zero.
+    boundary_force, film_force : parts of the friction force [N]; without sliding the boundary part is zero.
     load, contact_load, film_load : [N].
     film : smooth film under `film_load`.
-    contact : rough contact of one slice as long as the grid is wide (`SpreadContact` of a cell that
-        repeats); None in full film.
-    separation : (nx,) distance [m] between the mean planes of the undeformed surfaces at the grid's abscissae, as the
-        rough contact sees it: film thickness less the shift that keeps the volume of oil; of a ball on y = 0.
+    contact : rough contact of one slice as long as the grid is wide (`SpreadContact` of a repeated cell); None in full
+        film.
+    separation : (nx,) distance [m] between the mean planes of the undeformed surfaces at the grid's abscissae: film
+        thickness less the approach that keeps the volume of oil; of a ball on y = 0.
     lambda_ratio : minimum of the smooth film under the whole load over the rms height of the patch.
     minimum_film : minimum thickness [m] of `film`.
-    contact_area : real, on the whole width [m^2].
-    evaluations : films solved.
-    contact_solves : rough contacts solved.
+    contact_area : real contact area on the whole width [m^2].
+    evaluations : number of films solved.
+    contact_solves : number of rough contacts solved.
     imbalance : (film_load + contact_load - load) / load, of these three.
-    balance_slope : of ln(opening / film thickness) with ln(film_load): where the next speed's balance starts from.
-    continuation : what else the next speed's balance starts from.
+    balance_slope : slope of ln(opening / film thickness) over ln(film_load), a warm start of the next speed.
+    continuation : other parts of the next speed's warm start.
     status : converged where the imbalance is within the tolerance and film and contact are converged themselves;
         infeasible where film and surfaces cannot carry the load within their models.
-    grid, boundary_friction : as given; a law where one was.
-    oil_imbalance : (mean opening between the surfaces - mean thickness of the film) / the latter, where the oil is
-        counted (`oil_volume`); of this film and contact, 0 at an end of the balance.
-    oil : how far load share and friction hang on the oil beside Hertz' contact.
-    patch_film : the film as the patch sees it; a cell that repeats, as at the contact's centre: so are pressures and
-        stresses of such a cell.
-    regime : "full film", "mixed" or "boundary": the end of the balance, if any, that it is at.
-    contact_temperature, flash_temperature : of the surfaces in contact [K], mean by pressure and highest; None without
-        heat, contact or sliding. The film's stand in `film`.
-    oil_on_contact : what the film's shear stress on cells in contact would add to `friction`, in which it is not.
-    notes : sentences on what is outside a model's validity, or at an end of the balance.
+    grid : as given.
+    boundary_friction : as given; a law over temperature has the temperature of the contact.
+    oil_imbalance : (mean opening - mean film thickness) / mean film thickness where oil is counted (`oil_volume`), of
+        this film and contact; 0 at an end of the balance.
+    oil : sensitivity of contact share and friction to the area where oil is counted.
+    patch_film : film as the patch sees it. Film, pressures and stresses of a repeated cell are those at the centre of
+        the contact.
+    regime : "full film", "mixed" or "boundary".
+    contact_temperature, flash_temperature : of the surfaces in contact [K], mean weighted by pressure, and maximum;
+        None without heat, contact or sliding. Temperatures of the film are in `film`.
+    oil_on_contact : friction that the film's shear stress on cells in contact would add; `friction` is without it.
+    notes : on the validity of the models and on the end of the balance.
     """
 
     speeds: tuple[float, float]
@@ -109,7 +110,7 @@ class MixedSolution:
 
     @property
     def film_along_x(self) -> tuple[FloatArray, FloatArray]:
-        """Pressure [Pa] and thickness [m] of the film at the grid's abscissae (nx,); of a ball on y = 0."""
+        """Film pressure [Pa] and film thickness [m] at the grid's abscissae (nx,); of a ball on y = 0."""
         if isinstance(self.film, FilmSolution):
             return self.film.at(self.grid.x)
         fields = (middle_line(self.patch_film.pressure), middle_line(self.patch_film.thickness))
@@ -117,7 +118,7 @@ class MixedSolution:
 
     @property
     def film_section(self) -> tuple[FloatArray, FloatArray, FloatArray]:
-        """Abscissae [m], pressure [Pa] and thickness [m] of the film's own mesh; of a ball on y = 0."""
+        """Abscissae [m], film pressure [Pa] and film thickness [m] on the film's mesh; of a ball on y = 0."""
         if isinstance(self.film, FilmSolution):
             return self.film.position, self.film.pressure, self.film.thickness
         return self.film.x, middle_line(self.film.pressure), middle_line(self.film.thickness)
@@ -129,7 +130,7 @@ class MixedSolution:
 
     @property
     def boundary_shear_stress(self) -> FloatArray:
-        """Boundary friction (nx, ny) [Pa]: what the flat takes along with it, positive where u1 > u2."""
+        """Boundary shear stress (nx, ny) [Pa], positive where u1 > u2: the flat drags the other surface along."""
         sign, speed = sliding_sign(self.speeds), abs(self.speeds[0] - self.speeds[1])
         if self.contact is None or (speed == 0 and not isinstance(self.boundary_friction, float)):
             return np.zeros(self.grid.shape)

@@ -1,6 +1,6 @@
-"""Line films between worn bodies: the films of the unworn cylinder, changed as the worn macroscopic shape changes them.
+"""Film model of a line contact between worn bodies: films of the unworn cylinder, corrected for the worn shape.
 
-The shape w(x) is what wear took off the body that stands with the contact, a smooth profile along x. Films with and
+The shape w(x) is the worn depth of the body that stands with the contact, a smooth profile along x. Films with and
 without it are solved on one fixed mesh (`bem.lubrication.line_shaped`) at a few loads of a lattice in ln(load). Their
 ratio multiplies the thickness of the unworn film, their differences add to pressure, shear stress and friction force.
 Between two loads of the lattice ratio and differences are linear in ln(load); beyond them they stay those of the
