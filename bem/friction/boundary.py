@@ -62,8 +62,10 @@ class BoundaryFriction(Law):
 
     @abstractmethod
     def shear_stress(self, pressure: FloatArray, sliding_speed: float) -> FloatArray:
-        """Magnitude [Pa], shape (...), where surfaces in contact under pressures (...) [Pa], all positive, slide over
-        each other at a speed [m/s], positive."""
+        """Return the magnitude of the shear stress [Pa].
+
+        pressure : (...), positive [Pa]. sliding_speed : positive [m/s].
+        """
 
     @property
     def constant(self) -> float | None:
@@ -95,7 +97,7 @@ class BoundaryFriction(Law):
 @register
 @dataclass(frozen=True)
 class ConstantFriction(BoundaryFriction):
-    """In proportion to the pressure: Amontons and Coulomb."""
+    """Shear stress proportional to the pressure: Amontons and Coulomb."""
 
     name: ClassVar[str] = "constant"
     friction: float = parameter("coefficient of friction", at_least=0)
@@ -148,7 +150,7 @@ class PressureLimitedShear(PressureDependentShear):
 @register
 @dataclass(frozen=True)
 class SpeedDependentFriction(BoundaryFriction):
-    """In proportion to the pressure, with a coefficient that falls with the sliding speed u: f_k + (f_s - f_k)
+    """Shear stress proportional to the pressure; the coefficient falls with the sliding speed u: f_k + (f_s - f_k)
     exp(-(u/u_s)^n), Stribeck's curve as a law; Armstrong-Helouvry, *Control of machines with friction* (1991).
 
     With f_s < f_k it rises, as that of boundary films of friction modifiers.
@@ -169,7 +171,7 @@ class SpeedDependentFriction(BoundaryFriction):
 @register
 @dataclass(frozen=True)
 class TemperatureDependentFriction(BoundaryFriction):
-    """In proportion to the pressure, with a coefficient f_0 exp(-c (T - T_0)) at the oil's temperature."""
+    """Shear stress proportional to the pressure, with the coefficient f_0 exp(-c (T - T_0)) at temperature T."""
 
     name: ClassVar[str] = "temperature_dependent"
     needs_temperature: ClassVar[bool] = True
@@ -209,16 +211,16 @@ class ActivatedShear(BoundaryFriction):
 
 @dataclass(frozen=True)
 class _FrictionTable(BoundaryFriction):
-    """Coefficients of friction at ascending values of one variable, linear between them, the same beyond the ends."""
+    """Coefficients of friction at ascending values of one variable; linear between them, constant beyond the ends."""
 
     coefficients: tuple[float, ...] = parameter("coefficients of friction", at_least=0, at_most=2, several=True)
 
     @abstractmethod
     def _values(self) -> tuple[float, ...]:
-        """At which the coefficients are."""
+        """Return the values of the variable."""
 
     def rules(self) -> Iterable[str]:
-        """As many values as coefficients, ascending."""
+        """Yield messages: there must be as many values as coefficients, and they must ascend."""
         values = self._values()
         if len(values) != len(self.coefficients) or len(values) < 2:
             yield f"a table of {len(values)} values and {len(self.coefficients)} coefficients; give two or more of each"
@@ -232,7 +234,7 @@ class _FrictionTable(BoundaryFriction):
 @register
 @dataclass(frozen=True)
 class FrictionOverPressure(_FrictionTable):
-    """A measured coefficient over the contact pressure, at every place its own."""
+    """Measured coefficient over the contact pressure of each cell."""
 
     name: ClassVar[str] = "table_over_pressure"
     pressures: tuple[float, ...] = parameter("pressures of the table", "Pa", at_least=0, several=True)
@@ -248,7 +250,7 @@ class FrictionOverPressure(_FrictionTable):
 @register
 @dataclass(frozen=True)
 class FrictionOverSpeed(_FrictionTable):
-    """A measured coefficient over the sliding speed."""
+    """Measured coefficient over the sliding speed."""
 
     name: ClassVar[str] = "table_over_speed"
     sliding_speeds: tuple[float, ...] = parameter("sliding speeds of the table", "m/s", at_least=0, several=True)
@@ -264,7 +266,7 @@ class FrictionOverSpeed(_FrictionTable):
 @register
 @dataclass(frozen=True)
 class FrictionOverTemperature(_FrictionTable):
-    """A measured coefficient over the oil's temperature."""
+    """Measured coefficient over the temperature."""
 
     name: ClassVar[str] = "table_over_temperature"
     needs_temperature: ClassVar[bool] = True

@@ -49,7 +49,7 @@ the largest number of shortenings."""
 _LEAST_SPOT = 1e-3
 """Smallest real area, in cells of the grid: spots smaller than one cell count as this."""
 COUNTS = 1e-3
-"""Of the highest pressure: places below carry nothing to speak of."""
+"""Pressure over the maximum below which the residual of a place does not count."""
 FEWEST_CELLS_ACROSS = 4.0
 """Lengths of the cell to a half-axis, above which its roughness is short against the contact. With five and a half, two
 crossed waves, the surfaces' share was within 1 % of a patch's (tests)."""

@@ -3,8 +3,8 @@
 With one volume of oil on the patch (`OilVolume.PATCH`) the contact load follows the patch's length where most of that
 oil lies beside the Hertz contact. Over the nominal Hertz contact (`OilVolume.HERTZ`) it follows the choice of that
 area. The comparison repeats the balance with the oil counted where the film carries load (`OilVolume.LOADED`, the
-default, which needs no comparison), from the balance found as warm start. Cost: a third of the convolutions of the first
-balance, up to as many, and films on coarse meshes. Verified in tests/friction/test_oil_volume.py.
+default, which needs no comparison), from the balance found as warm start. Cost: films on coarse meshes, and a third of
+the convolutions of the first balance, up to as many. Verified in tests/friction/test_oil_volume.py.
 """
 
 from __future__ import annotations

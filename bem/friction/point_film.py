@@ -49,7 +49,8 @@ THINNED = 3.0
 _TRIED = (1.0, 0.5, 0.25)
 """Fractions of a load under which a film is tried, in this order."""
 _HEAVIER = tuple(2.0**k for k in range(11))
-"""The same for starved films whose flooded film is `DEEP` layers of oil thick: films under larger loads are found."""
+"""Multiples of a load that are tried for a starved film whose flooded film is `DEEP` layers of oil thick: films under
+larger loads are found."""
 DEEP = 30.0
 _DECADES = 12.0
 _FACTORS = "; flow factors are those at that load"

@@ -32,7 +32,7 @@ The film model counts no shear stress on cells in contact, as in the thesis. The
 Reynolds' equation itself is in `reports/experiments/rough_films.py`.
 """
 DECIDES = 0.2
-"""The same fraction, from which the note is a caution."""
+"""Fraction of friction that oil on cells in contact would add, from which the note is a caution."""
 
 
 def validity_notes(

@@ -34,7 +34,7 @@ class UnwornFilms(Film, Protocol):
     """Films of the unworn contact, with those that were solved at the loads of the lattice."""
 
     def solved(self, load: float) -> FilmSolution:
-        """The solved film at a load of the lattice [N]."""
+        """Return the solved film at a load of the lattice [N]."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -67,7 +67,7 @@ class ShapeChange:
 class WornFilms:
     """Films over the load they carry, changed by a worn shape; a `Film`.
 
-    unworn : films of the unworn contact. shape : (nx,) [m], what wear took off. changes : by index of the lattice.
+    unworn : films of the unworn contact. shape : (nx,) worn depth [m]. changes : by index of the lattice.
     """
 
     unworn: UnwornFilms
@@ -126,7 +126,7 @@ def neighbours(load: float, largest: float) -> tuple[int, ...]:
 
 @dataclass(frozen=True, eq=False)
 class ShapedFilm:
-    """Change of the film at one load of the lattice, the start that it is for others, and the solves that it took."""
+    """Change of the film at one load of the lattice, with its warm start for others and the number of solves."""
 
     change: ShapeChange
     start: ShapedStart
@@ -224,8 +224,10 @@ class ShapeSolver:
 
 @dataclass(frozen=True, eq=False)
 class SearchedWornFilms:
-    """Films of one worn shape (nx,) [m] under any load, solved when they are asked for; a `Film`. A film that is not
-    found is that of the unworn contact with the status `stalled`."""
+    """Films of one worn shape (nx,) [m], solved when they are requested; a `Film`.
+
+    Where no film of the worn shape is found, the film of the unworn contact is returned with the status `stalled`.
+    """
 
     solver: ShapeSolver
     shape: FloatArray
