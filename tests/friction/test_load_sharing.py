@@ -11,7 +11,10 @@ import bem.friction.balance as balance
 from bem import Grid, InputError, Lubricant, Status, solve_mixed, stribeck_curve
 from bem.convolution import COUNT
 from bem.friction import largest_difference
+from bem.friction.balance import BalanceStart, Regime
 from bem.friction.curves import Curve, relative_difference
+from bem.friction.load_sharing import LoadSharing
+from bem.friction.models import films_of
 from bem.friction.setup import MixedSetup
 
 CASE = mixed_case(100, 0.9e-6, 4e-6, lubricant=Lubricant(0.36, pressure_viscosity=25e-9), boundary_friction=0.15)
@@ -141,6 +144,32 @@ def test_the_last_coarse_trial_is_made_with_the_finer_film(monkeypatch):
         assert one.friction == pytest.approx(other.friction, rel=2e-4)  # both balances within 1e-4
     assert sum(one.evaluations for one in points) <= sum(one.evaluations for one in plain) - 3
     assert sum(one.contact_solves for one in points) <= sum(one.contact_solves for one in plain) - 3
+
+
+@pytest.mark.internal
+def test_a_known_film_under_the_whole_load_is_not_solved_again():
+    setup = MixedSetup(**{name: value for name, value in CASE.items() if name != "height"})
+    film = films_of(setup, (0.03, 0.0))
+    first = LoadSharing(setup, film, film.speeds).solve(CASE["height"], BalanceStart())
+    again = LoadSharing(setup, film, film.speeds, first.whole).solve(CASE["height"], BalanceStart())
+    point = solve_mixed(**CASE, speeds=(0.03, 0.0))
+    assert first.balance.regime is Regime.MIXED
+    assert first.friction == again.friction == point.friction
+    assert first.lambda_ratio == again.lambda_ratio == point.lambda_ratio
+    assert first.contact_area_fraction == pytest.approx(point.contact.contact_area / GRID.area, rel=1e-12)
+    assert first.balance.films == again.balance.films + 1 == point.evaluations
+
+
+@pytest.mark.internal
+def test_a_contact_of_the_callers_own_takes_the_place_of_the_setups():
+    """Half the heights are pressed, and the lambda ratio is still that of the heights given."""
+    setup = MixedSetup(**{name: value for name, value in CASE.items() if name != "height"})
+    film, height = films_of(setup, (0.03, 0.0)), CASE["height"]
+    sharing = LoadSharing(setup, film, film.speeds)
+    whole = sharing.solve(height, BalanceStart())
+    smoother = sharing.solve(height, BalanceStart(), sharing.contact_of(0.5 * height))
+    assert smoother.contact_load < 0.8 * whole.contact_load
+    assert smoother.lambda_ratio == pytest.approx(whole.lambda_ratio, rel=1e-3)
 
 
 def test_order_of_speeds_does_not_matter(curve):
