@@ -253,7 +253,10 @@ def _left_to_chance(campaign: Campaign) -> list[Note]:
         return []
     left = figures_of_chance(kind.record, kind.headline)
     by_reason = {why: [name for name in left if left[name] == why] for why in left.values()}
-    return [ACCURACY(figures=named(names), why=why, reason="left-out") for why, names in by_reason.items()]
+    return [
+        ACCURACY(met="leaves out some figures", figures=named(names), why=why, reason="left-out")
+        for why, names in by_reason.items()
+    ]
 
 
 def _reached(campaign: Campaign, found: Sequence[Mapping[str, Any]]) -> Note:
@@ -264,8 +267,8 @@ def _reached(campaign: Campaign, found: Sequence[Mapping[str, Any]]) -> Note:
         steps = "; ".join(f"{level['resolution']}: {_of_asked(level['worst'])}" for level in only["levels"])
         return ACCURACY(
             asked=_asked_words(only["asked"]),
-            met=f"{'met' if only['met'] else 'not met'} on {last['resolution']}{_worst(campaign.kind.record, last)}",
-            steps=f"Largest error over what is asked, level by level: {steps}.",
+            met=f"is {'met' if only['met'] else 'not met'} on {last['resolution']}{_worst(campaign.kind.record, last)}",
+            steps=f" Largest error over what is asked, level by level: {steps}.",
             reason="reached",
         )
     met = sum(item["met"] for item in found)
@@ -274,7 +277,7 @@ def _reached(campaign: Campaign, found: Sequence[Mapping[str, Any]]) -> Note:
     several = {_asked_words(item["asked"]) for item in found}
     asked = several.pop() if len(several) == 1 else "as each case asks"
     return ACCURACY(
-        asked=asked, met=f"met in {met} of {len(campaign.cases)} cases, on {on}", steps="", reason="reached"
+        asked=asked, met=f"is met in {met} of {len(campaign.cases)} cases, on {on}", steps="", reason="reached"
     )
 
 

@@ -121,10 +121,10 @@ BARS_PARTIAL = define(
 ACCURACY = define(
     "accuracy",
     INFO,
-    "The accuracy asked for is {met}.",
+    "The accuracy asked for {met}.",
     reasons={
         "reached": "Asked for is {asked}.{steps}",
-        "left-out": "{why}.",
+        "left-out": "{figures:few}: {why}.",
     },
 )
 
