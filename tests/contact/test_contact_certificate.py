@@ -8,7 +8,7 @@ import pytest
 from contact_oracles import FREE, HALF_X, HALF_Y, PERIODIC, body, operator, rough
 
 from bem import Body, Grid, Layer, Material, Status, displacement_operator, solve_contact
-from bem.contact.certificate import certify
+from bem.contact.certificate import certify, free_edges_reached
 from bem.contact.grid_workspace import GridResult
 from bem.contact.problem import Request, Units
 from bem.convolution import DisplacementOperator
@@ -170,3 +170,22 @@ def test_a_contact_at_the_edge_of_a_free_axis_is_noted():
         assert [note.values["axes"] for note in notes] == axes
         ball = op.grid.x[:, None] ** 2 + op.grid.y[None, :] ** 2
         assert without_argument_notes(solve_contact(ball, op, load=1e-2).notes) == ()
+
+
+@pytest.mark.internal
+@pytest.mark.parametrize(
+    ("cell", "periodic", "reached"),
+    [
+        ((0, 3), (False, False), (0,)),
+        ((-1, 3), (False, False), (0,)),
+        ((2, 0), (False, False), (1,)),
+        ((2, -1), (False, False), (1,)),
+        ((-1, -1), (False, False), (0, 1)),
+        ((-1, -1), (True, False), (1,)),
+        ((2, 3), (False, False), ()),
+    ],
+)
+def test_free_edges_are_reached_from_either_end(cell, periodic, reached):
+    pressure = np.zeros((6, 8))
+    pressure[cell] = 1.0
+    assert free_edges_reached(periodic, pressure) == reached
