@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import codecs
 import copy
+import functools
 import json
 import os
 import re
@@ -159,7 +160,13 @@ def unit_at(scene: SceneModel, key: str) -> str:
 
 
 def library() -> dict[str, dict[str, Any]]:
-    """The tables of the built-in scenes by name, in alphabetical order."""
+    """The tables of the built-in scenes by name, in alphabetical order; the caller owns the tables."""
+    return copy.deepcopy(_parsed_library())
+
+
+@functools.cache
+def _parsed_library() -> dict[str, dict[str, Any]]:
+    """The tables of the built-in scenes, parsed once in a process."""
     folder = resources.files("bem.scenes") / "library"
     files = sorted(item.name for item in folder.iterdir() if item.name.endswith(".toml"))
     return {name.removesuffix(".toml"): tomllib.loads((folder / name).read_text("utf-8")) for name in files}

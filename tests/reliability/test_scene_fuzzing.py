@@ -94,9 +94,9 @@ def leaves(value, path=()):
 
 PLACES: dict[tuple[str, tuple[str, ...]], list[str]] = {}
 """Names of the scenes that have a leaf, by the kind of the scene and the path of the leaf."""
-for _name in NAMES:
-    for _leaf in leaves(library()[_name]):
-        _scenes = PLACES.setdefault((library()[_name]["kind"], general(_leaf)), [])
+for _name, _table in library().items():
+    for _leaf in leaves(_table):
+        _scenes = PLACES.setdefault((_table["kind"], general(_leaf)), [])
         if _name not in _scenes:
             _scenes.append(_name)
 

@@ -16,7 +16,7 @@ from bem.scenes.load import read_table, table_text
 from bem.scenes.planner import SEARCHED_IN_SINGLE
 
 NAMES = sorted(library())
-NEEDS_FILES = {name for name in NAMES if '"path"' in json.dumps(library()[name])}
+NEEDS_FILES = {name for name, table in library().items() if '"path"' in json.dumps(table)}
 """Scenes of surfaces from files that the user has to give."""
 
 EXPECTED_WARNINGS = {
