@@ -16,6 +16,7 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     # a shell ignores it in commands in the background, and the runs that tests start would ignore it, too
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
+import durations
 import pytest
 from hypothesis import settings
 
@@ -27,6 +28,30 @@ settings.load_profile(os.environ.get("HYPOTHESIS_PROFILE", "seeded"))
 
 SHARED_FROM = threads.SHARED_FROM
 threads.SHARED_FROM = 1  # small fields, too, so that tests of threads need no large ones
+
+
+@pytest.hookimpl(tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
+    """Mark tests slow by their stored durations, and deal their files to workers that share the tests.
+
+    Functions of which some cases are marked in the code are left as they are.
+    """
+    seconds = durations.stored()
+    functions = [durations.function_of(item.nodeid) for item in items]
+    marked = {f for f, item in zip(functions, items, strict=True) if item.get_closest_marker("slow")}
+    slow = durations.slow_functions(seconds, durations.killers() | marked)
+    for function, item in zip(functions, items, strict=True):
+        if function in slow:
+            item.add_marker(pytest.mark.slow)
+    if "PYTEST_XDIST_WORKER" in os.environ:
+        files = {function.partition("::")[0]: 0.0 for function in functions}
+        for function, (total, _) in seconds.items():
+            file = function.partition("::")[0]
+            if file in files:
+                files[file] += total
+        place = {file: number for number, file in enumerate(durations.deal_files(files))}
+        items.sort(key=lambda item: place[item.nodeid.partition("::")[0]])
+
 
 MEASURED = Path(__file__).resolve().parents[2] / "shared" / "data" / "measured"
 
