@@ -4,7 +4,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 STAMP := .venv/.installed
 
-.PHONY: setup setup-fem setup-browser run test test-fast lint bench report docs notebooks validation gallery wheel clean golden mutants reproduce
+.PHONY: setup setup-fem setup-browser run test test-fast gates lint bench report docs notebooks validation gallery wheel clean golden mutants reproduce
 
 setup: $(STAMP)
 
@@ -23,8 +23,12 @@ setup-browser:
 run: setup
 	$(BIN)/bem run rough-contact
 
+# All tests but the gates of `bem verify`, which are as long as half of the others: `make gates` runs those.
 test: setup setup-fem setup-browser
-	$(BIN)/python -m pytest -n 2 --dist worksteal
+	$(BIN)/python -m pytest -n 2 --dist worksteal -m "not gate"
+
+gates: setup
+	$(BIN)/python -m pytest -n 2 --dist worksteal -m gate tests/verification
 
 test-fast: setup
 	$(BIN)/python -m pytest -n 2 --dist worksteal -m "not slow and not fem and not browser"

@@ -146,6 +146,7 @@ def test_quick_gates_pass(name):
     assert [row for row in gate.run() if not row.passed] == []
 
 
+@pytest.mark.gate
 @pytest.mark.slow
 @pytest.mark.parametrize("name", [gate.name for gate in registry.gates()])
 def test_every_gate_passes(name):
