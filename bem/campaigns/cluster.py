@@ -12,6 +12,9 @@ from bem.errors import InputError, ResultsError
 if TYPE_CHECKING:
     from bem.campaigns.jobs import Sent
 
+_ANSWER_WITHIN = "10s"
+"""Time that a scheduler has to answer."""
+
 
 def compute_on_cluster(jobs: Iterable[Sent], scheduler: str) -> Iterator[tuple[int, Any]]:
     """Do jobs on the workers of a scheduler such as `tcp://10.0.0.1:8786`, yielding index and result of each.
@@ -29,7 +32,7 @@ def compute_on_cluster(jobs: Iterable[Sent], scheduler: str) -> Iterator[tuple[i
     except ImportError:
         raise InputError("--scheduler: dask is not installed; allowed: pip install 'bem-tribology[dask]'") from None
     try:
-        client = distributed.Client(scheduler, timeout="10s", set_as_default=False)
+        client = distributed.Client(scheduler, timeout=_ANSWER_WITHIN, set_as_default=False)
     except (OSError, ValueError, TypeError) as error:
         raise InputError(
             f'--scheduler "{scheduler}": no Dask scheduler answers there ({error}); '
