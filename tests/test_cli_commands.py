@@ -163,8 +163,7 @@ def whole(tmp_path_factory):
 
 
 @pytest.mark.slow
-@pytest.mark.parametrize(("sent", "code"), [(signal.SIGINT, 130), (signal.SIGKILL, -9)])
-def test_interrupted_runs_resume_to_the_same_bits(tmp_path, whole, sent, code):
+def test_interrupted_runs_resume_to_the_same_bits(tmp_path, whole):
     (tmp_path / "long.toml").write_text(LONG)
     command = [sys.executable, "-m", "bem", "run", "long.toml", "--out", "cut", "--no-figures"]
     process = subprocess.Popen(command, cwd=tmp_path, stderr=subprocess.PIPE, stdout=subprocess.PIPE, text=True)
@@ -173,13 +172,12 @@ def test_interrupted_runs_resume_to_the_same_bits(tmp_path, whole, sent, code):
         assert time.monotonic() < deadline
         assert process.poll() is None, process.communicate()
         time.sleep(0.01)
-    process.send_signal(sent)
+    process.send_signal(signal.SIGINT)
     _, errors = process.communicate(timeout=60)
-    assert process.returncode == code
+    assert process.returncode == 130
     assert "Traceback" not in errors
     assert not (tmp_path / "cut" / "summary.json").exists()
-    if sent != signal.SIGKILL:
-        assert "--resume goes on" in errors
+    assert "--resume goes on" in errors
     resumed = bem("run", "long.toml", "--out", "cut", "--resume", "--no-figures", cwd=tmp_path)
     assert resumed.returncode == 0, resumed.stderr
     found = open_run(tmp_path / "cut").dataset

@@ -46,11 +46,8 @@ def point(**change):
     [
         "contact-periodic",
         "load-area",
-        "hertz-sphere",
-        "hertz-cylinder",
         "sinusoid",
         "stress",
-        "von-mises-warm",
         "partial-slip",
     ],
 )
@@ -279,7 +276,7 @@ def test_all_kinds_of_transforms_are_watched():
         assert all(getattr(PaddedTransform, name) is not value for name, value in kinds.items())
 
 
-@pytest.mark.parametrize("name", ["contact-periodic", "surface", "von-mises-warm"])
+@pytest.mark.parametrize("name", ["surface", "von-mises-warm"])
 def test_a_point_keeps_its_memory_by_the_cell(name, monkeypatch):
     held = iter([(5e6, 5e6), (6e6, 9e6)])
     monkeypatch.setattr(bem.benchmarks.measure, "held_memory", lambda: next(held))

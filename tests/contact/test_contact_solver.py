@@ -81,7 +81,6 @@ def test_convolutions_to_the_tolerance(cells, periodic, hardness, most):
         (1024, PERIODIC, None, 18),
         (1024, FREE, None, 19),
         (1024, PERIODIC, 0.05, 23),
-        (2048, PERIODIC, None, 15),
         (2048, FREE, None, 15),
     ],
 )

@@ -209,11 +209,10 @@ def test_snes_with_bounds_agrees() -> None:
 
 
 @pytest.mark.fem
-@pytest.mark.parametrize("thickness", ["0.01", "0.7"])
-def test_layer_of_the_same_material_is_none(thickness: str, tmp_path: Path) -> None:
+def test_layer_of_the_same_material_is_none(tmp_path: Path) -> None:
     """A new question on the command line: it solves on another mesh what Hertz solved."""
     out = tmp_path / "mine.json"
-    options = ["--layer", "1", "0.3", thickness, "--loads", "0.4", "0.8", "--cells", "16", "--out", str(out)]
+    options = ["--layer", "1", "0.3", "0.01", "--loads", "0.4", "0.8", "--cells", "16", "--out", str(out)]
     fem("-m", "fem_reference", "contact-sphere", *options)
     result = read(out)
     load = np.array([0.4, 0.8])

@@ -57,7 +57,7 @@ def test_isotropic_roughness_is_patir_and_chengs():
     assert far.shear_x == pytest.approx(shear, rel=0.05)
 
 
-@pytest.mark.parametrize("gamma", [1 / 6, 1 / 3, 3.0, 6.0])
+@pytest.mark.parametrize("gamma", [1 / 6, 6.0])
 def test_elongated_roughness_is_patir_and_chengs(gamma):
     """Lays across and along, where contact is rare. Across the flow the fit itself leaves perturbation theory by 0.02
     at H = 6 and 0.07 at H = 3 for 1/6; ours are near it (observed 0.02 and 0.064; along 0.037, phi_s 0.19)."""

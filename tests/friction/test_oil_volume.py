@@ -283,8 +283,7 @@ def test_a_contact_that_does_not_hold_the_oil_is_not_converged():
 
 
 @pytest.mark.internal
-@pytest.mark.parametrize("model", ["coupled", "uncoupled"])
-@pytest.mark.parametrize("higher", [60e-9, -60e-9])
+@pytest.mark.parametrize(("model", "higher"), [("coupled", -60e-9), ("uncoupled", 60e-9)])
 def test_full_film_begins_where_surfaces_that_hold_the_oil_come_apart(model, higher):
     """Where the film carries the surfaces lie higher, or lower, than on the whole patch. By its mean plane they touched
     beyond the film for ever, and it stalled; or they were far apart where they carry some of the load."""
@@ -431,7 +430,7 @@ def test_cells_that_the_hertz_boundary_cuts_count_by_their_fraction(cells):
             assert (fraction[whole] > 0.1).all()
 
 
-@pytest.mark.parametrize("speed", [1e-4, 1e-2, 0.1])
+@pytest.mark.parametrize("speed", [1e-4, 0.1])
 def test_oil_counted_over_the_hertz_contact_does_not_know_the_patch(speed):
     points = [solve_mixed(**bearing(cells, oil_volume="hertz"), speeds=(speed, 0.0)) for cells in LENGTHS]
     assert all(point.status is Status.CONVERGED for point in points)

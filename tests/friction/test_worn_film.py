@@ -35,8 +35,7 @@ def test_without_changes_the_films_are_the_unworn_ones(deforming):
     assert worn.shear_force == unworn.shear_force
 
 
-@pytest.mark.parametrize("deforming", [None, 600.0])
-@pytest.mark.parametrize("load", [500.0, 350.0])
+@pytest.mark.parametrize(("load", "deforming"), [(500.0, None), (350.0, 600.0)])
 def test_the_shape_of_another_radius_makes_its_films(load, deforming):
     """Under a load that makes a film within some half-widths, beyond which the shape does not go on."""
     oil, speeds, x = Lubricant(0.05, pressure_viscosity=25e-9), (1.0, 0.5), (np.arange(120) - 59.5) * 5e-6

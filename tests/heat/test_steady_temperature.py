@@ -31,7 +31,7 @@ def disc(cells, peclet, profile):
 
 
 @pytest.mark.internal
-@pytest.mark.parametrize("wavenumber", [0.0, 1e-13, 1e-3, 0.3, 4.0, 60.0, 1000.0])
+@pytest.mark.parametrize("wavenumber", [0.0, 1e-13, 0.3, 60.0, 1000.0])
 def test_a_cell_is_the_integral_of_moving_point_sources(wavenumber):
     """Another integral than the production's: over the cell, of exp(-w (r - x)) / (2 pi r)."""
     cells, across = 9, 0.7

@@ -74,8 +74,6 @@ def test_a_neighbour_of_another_sliding_takes_half_the_steps(points, most):
     [
         {"points": 301},
         {"hertz": 1.0e9},
-        {"mean": 8.0},
-        {"slide": 1.5},
         {"lubricant": oil(323.15)},
         {"points": 801, "mean": 2.0, "slide": 0.0},
     ],

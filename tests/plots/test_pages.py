@@ -143,8 +143,10 @@ main()
 
 
 @LINUX
-@pytest.mark.parametrize("sent", ["os.kill(os.getppid(), signal.SIGINT)", "os.killpg(0, signal.SIGINT)"])
-@pytest.mark.parametrize("where", ["load_what_draws", "make"])
+@pytest.mark.parametrize(
+    ("where", "sent"),
+    [("load_what_draws", "os.killpg(0, signal.SIGINT)"), ("make", "os.kill(os.getppid(), signal.SIGINT)")],
+)
 def test_an_interrupt_ends_the_copy_and_leaves_no_half_file(tmp_path, where, sent):
     """The copy interrupts, as Ctrl-C would, and sleeps for longer than the test may take."""
     environment = {**os.environ, "OPENBLAS_NUM_THREADS": "1"}

@@ -54,7 +54,6 @@ def test_words_and_gaps_have_to_be_equal():
     ("name", "label"),
     [
         ("film_error_bars", "case 5"),
-        ("particle_error_bars", "case 1"),
         ("film_regimes", "M 3, L 2"),
         ("line_film", "M 1, L 5"),
         ("random_contacts", "contact 7"),

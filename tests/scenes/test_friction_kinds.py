@@ -273,8 +273,9 @@ LAW = {"kind": "pressure_dependent", "shear_strength": 1e6, "pressure_coefficien
 
 
 @pytest.mark.internal
-@pytest.mark.parametrize("friction", [0.15, LAW], ids=["coefficient", "law"])
-@pytest.mark.parametrize("model", ["capped", "uncoupled"])
+@pytest.mark.parametrize(
+    ("model", "friction"), [("capped", LAW), ("uncoupled", 0.15)], ids=["capped-law", "uncoupled-coefficient"]
+)
 def test_a_curve_killed_between_speeds_goes_on_to_the_same_bits(tmp_path, model, friction, monkeypatch):
     speeds = ["0.003 m/s", "0.02 m/s", "0.1 m/s", "0.5 m/s"]
     data = scene_with(FRICTION, speeds=speeds, sharing={"models": [model]}, contact={"boundary_friction": friction})

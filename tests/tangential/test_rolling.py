@@ -174,7 +174,7 @@ def friction_work(solution, grid):
     return -float((mean * slip).sum()) * grid.spacing[1]
 
 
-@pytest.mark.parametrize("seed", range(4))
+@pytest.mark.parametrize("seed", range(2))
 def test_random_rollers_of_unlike_bodies_meet_their_force(seed):
     """Friction from 1e-4 to 0.3, forces from none to near sliding: 69 of 192 once stalled, with creepages to 1e28."""
     rng = np.random.default_rng(seed)

@@ -505,11 +505,10 @@ def test_notes_say_where_the_model_ends():
     assert has_code(short.notes, INLET_TOO_SHORT)
 
 
-@pytest.mark.parametrize(("ratio", "load"), [(11.727, 20.93), (12.6, 42.86)])
-def test_an_ellipse_not_found_on_long_cells_is_found_on_those_that_are_named(ratio, load):
-    """Isoviscous, M 2400 and 5000, along its long axis: on 160 x 160 cells there was no film of the first either."""
+def test_an_ellipse_not_found_on_long_cells_is_found_on_those_that_are_named():
+    """Isoviscous, M 2400, along its long axis: on 160 x 160 cells there was no film either."""
     oil = Lubricant(0.03, viscosity_law="isoviscous")
-    barrel = {"load": load, "radii": (0.01, 0.01 / ratio), "contact_modulus": 1e9, "speeds": (0.05, 0.05)}
+    barrel = {"load": 20.93, "radii": (0.01, 0.01 / 11.727), "contact_modulus": 1e9, "speeds": (0.05, 0.05)}
     barrel |= {"lubricant": oil}
     film = solve_point_film(**barrel, shape=(80, 80))
     assert film.status is not Status.CONVERGED
