@@ -114,7 +114,7 @@ def test_the_plan_says_what_is_skipped(scene_file):
 
 @pytest.mark.slow
 def test_killed_several_times_it_ends_in_the_same_bits(scene_file, tmp_path):
-    path = scene_file(count="1500", settled="20")  # some five seconds: long enough to be killed in
+    path = scene_file(count="600", settled="20")  # some two seconds: long enough to be killed in
     bem = [sys.executable, "-m", "bem", "run", str(path)]
     whole, torn = tmp_path / "whole", tmp_path / "torn"
     subprocess.run([*bem, "--out", str(whole)], check=True, capture_output=True, timeout=300)
@@ -125,7 +125,7 @@ def test_killed_several_times_it_ends_in_the_same_bits(scene_file, tmp_path):
         process = subprocess.Popen(command, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE)
         try:
             # some in the middle of start-up, some in the cycles, some while files are written
-            process.wait(timeout=float(random.uniform(0.5, 3.0)) if kills < 5 else 300)
+            process.wait(timeout=float(random.uniform(0.5, 2.5)) if kills < 3 else 300)
         except subprocess.TimeoutExpired:
             process.kill()
             process.wait()
@@ -136,7 +136,7 @@ def test_killed_several_times_it_ends_in_the_same_bits(scene_file, tmp_path):
             process.stderr.close()
         assert process.returncode == 0, (attempt, message)
         break
-    assert kills >= 3  # a fast machine may finish before the fifth
+    assert kills >= 2  # a fast machine may finish before the third
     import xarray
 
     with xarray.open_dataset(whole / "results.nc") as a, xarray.open_dataset(torn / "results.nc") as b:
