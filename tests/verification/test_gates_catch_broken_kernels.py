@@ -129,7 +129,10 @@ STRESSES = [
         ("bem.kernels.semi_periodic.stress_table", ("strip-normal", "strip-tangential")),
         ("bem.kernels.layered.semi_periodic.stress_remainder", ("strip-normal-soft", "strip-tangential-soft")),
         ("bem.verification.strip.strip_stress", ("strip-normal", "strip-tangential")),
-        ("bem.kernels.layered.frequency_response.stress_response", ("harmonic-normal-soft", "harmonic-tangential-soft")),
+        (
+            "bem.kernels.layered.frequency_response.stress_response",
+            ("harmonic-normal-soft", "harmonic-tangential-soft"),
+        ),
     ),
 ]
 """Kernels of stress: all components are off in one run, and each must fail in a row of its own."""
