@@ -1,7 +1,15 @@
-"""Wear particles: what one is, statistics of simulated and measured ones, height maps (thesis, paper B).
+"""Wear particles: records, statistics, particles of a height map, and the formulas of their evaluation.
 
-`particle` is the record; `statistics` its means by number, area and volume; `height_map` finds particles on a plate,
-`synthetic` makes such a map up; `archard`, `film_ratio` and `sedimentation` are the formulas of evaluation.
+Algorithm for a measured height map (thesis, paper B, section 2.6):
+
+1. Level the plate by a plane or second-order surface through the points that are no particle (height_map.py).
+2. Label what stands out by more than a threshold, by a watershed where touching particles are separated
+   (height_map.py).
+3. Measure each particle: volume, rectangle, thickness (particle.py).
+4. Compute means and distributions weighted by number, area, volume or light scattering (statistics.py).
+
+Wear volumes and numbers of particles after Archard: archard.py. Settling in a centrifuge: sedimentation.py. Synthetic
+maps with known particles: synthetic.py. Cost: one sort of the heights above the threshold.
 
 Sees surfaces, no contact and no wear loop. Verified in tests/particles on maps whose particles are known and against
 closed forms of the distributions.
@@ -24,7 +32,6 @@ if TYPE_CHECKING:
         removed_volume,
         specific_wear_rate,
     )
-    from bem.particles.film_ratio import dowson_higginson_minimum_film, lambda_ratio
     from bem.particles.height_map import level_background, particles_from_height_map
     from bem.particles.particle import Particle
     from bem.particles.sedimentation import relative_centrifugal_force, sedimentation_time
@@ -38,8 +45,6 @@ __all__ = [
     "SyntheticMap",
     "archard_volume",
     "archard_wear",
-    "dowson_higginson_minimum_film",
-    "lambda_ratio",
     "level_background",
     "particle_coefficient",
     "particle_number",
@@ -68,7 +73,6 @@ __getattr__ = loader(
             "removed_volume",
             "specific_wear_rate",
         ],
-        "film_ratio": ["dowson_higginson_minimum_film", "lambda_ratio"],
         "height_map": ["level_background", "particles_from_height_map"],
         "particle": ["Particle"],
         "sedimentation": ["relative_centrifugal_force", "sedimentation_time"],

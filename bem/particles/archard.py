@@ -1,4 +1,4 @@
-"""Archard's wear and what it says about the number of particles (thesis, paper B, eq. 1, 3 and 7).
+"""Archard's wear law and the number of wear particles (thesis, paper B, eq. 1, 3 and 7).
 
 W = k F s: wear volume W [m^3], load F [N], sliding distance s [m], specific wear rate k [m^3/(N m)] (1 mm^3/(N m) is
 1e-9 of it). With particles of mean volume V: N = W / V = k_N F s, k_N = k / V.
@@ -25,7 +25,7 @@ def profile_wear_volume(
     track_radius: float,
     flanks: float = 0.0,
 ) -> float:
-    """Wear volume of a circular track from height profiles across it, before and after [m^3].
+    """Return the wear volume of a circular track from height profiles across it, before and after [m^3].
 
     V = 2 pi R integral (before - after) dx: eq. 1, whose "difference of profiles times width" is that integral.
 
@@ -60,7 +60,7 @@ def profile_wear_volume(
 
 
 def removed_volume(before: ArrayLike, after: ArrayLike, spacing: tuple[float, float]) -> float:
-    """Volume between two aligned height maps (nx, ny) [m], positive where material is gone [m^3].
+    """Return the volume between two aligned height maps (nx, ny) [m], positive where material is gone [m^3].
 
     Raises
     ------
@@ -71,27 +71,27 @@ def removed_volume(before: ArrayLike, after: ArrayLike, spacing: tuple[float, fl
 
 
 def archard_volume(specific_wear_rate: float, load: float, distance: float) -> float:
-    """W = k F s [m^3]; `specific_wear_rate` [m^3/(N m)], `load` [N], `distance` [m]."""
+    """Return W = k F s [m^3]; `specific_wear_rate` [m^3/(N m)], `load` [N], `distance` [m]."""
     check_not_negative(specific_wear_rate=specific_wear_rate, load=load, distance=distance)
     return specific_wear_rate * load * distance
 
 
 def specific_wear_rate(volume: float, load: float, distance: float) -> float:
-    """k = W / (F s) [m^3/(N m)]; `volume` [m^3], `load` [N], `distance` [m]."""
+    """Return k = W / (F s) [m^3/(N m)]; `volume` [m^3], `load` [N], `distance` [m]."""
     check_not_negative(volume=volume)
     check_positive(load=load, distance=distance)
     return volume / (load * distance)
 
 
 def particle_number(volume: float, mean_particle_volume: float) -> float:
-    """N = W / V: how many particles of that mean volume [m^3] make up the wear volume [m^3]."""
+    """Return N = W / V, the number of particles of a mean volume [m^3] in a wear volume [m^3]."""
     check_not_negative(volume=volume)
     check_positive(mean_particle_volume=mean_particle_volume)
     return volume / mean_particle_volume
 
 
 def particle_coefficient(specific_wear_rate: float, mean_particle_volume: float) -> float:
-    """k_N = k / V: particles per newton and metre of sliding (1e-3 of it per newton and millimetre)."""
+    """Return k_N = k / V, particles per newton and metre of sliding (1e-3 of it per newton and millimetre)."""
     check_not_negative(specific_wear_rate=specific_wear_rate)
     check_positive(mean_particle_volume=mean_particle_volume)
     return specific_wear_rate / mean_particle_volume
@@ -99,7 +99,7 @@ def particle_coefficient(specific_wear_rate: float, mean_particle_volume: float)
 
 @dataclass(frozen=True)
 class ArchardWear:
-    """Wear volume [m^3], how many particles it is, and particles per newton and metre of sliding."""
+    """Wear volume [m^3], number of particles, and particles per newton and metre of sliding."""
 
     volume: float
     number: float
@@ -107,7 +107,8 @@ class ArchardWear:
 
 
 def archard_wear(specific_wear_rate: float, load: float, distance: float, mean_particle_volume: float) -> ArchardWear:
-    """All three at once, in SI units; see `archard_volume`, `particle_number` and `particle_coefficient`."""
+    """Return wear volume, number of particles and particle coefficient, in SI units; see `archard_volume`,
+    `particle_number` and `particle_coefficient`."""
     volume = archard_volume(specific_wear_rate, load, distance)
     return ArchardWear(
         volume,

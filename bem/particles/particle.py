@@ -1,4 +1,4 @@
-"""One wear particle: what every source of particles - simulation or microscope - describes it by."""
+"""Record of a wear particle, simulated or seen in a microscope."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from numpy.typing import NDArray
 
 @dataclass(frozen=True, eq=False)
 class Particle:
-    """A wear particle as a set of grid columns with a thickness each.
+    """Wear particle as a set of grid columns, each with a thickness.
 
     Attributes
     ----------
@@ -21,7 +21,7 @@ class Particle:
     columns : (n, 2) indices (ix, iy) of the grid columns that it covers.
     column_thickness : (n,) thickness of each of those columns [m].
     position : (x, y) of its centre of volume [m], in the grid's coordinates; wrapped into the grid on periodic axes.
-    cycle : sliding cycle in which it came off; 0 where there is no such thing.
+    cycle : sliding cycle in which it came off; 0 for measured particles.
     truncated : True where the data end before the particle does (deepest depth yields, or it lies on the map's border).
     """
 

@@ -1,4 +1,4 @@
-"""How long particles need to settle in a centrifuge (thesis, paper B, eq. 2)."""
+"""Settling time of particles in a centrifuge (thesis, paper B, eq. 2)."""
 
 from __future__ import annotations
 
@@ -12,7 +12,7 @@ STANDARD_GRAVITY = 9.80665
 
 
 def relative_centrifugal_force(radius: float, revolutions_per_minute: float) -> float:
-    """RCF = r omega^2 / g: acceleration at `radius` [m] in units of standard gravity.
+    """Return RCF = r omega^2 / g, the acceleration at `radius` [m] in units of standard gravity.
 
     The thesis' 10947 at 10000 rpm belongs to r = 97.9 mm, which it does not print.
     """
@@ -29,7 +29,7 @@ def sedimentation_time(
     liquid_density: float,
     particle_radius: float,
 ) -> float:
-    """Time [s] for a sphere to travel `distance` [m] at its Stokes velocity.
+    """Return the time [s] for a sphere to travel `distance` [m] at its Stokes velocity.
 
     t = 9 L mu / (2 RCF g (rho_p - rho_l) R^2): drag 6 pi mu R v against weight less buoyancy, RCF g taken as constant
     along the tube (it is less nearer to the axle, so the true time is longer). RCF = 1 is a tube at rest.

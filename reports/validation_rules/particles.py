@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import math
 
-from bem.particles import dowson_higginson_minimum_film, lambda_ratio, particle_coefficient
+from bem.particles import particle_coefficient
+from bem.reference_solutions.line_film import dowson_higginson_minimum
 from reports.validation_values import WEIGHTS, Rule, Summary, at, echo, steel_modulus
 
 WATER = {"viscosity": 1e-3, "density": 1000.0}
@@ -19,7 +20,7 @@ def _minutes_in_water(summary: Summary) -> float:
     return 60 * at(summary, "sedimentation_time_h").mean * WATER["viscosity"] / OIL["viscosity"] * lighter
 
 
-FILM_80_C = dowson_higginson_minimum_film(
+FILM_80_C = dowson_higginson_minimum(
     load=2.5 / 6e-3,
     radius=2e-3,
     contact_modulus=steel_modulus(),
@@ -28,7 +29,7 @@ FILM_80_C = dowson_higginson_minimum_film(
     pressure_viscosity=14e-9,
 )
 
-LAMBDA_CYLINDER, LAMBDA_DISK = lambda_ratio(FILM_80_C, 50e-9), lambda_ratio(FILM_80_C, 610e-9)
+LAMBDA_CYLINDER, LAMBDA_DISK = FILM_80_C / 50e-9, FILM_80_C / 610e-9
 
 
 def _by_light_scattering() -> str:
