@@ -1,8 +1,18 @@
 """Tribofilms: stress-activated growth, wear, and the substrate worn with them (thesis, paper E).
 
-`growth` and `properties` are the laws, `evolution` one point over time, `local` a field of them, `grow` with the
-contact that the film changes (`contact_growth`, `balance`), `calibrate` fits constants to measurements. Names are
-loaded when first used, so that the laws cost no solver.
+Algorithm of `grow_tribofilm` (grow.py), for the mean thickness as in the source:
+
+1. Solve the contact under a uniform film of a given thickness, with the film's stiffness and hardness
+   (contact_growth.py, properties.py), and average the growth law over it (growth.py).
+2. Tabulate the growth over the thickness by bisection, contacts solved only where they are needed (contact_growth.py).
+3. Integrate growth, wear and substrate wear over time (evolution.py, with the balance of balance.py).
+4. Superpose the growth maps of the solved contacts to a map of the film (grow.py).
+
+`grow_local_film` (local.py) lets the local film raise the surface: each time step solves the contact anew. Under oil
+the load is shared first (under_oil.py). calibrate.py fits the constants to measurements without a contact.
+
+Source: thesis, paper E. Cost: some ten to thirty contacts for the mean film, one per time step for the local one. Names
+are loaded when first used, so that the laws cost no solver.
 
 Sees contacts and operators, no lubrication and no scene. Verified in tests/tribofilm: closed forms of growth and steady
 thickness, stiff limits, constants found again; against paper E in the validation page.

@@ -1,4 +1,4 @@
-"""The balance of a tribofilm in four constants: how it wears, after what delay, with how much substrate, from where.
+"""Balance of a tribofilm in four constants: wear coefficient, lag, substrate concentration, initial thickness.
 
 Knows numbers only; `evolution` (mean thickness) and `local` (cell by cell) integrate it. Verified in
 tests/tribofilm/test_film_evolution.py and test_local_film.py.
@@ -15,12 +15,14 @@ from bem.errors import InputError
 from bem.grid import FloatArray
 
 MOST_LAGS = 5000
-"""Lags within the time: each is integrated by itself, some tens of evaluations."""
+"""Largest number of lags within the time; each is integrated by itself, some tens of evaluations."""
 
 
 @dataclass(frozen=True)
 class FilmBalance:
-    """wear_coefficient : alpha [1/s]; 0 for none. lag : of the wear [s]; 0 for none.
+    """Constants of growth and wear.
+
+    wear_coefficient : alpha [1/s]; 0 for none. lag : of the wear [s]; 0 for none.
     concentration_constant : C1 [1/m]; infinite for no substrate in the film. initial_thickness : at the start [m].
     """
 
@@ -30,15 +32,15 @@ class FilmBalance:
     initial_thickness: float = 0.0
 
     def concentration(self, thickness: FloatArray) -> FloatArray:
-        """Part of substrate in the film that wears, exp(-C1 h) (thesis, paper E, eq. 7)."""
+        """Return the fraction of substrate in the worn film, exp(-C1 h) (thesis, paper E, eq. 7); zero without C1."""
         if not math.isfinite(self.concentration_constant):
             return np.zeros_like(thickness)
         return np.asarray(np.exp(-self.concentration_constant * thickness))
 
     def thickest(self, fastest_growth: float, duration: float) -> float:
-        """A bound on the thickness [m] after a time [s] of growth no faster than that [m/s].
+        """Return an upper bound of the thickness [m] after a time [s] of growth at most `fastest_growth` [m/s].
 
-        Initial thickness and all that can have grown; without a lag no thicker than where wear balances that.
+        It is the initial thickness plus all growth; without a lag at most the thickness at which wear balances growth.
         """
         grown = self.initial_thickness + fastest_growth * duration
         if self.wear_coefficient > 0 and not self.lag > 0:
@@ -47,7 +49,7 @@ class FilmBalance:
 
 
 def checked_times(times: FloatArray, balance: FilmBalance, tolerance: float) -> FloatArray:
-    """The times (nt,) [s] of a film under this balance.
+    """Return the times (nt,) [s] of a film under a balance, checked.
 
     Raises
     ------

@@ -1,4 +1,4 @@
-"""Growth rate as a function of the mean film thickness, from contacts solved only where they are needed.
+"""Growth rate over the mean film thickness, tabulated from contacts that are solved only where they are needed.
 
 The contact depends on the film through its mean thickness alone (a uniform layer of that thickness, capped at the
 hardness it has then), so growth is a smooth function of one number. It is tabulated by bisection as far as the film
@@ -29,14 +29,15 @@ from bem.tribofilm.properties import FilmProperty
 AVERAGES = ("contact", "nominal")
 
 _NEGLIGIBLE_LAYER = 1e-4
-"""Layers thinner than this part of a cell are left out: they change a cell's own compliance by less than that."""
+"""Layers thinner than this fraction of a cell are left out: their effect on a cell's compliance is smaller than
+that."""
 
 
 @dataclass(frozen=True, eq=False)
 class FilmContact:
-    """What a film grows in: rough bodies, load, and how the film's properties follow its thickness.
+    """Contact in which a film grows: rough bodies, load, and film properties over thickness.
 
-    gap : undeformed gap (nx, ny) [m]. substrate : what the film grows on. counterface : the other body, None is rigid.
+    gap : undeformed gap (nx, ny) [m]. substrate : body under the film. counterface : other body, None is rigid.
     hardness, modulus : of the film, functions of (thickness [m], temperature [K]) [Pa].
     friction : shear stress over pressure. temperature : [K], of film and bodies.
     speeds : of substrate and counterface over the contact [m/s]: the film then grows as warm as rubbing makes each
@@ -69,7 +70,7 @@ class FilmContact:
             raise InputError(f"nominal_area: shape {np.shape(self.nominal_area)} does not match {self.grid.shape}")
 
     def hardness_at(self, thickness: float) -> float:
-        """That of a film of some thickness [m], or of the counterface where that is softer [Pa]."""
+        """Return the hardness of a film of a thickness [m], or of the counterface if that is softer [Pa]."""
         hardness = self.hardness(thickness, self.temperature)
         other = None if self.counterface is None else self.counterface.indentation_hardness
         return hardness if other is None else min(hardness, other)
@@ -95,12 +96,12 @@ class ContactSample:
     temperature: float = math.nan
 
     def without_maps(self) -> ContactSample:
-        """Its numbers alone."""
+        """Return the sample with empty maps."""
         return replace(self, growth_map=np.zeros((0, 0)), pressure=np.zeros((0, 0)))
 
 
 def notes_on_growth(contact: FilmContact, wear_coefficient: float, initial_thickness: float) -> tuple[Note, ...]:
-    """Notes on arguments of `grow_tribofilm` and `grow_local_film` outside their usual ranges."""
+    """Return notes on arguments of `grow_tribofilm` and `grow_local_film` outside their usual ranges."""
     arguments: dict[str, tuple[str, Any]] = {
         "wear_coefficient": ("wear coefficient of a tribofilm", wear_coefficient),
         "initial_thickness": ("thickness of a layer", initial_thickness),
@@ -152,7 +153,7 @@ def solve_film_contact(
             f"{solution.status.value!r} at residual {solution.residual:.1e}; {solution.status.message}"
         )
     touching = solution.pressure > 0
-    temperature = contact.temperature if contact.speeds is None else _spots(contact, solution.pressure)
+    temperature = contact.temperature if contact.speeds is None else _surface_temperature(contact, solution.pressure)
     growth_map = np.where(touching, contact.growth.rate(contact.friction * solution.pressure, temperature), 0.0)
     if contact.average == "contact":
         mean = float(growth_map[touching].mean()) if touching.any() else 0.0
@@ -174,8 +175,8 @@ def solve_film_contact(
     )
 
 
-def _spots(contact: FilmContact, pressure: FloatArray) -> FloatArray:
-    """Surface temperature (nx, ny) [K] of a contact that rubs."""
+def _surface_temperature(contact: FilmContact, pressure: FloatArray) -> FloatArray:
+    """Return the surface temperature (nx, ny) [K] of a sliding contact."""
     assert contact.speeds is not None
     substrate = Body(contact.substrate)
     bodies = substrate if contact.counterface is None else (substrate, Body(contact.counterface))
@@ -194,7 +195,7 @@ def _spots(contact: FilmContact, pressure: FloatArray) -> FloatArray:
 
 @dataclass
 class GrowthTable:
-    """mean thickness [m] -> growth rate [m/s], from as few contacts as a tolerance allows.
+    """Growth rate [m/s] as a function of mean thickness [m], from as few contacts as a tolerance allows.
 
     Logarithmic growth is interpolated linearly between samples. An interval is trusted once the value in its middle
     lies within `tolerance` (relative) of the interpolation; with the middle as a further sample the error left is about
@@ -220,7 +221,7 @@ class GrowthTable:
     _last: ContactSample | None = None
 
     def __call__(self, thickness: float) -> float:
-        """Growth rate [m/s]."""
+        """Return the growth rate at a thickness [m/s]."""
         if not self.samples:
             self._solve(0.0)
             self._solve(self.first_interval)
@@ -238,7 +239,7 @@ class GrowthTable:
         return len(self.samples)
 
     def weights(self, thickness: float) -> tuple[tuple[ContactSample, float], tuple[ContactSample, float]]:
-        """The two samples around a thickness, with their weights in linear interpolation (for maps)."""
+        """Return the two samples around a thickness, with their weights in linear interpolation (for maps)."""
         self(thickness)
         low, high = self._bracket(thickness)
         fraction = (thickness - low.thickness) / (high.thickness - low.thickness)

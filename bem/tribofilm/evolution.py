@@ -34,10 +34,11 @@ _ATOM = 2e-10
 """Height of an atom [m]: thinner films need no relative accuracy."""
 
 _MOST_EVALUATIONS = 200_000
-"""Of the rates. An ordinary film takes some hundreds, each of its lags some tens."""
+"""Largest number of evaluations of the rates. An ordinary film takes some hundreds, each of its lags some tens."""
 
 _SHORT = 1e-3
-"""Wear may take what is there within this part of the lag, never more: it keeps a delayed film from going negative."""
+"""Delayed wear is limited to the removal of the whole film within this fraction of the lag, so that no film is
+negative."""
 
 
 @readable
@@ -59,7 +60,7 @@ class FilmHistory:
     evaluations: int
 
     def wear_depth(self, start: float, end: float) -> float:
-        """Depth of substrate worn between two times [s], within those of the history [m]."""
+        """Return the depth of substrate worn between two times [s] of the history [m]."""
         before, after = np.interp((start, end), self.time, self.substrate_wear)
         return float(after) - float(before)
 
@@ -132,7 +133,7 @@ class _Rates:
                 f"{balance.wear_coefficient:g} 1/s after a lag of {balance.lag:g} s the film comes and goes; lower "
                 "either"
             )
-        # what rounding takes below zero comes back: cut off there, wear had no slope and Newton's steps diverged
+        # not cut off at zero: wear without a slope there would let Newton's steps diverge
         difference = balance.initial_thickness + float(y[0]) - float(y[1])
         thickness = max(difference, 0.0)
         growth = self.growth_rate(thickness)
@@ -147,7 +148,7 @@ class _Rates:
 
 
 def _integrate(rates: _Rates, when: FloatArray, tolerance: float) -> None:
-    """From the first time to the last, over one lag at a time; the solution is appended to the rates' past."""
+    """Integrate from the first time to the last, one lag at a time, appending the solution to the rates' past."""
     begin, last = when[0], when[-1]
     span = last - begin
     step = rates.balance.lag if rates.balance.lag > 0 else span
@@ -197,7 +198,7 @@ class _Past:
         return np.asarray(self.pieces[index](t))
 
     def __call__(self, t: float) -> float:
-        """Thickness at a past time; nothing before the start."""
+        """Return the thickness at a past time; zero before the start."""
         if t < self.start:
             return 0.0
         grown, worn, _ = self.state(t)
@@ -205,7 +206,7 @@ class _Past:
 
 
 def steady_thickness(growth_rate: GrowthRate, wear_coefficient: float, *, longest: float = 1e-3) -> float:
-    """Thickness at which growth and wear balance [m]; infinite where growth still wins at `longest`.
+    """Return the thickness at which growth and wear balance [m]; infinite if growth exceeds wear at `longest`.
 
     g(h) - alpha h falls with h wherever growth does not increase with thickness, so bisection finds the one root.
     """

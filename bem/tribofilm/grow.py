@@ -1,4 +1,4 @@
-"""A tribofilm from the first pass to steady state: contact, growth and wear together."""
+"""Growth of a tribofilm of uniform mean thickness: contact, growth and wear together (thesis, paper E)."""
 
 from __future__ import annotations
 
@@ -28,7 +28,7 @@ from bem.tribofilm.properties import PropertyLaw
 @tabled
 @dataclass(frozen=True, eq=False)
 class TribofilmGrowth:
-    """A finished film.
+    """Result of the growth of a film.
 
     history : thickness, growth, wear and substrate wear over the times asked for.
     contacts : the contacts that were solved, by increasing thickness.
@@ -45,17 +45,17 @@ class TribofilmGrowth:
 
     @property
     def contacts_solved(self) -> int:
-        """How many contacts."""
+        """Number of contacts solved."""
         return len(self.contacts)
 
     @property
     def samples(self) -> tuple[ContactSample, ...]:
-        """The contacts, as `LocalFilm` has them."""
+        """Contacts solved, as in `LocalFilm`."""
         return self.contacts
 
     @property
     def steady_thickness(self) -> float | None:
-        """`steady`, None where growth and wear do not balance [m]."""
+        """Thickness at which growth and wear balance [m]; None where they do not."""
         return None if math.isinf(self.steady) else self.steady
 
     @property
@@ -100,8 +100,8 @@ def grow_tribofilm(
     reuse_tolerance : relative error of growth that is accepted from reusing contacts; 0 solves one at every evaluation.
     tolerance : of the time integration.
     callback : called with every contact as it is solved.
-    known : contacts that the same film was told of before, in that order: they are not solved again, and what follows
-        has the same bits.
+    known : contacts of an interrupted growth of the same film, in the order of the callback: they are not solved again,
+        and the result has the same bits.
 
     Raises
     ------
@@ -111,10 +111,10 @@ def grow_tribofilm(
     if not 0 <= reuse_tolerance < 1:
         raise InputError(f"reuse_tolerance {reuse_tolerance!r} must be >= 0 and below 1")
 
-    told = iter(known)
+    stored = iter(known)
 
     def sample(thickness: float, last: ContactSample | None) -> ContactSample:
-        before = next(told, None)
+        before = next(stored, None)
         if before is not None:
             if before.thickness != thickness:
                 raise InputError(f"known: a contact under {before.thickness:.6g} m of film where {thickness:.6g} m is")
@@ -147,8 +147,11 @@ def grow_tribofilm(
 def softest_film(
     hardness: PropertyLaw, growth: GrowthLaw, balance: FilmBalance, friction: float, temperature: float, duration: float
 ) -> float:
-    """A bound on how soft [Pa] a film can get in a time [s] at a temperature [K]: at any thickness the pressure is at
-    most the hardest that the film ever is, and contacts are solved up to twice as thick as the film gets."""
+    """Return a lower bound of the hardness [Pa] of a film in a time [s] at a temperature [K].
+
+    The pressure is at most the highest hardness at any thickness, and contacts are solved up to twice the thickness of
+    the film.
+    """
     fastest = float(growth.rate(np.array(friction * hardness.highest(temperature)), temperature))
     return hardness.lowest(2 * balance.thickest(fastest, duration), temperature)
 
@@ -156,11 +159,11 @@ def softest_film(
 def film_map(
     history: FilmHistory, table: GrowthTable, wear_coefficient: float, lag: float, initial_thickness: float
 ) -> FloatArray:
-    """Local thickness at the last time, (nx, ny) [m].
+    """Return the local thickness (nx, ny) at the last time [m].
 
     Local growth and wear are linear once the mean thickness over time is known, so each point is the convolution of its
-    own growth with the survival `K(t)` of what has grown: exp(-alpha t), or with a delay the fundamental solution of
-    the delay equation. The integral over time is gathered per solved contact, so only as many maps are added up.
+    own growth with the survival K(t) of grown film: exp(-alpha t), or with a delay the fundamental solution of the
+    delay equation. The weights in time are collected per solved contact, so that each map is added once.
     """
     nodes, weights = np.polynomial.legendre.leggauss(4)
     total: dict[float, float] = {}
@@ -181,7 +184,8 @@ def film_map(
 
 
 def survival(time: float, wear_coefficient: float, lag: float) -> float:
-    """What is left after `time` [s] of a unit of film under wear: solves K' = -alpha K(t - lag), K(0) = 1, K(<0) = 0.
+    """Return the fraction of film left after a time [s] of wear: the solution of K' = -alpha K(t - lag), K(0) = 1,
+    K(<0) = 0.
 
     Method of steps: sum over k of (-alpha)^k (t - k lag)^k / k! while t > k lag. It is used for alpha lag < 1, where
     the terms do not cancel badly before K has died out.
@@ -198,5 +202,5 @@ def survival(time: float, wear_coefficient: float, lag: float) -> float:
 
 
 def _reach(history: FilmHistory) -> float:
-    """How far the search for a balance goes: as far as the film got, and a little more."""
+    """Return the upper end of the search for a balance, slightly above the largest thickness [m]."""
     return float(history.thickness.max()) * 1.02 + 1e-12

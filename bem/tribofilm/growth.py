@@ -1,4 +1,4 @@
-"""How fast a tribofilm grows: laws of growth, and stress-activated Arrhenius kinetics."""
+"""Growth laws of a tribofilm: stress-activated Arrhenius kinetics."""
 
 from __future__ import annotations
 
@@ -20,14 +20,16 @@ ELECTRON_VOLT = 1.602176634e-19
 
 @dataclass(frozen=True)
 class GrowthLaw(Law):
-    """How fast a film grows; to add one, derive from this and register it, here or in a file of your own."""
+    """Base class of growth laws; to add a law, derive from it and register it, here or in a file of your own."""
 
     family: ClassVar[str] = "growth"
 
     @abstractmethod
     def rate(self, shear_stress: FloatArray, temperature: float | FloatArray) -> FloatArray:
-        """Growth rate [m/s] under a shear stress [Pa] at an absolute temperature [K], one number or an array as that of
-        the stress; never falling with the stress."""
+        """Return the growth rate [m/s] under a shear stress [Pa], not falling with the stress.
+
+        temperature : absolute [K], a number or an array of the shape of the stress.
+        """
 
 
 @register
@@ -42,8 +44,7 @@ class StressActivatedGrowth(GrowthLaw):
     ----------
     prefactor : [m/s].
     activation_energy : without stress [J].
-    activation_volume : [m^3]; 0 switches stress activation
-        off and leaves plain Arrhenius growth.
+    activation_volume : [m^3]; 0 is plain Arrhenius growth without stress activation.
     """
 
     name: ClassVar[str] = "stress_activated"
@@ -55,11 +56,11 @@ class StressActivatedGrowth(GrowthLaw):
     def from_electron_volts(
         cls, prefactor: float, activation_energy_ev: float, activation_volume_cubic_angstrom: float
     ) -> StressActivatedGrowth:
-        """From the units of the literature: m/s, eV and cubic angstrom."""
+        """Return the law from the units of the literature: m/s, eV and cubic angstrom."""
         return cls(prefactor, activation_energy_ev * ELECTRON_VOLT, activation_volume_cubic_angstrom * 1e-30)
 
     def rate(self, shear_stress: FloatArray, temperature: float | FloatArray) -> FloatArray:
-        """Growth rate [m/s] under a shear stress [Pa] at an absolute temperature [K], one or as many as stresses.
+        """Return the growth rate [m/s] under a shear stress [Pa]; temperature : absolute [K], one or one per stress.
 
         The barrier cannot be lower than zero: beyond `activation_energy / activation_volume` the rate is the prefactor.
 
@@ -69,7 +70,7 @@ class StressActivatedGrowth(GrowthLaw):
         """
         if not (np.isfinite(temperature).all() and np.min(temperature) > 0):
             raise InputError(f"temperature {temperature!r} must be positive [K]; add 273.15 to degrees Celsius")
-        with np.errstate(over="ignore"):  # a barrier beyond all numbers: nothing grows; a work beyond them: no barrier
+        with np.errstate(over="ignore"):  # an infinite barrier gives zero growth, an infinite work no barrier
             barrier = self.activation_energy - np.asarray(shear_stress, dtype=np.float64) * self.activation_volume
             height = np.maximum(barrier, 0.0) / (BOLTZMANN * np.asarray(temperature, dtype=np.float64))
         return np.asarray(self.prefactor * np.exp(-height))

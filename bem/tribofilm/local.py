@@ -1,9 +1,15 @@
-"""A film whose local thickness feeds back: it builds up where it grows, and the raised surface is what touches next.
+"""Tribofilm with local thickness: it raises the surface where it grows, which changes the next contact.
 
-With the mean thickness alone (`grow.grow_tribofilm`, as in the source) the film changes stiffness and hardness of the
-contact; here it changes the surface too. Each step solves the contact under the surface raised by the film, stiffness
-and hardness being those of the mean film in the contact, and advances every cell by the exponential trapezoidal rule
-(ETD2RK, Cox and Matthews 2002): wear is integrated exactly, so no step, however long, makes a film negative.
+The mean film (`grow.grow_tribofilm`, as in the source) changes stiffness and hardness of the contact; the local film
+changes the surface too. Per time step:
+
+1. Predict the film of every cell with the growth at the start of the step; wear is integrated exactly, so no step makes
+   a film negative (exponential trapezoidal rule ETD2RK, Cox and Matthews 2002).
+2. Solve the contact under the surface raised by the predicted film, with stiffness and hardness of the mean film in the
+   contact.
+3. Correct the film with the mean growth. The difference to the prediction is the error; accept the step or shorten it.
+
+Cost: one contact per step tried.
 
 Knows the balance and the contact under a film; no scene. Verified in tests/tribofilm/test_local_film.py: order in time,
 uniform films against the mean's equation.
@@ -55,12 +61,12 @@ class LocalFilm:
 
     @property
     def contacts_solved(self) -> int:
-        """How many contacts."""
+        """Number of contacts solved."""
         return len(self.samples)
 
     @property
     def history(self) -> FilmHistory:
-        """The means over time as those of `grow_tribofilm`; rates of growth are differences of what has grown."""
+        """Means over time as those of `grow_tribofilm`; growth rates are differences of the film grown."""
         return FilmHistory(
             self.time,
             self.thickness,
@@ -76,7 +82,7 @@ class LocalFilm:
 
 @dataclass(frozen=True, eq=False)
 class Films:
-    """At one time: local film, what has grown and how much substrate has left, (nx, ny) [m], and the contact there."""
+    """State at one time: local film, film grown and substrate worn so far (nx, ny) [m], and the contact."""
 
     film: FloatArray
     grown: FloatArray
@@ -103,7 +109,7 @@ class LocalState:
 
 @dataclass(frozen=True, eq=False)
 class _Case:
-    """What stays the same: times (nt,) [s], where it grows, its balance, cells to average over, error of a step."""
+    """Constant parts: times (nt,) [s], contact, balance, cells of the means, tolerance of a step."""
 
     when: FloatArray
     contact: FilmContact
@@ -141,14 +147,14 @@ def grow_local_film(
     when = checked_times(times, balance, tolerance)
     area = np.ones(contact.grid.shape, bool) if contact.nominal_area is None else contact.nominal_area.astype(bool)
     case = _Case(when, contact, balance, area, tolerance)
-    state = _start(case) if state is None else state
+    state = _initial_state(case) if state is None else state
     while len(state.rows) < len(when):
         if state.now < when[len(state.rows)]:
-            state = _tried(case, state)
+            state = _try_step(case, state)
             if callback is not None:
                 callback(state)
         else:
-            state = _reached(case, state)
+            state = _record_means(case, state)
     means, grown_means, worn_means, wear_means = np.array(state.rows).T
     return LocalFilm(
         when,
@@ -165,17 +171,17 @@ def grow_local_film(
     )
 
 
-def _start(case: _Case) -> LocalState:
+def _initial_state(case: _Case) -> LocalState:
     film = np.full(case.contact.grid.shape, case.balance.initial_thickness)
-    found = _solved(case, film, None)
+    found = _solve_contact(case, film, None)
     films = Films(film, np.zeros(film.shape), np.zeros(film.shape), found)
     step = 0.01 * (case.when[-1] - case.when[0])
     rows = ((case.mean(film), 0.0, 0.0, 0.0),)
     return LocalState(case.when[0], step, films, found.pressure, rows, (found.without_maps(),))
 
 
-def _tried(case: _Case, state: LocalState) -> LocalState:
-    """After a step towards the next time, taken or to be tried again with a shorter one."""
+def _try_step(case: _Case, state: LocalState) -> LocalState:
+    """Return the state after a trial step towards the next time, accepted or with a shorter next step."""
     now, step = state.now, min(state.step, case.when[len(state.rows)] - state.now)
     tried, difference = _advance(case, state, step)
     error = case.mean(difference)
@@ -190,16 +196,16 @@ def _tried(case: _Case, state: LocalState) -> LocalState:
     return replace(state, now=now + step, films=tried)
 
 
-def _reached(case: _Case, state: LocalState) -> LocalState:
-    """At the next of the times, with its means."""
+def _record_means(case: _Case, state: LocalState) -> LocalState:
+    """Return the state at the next of the times, with a row of means."""
     films = state.films
     thickness, grown, substrate = (case.mean(each) for each in (films.film, films.grown, films.substrate))
     row = (thickness, grown, case.balance.initial_thickness + grown - thickness, substrate)
     return replace(state, now=case.when[len(state.rows)], rows=(*state.rows, row))
 
 
-def _solved(case: _Case, film: FloatArray, last: FloatArray | None) -> ContactSample:
-    """The contact under the surface raised by a film, from a pressure."""
+def _solve_contact(case: _Case, film: FloatArray, last: FloatArray | None) -> ContactSample:
+    """Solve the contact under the surface raised by a film; last : pressure to start from."""
     raised = replace(case.contact, gap=case.contact.gap - film)
     touched = film[case.area if last is None else last > 0]
     mean = float(touched.mean()) if touched.size else 0.0
@@ -207,13 +213,13 @@ def _solved(case: _Case, film: FloatArray, last: FloatArray | None) -> ContactSa
 
 
 def _advance(case: _Case, state: LocalState, step: float) -> tuple[Films, FloatArray]:
-    """Films after `step`, and how far they are from those predicted with the growth at the step's beginning."""
+    """Return the films after a step, and their difference to those predicted with the growth at its start."""
     films, balance = state.films, case.balance
     start = films.contact
     decay = math.exp(-balance.wear_coefficient * step)
     first, second = _weights(balance.wear_coefficient * step)
     predicted = films.film * decay + step * first * start.growth_map
-    end = _solved(case, predicted, state.last)
+    end = _solve_contact(case, predicted, state.last)
     corrected = predicted + step * second * (end.growth_map - start.growth_map)
     corrected = np.maximum(corrected, 0.0)
     gained = 0.5 * step * (start.growth_map + end.growth_map)
@@ -224,7 +230,7 @@ def _advance(case: _Case, state: LocalState, step: float) -> tuple[Films, FloatA
 
 
 def _weights(z: float) -> tuple[float, float]:
-    """phi_1 = (1 - e^-z)/z and phi_2 = (e^-z - 1 + z)/z^2, by series where they would cancel."""
+    """Return phi_1 = (1 - e^-z)/z and phi_2 = (e^-z - 1 + z)/z^2, by series where they would cancel."""
     if z < 1e-3:
         return 1 - z / 2 + z * z / 6, 0.5 - z / 6 + z * z / 24
     return -math.expm1(-z) / z, (math.expm1(-z) + z) / (z * z)

@@ -2,7 +2,7 @@
 
 The source takes both from other papers and only plots them (Demmou et al. 2006 for the rise of hardness towards the
 substrate, Bosman and Schipper 2011 for the factor with temperature), so they are inputs: any callable
-`(thickness [m], temperature [K]) -> Pa` will do, and these are the ones that a scene can name.
+`(thickness [m], temperature [K]) -> Pa` will do. The laws here are those that a scene can name.
 """
 
 from __future__ import annotations
@@ -24,20 +24,20 @@ FilmProperty = Callable[[float, float], float]
 
 @dataclass(frozen=True)
 class PropertyLaw(Law):
-    """A property that a scene can name; to add one, derive from this and register it, here or in a file of your own."""
+    """Base class of film properties; to add one, derive from it and register it, here or in a file of your own."""
 
     family: ClassVar[str] = "film_property"
 
     @abstractmethod
     def __call__(self, thickness: float, temperature: float) -> float:
-        """Value [Pa] of a film of a thickness [m] at a temperature [K]."""
+        """Return the value [Pa] for a film of a thickness [m] at a temperature [K]."""
 
     def lowest(self, thickness: float, temperature: float) -> float:
-        """Lowest value from no film to this thickness [Pa]; by default of 400 thicknesses."""
+        """Return the lowest value up to a thickness [Pa]; by default over 400 thicknesses."""
         return min(self(fraction * thickness, temperature) for fraction in (0.0, *np.geomspace(1e-6, 1.0, 399)))
 
     def highest(self, temperature: float) -> float:
-        """Highest value at any thickness [Pa]; by default of 400 thicknesses up to 1 mm."""
+        """Return the highest value at any thickness [Pa]; by default over 400 thicknesses up to 1 mm."""
         return max(self(float(h), temperature) for h in (0.0, *np.geomspace(1e-11, 1e-3, 399)))
 
 
@@ -50,15 +50,15 @@ class Constant(PropertyLaw):
     value: float = parameter("of the film", "Pa", above=0)
 
     def __call__(self, thickness: float, temperature: float) -> float:
-        """Value [Pa]."""
+        """Return the value [Pa]."""
         return self.value
 
     def lowest(self, thickness: float, temperature: float) -> float:
-        """Lowest value from no film to this thickness [Pa]."""
+        """Return the lowest value up to a thickness [Pa]."""
         return self.value
 
     def highest(self, temperature: float) -> float:
-        """Highest value at any thickness [Pa]."""
+        """Return the highest value at any thickness [Pa]."""
         return self.value
 
 
@@ -98,7 +98,7 @@ class FadingSubstrate(PropertyLaw):
     )
 
     def __call__(self, thickness: float, temperature: float) -> float:
-        """Value [Pa]."""
+        """Return the value [Pa]."""
         fraction = math.exp(-max(thickness, 0.0) / self.length)
         substrate = self.substrate * self._factor(self.substrate_temperature_slope, temperature)
         film = self.film * self._factor(self.temperature_slope, temperature)
@@ -109,11 +109,11 @@ class FadingSubstrate(PropertyLaw):
         return max(1 - slope * (temperature - self.reference_temperature), self.lowest_factor)
 
     def lowest(self, thickness: float, temperature: float) -> float:
-        """Lowest value from no film to this thickness [Pa]: it rises or falls all the way."""
+        """Return the lowest value up to a thickness [Pa]; the curve is monotone."""
         return min(self(0.0, temperature), self(thickness, temperature))
 
     def highest(self, temperature: float) -> float:
-        """Highest value at any thickness [Pa]."""
+        """Return the highest value at any thickness [Pa]."""
         return max(self(0.0, temperature), self(math.inf, temperature))
 
 
@@ -137,7 +137,7 @@ class Table(PropertyLaw):
     factor: tuple[float, ...] = parameter("at each temperature", default=(1.0,), above=0, several=True)
 
     def rules(self) -> Iterator[str]:
-        """Each pair of lists is a curve."""
+        """Check that each pair of lists is a curve."""
         for abscissa, ordinate in (("thickness", "value"), ("temperature", "factor")):
             x, y = getattr(self, abscissa), getattr(self, ordinate)
             if not x or len(x) != len(y) or any(b <= a for a, b in pairwise(x)):
@@ -151,20 +151,20 @@ class Table(PropertyLaw):
         temperature: Sequence[float] = (298.15,),
         factor: Sequence[float] = (1.0,),
     ) -> Table:
-        """From any sequences."""
+        """Return the table of any sequences."""
         return cls(tuple(thickness), tuple(value), tuple(temperature), tuple(factor))
 
     def __call__(self, thickness: float, temperature: float) -> float:
-        """Value [Pa]."""
+        """Return the value [Pa]."""
         return float(
             np.interp(thickness, self.thickness, self.value) * np.interp(temperature, self.temperature, self.factor)
         )
 
     def lowest(self, thickness: float, temperature: float) -> float:
-        """Lowest value from no film to this thickness [Pa]: at a point of the curve or at either end."""
+        """Return the lowest value up to a thickness [Pa], at a point of the curve or at an end."""
         points = [0.0, thickness, *(x for x in self.thickness if 0.0 < x < thickness)]
         return min(self(point, temperature) for point in points)
 
     def highest(self, temperature: float) -> float:
-        """Highest value at any thickness [Pa]."""
+        """Return the highest value at any thickness [Pa]."""
         return max(self(point, temperature) for point in (0.0, *self.thickness))

@@ -1,9 +1,13 @@
-"""A ball that rubs in oil: the surfaces carry what its oil film leaves them, and the tribofilm grows under that alone.
+"""Tribofilm of a ball that slides in oil: it grows under the part of the load that the oil film leaves to the surfaces.
 
-The load is shared once, between the surfaces without tribofilm and an oil film that all of the load deforms
-(`OilVolume.LOADED`, so that the patch's length has no say). The share then stays as it is: tribofilms of tens of
-nanometres lie on both sides of the balance, on the roughness and under the oil. What the tribofilm sees is the rough
-contact of that balance: the gap that the oil film leaves, and the surfaces' part of the load. Verified in
+1. Share the load once between the surfaces without tribofilm and an oil film deformed by the whole load
+   (`OilVolume.LOADED`, so that the patch's length has no effect).
+2. Keep that share: a tribofilm of tens of nanometres raises the surface on both sides of the balance, in the contact
+   and under the oil.
+3. Grow the tribofilm in the rough contact of that balance: the gap that the oil film leaves, under its part of the
+   load.
+
+Verified in
 tests/tribofilm/test_under_oil.py.
 """
 
@@ -28,9 +32,14 @@ if TYPE_CHECKING:
 def under_oil(
     contact: FilmContact, height: FloatArray, radii: Sequence[float], lubricant: Lubricant, film_cells: int
 ) -> tuple[FilmContact, MixedSolution]:
-    """What surfaces of heights (nx, ny) [m] carry under a ball or ellipsoid of radii (Rx, Ry) [m] in oil, and how the
-    load is shared; `contact` has the whole load and the speeds of both surfaces. film_cells : of the oil film along an
-    axis.
+    """Return the contact of a tribofilm under oil, and the load sharing.
+
+    Parameters
+    ----------
+    contact : under the whole load, with the speeds of both surfaces.
+    height : (nx, ny) heights of both surfaces together [m].
+    radii : (Rx, Ry) of the ball or ellipsoid [m].
+    lubricant : oil. film_cells : cells of the oil film along an axis.
 
     Raises
     ------
