@@ -80,7 +80,7 @@ def wear_setup(depths: int, cells: int = 240, drawn_on: int = 240) -> tuple[Any,
 
 def one_wear_cycle(depths: float) -> Timed:
     """One warm cycle, the counterface moved by three cells; the error is that of the volume, against "exact" voxels."""
-    from bem.wear import WearModel, dry_contact, yielded_pieces
+    from bem.wear import ContactStart, WearModel, dry_contact, yielded_pieces
     from bem.wear.cycle import wear_cycle
 
     setup, lower, upper = wear_setup(int(depths))
@@ -88,7 +88,7 @@ def one_wear_cycle(depths: float) -> Timed:
     step = dry_contact(setup)
     before, _ = wear_cycle((lower, upper), setup, model, step, None)
     moved = np.roll(upper, 3, axis=0)
-    start = np.roll(before.pressure, 3, axis=0)
+    start = ContactStart(np.roll(before.pressure, 3, axis=0))
 
     def solve() -> Any:
         return wear_cycle((lower, moved), setup, model, step, start)

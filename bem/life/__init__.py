@@ -1,9 +1,17 @@
-"""A life of up to millions of cycles: wear by pressure and distance, a tribofilm and fatigue together, in jumps.
+"""Life of up to millions of cycles: wear by pressure and distance, a tribofilm and fatigue together, in cycle jumps.
 
-`passes` is a contact of two bodies that pass or stay, dry or lubricated; `surfaces` what a round of them wears and
-grows; `march` the jumps with their error. `fatigue` is the damage that passing roughness does below the surface, by the
-criteria of `criteria`.
+1. A round takes two bodies through a number of positions (passes.py). In each position: solve the contact with its wear
+   as a compliance (`bem.wear.ContactStep`, dry or lubricated), wear both bodies, grow and wear the tribofilm
+   (surfaces.py).
+2. A step is a round in which each position stands for many cycles. Its error is controlled by step doubling (march.py).
+3. After each step, monitors count the pieces that a wear criterion would find, and the fatigue damage below the surface
+   (monitors.py, fatigue.py, criteria.py).
+4. Errors of jumps, positions, cells and films add up to the error bars (error_bars.py, sampling.py).
 
-Sees wear, tribofilms, load sharing, contacts and stresses; no scene, no file. Verified in tests/life: volume, closed
-forms of wear, cycle by cycle, order in the tolerance, resuming, criteria on closed stress paths.
+Source: Archard (1953) at each place; tribofilm of the thesis, paper E; fatigue of Morales-Espejel and Brizmer (2011).
+Cost: three rounds per step, a contact per position. Sees wear, tribofilms, load sharing, contacts and stresses; no
+scene, no file.
+
+Verified in tests/life: volume, closed forms of wear, cycle by cycle, order in the tolerance, resuming, criteria on
+closed stress paths.
 """

@@ -1,29 +1,31 @@
-"""Error bars of a life: what its cycle jumps leave open, its positions, its cells, the points of its films.
+"""Error bars of a life: errors of its cycle jumps, its positions, its cells and the points of its films.
 
-Two more lives tell of cells and positions: one on the grid of twice the cell, and there one of half the positions; they
-take a quarter and an eighth of the life's work. Films have half their points in a round on the surfaces of the start
-and in one on those of the end: what wears follows the share of the load in contact. A bar is the sum of what the jumps
-leave open (`bem.life.bars`) and of these differences, times factors; where those of positions happen to pass zero, what
-the positions of the last round scatter stays. Of heights and of the film over them what positions leave open is known
-better than by half of them (`bem.life.sampling`). Factors are set by experiment and judged by
+1. Jumps: the errors of all steps add up (`jump_bars`).
+2. Cells and positions: the differences to two more lives, one on the grid of twice the cell, and there one of half the
+   positions. The difference of the positions is replaced by the scatter of the last round's where it is smaller.
+   Heights and the film over them have a better estimate (`bem.life.sampling`).
+3. Points of the films: the differences of rounds with half the points, on the surfaces of the start and of the end;
+   wear follows the share of the load in contact.
+4. The error bar is the sum, each part times a factor.
+
+Cost: three eighths of the life. The factors are set by experiment and judged by
 `reports/experiments/life_error_bars.py`: an estimate, no proved bound.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
 from bem.accuracy.bars import GRID, POINTS, ErrorBars
 from bem.grid import FloatArray
-from bem.life.bars import bars_of_jumps
 from bem.life.march import LifeState
 from bem.life.passes import Pass, Passing
 from bem.life.sampling import missed_ratio, missed_roughness
-from bem.life.surfaces import LifeCase, round_of
+from bem.life.surfaces import LifeCase, solve_round
 from bem.notes.accuracy import NoBar
 
 JUMPS, POSITIONS = "cycle jumps", "positions"
@@ -78,12 +80,12 @@ _HEIGHTS = {"Sq_final": 0.75, "upper_Sq_final": 1.0}
 
 
 def fewer_positions(positions: int) -> int:
-    """Half of them; twice where there is no half."""
+    """Return half of the positions; two where there is one."""
     return positions // 2 if positions > 1 else 2
 
 
 def life_figures(end: LifeState) -> dict[str, float]:
-    """Figures of a life that have bars, SI."""
+    """Return the figures of a life that have error bars, in SI units."""
     found = {name: float(end.over(column)[-1]) for name, column in END.items()}
     found |= {name: float(end.over(column)[0]) for name, column in START.items()}
     found["wear_volume"] = float(sum(end.surfaces.volume))
@@ -94,9 +96,12 @@ def life_figures(end: LifeState) -> dict[str, float]:
 
 @dataclass(frozen=True, eq=False)
 class OtherLives:
-    """What a life is compared with: its end on the grid of twice the cell, and there with `fewer_positions`; and means
-    of a round by column of the march on the surfaces of (start, end), as it is and with half the points of its films.
+    """Lives and rounds that a life is compared with.
+
     passing : of the life itself.
+    coarser, fewer : ends on the grid of twice the cell, and there with `fewer_positions`.
+    rounds, half_rounds : means of a round by column of the march on the surfaces of (start, end), with all and with
+        half the points of the films.
     """
 
     passing: Passing
@@ -107,16 +112,16 @@ class OtherLives:
 
 
 def two_rounds(case: LifeCase, end: LifeState) -> tuple[dict[str, float], dict[str, float]]:
-    """Means over the positions by column of the march, on the unworn surfaces and on those of the end."""
+    """Return means over the positions by column of the march, on the unworn surfaces and on those of the end."""
     film = end.surfaces.film
     grown = None if film is None or case.film is None else np.full(film.shape, case.film.balance.initial_thickness)
     unworn = replace(end.surfaces, heights=end.first, film=grown)
-    first, last = (round_of(case, surfaces, 0.0).passes for surfaces in (unworn, end.surfaces))
+    first, last = (solve_round(case, surfaces, 0.0).passes for surfaces in (unworn, end.surfaces))
     return _means(first), _means(last)
 
 
 def life_bars(end: LifeState, other: OtherLives | None) -> ErrorBars:
-    """Bars of a life from its end, and from other lives where these could be had."""
+    """Return the error bars of a life from its end and from other lives; unknown without them."""
     found = life_figures(end)
     if other is None:
         return ErrorBars.unknown(found, NoBar.EVEN_CELLS_OF_LOOP, fewest=24)
@@ -133,8 +138,8 @@ def life_bars(end: LifeState, other: OtherLives | None) -> ErrorBars:
 
 
 def _of_positions(end: LifeState, other: OtherLives) -> dict[str, float]:
-    """Differences that half the positions make, and no less than positions scatter; heights and films over them by what
-    is known of positions without others."""
+    """Return the differences that half the positions make, at least the scatter of the positions; heights and films
+    over them by the estimates of `bem.life.sampling`."""
     found, scatter = life_figures(end), _scatter(end)
     one, two = life_figures(other.coarser), life_figures(other.fewer)
     bars = {
@@ -156,7 +161,7 @@ def _of_positions(end: LifeState, other: OtherLives) -> dict[str, float]:
 
 
 def _grown(found: dict[str, float], bars: dict[str, float], of_area: dict[str, float]) -> dict[str, float]:
-    """The bar of a tribofilm, which grows where surfaces touch: no smaller a part than that of the area in contact."""
+    """Return the error bar of a tribofilm, at least the relative one of the contact area on which the film grows."""
     film, area = "tribofilm_thickness", "contact_area_fraction"
     if film not in found or not found[area] > 0:
         return {}
@@ -164,8 +169,10 @@ def _grown(found: dict[str, float], bars: dict[str, float], of_area: dict[str, f
 
 
 def _of_films(end: LifeState, other: OtherLives) -> dict[str, float]:
-    """Differences that half the points of the films make. What wears, and what follows wear, changes by as large a part
-    as the share of the load in contact."""
+    """Return the differences that half the points of the films make.
+
+    The wear, and figures that follow it, change by the same fraction as the share of the load in contact.
+    """
     apart = [
         {column: abs(value - half[column]) for column, value in whole.items()}
         for whole, half in zip(other.rounds, other.half_rounds, strict=True)
@@ -183,12 +190,37 @@ def _of_films(end: LifeState, other: OtherLives) -> dict[str, float]:
     return found
 
 
+_LAST_ROWS = 4
+"""Number of last rows whose slope gives how a figure follows the wear."""
+
+
+def errors_of_jumps(state: LifeState, columns: Mapping[str, str]) -> dict[str, float]:
+    """Return the errors of figures at the end from the errors of the steps; columns : of `ROW`, by figure.
+
+    The errors of the steps' mean depths add up and are shared by the bodies in proportion to their wear, since the same
+    pressure causes both. A figure follows the depth worn along the slope of its last rows. First order, our own.
+    """
+    missed = float(state.over("depth_error")[-1])
+    depth = state.over("lower_depth") + state.over("upper_depth")
+    first = max(len(depth) - _LAST_ROWS, 0)
+    run = float(depth[-1] - depth[first])
+    bars = {}
+    for name, column in columns.items():
+        values = state.over(column)
+        if column.endswith("_depth"):
+            bars[name] = missed * float(values[-1]) / float(depth[-1]) if depth[-1] > 0 else 0.0
+        else:
+            steepest = float(np.abs(np.diff(values[first:])).sum())
+            bars[name] = steepest / run * missed if run > 0 else 0.0
+    return bars
+
+
 def jump_bars(end: LifeState) -> dict[str, float]:
-    """What the jumps of a life leave open of its figures at the end."""
+    """Return the errors of the figures at the end that the steps of a life leave."""
     columns = END if end.surfaces.film is None else END | {"tribofilm_thickness": "film_thickness"}
     # rows hold mean depths over whole surfaces, whose areas turn them into volumes
     areas = [v / d for v, d in zip(end.surfaces.volume, _depths(end), strict=True) if d > 0]
-    return bars_of_jumps(end, columns) | {"wear_volume": float(end.over("depth_error")[-1]) * max(areas, default=0.0)}
+    return errors_of_jumps(end, columns) | {"wear_volume": float(end.over("depth_error")[-1]) * max(areas, default=0.0)}
 
 
 def _depths(end: LifeState) -> tuple[float, float]:
@@ -200,12 +232,12 @@ def _means(passes: Sequence[Pass]) -> dict[str, float]:
 
 
 def _of_passes(passes: Sequence[Pass], column: str) -> FloatArray:
-    """A column of the march, position by position."""
+    """Return a column of the march, position by position."""
     return np.sum([[getattr(one, part) for one in passes] for part in _SAMPLED[column]], axis=0)
 
 
 def _scatter(end: LifeState) -> dict[str, float]:
-    """Standard error of the means over the positions of the last round, as if they were drawn at random."""
+    """Return standard errors of the means over the positions of the last round, taken as drawn at random."""
     found = {}
     for name, column in {**START, **END}.items():
         if column in _SAMPLED and len(end.passes) > 1:

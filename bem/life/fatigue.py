@@ -1,13 +1,15 @@
 """Rolling contact fatigue: damage of a body's voxels by the stresses of the roughness that passes, while it wears.
 
-A place's path of stresses is that of the positions of a round, in the order in which it passes, and rest. Where both
-bodies pass, that has it meet as many other places as there are positions in one cycle, where it rolls with one: damage
-is counted, too, of each position by itself and rest, which leaves out what else of its pass a place feels. The two
-bracket the path, and the larger or smaller rate of a jump's ends what lies between them.
+1. The stress path of a place is that of the positions of a round, in the order in which the place passes, and rest.
+2. Where both bodies pass, this path meets as many places in one cycle as there are positions, while in reality a place
+   rolls with one. So damage is also counted of each position by itself and rest, which leaves out the rest of the pass.
+   The two counts bracket the path; the larger or smaller rate of both ends of a step brackets the step.
+3. Equivalent shear stress of the path (criteria.py) and its damage per cycle; damage adds up (Miner).
+4. Damage moves up with the material as the surface wears (`bem.wear.damage.move_up`).
+5. A column with a voxel of damage one counts as micropitted.
 
-Damage adds up (Miner), lies with the material and comes up as the surface wears; a column with a voxel that has reached
-one counts as micropitted. The model is that of Morales-Espejel and Brizmer (2011), but pits are not taken out of the
-surface.
+Source: Morales-Espejel and Brizmer (2011), but pits are not removed from the surface. Cost: one stress stack per
+position and step.
 
 Verified in tests/life/test_fatigue.py.
 """
@@ -33,11 +35,11 @@ from bem.wear.setup import LOWER
 
 @dataclass(frozen=True, eq=False)
 class RollingFatigue:
-    """Of one body of a life.
+    """Rolling contact fatigue of one body of a life.
 
-    body : LOWER or UPPER. solid : it. depths : (nz,) [m], increasing. limit : what its material bears. friction :
-    traction of the contact over its pressure, as the lower body feels it. The oil's pressure presses, too; its shear is
-    left out. hardness : cap of both together [Pa].
+    body : LOWER or UPPER. solid : the body. depths : (nz,) [m], increasing. limit : fatigue limit of its material.
+    friction : traction of the contact over its pressure, on the lower body. hardness : cap of contact and oil pressure
+    together [Pa]. The oil's pressure loads the body; its shear stress is left out.
     """
 
     body: int
@@ -48,24 +50,29 @@ class RollingFatigue:
     hardness: float = math.inf
 
     def equivalent_shear(self, case: LifeCase, rows: tuple[int, int], passes: Sequence[Pass]) -> FloatArray:
-        """(nz, rows, ny) [Pa] of the body's material, of all positions of a round as one path, and rest."""
+        """Return the equivalent shear stress (nz, rows, ny) [Pa] of the path through all positions of a round, and
+        rest."""
         return self.limit.equivalent_shear(self._path(case, rows, passes))
 
     def damage_rates(self, case: LifeCase, state: LifeState) -> FloatArray:
-        """(2, nz, rows, ny) per cycle: with all positions as one path, and the mean of each by itself and rest."""
+        """Return the damage per cycle (2, nz, rows, ny): all positions as one path, and the mean of each by itself and
+        rest."""
         lower, upper = state.surfaces.heights
         path = self._path(case, (len(lower), len(upper)), state.passes)
         alone = np.mean([self._damage(path[:, [place, -1]]) for place in range(len(state.passes))], axis=0)
         return np.stack([self._damage(path), alone])
 
-    def begun(self, case: LifeCase, state: LifeState) -> LifeState:
-        """With no damage yet: `LifeState.damage`."""
+    def initial_state(self, case: LifeCase, state: LifeState) -> LifeState:
+        """Return a life's first state with zero damage and the first rates; see `LifeState.damage`."""
         rates = self.damage_rates(case, state)
         return replace(state, damage=np.concatenate([np.zeros((3, *rates.shape[1:])), rates]))
 
-    def after(self, case: LifeCase, before: LifeState, now: LifeState) -> LifeState:
-        """A state after a step, with the damage of the one before it carried on: half of the step at either end's
-        stresses, and what wore in it taken off the top. Of the brackets all of it at the larger, or smaller, rate."""
+    def add_damage(self, case: LifeCase, before: LifeState, now: LifeState) -> LifeState:
+        """Return the state after a step with the damage of the step added.
+
+        Half of the step counts at the rates of either end, and the depth worn in it moves the damage up. The upper and
+        lower bracket count all of it at the larger and smaller rate.
+        """
         assert before.damage is not None
         cycles, (one, alone) = now.cycles - before.cycles, self.damage_rates(case, now)
         path_before, alone_before = before.damage[3:]
@@ -84,7 +91,8 @@ class RollingFatigue:
         return self.limit.damage(self.limit.equivalent_shear(path))
 
     def _path(self, case: LifeCase, rows: tuple[int, int], passes: Sequence[Pass]) -> FloatArray:
-        """Stresses (6, positions + 1, nz, rows, ny) [Pa] of the body's material as it passes; the last is rest."""
+        """Return the stresses (6, positions + 1, nz, rows, ny) [Pa] of the material along its path; the last is
+        rest."""
         whole, (nx, ny) = rows[self.body], case.grid.shape
         moved = [each[self.body] for each in case.passing.offsets(rows)]
         path = np.zeros((6, len(passes) + 1, len(self.depths), whole, ny))
@@ -100,6 +108,6 @@ class RollingFatigue:
 
 
 def pitted_share(state: LifeState, of: int = 0) -> float:
-    """Share of the columns with a voxel that has no life left; `of` 1 at most, 2 at least."""
+    """Return the fraction of columns with a voxel of damage one; of : 0, 1 upper, 2 lower bracket."""
     assert state.damage is not None
     return float((state.damage[of].max(axis=0) >= 1).mean())

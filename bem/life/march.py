@@ -1,8 +1,13 @@
-"""A life of many cycles in jumps whose error is known: each is made once whole and once in two halves.
+"""March of a life through many cycles, in steps with error control by step doubling.
 
-The halves stay; their difference from the whole is the halves' own error, since a round is of first order. Steps are
-powers of two times the first (but the last, and the longest allowed), so that operators are made once. A state holds
-all that the next step needs: a life that is stopped goes on to the same bits. Cycle jumps with step doubling are ours.
+1. Make each step once whole and once in two halves (`advance`).
+2. Their difference is the error of the halves, since a round is of first order. Accept the halves if it is within the
+   tolerance; else halve the step.
+3. Double the next step where the error is below 0.4 of the tolerance. Steps are powers of two times the first (except
+   the last and the longest allowed), so that operators are reused.
+
+A state holds all that the next step needs, so a life that is stopped and resumed ends in the same bits. Cycle jumps
+with step doubling are our own. Cost: three rounds per step; each half that becomes a whole step is reused.
 
 Verified in tests/life/test_life.py: against cycle by cycle, order in the tolerance, volume, resuming.
 """
@@ -15,10 +20,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from bem.errors import ConvergenceError
-from bem.friction.balance import BalanceStart
 from bem.grid import FloatArray
 from bem.life.passes import Pass, mean_over
-from bem.life.surfaces import LifeCase, Round, Surfaces, round_of
+from bem.life.surfaces import LifeCase, Round, Surfaces, solve_round
+from bem.wear.contact_step import ContactStart
 from bem.wear.setup import LOWER, UPPER
 
 ROW = (
@@ -41,10 +46,12 @@ _SMALLEST = 2.0**-30
 class LifeState:
     """All that the next step needs, and the record so far.
 
-    cycles : so far. step : to try next [cycles]. surfaces : now; first : heights before the first cycle. rows : (n,
-    len(ROW)). rejected : how many steps were made shorter. passes : of the last round. damage : (5, nz, rows, ny) of a
-    body's material where it is counted: so far, at most and at least, and of a cycle as one path and position by
-    position. convolutions : spent.
+    cycles : so far. step : next trial [cycles].
+    surfaces : now. first : heights before the first cycle [m].
+    rows : (n, len(ROW)), one per step. rejected : number of steps that were halved.
+    passes : of the last round. convolutions : so far.
+    damage : (5, nz, rows, ny) of a body's material where it is counted: so far, upper and lower bracket, then per cycle
+        with all positions as one path, and position by position.
     """
 
     cycles: float
@@ -58,7 +65,7 @@ class LifeState:
     convolutions: float = 0.0
 
     def over(self, name: str) -> FloatArray:
-        """A column of the rows."""
+        """Return a column of the rows."""
         return np.asarray(self.rows[:, ROW.index(name)])
 
 
@@ -70,20 +77,20 @@ def run_life(
     state: LifeState | None = None,
     callback: Callable[[LifeState], LifeState | None] | None = None,
 ) -> LifeState:
-    """Wear two bodies over `case.cycles` cycles.
+    """March two bodies through `case.cycles` cycles.
 
     Parameters
     ----------
-    case : what stays the same.
+    case : parts of the life that stay the same.
     lower_heights, upper_heights : (rows, ny) heights out of each body [m], of the substrates; at least the grid's rows.
-    state : to go on from; the heights are then ignored.
-    callback : called with the state after every step; it may hand back another one, with the damage that the step did.
+    state : state to resume from; the heights are then ignored.
+    callback : called with the state after every step; it may return the state with the damage of the step added.
 
     Raises
     ------
     ConvergenceError : a contact that did not converge, or steps that shrink without end.
     """
-    state = begun(case, lower_heights, upper_heights) if state is None else state
+    state = initial_state(case, lower_heights, upper_heights) if state is None else state
     while state.cycles < case.cycles:
         state = advance(case, state)
         if callback is not None:
@@ -91,12 +98,12 @@ def run_life(
     return state
 
 
-def begun(case: LifeCase, lower: FloatArray, upper: FloatArray) -> LifeState:
-    """Before the first cycle, with the friction of unworn surfaces (rows, ny) [m]."""
+def initial_state(case: LifeCase, lower: FloatArray, upper: FloatArray) -> LifeState:
+    """Return the state before the first cycle, with the friction of the unworn surfaces (rows, ny) [m]."""
     film = None if case.film is None else np.full(np.shape(lower), case.film.balance.initial_thickness)
     heights = (np.array(lower, dtype=np.float64), np.array(upper, dtype=np.float64))
-    unworn = Surfaces(heights, film, (BalanceStart(),) * case.passing.positions)
-    found = round_of(case, unworn, 0.0)
+    unworn = Surfaces(heights, film, (ContactStart(),) * case.passing.positions)
+    found = solve_round(case, unworn, 0.0)
     row = _row(found, heights, 0.0, 0.0, (0.0, 0.0))
     return LifeState(
         0.0, case.first_step, found.surfaces, heights, row[None], passes=found.passes, convolutions=_spent(found)
@@ -104,14 +111,14 @@ def begun(case: LifeCase, lower: FloatArray, upper: FloatArray) -> LifeState:
 
 
 def advance(case: LifeCase, state: LifeState) -> LifeState:
-    """One jump, made shorter until its error is within the tolerance."""
+    """Advance by one step, halved until its error is within the tolerance."""
     step = min(state.step, case.longest, case.cycles - state.cycles)
     rejected, spent = state.rejected, state.convolutions
-    whole = round_of(case, state.surfaces, step)
+    whole = solve_round(case, state.surfaces, step)
     spent += _spent(whole)
     while True:
-        half = round_of(case, state.surfaces, 0.5 * step)
-        end = round_of(case, half.surfaces, 0.5 * step)
+        half = solve_round(case, state.surfaces, 0.5 * step)
+        end = solve_round(case, half.surfaces, 0.5 * step)
         spent += _spent(half) + _spent(end)
         error, missed = _error(state.surfaces, whole.surfaces, end.surfaces)
         if error <= case.tolerance:
@@ -142,11 +149,12 @@ def _spent(found: Round) -> float:
 
 
 def _error(before: Surfaces, whole: Surfaces, halves: Surfaces) -> tuple[float, float]:
-    """Relative error of a step made in two halves, the largest over bodies and film; and that of the mean depth worn of
-    both bodies [m].
+    """Return the relative error of a step in two halves, the largest over bodies and film, and the error of the mean
+    depth worn of both bodies [m].
 
-    Of a body the rms over the surface relative to that of what wore in the step, so that the errors of all steps add up
-    to the same part of all that wears; of the film relative to its thickness, since what it was is forgotten.
+    The error of a body is the rms over its surface relative to that of the depth worn in the step, so that the errors
+    of all steps add up to the same fraction of the whole wear. The error of the film is relative to its thickness,
+    since a film forgets its past.
     """
     worst, missed = 0.0, 0.0
     for body in (LOWER, UPPER):
@@ -154,7 +162,7 @@ def _error(before: Surfaces, whole: Surfaces, halves: Surfaces) -> tuple[float, 
         worn = float(np.sqrt(np.mean((before.heights[body] - halves.heights[body]) ** 2)))
         missed += abs(float(difference.mean()))
         apart, heights = float(np.sqrt(np.mean(difference**2))), before.heights[body]
-        # heights tell no less than their round-off: steps that wear less grow, however they differ
+        # differences below the round-off of heights are no error: steps that wear less than that grow
         if worn > 0 and apart > _ROUND_OFF * float(np.abs(heights).max()):
             worst = max(worst, apart / worn)
     if whole.film is not None and halves.film is not None:
@@ -170,7 +178,7 @@ def _row(
     step: float,
     errors: tuple[float, float],
 ) -> FloatArray:
-    """As `ROW`."""
+    """Return a row of the table, the columns as in `ROW`."""
     surfaces, passes = found.surfaces, found.passes
     lower, upper = surfaces.heights
     film = np.zeros(lower.shape) if surfaces.film is None else surfaces.film

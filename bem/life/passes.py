@@ -1,45 +1,38 @@
-"""One pass of two bodies through their contact: what a round of positions asks of a contact, dry or lubricated.
+"""Passes of two bodies through their contact: the positions of a round, and the contact of one position.
 
 Verified in tests/life/test_life.py.
 """
 
 from __future__ import annotations
 
-import math
-from collections.abc import Callable, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.contact import solve_contact
-from bem.convolution import displacement_operator
 from bem.errors import ConvergenceError, Status
-from bem.friction.balance import BalanceStart
-from bem.friction.film_table import FilmTable
-from bem.friction.forces import oil_temperature
-from bem.friction.load_sharing import LoadSharing
-from bem.friction.rough_contact import CoupledContact
-from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray, Grid
-from bem.materials import Body
 from bem.notes import Note
+from bem.wear.contact_step import ContactOutcome, ContactStart, ContactStep
+from bem.wear.mixed import MixedMemory
 
 
 @dataclass(frozen=True)
 class Passing:
-    """Which of (lower, upper) pass through the contact, and in how many positions a round looks at them.
+    """Bodies (lower, upper) that pass through the contact, and number of positions in which a round samples them.
 
-    A body that does not pass lies on the grid and wears a scar; one that passes has all its rows go through, evenly.
-    Where both pass, which places meet hangs on the difference of their offsets alone: those are spread evenly, too,
-    all different in an odd number of positions; in an even one, which no permutation can do, but for one.
+    A body that does not pass lies on the grid and wears a scar; all rows of a body that passes go through, evenly.
+    Where both pass, the places that meet depend on the difference of the offsets alone. The differences are evenly
+    spread as well: all are different for an odd number of positions, all but one for an even number, where no
+    permutation has all.
     """
 
     positions: int
     bodies: tuple[bool, bool]
 
     def offsets(self, rows: tuple[int, int]) -> tuple[tuple[int, int], ...]:
-        """Rows by which lower and upper body have moved along +x in each position, of bodies of so many rows."""
+        """Return the rows by which (lower, upper) have moved along +x in each position; rows : of the bodies."""
         moved = [
             [round(count * j / self.positions) if passes else 0 for j in order]
             for count, passes, order in zip(rows, self.bodies, _orders(self.positions), strict=True)
@@ -48,8 +41,11 @@ class Passing:
 
 
 def _orders(count: int) -> tuple[list[int], list[int]]:
-    """Two orders of 0 ... count - 1 whose differences modulo the count are as many as can be: forwards, and backwards,
-    which makes every second difference, in an even count one less from its half on, which makes the others."""
+    """Return two orders of 0 ... count - 1 with as many different differences modulo the count as possible.
+
+    The first runs forwards. The second runs backwards, which gives every second difference; for an even count it is one
+    less from its half on, which gives the others.
+    """
     even = count % 2 == 0
     backwards = [(-j - (1 if even and 2 * j >= count else 0)) % count for j in range(count)]
     if even:
@@ -58,16 +54,23 @@ def _orders(count: int) -> tuple[list[int], list[int]]:
 
 
 def facing(offset: int, rows: int, whole: int) -> NDArray[np.int_]:
-    """Which of the `whole` rows of a body lie on the grid's `rows` after it moved `offset` of them along +x."""
+    """Return the indices of a body's `whole` rows that lie on the grid's `rows` after it moved `offset` rows along
+    +x."""
     return np.asarray((np.arange(rows) - offset) % whole)
 
 
 @dataclass(frozen=True, eq=False)
 class Pass:
-    """A contact that was solved: pressure (nx, ny) [Pa]; friction over the load, and of it the boundary part; shares of
-    the load and of the grid's area in contact; minimum film [m] and that of the whole load over the rms height;
-    film_pressure (nx, 1) [Pa] of the oil; temperature (nx, ny) [K] of the surfaces where rubbing heats them, else None,
-    and its mean by pressure and maximum in contact, 0 where no heat was asked for."""
+    """Contact of one position.
+
+    pressure : (nx, ny) [Pa]. boundary_friction, film_friction : parts of the coefficient of friction.
+    contact_share, area_share : fractions of the load and of the grid's area in contact. minimum_film : [m].
+    lambda_ratio : minimum film under the whole load over the rms height. convolutions : of the contact.
+    start : what the next contact of the position starts from. film_pressure : (nx, 1) of the oil [Pa].
+    temperature : (nx, ny) of the surfaces [K]; None where rubbing does not heat them. contact_temperature,
+    flash_temperature : of the surfaces in contact [K], mean by pressure and highest; 0 where no heat was asked for.
+    film_notes : notes on the film's model.
+    """
 
     pressure: FloatArray
     boundary_friction: float
@@ -77,115 +80,72 @@ class Pass:
     minimum_film: float
     lambda_ratio: float
     convolutions: float
-    start: BalanceStart
+    start: ContactStart
     film_pressure: FloatArray
     temperature: FloatArray | None = None
     contact_temperature: float = 0.0
     flash_temperature: float = 0.0
+    film_notes: tuple[Note, ...] = ()
 
 
-PassContact = Callable[[FloatArray, BalanceStart, float], Pass]
-"""(sum of the heights of both bodies (nx, ny) [m], start, compliance [m/Pa] by which each place wears) -> Pass"""
+def solve_pass(contact: ContactStep, grid: Grid, heights: FloatArray, start: ContactStart, compliance: float) -> Pass:
+    """Solve the contact of one position, dry or lubricated; arguments as for `bem.wear.ContactStep`.
 
-
-@dataclass(frozen=True, eq=False)
-class DryPasses:
-    """Dry contacts under a load [N] on the grid; gap (nx, ny) [m] of the smooth bodies."""
-
-    grid: Grid
-    bodies: tuple[Body, Body]
-    gap: FloatArray
-    load: float
-    friction: float = 0.0
-    hardness: float | None = None
-    tolerance: float = 1e-6
-
-    def __call__(self, heights: FloatArray, start: BalanceStart, compliance: float) -> Pass:
-        """As `PassContact`.
-
-        Raises
-        ------
-        ConvergenceError : a contact that did not converge.
-        """
-        operator = displacement_operator(self.grid, self.bodies, friction=self.friction, compliance=compliance)
-        found = solve_contact(
-            self.gap - heights,
-            operator,
-            load=self.load,
-            hardness=self.hardness,
-            tolerance=self.tolerance,
-            initial_pressure=start.pressure,
+    Raises
+    ------
+    ConvergenceError : a contact that did not converge.
+    """
+    outcome = contact(heights, start, compliance)
+    if outcome.status is not Status.CONVERGED:
+        raise ConvergenceError(
+            f"a contact of the life ended with status {outcome.status.value!r} at residual {outcome.residual:.1e}; "
+            f"{outcome.status.message}"
         )
-        _check(found.status, found.residual)
+    if outcome.sharing is None:
         return Pass(
-            pressure=found.pressure,
-            boundary_friction=self.friction,
+            pressure=outcome.pressure,
+            boundary_friction=outcome.friction,
             film_friction=0.0,
             contact_share=1.0,
-            area_share=found.contact_area / self.grid.area,
+            area_share=outcome.contact_area / grid.area,
             minimum_film=0.0,
             lambda_ratio=0.0,
-            convolutions=found.convolutions,
-            start=BalanceStart(pressure=found.pressure),
-            film_pressure=np.zeros((self.grid.shape[0], 1)),
+            convolutions=outcome.convolutions,
+            start=ContactStart(outcome.pressure),
+            film_pressure=np.zeros((grid.shape[0], 1)),
+            temperature=outcome.temperature,
         )
+    return _lubricated_pass(outcome, grid, start)
 
 
-class MixedPasses:
-    """Contacts that share their load with a film; `table` holds the films of the set-up at its speeds.
-
-    What wears in a pass is a compliance of its contact, so that the balance is that at its end. `film_notes` : of the
-    film of the last pass.
-    """
-
-    def __init__(self, setup: MixedSetup, table: FilmTable) -> None:
-        self.setup, self.table = setup, table
-        self.film_notes: tuple[Note, ...] = ()
-        self._sharing: LoadSharing | None = None
-
-    def __call__(self, heights: FloatArray, start: BalanceStart, compliance: float) -> Pass:
-        """As `PassContact`.
-
-        Raises
-        ------
-        ConvergenceError : a balance that did not converge.
-        """
-        setup, table = self.setup, self.table
-        if self._sharing is None:
-            self._sharing = LoadSharing(setup, table, table.speeds, table.under(table.largest_load))
-        rough = self._sharing.contact_of(heights)
-        assert isinstance(rough, CoupledContact)
-        shared = self._sharing.solve(heights, start, replace(rough, compliance=compliance))
-        balance, forces = shared.balance, shared.forces
-        _check(balance.status, abs(balance.imbalance))
-        film, contact, heat = balance.film, balance.contact, forces.heat
-        self.film_notes = film.notes
-        if heat is not None:
-            _check(heat.status, math.nan)
-        return Pass(
-            pressure=np.zeros(setup.grid.shape) if contact is None else contact.pressure,
-            boundary_friction=forces.boundary / setup.load,
-            film_friction=forces.film / setup.load,
-            contact_share=shared.contact_load / setup.load,
-            area_share=shared.contact_area_fraction,
-            minimum_film=film.minimum_thickness,
-            lambda_ratio=shared.lambda_ratio,
-            convolutions=balance.convolutions,
-            start=start if contact is None else BalanceStart(film.load, balance.slope, contact.pressure),
-            film_pressure=film.pressure[:, :1],
-            temperature=None if heat is None else heat.temperature,
-            contact_temperature=oil_temperature(setup) if heat is None else heat.mean,
-            flash_temperature=oil_temperature(setup) if heat is None else heat.maximum,
-        )
-
-
-def _check(status: Status, residual: float) -> None:
-    if status is not Status.CONVERGED:
-        raise ConvergenceError(
-            f"a contact of the life ended with status {status.value!r} at residual {residual:.1e}; {status.message}"
-        )
+def _lubricated_pass(outcome: ContactOutcome, grid: Grid, start: ContactStart) -> Pass:
+    """Return the figures of a lubricated contact; without a contact the next one starts from the same pressure."""
+    assert outcome.sharing is not None
+    (row,), memory = outcome.sharing, outcome.memory
+    assert isinstance(memory, MixedMemory)
+    last = memory.last
+    assert last is not None
+    film, contact = last.balance.film, last.balance.contact
+    pressure = start.pressure if contact is None else outcome.pressure
+    return Pass(
+        pressure=outcome.pressure,
+        boundary_friction=float(row["boundary_force"]) / last.load,
+        film_friction=float(row["film_force"]) / last.load,
+        contact_share=float(row["contact_load"]) / last.load,
+        area_share=outcome.contact_area / grid.area,
+        minimum_film=outcome.minimum_film,
+        lambda_ratio=float(row["lambda_ratio"]),
+        convolutions=outcome.convolutions,
+        # the film keeps its shape, so the next balance needs nothing of this one's fields
+        start=ContactStart(pressure, replace(memory, last=None)),
+        film_pressure=film.pressure[:, :1],
+        temperature=outcome.temperature,
+        contact_temperature=float(row["contact_temperature"]),
+        flash_temperature=float(row["flash_temperature"]),
+        film_notes=film.notes,
+    )
 
 
 def mean_over(passes: Sequence[Pass], name: str) -> float:
-    """Mean of a figure over the positions of a round."""
+    """Return the mean of a figure over the positions of a round."""
     return float(np.mean([getattr(one, name) for one in passes]))

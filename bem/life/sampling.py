@@ -1,16 +1,17 @@
-"""What few positions leave open of the heights of a life, and of the film over them.
+"""Sampling error of a finite number of positions: rms heights of a life, and film over roughness.
 
-A round stands for all offsets of two bodies by so many of them. Heights h are those before less the depths d_j of all
-positions j, and where these were drawn at random the sum of depths is off by e, whose variance at each place is J times
-that of the d_j. Of the mean square that leaves
+A round samples all offsets of two bodies by J positions. The heights h are those before minus the depths d_j of all
+positions j. If the positions were drawn at random, the sum of depths would have an error e with J times the variance of
+the d_j at each place. The error of the mean square is
 
     Sq^2:  2 <h e> + <e^2>,
 
-the standard error of a sum of J covariances <h d_j>, and the imprint of these positions, J <var_j d_j>. The positions
-stay the same over a life, so depths go as the pressures of the last round, scaled to what wore in all.
+with the standard error of a sum of J covariances <h d_j>, and the imprint of the positions, J <var_j d_j>. The
+positions stay the same over a life, so the depths are proportional to the pressures of the last round, scaled to the
+total wear.
 
-A film over the rms height hangs on the offset by the rms of the sum of both surfaces alone: that is had for many more
-positions at no cost. First order, ours. Verified in tests/life/test_sampling.py.
+The film over the rms height depends on the offset through the rms of the sum of both surfaces alone, which costs
+nothing for many more positions. First order, our own. Verified in tests/life/test_sampling.py.
 """
 
 from __future__ import annotations
@@ -24,11 +25,11 @@ from bem.life.march import LifeState
 from bem.life.passes import Passing, facing
 
 MORE = 8
-"""Times the positions over which a film's ratio is averaged."""
+"""Factor on the number of positions for the mean film over roughness."""
 
 
 def missed_roughness(end: LifeState, passing: Passing) -> tuple[float, float] | None:
-    """Standard error of the rms heights of (lower, upper) body, its film on it [m]; None of a single position."""
+    """Return standard errors of the rms heights of (lower, upper), film included [m]; None for a single position."""
     if len(end.passes) < 2:
         return None
     worn = end.over("lower_depth")[-1], end.over("upper_depth")[-1]
@@ -40,8 +41,7 @@ def missed_roughness(end: LifeState, passing: Passing) -> tuple[float, float] | 
 
 
 def missed_ratio(end: LifeState, passing: Passing) -> tuple[float, float]:
-    """By what part of itself the mean film over roughness is off, on (the unworn surfaces, those of the end), which are
-    as the positions left them."""
+    """Return relative errors of the mean film over roughness on (the unworn surfaces, those of the end)."""
     more = Passing(MORE * passing.positions, passing.bodies)
     rows = len(end.passes[0].pressure)
     first, last = (
@@ -52,7 +52,8 @@ def missed_ratio(end: LifeState, passing: Passing) -> tuple[float, float]:
 
 
 def _missed(heights: FloatArray, worn: float, pressures: FloatArray) -> float:
-    """Of a body of heights (rows, ny) [m] from which the pressures (positions, rows, ny) took a mean depth [m]."""
+    """Return the error of the rms height [m] of heights (rows, ny) [m] from which pressures (positions, rows, ny) wore
+    a mean depth `worn` [m]."""
     mean = float(pressures.mean())
     if not (mean > 0 and worn > 0):
         return 0.0
@@ -65,7 +66,7 @@ def _missed(heights: FloatArray, worn: float, pressures: FloatArray) -> float:
 
 
 def _pressures(end: LifeState, passing: Passing, body: int) -> FloatArray:
-    """What each position of the last round presses on a body with, (positions, rows, ny) [Pa]."""
+    """Return the pressures of the last round on a body, (positions, rows, ny) [Pa]."""
     counts = _rows(end.surfaces.heights)
     found = np.zeros((len(end.passes), *end.surfaces.heights[body].shape))
     for own, one, moved in zip(found, end.passes, passing.offsets(counts), strict=True):
@@ -74,7 +75,7 @@ def _pressures(end: LifeState, passing: Passing, body: int) -> FloatArray:
 
 
 def _surfaces(end: LifeState) -> tuple[FloatArray, FloatArray]:
-    """Heights of the end with the film on them [m]."""
+    """Return the heights of the end, film included [m]."""
     lower, upper = end.surfaces.heights
     return (lower if end.surfaces.film is None else lower + end.surfaces.film), upper
 
@@ -84,7 +85,7 @@ def _rows(heights: tuple[FloatArray, FloatArray]) -> tuple[int, int]:
 
 
 def _mean_inverse(heights: tuple[FloatArray, FloatArray], rows: int, passing: Passing) -> float:
-    """Mean over positions of one over the rms height of both surfaces on the grid's rows [1/m]; 0 of smooth ones."""
+    """Return the mean over positions of one over the rms height of both surfaces [1/m]; 0 for smooth surfaces."""
     counts = _rows(heights)
     found = []
     for moved in passing.offsets(counts):

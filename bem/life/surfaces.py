@@ -1,5 +1,4 @@
-"""What wears: heights of both bodies, and the tribofilm on the lower one. One round of passes takes them a number of
-cycles further.
+"""Surfaces of a life, heights and tribofilm, and the round of passes that advances them by a number of cycles.
 
 Verified in tests/life/test_life.py.
 """
@@ -13,11 +12,11 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from bem.errors import InputError
-from bem.friction.balance import BalanceStart
 from bem.grid import FloatArray, Grid
-from bem.life.passes import Pass, PassContact, Passing, facing
+from bem.life.passes import Pass, Passing, facing, solve_pass
 from bem.tribofilm.balance import FilmBalance
 from bem.tribofilm.growth import GrowthLaw
+from bem.wear.contact_step import ContactStart, ContactStep
 from bem.wear.film_defect import FilmDefect
 from bem.wear.setup import LOWER, UPPER
 
@@ -27,15 +26,17 @@ Temperature = Callable[[FloatArray], float | FloatArray]
 
 @dataclass(frozen=True, eq=False)
 class GrowingFilm:
-    """A tribofilm on the lower body, cell by cell (thesis, paper E; there apart from mechanical wear).
+    """Tribofilm on the lower body, cell by cell (thesis, paper E; there apart from mechanical wear).
 
-    growth : law of growth under the shear stress friction x pressure. balance : how it wears, and how much substrate is
-    in it (no lag). friction : of the surfaces in contact. temperature : where it grows. cycle_time : for which a place
-    is under the patch in a cycle [s]; growth and the film's wear count in it. friction_on_film : boundary friction
-    where the film hides the substrate; None for the same.
+    growth : law of growth under the shear stress friction x pressure.
+    balance : wear of the film and the fraction of substrate in it; without lag.
+    friction : of the surfaces in contact.
+    temperature : at which the film grows.
+    cycle_time : time for which a place is under the patch in a cycle [s]; growth and wear of the film count in it.
+    friction_on_film : boundary friction where the film hides the substrate; None for the same.
 
-    The film raises the surface. Where it hides the substrate, what wears by pressure and distance is film. It has no
-    stiffness of its own here, and its hardness is the contact's.
+    The film raises the surface. Where it hides the substrate, the material worn by pressure and distance is film. The
+    film has no stiffness of its own here, and its hardness is the contact's.
     """
 
     growth: GrowthLaw
@@ -52,15 +53,16 @@ class GrowingFilm:
             raise InputError(f"cycle_time {self.cycle_time!r} must be positive [s]")
 
     def bare(self, thickness: FloatArray) -> FloatArray:
-        """Share of substrate at the surface under a film [m]: exp(-C1 h), the thesis' concentration; without C1 the
-        film protects nothing."""
+        """Return the fraction of substrate at the surface under a film [m], exp(-C1 h); one without C1."""
         if not math.isfinite(self.balance.concentration_constant):
             return np.ones_like(thickness)
         return self.balance.concentration(thickness)
 
     def after(self, thickness: FloatArray, pressure: FloatArray, cycles: float) -> tuple[FloatArray, FloatArray]:
-        """Film (nx, ny) [m] after cycles under a pressure [Pa] that stays, and the substrate [m] that left with what
-        wore of it. dh/dt = g - alpha h is integrated exactly, so that no step makes a film negative."""
+        """Return the film (nx, ny) [m] after cycles under a constant pressure [Pa], and the substrate [m] worn with it.
+
+        dh/dt = g - alpha h is integrated exactly, so no step makes a film negative.
+        """
         time, rate = self.cycle_time * cycles, self.balance.wear_coefficient
         growth = self.growth.rate(self.friction * pressure, self.temperature(pressure))
         grown = np.where(pressure > 0, growth, 0.0) * time
@@ -76,17 +78,23 @@ class GrowingFilm:
 
 @dataclass(frozen=True, eq=False)
 class LifeCase:
-    """What stays the same over a life.
+    """Parts of a life that stay the same.
 
-    grid : of the contact. contact : of a pass. passing : which bodies pass, in how many positions. rates : volume by
-    load and distance [m^2/N] of (lower, upper), zero for one that does not wear. distance : slid by a place of either
-    in a cycle, while its body passes or stays under the patch [m]. cycles : in all. tolerance : of a step, relative to
-    what wears in it. film : on the lower body; None for none. first_step : tried first, longest : allowed, in cycles.
-    defect : of a boundary film, the share of the rates that is left where the surfaces are as warm as they are.
+    grid : of the contact.
+    contact : contact of a pass.
+    passing : bodies that pass, and positions.
+    rates : wear volume by load and distance of (lower, upper) [m^2/N]; zero for a body that does not wear.
+    distance : slid by a place of either body in a cycle [m].
+    cycles : in all.
+    tolerance : of a step, relative to the wear in it.
+    film : tribofilm on the lower body; None for none.
+    first_step, longest : first trial and upper bound of a step [cycles].
+    defect : fractional film defect of a boundary film, the fraction of the rates left at each temperature; None for
+        unprotected surfaces.
     """
 
     grid: Grid
-    contact: PassContact
+    contact: ContactStep
     passing: Passing
     rates: tuple[float, float]
     distance: float
@@ -119,48 +127,51 @@ class LifeCase:
 
 @dataclass(frozen=True, eq=False)
 class Surfaces:
-    """Heights of the substrates of (lower, upper) (rows, ny) [m], the film on the lower one [m], where each position's
-    contact starts from, and what has worn of either body by pressure times distance or with the film [m^3]."""
+    """State of both surfaces.
+
+    heights : of the substrates of (lower, upper), (rows, ny) [m]. film : on the lower body [m]; None for none.
+    starts : what the contact of each position starts from. volume : worn of (lower, upper) so far [m^3].
+    """
 
     heights: tuple[FloatArray, FloatArray]
     film: FloatArray | None
-    starts: tuple[BalanceStart, ...]
+    starts: tuple[ContactStart, ...]
     volume: tuple[float, float] = (0.0, 0.0)
 
 
 @dataclass(frozen=True, eq=False)
 class Round:
-    """Surfaces after a round, and its passes."""
+    """Surfaces after a round, and the passes of the round."""
 
     surfaces: Surfaces
     passes: tuple[Pass, ...]
 
 
-def round_of(case: LifeCase, surfaces: Surfaces, cycles: float) -> Round:
-    """Both bodies once through all positions, each of which stands for its share of the cycles.
+def solve_round(case: LifeCase, surfaces: Surfaces, cycles: float) -> Round:
+    """Take both bodies once through all positions, each of which stands for an equal part of the cycles.
 
-    The steps of a position are implicit: its pressure is that after its own wear, so that no round is too long to be
-    stable. Positions follow one another, which is of first order in the cycles.
+    The step of a position is implicit: its pressure is that after its own wear, so a round of any length is stable.
+    Positions follow one another, which is of first order in the cycles.
     """
     rows = (len(surfaces.heights[LOWER]), len(surfaces.heights[UPPER]))
     passes = []
     for number, moved in enumerate(case.passing.offsets(rows)):
-        surfaces, one = _passed(case, surfaces, number, moved, cycles / case.passing.positions)
-        passes.append(one)
+        surfaces, contact = _solve_position(case, surfaces, number, moved, cycles / case.passing.positions)
+        passes.append(contact)
     return Round(surfaces, tuple(passes))
 
 
-def _passed(
+def _solve_position(
     case: LifeCase, surfaces: Surfaces, number: int, moved: tuple[int, int], cycles: float
 ) -> tuple[Surfaces, Pass]:
-    """After one position."""
+    """Return the surfaces after one position, and its contact."""
     nx, whole, law = case.grid.shape[0], [len(each) for each in surfaces.heights], case.film
     here = [facing(offset, nx, count) for offset, count in zip(moved, whole, strict=True)]
     lower, upper = (heights[rows] for heights, rows in zip(surfaces.heights, here, strict=True))
     film = np.zeros(case.grid.shape) if surfaces.film is None else surfaces.film[here[LOWER]]
     bare = np.ones(case.grid.shape) if law is None else law.bare(film)
     slid = case.distance * cycles
-    found, depths = _rubbed(case, lower + upper + film, surfaces.starts[number], slid)
+    found, depths = _solve_wear(case, lower + upper + film, surfaces.starts[number], slid)
     films = surfaces.film
     if law is not None and films is not None:
         rubbed = np.minimum((1 - bare) * depths[LOWER], film)
@@ -178,25 +189,25 @@ def _passed(
     return Surfaces((heights[LOWER], heights[UPPER]), films, starts, (volume[LOWER], volume[UPPER])), found
 
 
-def _rubbed(case: LifeCase, heights: FloatArray, start: BalanceStart, slid: float) -> tuple[Pass, list[FloatArray]]:
-    """The pass of heights (nx, ny) [m] at the end of its step of so far a slide [m], and what wears of both bodies.
+def _solve_wear(case: LifeCase, heights: FloatArray, start: ContactStart, slid: float) -> tuple[Pass, list[FloatArray]]:
+    """Return the contact of heights (nx, ny) [m] at the end of a step, and the depths worn off (lower, upper) [m].
 
-    With a boundary film the largest share of any place makes the step's compliance, so that none wears beyond what
-    would carry it no more; it is known from the contact before the step.
+    slid : distance of the step [m]. With a boundary film the compliance is that of the place with the largest defect in
+    the contact before the step, so that no place wears beyond the loss of its own pressure.
     """
     give = slid * sum(case.rates)
     if case.defect is None:
-        found = case.contact(heights, start, give)
+        found = solve_pass(case.contact, case.grid, heights, start, give)
         return found, [slid * rate * found.pressure for rate in case.rates]
-    before = case.contact(heights, start, 0.0)
+    before = solve_pass(case.contact, case.grid, heights, start, 0.0)
     most = float(np.where(before.pressure > 0, case.defect.share(before.temperature), 0.0).max())
-    found = case.contact(heights, before.start, give * most)
+    found = solve_pass(case.contact, case.grid, heights, before.start, give * most)
     found = replace(found, convolutions=found.convolutions + before.convolutions)
     return found, [slid * rate * case.defect.share(found.temperature) * found.pressure for rate in case.rates]
 
 
 def _with_friction_on_film(found: Pass, law: GrowingFilm, bare: FloatArray) -> Pass:
-    """A pass with the boundary friction that the film leaves: by the load on bare and on hidden substrate."""
+    """Return a pass with the boundary friction averaged over the load on bare and on hidden substrate."""
     if law.friction_on_film is None or law.friction <= 0 or not found.pressure.any():
         return found
     share = float((bare * found.pressure).sum() / found.pressure.sum())

@@ -1,5 +1,4 @@
-"""What a life of a scene is made of: its case with contact and film, what is counted beside it, and the scene coarser,
-for error bars.
+"""Life of a scene: its case with contact and film, its monitors, and coarser lives for error bars.
 
 Verified in tests/scenes/test_running_in_life_kind.py.
 """
@@ -19,19 +18,18 @@ from bem.scenes.tables.film_defect import film_defect
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars
     from bem.friction.setup import MixedSetup
-    from bem.life.beside import Beside
     from bem.life.march import LifeState
-    from bem.life.passes import MixedPasses
+    from bem.life.monitors import Monitors
     from bem.life.surfaces import GrowingFilm, LifeCase
     from bem.scenes.tables.life import LifeFilm
 
 _JUMPS_OF_FATIGUE = 16  # at least: the stresses of a jump are those of its ends
 
 
-def beside_of(scene: Any, setup: MixedSetup, case: LifeCase) -> Beside:
-    """What is counted beside the wear: pieces and fatigue."""
+def monitors_of(scene: Any, setup: MixedSetup, case: LifeCase) -> Monitors:
+    """Return the monitors of pieces and fatigue that a scene asks for."""
     from bem.friction.rough_contact import boundary_traction
-    from bem.life.beside import Beside
+    from bem.life.monitors import Monitors
 
     (speeds,) = scene.speeds.build()
     friction = boundary_traction(speeds, scene.friction)
@@ -40,7 +38,7 @@ def beside_of(scene: Any, setup: MixedSetup, case: LifeCase) -> Beside:
         sizes = scene.particles.build(setup.grid, scene.bodies, setup.hardness, on_grid(scene))
     if scene.fatigue is not None:
         fatigue = scene.fatigue.build(scene.bodies, friction, setup.hardness)
-    return Beside(case, sizes, fatigue, friction)
+    return Monitors(case, sizes, fatigue, friction)
 
 
 def on_grid(scene: Any) -> float:
@@ -49,15 +47,15 @@ def on_grid(scene: Any) -> float:
     return scene.contact.on_patch(scene.load, grid.lengths)
 
 
-def case_of(scene: Any, setup: MixedSetup) -> tuple[LifeCase, MixedPasses]:
-    """What stays the same over the life, and its contact."""
-    from bem.life.passes import MixedPasses, Passing
+def case_of(scene: Any, setup: MixedSetup) -> LifeCase:
+    """Return the parts of the life that stay the same."""
+    from bem.life.passes import Passing
     from bem.life.surfaces import LifeCase
     from bem.scenes.tables.life import INDICES
-    from bem.wear.mixed import shared_film_table
+    from bem.wear.mixed import MixedContact, shared_film_table
 
     (speeds,), wear, life = scene.speeds.build(), scene.wear, scene.life
-    contact = MixedPasses(setup, shared_film_table(setup, speeds))
+    contact = MixedContact(setup, speeds, table=shared_film_table(setup, speeds), film_shape="unworn")
     passing = Passing(wear.positions, (0 in INDICES[wear.passes], 1 in INDICES[wear.passes]))
     rates = wear.rates(scene.bodies, scene.friction)
     film = None if scene.tribofilm is None else _film(scene, scene.tribofilm, setup)
@@ -73,7 +71,7 @@ def case_of(scene: Any, setup: MixedSetup) -> tuple[LifeCase, MixedPasses]:
         life.first_step,
         longest=np.inf if scene.fatigue is None else life.count / _JUMPS_OF_FATIGUE,
         defect=film_defect(scene),
-    ), contact
+    )
 
 
 def _film(scene: Any, table: LifeFilm, setup: MixedSetup) -> GrowingFilm:
@@ -141,4 +139,4 @@ def bars(scene: Any, initial: tuple[FloatArray, FloatArray], end: LifeState) -> 
 
 
 def _alone(scene: Any) -> LifeCase:
-    return case_of(scene, scene.setup(**scene.sharing.model_dump()))[0]
+    return case_of(scene, scene.setup(**scene.sharing.model_dump()))

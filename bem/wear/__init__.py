@@ -1,14 +1,26 @@
-"""Wear: which pieces come off, how large, what shape, and how the surface settles (thesis, papers B, C and D).
+"""Wear: which pieces come off, how large, what shape, and how the surface runs in (thesis, papers B, C and D).
 
-`setup` stays the same over all cycles, `cycle` is one sliding cycle, `running_in` the loop. A criterion (`criterion`)
-is given what acts on a body (`loads`) and says what comes off: `yielding` where it yields, `segmentation` and
-`yielded_runs` pieces there, `removal` what leaves with them, `junctions`, `fatigue`, `lengths` what criteria with a
-length need; `mixed` is the contact of a lubricated cycle. Names are loaded when first used, so that the criteria cost
-no solver.
+Algorithm of `run_in` (running_in.py), one cycle after the other:
 
-Sees contacts, stresses, particles and mixed lubrication; no scene, no file. Verified in tests/wear: volumes are what
-the surface loses, pieces those of labelling every voxel, resumed runs the same bits; against papers C and D in the
-validation page.
+1. Move one body through the contact and take the rows of both that face each other (running_in.py, state.py).
+2. Solve the contact: dry (contact_step.py) or shared with a film (mixed.py, worn_shape.py); particles between the
+   surfaces are a step around either (third_bodies.py).
+3. Shear tractions: friction x pressure, or a loop of partial slip (traction/).
+4. Removal by the criterion (criterion/) on each wearing body (cycle.py). Stress criteria: equivalent stress from the
+   surface down to a depth without yield (yielding.py), runs above yield joined to pieces (segmentation.py,
+   yielded_runs.py), of which the removal law says what leaves (removal.py). Others: averaged stress (lengths.py),
+   fatigue damage (damage.py), junctions (junctions.py), a depth by pressure and distance (criterion/local.py).
+5. Lower the surfaces; append the cycle and its particles to the tables (running_in.py).
+
+After the loop: the error of the last step of local wear by step doubling (step_doubling.py), figures (outcome.py,
+mixed_figures.py). Types: loads.py is what a criterion receives and returns, setup.py and model.py what stays the same.
+
+Source: thesis, papers C and D; each law names its own. Cost: one contact, three to fifteen depths of stress per cycle;
+segmentation costs the yielded columns only. Sees contacts, stresses, particles and mixed lubrication; no scene, no
+file. Names are loaded when first used, so that laws cost no solver.
+
+Verified in tests/wear: volumes are those that the surface loses, pieces those of labelling every voxel, resumed runs
+end in the same bits; validated against papers C and D on the validation page.
 """
 
 from typing import TYPE_CHECKING
@@ -16,13 +28,9 @@ from typing import TYPE_CHECKING
 from bem.startup.lazy import loader
 
 if TYPE_CHECKING:
-    from bem.wear.cycle import (
-        ContactOutcome,
-        ContactStep,
-        WearModel,
-        dry_contact,
-        wear_cycle,
-    )
+    from bem.wear.contact_step import ContactOutcome, ContactStart, ContactStep, DryContact, dry_contact
+    from bem.wear.cycle import wear_cycle
+    from bem.wear.model import WearModel
     from bem.wear.running_in import RunningIn, Settled, advance, equivalent_radius, run_in
     from bem.wear.segmentation import Segmentation, describe_pieces, find_particles, refine_depths, segment
     from bem.wear.setup import WearSetup
@@ -31,7 +39,9 @@ if TYPE_CHECKING:
 
 __all__ = [
     "ContactOutcome",
+    "ContactStart",
     "ContactStep",
+    "DryContact",
     "RunningIn",
     "RunningInState",
     "Segmentation",
@@ -56,10 +66,9 @@ __all__ = [
 __getattr__ = loader(
     __name__,
     {
-        "cycle": [
-            *("ContactOutcome", "ContactStep", "WearModel"),
-            *("dry_contact", "wear_cycle"),
-        ],
+        "contact_step": ["ContactOutcome", "ContactStart", "ContactStep", "DryContact", "dry_contact"],
+        "cycle": ["wear_cycle"],
+        "model": ["WearModel"],
         "running_in": ["RunningIn", "Settled", "advance", "equivalent_radius", "run_in"],
         "segmentation": ["Segmentation", "describe_pieces", "find_particles", "refine_depths", "segment"],
         "setup": ["WearSetup"],

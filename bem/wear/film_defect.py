@@ -1,9 +1,10 @@
-"""What a boundary film leaves of local wear: the share of a surface that adsorbed molecules do not cover.
+"""Fractional film defect: the factor on local wear that a boundary film of adsorbed molecules leaves.
 
-Molecules leave the surface thermally and come back in no time: one stays t0 exp(E / kB T), and is missing where an
-asperity passes over its place, which takes x / U, if it leaves meanwhile. The share of places without one, Kingsbury's
-fractional film defect, is that of unprotected wear which is left (Kingsbury 1958, J. Appl. Phys. 29, 888; Rowe 1966,
-ASLE Trans. 9, 101; both from memory): it rises with the temperature of each place, flash temperature included.
+A molecule stays adsorbed for the mean time t0 exp(E / kB T) and returns at once. A place is bare if its molecule
+desorbs while an asperity passes over it, which takes x / U. The fraction of bare places, 1 - exp(-x / (U t0 exp(E / kB
+T))), is the factor on the unprotected wear. It rises with the temperature at each place, flash temperature included.
+
+Source: Kingsbury (1958), J. Appl. Phys. 29, 888; Rowe (1966), ASLE Trans. 9, 101; both quoted from memory.
 
 Verified in tests/wear/test_film_defect.py.
 """
@@ -22,11 +23,13 @@ from bem.grid import FloatArray
 
 @dataclass(frozen=True)
 class FilmDefect:
-    """A boundary film, and what slides over it.
+    """Boundary film and sliding speed.
 
-    adsorption_energy : E of a molecule [J]. sliding_speed : U [m/s]; no place is bared at rest. temperature : [K] where
-    none is known place by place. molecule_length : x along which an asperity passes a molecule [m]. vibration_time : t0
-    of the adsorbed molecule [s].
+    adsorption_energy : E of a molecule [J].
+    sliding_speed : U [m/s]; at rest no place is bare.
+    temperature : where no local temperature is known [K].
+    molecule_length : x along which an asperity passes a molecule [m].
+    vibration_time : t0 of the adsorbed molecule [s].
     """
 
     adsorption_energy: float
@@ -47,10 +50,25 @@ class FilmDefect:
             raise InputError(messages)
 
     def share(self, temperature: FloatArray | None = None) -> FloatArray:
-        """Of unprotected wear that is left, 0 to 1, at temperatures (nx, ny) [K]; None is the film's own everywhere,
-        one number."""
+        """Return the fraction of unprotected wear, 0 to 1, at temperatures (nx, ny) [K].
+
+        None takes the film's own temperature and returns one number.
+        """
         warm = np.asarray(self.temperature if temperature is None else temperature)
         if self.sliding_speed == 0:
             return np.zeros_like(warm)
         stays = self.vibration_time * np.exp(np.minimum(self.adsorption_energy / (BOLTZMANN * warm), 700.0))
         return np.asarray(-np.expm1(-self.molecule_length / self.sliding_speed / stays))
+
+
+def film_defect_misfits(criterion: str, wears_by_pressure: bool, traction: str, slides: bool) -> list[str]:
+    """Return a message for the criterion and for the traction law that do not go with a boundary film.
+
+    criterion, traction : names of the laws. wears_by_pressure, slides : of `Detachment` and of `TractionLaw`.
+    """
+    found = []
+    if not wears_by_pressure:
+        found.append(f"film_defect of criterion {criterion}; allowed: archard, archard_over_hardness, energy, or none")
+    if not slides:
+        found.append(f"film_defect has one sliding speed; allowed: no traction {traction}, or none")
+    return found

@@ -1,4 +1,4 @@
-"""What acts on one body in one cycle, and what comes off it: all that a wear criterion is given and all that it gives.
+"""Loads on one body in one cycle, and the removal from it: all that a wear criterion receives and returns.
 
 Knows pressures and pieces; no solver. Verified in tests/wear/test_cycle.py.
 """
@@ -28,15 +28,15 @@ class SurfaceLoad:
     traction: FloatArray | None = None
 
     def shear(self, body: int) -> dict[str, Any]:
-        """The traction on a body, as stresses take it: on the upper one it has the other sign."""
+        """Return the traction on a body as keyword of the stress functions; its sign changes on the upper body."""
         sign = 1 if body == LOWER else -1
         return {"friction": sign * self.friction} if self.traction is None else {"traction": sign * self.traction}
 
 
-def half_the_change(now: SurfaceLoad, before: SurfaceLoad | None) -> tuple[SurfaceLoad, ...]:
-    """Loads whose stresses add up to half the change of stress; nothing acted before the first cycle.
+def stress_range_loads(now: SurfaceLoad, before: SurfaceLoad | None) -> tuple[SurfaceLoad, ...]:
+    """Return loads whose stresses add up to the stress amplitude, half the change since the load before (None: zero).
 
-    One load where the friction is the same, since stress is linear in pressure and traction.
+    A single load suffices where the friction is the same, since stress is linear in pressure and traction.
     """
     if before is None:
         return (SurfaceLoad(0.5 * now.pressure, now.friction),)
@@ -47,14 +47,16 @@ def half_the_change(now: SurfaceLoad, before: SurfaceLoad | None) -> tuple[Surfa
 
 @dataclass(frozen=True, eq=False)
 class BodyCycle:
-    """One body in one cycle.
+    """One body in one cycle: the input of a criterion.
 
-    pressure : of the contact, (nx, ny) [Pa]. loads : whose stresses together are judged; the contact's own, or half the
-    change since the last cycle. setup, model : of the run. body : LOWER or UPPER. slide : distance [m] that the
-    moving body slides from one cycle to the next. memory : what the criterion keeps of the body's material on the grid,
-    (planes, nx, ny), as it was given back in the last cycle and moved with the material; None before the first.
-    slid : (nx, ny) [m], what the surfaces slide at each place in the computed cycle; None where they do so everywhere
-    as far as the bodies move. temperature : (nx, ny) [K] of the surfaces; None where it is not known place by place.
+    pressure : (nx, ny) of the contact [Pa].
+    loads : whose stresses together the criterion compares: the contact's own, or half the change since the last cycle.
+    setup, model : of the loop.
+    body : LOWER or UPPER.
+    slide : distance that the moving body slides between two computed cycles [m].
+    memory : (planes, nx, ny) returned in the last cycle and moved with the material; None before the first.
+    slid : (nx, ny) slip distance in partial slip [m]; None in gross sliding.
+    temperature : (nx, ny) of the surfaces [K]; None where unknown.
     """
 
     pressure: FloatArray
@@ -69,16 +71,18 @@ class BodyCycle:
 
     @property
     def solid(self) -> Body:
-        """The body."""
+        """Body of the cycle."""
         return self.setup.bodies[self.body]
 
 
 @dataclass(frozen=True, eq=False)
 class Removal:
-    """Pieces of one body in one cycle, how many depths had to be computed to find them, and the time that took [s].
+    """Material that leaves one body in one cycle: the output of a criterion.
 
-    memory : what the criterion wants kept of the body's material, (planes, nx, ny), material that left taken out; None
-    where it keeps nothing. worn : what leaves besides the pieces, (nx, ny) [m]; None for nothing.
+    body : LOWER or UPPER. pieces : wear particles.
+    depths_computed : number of depths of stress. stress_time, segmentation_time : spent [s].
+    memory : (planes, nx, ny) of the remaining material, for the next cycle; None for none.
+    worn : (nx, ny) depth that leaves besides the pieces [m]; None for none.
     """
 
     body: int
@@ -91,5 +95,5 @@ class Removal:
 
     @property
     def thickness(self) -> FloatArray:
-        """What leaves each column (nx, ny) [m], in pieces and besides."""
+        """Depth (nx, ny) that leaves each column [m], pieces and wear besides them."""
         return self.pieces.thickness if self.worn is None else self.pieces.thickness + self.worn

@@ -1,15 +1,26 @@
-"""The contact of a lubricated wear cycle: load shared between film and rough contact (thesis, paper D).
+"""Lubricated contact of a wear cycle: load shared between film and rough contact (thesis, paper D).
 
-The film of the unworn bodies depends on the load it carries and on nothing else, so one table of films per speed serves
-all cycles (`bem.friction.film_table`). Where the standing body wears, its worn shape changes these films
-(`bem.wear.worn_shape`). Balance, forces and lambda ratio are those of `solve_mixed`.
+Algorithm, per cycle:
+
+1. The worn shape of the standing body since the last cycle goes into the films (`worn_shape`); the rough contact sees
+   the rest of the heights.
+2. Films under any load come from one table per speed (`bem.friction.film_table`): the film of unworn bodies depends on
+   its load alone.
+3. `bem.friction.load_sharing.LoadSharing` finds the film load at which film and rough contact carry the load together,
+   from that of the last cycle. Where the balance needs films of the worn shape at other loads, they are solved and the
+   balance is repeated.
+4. Friction and lambda ratio are those of `solve_mixed`, from the same `SharedLoad`.
+
+Cost: one rough contact per trial of the balance, one to three per cycle; none where the film clears the roughness.
+
+Verified in tests/scenes/test_friction_kinds.py, tests/friction/test_balance.py and tests/wear/test_worn_shape.py.
 """
 
 from __future__ import annotations
 
 from collections import deque
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass, field, replace
 from functools import cached_property, partial
 from typing import Any
 
@@ -22,7 +33,7 @@ from bem.friction.balance import NEGLIGIBLE, Balance, BalanceStart, Regime
 from bem.friction.film import Film, PatchFilm, middle_line
 from bem.friction.film_table import FilmTable
 from bem.friction.forces import Forces, oil_temperature
-from bem.friction.load_sharing import LoadSharing
+from bem.friction.load_sharing import LoadSharing, SharedLoad
 from bem.friction.models import films_of, rough_contact
 from bem.friction.oil_sensitivity import OilVolumeSensitivity, oil_volume_sensitivity
 from bem.friction.oil_volume import OilVolume
@@ -31,14 +42,10 @@ from bem.friction.rough_contact import CoupledContact, RoughContact, boundary_tr
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray
 from bem.lubrication.validity import THINNEST_FILM
-from bem.materials import Body
 from bem.notes import Note
 from bem.notes.friction import BOUNDARY_LUBRICATION, OIL_COUNTED
-from bem.wear.cycle import ContactOutcome, rows_of_contact
-from bem.wear.state import pack_table, unpack_table
-from bem.wear.third_bodies import ThirdBodies
-from bem.wear.third_body_mixed import ContactWithBodies
-from bem.wear.worn_shape import ShapeFollower, WornShape, check_film_shape, pack_worn, unpack_worn, worn_as
+from bem.wear.contact_step import ContactOutcome, ContactStart, contact_rows
+from bem.wear.worn_shape import ShapeFollower, WornShape, check_film_shape, worn_as
 
 MIXED_FIELDS = np.dtype(
     [
@@ -62,57 +69,68 @@ MIXED_FIELDS = np.dtype(
 Temperatures are those of the surfaces in contact, mean by pressure and highest; the oil's without contact,
 0 where no heat was asked for."""
 
+
 REGIMES = tuple(Regime)
-_TAKEN_FOR_NONE = len(REGIMES)
-"""Index of boundary lubrication by rule: where the film's model ends and the film is too thin to count."""
+_FILM_NEGLECTED = len(REGIMES)
+"""Index of boundary lubrication by rule: the film's model ends and the film is too thin to count."""
 LAST_CYCLE = "last cycle"
 """Place of notes on the last cycle."""
-FEW = 0.01
-"""Share of the load on particles up to which the oil beside the contact is judged without them."""
+NEGLIGIBLE_PARTICLE_LOAD = 0.01
+"""Fraction of the load on particles up to which the oil beside the contact is judged without them."""
 
 
 @dataclass(frozen=True, eq=False)
-class LastCycle:
-    """State of the last cycle besides its row: all that notes, film and separation of a finished loop are computed
-    from, and part of its checkpoint.
+class SharedCycle:
+    """Load sharing of one cycle besides its row: notes, film and separation are computed from it.
 
     balance : of film and contact; its film is without `solution`.
-    heights : (nx, ny) [m], sum of both bodies in that cycle, without the worn shape that the film has.
-    forces : of friction.
+    heights : (nx, ny) [m], sum of both bodies, without the worn shape that the film has.
+    forces : friction forces.
+    load : on the whole contact [N].
     coupling : notes on how friction couples into the normal gap.
-    borne : share of the load on particles.
+    particle_load : fraction of the load on particles between the surfaces.
     """
 
     balance: Balance
     heights: FloatArray
     forces: Forces
+    load: float
     coupling: tuple[Note, ...]
-    borne: float
+    particle_load: float
+
+
+@dataclass(frozen=True, eq=False)
+class MixedMemory:
+    """What the contact of the next cycle starts from.
+
+    balance_start : warm start of the balance, without pressure. worn : worn shape in the film. last : load sharing of
+    the last cycle; None before the first.
+    """
+
+    balance_start: BalanceStart = field(default_factory=BalanceStart)
+    worn: WornShape = field(default_factory=WornShape)
+    last: SharedCycle | None = None
 
 
 class MixedContact:
-    """Load sharing as the contact of a wear cycle: give it to `run_in` as `contact_step`.
+    """Load sharing as the contact of a cycle; a `ContactStep`, for `run_in` and for a life.
 
     Parameters
     ----------
-    setup : of the load sharing. The contact's tolerance may be coarse: 1e-4 of the roughness moves friction by some
-        1e-5 of itself, and where the balance cannot be met for it, the contact is solved better.
+    setup : of the load sharing. The contact's tolerance may be coarse: where the balance cannot be met with it, the
+        contact is solved to a finer one.
     speeds : (u1, u2) of flat and cylinder [m/s].
     table : films of the same set-up and speeds, to share; a new one by default.
-    film_shape : macroscopic shape of the film, "worn" (of a cylinder that stands with the contact, or on a disk that
-        does) or "unworn".
-    state, rows, last, worn : to go on from, as they were after the last cycle.
+    film_shape : macroscopic shape of the film, "worn" (that of the body that stands with the contact) or "unworn".
 
     Notes
     -----
-    `rows` has a row of `MIXED_FIELDS` per cycle, of this contact and of all that `bearing` makes of it; `film` is the
-    last cycle's film and `separation` the distance (nx,) of the mean planes [m]. A cycle in which the film clears the
-    roughness solves no contact. The oil's shear stress, a hundred times smaller than the boundary traction, is left out
-    of the stresses. The oil is counted as the set-up says (`oil_volume`), in every cycle.
+    The oil's shear stress, a hundred times smaller than the boundary traction, is left out of the stresses. The oil is
+    counted as the set-up says (`oil_volume`), in every cycle.
 
     Raises
     ------
-    InputError : speeds that are not finite or entrain nothing; a cell that repeats, on which nothing wears yet.
+    InputError : speeds that are not finite or entrain nothing; a repeated cell, on which wear is not implemented.
     """
 
     def __init__(
@@ -122,185 +140,124 @@ class MixedContact:
         *,
         table: FilmTable | None = None,
         film_shape: str = "worn",
-        state: BalanceStart | None = None,
-        rows: NDArray[np.void] | None = None,
-        last: LastCycle | None = None,
-        worn: WornShape | None = None,
     ) -> None:
         if setup.repeated_cell:
             raise InputError("grid: a cell that repeats does not wear; take a patch that holds the contact of the ball")
         self.setup = setup
         self.table = table if table is not None else film_table(setup, speeds)
         self.speeds = self.table.speeds
-        self.state = state if state is not None else BalanceStart(0.5 * setup.load)
-        self.rows = rows if rows is not None else np.zeros(0, MIXED_FIELDS)
-        self.contact_solves = 0
-        self.last = last
         check_film_shape(film_shape)
         self.film_shape = film_shape
-        self.worn = worn if worn is not None else WornShape()
 
     @cached_property
-    def _follower(self) -> ShapeFollower:
+    def follower(self) -> ShapeFollower:
+        """Rule by which the films follow the worn shape."""
         return ShapeFollower.of(self.setup, self.table)
 
-    @property
-    def films(self) -> Film:
-        """The films of the last cycle's shape over the load they carry."""
-        return self._follower.films(self.worn)
+    def films(self, worn: WornShape) -> Film:
+        """Return the films of a worn shape, over the load they carry."""
+        return self.follower.films(worn)
 
-    @property
-    def _sharing(self) -> LoadSharing:
-        """Load sharing with the films of the last cycle's shape."""
-        return LoadSharing(self.setup, self.films, self.speeds)
-
-    @property
-    def _whole(self) -> PatchFilm:
-        """The film under the whole load."""
-        films = self.films
+    def film_under_load(self, worn: WornShape) -> PatchFilm:
+        """Return the film of a worn shape under the whole load."""
+        if worn.shape is None:
+            return self._unworn_film_under_load
+        films = self.films(worn)
         return films.under(films.largest_load, 0, None)
 
-    def follow_wear(self, heights: FloatArray) -> None:
-        """Let the films of the next cycles follow the standing body's heights (nx,) [m], mean along y; see
-        `bem.wear.running_in.FollowsWear`."""
-        if self.film_shape == "worn":
-            self.worn = self._follower.followed(self.worn, heights, None if self.last is None else self.last.balance)
+    @cached_property
+    def _unworn_film_under_load(self) -> PatchFilm:
+        return self.table.under(self.table.largest_load)
 
-    @property
-    def roughness_over_cycles(self) -> FloatArray:
-        """Rms height (cycles,) of the surfaces in each cycle [m]: what the lambda ratio divides by."""
-        return np.asarray(self._whole.minimum_thickness / self.rows["lambda_ratio"])
-
-    def bearing(self, particles: ThirdBodies, slide: float) -> BearingContact:
-        """This contact with particles between its surfaces, while the bodies slide so far in a cycle [m]; the contact
-        itself stays without.
-
-        Raises
-        ------
-        InputError : a surface without hardness; a slide in which particles cut deeper than they lie.
-        """
-        bodies = self.setup.bodies
-        pair = (bodies, bodies) if isinstance(bodies, Body) else (bodies[0], bodies[-1])
-        hardnesses = particles.hardnesses(pair)
-        particles.check_slide(slide, hardnesses)
-        return BearingContact(self, particles, slide, hardnesses)
-
-    def __call__(self, heights: FloatArray, last_pressure: FloatArray | None) -> ContactOutcome:
-        """The contact of one cycle; see `bem.wear.ContactStep`."""
-        heights = self.worn.left(heights)
-        return self.cycle(heights, last_pressure, rough_contact(self.setup, heights, self.speeds))
-
-    def cycle(
-        self, heights: FloatArray, last_pressure: FloatArray | None, rough: RoughContact, slide: float = 0.0
+    def __call__(
+        self, heights: FloatArray, start: ContactStart | None = None, compliance: float = 0.0
     ) -> ContactOutcome:
-        """The same with a rough contact of these heights, without the films' worn shape; between its surfaces there may
-        be particles."""
-        balance = self._balance(rough, last_pressure)
-        if balance.contact is not None:
-            self.state = BalanceStart(balance.film.load, balance.slope)
-        return self._outcome(balance, rough, heights, slide)
+        """Share the load of one cycle; see `ContactStep`."""
+        memory, pressure = self.begin(start)
+        heights = memory.worn.left(heights)
+        rough = rough_contact(self.setup, heights, self.speeds)
+        if compliance > 0:
+            assert isinstance(rough, CoupledContact)
+            rough = replace(rough, compliance=compliance)
+        shared, memory = self.share(heights, rough, memory, pressure)
+        return self.outcome(shared, memory, compliance=compliance)
 
-    def _balance(self, rough: RoughContact, pressure: FloatArray | None) -> Balance:
-        """Return the balance, repeated while it needs films of the worn shape at other loads."""
-        start = BalanceStart(self.state.film_load, self.state.slope, pressure)
+    def begin(self, start: ContactStart | None) -> tuple[MixedMemory, FloatArray | None]:
+        """Return the memory, its films following the worn shape of the standing body, and the pressure to start
+        from."""
+        if start is None:
+            return MixedMemory(), None
+        memory = MixedMemory() if start.memory is None else start.memory
+        if self.film_shape == "worn" and start.standing_profile is not None:
+            last = None if memory.last is None else memory.last.balance
+            memory = replace(memory, worn=self.follower.followed(memory.worn, start.standing_profile, last))
+        return memory, start.pressure
+
+    def share(
+        self, heights: FloatArray, rough: RoughContact, memory: MixedMemory, pressure: FloatArray | None
+    ) -> tuple[SharedLoad, MixedMemory]:
+        """Return the load shared between film and rough contact, and what the next cycle starts from.
+
+        The balance is repeated while it needs films of the worn shape at other loads.
+
+        heights : (nx, ny) [m], without the films' worn shape. rough : rough contact of these heights. pressure : warm
+        start (nx, ny) [Pa].
+        """
+        worn, start = memory.worn, replace(memory.balance_start, pressure=pressure)
         while True:
-            balance = self._sharing.balance(rough, self._whole, start)
-            known = len(self.worn.changes)
-            self.worn = self._follower.completed(self.worn, balance)
-            if len(self.worn.changes) == known:
-                return balance
-            start = BalanceStart(balance.film.load, balance.slope, start.pressure)
+            balance = self._sharing(worn).balance(rough, self.film_under_load(worn), start)
+            known = len(worn.changes)
+            worn = self.follower.completed(worn, balance)
+            if len(worn.changes) == known:
+                break
+            start = BalanceStart(balance.film.load, balance.slope, pressure)
+        shared = self._sharing(worn).with_forces(balance, heights, rough, self.film_under_load(worn))
+        if balance.contact is None:
+            return shared, replace(memory, worn=worn)
+        return shared, replace(memory, balance_start=BalanceStart(balance.film.load, balance.slope), worn=worn)
 
-    @property
-    def film(self) -> PatchFilm | None:
-        """The last cycle's."""
-        return None if self.last is None else self.last.balance.film
+    def _sharing(self, worn: WornShape) -> LoadSharing:
+        return LoadSharing(self.setup, self.films(worn), self.speeds)
 
-    @property
-    def separation(self) -> FloatArray | None:
-        """Distance (nx,) of the mean planes in the last cycle [m]."""
-        if self.last is None:
-            return None
-        film, contact = self.last.balance.film, self.last.balance.contact
-        return middle_line(film.thickness) if contact is None else contact.separation
+    def outcome(
+        self, shared: SharedLoad, memory: MixedMemory, *, compliance: float = 0.0, particle_load: float = 0.0
+    ) -> ContactOutcome:
+        """Return the outcome of a cycle from its shared load.
 
-    @property
-    def film_notes(self) -> tuple[Note, ...]:
-        """Notes of the last cycle's film on its model."""
-        return () if self.last is None else self.last.balance.film.notes
-
-    @property
-    def notes(self) -> tuple[Note, ...]:
-        """Notes on the cycles so far: those in boundary lubrication, and models outside their validity."""
-        last, notes = self.last, []
-        if last is None:
-            return ()
-        left = BOUNDARY_LUBRICATION(share=NEGLIGIBLE * self.setup.tolerance, reason="load")
-        none = BOUNDARY_LUBRICATION(limit=THINNEST_FILM, reason="thin")
-        for regime, note in ((REGIMES.index(Regime.BOUNDARY), left), (_TAKEN_FOR_NONE, none)):
-            if number := int(np.sum(self.rows["regime"] == regime)):
-                notes.append(note.at(f"{number} of {len(self.rows)} cycles"))
-        friction = float(self.rows["friction"].max())
-        notes += [*self.film_notes, *validity_notes(friction, last.forces, last.balance.film, self._whole, self.setup)]
-        oil = self.oil()
-        hanging = () if oil is None else tuple(note.at(LAST_CYCLE) for note in oil_notes([oil]))
-        if last.borne > FEW and self.setup.counted is not OilVolume.LOADED:
-            hanging = (OIL_COUNTED(reason="particles"),)
-        covered = covered_notes([(float(self.rows["friction"][-1]), last.forces.covered / self.setup.load)])
-        shape = self._follower.notes(self.worn, len(self.rows)) if self.film_shape == "worn" else ()
-        return (*notes, *last.coupling, *hanging, *(note.at(LAST_CYCLE) for note in covered), *shape)
-
-    def oil(self) -> OilVolumeSensitivity | None:
-        """How far the last cycle's load sharing hangs on the oil beside Hertz' contact; one more balance."""
-        last = self.last
-        if last is None or last.borne > FEW:
-            return None  # with particles it would be another contact's
-        friction = float(self.rows["friction"][-1])
-        return oil_volume_sensitivity(
-            self.setup,
-            last.heights,
-            last.balance,
-            self._whole,
-            speeds=self.speeds,
-            friction=friction,
-            changed=partial(worn_as, self.worn.shape, self.speeds),
-        )
-
-    def _outcome(self, balance: Balance, rough: RoughContact, heights: FloatArray, slide: float) -> ContactOutcome:
-        setup, film, contact = self.setup, balance.film, balance.contact
-        shared = self._sharing.with_forces(balance, heights, rough, self._whole)
-        forces = shared.forces
-        heat, bodies, slides = forces.heat, None, self.speeds[0] != self.speeds[1]
-        if isinstance(rough, ContactWithBodies):
-            forces = rough.rolling(forces, contact, slides)
-            bodies = rough.told(contact, slide)
-        borne = 0.0 if bodies is None else bodies.load * setup.slices / setup.load
-        shift = 0.0 if contact is None else contact.approach
-        new = np.zeros(1, MIXED_FIELDS)
-        new[0] = (
-            (forces.boundary + forces.film) / setup.load,
+        compliance : of wear in the contact [m/Pa]. particle_load : on particles between the surfaces, part of the
+        contact's load [N].
+        """
+        setup, balance, forces = self.setup, shared.balance, shared.forces
+        film, contact, heat = balance.film, balance.contact, forces.heat
+        row = np.zeros(1, MIXED_FIELDS)
+        row[0] = (
+            shared.friction,
             forces.boundary,
             forces.film,
-            0.0 if contact is None else contact.load - (0.0 if bodies is None else bodies.load * setup.slices),
+            shared.contact_load - particle_load,
             film.load,
             film.minimum_thickness,
             shared.lambda_ratio,
             shared.contact_area,
-            shift,
+            0.0 if contact is None else contact.approach,
             balance.imbalance,
             *((oil_temperature(setup),) * 2 if heat is None else (heat.mean, heat.maximum)),
             max(balance.films, 1),
-            _TAKEN_FOR_NONE if balance.film_neglected else REGIMES.index(balance.regime),
+            _FILM_NEGLECTED if balance.film_neglected else REGIMES.index(balance.regime),
         )
-        self.rows = np.append(self.rows, new)
-        kept = replace(balance, film=replace(film, solution=None))
-        self.last = LastCycle(kept, heights, forces, coupling_notes(forces, rough.traction, setup), borne)
-        self.contact_solves += balance.contacts
+        last = SharedCycle(
+            balance=replace(balance, film=replace(film, solution=None)),
+            heights=shared.heights,
+            forces=forces,
+            load=setup.load,
+            coupling=coupling_notes(forces, shared.rough.traction, setup),
+            particle_load=particle_load / setup.load,
+        )
         solution = None if contact is None else contact.solution
         strip = None
         if isinstance(solution, ContactSolution):
             modulus = setup.smooth.contact_modulus
-            strip = rows_of_contact(solution, setup.grid, modulus, cap=setup.hardness)
+            strip = partial(contact_rows, solution, setup.grid, modulus, cap=setup.hardness, compliance=compliance)
         return ContactOutcome(
             pressure=np.zeros(setup.grid.shape) if solution is None else solution.pressure,
             contact_area=0.0 if solution is None else solution.contact_area,
@@ -311,61 +268,95 @@ class MixedContact:
             convolutions=balance.convolutions,
             status=shared.status,
             minimum_film=film.minimum_thickness,
-            third_bodies=bodies,
             temperature=None if heat is None else heat.temperature,
-            strip=strip,
+            measure_strip=strip,
+            sharing=row,
+            memory=replace(memory, last=last),
         )
 
 
 @dataclass(frozen=True, eq=False)
-class BearingContact:
-    """A `MixedContact` with particles between its surfaces, of those hardnesses (lower, upper) [Pa], which slide so far
-    in a cycle [m]: a contact step, whose cycles count as the contact's."""
+class MixedCycles:
+    """Load sharing over the cycles of a lubricated loop: its films, separation and notes.
+
+    contact : the contact step. rows : table of `MIXED_FIELDS`, one per cycle. memory : after the last cycle.
+    """
 
     contact: MixedContact
-    particles: ThirdBodies
-    slide: float
-    hardnesses: tuple[float, float]
+    rows: NDArray[np.void]
+    memory: MixedMemory
 
-    def __call__(self, heights: FloatArray, last_pressure: FloatArray | None) -> ContactOutcome:
-        """The contact of one cycle; see `bem.wear.ContactStep`.
+    @property
+    def worn(self) -> WornShape:
+        """Worn shape in the film."""
+        return self.memory.worn
 
-        Raises
-        ------
-        InputError : a contact of uncoupled asperities.
-        """
-        heights = self.contact.worn.left(heights)
-        rough: RoughContact = rough_contact(self.contact.setup, heights, self.contact.speeds)
-        if self.particles.number_per_area > 0:
-            if not isinstance(rough, CoupledContact):
-                raise InputError('third bodies share the load of a contact_model "coupled"')
-            rough = ContactWithBodies(rough, self.particles, self.hardnesses)
-        return self.contact.cycle(heights, last_pressure, rough, self.slide)
+    @property
+    def last(self) -> SharedCycle:
+        """Load sharing of the last cycle."""
+        assert self.memory.last is not None
+        return self.memory.last
 
+    @property
+    def film(self) -> PatchFilm:
+        """Film of the last cycle."""
+        return self.last.balance.film
 
-def pack_balance(step: MixedContact) -> dict[str, Any]:
-    """Pack the start of the next balance, the rows and the worn shape as plain arrays and numbers for a checkpoint.
+    @property
+    def separation(self) -> FloatArray:
+        """Distance (nx,) of the mean planes in the last cycle [m]."""
+        contact = self.last.balance.contact
+        return middle_line(self.film.thickness) if contact is None else contact.separation
 
-    The state lacks the last cycle (`MixedContact.last`), which the caller packs."""
-    return {
-        "film_load": step.state.film_load,
-        "slope": step.state.slope,
-        "rows": pack_table(step.rows),
-        "worn": pack_worn(step.worn),
-    }
+    @property
+    def roughness_over_cycles(self) -> FloatArray:
+        """Rms height (cycles,) of both surfaces together [m], by which the lambda ratio divides."""
+        return np.asarray(self._film_under_load.minimum_thickness / self.rows["lambda_ratio"])
 
+    @property
+    def _film_under_load(self) -> PatchFilm:
+        return self.contact.film_under_load(self.worn)
 
-def unpack_balance(packed: dict[str, Any]) -> dict[str, Any]:
-    """The arguments `state`, `rows` and `worn` of the `MixedContact` that was packed."""
-    return {
-        "state": BalanceStart(packed["film_load"], packed["slope"]),
-        "rows": unpack_table(packed["rows"], MIXED_FIELDS),
-        "worn": unpack_worn(packed["worn"]),
-    }
+    @property
+    def notes(self) -> tuple[Note, ...]:
+        """Notes on the cycles: those in boundary lubrication, and models outside their validity."""
+        setup, last, rows = self.contact.setup, self.last, self.rows
+        notes: list[Note] = []
+        left = BOUNDARY_LUBRICATION(share=NEGLIGIBLE * setup.tolerance, reason="load")
+        none = BOUNDARY_LUBRICATION(limit=THINNEST_FILM, reason="thin")
+        for regime, note in ((REGIMES.index(Regime.BOUNDARY), left), (_FILM_NEGLECTED, none)):
+            if number := int(np.sum(rows["regime"] == regime)):
+                notes.append(note.at(f"{number} of {len(rows)} cycles"))
+        friction = float(rows["friction"].max())
+        notes += [*self.film.notes, *validity_notes(friction, last.forces, self.film, self._film_under_load, setup)]
+        oil = self.oil()
+        on_oil = () if oil is None else tuple(note.at(LAST_CYCLE) for note in oil_notes([oil]))
+        if last.particle_load > NEGLIGIBLE_PARTICLE_LOAD and setup.counted is not OilVolume.LOADED:
+            on_oil = (OIL_COUNTED(reason="particles"),)
+        covered = covered_notes([(float(rows["friction"][-1]), last.forces.covered / setup.load)])
+        follower, follows = self.contact.follower, self.contact.film_shape == "worn"
+        shape = follower.notes(self.worn, len(rows)) if follows else ()
+        return (*notes, *last.coupling, *on_oil, *(note.at(LAST_CYCLE) for note in covered), *shape)
+
+    def oil(self) -> OilVolumeSensitivity | None:
+        """Return how the last cycle's load sharing depends on the oil beside Hertz' contact, by one more balance; None
+        with particles between the surfaces, of which that balance would know nothing."""
+        last, contact = self.last, self.contact
+        if last.particle_load > NEGLIGIBLE_PARTICLE_LOAD:
+            return None
+        return oil_volume_sensitivity(
+            contact.setup,
+            last.heights,
+            last.balance,
+            self._film_under_load,
+            speeds=contact.speeds,
+            friction=float(self.rows["friction"][-1]),
+            changed=partial(worn_as, self.worn.shape, contact.speeds),
+        )
 
 
 def film_table(setup: MixedSetup, speeds: Sequence[float]) -> FilmTable:
-    """The films of a set-up at a pair of speeds (u1, u2) [m/s]."""
+    """Return the table of films of a set-up at a pair of speeds (u1, u2) [m/s]."""
     return FilmTable(films_of(setup, speeds), load=setup.load)
 
 
@@ -373,8 +364,10 @@ _LAST_TABLES: deque[tuple[Any, FilmTable]] = deque(maxlen=8)
 
 
 def shared_film_table(setup: MixedSetup, speeds: Sequence[float]) -> FilmTable:
-    """The films of a set-up at a pair of speeds (u1, u2) [m/s], of this process's last ones where they are there: what
-    is in a table never depends on what was asked of it before."""
+    """Return the table of films as `film_table`, from the last eight of this process where it is one of them.
+
+    The films of a table do not depend on what was asked of it before.
+    """
     key = (setup.smooth, tuple(speeds), setup.load, setup.film_resolution, setup.grid.shape, setup.grid.spacing)
     for known, table in _LAST_TABLES:
         if known == key:
@@ -385,11 +378,10 @@ def shared_film_table(setup: MixedSetup, speeds: Sequence[float]) -> FilmTable:
 
 __all__ = [
     "MIXED_FIELDS",
-    "BearingContact",
-    "LastCycle",
     "MixedContact",
+    "MixedCycles",
+    "MixedMemory",
+    "SharedCycle",
     "film_table",
-    "pack_balance",
     "shared_film_table",
-    "unpack_balance",
 ]

@@ -18,7 +18,7 @@ from bem.particles import volume_mean_radius
 
 @dataclass(frozen=True)
 class StripWear:
-    """A surface in a strip along y before and after wear [m]: its rms heights Sq, and the mean depth worn."""
+    """Surface in a strip along y: rms heights Sq before and after wear, and mean depth worn [m]."""
 
     rms_before: float
     rms_after: float
@@ -26,8 +26,10 @@ class StripWear:
 
 
 def strip_wear(before: FloatArray, after: FloatArray, strip: NDArray[Any]) -> StripWear:
-    """Of heights (nx, ny) [m], rows (nx,) or cells (nx, ny) counting as much as `strip` says: True and False, or the
-    parts of them that lie within."""
+    """Return the wear of heights (nx, ny) [m] in a strip.
+
+    strip : weight of rows (nx,) or cells (nx, ny): True and False, or the fraction that lies within.
+    """
     counts = np.asarray(strip, dtype=np.float64)
     counts = np.broadcast_to(counts if counts.ndim == 2 else counts[:, None], before.shape)
 
@@ -39,20 +41,20 @@ def strip_wear(before: FloatArray, after: FloatArray, strip: NDArray[Any]) -> St
 
 
 def track_of(strip: NDArray[Any]) -> FloatArray:
-    """Return the part of the cells (1, ny) or (1, 1) that lies on the track of a contact on a body that moves along x.
+    """Return the fraction of the cells (1, ny) or (1, 1) on the track of a contact on a body that moves along x.
 
-    strip : (nx,) rows or (nx, ny) cells of the contact, or the parts of them within it. All places of a track wear
-    alike, so all rows of the body count as much.
+    strip : (nx,) or (nx, ny), weight of rows or cells in the contact. All places of a track wear alike, so all rows of
+    the body have the same weight.
     """
     parts = np.asarray(strip, dtype=np.float64)
     return parts.max(axis=0, keepdims=True).reshape(1, -1)
 
 
 def contact_strip(pressure: FloatArray, rows: FloatArray | None = None) -> FloatArray:
-    """The fraction of each row (nx,) within the strip in contact: `rows` as the contact gave them, or else whole rows
-    of the pressure (nx, ny) that are in contact anywhere; all rows where none is.
+    """Return the fraction of each row (nx,) within the strip in contact; all rows without a contact.
 
-    Whole rows jump from grid to grid: the depth of one scar was 185, 200 and 194 nm on 48, 52 and 160 cells.
+    rows : as the contact step gave them; None takes whole rows of the pressure (nx, ny) that are in contact anywhere,
+    which jump from grid to grid.
     """
     if rows is not None and rows.any():
         return rows
@@ -66,10 +68,10 @@ contact four cells wide, and 0.5 % for one within a cell."""
 
 
 def hertz_area(grid: Grid, half_axes: tuple[float, float]) -> FloatArray:
-    """The part of each cell of a grid within Hertz' contact of these half-axes [m], 0 to 1: of rows (nx,) of a
-    cylinder's, whose second is infinite, of cells (nx, ny) of an ellipse.
+    """Return the fraction of each cell within Hertz' contact of these half-axes [m].
 
-    Cells on the edge count as far as they lie inside, so that figures of the area converge: whole cells jump.
+    Rows (nx,) for a cylinder, whose second half-axis is infinite; cells (nx, ny) for an ellipse. Fractions of cells on
+    the edge let figures of the area converge with the cell.
     """
     return _parts_inside(grid.x, grid.y, grid.spacing, half_axes)
 
@@ -77,7 +79,7 @@ def hertz_area(grid: Grid, half_axes: tuple[float, float]) -> FloatArray:
 def _parts_inside(
     x: FloatArray, y: FloatArray, spacing: tuple[float, float], half_axes: tuple[float, float]
 ) -> FloatArray:
-    """As `hertz_area`, of cells with their centres at x (nx,) and y (ny,) [m]."""
+    """Return fractions as `hertz_area`, for cells with their centres at x (nx,) and y (ny,) [m]."""
     (a, b), (dx, dy) = half_axes, spacing
     low, high = (np.clip(x + side * dx / 2, -a, a) for side in (-1, 1))
     if math.isinf(b):
@@ -91,14 +93,15 @@ def _parts_inside(
 
 
 _OF_HALVES = 0.85
-"""On what half the rows and columns change the rms height: order two would leave a third of it, but few cells to a
-wave, and the cells on the edge, have less. By experiment, on 100 surfaces of the seeds 98 and 99 each against
-quarters of the cell."""
+"""Factor on the change of the rms height by half the rows and columns: one third for order two, but cells on the edge
+and few cells to a wave converge more slowly. Fitted on 200 surfaces against quarters of the cell."""
 
 
 def rms_error(heights: FloatArray, grid: Grid, half_axes: tuple[float, float]) -> float:
-    """What the cells leave open of the rms height [m] within Hertz' contact, an estimate: what every second row and
-    column of the heights (nx, ny) [m] change it by, in each way to take them, where they lie."""
+    """Estimate the discretisation error of the rms height within Hertz' contact [m].
+
+    It is the rms change by every second row and column of the heights (nx, ny) [m], over all ways to choose them.
+    """
     spacing = (2 * grid.spacing[0], 2 * grid.spacing[1])
 
     def rms(x: slice, y: slice, of: tuple[float, float]) -> float:
@@ -112,8 +115,8 @@ def rms_error(heights: FloatArray, grid: Grid, half_axes: tuple[float, float]) -
 
 @dataclass(frozen=True)
 class SettledMeans:
-    """Means over cycles: contact area over that of the grid, pressure over the contact [Pa], volume worn [m^3]; the
-    pressure over cycles with contact, nan without any."""
+    """Means over cycles: contact area over the grid's, mean contact pressure [Pa], nan without a contact, and volume
+    worn per cycle [m^3]."""
 
     contact_area_fraction: float
     mean_contact_pressure: float
@@ -121,7 +124,7 @@ class SettledMeans:
 
 
 def settled_means(cycles: NDArray[np.void], area: float) -> SettledMeans:
-    """Of rows of `CYCLE_FIELDS`, on a grid of an area [m^2]."""
+    """Return the means of a table of `CYCLE_FIELDS`; area : of the grid [m^2]."""
     touching = cycles[cycles["contact_area"] > 0]
     pressure = (touching["contact_load"] / touching["contact_area"]).mean() if touching.size else np.nan
     return SettledMeans(
@@ -132,17 +135,19 @@ def settled_means(cycles: NDArray[np.void], area: float) -> SettledMeans:
 
 
 def criterion_wear_rate(cycles: NDArray[np.void], load: float, slide: float) -> float | None:
-    """What leaves by load and distance [m^3/(N m)], of rows of `CYCLE_FIELDS` with a slide [m] each, under a load [N];
-    None where nothing slides."""
+    """Return the wear volume by load and distance [m^3/(N m)]; None without sliding.
+
+    cycles : table of `CYCLE_FIELDS`. load : [N]. slide : distance of each cycle [m].
+    """
     return float(cycles["volume"].mean() / (load * slide)) if slide > 0 else None
 
 
 def drift(series: ArrayLike, window: int = 25, tolerance: float = 0.02) -> float | None:
-    """By how much of itself a figure still changes at the last cycle; None where it has settled, or of one cycle.
+    """Return the relative change of a figure at the end of a loop; None where it has settled, or for a single cycle.
 
-    The mean over the last `window` cycles, or the last half of fewer, against that of as many before them, relative to
-    the larger: settled where that is below the tolerance, as of the rule that stops a loop (`running_in.Settled`), or
-    below two standard errors of the difference as cycles scatter.
+    The change is that between the means over the last `window` cycles (or the last half of fewer) and over as many
+    before them, relative to the larger. The figure has settled if the change is below the tolerance, as in the stop
+    rule (`running_in.Settled`), or below two standard errors of the difference.
     """
     values = np.asarray(series, dtype=np.float64)
     values = values[np.isfinite(values)]
@@ -156,7 +161,7 @@ def drift(series: ArrayLike, window: int = 25, tolerance: float = 0.02) -> float
 
 
 def sizes_over_cycles(cycles: ArrayLike, particles: NDArray[np.void]) -> tuple[FloatArray, FloatArray]:
-    """Volume-mean radius [m] (not-a-number where nothing came off) and number of the particles of each cycle."""
+    """Return the volume-mean radius [m] (nan without particles) and the number of the particles of each cycle."""
     volumes = [particles["volume"][particles["cycle"] == cycle] for cycle in np.asarray(cycles)]
     radius = np.array([volume_mean_radius(volume) or np.nan for volume in volumes])
     return radius, np.array([float(volume.size) for volume in volumes])

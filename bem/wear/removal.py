@@ -1,6 +1,6 @@
-"""Removal: what leaves with the yielded runs of a piece that reaches the free surface.
+"""Removal laws: material that leaves with the yielded runs of a piece that reaches the free surface.
 
-To add a law, derive from `RemovalLaw` and register it, here or in a file of your own. Its runs and what joins them are
+To add a law, derive from `RemovalLaw` and register it, here or in a file of your own. Runs and their union-find are
 those of `bem.wear.yielded_runs`. Verified in tests/wear/test_segmentation.py.
 """
 
@@ -22,34 +22,37 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class RemovalLaw(Law):
-    """Which runs leave, as which pieces."""
+    """Base class: selects the runs that leave, and groups them to pieces."""
 
     family: ClassVar[str] = "removal"
     follows_pieces: ClassVar[bool] = False
-    """Whether runs that nothing joins to the surface are never looked at, so that they need not be found."""
+    """True if runs that are not connected to the surface have no effect, so that they need not be found."""
 
     def __init_subclass__(cls) -> None:
-        """A law with a way of its own says so itself, whatever it is derived from."""
+        """Reset `follows_pieces` for a derived law that defines `remove` and does not say."""
         super().__init_subclass__()
         if "remove" in vars(cls) and "follows_pieces" not in vars(cls):
             cls.follows_pieces = False
 
     @abstractmethod
     def remove(self, runs: Runs, parent: NDArray[np.int64], labels: NDArray[np.int32], thickness: FloatArray) -> int:
-        """Fill the labels (1, 2, ... of pieces, 0 where nothing leaves) and the thickness [m] that leaves, of all
-        columns of the grid, flat, both zero at first; return the number of pieces. `parent` is the union-find of the
-        runs that touch, and may be changed."""
+        """Fill labels and thickness of all columns in place, and return the number of pieces.
+
+        runs : of the columns that yield. parent : union-find of the runs that touch; may be changed. labels :
+        (columns,) zero at first, 1, 2, ... where a piece leaves. thickness : (columns,) zero at first, depth that
+        leaves [m].
+        """
 
 
 @dataclass(frozen=True)
 class _ByColumns(RemovalLaw):
-    """Laws that look at one column of yielded runs after the other."""
+    """Base class of laws that treat one column of yielded runs after the other."""
 
     follows_pieces: ClassVar[bool] = True
     takes_along: ClassVar[bool]
 
     def remove(self, runs: Runs, parent: NDArray[np.int64], labels: NDArray[np.int32], thickness: FloatArray) -> int:
-        """As `RemovalLaw`."""
+        """Remove runs; see `RemovalLaw`."""
         from bem.wear.yielded_runs import remove  # compiled loops are not loaded for a name
 
         return remove(runs, parent, self.takes_along, labels, thickness)
@@ -61,8 +64,8 @@ class Cap(_ByColumns):
     """A piece takes all material above its yielded part in a column along; two that meet in a column leave as one.
 
     The cap is an addition to the source, where a particle is the volume in which stress exceeds the yield stress
-    everywhere. Material above yielded material has nothing left to hold it. The cap raises the volume of the first
-    cycles (steel on steel: 105 instead of 73 um^3) and leaves the settled sizes as they are.
+    everywhere. Material above yielded material has no support left. The cap raises the volume of the first cycles
+    (steel on steel: 105 instead of 73 um^3) and leaves the settled sizes unchanged.
     """
 
     name: ClassVar[str] = "cap"

@@ -1,18 +1,18 @@
 """The wear loop: cycle after cycle until the surface has settled (thesis, papers C and D).
 
-The loop is a fold over a state: `advance(state) -> state`. A state holds all that the next cycle needs, so a run that
-is stopped after any cycle and goes on from its stored state ends in the same bits as one that was never stopped.
+The loop is a fold over a frozen state: `advance(state) -> state`. A state holds all that the next cycle needs, that of
+the contact step included, so a run that is stopped after any cycle and resumed from its stored state ends in the same
+bits as one that was never stopped.
 
 Knows cycles (`wear.cycle`) and records; no scene, no file. Verified in tests/wear/test_cycle.py.
 """
 
 from __future__ import annotations
 
-import copy
 import time
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, replace
-from typing import Any, Protocol, runtime_checkable
+from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -24,28 +24,30 @@ from bem.notes import Note
 from bem.notes.wear import THIRD_BODIES_MANY
 from bem.plausibility import body_arguments, notes_on_arguments
 from bem.representation import tabled
+from bem.wear.contact_step import ContactOutcome, ContactStart, ContactStep, dry_contact
 from bem.wear.criterion import Detachment, LocalWear
-from bem.wear.cycle import ContactOutcome, ContactStep, WearModel, dry_contact, wear_cycle
-from bem.wear.halved import step_error
+from bem.wear.cycle import wear_cycle
 from bem.wear.loads import Removal, SurfaceLoad
+from bem.wear.model import WearModel
 from bem.wear.outcome import contact_strip, strip_wear
 from bem.wear.segmentation import describe_pieces
 from bem.wear.setup import LOWER, UPPER, WearSetup
 from bem.wear.state import CYCLE_FIELDS, PARTICLE_FIELDS, TIME_FIELDS, RunningInState, initial_state
-from bem.wear.third_bodies import ThirdBodies
-from bem.wear.third_body_contact import steps_with_bodies
+from bem.wear.step_doubling import step_error
 
 
 @dataclass(frozen=True)
 class Settled:
-    """Stop rule: the means of particle size and roughness over the last `window` cycles differ by less than `tolerance`
-    (relative) from those over the window before. `None` for the rule means: run all cycles."""
+    """Stop rule: means of particle size and roughness over the last `window` cycles and the window before agree.
+
+    tolerance : relative difference of the means below which they agree.
+    """
 
     window: int = 25
     tolerance: float = 0.02
 
     def __call__(self, state: RunningInState) -> bool:
-        """Whether the run may stop here."""
+        """Return True if the run has settled."""
         if state.cycle < 2 * self.window:
             return False
         rows = state.cycles[-2 * self.window :]
@@ -65,9 +67,10 @@ class RunningIn:
 
     lower_heights, upper_heights : surfaces at the end [m]. pressure : of the last cycle [Pa].
     cycles : table of `CYCLE_FIELDS`; particles : table of `PARTICLE_FIELDS`; times : of `TIME_FIELDS` [s] per cycle.
-    settled : whether the stop rule ended the run. state : to go on from.
-    wearing : the bodies that wear, LOWER or UPPER or both. moving : the body that moves through the contact.
-    notes : sentences on where this result should not be believed.
+    settled : True if the stop rule ended the run. state : to resume from.
+    wearing : indices of the bodies that wear. moving : index of the body that moves through the contact.
+    notes : on where the result is outside its model, or uncertain.
+    step_error : estimated error of the depth worn in the last cycle by a local law [m]; None for other laws.
     """
 
     lower_heights: FloatArray
@@ -134,13 +137,12 @@ def run_in(
     hardness : cap of the contact pressure [Pa]; None takes the softer surface's.
     cycles : how many, counted from the start of the run.
     model : the replaceable parts.
-    criterion : what comes off, in
-        place of the model's: a name, a table with `kind` and parameters, or a `Detachment`.
-    stop : rule to end
-        sooner.
-    contact_step : the contact of one cycle; None is the dry contact of these arguments, `wear.mixed.MixedContact` is
-        that of a lubricated one.
-    state : to go on from; the heights given are then ignored.
+    criterion : in place of the model's: a name, a table with `kind` and parameters, or a `Detachment`.
+    stop : rule by which the run ends before its last cycle.
+    contact_step : contact of one cycle; None is the dry contact of these arguments, `wear.mixed.MixedContact` a
+        lubricated one. Local laws wear by the pressure at the end of the cycle with the former (implicit), at its start
+        with a contact step that is given.
+    state : state to resume from; the heights are then ignored.
     callback : called with the state after every cycle (checkpoints, progress).
 
     Raises
@@ -164,12 +166,10 @@ def run_in(
     if state is None:
         state = initial_state(lower_heights, upper_heights)
     _check_heights(state, grid, choices.moving)
-    give = sum(choices.law.compliance(setup, body) for body in wearing)
-    if choices.boundary_film is not None:
-        give *= float(choices.boundary_film.share())
-    step_after, settled = _contact_steps(setup, choices, contact_step, give), False
+    step, compliance = _contact_step(setup, choices, wearing, contact_step)
+    settled = False
     while state.cycle < cycles and not settled:
-        state = advance(state, setup, choices, step_after(state))
+        state = advance(state, setup, choices, step, compliance)
         if callback is not None:
             callback(state)
         settled = stop is not None and stop(state)
@@ -186,8 +186,8 @@ def run_in(
         wearing=wearing,
         notes=_notes_on_arguments(setup)
         + (() if state.rubbing is None else state.rubbing.notes)
-        + _crowded(choices.particles, state),
-        step_error=_step_error(state, setup, choices, contact_step, give),
+        + _coverage_notes(choices, state),
+        step_error=_step_error(state, setup, choices, step, compliance),
         moving=choices.moving,
     )
 
@@ -203,79 +203,64 @@ def _notes_on_arguments(setup: WearSetup) -> tuple[Note, ...]:
     return notes_on_arguments(arguments | body_arguments(setup.bodies))
 
 
-@runtime_checkable
-class FollowsWear(Protocol):
-    """A contact step whose macroscopic shape follows wear."""
+def _contact_step(
+    setup: WearSetup, model: WearModel, wearing: tuple[int, ...], given: ContactStep | None
+) -> tuple[ContactStep, float]:
+    """Return the contact step of a loop, and the compliance by which local laws wear in it [m/Pa]."""
+    step, compliance = given, 0.0
+    if step is None:
+        step, compliance = dry_contact(setup), sum(model.law.compliance(setup, body) for body in wearing)
+        if model.boundary_film is not None:
+            compliance *= float(model.boundary_film.share())
+    if model.particles is not None:
+        from bem.wear.third_bodies import with_third_bodies  # imports both contacts
 
-    def follow_wear(self, heights: FloatArray) -> None:
-        """Take the heights (nx,) [m] of the body that stands with the contact, mean along y, before each cycle."""
+        slide = model.law.distance_per_cycle(abs(model.shift) * setup.grid.spacing[0])
+        step = with_third_bodies(step, model.particles, slide)
+    return step, compliance
 
 
-def _step_error(
-    state: RunningInState,
-    setup: WearSetup,
-    model: WearModel,
-    contact_step: ContactStep | None,
-    give: float,
-) -> float | None:
-    """As `wear.halved.step_error`; a contact that keeps a record of its calls is left as it was."""
-    if not isinstance(model.law, LocalWear) or not state.cycle:
-        return None
-    half, rows = _contact_steps(setup, model, copy.copy(contact_step), 0.5 * give)(state), setup.grid.shape[0]
-    return step_error(
-        state, setup, model, half, lambda heights, body: _window(heights, state.offset * (body == model.moving), rows)
+def _contact_start(state: RunningInState, model: WearModel, pressure: FloatArray | None) -> ContactStart:
+    """Return what the contact after a state starts from, with a pressure (nx, ny) [Pa] as its warm start."""
+    standing = UPPER if model.moving == LOWER else LOWER
+    return ContactStart(
+        pressure,
+        state.contact,
+        standing_profile=state.heights[standing].mean(axis=1),
+        last_cycle=state.cycles[-1] if len(state.cycles) else None,
     )
 
 
-def _contact_steps(
-    setup: WearSetup, model: WearModel, contact_step: ContactStep | None, compliance: float
-) -> Callable[[RunningInState], ContactStep]:
-    """The contact of the cycle after a state: the same in all, or with the particles that there then are between the
-    surfaces."""
-    if isinstance(contact_step, FollowsWear):
-        following, standing = contact_step, UPPER if model.moving == LOWER else LOWER
-        steps = _steps_between(setup, model, contact_step, compliance)
+def _step_error(
+    state: RunningInState, setup: WearSetup, model: WearModel, contact_step: ContactStep, compliance: float
+) -> float | None:
+    """Estimate the error of the last step of a local law by step doubling; see `wear.step_doubling.step_error`."""
+    if not isinstance(model.law, LocalWear) or not state.cycle:
+        return None
+    start, rows = _contact_start(state, model, state.pressure), setup.grid.shape[0]
 
-        def followed(state: RunningInState) -> ContactStep:
-            following.follow_wear(state.heights[standing].mean(axis=1))
-            return steps(state)
+    def facing(heights: FloatArray, body: int) -> FloatArray:
+        return _window(heights, state.offset * (body == model.moving), rows)
 
-        return followed
-    return _steps_between(setup, model, contact_step, compliance)
+    return step_error(state, setup, model, contact_step, start, facing, compliance)
 
 
-def _steps_between(
-    setup: WearSetup, model: WearModel, contact_step: ContactStep | None, compliance: float
-) -> Callable[[RunningInState], ContactStep]:
-    """Return the contact steps of a contact that follows wear only through the heights."""
+def _coverage_notes(model: WearModel, state: RunningInState) -> tuple[Note, ...]:
+    """Return a note where third bodies cover the whole area."""
     particles = model.particles
-    if particles is None:
-        step = contact_step if contact_step is not None else dry_contact(setup, compliance=compliance)
-        return lambda state: step
-    slide = model.law.distance_per_cycle(abs(model.shift) * setup.grid.spacing[0])
-    bearing = steps_with_bodies(setup, slide, contact_step, compliance)
-    return lambda state: bearing(_there_now(particles, state, setup.grid))
-
-
-def _there_now(particles: ThirdBodies, state: RunningInState, grid: Grid) -> ThirdBodies:
-    """As many of the particles as there are after the cycles so far."""
-    if not len(state.cycles) or particles.shed == particles.leaving == 0:
-        return particles
-    last = state.cycles[-1]
-    number = particles.after_cycle(float(last["third_bodies_per_area"]), float(last["volume"]), grid.area)
-    return replace(particles, number_per_area=number)
-
-
-def _crowded(particles: ThirdBodies | None, state: RunningInState) -> tuple[Note, ...]:
-    """Return a note where particles cover the area."""
     if particles is None or particles.shed == 0:
         return ()
     full = int((state.cycles["third_bodies_per_area"] >= particles.most_per_area * (1 - 1e-9)).sum())
     return (THIRD_BODIES_MANY(full=full, cycles=len(state.cycles), reason="area"),) if full else ()
 
 
-def advance(state: RunningInState, setup: WearSetup, model: WearModel, contact_step: ContactStep) -> RunningInState:
-    """Advance by one cycle: one body moves through the contact, the bodies touch, yielded pieces leave."""
+def advance(
+    state: RunningInState, setup: WearSetup, model: WearModel, contact_step: ContactStep, compliance: float = 0.0
+) -> RunningInState:
+    """Advance by one cycle: move a body through the contact, solve the contact, remove what the criterion finds.
+
+    compliance : depth that each place wears by pressure in the cycle [m/Pa], for an implicit step.
+    """
     cycle, moving = state.cycle + 1, model.moving
     rows = setup.grid.shape[0]
     offset = state.offset + (sliding_direction(state, setup, moving) * model.shift if state.cycle else 0)
@@ -286,7 +271,10 @@ def advance(state: RunningInState, setup: WearSetup, model: WearModel, contact_s
     began = time.perf_counter()
     kept = [_facing(state.memories[body], offset if body == moving else 0, rows) for body in (LOWER, UPPER)]
     memories = (kept[LOWER], kept[UPPER])
-    contact, removals = wear_cycle((facing[LOWER], facing[UPPER]), setup, model, contact_step, start, last, memories)
+    begin = _contact_start(state, model, start)
+    contact, removals = wear_cycle(
+        (facing[LOWER], facing[UPPER]), setup, model, contact_step, begin, last, memories, compliance
+    )
     if contact.status != Status.CONVERGED:
         raise ConvergenceError(
             f"cycle {cycle}: the contact ended with status {contact.status.value!r} at residual "
@@ -331,7 +319,13 @@ def advance(state: RunningInState, setup: WearSetup, model: WearModel, contact_s
         memories=(remembered[LOWER], remembered[UPPER]),
         rubbing=rubbing,
         strip=contact.strip,
+        contact=contact.memory,
+        sharing=_append_row(state.sharing, contact.sharing),
     )
+
+
+def _append_row(table: NDArray[np.void] | None, row: NDArray[np.void] | None) -> NDArray[np.void] | None:
+    return row if table is None or row is None else np.append(table, row)
 
 
 def sliding_direction(state: RunningInState, setup: WearSetup, moving: int) -> int:
@@ -371,7 +365,7 @@ def _remove_from_window(heights: FloatArray, thickness: FloatArray, offset: int)
 
 
 def _facing(memory: FloatArray | None, offset: int, rows: int) -> FloatArray | None:
-    """What is remembered (planes, rows, ny) of the rows that face the grid."""
+    """Return the memory (planes, rows, ny) of the rows that face the grid."""
     return None if memory is None else np.take(memory, np.arange(rows) - offset, axis=1, mode="wrap")
 
 
@@ -390,9 +384,9 @@ def _put_back(whole: FloatArray | None, facing: FloatArray | None, rows: int, of
 
 
 def _last_loads(state: RunningInState, moving: int, offset: int) -> tuple[SurfaceLoad | None, SurfaceLoad | None]:
-    """What acted in the last cycle on the material of each body that is on the grid now.
+    """Return the loads of the last cycle on the material of each body that is on the grid now.
 
-    The fixed body has it where it was; the moving body takes its own along.
+    The load stays in place on the fixed body and moves with the material of the moving body.
     """
     if state.pressure is None:
         return None, None

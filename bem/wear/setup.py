@@ -1,4 +1,4 @@
-"""What stays the same over all cycles of a wear loop, and which of its choices a criterion may read.
+"""Parts of a wear loop that stay the same over all cycles, and the choices of its model that a criterion may read.
 
 Knows bodies and grids; no law. Verified in tests/wear/test_cycle.py.
 """
@@ -26,19 +26,19 @@ class WearChoices(Protocol):
 
     @property
     def law(self) -> Any:
-        """Criterion of the model."""
+        """Criterion."""
 
     @property
     def tractions(self) -> Any:
-        """Traction law of the model."""
+        """Traction law."""
 
     @property
     def removal(self) -> str | RemovalLaw:
-        """Law of what leaves with a piece."""
+        """Removal law."""
 
     @property
     def boundary_film(self) -> FilmDefect | None:
-        """Boundary film that protects from local wear; None for none."""
+        """Fractional film defect of a boundary film; None for unprotected surfaces."""
 
     @property
     def wears(self) -> str:
@@ -62,8 +62,10 @@ class WearChoices(Protocol):
 
 
 def wearing_bodies(bodies: tuple[Body, Body], wears: str) -> tuple[int, ...]:
-    """Indices of those of (lower, upper) that wear: "lower", "upper", "both", or the "softer", which has the lower
-    yield stress; the lower body where equal."""
+    """Return the indices of the bodies (lower, upper) that wear.
+
+    wears : "lower", "upper", "both", or "softer", the body of lower yield stress, the lower one where equal.
+    """
     if wears != "softer":
         return {"lower": (LOWER,), "upper": (UPPER,), "both": (LOWER, UPPER)}[wears]
     known = [body.surface_material.yield_stress for body in bodies]
@@ -98,12 +100,17 @@ class WearSetup:
             object.__setattr__(self, "hardness", softer_hardness(*self.bodies))
 
     def yield_stress(self, body: int) -> float:
-        """Yield stress of a body's surface material [Pa]; infinite where none is given: it does not wear."""
+        """Return the yield stress of a body's surface material [Pa]; infinite where none is given."""
         value = self.bodies[body].surface_material.yield_stress
         return np.inf if value is None else value
 
     def wearing(self, model: WearChoices) -> tuple[int, ...]:
-        """Indices of the bodies that wear."""
+        """Return the indices of the bodies that wear, after checks of the laws against the setup.
+
+        Raises
+        ------
+        InputError : a wearing body without yield stress; lengths, depths or a friction that a law cannot use.
+        """
         model.law.check_length(self.grid)
         model.tractions.check(self.friction)
         bodies = wearing_bodies(self.bodies, model.wears)

@@ -1,6 +1,6 @@
-"""The state of a wear loop: all that the next cycle needs and the tables so far, and the same as plain arrays.
+"""State of a wear loop: all that the next cycle needs, and the tables so far; packed for checkpoints.
 
-Knows arrays only. Verified in tests/wear/test_cycle.py: a run goes on from its packed state to the same bits.
+Knows arrays only. Verified in tests/wear/test_cycle.py: a run resumed from its packed state ends in the same bits.
 """
 
 from __future__ import annotations
@@ -11,10 +11,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.errors import Status
 from bem.grid import FloatArray
-from bem.notes import unpacked
-from bem.wear.setup import LOWER, UPPER
+from bem.packing import packed, unpacked
 from bem.wear.traction import Rubbing
 
 PARTICLE_FIELDS = np.dtype(
@@ -65,12 +63,18 @@ TIME_FIELDS = np.dtype([("contact", np.float64), ("stress", np.float64), ("parti
 class RunningInState:
     """All that the next cycle needs, and the record so far.
 
-    heights : of the lower and the upper body; the moving one may be longer along x than the grid.
-    offset : cells that the moving body has slid. pressure : of the last cycle, None before the first.
-    removed : what left from each column of the (first) wearing body in the last cycle [m], None before the first.
-    memories : what the criterion keeps of the material of the lower and the upper body, (planes, rows, ny) on the
-        heights' own rows; None for nothing. rubbing : of the last cycle; None in gross sliding. strip : the fraction of
-    each row (nx,) within the strip in contact of the last cycle; None takes whole rows by the pressure.
+    cycle : number of cycles so far.
+    heights : of the lower and the upper body [m]; the moving one may be longer along x than the grid.
+    offset : cells that the moving body has slid.
+    pressure : of the last cycle [Pa]; None before the first.
+    removed : depth that left each column of the (first) wearing body in the last cycle [m]; None before the first.
+    cycles, particles, times : tables of `CYCLE_FIELDS`, `PARTICLE_FIELDS` and `TIME_FIELDS`.
+    memories : memory of the criterion on the material of (lower, upper), (planes, rows, ny) on the heights' own rows;
+        None for none.
+    rubbing : loop of partial slip of the last cycle; None in gross sliding.
+    strip : fraction (nx,) of each row within the strip in contact of the last cycle; None takes whole rows by pressure.
+    contact : memory of the contact step.
+    sharing : rows that a lubricated contact step gave, one per cycle; None for a dry one.
     """
 
     cycle: int
@@ -84,69 +88,24 @@ class RunningInState:
     memories: tuple[FloatArray | None, FloatArray | None] = (None, None)
     rubbing: Rubbing | None = None
     strip: FloatArray | None = None
+    contact: Any = None
+    sharing: NDArray[np.void] | None = None
 
 
 def pack_state(state: RunningInState) -> dict[str, Any]:
-    """A state as plain arrays and numbers, for a checkpoint."""
-    return {
-        "cycle": state.cycle,
-        "lower_heights": state.heights[LOWER],
-        "upper_heights": state.heights[UPPER],
-        "offset": state.offset,
-        "pressure": state.pressure,
-        "removed": state.removed,
-        "lower_memory": state.memories[LOWER],
-        "upper_memory": state.memories[UPPER],
-        "rubbing": None if state.rubbing is None else pack_rubbing(state.rubbing),
-        "strip": state.strip,
-        **{name: pack_table(getattr(state, name)) for name in ("cycles", "particles", "times")},
-    }
+    """Return a state as plain arrays and values, for a checkpoint."""
+    return dict(packed(state))
 
 
-def unpack_state(packed: dict[str, Any]) -> RunningInState:
-    """The state that was packed."""
-    return RunningInState(
-        cycle=int(packed["cycle"]),
-        heights=(packed["lower_heights"], packed["upper_heights"]),
-        offset=int(packed["offset"]),
-        pressure=packed["pressure"],
-        removed=packed["removed"],
-        cycles=unpack_table(packed["cycles"], CYCLE_FIELDS),
-        particles=unpack_table(packed["particles"], PARTICLE_FIELDS),
-        times=unpack_table(packed["times"], TIME_FIELDS),
-        memories=(packed["lower_memory"], packed["upper_memory"]),
-        rubbing=None if packed["rubbing"] is None else unpack_rubbing(packed["rubbing"]),
-        strip=packed.get("strip"),
-    )
-
-
-def pack_rubbing(rubbing: Rubbing) -> dict[str, Any]:
-    """What friction did in a cycle, as plain arrays, numbers and words."""
-    return {**vars(rubbing), "status": rubbing.status.value, "notes": [note.packed() for note in rubbing.notes]}
-
-
-def unpack_rubbing(packed: dict[str, Any]) -> Rubbing:
-    """What was packed."""
-    return Rubbing(
-        **{**packed, "status": Status(packed["status"]), "notes": tuple(unpacked(one) for one in packed["notes"])}
-    )
-
-
-def pack_table(table: NDArray[np.void]) -> dict[str, NDArray[Any]]:
-    """A table as one plain array per column."""
-    return {name: np.ascontiguousarray(table[name]) for name in table.dtype.names or ()}
-
-
-def unpack_table(columns: dict[str, NDArray[Any]], fields: np.dtype[np.void]) -> NDArray[np.void]:
-    """The table of those columns."""
-    table = np.zeros(len(next(iter(columns.values()))), fields)
-    for name in fields.names or ():
-        table[name] = columns[name]
-    return table
+def unpack_state(stored: dict[str, Any]) -> RunningInState:
+    """Return the state that `pack_state` was called with."""
+    state = unpacked(stored)
+    assert isinstance(state, RunningInState)
+    return state
 
 
 def initial_state(lower_heights: FloatArray, upper_heights: FloatArray) -> RunningInState:
-    """The state before the first cycle."""
+    """Return the state before the first cycle."""
     return RunningInState(
         cycle=0,
         heights=(np.array(lower_heights, dtype=np.float64), np.array(upper_heights, dtype=np.float64)),

@@ -1,38 +1,72 @@
-"""Third bodies: particles between the surfaces, which bear load, roll and cut. A model of our own, off by default.
+"""Third bodies: particles between the surfaces, which carry load, roll and cut; a model of our own, off by default.
 
-Equal spheres lie spread evenly in the gap, so many on each area. One that is larger than the gap at its place is
-pressed into both surfaces, with the same force on either side: hardness times the area of the cap that has gone in. It
-yields itself where it is the softer one. Contact and particles carry the load together. They roll, half as far on
-either body as the bodies slide; of the groove a share is cut off, the rest is pushed aside and leaves the mean height
-as it was. How many there are stays, or changes from cycle to cycle: of what wears a share becomes such particles, and
-of those that are there a share leaves.
+An example of an extension: a contact step around another one (`bem.wear.contact_step`), in one file.
+`with_third_bodies` is its only door; the dry and the lubricated contact know nothing of it.
 
-Left out: elastic indentation (up to (3 pi H / 2 E*)^2 of the radius the force is less than here), how the surfaces bend
-under what the particles carry, singly or together, stresses below them, that damage comes up with what they cut off,
-and partial slip. Verified in tests/wear/test_third_bodies.py and test_third_bodies_in_oil.py: closed forms of one
-particle and of many between flats, shares of the load, limits, how many there are.
+Model. Equal spheres lie evenly spread in the gap. A sphere larger than the gap at its place indents both surfaces with
+the same force on either side: hardness times the projected area of the cap. It yields itself where it is the softer
+one. Contact and particles carry the load together. Particles roll half as far on either body as the bodies slide; a
+fraction of the groove is cut off, the rest is pushed aside and leaves the mean height unchanged. Their number stays, or
+changes from cycle to cycle: a fraction of the worn volume becomes particles, and a fraction of the particles leaves.
+
+Algorithm, per cycle:
+
+1. Number of particles from the last cycle's number and worn volume (`ThirdBodies.after_cycle`).
+2. Load balance of contact and particles in its deformed gap, by a bracketed root in the contact's load; where the gap
+   jumps with the load, in its approach (`LoadBalance`). In oil this is done at every film load that the balance of film
+   and contact tries (`RoughContactWithParticles`).
+3. Depths cut off both bodies (`ThirdBodies.cut`); in oil, the friction of the rolling particles.
+
+Cost: three to ten contacts in place of one.
+
+Left out: elastic indentation (below (3 pi H / 2 E*)^2 of the radius the force is smaller than here); deflection of the
+surfaces under the particles; stresses below them; cuts do not move fatigue damage up; partial slip; in oil, the oil
+that particles displace and the heat of their rolling.
+
+Verified in tests/wear/test_third_bodies.py and test_third_bodies_in_oil.py: closed forms of one particle and of many
+between flats, load sharing, limits, number of particles.
 """
 
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, field, replace
 
 import numpy as np
 
-from bem.errors import InputError
+from bem.contact import ContactSolution
+from bem.errors import InputError, Status
+from bem.friction.film import PatchFilm
+from bem.friction.forces import Forces
+from bem.friction.models import rough_contact
+from bem.friction.rough_contact import CoupledContact, OfPatch, Pressed, RoughContact, shift_apart
 from bem.grid import FloatArray
 from bem.materials import Body
+from bem.numerics.bracketed_root import find_decreasing_root
+from bem.wear.contact_step import ContactOutcome, ContactStart, ContactStep, DryContact, ThirdBodyLoad
+from bem.wear.mixed import MixedContact
 from bem.wear.setup import LOWER, UPPER
+
+LOAD_TOLERANCE = 1e-6
+"""Largest imbalance of contact and particles in a dry contact, relative to the load."""
+_SEARCH_TOLERANCE = 0.3 * LOAD_TOLERANCE
+_FRACTION_OF_TOLERANCE = 0.01
+"""Largest imbalance of contact and particles in oil, relative to the tolerance of the balance with the film."""
+_TRIALS = 60
 
 
 @dataclass(frozen=True)
 class ThirdBodies:
-    """Particles between two surfaces.
+    """Equal spherical particles between two surfaces.
 
-    diameter : of the spheres [m]. number_per_area : how many on an area [1/m^2], at first. hardness : theirs [Pa].
-    friction : force over load while they roll. removed : share of a groove that is cut off. shed : share of the worn
-    volume that stays as such particles. leaving : share of those there that leaves in a cycle.
+    diameter : of the spheres [m].
+    number_per_area : in the first cycle [1/m^2].
+    hardness : of the particles [Pa].
+    friction : friction force over load of a rolling particle.
+    removed : fraction of a groove's cross-section that is cut off; the rest is pushed aside.
+    shed : fraction of the worn volume that stays between the surfaces as particles.
+    leaving : fraction of the particles that leaves in a cycle.
     """
 
     diameter: float
@@ -71,22 +105,25 @@ class ThirdBodies:
 
     @property
     def coverage(self) -> float:
-        """Share of the area below the particles."""
+        """Fraction of the area below the particles."""
         return math.pi / 4 * self.diameter**2 * self.number_per_area
 
     @property
     def most_per_area(self) -> float:
-        """How many cover an area once [1/m^2]."""
+        """Number per area that covers the area once [1/m^2]."""
         return 4 / (math.pi * self.diameter**2)
 
     def after_cycle(self, number_per_area: float, worn: float, area: float) -> float:
-        """How many there are on an area [m^2] after a cycle that began with so many and wore a volume [m^3]: those that
-        did not leave and those that were shed, spread evenly; no more than cover it once. All in 1/m^2."""
+        """Return the number per area after a cycle that began with `number_per_area` [1/m^2].
+
+        worn : volume worn in the cycle [m^3]. area : of the grid [m^2]. The particles that did not leave and those that
+        were shed are spread evenly; they cover the area once at most.
+        """
         fed = self.shed * worn / (area * math.pi / 6 * self.diameter**3)
         return min((1 - self.leaving) * number_per_area + fed, self.most_per_area)
 
     def hardnesses(self, bodies: tuple[Body, Body]) -> tuple[float, float]:
-        """Of the surfaces of (lower, upper) [Pa].
+        """Return the hardness of the surfaces of (lower, upper) [Pa].
 
         Raises
         ------
@@ -98,8 +135,8 @@ class ThirdBodies:
         return lower, upper
 
     def check_slide(self, slide: float, hardnesses: tuple[float, float]) -> None:
-        """Raises InputError where what bodies of those hardnesses [Pa] lose in one slide [m] grows faster than the
-        depth of the particles does, by which the next cycle would find them out of their grooves."""
+        """Raise InputError where a slide [m] cuts bodies of these hardnesses [Pa] deeper than the particles lie, so
+        that the next cycle would find them outside their grooves."""
         most = 2 / (self.removed * self.number_per_area * self.diameter) if self.removed * self.number_per_area else 0.0
         if most and slide > most and min(hardnesses) <= self.hardness:
             raise InputError(
@@ -108,16 +145,17 @@ class ThirdBodies:
             )
 
     def indented(self, gap: FloatArray, hardnesses: tuple[float, float]) -> tuple[FloatArray, tuple[FloatArray, ...]]:
-        """Force [N] of a particle in each gap [m], and how deep [m] it is in the (lower, upper) body of those
-        hardnesses [Pa]; or they in it, where it is the softer.
+        """Return the force [N] on a particle in each gap [m], and its indentation [m] of the (lower, upper) body.
 
-        A cap of depth z has the area pi z (d - z), that of half a sphere at most. Equal forces make a quadratic.
+        hardnesses : of (lower, upper) [Pa]. Where the particle is the softer one, the indentation is that of the
+        particle. A cap of depth z has the projected area pi z (d - z), that of half a sphere at most; equal forces on
+        both sides give a quadratic equation.
         """
         d = self.diameter
         pressures = [min(hardness, self.hardness) for hardness in hardnesses]
         soft, other = sorted((LOWER, UPPER), key=lambda body: pressures[body])
         ratio = pressures[soft] / pressures[other]
-        # whole: both surfaces touch, and the particle fills what it has pressed out
+        # largest approach: both surfaces touch, and the particle fills the volume that it displaced
         approach = np.clip(d - gap, 0.0, d * (1 - 1e-12))
         b = ratio * d + d - 2 * approach
         c = approach * (d - approach)
@@ -132,13 +170,15 @@ class ThirdBodies:
         return force, (depths[LOWER], depths[UPPER])
 
     def carried(self, gap: FloatArray, hardnesses: tuple[float, float], cell_area: float) -> float:
-        """Load [N] of all of them in gaps (nx, ny) [m] of cells of that area [m^2]."""
+        """Return the load [N] on all particles in gaps (nx, ny) [m]; cell_area : of the grid [m^2]."""
         force, _ = self.indented(gap, hardnesses)
         return self.number_per_area * float(force.sum()) * cell_area
 
     def cut(self, depth: FloatArray, hardness: float, slide: float) -> FloatArray:
-        """Mean depth [m] that they cut off a body of that hardness [Pa], in which they are `depth` deep [m], while the
-        bodies slide so far [m]; nothing of one that is harder than they."""
+        """Return the mean depth [m] cut off a body by rolling particles; zero for a body harder than they are.
+
+        depth : indentation of the body [m]. hardness : of the body [Pa]. slide : distance that the bodies slide [m].
+        """
         if hardness > self.hardness:
             return np.zeros_like(depth)
         radius, deep = 0.5 * self.diameter, np.clip(depth, 0.0, 0.5 * self.diameter)
@@ -147,10 +187,279 @@ class ThirdBodies:
         return np.asarray(self.removed * self.number_per_area * 0.5 * slide * groove)
 
 
+def with_third_bodies(step: ContactStep, particles: ThirdBodies, slide: float) -> ContactStep:
+    """Return a contact step with particles between its surfaces.
+
+    step : `DryContact` or `MixedContact`. slide : distance that the bodies slide in a cycle [m].
+
+    Raises
+    ------
+    InputError : another contact step; a surface without hardness; a slide that cuts deeper than the particles lie.
+    """
+    if isinstance(step, DryContact):
+        pair = step.bodies
+    elif isinstance(step, MixedContact):
+        bodies = step.setup.bodies
+        pair = (bodies, bodies) if isinstance(bodies, Body) else (bodies[0], bodies[-1])
+    else:
+        raise InputError(
+            "third bodies share the load of dry contacts and of a MixedContact; allowed: one of these, or no third "
+            "bodies"
+        )
+    hardnesses = particles.hardnesses(pair)
+    particles.check_slide(slide, hardnesses)
+    if isinstance(step, DryContact):
+        return DryContactWithParticles(step, particles, slide, hardnesses)
+    return MixedContactWithParticles(step, particles, slide, hardnesses)
+
+
+def current_particles(particles: ThirdBodies, start: ContactStart | None, area: float) -> ThirdBodies:
+    """Return the particles with their number per area after the cycles so far; area : of the grid [m^2]."""
+    row = None if start is None else start.last_cycle
+    if row is None or particles.shed == particles.leaving == 0:
+        return particles
+    number = particles.after_cycle(float(row["third_bodies_per_area"]), float(row["volume"]), area)
+    return replace(particles, number_per_area=number)
+
+
 @dataclass(frozen=True, eq=False)
-class ThirdBodyLoad:
-    """What particles carry [N], what they cut off the (lower, upper) body (nx, ny) [m], and how many there are."""
+class DryContactWithParticles:
+    """Dry contact with particles between surfaces of the hardnesses (lower, upper) [Pa]; a `ContactStep`.
+
+    slide : distance that the bodies slide in a cycle [m].
+    """
+
+    contact: DryContact
+    particles: ThirdBodies
+    slide: float
+    hardnesses: tuple[float, float]
+
+    def __call__(
+        self, heights: FloatArray, start: ContactStart | None = None, compliance: float = 0.0
+    ) -> ContactOutcome:
+        """Share the load between contact and particles; see `ContactStep`."""
+        dry, hardnesses = self.contact, self.hardnesses
+        particles = current_particles(self.particles, start, dry.grid.area)
+        if particles.number_per_area == 0:
+            return dry(heights, start, compliance)
+        first = None if start is None else start.pressure
+
+        def solve(**control: float) -> ContactSolution:
+            last = balance.solutions[-1].pressure if balance.solutions else first
+            return dry.solve(heights, last, compliance, **control)
+
+        def particle_load(gap: FloatArray) -> float:
+            return particles.carried(gap, hardnesses, dry.grid.cell_area)
+
+        balance = LoadBalance(dry.load, particle_load, dry.gap - heights, solve)
+        solution = balance.solved()
+        convolutions = sum(contact.convolutions for contact in balance.solutions)
+        load = particle_load(solution.gap)
+        outcome = replace(dry.outcome(solution, compliance), convolutions=convolutions)
+        imbalance = abs(outcome.load + load - dry.load) / dry.load
+        if imbalance > LOAD_TOLERANCE and outcome.status is Status.CONVERGED:
+            outcome = replace(outcome, status=Status.STALLED, residual=imbalance)
+        depths = particles.indented(solution.gap, hardnesses)[1]
+        return replace(outcome, third_bodies=third_body_load(particles, load, depths, hardnesses, self.slide))
+
+
+def third_body_load(
+    particles: ThirdBodies,
+    load: float,
+    depths: tuple[FloatArray, ...],
+    hardnesses: tuple[float, float],
+    slide: float,
+) -> ThirdBodyLoad:
+    """Return load [N] and cuts of particles that indent the (lower, upper) body by depths (nx, ny) [m]."""
+    lower, upper = (particles.cut(depths[body], hardnesses[body], slide) for body in (LOWER, UPPER))
+    return ThirdBodyLoad(load, (lower, upper), particles.number_per_area)
+
+
+@dataclass(frozen=True, eq=False)
+class LoadBalance:
+    """Search for the contact with which contact and particles carry a load [N].
+
+    particle_load : load on the particles [N] as a function of gaps (nx, ny) [m].
+    undeformed : undeformed gap (nx, ny) [m].
+    solve : contact at a `load` [N] or an `approach` [m].
+    tolerance : relative imbalance at which the search ends.
+    solutions : contacts solved so far; the last is the result.
+    """
 
     load: float
-    cut: tuple[FloatArray, FloatArray]
-    number_per_area: float
+    particle_load: Callable[[FloatArray], float]
+    undeformed: FloatArray
+    solve: Callable[..., ContactSolution]
+    tolerance: float = _SEARCH_TOLERANCE
+    solutions: list[ContactSolution] = field(default_factory=list)
+
+    def solved(self) -> ContactSolution:
+        """Return the contact of the balance; one that touches nowhere where the particles carry the whole load."""
+        touching = float(self.undeformed.min())
+        if 1 - self.particle_load(self.undeformed - touching) / self.load <= self.tolerance:
+            self.solutions.append(self.solve(approach=touching - self._distance_apart(touching)))
+        else:
+            self._search(touching)
+        return self.solutions[-1]
+
+    def _distance_apart(self, touching: float) -> float:
+        """Return the distance [m] from first contact at which the particles carry the whole load."""
+        from scipy.optimize import brentq  # loads slowly, and most loops have no third bodies
+
+        def excess(distance: float) -> float:
+            return self.particle_load(self.undeformed - touching + distance) - self.load
+
+        if excess(0.0) <= 0:
+            return 0.0
+        far = float(np.ptp(self.undeformed)) + 1e-12
+        while excess(far) > 0:
+            far *= 2
+        return float(brentq(excess, 0.0, far, xtol=1e-18))
+
+    def _imbalance(self, contact: ContactSolution) -> tuple[float, bool]:
+        """Return the part of the load that a contact and its particles do not carry, and whether it is within
+        tolerance."""
+        self.solutions.append(contact)
+        missing = 1 - (contact.load + self.particle_load(contact.gap)) / self.load
+        return missing, abs(missing) <= self.tolerance
+
+    def _search(self, touching: float) -> None:
+        """Search in the contact's load; where the gap jumps with it, in the approach between both sides of the jump.
+
+        The gap jumps where cells at the hardness sink under a constant load until the next cells touch.
+        """
+        sides: dict[bool, tuple[float, ContactSolution]] = {}
+
+        def at_load(fraction: float) -> tuple[float, bool]:
+            if fraction == 0:
+                return 1 - self.particle_load(self.undeformed - touching) / self.load, False
+            missing, met = self._imbalance(self.solve(load=fraction * self.load))
+            sides[missing > 0] = fraction, self.solutions[-1]
+            return missing, met or jumps()
+
+        def jumps() -> bool:
+            return len(sides) == 2 and sides[False][0] - sides[True][0] <= 0.3 * self.tolerance
+
+        find_decreasing_root(at_load, 1.0, 1.0, (0.0, 1.0), _TRIALS)
+        if not jumps():
+            return
+        (_, far), (_, near) = sides[True], sides[False]
+
+        def at_approach(fraction: float) -> tuple[float, bool]:
+            return self._imbalance(self.solve(approach=far.approach + fraction * (near.approach - far.approach)))
+
+        find_decreasing_root(at_approach, 0.5, 1.0, (0.0, 1.0), _TRIALS)
+
+
+@dataclass(frozen=True, eq=False)
+class MixedContactWithParticles:
+    """Lubricated contact with particles between surfaces of the hardnesses (lower, upper) [Pa]; a `ContactStep`.
+
+    Particles thinner than the gap that the film leaves carry nothing. slide : distance that the bodies slide in a cycle
+    [m].
+    """
+
+    contact: MixedContact
+    particles: ThirdBodies
+    slide: float
+    hardnesses: tuple[float, float]
+
+    def __call__(
+        self, heights: FloatArray, start: ContactStart | None = None, compliance: float = 0.0
+    ) -> ContactOutcome:
+        """Share the load between film, contact and particles; see `ContactStep`.
+
+        Raises
+        ------
+        InputError : a contact of uncoupled asperities.
+        """
+        mixed = self.contact
+        setup, speeds = mixed.setup, mixed.speeds
+        particles = current_particles(self.particles, start, setup.grid.area)
+        if particles.number_per_area == 0:
+            return mixed(heights, start, compliance)
+        memory, pressure = mixed.begin(start)
+        heights = memory.worn.left(heights)
+        patch: RoughContact = rough_contact(setup, heights, speeds)
+        if not isinstance(patch, CoupledContact):
+            raise InputError('third bodies share the load of a contact_model "coupled"')
+        if compliance > 0:
+            patch = replace(patch, compliance=compliance)
+        rough = RoughContactWithParticles(patch, particles, self.hardnesses)
+        shared, memory = mixed.share(heights, rough, memory, pressure)
+        load = rough.particle_load(shared.balance.contact)
+        if speeds[0] != speeds[1]:
+            shared = replace(shared, forces=rough.with_rolling_friction(shared.forces, load))
+        outcome = mixed.outcome(shared, memory, compliance=compliance, particle_load=load * setup.slices)
+        depths = rough.indented(shared.balance.contact)
+        return replace(outcome, third_bodies=third_body_load(particles, load, depths, self.hardnesses, self.slide))
+
+
+@dataclass(frozen=True, eq=False)
+class RoughContactWithParticles(OfPatch):
+    """A `RoughContact` of a patch with particles between surfaces of the hardnesses (lower, upper) [Pa]."""
+
+    particles: ThirdBodies
+    hardnesses: tuple[float, float]
+
+    @property
+    def largest_load(self) -> float:
+        """Load [N] of the patch at its hardness with all particles fully pressed in."""
+        closed = np.zeros(self.patch.setup.grid.shape)
+        return self.patch.largest_load + self.carried(closed) * self.patch.setup.slices
+
+    def clears(self, film: PatchFilm) -> bool:
+        """Return True if, under a film, neither the surfaces nor particles and both surfaces touch."""
+        rough = self.patch.rough
+        apart = film.thickness - rough - shift_apart(film, rough, self.patch.setup)
+        return self.patch.clears(film) and self.carried(apart) == 0
+
+    def carried(self, gap: FloatArray) -> float:
+        """Return the load [N] on the particles of the patch in gaps (nx, ny) [m]."""
+        return self.particles.carried(gap, self.hardnesses, self.patch.setup.grid.cell_area)
+
+    def at_load(self, film: PatchFilm, load: float, tolerance: float, start: FloatArray | None) -> Pressed:
+        """Press the surfaces together until contact and particles carry a load [N]; see `RoughContact`."""
+        setup, tried = self.patch.setup, list[Pressed]()
+
+        def solve(*, load: float | None = None, approach: float | None = None) -> ContactSolution:
+            nearby = tried[-1].pressure if tried else start
+            if load is not None:
+                tried.append(self.patch.at_load(film, load * setup.slices, tolerance, nearby))
+            else:
+                assert approach is not None
+                tried.append(self.patch.at_approach(film, approach, tolerance, nearby))
+            solution = tried[-1].solution
+            assert isinstance(solution, ContactSolution)
+            return solution
+
+        goal = max(_SEARCH_TOLERANCE, _FRACTION_OF_TOLERANCE * setup.tolerance)
+        LoadBalance(load / setup.slices, self.carried, film.gap - self.patch.rough, solve, goal).solved()
+        return replace(self._with_particles(tried[-1]), convolutions=sum(each.convolutions for each in tried))
+
+    def at_approach(self, film: PatchFilm, approach: float, tolerance: float, start: FloatArray | None) -> Pressed:
+        """Press the surfaces together by an approach [m]; see `RoughContact`."""
+        return self._with_particles(self.patch.at_approach(film, approach, tolerance, start))
+
+    def _with_particles(self, pressed: Pressed) -> Pressed:
+        return replace(pressed, load=pressed.load + self.particle_load(pressed) * self.patch.setup.slices)
+
+    def particle_load(self, pressed: Pressed | None) -> float:
+        """Return the load [N] on the particles of the patch; zero between surfaces that a film separates."""
+        if pressed is None:
+            return 0.0
+        assert isinstance(pressed.solution, ContactSolution)
+        return self.carried(pressed.solution.gap)
+
+    def indented(self, pressed: Pressed | None) -> tuple[FloatArray, ...]:
+        """Return the indentation (nx, ny) [m] of the (lower, upper) body."""
+        if pressed is None:
+            return (np.zeros(self.patch.setup.grid.shape),) * 2
+        assert isinstance(pressed.solution, ContactSolution)
+        return self.particles.indented(pressed.solution.gap, self.hardnesses)[1]
+
+    def with_rolling_friction(self, forces: Forces, load: float) -> Forces:
+        """Return forces of a contact whose load includes that on particles, `load` [N] on the patch, with the friction
+        of rolling on that part."""
+        borne = load * self.patch.setup.slices
+        return replace(forces, boundary=forces.boundary + (self.particles.friction - forces.coefficient) * borne)

@@ -228,50 +228,13 @@ def _end_and_deepest(shape: FloatArray) -> tuple[float, float]:
     return max(abs(float(shape[0])), abs(float(shape[-1]))), float(np.abs(shape).max())
 
 
-def pack_worn(worn: WornShape) -> dict[str, Any]:
-    """Return a state as plain arrays and numbers, for a checkpoint."""
-    packed = {name: getattr(worn, name) for name in ("unworn", "shape", *_COUNTS)}
-    indices = sorted(worn.changes)
-    packed["indices"] = np.array(indices, dtype=np.int64)
-    for name in _CHANGES:
-        packed[f"change_{name}"] = np.array([getattr(worn.changes[index], name) for index in indices])
-    for name in _STARTS:
-        packed[f"start_{name}"] = np.array([getattr(worn.starts[index], name) for index in indices])
-    return packed
-
-
-def unpack_worn(packed: Mapping[str, Any]) -> WornShape:
-    """Return the state that was packed."""
-    indices = [int(index) for index in packed["indices"]]
-    changes = {
-        index: ShapeChange(**{name: _entry(packed[f"change_{name}"][k]) for name in _CHANGES})
-        for k, index in enumerate(indices)
-    }
-    starts = {
-        index: ShapedStart(**{name: _entry(packed[f"start_{name}"][k]) for name in _STARTS})
-        for k, index in enumerate(indices)
-    }
-    return WornShape(**{name: packed[name] for name in ("unworn", "shape", *_COUNTS)}, changes=changes, starts=starts)
-
-
-def _entry(value: Any) -> Any:
-    """Return a number as such, an array as an array."""
-    return float(value) if np.ndim(value) == 0 else np.ascontiguousarray(value)
-
-
-_COUNTS = ("updates", "solves", "kept", "clamped", "retry", "behind")
-_CHANGES = ("thickness", "minimum_thickness", "pressure", "shear_stress", "shear_force")
-_STARTS = ("pressure", "datum", "profile")
-
 __all__ = [
     "FILM_SHAPES",
     "ShapeFollower",
     "WornShape",
     "check_film_shape",
-    "pack_worn",
     "shape_solver",
     "smoothed",
-    "unpack_worn",
     "worn_as",
     "worn_films",
 ]

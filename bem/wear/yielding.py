@@ -1,6 +1,13 @@
-"""Where material yields: equivalent stress from the surface down to a depth at which nothing does, and pieces there.
+"""Yielded pieces: equivalent stress from the surface down to a depth without yield, and the pieces above it.
 
-Knows stresses and pieces; no contact, no cycle. Verified in tests/wear/test_cycle.py: nothing that matters is skipped.
+1. A bound on von Mises stress without a transform may prove that nothing yields at the first depth (`cannot_yield`).
+2. Compute the equivalent stress depth by depth, down to one below the first depth without yield (`yielded_stress`); for
+   von Mises stress of one load only in rows that a piece can reach (`piece_stress`).
+3. Segment it (`bem.wear.segmentation`).
+
+Cost: one to three transforms per depth.
+
+Knows stresses and pieces; no contact, no cycle. Verified in tests/wear/test_cycle.py: skipped depths have no pieces.
 """
 
 from __future__ import annotations
@@ -28,7 +35,7 @@ class StressCriterion(Protocol):
 
     @property
     def skin_depth(self) -> float:
-        """Depth down to which stress counts as that at this depth [m]."""
+        """Depth above which the stress counts as that at this depth [m]."""
 
     @property
     def is_von_mises(self) -> bool:
@@ -39,7 +46,7 @@ class StressCriterion(Protocol):
         """Largest ratio to von Mises' stress; None where there is none."""
 
     def equivalent_stress(self, stress: FloatArray) -> FloatArray:
-        """Equivalent stress (...) of stresses (6, ...) [Pa]."""
+        """Return the equivalent stress (...) of stresses (6, ...) [Pa]."""
 
 
 def equivalent_stress_planes(
@@ -50,8 +57,9 @@ def equivalent_stress_planes(
     criterion: StressCriterion,
     out: FloatArray,
 ) -> Iterator[FloatArray]:
-    """Equivalent stress of all loads together in one body, a plane of `out` (nz, nx, ny) [Pa] per depth, each written
-    when it is asked for.
+    """Yield the equivalent stress of all loads together in one body, depth by depth.
+
+    Each plane of `out` (nz, nx, ny) [Pa] is computed when the iteration reaches it.
     """
     grid, solid = setup.grid, setup.bodies[body]
     if criterion.is_von_mises and len(loads) == 1:
@@ -67,13 +75,12 @@ def equivalent_stress_planes(
 
 
 def largest_stress(load: SurfaceLoad, setup: WearSetup, model: WearChoices, body: int) -> tuple[float, float]:
-    """The largest equivalent stress of one body at any of the depths [Pa], and the depth there [m].
+    """Return the largest equivalent stress of one body at any of the depths [Pa], and its depth [m].
 
-    What nothing came off is told beside its strength: half as much, or a hundredth. Under a line contact the surface is
-    in tension by friction alone, 2 f p0 at the trailing edge (McEwen 1949); under a round one by (1 - 2 nu) p0 / 3 on
-    its edge (Johnson 1985, section 3.4) and by pi (4 + nu) f p0 / 8 at the trailing one (Hamilton and Goodman 1966). A
-    thin layer stretches with its substrate: it has these in the ratio of the plane moduli E / (1 - nu^2), a soft one
-    little of it and a stiff one a multiple.
+    A loop without particles reports it beside the strength. Orders of magnitude: under a line contact the surface is in
+    tension by friction alone, 2 f p0 at the trailing edge (McEwen 1949); under a round one by (1 - 2 nu) p0 / 3 on its
+    edge (Johnson 1985, section 3.4) and by pi (4 + nu) f p0 / 8 at the trailing edge (Hamilton and Goodman 1966). A
+    thin layer stretches with its substrate, so these scale with the ratio of the plane moduli E / (1 - nu^2).
     """
     law = model.law
     assert isinstance(law, StressCriterion)
@@ -88,10 +95,10 @@ def largest_stress(load: SurfaceLoad, setup: WearSetup, model: WearChoices, body
 def cannot_yield(
     loads: Sequence[SurfaceLoad], setup: WearSetup, body: int, depth: float, criterion: StressCriterion
 ) -> bool:
-    """Whether a bound, found without a transform, proves that nothing yields at a depth; there is none for tractions
-    that are not friction x pressure.
+    """Return True if a bound without a transform proves that nothing yields at a depth [m].
 
-    Von Mises stress is a norm of the deviator: that of several loads together is at most the sum of theirs.
+    Von Mises stress is a norm of the deviator, so that of several loads together is at most the sum of theirs. There is
+    no bound for tractions other than friction x pressure.
     """
     factor = criterion.von_mises_factor
     if factor is None or any(load.traction is not None for load in loads):
@@ -111,7 +118,7 @@ def depths_for(setup: WearSetup, model: WearChoices, body: int) -> FloatArray:
     interfaces = setup.bodies[body].interfaces
     layered = bool(interfaces) and model.within_layer
     skin = model.law.skin_depth if isinstance(model.law, StressCriterion) else 0.0
-    # a depth closer to the skin or to the interface than a tenth of an interval gives way to it
+    # depths closer to the skin or to the interface than a tenth of an interval are dropped
     sliver = 0.1 * float(np.diff(setup.depths).min())
     depths = _below_skin(setup.depths, min(skin, 0.5 * interfaces[0]) if layered else skin, sliver)
     if layered:
@@ -130,10 +137,13 @@ def _below_skin(depths: FloatArray, skin: float, sliver: float) -> FloatArray:
 
 @dataclass(frozen=True, eq=False)
 class YieldedStress:
-    """Equivalent stress `planes` (nz, nx, ny) [Pa] at depths (nz,) [m] from the surface down, as far as pieces can
-    reach; no depth where nothing yields at the surface. computed : depths that were. seconds : it took. yielding :
-    (nx, ny) whether anything there yields, where that was found on the way. rows : (nz, nx) of the planes that were
-    written; None for all."""
+    """Equivalent stress from the surface down, as far as pieces can reach.
+
+    planes : (nz, nx, ny) [Pa]. depths : (nz,) [m]; empty where nothing yields at the surface.
+    computed : number of depths computed. seconds : spent.
+    yielding : (nx, ny) True where anything in the column yields; None where unknown.
+    rows : (nz, nx) True for rows of the planes that were written; None for all.
+    """
 
     planes: FloatArray
     depths: FloatArray
@@ -144,18 +154,18 @@ class YieldedStress:
 
     @cached_property
     def stress(self) -> FloatArray:
-        """The planes, zero in rows that no piece reaches."""
+        """Planes, with zeros in rows that no piece reaches."""
         return self.planes if self.rows is None else clear_other_rows(self.planes, self.rows)
 
 
 def yielded_stress(
     load: FloatArray | Sequence[SurfaceLoad], setup: WearSetup, model: WearChoices, body: int
 ) -> YieldedStress:
-    """Equivalent stress of one body under a pressure with the setup's friction, or under loads with their own.
+    """Compute the equivalent stress of one body under a pressure with the setup's friction, or under loads.
 
-    Depths are computed from the surface down, and no further than one below the first depth at which nothing yields: a
-    piece reaches the surface, so it would have to pass that depth, and refinement never exceeds the values it lies
-    between. The one below is what the slope of the monotone cubic there needs; other refinements do without.
+    Depths are computed from the surface down, no further than one below the first depth at which nothing yields: a
+    piece reaches the surface, so it would have to pass that depth, and refinement never exceeds the values that it lies
+    between. The one below gives the slope of the monotone cubic; other refinements do not need it.
     """
     start = time.perf_counter()
     loads = (SurfaceLoad(load, setup.friction),) if isinstance(load, np.ndarray) else load
@@ -185,11 +195,11 @@ def yielded_stress(
 def piece_stress(
     load: FloatArray | Sequence[SurfaceLoad], setup: WearSetup, model: WearChoices, body: int
 ) -> YieldedStress:
-    """As `yielded_stress`, where pieces can be: rows that none reaches are zero if von Mises stress of one load is
-    asked for, of which pieces from the surface down leave, found on the way (`bem.stress.connected_regions`).
+    """Compute the stress as `yielded_stress`, skipping rows that no piece reaches where that is possible.
 
-    Between depths, yield needs a depth next to it that yields: so a piece is followed from depth to depth and row to
-    row. The monotone cubic in an interval needs values two depths from the end that yields.
+    It is possible for von Mises stress of one load, if pieces leave from the surface down: a piece is followed from
+    depth to depth and row to row (`bem.stress.connected_regions`), since yield between depths needs a depth beside it
+    that yields. The monotone cubic in an interval needs values two depths from the end that yields.
     """
     loads = (SurfaceLoad(load, setup.friction),) if isinstance(load, np.ndarray) else load
     law, removal, (first, *others) = model.law, model.removal, loads
@@ -206,7 +216,7 @@ def piece_stress(
     solid, shear = setup.bodies[body], first.shear(body)
     reached = connected_stress(first.pressure, grid, solid, depths, strength, depths_beside=reach, **shear)
     found, rows = reached.planes, reached.computed
-    used = len(found) if len(found) > 1 else 0  # of the first depth alone where nothing yields in it
+    used = len(found) if len(found) > 1 else 0  # nothing yields at the first depth where it is the only one
     seconds = time.perf_counter() - start
     return YieldedStress(found[:used], depths[:used], len(found), seconds, reached.exceeding, rows[:used])
 
@@ -214,7 +224,7 @@ def piece_stress(
 def yielded_pieces(
     load: FloatArray | Sequence[SurfaceLoad], setup: WearSetup, model: WearChoices, body: int
 ) -> Removal:
-    """The pieces that come off one body where its stress exceeds the yield stress; arguments as in `yielded_stress`."""
+    """Return the pieces that come off one body where its stress exceeds yield; arguments as in `yielded_stress`."""
     found = piece_stress(load, setup, model, body)
     start = time.perf_counter()
     strength, where = setup.yield_stress(body), (found.yielding, found.rows)
@@ -231,10 +241,10 @@ def pieces_above(
     exceeding: NDArray[np.bool_] | None = None,
     rows: NDArray[np.bool_] | None = None,
 ) -> Segmentation:
-    """The pieces in which a stack (nz, nx, ny), refined as the model says, exceeds a limit; none without depths.
+    """Return the pieces in which a stack (nz, nx, ny), refined as the model says, exceeds a limit.
 
-    exceeding : (nx, ny) whether it does so in a column, where that is known: the stack is not searched for it then.
-    rows : (nz, nx) of the stack that count, with `exceeding`; the others are zero, whatever is written there.
+    exceeding : (nx, ny) True where the column exceeds the limit anywhere; None searches the stack. rows : (nz, nx) True
+    for rows that count, only with `exceeding`; the other rows count as zero.
     """
     if len(depths) == 0:
         return no_pieces(setup.grid.shape)
@@ -255,5 +265,5 @@ def pieces_above(
 
 
 def no_pieces(shape: tuple[int, int]) -> Segmentation:
-    """Nothing leaves."""
+    """Return a segmentation without pieces."""
     return Segmentation(np.zeros(shape, np.int32), np.zeros(shape), 0, np.zeros(1, dtype=np.bool_))

@@ -31,7 +31,8 @@ from bem.friction.rough_contact import boundary_traction
 from bem.friction.setup import MixedSetup
 from bem.notes import has_code
 from bem.notes.friction import BOUNDARY_LUBRICATION, FILM_MODEL_ENDS
-from bem.wear.mixed import MixedContact, pack_balance, unpack_balance
+from bem.wear.contact_step import ContactStart
+from bem.wear.mixed import MixedContact, MixedCycles
 
 POLYMER = Body(Material("polymer", youngs_modulus=3e9, poissons_ratio=0.38))
 GRID = Grid((64, 32), (0.8e-6, 0.8e-6), periodic=(False, True))
@@ -51,8 +52,12 @@ def both(height, speeds, **changes):
     """A row of the wear cycle, and `solve_mixed`, of the same case."""
     case = CASE | changes
     step = MixedContact(MixedSetup(**case), speeds)
-    outcome = step(height, None)
-    return step, outcome, solve_mixed(height=height, speeds=speeds, **case)
+    outcome = step(height)
+    return (
+        MixedCycles(step, outcome.sharing, outcome.memory),
+        outcome,
+        solve_mixed(height=height, speeds=speeds, **case),
+    )
 
 
 @pytest.mark.internal
@@ -93,8 +98,8 @@ def test_cycles_whose_film_is_taken_for_none_say_so_as_one_speed_does(speed, rms
     height = rms_height / HEIGHT.std() * HEIGHT
     step, _, point = both(height, (speed, 0.0), lubricant=THIN_OIL)
     assert has_code(point.notes, BOUNDARY_LUBRICATION, reason="thin") == by_rule
-    resumed = MixedContact(step.setup, (speed, 0.0), **unpack_balance(pack_balance(step)))
-    resumed(height, None)
+    second = step.contact(height, ContactStart(memory=step.memory))
+    resumed = MixedCycles(step.contact, np.append(step.rows, second.sharing), second.memory)
     for cycles, found in ((1, step), (2, resumed)):
         (told,) = [note for note in found.notes if has_code([note], BOUNDARY_LUBRICATION)]
         assert told.where == f"{cycles} of {cycles} cycles"
@@ -108,8 +113,7 @@ def test_the_regime_of_a_cycle_does_not_hang_on_the_words_of_notes(speed, rms_he
 
     def regime():
         step = MixedContact(MixedSetup(**CASE | {"lubricant": THIN_OIL}), (speed, 0.0))
-        step(height, None)
-        return step.rows["regime"][0]
+        return step(height).sharing["regime"][0]
 
     found = regime()
     monkeypatch.setattr(load_sharing, "share_load", lambda *given: dataclasses.replace(share_load(*given), notes=()))
@@ -119,10 +123,10 @@ def test_the_regime_of_a_cycle_does_not_hang_on_the_words_of_notes(speed, rms_he
 @pytest.mark.internal
 def test_a_cycle_at_the_boundary_end_starts_there():
     step = MixedContact(MixedSetup(**CASE), (1e-7, 0.0))
-    first = step(HEIGHT, None)
-    step(HEIGHT, first.pressure)
-    assert step.rows["evaluations"][0] <= 3
-    assert step.rows["evaluations"][1] == 1
+    first = step(HEIGHT)
+    second = step(HEIGHT, ContactStart(first.pressure, first.memory))
+    assert first.sharing["evaluations"] <= 3
+    assert second.sharing["evaluations"] == 1
 
 
 @pytest.mark.internal

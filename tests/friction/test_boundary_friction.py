@@ -143,7 +143,7 @@ def test_wear_cycles_take_the_contacts_own_mean():
     step = MixedContact(setup, CASE["speeds"])
     outcome = step(HEIGHT, None)
     point = solve_mixed(**CASE, boundary_friction=LAW)
-    row = step.rows[0]
+    row = outcome.sharing[0]
     # its films come from a table: as exact as that
     assert row["boundary_force"] == pytest.approx(point.boundary_force, rel=1e-3)
     assert -outcome.friction == pytest.approx(row["boundary_force"] / row["contact_load"], rel=1e-12)

@@ -22,7 +22,7 @@ from bem.friction.setup import MixedSetup
 from bem.friction.smooth import LineContact, PointContact
 from bem.notes import Level, has_code, outside
 from bem.notes.friction import BOUNDARY_LUBRICATION, FILM_MODEL_ENDS, OIL_COUNTED
-from bem.wear.mixed import MixedContact, film_table
+from bem.wear.mixed import MixedContact, MixedCycles, film_table
 
 STEEL = Body(Material("steel", youngs_modulus=207e9, poissons_ratio=0.3))
 SPACING, RADIUS, WIDTH, PRESSURE = 6.4e-6, 6e-3, 10e-3, 1.5e9
@@ -153,6 +153,10 @@ def test_the_oil_is_there_recomputed_from_what_is_returned(model):
     assert abs(point.imbalance) < 1e-12
 
 
+def cycles(step, outcome):
+    return MixedCycles(step, outcome.sharing, outcome.memory)
+
+
 @pytest.mark.internal
 def test_wear_cycles_take_it_too():
     case = bearing(64, oil_volume="loaded", tolerance=5e-4)
@@ -161,11 +165,11 @@ def test_wear_cycles_take_it_too():
     point = solve_mixed(**case, speeds=(0.01, 0.0))
     assert outcome.status is Status.CONVERGED
     # a table of films is good to 1e-4 of the thickness
-    assert step.rows["contact_load"][0] == pytest.approx(point.contact_load, rel=2e-3)
-    assert not has_code(step.notes, OIL_COUNTED)
+    assert outcome.sharing["contact_load"][0] == pytest.approx(point.contact_load, rel=2e-3)
+    assert not has_code(cycles(step, outcome).notes, OIL_COUNTED)
     patch = MixedContact(setup_of(bearing(64)), (0.01, 0.0))
-    patch(case["height"], None)
-    (note,) = (note for note in patch.notes if has_code([note], OIL_COUNTED, reason="patch"))
+    found = cycles(patch, patch(case["height"])).notes
+    (note,) = (note for note in found if has_code([note], OIL_COUNTED, reason="patch"))
     assert note.where == "last cycle"
 
 

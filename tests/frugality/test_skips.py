@@ -256,9 +256,9 @@ def test_a_wear_loop_hands_each_cycle_the_pressure_of_the_last():
     fixed = setup()
     inner = dry_contact(fixed)
 
-    def step(heights, last_pressure):
-        starts.append(last_pressure)
-        found = inner(heights, last_pressure)
+    def step(heights, start, compliance):
+        starts.append(start.pressure)
+        found = inner(heights, start)
         pressures.append(found.pressure)
         return found
 

@@ -9,9 +9,10 @@ from bem import Body, Grid, Material
 from bem.life.criteria import FatigueLimit
 from bem.life.fatigue import RollingFatigue, pitted_share
 from bem.life.march import advance, run_life
-from bem.life.passes import DryPasses, Passing
+from bem.life.passes import Passing
 from bem.life.surfaces import LifeCase
 from bem.reference_solutions.mcewen import cylinder_stress
+from bem.wear import DryContact
 
 pytestmark = pytest.mark.internal
 
@@ -27,11 +28,11 @@ def smooth(cells, positions, rate=0.0, **changes):
     grid = Grid((cells, 4), (length / cells, length / cells), periodic=(False, True))
     load = np.pi * RADIUS * PEAK**2 / MODULUS * grid.lengths[1]
     gap = np.broadcast_to((grid.x**2 / (2 * RADIUS))[:, None], grid.shape)
-    contact = DryPasses(grid, (STEEL, STEEL), gap, load=load)
+    contact = DryContact(grid, (STEEL, STEEL), gap, load=load)
     return LifeCase(grid, contact, Passing(positions, (True, False)), (rate, 0.0), 1e-6, **{"cycles": 1e4} | changes)
 
 
-def begun(case):
+def first_state(case):
     flat = np.zeros(case.grid.shape)
     return run_life(replace(case, cycles=1e-9, first_step=1e-9), flat, flat)
 
@@ -48,7 +49,7 @@ def test_a_smooth_roller_does_what_the_closed_path_says_as_cells_and_positions_g
     errors = []
     for cells, positions in ((32, 16), (64, 32), (128, 64)):
         case = smooth(cells, positions)
-        found = fatigue().equivalent_shear(case, (cells, cells), begun(case).passes)
+        found = fatigue().equivalent_shear(case, (cells, cells), first_state(case).passes)
         middle = found[:, cells // 2, 0]
         errors.append(float(np.abs(middle / exact - 1).max()))
     # between positions the path's corners are cut
@@ -59,10 +60,10 @@ def test_a_smooth_roller_does_what_the_closed_path_says_as_cells_and_positions_g
 def test_damage_adds_up_and_comes_up_with_the_material():
     case = smooth(32, 8, rate=2e-16, cycles=4000.0, first_step=4000.0, tolerance=0.5)
     model = fatigue(FatigueLimit(bending=700e6))
-    first = model.begun(case, begun(case))
+    first = model.initial_state(case, first_state(case))
     rate = first.damage[3]
     still = replace(case, rates=(0.0, 0.0))
-    steady = model.after(still, first, advance(still, replace(first, step=4000.0, cycles=0.0)))
+    steady = model.add_damage(still, first, advance(still, replace(first, step=4000.0, cycles=0.0)))
     # the same stresses all along: cycles times the damage of one; jumps leave nothing open. Contacts from other starts
     # differ by rounding, balls around paths by 1e-6, lives by ln(10) * 700/43 = 37 times that: 2.0e-5 seen, and 8e-8
     # where balls are found to 1e-8
@@ -73,7 +74,7 @@ def test_damage_adds_up_and_comes_up_with_the_material():
     deep = replace(first, damage=np.stack([so_far] * 3 + [0 * rate] * 2))
     worn = advance(case, replace(deep, step=4000.0, cycles=0.0))
     lost = deep.surfaces.heights[0] - worn.surfaces.heights[0]
-    after = model.after(case, deep, worn).damage
+    after = model.add_damage(case, deep, worn).damage
     # what lay between the first two depths moved up by what wore
     own = after[0] - 0.5 * 4000 * after[3]
     expected = 0.1 + 0.3 * lost / (DEPTHS[1] - DEPTHS[0])
@@ -84,10 +85,10 @@ def test_damage_adds_up_and_comes_up_with_the_material():
 def test_brackets_hold_the_path_and_what_lies_between_the_ends_of_a_jump():
     case = smooth(32, 8, rate=2e-16, cycles=4000.0, first_step=4000.0, tolerance=0.5)
     model = fatigue(FatigueLimit(bending=700e6))
-    first = model.begun(case, begun(case))
+    first = model.initial_state(case, first_state(case))
     # a path of fewer states needs no larger ball, and is as hot at rest; each of eight counts an eighth
     assert (first.damage[4] <= first.damage[3]).all()
-    now = model.after(case, first, advance(case, replace(first, step=4000.0, cycles=0.0)))
+    now = model.add_damage(case, first, advance(case, replace(first, step=4000.0, cycles=0.0)))
     assert (now.damage[2] <= now.damage[0]).all()
     assert (now.damage[0] <= now.damage[1]).all()
     assert (now.damage[0] < now.damage[1]).any()
@@ -96,7 +97,7 @@ def test_brackets_hold_the_path_and_what_lies_between_the_ends_of_a_jump():
 
 def test_oil_on_a_contact_at_the_cap_presses_no_harder():
     case = smooth(32, 4)
-    rows, solved = (32, 32), begun(case)
+    rows, solved = (32, 32), first_state(case)
     passes = [replace(one, film_pressure=0.2 * one.pressure[:, :1]) for one in solved.passes]
     capped = replace(fatigue(), hardness=PEAK).equivalent_shear(case, rows, passes)
     pressed = [replace(one, pressure=np.minimum(1.2 * one.pressure, PEAK)) for one in solved.passes]
@@ -107,7 +108,7 @@ def test_oil_on_a_contact_at_the_cap_presses_no_harder():
 
 def test_pits_are_columns_without_life_left():
     case = smooth(32, 4)
-    state = fatigue().begun(case, begun(case))
+    state = fatigue().initial_state(case, first_state(case))
     assert pitted_share(state) == 0
     gone = state.damage.copy()
     gone[0, 1, :8] = 1.0

@@ -6,14 +6,14 @@ import numpy as np
 import pytest
 
 from bem import Body, Grid, InputError, Material, generate_surface
-from bem.life.bars import bars_of_jumps
-from bem.life.error_bars import POSITIONS, OtherLives, fewer_positions, life_bars, two_rounds
+from bem.life.error_bars import POSITIONS, OtherLives, errors_of_jumps, fewer_positions, life_bars, two_rounds
 from bem.life.march import LifeState, advance, run_life
-from bem.life.passes import DryPasses, Passing
-from bem.life.surfaces import GrowingFilm, LifeCase, round_of
-from bem.scenes.packing import packed, unpacked
+from bem.life.passes import Passing
+from bem.life.surfaces import GrowingFilm, LifeCase, solve_round
+from bem.packing import packed, unpacked
 from bem.tribofilm import StressActivatedGrowth
 from bem.tribofilm.balance import FilmBalance
+from bem.wear import DryContact
 
 pytestmark = pytest.mark.internal
 
@@ -28,7 +28,7 @@ def surfaces(seed=1):
 
 
 def case(cycles, tolerance=0.05, positions=4, **changes):
-    contact = DryPasses(
+    contact = DryContact(
         GRID, (STEEL, STEEL), np.zeros(GRID.shape), load=PRESSURE * GRID.area, friction=0.1, hardness=6e9
     )
     given = {"rates": (2e-17, 1e-17), "distance": DISTANCE, "first_step": 4.0} | changes
@@ -65,7 +65,7 @@ def test_jumps_find_what_cycle_by_cycle_finds_and_know_their_error():
     cycles, each = 512.0, case(512.0)
     truth = run_life(replace(each, cycles=1e-9, first_step=1e-9), lower, upper).surfaces
     for _ in range(128):  # four real cycles, one in each position
-        truth = round_of(each, truth, cycles / 128).surfaces
+        truth = solve_round(each, truth, cycles / 128).surfaces
     worn = np.sqrt(np.mean((lower - truth.heights[0]) ** 2))
     errors, rounds = [], []
     for tolerance in (0.3, 0.1, 0.03):
@@ -85,7 +85,7 @@ def test_bars_hold_what_much_shorter_jumps_change():
     columns = {"rms": "lower_rms", "area": "area_share"}
     coarse = run_life(case(300.0, tolerance=0.3), lower, upper)
     fine = run_life(case(300.0, tolerance=0.05), lower, upper)
-    bars = bars_of_jumps(coarse, {**columns, "depth": "lower_depth", "other": "upper_depth"})
+    bars = errors_of_jumps(coarse, {**columns, "depth": "lower_depth", "other": "upper_depth"})
     # half of the upper body's wear rate is half of its error
     assert bars["depth"] == pytest.approx(2 * bars["other"], rel=1e-6, abs=0)
     assert bars["depth"] + bars["other"] == pytest.approx(coarse.over("depth_error")[-1], rel=1e-12, abs=0)
@@ -181,7 +181,7 @@ def test_a_step_that_misses_is_made_shorter_and_used():
     assert state.over("step_error")[-1] <= 0.05
 
 
-def test_steps_that_wear_less_than_the_heights_round_off_grow_until_they_wear():
+def test_steps_that_wear_less_than_the_heights_solve_roundf_grow_until_they_wear():
     """Cycles of 1e-12 wear 1e-24 m of heights known to 1e-22 m: it took 644 shorter steps, or ended the life."""
     end = run_life(case(1e-11, first_step=1e-12), *surfaces())
     assert end.rejected == 0

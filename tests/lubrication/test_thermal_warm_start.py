@@ -9,7 +9,7 @@ from bem.errors import Status
 from bem.lubrication import Lubricant, solve_line_film
 from bem.lubrication.thermal import coupled, lumped
 from bem.materials import CATALOGUE, Body
-from bem.scenes.packing import packed, unpacked
+from bem.packing import packed, unpacked
 
 MODULUS, RADIUS = 115.5e9, 10e-3
 STEEL = Body(CATALOGUE["steel-52100"].material)

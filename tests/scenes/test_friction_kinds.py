@@ -172,7 +172,7 @@ def test_cycle_contact_is_load_sharing(speed):
     step = MixedContact(MixedSetup(**case, tolerance=5e-4, contact_tolerance=1e-4), (speed, 0.0))
     outcome = step(height + 3e-7, None)  # the mean does not matter
     solution = solve_mixed(height=height, speeds=(speed, 0.0), **case)
-    row = step.rows[0]
+    row = outcome.sharing[0]
     assert outcome.status is Status.CONVERGED
     assert abs(row["imbalance"]) <= 5e-4
     # tolerance of the balance 5e-4; film thickness from another mesh 2e-3
@@ -180,7 +180,7 @@ def test_cycle_contact_is_load_sharing(speed):
     assert row["contact_load"] == pytest.approx(solution.contact_load, rel=1e-2, abs=1e-12)
     assert row["minimum_film"] == pytest.approx(solution.minimum_film, rel=5e-3)
     if speed == 0.5:
-        assert step.contact_solves == 0
+        assert outcome.memory.last.balance.contacts == 0
 
 
 @pytest.mark.internal
@@ -188,8 +188,7 @@ def test_a_contact_solved_too_coarsely_is_solved_better(monkeypatch):
     """Loads that jump with the contact's own tolerance must not keep film and contact from their balance."""
     height, case = patch_case(film_points=200, tolerance=5e-4)
     exact = MixedContact(MixedSetup(**case), (0.05, 0.0))
-    exact(height, None)
-    middle = exact.rows["film_load"][0]
+    middle = exact(height).sharing["film_load"][0]
     tolerances = []
 
     def jumping(gap, operator, *, tolerance, **others):
@@ -203,10 +202,10 @@ def test_a_contact_solved_too_coarsely_is_solved_better(monkeypatch):
     step = MixedContact(MixedSetup(**case, contact_tolerance=1e-4), (0.05, 0.0))
     outcome = step(height, None)
     assert outcome.status is Status.CONVERGED
-    assert abs(step.rows["imbalance"][0]) <= 5e-4
+    assert abs(outcome.sharing["imbalance"][0]) <= 5e-4
     assert tolerances[0] == 1e-4
     assert tolerances[-1] == pytest.approx(1e-6)
-    assert step.rows["film_load"][0] == pytest.approx(middle, rel=1e-3)  # the balance' tolerance, twice
+    assert outcome.sharing["film_load"][0] == pytest.approx(middle, rel=1e-3)  # the balance' tolerance, twice
 
 
 class StopHereError(Exception):

@@ -9,8 +9,8 @@ from bem.errors import Status
 from bem.grid import Grid
 from bem.lubrication import Lubricant
 from bem.lubrication.line_kernel import LineOperator
+from bem.packing import packed, unpacked
 from bem.results.checkpoint import load_checkpoint, save_checkpoint
-from bem.scenes.packing import packed, unpacked
 
 pytestmark = pytest.mark.internal
 

@@ -189,7 +189,7 @@ def test_a_life_moves_the_body_that_kind_running_in_moves(frame):
     moving = WearModel(frame=frame).moving
     scene = LIFE | {"wear": LIFE["wear"] | {"passes": ("lower", "upper")[moving]}, "life": SHORT}
     resolved = get_kind("running-in-life").resolve(load_scene(scene))
-    case, _ = lives.case_of(resolved, resolved.setup(**resolved.sharing.model_dump()))
+    case = lives.case_of(resolved, resolved.setup(**resolved.sharing.model_dump()))
     moved = np.array(case.passing.offsets((64, 64)))
     assert moved[:, moving].max() > 0
     assert not moved[:, 1 - moving].any()

@@ -11,8 +11,8 @@ from bem.contact.regions import count_spots, label_spots
 from bem.tangential import tangential_operator
 from bem.transforms import COUNT
 from bem.wear import Segmentation, WearModel
+from bem.wear.contact_step import ContactOutcome
 from bem.wear.criterion import AveragedVonMises, Junction, LowCycleFatigue, Sphere
-from bem.wear.cycle import ContactOutcome
 from bem.wear.damage import move_up
 from bem.wear.junctions import half_spheres, junctions
 from bem.wear.lengths import averaged, disc, holding
@@ -44,7 +44,7 @@ def surfaces():
 def pressed(pattern, cap=1.8e9):
     """A contact that is the same in every cycle."""
 
-    def step(heights, last):
+    def step(heights, start, compliance):
         load = float(pattern.sum() * cap * GRID.cell_area)
         return ContactOutcome(cap * pattern, 1e-12, 1e-12, load, 0.16, 0.0, 0, Status.CONVERGED)
 

@@ -22,7 +22,7 @@ from bem import (
 from bem.stress import von_mises_field
 from bem.transforms import COUNT
 from bem.wear import Settled, WearModel, WearSetup, dry_contact, pack_state, unpack_state, yielded_pieces
-from bem.wear.cycle import ContactOutcome
+from bem.wear.contact_step import ContactOutcome
 from bem.wear.segmentation import segment
 
 HARD = Body(Material("cylinder", youngs_modulus=210e9, poissons_ratio=0.3, hardness=6e9))
@@ -153,7 +153,7 @@ def test_the_moving_body_slides_and_may_be_longer_than_the_grid(frame, way):
     pair = (flat, longer) if frame == "disk" else (longer, flat)
     seen = []
 
-    def contact(heights, last):
+    def contact(heights, start, compliance):
         seen.append(heights.copy())
         return ContactOutcome(np.zeros(GRID.shape), 0.0, 0.0, LOAD, 0.16, 0.0, 0, Status.CONVERGED)
 
@@ -168,7 +168,7 @@ def test_a_track_wears_alike_where_the_disk_moves_and_has_a_groove_where_it_stan
     flat, strip = np.zeros(GRID.shape), np.zeros(GRID.shape)
     strip[18:30] = 1.0
 
-    def contact(heights, last):
+    def contact(heights, start, compliance):
         return ContactOutcome(1e8 * strip, 1e-12, 0.0, LOAD, 0.16, 0.0, 0, Status.CONVERGED)
 
     law = {"kind": "archard", "specific_wear_rate": 1e-13, "distance": 1e-3}
@@ -240,7 +240,7 @@ def test_without_friction_the_upper_body_slides_along_x():
     seen = []
     contact = dry_contact(setup(friction=0.0))
 
-    def step(heights, start):
+    def step(heights, start, compliance):
         seen.append(heights - lower)
         return contact(heights, start)
 
@@ -319,7 +319,7 @@ def test_stress_range_with_sliding_is_that_of_each_bodys_own_material(frictions,
     model = WearModel(stress_range=True, shift=5, wears="both", frame="disk", criterion=NO_SKIN)
     states = []
 
-    def contact(heights, start):
+    def contact(heights, start, compliance):
         return replace(dry(heights, start), friction=next(used))
 
     run_in(lower, upper, cycles=3, model=model, contact_step=contact, callback=states.append, **arguments)
@@ -344,7 +344,7 @@ def test_stress_range_with_sliding_is_that_of_each_bodys_own_material(frictions,
 
 
 def test_settled_rule_stops_a_steady_run():
-    def contact(heights, last):
+    def contact(heights, start, compliance):
         return ContactOutcome(np.zeros(GRID.shape), 0.0, 0.0, LOAD, 0.16, 0.0, 0, Status.CONVERGED)
 
     lower, upper = surfaces()
@@ -354,7 +354,7 @@ def test_settled_rule_stops_a_steady_run():
 
 
 def test_a_contact_that_does_not_converge_is_said_with_its_cycle():
-    def contact(heights, last):
+    def contact(heights, start, compliance):
         return ContactOutcome(np.zeros(GRID.shape), 0.0, 0.0, LOAD, 0.16, 1e-2, 0, Status.MAX_ITERATIONS)
 
     lower, upper = surfaces()

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from bem import Body, Grid, InputError, Material, plan_scene
-from bem.life.march import begun, run_life
-from bem.life.passes import DryPasses, Passing
-from bem.life.surfaces import LifeCase, round_of
-from bem.wear import WearModel, run_in
+from bem.life.march import initial_state, run_life
+from bem.life.passes import Passing
+from bem.life.surfaces import LifeCase, solve_round
+from bem.wear import DryContact, WearModel, run_in
 from bem.wear.film_defect import FilmDefect
 
 EV = 1.602176634e-19
@@ -71,7 +71,7 @@ def test_only_wear_by_pressure_and_distance_is_protected():
 
 def hot(temperature):
     """Dry passes whose surfaces are as warm as given (nx, ny) [K]."""
-    dry = DryPasses(GRID, (STEEL, STEEL), np.zeros(GRID.shape), PRESSURE * GRID.area, hardness=6e9)
+    dry = DryContact(GRID, (STEEL, STEEL), np.zeros(GRID.shape), PRESSURE * GRID.area, hardness=6e9)
     return lambda *given: replace(dry(*given), temperature=temperature)
 
 
@@ -90,7 +90,7 @@ def test_a_life_wears_each_place_by_its_own_temperature():
     assert end.surfaces.volume[0] == pytest.approx(share * RATE * DISTANCE * 50 * PRESSURE * GRID.area, rel=1e-9, abs=0)
     # one half hotter, few cycles: the depths are as the shares, for the pressure has not answered yet
     warm = np.where(np.arange(16)[:, None] < 8, 400.0, 440.0) * np.ones(GRID.shape)
-    after = round_of(life(warm, 1.0), begun(life(warm, 1.0), wavy, flat).surfaces, 1.0).surfaces
+    after = solve_round(life(warm, 1.0), initial_state(life(warm, 1.0), wavy, flat).surfaces, 1.0).surfaces
     depth = wavy - after.heights[0]
     expected = FILM.share(np.array([440.0]))[0] / FILM.share(np.array([400.0]))[0]
     assert depth[12, 3] / depth[4, 3] == pytest.approx(expected, rel=1e-6)

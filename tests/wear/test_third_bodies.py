@@ -5,8 +5,7 @@ import pytest
 
 from bem import Body, Grid, InputError, Material, generate_surface
 from bem.wear import WearModel, WearSetup, dry_contact, run_in
-from bem.wear.third_bodies import ThirdBodies
-from bem.wear.third_body_contact import third_body_contact
+from bem.wear.third_bodies import ThirdBodies, with_third_bodies
 
 SOFT, HARD = 2e9, 6e9
 GRID = Grid((32, 32), (0.5e-6, 0.5e-6), periodic=(True, True))
@@ -65,7 +64,7 @@ def test_a_soft_particle_yields_itself_and_cuts_nothing():
 @pytest.mark.internal
 def test_many_between_flats_hold_them_apart_as_far_as_one_would():
     particles = ThirdBodies(D, 3e12)
-    outcome = third_body_contact(setup(upper=SOFT), particles, 0.0)(np.zeros(GRID.shape), None)
+    outcome = with_third_bodies(dry_contact(setup(upper=SOFT)), particles, 0.0)(np.zeros(GRID.shape), None)
     assert outcome.status == "converged"
     assert outcome.load == 0 == outcome.pressure.max()
     assert outcome.third_bodies.load == pytest.approx(LOAD, rel=1e-6)
@@ -80,7 +79,7 @@ def test_many_between_flats_hold_them_apart_as_far_as_one_would():
 def test_few_between_flats_carry_what_fills_the_area_below_them():
     # the flats touch, and every particle is pressed in whole: hardness times half a sphere's area
     particles = ThirdBodies(D, 2e10)
-    outcome = third_body_contact(setup(upper=SOFT), particles, 0.0)(np.zeros(GRID.shape), None)
+    outcome = with_third_bodies(dry_contact(setup(upper=SOFT)), particles, 0.0)(np.zeros(GRID.shape), None)
     expected = particles.number_per_area * GRID.area * SOFT * np.pi * D**2 / 4
     assert expected < LOAD
     assert outcome.third_bodies.load == pytest.approx(expected, rel=1e-9)
@@ -91,12 +90,12 @@ def test_few_between_flats_carry_what_fills_the_area_below_them():
 def test_rough_surfaces_share_the_load_with_them_and_none_is_as_it_was():
     heights, dry = rough(), dry_contact(setup())
     alone = dry(heights, None)
-    none = third_body_contact(setup(), ThirdBodies(D, 0.0), 0.0)(heights, None)
+    none = with_third_bodies(dry_contact(setup()), ThirdBodies(D, 0.0), 0.0)(heights, None)
     assert np.array_equal(none.pressure, alone.pressure)
     assert none.third_bodies is None
     before = 0.0
     for number_per_area in (1e9, 1e10, 4e10):
-        found = third_body_contact(setup(), ThirdBodies(D, number_per_area), 0.0)(heights, None)
+        found = with_third_bodies(dry_contact(setup()), ThirdBodies(D, number_per_area), 0.0)(heights, None)
         assert found.status == "converged"
         assert found.load + found.third_bodies.load == pytest.approx(LOAD, rel=1e-6)
         assert found.third_bodies.load > before
@@ -109,7 +108,9 @@ def test_rough_surfaces_share_the_load_with_them_and_none_is_as_it_was():
     gap = solve_contact(-heights, operator, load=LOAD, hardness=SOFT, tolerance=1e-6).gap
     few = ThirdBodies(D, 1e6)
     expected = few.number_per_area * few.indented(gap, (SOFT, HARD))[0].sum() * GRID.cell_area
-    assert third_body_contact(setup(), few, 0.0)(heights, None).third_bodies.load == pytest.approx(expected, rel=1e-3)
+    assert with_third_bodies(dry_contact(setup()), few, 0.0)(heights, None).third_bodies.load == pytest.approx(
+        expected, rel=1e-3
+    )
 
 
 @pytest.mark.internal
@@ -118,7 +119,7 @@ def test_a_cell_that_sinks_at_the_hardness_does_not_keep_them_from_their_share()
     heights = rough()
     alone = np.unravel_index(heights.argmax(), heights.shape)
     heights[alone] = np.sort(heights, axis=None)[-2] + 20e-9
-    found = third_body_contact(setup(), ThirdBodies(D, 8.3e11), 0.0)(heights, None)
+    found = with_third_bodies(dry_contact(setup()), ThirdBodies(D, 8.3e11), 0.0)(heights, None)
     assert found.status == "converged"
     assert found.load == pytest.approx(SOFT * GRID.cell_area, rel=1e-6)
     assert found.load + found.third_bodies.load == pytest.approx(LOAD, rel=1e-6)
@@ -200,8 +201,9 @@ def test_what_are_no_particles_is_refused(changes, message):
 def test_surfaces_without_hardness_and_films_are_refused():
     soft = (bodies()[0], Body(Material("upper", youngs_modulus=210e9, poissons_ratio=0.3)))
     plain = setup()
+    without_hardness = dry_contact(WearSetup(GRID, soft, plain.gap, LOAD, 0.1, plain.depths))
     with pytest.raises(InputError, match="each surface needs a hardness"):
-        third_body_contact(WearSetup(GRID, soft, plain.gap, LOAD, 0.1, plain.depths), ThirdBodies(D, 1e10), 0.0)
+        with_third_bodies(without_hardness, ThirdBodies(D, 1e10), 0.0)
     with pytest.raises(InputError, match="share the load of dry contacts and of a MixedContact"):
         run_in(
             *(rough(), np.zeros(GRID.shape)),
@@ -210,5 +212,5 @@ def test_surfaces_without_hardness_and_films_are_refused():
             load=LOAD,
             depths=plain.depths,
             model=WearModel(third_bodies=ThirdBodies(D, 1e10)),
-            contact_step=dry_contact(plain),
+            contact_step=lambda heights, start, compliance: dry_contact(plain)(heights, start),
         )

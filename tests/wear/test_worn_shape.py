@@ -13,8 +13,8 @@ from bem.lubrication.line_shaped import ShapedContact
 from bem.lubrication.steady import line_film
 from bem.notes import Level, has_code
 from bem.notes.wear import FILM_OF_OTHER_SHAPE
-from bem.wear import WearModel, run_in
-from bem.wear.mixed import LastCycle, MixedContact, pack_balance, unpack_balance
+from bem.wear import WearModel, pack_state, run_in, unpack_state
+from bem.wear.mixed import MixedContact, MixedCycles
 from bem.wear.worn_shape import smoothed
 
 GRID = Grid((64, 32), (0.7e-6, 0.7e-6), periodic=(False, True))
@@ -39,13 +39,14 @@ LOWER = generate_surface(GRID, rms_height=120e-9, correlation_length=1e-6, seed=
 UPPER = generate_surface(GRID, rms_height=55e-9, correlation_length=2e-6, seed=5)
 
 
-def contact_of(speed=SPEED, film_shape="worn", resumed=None, **changes):
-    return MixedContact(MixedSetup(**CASE | changes), (speed, 0.0), film_shape=film_shape, **resumed or {})
+def contact_of(speed=SPEED, film_shape="worn", **changes):
+    return MixedContact(MixedSetup(**CASE | changes), (speed, 0.0), film_shape=film_shape)
 
 
 def loop(step, cycles=CYCLES, frame="disk", **more):
+    """Load sharing over the cycles of a wear loop, and the loop."""
     setup = step.setup
-    return run_in(
+    result = run_in(
         LOWER,
         UPPER,
         grid=GRID,
@@ -59,19 +60,19 @@ def loop(step, cycles=CYCLES, frame="disk", **more):
         contact_step=step,
         **more,
     )
+    return MixedCycles(step, result.state.sharing, result.state.contact), result
 
 
 @cache
 def worn_loop(counted="loaded"):
-    step = contact_of(oil_volume=counted)
-    return step, loop(step)
+    return loop(contact_of(oil_volume=counted))
 
 
 @pytest.mark.parametrize("counted", ["loaded", "patch"])
 def test_film_and_contact_of_the_last_cycle_carry_the_load(counted):
     """Both parts solved apart: the film under its load on its own mesh, the oil between the surfaces."""
-    step, _ = worn_loop(counted)
-    setup, worn, balance = step.setup, step.worn, step.last.balance
+    shared, _ = worn_loop(counted)
+    setup, worn, balance = shared.contact.setup, shared.worn, shared.last.balance
     assert worn.shape is not None
     assert balance.status is Status.CONVERGED
     film, contact = balance.film, balance.contact
@@ -87,57 +88,54 @@ def test_film_and_contact_of_the_last_cycle_carry_the_load(counted):
 
 
 def test_films_are_fewer_than_cycles():
-    step = contact_of(speed=0.1)
-    result = loop(step, 80)
-    assert step.worn.updates > 0
-    assert step.worn.solves < len(result.cycles)
+    shared, result = loop(contact_of(speed=0.1), 80)
+    assert shared.worn.updates > 0
+    assert shared.worn.solves < len(result.cycles)
 
 
 def test_every_film_is_found():
     for counted in ("loaded", "patch"):
-        step, _ = worn_loop(counted)
-        assert step.worn.updates > 1
-        assert step.worn.kept == step.worn.clamped == 0
+        shared, _ = worn_loop(counted)
+        assert shared.worn.updates > 1
+        assert shared.worn.kept == shared.worn.clamped == 0
 
 
 def test_the_worn_depth_holds_the_volume_that_left():
-    step, result = worn_loop()
-    depth = step.worn.unworn - result.lower_heights.mean(axis=1)
+    shared, result = worn_loop()
+    depth = shared.worn.unworn - result.lower_heights.mean(axis=1)
     lost = float(depth.sum()) * GRID.cell_area * GRID.shape[1]
     assert lost == pytest.approx(float(result.cycles["volume"].sum()), rel=1e-9)
     hill = np.exp(-((GRID.x / 8e-6) ** 2)) + 0.2 * np.random.default_rng(1).standard_normal(64) * (
         np.abs(GRID.x) < 1e-5
     )
-    smooth = smoothed(hill, step.setup)
+    smooth = smoothed(hill, shared.contact.setup)
     assert smooth.sum() == pytest.approx(hill.sum(), rel=1e-3)
     assert np.abs(np.diff(smooth)).max() < 0.5 * np.abs(np.diff(hill)).max()
     # the films' shape is the worn depth up to what they do not follow
-    assert step.worn.shape.sum() == pytest.approx(depth.sum(), rel=0.25)
+    assert shared.worn.shape.sum() == pytest.approx(depth.sum(), rel=0.25)
 
 
 def test_the_rough_contact_sees_what_the_film_does_not():
-    step, result = worn_loop()
+    shared, result = worn_loop()
     heights = result.lower_heights + UPPER
-    left = step.worn.left(heights)
-    assert left - heights == pytest.approx(np.broadcast_to(step.worn.shape[:, None], GRID.shape), abs=1e-18)
+    left = shared.worn.left(heights)
+    assert left - heights == pytest.approx(np.broadcast_to(shared.worn.shape[:, None], GRID.shape), abs=1e-18)
 
 
 def test_the_worn_shape_changes_film_and_friction():
-    step, _ = worn_loop()
-    unworn = contact_of(film_shape="unworn")
-    loop(unworn, 15)
+    shared, _ = worn_loop()
+    unworn, _ = loop(contact_of(film_shape="unworn"), 15)
     assert unworn.worn.shape is None
-    assert unworn.rows["friction"][0] == step.rows["friction"][0]
-    assert unworn.rows["friction"][14] != step.rows["friction"][14]
-    assert np.abs(step.films.under(3.0, 0, None).thickness / step.table.under(3.0).thickness - 1).max() > 0.05
-    assert np.array_equal(unworn.films.under(3.0, 0, None).thickness, unworn.table.under(3.0).thickness)
+    assert unworn.rows["friction"][0] == shared.rows["friction"][0]
+    assert unworn.rows["friction"][14] != shared.rows["friction"][14]
+    films, plain = (each.contact.films(each.worn).under(3.0, 0, None).thickness for each in (shared, unworn))
+    assert np.abs(films / shared.contact.table.under(3.0).thickness - 1).max() > 0.05
+    assert np.array_equal(plain, unworn.contact.table.under(3.0).thickness)
 
 
 def test_where_the_standing_body_keeps_its_shape_both_choices_are_one():
     """The disk moves through the contact, and the harder cylinder does not wear."""
-    one, other = contact_of(), contact_of(film_shape="unworn")
-    for step in (one, other):
-        loop(step, 6, frame="cylinder")
+    one, other = (loop(contact_of(film_shape=shape), 6, frame="cylinder")[0] for shape in ("worn", "unworn"))
     assert one.worn.updates == 0
     assert np.array_equal(one.rows, other.rows)
     assert one.notes == other.notes
@@ -146,12 +144,8 @@ def test_where_the_standing_body_keeps_its_shape_both_choices_are_one():
 @pytest.mark.parametrize("stop", [1, 13, 22])
 def test_a_loop_goes_on_to_the_same_bits(stop):
     whole, result = worn_loop()
-    first = contact_of()
-    state = loop(first, stop).state
-    resumed = unpack_balance(pack_balance(first)) | {"last": first.last}
-    second = contact_of(resumed=resumed)
-    again = loop(second, state=state)
-    assert isinstance(first.last, LastCycle)
+    state = loop(contact_of(), stop)[1].state
+    second, again = loop(contact_of(), state=unpack_state(pack_state(state)))
     assert np.array_equal(again.lower_heights, result.lower_heights)
     assert np.array_equal(second.rows, whole.rows)
     assert np.array_equal(second.worn.shape, whole.worn.shape)
@@ -162,26 +156,25 @@ def test_a_loop_goes_on_to_the_same_bits(stop):
 def test_where_no_film_is_found_the_last_shape_stays(monkeypatch):
     """After some cycles no film of a new shape is found: the loop goes on, and says so."""
     step = contact_of()
-    loop_state = loop(step, 8).state
-    shape = step.worn.shape
+    before, first = loop(step, 8)
+    shape = before.worn.shape
     assert shape is not None
     monkeypatch.setattr("bem.lubrication.line_shaped.ShapedContact.solve", lambda self, profile, start: None)
-    result = loop(step, 20, state=loop_state)
+    shared, result = loop(step, 20, state=first.state)
     assert len(result.cycles) == 20
     assert result.status is Status.CONVERGED
-    assert np.array_equal(step.worn.shape, shape)
-    assert step.worn.kept > 0
-    assert step.worn.updates > 0
-    (note,) = [note for note in step.notes if has_code([note], FILM_OF_OTHER_SHAPE, reason="earlier")]
+    assert np.array_equal(shared.worn.shape, shape)
+    assert shared.worn.kept > 0
+    assert shared.worn.updates > 0
+    (note,) = [note for note in shared.notes if has_code([note], FILM_OF_OTHER_SHAPE, reason="earlier")]
     assert note.level is Level.OUTSIDE_MODEL
-    assert (note.values["kept"], note.values["cycles"]) == (step.worn.kept, 20)
+    assert (note.values["kept"], note.values["cycles"]) == (shared.worn.kept, 20)
 
 
 def test_a_limited_supply_keeps_the_unworn_film():
-    step = contact_of(supply=1e-6)
-    loop(step, 8)
-    assert step.worn.shape is None
-    assert has_code(step.notes, FILM_OF_OTHER_SHAPE, reason="unworn")
+    shared, _ = loop(contact_of(supply=1e-6), 8)
+    assert shared.worn.shape is None
+    assert has_code(shared.notes, FILM_OF_OTHER_SHAPE, reason="unworn")
 
 
 def test_an_unknown_shape_is_refused():

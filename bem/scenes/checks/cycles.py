@@ -256,7 +256,7 @@ _STEPS = 0.1
 @outcome_check
 def long_steps_of_wear_by_pressure(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """Bars are those of the cells: the same distances stand in the loop on the coarser ones. What a law that wears by
-    pressure leaves open over its distance is `bem.wear.halved.step_error`."""
+    pressure leaves open over its distance is `bem.wear.step_doubling.step_error`."""
     if not facts.of_kind("wear", "running-in") or with_pieces(facts):
         return
     steps, depths = (numbers(outcome.summary.get(name)) for name in ("step_error_nm", "worn_depth_nm"))

@@ -21,7 +21,6 @@ from bem.scenes.common import PositivePressure, Repetitions
 from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.kind import Kind
 from bem.scenes.lubrication import notes_of_balance
-from bem.scenes.packing import packed, unpacked
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import (
     LAMBDA_MIXED,
@@ -41,7 +40,7 @@ from bem.scenes.third_bodies import tell_of_third_bodies
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars
     from bem.wear import RunningIn, RunningInState
-    from bem.wear.mixed import MixedContact
+    from bem.wear.mixed import MixedCycles
 
 _CONVOLUTIONS = 15  # of the two or three contacts of a cycle: 14 and 15 were counted
 _SOLVES = 2.5
@@ -250,20 +249,20 @@ def wear_down(
     scene: RunningInScene, initial: tuple[FloatArray, FloatArray], context: Context, *, heat_mesh: float = 1.0
 ) -> RunningInRecord:
     """The wear loop of a scene from these heights [m] on its grid, with times the columns and layers of full heat."""
-    from bem.wear.mixed import MixedContact, pack_balance, shared_film_table, unpack_balance
+    from bem.wear.mixed import MixedContact, MixedCycles, shared_film_table
 
     sharing, (speeds,), saved = scene.sharing, scene.speeds.build(), context.saved()
     setup = scene.setup(**sharing.model_dump(exclude={"film_shape"}), heat_mesh=heat_mesh)
     frames = [] if saved is None else [np.asarray(frame) for frame in saved["frames"]]
-    balance = {} if saved is None else unpack_balance(saved) | {"last": unpacked(saved["last_cycle"])}
     load = scene.contact.on_patch(setup.load, setup.grid.lengths)
     table = shared_film_table(setup, speeds)
-    step = MixedContact(setup, speeds, table=table, film_shape=sharing.film_shape, **balance)
+    step = MixedContact(setup, speeds, table=table, film_shape=sharing.film_shape)
 
     def watch(now: RunningInState) -> dict[str, float]:
         if now.cycle in _frame_cycles(scene.cycles.count) and now.pressure is not None:
             frames.append(now.pressure)
-        row = step.rows[-1]
+        assert now.sharing is not None
+        row = now.sharing[-1]
         return {"friction": float(row["friction"]), "contact_share": float(row["contact_load"]) / setup.load}
 
     result = wearing.wear_loop(
@@ -271,7 +270,7 @@ def wear_down(
         context,
         initial,
         watch=watch,
-        keep=lambda: {"frames": list(frames), **pack_balance(step), "last_cycle": packed(step.last)},
+        keep=lambda: {"frames": list(frames)},
         grid=setup.grid,
         load=load,
         friction=scene.contact.nominal_friction(
@@ -280,11 +279,13 @@ def wear_down(
         hardness=scene.contact.hardness,
         contact_step=step,
     )
+    assert result.state.sharing is not None
+    shared = MixedCycles(step, result.state.sharing, result.state.contact)
     with context.timer("films"):
-        film_error = step.table.error(float(step.rows["film_load"][-1]))
-    found = _record(scene, initial, result, step, film_table_error=film_error, pressure_frames=np.array(frames))
+        film_error = step.table.error(float(shared.rows["film_load"][-1]))
+    found = _record(scene, initial, result, shared, film_table_error=film_error, pressure_frames=np.array(frames))
     tell_of_third_bodies(context, found.third_body_load_share)
-    tell(context, notes_of_balance(step.notes, step.film_notes))
+    tell(context, notes_of_balance(shared.notes, shared.film.notes))
     return found
 
 
@@ -294,18 +295,18 @@ def _frame_cycles(count: int) -> list[int]:
 
 
 def _record(
-    scene: RunningInScene, initial: tuple[FloatArray, FloatArray], result: RunningIn, step: MixedContact, **own: Any
+    scene: RunningInScene, initial: tuple[FloatArray, FloatArray], result: RunningIn, shared: MixedCycles, **own: Any
 ) -> RunningInRecord:
     """The figures of a wear loop and what is kept of it."""
-    from bem.wear.mixed_outcome import run_in
+    from bem.wear.mixed_figures import mixed_figures
     from bem.wear.outcome import hertz_area, sizes_over_cycles
 
-    setup, cycles, rows, averaged = step.setup, result.cycles, step.rows, scene.cycles.averaged
+    setup, cycles, rows, averaged = shared.contact.setup, result.cycles, shared.rows, scene.cycles.averaged
     grid, load = setup.grid, scene.contact.on_patch(setup.load, setup.grid.lengths)
     # the same strip before and after, at all speeds
     strip = hertz_area(grid, setup.smooth.half_axes(setup.load))
     worn = wearing.WornSurface.of(scene, initial, result, grid, load, strip)
-    figures = run_in(step, cycles, averaged)
+    figures = mixed_figures(shared, cycles, averaged)
     over: dict[str, Any] = {f"{n}_over_cycles": rows[n].copy() for n in ("friction", "film_load", "minimum_film")}
     over |= {f"{n}_over_cycles": cycles[n].astype(np.float64) for n in ("rms_height", "volume")}
     over["particles_over_cycles"] = sizes_over_cycles(cycles["cycle"], worn.particles)[1]
@@ -331,7 +332,7 @@ _RADII = ("particle_equivalent_radius", "number_mean_radius", "volume_mean_radiu
 
 def summarise(scene: RunningInScene, axes: Sequence[Axis], records: Sequence[RunningInRecord | None]) -> dict[str, Any]:
     """What is the same for all cases, and the hardness of least friction where several were tried."""
-    from bem.wear.mixed_outcome import least_friction
+    from bem.wear.mixed_figures import least_friction
 
     summary: dict[str, Any] = {"cycles": scene.cycles.count, "load_N": scene.load, "reported_mean": scene.sizes.report}
     summary |= pieces.particles_of(scene)

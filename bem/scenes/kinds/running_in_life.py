@@ -31,9 +31,9 @@ from bem.scenes.tables.sharing import TEMPERATURES, OneLoadScene, RunningInShari
 
 if TYPE_CHECKING:
     from bem.friction.setup import MixedSetup
-    from bem.life.beside import Beside
     from bem.life.march import LifeState
-    from bem.life.passes import MixedPasses
+    from bem.life.monitors import Monitors
+    from bem.notes import Note
 
 _CONVOLUTIONS = 7  # of the contacts of a pass, each from the last: 2 to 7 were counted
 _SECONDS = 0.008  # of a pass besides: films from the table, friction, what wears
@@ -225,36 +225,36 @@ class RunningInLifeRecord(GridRecord):
 def run(scene: RunningInLifeScene, context: Context) -> RunningInLifeRecord:
     """One life."""
     from bem.life.error_bars import jump_bars
-    from bem.life.march import begun, run_life
+    from bem.life.march import initial_state, run_life
 
     setup = scene.setup(**scene.sharing.model_dump())
     initial = build.both_heights(scene, setup.grid, context)
-    case, contact = lives.case_of(scene, setup)
-    beside, saved = lives.beside_of(scene, setup, case), kept(context)
+    case = lives.case_of(scene, setup)
+    monitors, saved = lives.monitors_of(scene, setup, case), kept(context)
     if saved is None:
-        state = beside.begun(begun(case, *initial))
+        state = monitors.start(initial_state(case, *initial))
     else:
-        state, beside = saved[0], replace(beside, pieces=saved[1], pits=saved[2], last=saved[0])
-        contact.film_notes = saved[3]
+        state, pieces, pits = saved
+        monitors = replace(monitors, pieces=pieces, pits=pits, last=state)
 
     def after(now: LifeState) -> LifeState:
-        now = beside.after(now)
-        keep(context, (now, beside.pieces, beside.pits, contact.film_notes))
+        now = monitors.record(now)
+        keep(context, (now, monitors.pieces, monitors.pits))
         done = np.log1p(now.cycles / case.first_step) / np.log1p(case.cycles / case.first_step)
         context.progress(round(1000 * done), 1000, "cycles", friction=float(now.over("friction")[-1]))
         return now
 
     with context.timer("cycles"):
         end = run_life(case, *initial, state=state, callback=after)
-    _tell(scene, context, setup, contact)
-    for note in beside.notes():
+    _tell(scene, context, setup, end.passes[-1].film_notes)
+    for note in monitors.notes():
         context.note(note)
     wanted = scene.life.coarser_lives
     bars = error_bars(context, wanted, lambda: lives.bars(scene, initial, end)) or {"errors": jump_bars(end)}
     bars["errors"] = _with_body(bars["errors"])
     if "error_parts" in bars:
         bars["error_parts"] = {origin: _with_body(part) for origin, part in bars["error_parts"].items()}
-    return replace(_record(scene, setup, end, beside), **bars)
+    return replace(_record(scene, setup, end, monitors), **bars)
 
 
 def _with_body(figures: Mapping[str, Any]) -> dict[str, Any]:
@@ -263,7 +263,7 @@ def _with_body(figures: Mapping[str, Any]) -> dict[str, Any]:
     return {**figures, **{f"lower_{name}": figures[name] for name in names if name in figures}}
 
 
-def _tell(scene: RunningInLifeScene, context: Context, setup: MixedSetup, contact: MixedPasses) -> None:
+def _tell(scene: RunningInLifeScene, context: Context, setup: MixedSetup, film_notes: tuple[Note, ...]) -> None:
     """What the reader must know."""
     wear, (speeds,) = scene.wear, scene.speeds.build()
     hold = "cycle jumps, positions, cells and points of the films" if scene.life.coarser_lives else _JUMPS_ALONE
@@ -274,10 +274,10 @@ def _tell(scene: RunningInLifeScene, context: Context, setup: MixedSetup, contac
     slid = length * slide / mean if passing else wear.distance
     if passing and slid > 0 and abs(wear.distance / slid - 1) > 0.05:
         context.note(LIFE_DISTANCE_DIFFERS(given=wear.distance, slid=slid, length=length))
-    tell(context, contact.film_notes, "film")
+    tell(context, film_notes, "film")
 
 
-def _record(scene: RunningInLifeScene, setup: MixedSetup, end: LifeState, beside: Beside) -> RunningInLifeRecord:
+def _record(scene: RunningInLifeScene, setup: MixedSetup, end: LifeState, monitors: Monitors) -> RunningInLifeRecord:
     """The figures of a life."""
     from bem.life.error_bars import life_figures
 
@@ -289,7 +289,7 @@ def _record(scene: RunningInLifeScene, setup: MixedSetup, end: LifeState, beside
         setup.grid,
         _with_body(life_figures(end)),
         over,
-        beside.figures(cycle, end),
+        monitors.figures(cycle, end),
         cycle=cycle,
         **_temperatures(scene, cycle, end),
         tribofilm_over_cycles=None if film is None else np.interp(cycle, at, end.over("film_thickness")),

@@ -20,7 +20,7 @@ from bem.wear.setup import LOWER, UPPER
 
 if TYPE_CHECKING:
     from bem.life.fatigue import RollingFatigue
-    from bem.life.pieces import PieceSizes
+    from bem.life.monitors import PieceSizes
     from bem.life.surfaces import GrowingFilm
     from bem.life.surfaces import Temperature as LocalTemperature
     from bem.materials import Body
@@ -123,13 +123,13 @@ class LifeParticles(Table):
         return law
 
     def build(self, grid: Grid, bodies: tuple[Body, Body], hardness: float | None, load: float) -> PieceSizes:
-        """As `bem.life.pieces.PieceSizes`.
+        """As `bem.life.monitors.PieceSizes`.
 
         Raises
         ------
         InputError : a lower body without yield stress, a length that the grid has no room for.
         """
-        from bem.life.pieces import PieceSizes
+        from bem.life.monitors import PieceSizes
 
         return PieceSizes.of(grid, bodies, self.criterion, self.depths.build(), hardness, load)
 

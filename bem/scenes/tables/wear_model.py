@@ -11,7 +11,7 @@ from bem.scenes.laws import LawKey
 from bem.scenes.tables.film_defect import FilmDefectScene
 from bem.scenes.tables.third_bodies import ThirdBodiesScene
 from bem.wear.criterion import Detachment, VonMises
-from bem.wear.misfits import boundary_film_misfits
+from bem.wear.film_defect import film_defect_misfits
 from bem.wear.removal import Cap, RemovalLaw
 from bem.wear.traction import GrossSliding, TractionLaw
 
@@ -37,7 +37,8 @@ class WearScenePart(Table):
     def _goes_together(self) -> Self:
         misfits = list(self.traction.misfits(self.criterion, self.stress_range))
         if self.film_defect is not None:
-            misfits += boundary_film_misfits(self.criterion, self.traction)
+            law, traction = self.criterion, self.traction
+            misfits += film_defect_misfits(law.name, law.wears_by_pressure, traction.name, traction.slides)
         for text in misfits:
             found, allowed = text.rsplit("; allowed: ", 1)
             raise problem(found, allowed)

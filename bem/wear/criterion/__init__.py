@@ -1,10 +1,10 @@
-"""Wear criteria: what comes off a body in a cycle; by default where one scalar of the stresses exceeds one strength.
+"""Wear criteria: material that comes off a body in a cycle, by default where an equivalent stress exceeds a strength.
 
-To add one, derive from `WearCriterion` and register it, here or in a file of your own, with its `equivalent_stress`.
-One that judges something else than stresses point by point, or remembers, has a `detach` of its own, as `averaged`,
-`sphere`, `fatigue` and `junction` have; the last knows no stress and derives from `Detachment`, as does `local` wear,
-which has no pieces. Loops lie beside the cycle and are loaded when they run. Knows bodies, stresses and grids; no
-contact, no cycle.
+To add a criterion of stress, derive from `WearCriterion`, define its `equivalent_stress` and register it, here or in a
+file of your own. A criterion that needs more than the stress point by point, or has a memory, defines its own `detach`:
+`averaged`, `sphere`, `fatigue`. A criterion without stress derives from `Detachment`: `junction`, and `local` wear,
+which has no pieces. The compiled loops are in `bem.wear` and are loaded when they run. Knows bodies, stresses and
+grids; no contact, no cycle.
 
 Verified in tests/wear/test_criterion.py and test_criteria_with_length.py.
 """

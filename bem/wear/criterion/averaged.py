@@ -1,4 +1,4 @@
-"""Yield of a stress that is averaged over a length of the material, along the surface."""
+"""Yield of a stress averaged over a length of the material along the surface."""
 
 from __future__ import annotations
 
@@ -34,11 +34,11 @@ class AveragedVonMises(VonMises):
 
     @property
     def sizes_converge(self) -> bool:
-        """By the disc."""
+        """True: the disc sets the size."""
         return True
 
     def detach(self, cycle: BodyCycle) -> Removal:
-        """Pieces that yield under the averaged loads."""
+        """Return the pieces that yield under the averaged loads."""
         from bem.wear.lengths import averaged_loads
         from bem.wear.yielding import yielded_pieces
 

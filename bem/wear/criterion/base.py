@@ -1,4 +1,4 @@
-"""What a wear criterion is: given what acts on a body in a cycle, it says what comes off."""
+"""Base classes of wear criteria: from the loads on a body in a cycle to the material that comes off."""
 
 from __future__ import annotations
 
@@ -17,8 +17,7 @@ if TYPE_CHECKING:
 
 
 FEWEST_CELLS = 2.9
-"""Cells to a length of the material from which sizes were found to converge (`reports/experiments/wear_lengths.py`:
-averaged over 1.5 cells, radii are a quarter too large; over 2.96, within five per cent)."""
+"""Fewest cells to a length of the material for sizes within five per cent (`reports/experiments/wear_lengths.py`)."""
 
 
 SKIN_DEPTH = 100e-9
@@ -27,47 +26,53 @@ SKIN_DEPTH = 100e-9
 
 @dataclass(frozen=True)
 class Detachment(Law):
-    """What comes off a body in a cycle."""
+    """Base class: material that comes off a body in a cycle."""
 
     family: ClassVar[str] = "criterion"
     length_key: ClassVar[str] = ""
-    """The parameter that is a length of the material, if one is."""
+    """Name of the parameter that is a length of the material; empty for none."""
 
     @property
     def passes_per_cycle(self) -> float:
-        """Passes of the counterface over a place that one computed cycle stands for: one."""
+        """Passes of the counterface over a place that one computed cycle stands for; one by default."""
         return 1.0
 
     def distance_per_cycle(self, slide: float) -> float:
-        """Distance slid that one computed cycle stands for [m]; `slide` : of the counterface from one to the next."""
+        """Return the sliding distance that one computed cycle stands for [m]; slide : between two computed cycles
+        [m]."""
         return slide * self.passes_per_cycle
 
     def compliance(self, setup: WearSetup, body: int) -> float:
-        """Depth that a cycle wears by pressure [m/Pa], for a contact that is to be met at the end of the step."""
+        """Return the depth that a cycle wears by pressure [m/Pa], for an implicit step; zero by default."""
         return 0.0
 
     @property
+    def wears_by_pressure(self) -> bool:
+        """True for local laws: a depth in proportion to pressure and distance at each place, without pieces."""
+        return False
+
+    @property
     def needs_strength(self) -> bool:
-        """Whether what wears must have a yield stress."""
+        """True if a wearing body needs a yield stress."""
         return True
 
     @property
     def sizes_converge(self) -> bool:
-        """Whether sizes by number and the number of pieces were found to converge with the mesh: the guide's chapter on
-        criteria, `reports/experiments/wear_lengths.py`."""
+        """True if sizes by number and the number of pieces converge with the mesh, as
+        `reports/experiments/wear_lengths.py` shows."""
         return False
 
     def length(self, material: Material) -> float:
-        """The length of a material that decides what comes off [m]; 0 where there is none but the cell."""
+        """Return the length of a material that sets the size of pieces [m]; 0 where only the cell sets it."""
         return float(getattr(self, self.length_key)) if self.length_key else 0.0
 
     def resolved(self, material: Material, grid: Grid) -> bool:
-        """Whether a grid has cells enough for the length, where there is one."""
+        """Return True if a grid has enough cells for the length, or there is no length."""
         length = self.length(material)
         return length == 0.0 or length >= FEWEST_CELLS * max(grid.spacing) * (1 - 1e-9)
 
     def check_length(self, grid: Grid) -> None:
-        """Raises InputError where the given length is more than half of the grid's longer side."""
+        """Raise InputError if the length is more than half of the grid's longer side."""
         most = 0.5 * max(grid.lengths)
         if self.length_key and getattr(self, self.length_key) > most:
             raise InputError(
@@ -76,22 +81,21 @@ class Detachment(Law):
             )
 
     def check_depths(self, depths: FloatArray) -> None:
-        """Raise InputError where the depths (nz,) [m] cannot show what the law judges."""
+        """Raise InputError if the depths (nz,) [m] do not resolve the stress that the law compares."""
 
     @abstractmethod
     def detach(self, cycle: BodyCycle) -> Removal:
-        """The pieces that come off a body in a cycle, and what is to be remembered of its material."""
+        """Return the pieces that come off a body in a cycle, and the memory of its material for the next cycle."""
 
 
 @dataclass(frozen=True)
 class WearCriterion(Detachment):
     """Material whose equivalent stress exceeds the yield stress comes off where it reaches the surface.
 
-    The skin, the material nearer to the surface than `skin_depth`, is judged by the stress at that depth: it leaves
-    with the material below it and does not hold it back. Without a skin, material under a single asperity can yield
-    while a layer of no thickness above it does not (von Mises stress under a uniform pressure p is 0.2 p at the surface
-    and up to 0.6 p below), so that what comes off depends on the cell. The skin is a stated length of the criterion
-    and stays the same on every mesh.
+    The skin is the material nearer to the surface than `skin_depth`. Its stress counts as that at this depth, so it
+    leaves with the material below it. Without a skin, material under a single asperity can yield while a layer of no
+    thickness above it does not (von Mises stress under a uniform pressure p is 0.2 p at the surface and up to 0.6 p
+    below), so that the pieces depend on the cell. The skin is a length of the criterion and the same on every mesh.
     """
 
     skin_depth: float = parameter(
@@ -106,18 +110,18 @@ class WearCriterion(Detachment):
 
     @property
     def is_von_mises(self) -> bool:
-        """Whether the equivalent stress is von Mises' own, so that it need not be asked of all six components."""
+        """True if the equivalent stress is von Mises' own, for which a faster transform exists."""
         return False
 
     @property
     def von_mises_factor(self) -> float | None:
-        """The largest ratio of this equivalent stress to the von Mises stress of the same state, so that a bound on
-        von Mises bounds it too; None where there is none and nothing may be skipped by that bound."""
+        """Largest ratio of the equivalent stress to the von Mises stress of the same state, by which a bound on von
+        Mises stress bounds it too; None where no such ratio exists."""
         return None
 
     @abstractmethod
     def equivalent_stress(self, stress: FloatArray) -> FloatArray:
-        """Shape (...) of stresses (6, ...) in the order xx, yy, zz, yz, xz, xy, both [Pa]."""
+        """Return the equivalent stress (...) of stresses (6, ...), order xx, yy, zz, yz, xz, xy, both [Pa]."""
 
     def check_depths(self, depths: FloatArray) -> None:
         """Raise InputError unless at least one depth [m] lies below the skin."""
@@ -128,7 +132,7 @@ class WearCriterion(Detachment):
             )
 
     def detach(self, cycle: BodyCycle) -> Removal:
-        """The yielded pieces."""
+        """Return the pieces above yield that reach the surface."""
         from bem.wear.yielding import yielded_pieces  # kernels and transforms are not loaded for a name
 
         return yielded_pieces(cycle.loads, cycle.setup, cycle.model, cycle.body)

@@ -1,4 +1,4 @@
-"""Low-cycle fatigue: damage of every voxel, pass by pass, until what is broken reaches the surface."""
+"""Low-cycle fatigue: damage of every voxel, pass by pass, until broken voxels reach the surface."""
 
 from __future__ import annotations
 
@@ -48,17 +48,17 @@ class LowCycleFatigue(VonMises):
 
     @property
     def passes_per_cycle(self) -> float:
-        """As given."""
+        """Passes that one computed cycle stands for, as given."""
         return self.passes
 
     def damage(self, stress: FloatArray, material: Material) -> FloatArray:
-        """Share of its life that a voxel under a von Mises stress [Pa] loses in one computed cycle; at most one."""
+        """Return the damage (at most one) that a von Mises stress [Pa] does in one computed cycle."""
         assert material.yield_stress is not None
         flow = np.maximum(stress - material.yield_stress, 0.0) / (3 * material.shear_modulus)
         return np.asarray(np.minimum(2 * self.passes * (flow / self.ductility) ** (1 / self.exponent), 1.0))
 
     def detach(self, cycle: BodyCycle) -> Removal:
-        """What is broken and reaches the surface; the damage of what stays is remembered."""
+        """Return broken pieces that reach the surface, and the damage of the remaining material as memory."""
         from bem.wear.damage import broken
 
         return broken(cycle, self.averaging_length, self.damage)

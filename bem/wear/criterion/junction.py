@@ -51,22 +51,22 @@ class Junction(Detachment):
 
     @property
     def sizes_converge(self) -> bool:
-        """By d*."""
+        """True: d* sets the size."""
         return True
 
     def length(self, material: Material) -> float:
-        """d*."""
+        """Return the critical size d* of a material [m]."""
         return self.critical_size(material)
 
     def critical_size(self, material: Material) -> float:
-        """d* of a material [m]; infinite without a yield stress."""
+        """Return d* of a material [m]; infinite without a yield stress."""
         if material.yield_stress is None:
             return float("inf")
         strength = self.strength_ratio * material.yield_stress
         return self.shape_factor * self.surface_energy * material.shear_modulus / strength**2
 
     def detach(self, cycle: BodyCycle) -> Removal:
-        """Half spheres under the junctions of this cycle that are large enough and were dragged far enough."""
+        """Return half spheres under the junctions that are large enough and were dragged far enough."""
         from bem.wear.junctions import detached
 
         return detached(cycle, self.critical_size(cycle.solid.surface_material))

@@ -23,12 +23,12 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, kw_only=True)
 class LocalWear(Detachment):
-    """What local laws share: a cycle stands for a distance slid, and so much leaves as k p times it.
+    """Base class of local laws: a cycle stands for a sliding distance s and wears the depth k p s.
 
-    Steps of a dry contact are implicit: the pressure is that at their end, found with what wears as a compliance of
-    each place, so no step is too long to be stable, and the volume is k F s to round-off. Under a film and in partial
-    slip the pressure is that at their start, and a step must not overshoot. `bem.wear.halved` tells what steps
-    leave open. In partial slip each place slides what the traction law's loops give it, and there is no distance.
+    Steps of a dry contact are implicit: the pressure is that at their end, solved with the wear as a compliance of each
+    place, so a step of any length is stable, and the volume is k F s to round-off. Under a film and in partial slip the
+    pressure is that at the start of a step, which must not overshoot. `bem.wear.step_doubling` estimates the error of
+    the steps. In partial slip the distance at each place is that of the traction law's loops.
     """
 
     distance: float = parameter(
@@ -37,29 +37,34 @@ class LocalWear(Detachment):
     upper_over_lower: float = parameter("wear rate of the upper body over that of the lower", default=1.0, at_least=0)
 
     @property
+    def wears_by_pressure(self) -> bool:
+        """True."""
+        return True
+
+    @property
     def needs_strength(self) -> bool:
-        """No yield stress is asked for."""
+        """False: no yield stress is needed."""
         return False
 
     @property
     def sizes_converge(self) -> bool:
-        """There are no pieces that could follow the mesh."""
+        """True: there are no pieces that could depend on the mesh."""
         return True
 
     def distance_per_cycle(self, slide: float) -> float:
-        """As given."""
+        """Return the sliding distance of a cycle [m], as given."""
         return self.distance
 
     def compliance(self, setup: WearSetup, body: int) -> float:
-        """k s, of the setup's friction."""
+        """Return k s [m/Pa], at the friction of the setup."""
         return self._rate_of(setup, body, setup.friction) * self.distance
 
     def _rate_of(self, setup: WearSetup, body: int, friction: float) -> float:
         return self.rate(setup.bodies[body], friction) * (self.upper_over_lower if body == UPPER else 1.0)
 
     def _check_step(self, give: float, setup: WearSetup) -> None:
-        """Raises InputError where what a step wears by pressure [m/Pa] exceeds the bodies' compliance in the roughest
-        pattern of the grid: the next contact would alternate from cell to cell."""
+        """Raise InputError if the wear of a step by pressure, `give` [m/Pa], exceeds the bodies' compliance to pressure
+        that alternates from cell to cell: the next contact would alternate."""
         most = cell_to_cell_compliance(setup.grid, setup.bodies)
         if give > most:
             raise InputError(
@@ -69,10 +74,11 @@ class LocalWear(Detachment):
 
     @abstractmethod
     def rate(self, body: Body, friction: float) -> float:
-        """Volume by load and distance [m^3/(N m)], of the lower body."""
+        """Return the wear volume of the lower body by load and distance [m^3/(N m)]."""
 
     def detach(self, cycle: BodyCycle) -> Removal:
-        """A depth (nx, ny), of no piece; that of the last cycle is remembered."""
+        """Return the depth (nx, ny) worn in a cycle, without pieces; it is the memory too, for the error of the
+        step."""
         from bem.wear.loads import Removal
         from bem.wear.yielding import no_pieces
 
@@ -87,7 +93,7 @@ class LocalWear(Detachment):
 
 
 def cell_to_cell_compliance(grid: Grid, bodies: tuple[Body, Body]) -> float:
-    """By how much bodies give way by pressure that alternates from cell to cell [m/Pa]: the least of any pattern."""
+    """Return the compliance to pressure that alternates from cell to cell [m/Pa], the smallest of any pattern."""
     from bem.convolution import displacement_operator
 
     middle = tuple(n // 2 for n in grid.shape)
@@ -104,7 +110,7 @@ class Archard(LocalWear):
     specific_wear_rate: float = parameter("k: volume by load and distance", "m^2/N", at_least=0)
 
     def rate(self, body: Body, friction: float) -> float:
-        """k."""
+        """Return k."""
         return self.specific_wear_rate
 
 
@@ -117,7 +123,7 @@ class ArchardOverHardness(LocalWear):
     archard_coefficient: float = parameter("K", at_least=0)
 
     def rate(self, body: Body, friction: float) -> float:
-        """K / H."""
+        """Return K / H."""
         hardness = body.surface_material.hardness
         if hardness is None:
             raise InputError("archard_over_hardness: the body that wears has no hardness: give its material one")
@@ -133,5 +139,5 @@ class EnergyWear(LocalWear):
     energy_wear_rate: float = parameter("alpha: volume by energy, m^3/J", "m^2/N", at_least=0)
 
     def rate(self, body: Body, friction: float) -> float:
-        """alpha times the friction of the cycle."""
+        """Return alpha times the friction of the cycle."""
         return self.energy_wear_rate * abs(friction)

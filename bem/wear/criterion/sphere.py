@@ -1,4 +1,4 @@
-"""Yield of a region that holds a sphere of a stated diameter."""
+"""Yield of a region that can hold a sphere of a given diameter."""
 
 from __future__ import annotations
 
@@ -15,7 +15,7 @@ if TYPE_CHECKING:
 @register
 @dataclass(frozen=True)
 class Sphere(VonMises):
-    """Von Mises stress above yield in a piece in which a sphere of a stated diameter has room; smaller ones stay."""
+    """Pieces above von Mises yield that can hold a sphere of a given diameter; smaller pieces stay."""
 
     name: ClassVar[str] = "sphere"
     length_key: ClassVar[str] = "diameter"
@@ -28,7 +28,7 @@ class Sphere(VonMises):
     )
 
     def detach(self, cycle: BodyCycle) -> Removal:
-        """Those of the yielded pieces that hold the sphere."""
+        """Return the yielded pieces that can hold the sphere."""
         from bem.wear.lengths import holding
         from bem.wear.yielding import yielded_pieces
 

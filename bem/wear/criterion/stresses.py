@@ -13,7 +13,7 @@ from bem.wear.criterion.base import WearCriterion
 
 
 def principal_stresses(stress: FloatArray) -> FloatArray:
-    """Principal stresses, shape (3, ...), ascending [Pa], of stresses (6, ...) in the order xx, yy, zz, yz, xz, xy.
+    """Return principal stresses (3, ...), ascending [Pa], of stresses (6, ...) in the order xx, yy, zz, yz, xz, xy.
 
     Trigonometric solution of the characteristic cubic (Malvern 1969, section 3.3), from the invariants of the deviator.
     """
@@ -40,16 +40,16 @@ class VonMises(WearCriterion):
 
     @property
     def is_von_mises(self) -> bool:
-        """But in a law that is derived from this one and has a stress of its own."""
+        """True unless a derived law defines an equivalent stress of its own."""
         return type(self).equivalent_stress is VonMises.equivalent_stress
 
     @property
     def von_mises_factor(self) -> float | None:
-        """One."""
+        """One for von Mises stress itself."""
         return 1.0 if self.is_von_mises else None
 
     def equivalent_stress(self, stress: FloatArray) -> FloatArray:
-        """Of the deviator."""
+        """Return the von Mises stress."""
         from bem.stress import von_mises  # kernels and transforms are not loaded for a name
 
         return von_mises(stress)
@@ -68,7 +68,7 @@ class Tresca(WearCriterion):
         return float(2 / np.sqrt(3))
 
     def equivalent_stress(self, stress: FloatArray) -> FloatArray:
-        """The difference."""
+        """Return the largest minus the smallest principal stress."""
         principal = principal_stresses(stress)
         return np.asarray(principal[2] - principal[0])
 
@@ -92,5 +92,5 @@ class MaximumTension(WearCriterion):
     )
 
     def equivalent_stress(self, stress: FloatArray) -> FloatArray:
-        """The largest."""
+        """Return the largest principal stress, at least zero."""
         return np.asarray(np.maximum(principal_stresses(stress)[2], 0.0))

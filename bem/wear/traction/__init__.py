@@ -1,4 +1,4 @@
-"""Tractions between the surfaces of a wear cycle: friction x pressure everywhere, or what partial slip leaves of it.
+"""Shear tractions of a wear cycle: friction x pressure everywhere, or those of a loop in partial slip.
 
 To add one, derive from `TractionLaw` and register it, here or in a file of your own. Knows contacts and partial slip,
 whose solvers are loaded when a cycle asks for them; no pieces. Verified in tests/wear/test_wear_traction.py:

@@ -1,4 +1,4 @@
-"""What a traction law is: given the pressure of a cycle's contact, it says what the surfaces do to each other along it.
+"""Base class of traction laws: shear traction and slip for the pressure of a cycle's contact.
 
 Knows fields; no solver.
 """
@@ -21,13 +21,15 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class Rubbing:
-    """What friction does in one loop of the bodies against each other, there and back.
+    """One loop of the bodies against each other in partial slip, forth and back.
 
-    traction : (2, nx, ny) [Pa] on the lower body at the loop's end, where its force has the sign of the friction.
-    slid : (nx, ny) [m], what the surfaces slide over each other at each place in the loop, there and back.
-    way : [m], by which the bodies move against each other in the loop, there and back: four amplitudes.
-    stick_share : of the cells in contact, those that slip in no part of the loop.
-    energy : [J] of friction in the loop. residual, status : the worst of its steps. notes : on what not to believe.
+    traction : (2, nx, ny) on the lower body at the end of the loop [Pa], where its force has the sign of the friction.
+    slid : (nx, ny) slip distance at each place in the loop [m].
+    way : path of the bodies against each other in the loop, four amplitudes [m].
+    stick_share : fraction of the cells in contact that slip in no part of the loop.
+    energy : dissipated by friction in the loop [J].
+    residual, status : the worst of the steps.
+    notes : on where the loop is outside its model.
     """
 
     traction: FloatArray
@@ -42,30 +44,32 @@ class Rubbing:
 
 @dataclass(frozen=True)
 class TractionLaw(Law):
-    """What acts along the surfaces in a cycle."""
+    """Base class: shear traction between the surfaces in a cycle."""
 
     family: ClassVar[str] = "traction"
 
     @property
     def slides(self) -> bool:
-        """Whether traction is friction x pressure along +x everywhere, and the surfaces slide all of the way."""
+        """True if the traction is friction x pressure along +x everywhere (gross sliding)."""
         return False
 
     @property
     def loops_per_cycle(self) -> float:
-        """Loops of the bodies that one computed cycle stands for, of wear by what each place slides."""
+        """Loops of the bodies that one computed cycle stands for, for wear by the slip distance."""
         return 1.0
 
     def misfits(self, criterion: Detachment, stress_range: bool) -> tuple[str, ...]:
-        """Messages on what does not go together with the law in a wear model; none by default."""
+        """Return messages on choices of a wear model that do not go with the law; none by default."""
         return ()
 
     def check(self, friction: float) -> None:
-        """Raises InputError where surfaces without friction can carry no traction, and the law needs one."""
+        """Raise InputError if the law needs a traction and the friction is zero."""
         if friction == 0 and not self.slides:
             raise InputError(f"traction {self.name}: friction is 0, which no force can be a part of; allowed: not 0")
 
     @abstractmethod
     def rub(self, pressure: FloatArray, friction: float, setup: WearSetup) -> Rubbing | None:
-        """Under a pressure (nx, ny) [Pa] and a friction, along +x on the lower body where positive; None where the
-        surfaces slide everywhere."""
+        """Solve the loop of partial slip under a pressure (nx, ny) [Pa]; None in gross sliding.
+
+        friction : traction over pressure in sliding, along +x on the lower body where positive.
+        """

@@ -1,4 +1,4 @@
-"""Gross sliding: the source's."""
+"""Gross sliding, the source's traction law."""
 
 from __future__ import annotations
 
@@ -23,11 +23,11 @@ class GrossSliding(TractionLaw):
 
     @property
     def slides(self) -> bool:
-        """Everywhere."""
+        """True."""
         return True
 
     def misfits(self, criterion: Detachment, stress_range: bool) -> tuple[str, ...]:
-        """A local law needs its distance."""
+        """Return a message if a local law has no sliding distance."""
         if isinstance(criterion, LocalWear) and criterion.distance == 0:
             return (
                 f"criterion {criterion.name}: distance 0 m wears nothing; allowed: criterion.distance, the sliding "
@@ -36,5 +36,5 @@ class GrossSliding(TractionLaw):
         return ()
 
     def rub(self, pressure: FloatArray, friction: float, setup: WearSetup) -> None:
-        """Nothing is to be solved."""
+        """Return None: the traction is friction x pressure."""
         return None

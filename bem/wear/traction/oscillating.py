@@ -1,4 +1,4 @@
-"""Partial slip: the bodies are pushed to and fro along x by less than makes everything slide, or by a short way."""
+"""Partial slip: a tangential force or displacement that oscillates along x, below gross sliding or through it."""
 
 from __future__ import annotations
 
@@ -21,29 +21,28 @@ if TYPE_CHECKING:
     from bem.wear.setup import WearSetup
 
 TOLERANCE = 1e-6
-"""Of the displacements, as `solve_partial_slip` takes it: far below what the cells leave open."""
+"""Relative tolerance of the displacements in `solve_partial_slip`, far below the discretisation error."""
 
 
 @dataclass(frozen=True, kw_only=True)
 class Oscillating(TractionLaw):
-    """What both have in common: each cycle's contact is touched anew, pushed to a peak, back to its opposite and to the
-    peak again, a step each; traction and slip are of that loop.
+    """Base class: load each cycle's contact to a peak, to the opposite peak and back, in one step each.
 
-    Coulomb's friction with the local pressure (Cattaneo 1938; Mindlin and Deresiewicz 1953). Under a pressure that
-    stays, the first way back erases what was before (but for what slips sideways), so the loop is the steady one, and
-    a step each gives its energy where slip keeps its direction. Pieces leave under the tractions at its end; a local
-    law wears by what each place slides in `loops` of them.
+    Coulomb's friction with the local pressure (Cattaneo 1938; Mindlin and Deresiewicz 1953). Under constant pressure
+    the first reversal erases the memory of earlier loops (except for lateral slip), so the loop is the steady one, and
+    one step each gives its energy where slip keeps its direction. Pieces leave under the tractions at the end of the
+    loop; a local law wears by the slip distance of `loops` of them.
     """
 
     loops: float = parameter("loops that one computed cycle stands for, of a local law", default=1.0, above=0)
 
     @property
     def loops_per_cycle(self) -> float:
-        """As given."""
+        """Loops that one computed cycle stands for, as given."""
         return self.loops
 
     def misfits(self, criterion: Detachment, stress_range: bool) -> tuple[str, ...]:
-        """Distances are those of loops, and stresses change most within one."""
+        """Return messages on a sliding distance and on ranges of stress between cycles, which loops replace."""
         found = []
         if isinstance(criterion, LocalWear) and criterion.distance > 0:
             found.append(
@@ -59,10 +58,13 @@ class Oscillating(TractionLaw):
 
     @abstractmethod
     def peak(self, limit: float) -> dict[str, float]:
-        """What `solve_partial_slip` is given along x, by its name; `limit` : friction x load, with its sign [N]."""
+        """Return the control of `solve_partial_slip` at the peak, `force` or `shift` along x, by its name.
+
+        limit : friction x load, with its sign [N].
+        """
 
     def rub(self, pressure: FloatArray, friction: float, setup: WearSetup) -> Rubbing | None:
-        """There and back."""
+        """Solve the loop; see `TractionLaw`."""
         from bem.tangential import solve_partial_slip
 
         grid, none = setup.grid, np.zeros(setup.grid.shape)
@@ -76,15 +78,15 @@ class Oscillating(TractionLaw):
             asked[name] = (sign * along, 0.0)
             before = steps[-1] if steps else None
             steps.append(solve_partial_slip(pressure, grid, setup.bodies, previous=before, **asked))
-        return self._told(_loop(pressure, steps))
+        return self._with_notes(_loop(pressure, steps))
 
-    def _told(self, rubbing: Rubbing) -> Rubbing:
-        """With what this control has to say of it."""
+    def _with_notes(self, rubbing: Rubbing) -> Rubbing:
+        """Add notes of this control to a loop."""
         return rubbing
 
 
 def _loop(pressure: FloatArray, steps: list[TangentialSolution]) -> Rubbing:
-    """Of a first push, the way back and the way forth again."""
+    """Return the loop from the steps of a first push, the way back and the way forth again."""
     _, back, forth = steps
     slid = np.hypot(*back.slip) + np.hypot(*forth.slip)
     failed = [step.status for step in steps if step.status is not Status.CONVERGED]
@@ -110,10 +112,10 @@ class OscillatingForce(Oscillating):
     share: float = parameter("largest force over friction x load", above=0, below=1)
 
     def peak(self, limit: float) -> dict[str, float]:
-        """That share of the limit."""
+        """Return the force: that share of the limit."""
         return {"force": self.share * limit}
 
-    def _told(self, rubbing: Rubbing) -> Rubbing:
+    def _with_notes(self, rubbing: Rubbing) -> Rubbing:
         return rubbing if rubbing.stick_share > 0 else replace(rubbing, notes=(*rubbing.notes, LOOP_ALL_SLIPS()))
 
 
@@ -127,5 +129,5 @@ class OscillatingShift(Oscillating):
     amplitude: float = parameter("of the bodies' movement against each other, far from the contact", "m", above=0)
 
     def peak(self, limit: float) -> dict[str, float]:
-        """The amplitude, the way that friction points."""
+        """Return the shift: the amplitude along the friction."""
         return {"shift": float(np.copysign(self.amplitude, limit))}

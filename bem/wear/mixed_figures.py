@@ -14,17 +14,25 @@ from numpy.typing import NDArray
 
 from bem.friction.film import middle_line
 from bem.grid import FloatArray
-from bem.wear.mixed import MixedContact
+from bem.wear.mixed import MixedCycles
 
 
 @dataclass(frozen=True, eq=False)
-class RunIn:
-    """Initial: of the first cycle; the others are means of the last cycles. Forces on the whole width [N].
+class MixedFigures:
+    """Figures of a lubricated wear loop; means over the last cycles unless a name says initial.
 
-    lambda_ratio of the film under the whole load, lambda_ratio_mixed of that under its part, both over Sq;
-    friction and its boundary and film parts; temperatures of the surfaces in contact [K], 0 without heat;
-    contact_share (cycles,) of the load; over the patch (nx,) in the last cycle: film thickness [m], film pressure [Pa],
-    separation of the mean planes [m].
+    friction_initial, contact_load_initial : of the first cycle [N].
+    friction, boundary_friction_part, film_friction_part : coefficient of friction and its two parts.
+    contact_load, film_load : on the whole width [N]. minimum_film : [m].
+    lambda_ratio, lambda_ratio_mixed : minimum film over rms height, of the film under the whole load and of the film
+        under its part of the load.
+    contact_area_fraction : real contact area over the grid's.
+    contact_temperature, flash_temperature : of the surfaces in contact [K], mean by pressure and highest; 0 without
+        heat.
+    evaluations_per_cycle : films per cycle.
+    contact_share : (cycles,) fraction of the load on the contact.
+    film_thickness_patch, film_pressure_patch, separation : (nx,) over the patch in the last cycle, film thickness [m],
+        film pressure [Pa] and distance of the mean planes [m].
     """
 
     friction_initial: float
@@ -47,32 +55,29 @@ class RunIn:
     separation: FloatArray
 
 
-def run_in(step: MixedContact, cycles: NDArray[np.void], averaged: int) -> RunIn:
-    """Of a loop with rows of `CYCLE_FIELDS`, its means over so many of the last cycles."""
-    setup, rows = step.setup, step.rows
+def mixed_figures(loop: MixedCycles, cycles: NDArray[np.void], averaged: int) -> MixedFigures:
+    """Return the figures of a loop with a table of `CYCLE_FIELDS`; averaged : number of last cycles of the means."""
+    setup, rows, film = loop.contact.setup, loop.rows, loop.film
     mean = {name: float(rows[name][-averaged:].mean()) for name in _MEANS}
-    film, separation = step.film, step.separation
-    assert film is not None
-    assert separation is not None
-    return RunIn(
+    return MixedFigures(
         friction_initial=float(rows["friction"][0]),
         contact_load_initial=float(rows["contact_load"][0]),
         boundary_friction_part=mean.pop("boundary_force") / setup.load,
         film_friction_part=mean.pop("film_force") / setup.load,
-        lambda_ratio_mixed=_beside_contact(step, averaged),
+        lambda_ratio_mixed=_mean_lambda_ratio(loop, averaged),
         contact_area_fraction=float(cycles["contact_area"][-averaged:].mean() / setup.grid.area),
         evaluations_per_cycle=float(rows["evaluations"].mean()),
         contact_share=rows["contact_load"] / setup.load,
         film_thickness_patch=middle_line(film.thickness),
         film_pressure_patch=middle_line(film.pressure),
-        separation=separation,
+        separation=loop.separation,
         **mean,
     )
 
 
-def _beside_contact(step: MixedContact, averaged: int) -> float:
-    """Mean lambda ratio of the film that carries its part of the load, over the last cycles."""
-    film, rms = step.rows["minimum_film"][-averaged:], step.roughness_over_cycles[-averaged:]
+def _mean_lambda_ratio(loop: MixedCycles, averaged: int) -> float:
+    """Return the mean lambda ratio of the film under its part of the load, over the last cycles."""
+    film, rms = loop.rows["minimum_film"][-averaged:], loop.roughness_over_cycles[-averaged:]
     return float(np.mean(film / rms)) if (rms > 0).all() else math.inf
 
 
@@ -84,6 +89,8 @@ _MEANS = (
 
 
 def least_friction(hardnesses: Sequence[float], friction: FloatArray) -> float:
-    """The hardness at which run-in friction (hardness, speed, repetition), a mean over repetitions, is least at any
-    speed."""
+    """Return the hardness of least run-in friction at any speed.
+
+    friction : (hardness, speed, repetition); its mean over repetitions counts.
+    """
     return hardnesses[int(np.nanargmin(friction.mean(axis=2))) // friction.shape[1]]

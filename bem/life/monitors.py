@@ -1,0 +1,146 @@
+"""Monitors of a life: pieces that a criterion would find, and fatigue below the surface, beside the wear.
+
+Verified in tests/scenes/test_running_in_life_kind.py and tests/life/test_life.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+import numpy as np
+
+from bem.grid import FloatArray, Grid
+from bem.life.fatigue import RollingFatigue, pitted_share
+from bem.life.march import LifeState
+from bem.life.passes import Pass
+from bem.life.surfaces import LifeCase
+from bem.materials import Body
+from bem.notes import Level, Note
+from bem.notes.checks import NOTHING_CAME_OFF
+from bem.wear.criterion import Detachment
+from bem.wear.loads import BodyCycle, SurfaceLoad
+from bem.wear.model import WearModel
+from bem.wear.segmentation import describe_pieces
+from bem.wear.setup import LOWER, WearSetup
+
+FIGURES = (
+    *("particles", "particle_equivalent_radius", "particles_over_cycles"),
+    *(
+        "micropitted_share",
+        "micropitted_at_most",
+        "micropitted_at_least",
+        "largest_damage",
+        "micropitted_over_cycles",
+        "damage_map",
+    ),
+)
+
+
+@dataclass(frozen=True, eq=False)
+class PieceSizes:
+    """Sizes of the pieces that a criterion finds in the lower body of a contact, without removing them."""
+
+    setup: WearSetup
+    model: WearModel
+
+    @classmethod
+    def of(
+        cls,
+        grid: Grid,
+        bodies: tuple[Body, Body],
+        criterion: Detachment,
+        depths: FloatArray,
+        hardness: float | None,
+        load: float,
+    ) -> PieceSizes:
+        """Return the sizes of a criterion at depths (nz,) [m]; load : on the grid [N].
+
+        Raises
+        ------
+        InputError : a lower body without yield stress, a length that the grid has no room for.
+        """
+        setup = WearSetup(grid, bodies, np.zeros(grid.shape), load, 0.0, depths, hardness)
+        model = WearModel(criterion=criterion, wears="lower", shift=0)
+        setup.wearing(model)
+        return cls(setup, model)
+
+    def volumes(self, passes: Sequence[Pass], friction: float) -> FloatArray:
+        """Return the volumes [m^3] of the pieces of all passes of a round; friction : traction over pressure, on the
+        lower body."""
+        volumes: list[float] = []
+        for contact in passes:
+            load = SurfaceLoad(contact.pressure, friction)
+            removal = self.model.law.detach(BodyCycle(contact.pressure, (load,), self.setup, self.model, LOWER, 0.0))
+            volumes += [piece.volume for piece in describe_pieces(removal.pieces, self.setup.grid)]
+        return np.array(volumes)
+
+
+def number_of_pieces(volumes: FloatArray, worn: float) -> float:
+    """Return the number of pieces of the mean volume that make up a worn volume [m^3]; nan without pieces."""
+    return worn / float(volumes.mean()) if volumes.size else float("nan")
+
+
+@dataclass
+class Monitors:
+    """Monitors of a life, called after every step of `run_life`.
+
+    sizes, fatigue : None where not asked for. friction : traction over pressure, on the lower body.
+    pieces : rows of cycles, number of pieces and volume worn of the lower body [m^3], one per step.
+    pits : rows of cycles and micropitted share. last : state before the step.
+    """
+
+    case: LifeCase
+    sizes: PieceSizes | None
+    fatigue: RollingFatigue | None
+    friction: float
+    pieces: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
+    pits: FloatArray = field(default_factory=lambda: np.zeros((0, 2)))
+    last: LifeState | None = None
+
+    def start(self, state: LifeState) -> LifeState:
+        """Return a life's first state, with the damage where fatigue is monitored."""
+        self.last = state if self.fatigue is None else self.fatigue.initial_state(self.case, state)
+        return self.last
+
+    def record(self, now: LifeState) -> LifeState:
+        """Return the state after a step with its damage, and record pieces and micropits of the step."""
+        before = self.last
+        assert before is not None
+        if self.fatigue is not None:
+            now = self.fatigue.add_damage(self.case, before, now)
+            self.pits = np.vstack([self.pits, [now.cycles, pitted_share(now)]])
+        if self.sizes is not None:
+            worn = now.surfaces.volume[LOWER] - before.surfaces.volume[LOWER]
+            number = number_of_pieces(self.sizes.volumes(now.passes, self.friction), worn)
+            self.pieces = np.vstack([self.pieces, [now.cycles, number, worn]])
+        self.last = now
+        return now
+
+    def notes(self) -> tuple[Note, ...]:
+        """Return a note where the criterion finds no piece in any pass, so that particles have no size."""
+        if self.sizes is None or (self.pieces[:, 1] > 0).any():
+            return ()
+        law = self.sizes.model.law.name
+        takes = "Wear goes on by its law; particles have no sizes and numbers."
+        return (NOTHING_CAME_OFF("particles", level=Level.INFO, law=law, takes=takes),)
+
+    def figures(self, cycle: FloatArray, end: LifeState) -> dict[str, Any]:
+        """Return the figures of a record at its cycles (n,); None for figures without a monitor."""
+        found: dict[str, Any] = dict.fromkeys(FIGURES)
+        rows = self.pieces[np.isfinite(self.pieces[:, 1])]
+        if len(rows) and rows[:, 1].sum() > 0:
+            total = np.concatenate([[0.0], np.cumsum(rows[:, 1])])
+            volume = float(rows[:, 2].sum() / total[-1])
+            found["particles"] = float(total[-1])
+            found["particle_equivalent_radius"] = float(np.cbrt(3 * volume / (4 * np.pi)))
+            found["particles_over_cycles"] = np.interp(cycle, np.concatenate([[0.0], rows[:, 0]]), total)
+        if end.damage is not None:
+            highest = end.damage[0].max(axis=0)
+            found["micropitted_share"] = pitted_share(end)
+            found["micropitted_at_most"], found["micropitted_at_least"] = (pitted_share(end, of) for of in (1, 2))
+            found["largest_damage"] = float(highest.max())
+            found["micropitted_over_cycles"] = np.interp(cycle, self.pits[:, 0], self.pits[:, 1])
+            found["damage_map"] = highest[: self.case.grid.shape[0]]
+        return found

@@ -1,0 +1,138 @@
+"""The wear model: criterion, removal law, traction law and the other choices that the source leaves open.
+
+Knows laws; no contact and no cycle. Verified in tests/wear/test_cycle.py.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from bem.errors import InputError
+from bem.laws import make_laws
+from bem.wear.criterion import Detachment
+from bem.wear.film_defect import FilmDefect, film_defect_misfits
+from bem.wear.removal import RemovalLaw
+from bem.wear.segmentation import CONNECTIVITIES, REFINEMENTS
+from bem.wear.setup import LOWER, UPPER
+from bem.wear.traction import TractionLaw
+
+if TYPE_CHECKING:
+    from bem.wear.third_bodies import ThirdBodies
+
+
+@dataclass(frozen=True)
+class WearModel:
+    """Choices of a wear model: each is a name, a table of parameters or an object of your own.
+
+    criterion : the name of one of `bem.wear.criterion` or of your own, or a `Detachment`. "von_mises" is the
+        source's; "tresca" and "maximum_tension", too, let material leave where an equivalent stress exceeds the yield
+        stress. These have no length but the cell and a skin at the surface; "averaged_von_mises", "sphere", "junction"
+        have one of the material, "low_cycle_fatigue" counts passes. "archard", "archard_over_hardness" and "energy"
+        wear by pressure and distance, without pieces.
+    stress_range : judge half the change of stress that each body's material has seen since the last cycle instead of
+        the stress (low-cycle fatigue: a range of twice the yield stress is what shakedown can bear).
+    refine, refinement : fine voxels per depth interval and how stress is interpolated between depths; "exact" computes
+        the stress at every fine depth and is the check of the others.
+    connectivity : 6, 18 or 26 neighbours.
+    removal : "cap" (a piece takes the material above it along: an addition to the source), "top_run" (only material
+        that yields leaves, as in the source), or a law of your own.
+    wears : "softer" (lower yield stress; the lower body where equal), "lower", "upper" or "both".
+    frame : which body stands still with the contact. "cylinder": the upper body and the contact are fixed in space and
+        the lower body moves through them, so that all places of its track wear alike; "disk": the lower body is fixed
+        and the roughness of the upper body moves, so that the contact wears a groove into the lower one.
+    shift : cells that the moving body slides along x per cycle in the direction of friction; negative is against it.
+    within_layer : pieces of a coated body end at the interface at the latest; the film is taken as replenished.
+    traction : the name of one of `bem.wear.traction` or of your own, a table with `kind` and parameters, or a
+        `TractionLaw`. "gross_sliding" is the source's, friction x pressure everywhere; "oscillating_force" and
+        "oscillating_shift" give stresses, pieces and local wear the tractions and the slip of a loop in partial slip.
+    third_bodies : particles that stay between the surfaces, `bem.wear.third_bodies.ThirdBodies` or a table of its
+        fields; None for none. Of dry contacts and of `MixedContact`, where these slide; they roll half as far as a
+        cycle of the criterion stands for.
+    film_defect : of a boundary film that protects what wears locally, `bem.wear.film_defect.FilmDefect` or a table of
+        its fields; None for surfaces that wear as the criterion says.
+    """
+
+    criterion: str | Mapping[str, Any] | Detachment = "von_mises"
+    stress_range: bool = False
+    refine: int = 10
+    refinement: str = "monotone_cubic"
+    connectivity: int = 6
+    removal: str | RemovalLaw = "cap"
+    wears: str = "softer"
+    frame: str = "cylinder"
+    shift: int = 3
+    within_layer: bool = True
+    traction: str | Mapping[str, Any] | TractionLaw = "gross_sliding"
+    third_bodies: ThirdBodies | Mapping[str, Any] | None = None
+    film_defect: FilmDefect | Mapping[str, Any] | None = None
+
+    def __post_init__(self) -> None:
+        messages = []
+        for key, allowed in (
+            ("refinement", [*REFINEMENTS, "exact"]),
+            ("connectivity", list(CONNECTIVITIES)),
+            ("wears", ["softer", "lower", "upper", "both"]),
+            ("frame", ["cylinder", "disk"]),
+        ):
+            if getattr(self, key) not in allowed:
+                messages.append(f"WearModel: {key} {getattr(self, key)!r} must be one of {allowed}")
+        if self.refine != int(self.refine) or self.refine < 1:
+            messages.append(f"WearModel: refine {self.refine!r} must be an integer >= 1")
+        if self.shift != int(self.shift):
+            messages.append(f"WearModel: shift {self.shift!r} must be a whole number of cells")
+        try:
+            chosen = {key: getattr(self, key) for key in ("criterion", "removal", "traction")}
+            made = make_laws("WearModel", chosen, {})
+        except InputError as error:
+            raise InputError([*messages, *error.messages]) from None
+        if messages:
+            raise InputError(messages)
+        for key, law in made.items():
+            object.__setattr__(self, key, law)
+        if isinstance(self.third_bodies, Mapping):
+            from bem.wear.third_bodies import ThirdBodies  # imports both contacts
+
+            object.__setattr__(self, "third_bodies", ThirdBodies(**self.third_bodies))
+        if isinstance(self.film_defect, Mapping):
+            object.__setattr__(self, "film_defect", FilmDefect(**self.film_defect))
+        misfits = list(self.tractions.misfits(self.law, self.stress_range))
+        if self.particles is not None and not self.tractions.slides:
+            misfits.append(
+                f"third bodies roll where surfaces slide; allowed: no traction {self.tractions.name}, or none"
+            )
+        if self.boundary_film is not None:
+            law, tractions = self.law, self.tractions
+            misfits += film_defect_misfits(law.name, law.wears_by_pressure, tractions.name, tractions.slides)
+        if misfits:
+            raise InputError([f"WearModel: {text}" for text in misfits])
+
+    @property
+    def moving(self) -> int:
+        """Index of the body that moves through the contact."""
+        return LOWER if self.frame == "cylinder" else UPPER
+
+    @property
+    def law(self) -> Detachment:
+        """The criterion as an object."""
+        assert isinstance(self.criterion, Detachment)
+        return self.criterion
+
+    @property
+    def particles(self) -> ThirdBodies | None:
+        """Particles that stay between the surfaces; None for none."""
+        assert not isinstance(self.third_bodies, Mapping)
+        return self.third_bodies
+
+    @property
+    def boundary_film(self) -> FilmDefect | None:
+        """Fractional film defect of a boundary film; None for unprotected surfaces."""
+        assert self.film_defect is None or isinstance(self.film_defect, FilmDefect)
+        return self.film_defect
+
+    @property
+    def tractions(self) -> TractionLaw:
+        """The traction law as an object."""
+        assert isinstance(self.traction, TractionLaw)
+        return self.traction
