@@ -20,18 +20,20 @@ from bem.grid import FloatArray
 CRITERIA = ("dang_van", "crossland")
 _ITERATIONS = 2000
 _GAP = 1e-6
-"""Relative gap between the radius that reaches all points and that which is proved to be needed."""
+"""Relative gap between the radius that encloses all points and its proved lower bound."""
 
 
 @dataclass(frozen=True)
 class FatigueLimit:
-    """Life under reversed bending, sigma = bending + slope ln N [Pa] (Wohler), and what hydrostatic stress adds.
+    """Fatigue limit over the number of cycles, and the weight of hydrostatic stress.
 
-    criterion : "dang_van" or "crossland". bending : B of one cycle [Pa]; slope : A [Pa], negative. The limit in
-    reversed torsion is sigma / sqrt(3). hydrostatic : how much of it counts; of Dang Van 3/sqrt(3) - 3/2 = 0.232
-    follows from both limits, of Crossland 0. residual : stress that stays in the plane of the surface, along x and y
-    alike [Pa], negative where it is compressive (of first passes, peening, hardening): a path shakes down around it, so
-    that its hydrostatic part alone counts.
+    criterion : "dang_van" or "crossland".
+    bending, slope : B and A of the life under reversed bending, sigma = B + A ln N (Wohler) [Pa]; A is negative. The
+        limit in reversed torsion is sigma / sqrt(3).
+    hydrostatic : weight of the hydrostatic stress; None takes 3/sqrt(3) - 3/2 = 0.232 for Dang Van, which follows from
+        both limits, and 0 for Crossland.
+    residual : residual stress in the plane of the surface, equal along x and y [Pa], negative in compression. A path
+        shakes down around it, so its hydrostatic part alone counts.
 
     The paper's constants of hardened 52100 are B 1220 MPa, A -43 MPa (Morales-Espejel and Brizmer 2011, after Shimizu;
     the sign of A is lost in print). A is taken per decade here: 833 MPa at 1e9 cycles, where rotating bending of
@@ -59,28 +61,32 @@ class FatigueLimit:
 
     @property
     def factor(self) -> float:
-        """Of the hydrostatic stress."""
+        """Weight of the hydrostatic stress."""
         if self.hydrostatic is not None:
             return self.hydrostatic
         return 3 / math.sqrt(3) - 1.5 if self.criterion == "dang_van" else 0.0
 
     def equivalent_shear(self, path: FloatArray) -> FloatArray:
-        """(...) [Pa] of a closed path of stresses (6, times, ...) [Pa], order xx, yy, zz, yz, xz, xy: what is compared
-        with the limit in torsion."""
+        """Return the equivalent shear stress (...) [Pa] of a closed path of stresses (6, times, ...) [Pa].
+
+        Order xx, yy, zz, yz, xz, xy. It is compared with the limit in torsion.
+        """
         points = np.moveaxis(np.asarray(path, dtype=np.float64), (0, 1), (-1, -2))
         flat = np.ascontiguousarray(points.reshape(-1, *points.shape[-2:]))
         found = _dang_van(flat, self.factor) if self.criterion == "dang_van" else _crossland(flat, self.factor)
         return np.asarray(found.reshape(points.shape[:-2]) + self.factor * 2 / 3 * self.residual)
 
     def damage(self, equivalent: FloatArray) -> FloatArray:
-        """Share of a life that a cycle takes (Miner), 1/N; at most one."""
+        """Return the damage of a cycle (Miner), 1/N; at most one."""
         return np.asarray(np.exp(np.minimum((self.bending - math.sqrt(3) * equivalent) / self.slope, 0.0)))
 
 
 @compiled
 def _ball(points, centre):
-    """Centre, in place, of the smallest ball around points (n, 5): Frank and Wolfe's method of its dual with steps away
-    from points inside, which end when the radius reached and the one proved differ by less than a part."""
+    """Find the centre of the smallest ball around points (n, 5), in place.
+
+    Frank-Wolfe method of the dual with away steps, until the radius and its lower bound agree to `_GAP`.
+    """
     n, m = points.shape
     weight = np.zeros(n)
     weight[0] = 1.0
@@ -123,7 +129,7 @@ def _ball(points, centre):
 
 @compiled
 def _deviators(path, out):
-    """Deviators of stresses (n, 6) as points (n, 5) whose distance squared is s : s."""
+    """Write deviators of stresses (n, 6) as points (n, 5) whose squared distance is s : s."""
     for i in range(path.shape[0]):
         xx, yy, zz = path[i, 0], path[i, 1], path[i, 2]
         out[i, 0] = (xx - yy) / math.sqrt(2.0)
@@ -134,7 +140,7 @@ def _deviators(path, out):
 
 @compiled
 def _tresca(point):
-    """Largest shear of a deviator given as a point (5,), by its invariants."""
+    """Return the largest shear of a deviator given as a point (5,), from its invariants."""
     xx = point[0] / math.sqrt(2.0) - point[1] / math.sqrt(6.0)
     yy = -point[0] / math.sqrt(2.0) - point[1] / math.sqrt(6.0)
     zz = 2.0 * point[1] / math.sqrt(6.0)

@@ -39,10 +39,10 @@ def particles_from_height_map(
     smallest_radius: float = 0.0,
     connectivity: int = 8,
 ) -> list[Particle]:
-    """Find the particles that stand out of a plate by more than `threshold`.
+    """Find the particles that stand out of a plate by more than a threshold.
 
-    A particle is a connected region above the threshold; its volume is counted down to the background (a microscope
-    sees no undercut); what lies around it below the threshold is not in it, and flatter particles are not seen.
+    A particle is a connected region above the threshold. Its volume is counted down to the background, since a
+    microscope sees no undercut. Its flanks below the threshold do not count, and flatter particles are not found.
 
     Parameters
     ----------
@@ -82,7 +82,8 @@ def level_background(
     method: str = "plane",
     lines: bool = False,
 ) -> FloatArray:
-    """Heights above the plate (nx, ny) [m]: its plane or second-order surface is fitted to what is no particle.
+    """Return the heights above the plate (nx, ny) [m], its plane or second-order surface fitted to points without
+    particles.
 
     Starts from a plane through the medians of rows and columns, then fits repeatedly to the points within half the
     threshold of the median of the remainder until these stay the same. "offset" takes out the median only.
@@ -114,7 +115,7 @@ def level_background(
 
 
 def _median_slope(heights: FloatArray) -> FloatArray:
-    """A plane through the medians of columns and rows: a start that particles hardly move."""
+    """Return a plane through the medians of columns and rows, on which particles have little effect."""
     surface = np.zeros_like(heights)
     for axis in (0, 1):
         n = heights.shape[axis]
@@ -130,7 +131,7 @@ def _median_slope(heights: FloatArray) -> FloatArray:
 
 
 def _plate_median(heights: FloatArray, threshold: float) -> float:
-    """Median of the points that are no particle: those within half a threshold of it."""
+    """Return the median of the points without particles, those within half a threshold of it."""
     middle = float(np.median(heights))
     for _ in range(30):
         near = heights[np.abs(heights - middle) < 0.5 * threshold]
@@ -174,7 +175,7 @@ def _root(parent: NDArray[np.int64], i: int) -> int:
 def _flood(
     heights: FloatArray, order: NDArray[np.int64], nx: int, ny: int, prominence: float, corners: bool
 ) -> NDArray[np.int64]:
-    """Watershed from the summits down: roots of each column; a relative prominence of 2 merges all that touch."""
+    """Watershed from the summits down; return the root of each column. A prominence of 2 merges all that touch."""
     parent = np.full(heights.size, -1, dtype=np.int64)  # the root of a particle is its summit
     for n in range(order.size):
         here = order[n]
@@ -223,7 +224,7 @@ def _measure(
     smallest_columns: int,
     smallest_radius: float,
 ) -> list[Particle]:
-    """Sizes and places of the labelled particles that are kept."""
+    """Return sizes and positions of the labelled particles that pass the filters."""
     nx, ny = level.shape
     ix, iy = np.nonzero(labels)
     names = labels[ix, iy]
@@ -263,7 +264,7 @@ def _measure(
 def minimum_area_rectangle(
     ix: NDArray[np.int64], iy: NDArray[np.int64], spacing: tuple[float, float]
 ) -> tuple[float, float]:
-    """Sides of the rectangle of smallest area around whole cells, at any angle [m].
+    """Return the sides of the rectangle of smallest area around whole cells, at any angle [m].
 
     One of its sides lies along one side of the convex hull (Freeman & Shapira, *Commun. ACM* 18 (1975) 409).
     """

@@ -1,6 +1,6 @@
 """Balance of a tribofilm in four constants: wear coefficient, lag, substrate concentration, initial thickness.
 
-Knows numbers only; `evolution` (mean thickness) and `local` (cell by cell) integrate it. Verified in
+Knows numbers only; `evolution` (mean thickness) and `local_film` (cell by cell) integrate it. Verified in
 tests/tribofilm/test_film_evolution.py and test_local_film.py.
 """
 

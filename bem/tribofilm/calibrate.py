@@ -1,16 +1,15 @@
-"""Fit the film's constants to measured thickness and wear over time, and say how well the data determine them.
+"""Calibration: fit of the film's constants to measured thickness and wear over time, with their uncertainties.
 
-The reduced model leaves the contact out: where a film grows the contact is at the film's hardness, so the shear stress
-is `friction x pressure_share x H(h, T)`, with a share that one contact of the full model gives (its mean pressure over
-hardness). Everything else - growth, wear, delay, substrate wear - is the full model's.
-
-All parameters are positive and fitted as logarithms. Uncertainties are those of the linearised problem: the covariance
-(J^T J)^-1 of the weighted residuals, times the reduced chi-square where no errors of measurement are given. Directions
-in parameter space that the data do not feel (singular values below 1e-6 of the largest, or fewer data than parameters)
-are found by a singular value decomposition and named instead of being given a meaningless error bar.
-
-A fit is bad where a chi-square as large has a probability below `LEAST_PROBABILITY` were model and errors right;
-without errors of measurement, where the data lie further than `MOST_SCATTER` of their values from the model.
+1. The reduced model replaces the contact: where a film grows the contact is at the film's hardness, so the shear stress
+   is `friction x pressure_share x H(h, T)`, with the mean pressure over hardness of one contact of the full model.
+   Growth, wear, delay and substrate wear are those of the full model.
+2. Fit the logarithms of the parameters by weighted least squares (`scipy.optimize.least_squares`, within bounds).
+3. Uncertainties are those of the linearised problem: the covariance (J^T J)^-1 of the weighted residuals, times the
+   reduced chi-square where no errors of measurement are given.
+4. A singular value decomposition finds directions in parameter space that the data do not determine (singular values
+   below 1e-6 of the largest, or fewer data than parameters); their parameters are named and have no error bar.
+5. A fit is bad where a chi-square as large has a probability below `LEAST_PROBABILITY` if model and errors are right;
+   without errors of measurement, where the rms distance of data and model exceeds `MOST_SCATTER` of the values.
 """
 
 from __future__ import annotations
@@ -32,10 +31,10 @@ from bem.tribofilm.evolution import GrowthRate, evolve_film
 from bem.tribofilm.growth import BOLTZMANN, ELECTRON_VOLT
 from bem.tribofilm.properties import FadingSubstrate
 
-_UNFELT = 1e-6
+_SMALLEST_SINGULAR_VALUE = 1e-6
 LEAST_PROBABILITY = 1e-3
 MOST_SCATTER = 0.15
-_REACH = 30.0  # a parameter is looked for within this factor of its start
+_BOUND_FACTOR = 30.0  # parameters are bounded within this factor of their start
 _ASSUMED = 0.05  # relative error of a measurement that comes without one
 _COLUMNS = {
     "temperature": ("K", {"K": (1.0, 0.0), "degC": (1.0, 273.15), "C": (1.0, 273.15)}),
@@ -49,7 +48,7 @@ _COLUMNS = {
 
 @dataclass(frozen=True)
 class Measurement:
-    """One measured number: film thickness at a time, or depth of substrate worn since an earlier time. SI units."""
+    """Measured value: film thickness at a time, or depth of substrate worn since an earlier time. SI units."""
 
     temperature: float
     time: float
@@ -61,17 +60,17 @@ class Measurement:
 
 @dataclass(frozen=True)
 class ReducedModel:
-    """The constants of the film, in the units of the literature, and what is known of the contact.
+    """Constants of the film in the units of the literature, and given values of the contact.
 
     Those in `FITTED` can be fitted; `lag` [s], `friction`, `prefactor` [m/s], `substrate_hardness_GPa`,
     `pressure_share`, `temperature_slope` and `substrate_temperature_slope` [1/K] are given. Equal slopes multiply the
     whole hardness curve by one factor of temperature, as the source does; by default the substrate keeps its hardness.
 
-    Wear depths alone leave two films: the steady wear rate `alpha h exp(-C1 h)` of the substrate has its maximum at
-    h = 1/C1 (81 nm in paper E), so that each lower rate belongs to a thin film and to a thick one. The 86.3 nm of the
-    paper between 45 and 120 minutes at 60 degrees Celsius belong to 55 nm and to 113 nm. Only the thicker film lets the
-    wear fall from 60 to 80 to 100 degrees Celsius: the paper has the highest wear at 60 and prints none for
-    80. Measured thicknesses, or a start on the right side, decide.
+    Wear depths alone leave two solutions: the steady wear rate `alpha h exp(-C1 h)` of the substrate has its maximum at
+    h = 1/C1 (81 nm in paper E), so each lower rate belongs to a thin and to a thick film. The 86.3 nm of the paper
+    between 45 and 120 minutes at 60 degrees Celsius belong to 55 nm and to 113 nm. Only with the thicker film does the
+    wear fall from 60 to 80 to 100 degrees Celsius: the paper has the highest wear at 60 and prints none for 80.
+    Measured thicknesses, or a start near the right solution, decide.
     """
 
     activation_energy_eV: float = 0.665
@@ -99,7 +98,7 @@ class ReducedModel:
             raise InputError(bad)
 
     def growth_rate(self, temperature: float) -> GrowthRate:
-        """Growth rate [m/s] as a function of thickness [m], at a temperature [K]."""
+        """Return the growth rate [m/s] as a function of thickness [m], at a temperature [K]."""
         hardness = FadingSubstrate(
             1e9 * self.substrate_hardness_GPa,
             1e9 * self.film_hardness_GPa,
@@ -117,7 +116,7 @@ class ReducedModel:
         return rate
 
     def predict(self, data: list[Measurement]) -> FloatArray:
-        """What the model gives for each measurement [m]."""
+        """Return the prediction for each measurement [m]."""
         values = np.empty(len(data))
         for temperature in sorted({m.temperature for m in data}):
             own = [i for i, m in enumerate(data) if m.temperature == temperature]
@@ -146,11 +145,12 @@ FITTED = tuple(f.name for f in fields(ReducedModel))[:6]
 
 @dataclass(frozen=True, eq=False)
 class Calibration:
-    """A fit.
+    """Result of a fit.
 
-    model : with the fitted constants. names : those that were fitted. uncertainty : one standard deviation each, in the
-    parameter's unit; infinite for those the data do not determine. correlation : (n, n).
-    undetermined : names of parameters that take part in a direction the data do not feel.
+    model : with the fitted constants. names : of the fitted parameters.
+    uncertainty : one standard deviation each, in the parameter's unit; infinite for undetermined ones.
+    correlation : (n, n) of the logarithms.
+    undetermined : names of parameters in a direction that the data do not determine.
     chi_square : weighted sum of squares; degrees : data less parameters. residuals : data - model [m].
     errors_given : whether the data came with errors (else the errors of the fit are scaled to its scatter).
     at_start : data at time zero, which tell nothing of the constants and are left out. at_bounds : parameters that ran
@@ -177,24 +177,24 @@ class Calibration:
 
     @property
     def determined(self) -> bool:
-        """Whether every fitted parameter is determined by the data."""
+        """True if the data determine every fitted parameter."""
         return not self.undetermined
 
     def verdict(self) -> str:
-        """In a few sentences, what the data say about the parameters, and whether the model meets them."""
+        """Return a summary in sentences: whether the data determine the parameters, and whether the fit is good."""
         if self.determined:
-            said = [f"{len(self.data)} data determine {len(self.names)} parameters."]
+            sentences = [f"{len(self.data)} data determine {len(self.names)} parameters."]
         else:
-            said = [
+            sentences = [
                 f"Underdetermined: {len(self.data)} data do not determine {len(self.names)} parameters. Combinations "
                 f"of {', '.join(self.undetermined)} can change without any effect on the fit; fix some of them or add "
                 "data."
             ]
-        return " ".join([*said, *filter(None, (self.misfit, self._bounds_met(), self._start()))])
+        return " ".join([*sentences, *filter(None, (self.misfit, self._bounds_met(), self._start()))])
 
     @property
     def misfit(self) -> str:
-        """Why the fit is bad, in a sentence; empty where it is not, or where too few data are there to tell."""
+        """Reason why the fit is bad, in a sentence; empty for a good fit, or for too few data to judge."""
         if self.degrees <= 0:
             return ""
         if self.errors_given:
@@ -212,8 +212,8 @@ class Calibration:
         if not self.at_bounds:
             return ""
         return (
-            f"{', '.join(self.at_bounds)} ran to the end of the range that is searched, a factor of {_REACH:g} from "
-            "the start: start elsewhere (--start), or the model is not this film's."
+            f"{', '.join(self.at_bounds)} ran to the end of the range that is searched, a factor of {_BOUND_FACTOR:g} "
+            "from the start: start elsewhere (--start), or the model is not this film's."
         )
 
     def _start(self) -> str:
@@ -225,7 +225,7 @@ class Calibration:
         return f"{text}." if thickest <= limit else f"{text}, but the model starts without the {1e9 * thickest:.3g} nm."
 
     def scene_lines(self) -> str:
-        """The lines of a scene of kind tribofilm that say this film, as TOML."""
+        """Return the lines of a scene of kind tribofilm with this film, as TOML."""
         m = self.model
         hardness = (
             f'{{ kind = "fading_substrate", substrate = "{m.substrate_hardness_GPa:.6g} GPa", '
@@ -278,7 +278,7 @@ def calibrate(data: list[Measurement], start: ReducedModel, names: tuple[str, ..
     found = least_squares(
         residuals,
         begin,
-        bounds=(begin - math.log(_REACH), begin + math.log(_REACH)),
+        bounds=(begin - math.log(_BOUND_FACTOR), begin + math.log(_BOUND_FACTOR)),
         x_scale=0.1,
         diff_step=1e-4,
         xtol=1e-8,
@@ -290,17 +290,17 @@ def calibrate(data: list[Measurement], start: ReducedModel, names: tuple[str, ..
     model = replace(start, **dict(zip(names, fitted.tolist(), strict=True)))
     degrees = len(data) - len(names)
     chi_square = float((found.fun**2).sum())
-    covariance, unfelt = _covariance(found.jac)
+    covariance, no_bar = _covariance(found.jac)
     if not given and degrees > 0:
         covariance = covariance * chi_square / degrees
     deviation = np.sqrt(np.diag(covariance))
-    undetermined = tuple(name for name, lost in zip(names, unfelt, strict=True) if lost)
+    undetermined = tuple(name for name, lost in zip(names, no_bar, strict=True) if lost)
     with np.errstate(invalid="ignore", divide="ignore"):
         correlation = np.nan_to_num(covariance / np.outer(deviation, deviation))
     return Calibration(
         model=model,
         names=tuple(names),
-        uncertainty=np.where(unfelt, np.inf, deviation * fitted),
+        uncertainty=np.where(no_bar, np.inf, deviation * fitted),
         correlation=correlation,
         undetermined=undetermined,
         chi_square=chi_square,
@@ -314,15 +314,15 @@ def calibrate(data: list[Measurement], start: ReducedModel, names: tuple[str, ..
 
 
 def _covariance(jacobian: FloatArray) -> tuple[FloatArray, FloatArray]:
-    """Covariance of the logarithms where the data feel them, and which parameters take part where they do not."""
+    """Return the covariance of the logarithms, and True for parameters in directions that the data do not determine."""
     _, singular, directions = np.linalg.svd(jacobian, full_matrices=True)
     size = jacobian.shape[1]
     strength = np.zeros(size)
     strength[: singular.size] = singular
-    felt = strength > _UNFELT * max(strength.max(), 1e-300)
-    inverse = np.where(felt, 1 / np.where(felt, strength, 1.0) ** 2, 0.0)
+    determined = strength > _SMALLEST_SINGULAR_VALUE * max(strength.max(), 1e-300)
+    inverse = np.where(determined, 1 / np.where(determined, strength, 1.0) ** 2, 0.0)
     covariance = (directions.T * inverse) @ directions
-    fraction = (directions[~felt] ** 2).sum(axis=0)
+    fraction = (directions[~determined] ** 2).sum(axis=0)
     return covariance, fraction > 1e-3
 
 

@@ -39,7 +39,8 @@ def under_oil(
     contact : under the whole load, with the speeds of both surfaces.
     height : (nx, ny) heights of both surfaces together [m].
     radii : (Rx, Ry) of the ball or ellipsoid [m].
-    lubricant : oil. film_cells : cells of the oil film along an axis.
+    lubricant : oil.
+    film_cells : cells of the oil film along an axis.
 
     Raises
     ------

@@ -31,7 +31,7 @@ from bem.tribofilm.properties import Constant
 
 if TYPE_CHECKING:
     from bem.tribofilm import ContactSample, FilmContact, LocalFilm, TribofilmGrowth
-    from bem.tribofilm.local import LocalState
+    from bem.tribofilm.local_film import LocalState
 
 _CONVOLUTIONS = 14  # of one warm-started contact, coarse levels included
 _CONTACTS = 50  # solved per film at `_REFERENCE_TOLERANCE`: the table is refined only as far as the film gets

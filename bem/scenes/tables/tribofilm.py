@@ -185,7 +185,7 @@ class RubbedScene(SceneModel):
 
     def _softest(self) -> float:
         """The softest hardness that film or counter-body can have [Pa]."""
-        from bem.tribofilm.grow import softest_film
+        from bem.tribofilm.mean_film import softest_film
 
         film, rubbing = self.film, self.rubbing
         laws = film.hardness, film.kinetics(), film.balance()

@@ -1,7 +1,7 @@
 """Tribofilm with local thickness: it raises the surface where it grows, which changes the next contact.
 
-The mean film (`grow.grow_tribofilm`, as in the source) changes stiffness and hardness of the contact; the local film
-changes the surface too. Per time step:
+The mean film (`mean_film.grow_tribofilm`, as in the source) changes stiffness and hardness of the contact; the local
+film changes the surface too. Per time step:
 
 1. Predict the film of every cell with the growth at the start of the step; wear is integrated exactly, so no step makes
    a film negative (exponential trapezoidal rule ETD2RK, Cox and Matthews 2002).

@@ -60,7 +60,7 @@ class TribofilmGrowth:
 
     @property
     def film_pressure(self) -> FloatArray:
-        """Of the contact whose film is nearest to that at the end (nx, ny) [Pa]."""
+        """Pressure (nx, ny) of the contact whose film is nearest to that at the end [Pa]."""
         return min(self.contacts, key=lambda one: abs(one.thickness - self.history.thickness[-1])).pressure
 
     def wear_depth(self, start: float, end: float) -> float:
