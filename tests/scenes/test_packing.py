@@ -34,6 +34,18 @@ def test_records_come_back_from_a_file_and_given_things_are_not_stored(tmp_path)
     assert found[4] is own
 
 
+def test_tables_and_mappings_come_back_from_a_file(tmp_path):
+    table = np.zeros(3, [("cycle", np.int32), ("friction", np.float64), ("converged", np.bool_)])
+    table["friction"] = 0.1, 1 / 3, np.nan
+    save_checkpoint(tmp_path / "state", {"all": packed((table, {2: Status.STALLED, 0: (1.5, None)}, table[:0]))})
+    found, mapping, empty = unpacked(load_checkpoint(tmp_path / "state")["all"])
+    assert found.dtype == table.dtype
+    assert found.tobytes() == table.tobytes()
+    assert mapping == {2: Status.STALLED, 0: (1.5, None)}
+    assert empty.dtype == table.dtype
+    assert empty.size == 0
+
+
 def test_only_records_of_the_package_have_names():
     with pytest.raises(TypeError, match="give it to both sides"):
         packed([Stranger(1)])

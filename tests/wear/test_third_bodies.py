@@ -198,6 +198,20 @@ def test_what_are_no_particles_is_refused(changes, message):
 
 
 @pytest.mark.internal
+def test_a_loop_takes_them_around_a_dry_contact_that_is_given():
+    plain, model = setup(), WearModel(third_bodies=ThirdBodies(D, 1e10))
+    arguments = {
+        "grid": GRID, "bodies": bodies(), "load": LOAD, "depths": plain.depths, "friction": 0.1, "cycles": 2,
+        "gap": plain.gap, "model": model,
+    }  # fmt: skip
+    one, other = (
+        run_in(rough(), np.zeros(GRID.shape), contact_step=step, **arguments) for step in (None, dry_contact(plain))
+    )
+    assert one.cycles["third_body_load"].min() > 0
+    assert np.array_equal(one.cycles, other.cycles)
+
+
+@pytest.mark.internal
 def test_surfaces_without_hardness_and_films_are_refused():
     soft = (bodies()[0], Body(Material("upper", youngs_modulus=210e9, poissons_ratio=0.3)))
     plain = setup()

@@ -9,7 +9,7 @@ from bem.friction.setup import MixedSetup
 from bem.notes import has_code
 from bem.notes.friction import OIL_COUNTED
 from bem.notes.wear import THIRD_BODIES_MANY
-from bem.wear import WearModel, pack_state, unpack_state
+from bem.wear import ContactStart, WearModel, pack_state, unpack_state
 from bem.wear.mixed import MixedContact, MixedCycles
 from bem.wear.third_bodies import ThirdBodies, with_third_bodies
 
@@ -104,6 +104,16 @@ def test_halves_of_the_last_step_are_no_cycles_of_a_contact_in_oil():
     )  # fmt: skip
     assert found.step_error > 0
     assert len(found.state.sharing) == 2
+
+
+def test_a_contact_in_oil_keeps_no_state():
+    contact = step()
+    first = contact(ROUGH)
+    start = ContactStart(first.pressure, first.memory)
+    one, other = contact(ROUGH, start), contact(ROUGH, start)
+    assert np.array_equal(one.pressure, other.pressure)
+    assert np.array_equal(one.sharing, other.sharing)
+    assert np.array_equal(contact(ROUGH).sharing, first.sharing)
 
 
 def loop(cycles, state=None, callback=None, contact=True, **particle):
