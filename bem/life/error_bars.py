@@ -49,7 +49,7 @@ START = {
     "lambda_ratio_initial": "lambda_ratio",
     "contact_share_initial": "contact_share",
 }
-"""Those of the unworn surfaces."""
+"""Figures of the unworn surfaces by columns of the march."""
 _SAMPLED = {
     "friction": ("boundary_friction", "film_friction"),
     "contact_share": ("contact_share",),
@@ -57,14 +57,14 @@ _SAMPLED = {
     "minimum_film": ("minimum_film",),
     "lambda_ratio": ("lambda_ratio",),
 }
-"""Columns that are means over positions, and what of a pass they are the means of."""
+"""Columns that are means over positions, by the fields of a pass that they average."""
 _POSITIONS = {
     "friction_initial": 0.7,
     "contact_share_initial": 0.5,
     "contact_share_final": 1.3,
     "contact_area_fraction": 0.75,
 }
-"""Factors on what half the positions change; 1 elsewhere, and on what cells and points of films change."""
+"""Factors on the differences by half the positions; 1 elsewhere, and for cells and points of films."""
 _SCATTERED = {
     "friction_final": 0.5,
     "friction_initial": 0.35,
@@ -72,11 +72,11 @@ _SCATTERED = {
     "contact_share_initial": 0.5,
     "contact_area_fraction": 0.75,
 }
-"""Factors on what positions scatter, which are spread evenly and not drawn; 1 elsewhere."""
+"""Factors on the scatter of positions, which are spread evenly and not drawn; 1 elsewhere."""
 _MINIMUM_FILM = 0.6
-"""On what half the points change of it."""
+"""Factor on the difference of the minimum film by half the points."""
 _HEIGHTS = {"Sq_final": 0.75, "upper_Sq_final": 1.0}
-"""Factors on what `missed_roughness` tells."""
+"""Factors on the estimates of `missed_roughness`."""
 
 
 def fewer_positions(positions: int) -> int:

@@ -31,15 +31,15 @@ ROW = (
     *("minimum_film", "lambda_ratio", "lower_rms", "upper_rms", "lower_depth", "upper_depth", "film_thickness"),
     *("contact_temperature", "flash_temperature", "step_error", "depth_error"),
 )
-"""A step's end as a row of numbers: SI units; means over the positions of its last round and over whole surfaces;
+"""Columns of a row at the end of a step: SI units; means over the positions of its last round and over whole surfaces;
 the flash temperature is the highest of any position."""
 
 _ROUND_OFF = float(np.finfo(np.float64).eps)
-"""Of the largest height: one subtraction against two, each rounded by half of it at most."""
+"""Round-off of heights relative to the largest, by one subtraction against two."""
 _THIN = 1e-10
-"""Films thinner than this [m] are held to an absolute instead of a relative tolerance."""
+"""Thickness below which the tolerance of the film is absolute [m]."""
 _SMALLEST = 2.0**-30
-"""Of the first step: a step below it will not help."""
+"""Smallest step relative to the first; the march fails below it."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True, eq=False)
 class ContactStart:
-    """What a contact step knows of the cycles before.
+    """Start of a contact step: its knowledge of the cycles before.
 
     pressure : (nx, ny) of the last contact [Pa], moved with the sliding body; a warm start, which affects cost and
         rounding only. None for none.

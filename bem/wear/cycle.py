@@ -47,7 +47,7 @@ def wear_cycle(
     slid = None if rubbing is None else model.tractions.loops_per_cycle * rubbing.slid
     slide = abs(model.shift) * setup.grid.spacing[0]
     removals = []
-    for body in setup.wearing(model):
+    for body in model.wearing(setup):
         loads = stress_range_loads(acting, last_loads[body]) if model.stress_range else (acting,)
         cycle = BodyCycle(contact.pressure, loads, setup, model, body, slide, memories[body], slid, contact.temperature)
         removals.append(model.law.detach(cycle))

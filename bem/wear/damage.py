@@ -1,7 +1,7 @@
-"""Damage of a body's voxels: added cycle by cycle, moved up with the material when the surface goes down.
+"""Fatigue damage of a body's voxels: added cycle by cycle, moved up with the material as the surface wears.
 
-A stack of planes (planes, nx, ny) at the depths of the stresses below the surface of now; beyond the last there is
-none. Verified in tests/wear/test_criteria_with_length.py.
+A stack of planes (planes, nx, ny) at the depths of the stresses below the current surface; zero beyond the last.
+Verified in tests/wear/test_criteria_with_length.py.
 """
 
 from __future__ import annotations
@@ -19,16 +19,16 @@ from bem.wear.loads import BodyCycle, Removal
 from bem.wear.yielding import depths_for, no_pieces, pieces_above, yielded_stress
 
 
-def broken(
+def fatigue_removal(
     cycle: BodyCycle, averaging_length: float, damage_of: Callable[[FloatArray, Material], FloatArray]
 ) -> Removal:
-    """Return pieces of voxels that have no life left, and the damage of the material that stays.
+    """Return pieces of voxels with damage above one that reach the surface, and the damage of the remaining material.
 
     Parameters
     ----------
     cycle : of the body.
     averaging_length : diameter of the disc over which stresses are averaged [m]; 0 for none.
-    damage_of : (von Mises stress [Pa], material) -> life fraction lost in the cycle, of the stress' shape.
+    damage_of : (von Mises stress [Pa], material) -> damage of the cycle, of the stress' shape.
     """
     setup, model, body = cycle.setup, cycle.model, cycle.body
     loads = averaged_loads(cycle.loads, setup.grid, averaging_length) if averaging_length > 0 else cycle.loads
@@ -46,15 +46,17 @@ def broken(
     if len(damage) >= 2 and damage[0].max() > 1.0:
         pieces = pieces_above(damage, depths[: len(damage)], 1.0, setup, model)
         move_up(damage, depths[: len(damage)], pieces.thickness)
-        # a piece ends where one is reached; a line between depths may lie above the cubic that found the place
+        # a piece ends where the damage is one; linear interpolation may lie above the cubic that found the depth
         np.minimum(damage[0], 1.0, out=damage[0], where=pieces.thickness > 0)
     return Removal(body, pieces, found.computed, found.seconds, time.perf_counter() - start, damage)
 
 
 @compiled
 def move_up(stack, depths, thickness):
-    """Columns of a stack (nz, nx, ny) moved up, in place, by what left them (nx, ny) [m]; linear between depths, so no
-    value appears that was not between two, and zero below the last."""
+    """Move the columns of a stack (nz, nx, ny) up in place by the depth that left them (nx, ny) [m].
+
+    Linear between depths, so no value exceeds its neighbours; zero below the last depth.
+    """
     nz, nx, ny = stack.shape
     column = np.empty(nz)
     for i in range(nx):

@@ -1,4 +1,4 @@
-"""Junctions: spots of contact that act together, how far they were dragged, and the half spheres that come off them.
+"""Junctions: contact spots that act together, their drag, and the half spheres that come off under them.
 
 Knows contact maps; no stress. Verified in tests/wear/test_criteria_with_length.py.
 """
@@ -18,13 +18,15 @@ from bem.wear.loads import BodyCycle, Removal
 from bem.wear.segmentation import Segmentation
 
 _PARTS = 4
-"""Points a side by which a cell's share of a half sphere is found, before the whole is brought to its volume."""
+"""Points per side by which the depth of a half sphere in a cell is averaged, before scaling to the exact volume."""
 
 
 class Junctions(NamedTuple):
-    """Groups of spots: the group (nx, ny) of each cell, 1, 2, ..., 0 outside; of each group (n,) the diameter of the
-    circle of its area [m], its middle (n, 2) in cells, its extent along x [m] and the farthest that any of its columns
-    was dragged [m]."""
+    """Groups of contact spots.
+
+    labels : (nx, ny) group of each cell, 1, 2, ..., 0 outside. diameter : (n,) of the circle of the group's area [m].
+    middle : (n, 2) centre in cells. extent : (n,) along x [m]. dragged : (n,) largest drag of its columns [m].
+    """
 
     labels: NDArray[np.int32]
     diameter: FloatArray
@@ -33,12 +35,12 @@ class Junctions(NamedTuple):
     dragged: FloatArray
 
 
-def detached(cycle: BodyCycle, critical: float) -> Removal:
-    """Half spheres under the junctions as large as a critical size [m] that were dragged over their own size.
+def junction_removal(cycle: BodyCycle, critical: float) -> Removal:
+    """Return half spheres under the junctions of at least a critical size [m] that were dragged over their own size.
 
-    memory : one plane, how far each column was dragged without a break [m]; none is left where a piece came off.
-    Own size: the diameter or, of a junction that is longer across than along the sliding, its extent along x, which is
-    as far as a column is ever dragged by an asperity that passes.
+    The memory is one plane: drag of each column without a break in contact [m], reset where a piece came off. The own
+    size is the diameter or, for a junction longer across than along the sliding, its extent along x: the largest drag
+    of a column by an asperity that passes.
     """
     start = time.perf_counter()
     grid, pressure = cycle.setup.grid, cycle.pressure
@@ -55,9 +57,9 @@ def detached(cycle: BodyCycle, critical: float) -> Removal:
 
 
 def junctions(pressure: FloatArray, drag: FloatArray, grid: Grid) -> Junctions:
-    """Spots of contact of a pressure (nx, ny), those together that are nearer than the smaller of them is wide.
+    """Return the contact spots of a pressure (nx, ny), grouped where their distance is below the width of the smaller.
 
-    drag : how far each column was dragged, (nx, ny) [m].
+    drag : (nx, ny) drag of each column [m].
     """
     labels = label_spots(pressure, grid)
     count = int(labels.max())
@@ -75,7 +77,7 @@ def junctions(pressure: FloatArray, drag: FloatArray, grid: Grid) -> Junctions:
 
 @compiled
 def _areas(labels, count, wraps):
-    """Cells of each, and the mean of their places, which on a periodic axis count from the first cell found."""
+    """Return number of cells and mean position of each label; on a periodic axis relative to its first cell."""
     nx, ny = labels.shape
     area = np.zeros(count)
     total = np.zeros((count, 2))
@@ -110,8 +112,10 @@ def _root(parent, n):
 
 @compiled
 def _merge(middle, diameter, lengths):
-    """Union-find over spots whose circles leave less between them than the smaller is wide; `lengths` of the periods,
-    infinite where there is none. The root of each."""
+    """Join spots whose circles are closer than the width of the smaller by union-find; return the root of each.
+
+    lengths : of the periods, infinite along free axes.
+    """
     count = diameter.size
     parent = np.arange(count)
     order = np.argsort(middle[:, 0])
@@ -127,7 +131,7 @@ def _merge(middle, diameter, lengths):
                 b, turned = b - count, lengths[0]
             other = order[b]
             dx = middle[other, 0] + turned - middle[one, 0]
-            # no pair is nearer than half of both and the smaller together: three halves of the smaller, half the larger
+            # spots farther apart than three halves of the smaller and half of the larger do not join
             if dx > 1.5 * diameter[one] + 0.5 * widest and dx > 0.5 * diameter[one] + 1.5 * widest:
                 break
             dy = abs(middle[other, 1] - middle[one, 1])
@@ -144,7 +148,7 @@ def _merge(middle, diameter, lengths):
 
 @compiled
 def _reach(labels, drag, count):
-    """Rows that each covers, and the farthest drag of its columns."""
+    """Return the number of rows that each label covers, and the largest drag of its columns."""
     nx, ny = labels.shape
     rows = np.zeros(count)
     last = np.full(count, -1, np.int64)
@@ -161,8 +165,11 @@ def _reach(labels, drag, count):
 
 
 def half_spheres(middle: FloatArray, diameter: FloatArray, grid: Grid, deepest: float) -> Segmentation:
-    """Half spheres of diameters (n,) [m] below the surface, their middles (n, 2) in cells; where two overlap the deeper
-    has the column. Each has the volume pi d^3/12 on any grid, but for what lies beyond a free edge or `deepest`."""
+    """Return half spheres below the surface; where two overlap, the column belongs to the deeper one.
+
+    middle : (n, 2) centres in cells. diameter : (n,) [m]. deepest : depth at which pieces end [m]. Each has the volume
+    pi d^3/12 on any grid, except for parts beyond a free edge or `deepest`.
+    """
     labels = np.zeros(grid.shape, np.int32)
     thickness = np.zeros(grid.shape)
     _carve(middle, 0.5 * diameter, np.array(grid.spacing), grid.periodic, labels, thickness)
@@ -188,7 +195,7 @@ def _carve(middle, radius, spacing, wraps, labels, thickness):
                     y = (low[1] + b - 0.5 + (p % _PARTS + 0.5) / _PARTS - middle[n, 1]) * spacing[1]
                     depth[a, b] += np.sqrt(max(r * r - x * x - y * y, 0.0))
         total = depth.sum() * spacing[0] * spacing[1]
-        if total == 0.0:  # between all points: the cell that holds its middle
+        if total == 0.0:  # smaller than the distance of points: the cell of its centre
             depth[int(np.floor(middle[n, 0] + 0.5)) - low[0], int(np.floor(middle[n, 1] + 0.5)) - low[1]] = 1.0
             total = spacing[0] * spacing[1]
         depth *= 2 * np.pi / 3 * r**3 / total

@@ -1,4 +1,4 @@
-"""Lengths of the material: pressures averaged over a disc, pieces in which a sphere has room.
+"""Lengths of the material: pressures averaged over a disc, pieces that can hold a sphere.
 
 Knows grids, pressures and pieces. Verified in tests/wear/test_criteria_with_length.py.
 """
@@ -17,11 +17,11 @@ from bem.wear.loads import SurfaceLoad
 from bem.wear.segmentation import Segmentation
 
 _PARTS = 16
-"""Points a side by which a cell on the disc's edge is shared: areas to a thousandth of a cell."""
+"""Points per side by which the part of a cell within the disc is counted: areas to a thousandth of a cell."""
 
 
 class Offsets(NamedTuple):
-    """Cells about a middle one: their offsets (n,) along x and y, and a value of each."""
+    """Cells around a centre: offsets (n,) along x and y, and a value of each."""
 
     x: NDArray[np.int64]
     y: NDArray[np.int64]
@@ -29,7 +29,7 @@ class Offsets(NamedTuple):
 
 
 def disc(grid: Grid, diameter: float) -> Offsets:
-    """The share of a disc's area that lies in each cell about its middle; together one."""
+    """Return the fractions of a disc's area in the cells around its centre; their sum is one."""
     reach = [int(np.ceil(0.5 * diameter / h + 0.5)) for h in grid.spacing]
     parts = (np.arange(_PARTS) + 0.5) / _PARTS - 0.5
     x, y = ((np.arange(-n, n + 1)[:, None] + parts).ravel() * h for n, h in zip(reach, grid.spacing, strict=True))
@@ -43,12 +43,12 @@ def disc(grid: Grid, diameter: float) -> Offsets:
 
 
 def averaged(pressure: FloatArray, grid: Grid, diameter: float) -> FloatArray:
-    """The mean of a pressure (nx, ny) over a disc about each cell; beyond a free edge there is none."""
+    """Return the mean of a pressure (nx, ny) over a disc around each cell, zero beyond a free edge."""
     return np.asarray(_spread(np.ascontiguousarray(pressure), disc(grid, diameter), grid.periodic))
 
 
 def averaged_loads(loads: Sequence[SurfaceLoad], grid: Grid, diameter: float) -> list[SurfaceLoad]:
-    """Loads whose stresses are those of others, averaged over a disc [m] along the surface."""
+    """Return loads whose stresses are those of the given loads averaged over a disc [m] along the surface."""
     return [
         SurfaceLoad(
             averaged(load.pressure, grid, diameter),
@@ -61,7 +61,7 @@ def averaged_loads(loads: Sequence[SurfaceLoad], grid: Grid, diameter: float) ->
 
 @inlined
 def _neighbour(i, j, offsets, n, shape, wraps):
-    """The cell at an offset from [i, j], round periodic edges, and whether the grid has it."""
+    """Return the cell at an offset from [i, j] across periodic edges, and True if it is on the grid."""
     k, m = i + offsets.x[n], j + offsets.y[n]
     if wraps[0]:
         k %= shape[0]
@@ -86,11 +86,11 @@ def _spread(field, offsets, wraps):
     return out
 
 
-def holding(pieces: Segmentation, grid: Grid, diameter: float) -> Segmentation:
-    """Those pieces in which a sphere of a diameter [m] has room below the surface, numbered anew.
+def pieces_holding_sphere(pieces: Segmentation, grid: Grid, diameter: float) -> Segmentation:
+    """Return the pieces that can hold a sphere of a diameter [m] below the surface, renumbered.
 
-    A piece is all that lies above a depth in each column, so a sphere that fits anywhere fits where it touches the
-    surface: with r its radius, every column at a distance d < r from its middle is r + sqrt(r^2 - d^2) thick.
+    A piece is all material above a depth in each column, so a sphere that fits anywhere fits where it touches the
+    surface: for a radius r, every column at a distance d < r from the centre must be r + sqrt(r^2 - d^2) thick.
     """
     radius = 0.5 * diameter
     reach = [int(np.ceil(radius / h)) for h in grid.spacing]

@@ -101,7 +101,7 @@ class SharedCycle:
 
 @dataclass(frozen=True, eq=False)
 class MixedMemory:
-    """What the contact of the next cycle starts from.
+    """Memory of a `MixedContact`: start of the next balance, and worn shape.
 
     balance_start : warm start of the balance, without pressure. worn : worn shape in the film. last : load sharing of
     the last cycle; None before the first.

@@ -9,13 +9,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
+import numpy as np
+
 from bem.errors import InputError
 from bem.laws import make_laws
 from bem.wear.criterion import Detachment
 from bem.wear.film_defect import FilmDefect, film_defect_misfits
 from bem.wear.removal import RemovalLaw
 from bem.wear.segmentation import CONNECTIVITIES, REFINEMENTS
-from bem.wear.setup import LOWER, UPPER
+from bem.wear.setup import LOWER, UPPER, WearSetup, wearing_bodies
 from bem.wear.traction import TractionLaw
 
 if TYPE_CHECKING:
@@ -136,3 +138,18 @@ class WearModel:
         """The traction law as an object."""
         assert isinstance(self.traction, TractionLaw)
         return self.traction
+
+    def wearing(self, setup: WearSetup) -> tuple[int, ...]:
+        """Return the indices of the bodies that wear, after checks of the laws against a setup.
+
+        Raises
+        ------
+        InputError : a wearing body without yield stress; lengths, depths or a friction that a law cannot use.
+        """
+        self.law.check_length(setup.grid)
+        self.tractions.check(setup.friction)
+        bodies = wearing_bodies(setup.bodies, self.wears)
+        if self.law.needs_strength and any(not np.isfinite(setup.yield_stress(body)) for body in bodies):
+            raise InputError("the body that wears has no yield_stress and no hardness: give its material one of them")
+        self.law.check_depths(setup.depths)
+        return bodies

@@ -162,7 +162,7 @@ def run_in(
         depths=depths,
         hardness=hardness,
     )
-    wearing = setup.wearing(choices)
+    wearing = choices.wearing(setup)
     if state is None:
         state = initial_state(lower_heights, upper_heights)
     _check_heights(state, grid, choices.moving)
@@ -193,7 +193,7 @@ def run_in(
 
 
 def _notes_on_arguments(setup: WearSetup) -> tuple[Note, ...]:
-    """Notes on arguments of `run_in` outside their usual ranges."""
+    """Return notes on arguments of `run_in` outside their usual ranges."""
     arguments: dict[str, tuple[str, Any]] = {
         "load": ("load", setup.load),
         "friction": ("friction", setup.friction),
@@ -221,7 +221,7 @@ def _contact_step(
 
 
 def _contact_start(state: RunningInState, model: WearModel, pressure: FloatArray | None) -> ContactStart:
-    """Return what the contact after a state starts from, with a pressure (nx, ny) [Pa] as its warm start."""
+    """Return the start of the contact after a state; pressure : (nx, ny) warm start [Pa]."""
     standing = UPPER if model.moving == LOWER else LOWER
     return ContactStart(
         pressure,
@@ -266,14 +266,14 @@ def advance(
     offset = state.offset + (sliding_direction(state, setup, moving) * model.shift if state.cycle else 0)
     facing = list(state.heights)
     facing[moving] = _window(state.heights[moving], offset, rows)
-    start = None if state.pressure is None else _slide(state.pressure, offset - state.offset, setup.grid.periodic[0])
+    pressure = None if state.pressure is None else _slide(state.pressure, offset - state.offset, setup.grid.periodic[0])
     last = _last_loads(state, moving, offset) if model.stress_range else (None, None)
     began = time.perf_counter()
-    kept = [_facing(state.memories[body], offset if body == moving else 0, rows) for body in (LOWER, UPPER)]
-    memories = (kept[LOWER], kept[UPPER])
-    begin = _contact_start(state, model, start)
+    facing_memories = [_facing(state.memories[body], offset if body == moving else 0, rows) for body in (LOWER, UPPER)]
+    memories = (facing_memories[LOWER], facing_memories[UPPER])
+    start = _contact_start(state, model, pressure)
     contact, removals = wear_cycle(
-        (facing[LOWER], facing[UPPER]), setup, model, contact_step, begin, last, memories, compliance
+        (facing[LOWER], facing[UPPER]), setup, model, contact_step, start, last, memories, compliance
     )
     if contact.status != Status.CONVERGED:
         raise ConvergenceError(
@@ -354,7 +354,7 @@ def _check_heights(state: RunningInState, grid: Grid, moving: int) -> None:
 
 
 def _window(heights: FloatArray, offset: int, rows: int) -> FloatArray:
-    """The rows that face the grid after the body slid `offset` cells along +x."""
+    """Return the rows that face the grid after the body slid `offset` cells along +x."""
     return np.take(heights, np.arange(rows) - offset, axis=0, mode="wrap")
 
 

@@ -1,8 +1,12 @@
-"""From a stack of equivalent stress to the pieces that come off.
+"""Segmentation of a stack of equivalent stress into the pieces that come off.
 
-The stack is refined along depth, column by column; the part of a column that yields is a short list of *runs* of fine
-voxels; runs of neighbouring columns that touch belong to one piece. Working on runs instead of voxels gives the same
-pieces as labelling the refined stack, at the cost of the yielded columns alone.
+1. Find the columns in which anything yields (`yielding_columns`), unless the caller knows them.
+2. Refine these columns along depth; the part of a column that yields is a short list of *runs* of fine voxels
+   (`find_runs`).
+3. Join runs of neighbouring columns that touch, by union-find (`connect`).
+4. Let the removal law choose runs that leave, and group them to pieces (`bem.wear.removal`).
+
+Runs give the same pieces as labels of all voxels of the refined stack, at the cost of the yielded columns alone.
 
 Knows a stack of any equivalent stress and its depths. Verified in tests/wear/test_segmentation.py against labels of the
 refined stack.
@@ -33,9 +37,9 @@ class Segmentation:
     """Pieces that reach the free surface.
 
     labels : (nx, ny) int32, 0 where nothing leaves, else 1..count.
-    thickness : (nx, ny) what leaves from each column, measured down from the surface [m].
+    thickness : (nx, ny) depth that leaves each column, from the surface down [m].
     count : number of pieces.
-    reaches_bottom : (count + 1,) bool, whether a piece yields at the last depth: its thickness is then a lower bound.
+    reaches_bottom : (count + 1,) True for pieces that yield at the last depth: their thickness is a lower bound.
     """
 
     labels: NDArray[np.int32]
@@ -64,18 +68,18 @@ def segment(
     equivalent_stress : (nz, nx, ny) [Pa] at `depths`.
     depths : (nz,) increasing, >= 0 [m]; the stress above the first depth is taken as that at the first depth.
     yield_stress : [Pa], one value or one per column (nx, ny).
-    periodic : whether pieces go on across the edges along x and y.
+    periodic : True where pieces continue across the edges along x and y.
     refine : fine voxels per depth interval, >= 1.
     refinement : "monotone_cubic" (Fritsch-Butland; never above the values at the depths it lies between, so a depth at
         which nothing yields ends every piece above it) or "linear".
     connectivity : 6 (faces), 18 (faces and edges) or 26 (corners too).
-    removal : "cap": a piece takes with it all that lies above its yielded part in the same column; two pieces that meet
-        in a column leave as one. "top_run": only the part connected to the surface within the column leaves. Or a law
-        of `bem.wear.removal`.
-    columns : numbers in the flattened map, rising, of all columns in which anything yields, from whoever has computed
-        the stress and looked at it, those with what is no number among them; None to look for them.
-    rows : (nz, nx) of the stack that count; what the others hold is taken for zero. Only with `columns`, the first
-        depth all of it.
+    removal : "cap": a piece takes all material above its yielded part in a column along; two pieces that meet in a
+        column leave as one. "top_run": only the part connected to the surface within the column leaves. Or a law of
+        `bem.wear.removal`.
+    columns : increasing numbers in the flattened map of all columns in which anything yields or is not a number; None
+        searches for them.
+    rows : (nz, nx) True for rows of the stack that count; others count as zero. Only with `columns`; the first depth
+        must count entirely.
 
     Raises
     ------
@@ -159,7 +163,7 @@ def find_particles(
 
 
 def describe_pieces(pieces: Segmentation, grid: Grid, *, cycle: int = 0) -> list[Particle]:
-    """Sizes and places of the pieces of a segmentation on `grid`."""
+    """Return sizes and positions of the pieces of a segmentation on a grid."""
     if pieces.count == 0:
         return []
     flat = np.flatnonzero(pieces.labels)
@@ -197,7 +201,7 @@ def describe_pieces(pieces: Segmentation, grid: Grid, *, cycle: int = 0) -> list
 
 
 def refine_depths(depths: FloatArray, refine: int) -> FloatArray:
-    """The fine depths, shape ((nz-1) refine + 1,) [m]; every `refine`-th one is a given depth."""
+    """Return the fine depths ((nz - 1) refine + 1,) [m]; every `refine`-th one is a given depth."""
     fine = np.interp(np.arange((len(depths) - 1) * refine + 1) / refine, np.arange(len(depths)), depths)
     fine[::refine] = depths
     return fine
@@ -239,8 +243,10 @@ def _is_finite(values):
 
 @compiled
 def _extents(cells, starts, shape, periodic):
-    """First cell and number of cells along x and y of each piece, (count, 2) each; on a periodic axis the rectangle is
-    the shortest that holds the piece, so it begins after the widest run of empty rows."""
+    """Return the first cell and the number of cells along x and y of each piece, (count, 2) each.
+
+    On a periodic axis the rectangle is the shortest around the piece: it begins after the widest run of empty rows.
+    """
     count = starts.size - 1
     origin = np.zeros((count, 2), np.int64)
     extent = np.zeros((count, 2), np.int64)

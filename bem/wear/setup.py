@@ -103,18 +103,3 @@ class WearSetup:
         """Return the yield stress of a body's surface material [Pa]; infinite where none is given."""
         value = self.bodies[body].surface_material.yield_stress
         return np.inf if value is None else value
-
-    def wearing(self, model: WearChoices) -> tuple[int, ...]:
-        """Return the indices of the bodies that wear, after checks of the laws against the setup.
-
-        Raises
-        ------
-        InputError : a wearing body without yield stress; lengths, depths or a friction that a law cannot use.
-        """
-        model.law.check_length(self.grid)
-        model.tractions.check(self.friction)
-        bodies = wearing_bodies(self.bodies, model.wears)
-        if model.law.needs_strength and any(not np.isfinite(self.yield_stress(body)) for body in bodies):
-            raise InputError("the body that wears has no yield_stress and no hardness: give its material one of them")
-        model.law.check_depths(self.depths)
-        return bodies

@@ -49,7 +49,7 @@ def step_error(
     facing : (rows (n, ny) of a body, LOWER or UPPER) -> those that faced the grid in the last cycle (nx, ny).
     compliance : depth that a whole cycle wears by pressure [m/Pa], for an implicit step.
     """
-    wearing = setup.wearing(model)
+    wearing = model.wearing(setup)
     depths = {body: state.memories[body] for body in wearing}
     if not isinstance(model.law, LocalWear) or any(depth is None for depth in depths.values()):
         return None

@@ -1,12 +1,14 @@
-"""The worn macroscopic shape in the film of a wear loop: what wear took off the body that stands with the contact.
+"""Worn macroscopic shape in the film of a wear loop: wear of the body that stands with the contact.
 
-The shape w(x) is the mean along y of the worn depth, smoothed by a Gaussian a quarter as wide as Hertz' half-width. It
-deepens the gap of the smooth bodies, and the rough contact sees what is left, heights plus w, so that no height counts
-twice. A body that moves through the contact wears alike along its whole track and keeps its shape.
+1. The shape w(x) is the mean along y of the worn depth, smoothed by a Gaussian a quarter as wide as Hertz' half-width.
+   A body that moves through the contact wears alike along its whole track and keeps its shape.
+2. The shape deepens the gap of the smooth bodies. The rough contact sees the rest, heights plus w, so that no height
+   counts twice.
+3. The films follow w in steps: they are solved anew where w has changed by more than `RESOLUTION` of the gap, or by
+   more than the share of the load that they carry allows (`SHARE_RESOLUTION`), or where the balance needs other loads.
+4. Where no film of a new shape is found, the last shape stays, and a note says so.
 
-The films follow w in steps. They are solved anew where the gap of their shape is off by more than `RESOLUTION`, or by
-more than the share of the load that they carry allows, or where the balance leaves the loads that were solved. Where no
-film of a new shape is found, the last shape stays, and a note says so. Verified in tests/wear/test_worn_shape.py.
+Cost: some films per step of the shape, fewer than cycles. Verified in tests/wear/test_worn_shape.py.
 """
 
 from __future__ import annotations
@@ -35,10 +37,9 @@ FILM_SHAPES = ("worn", "unworn")
 SMOOTHING = 0.25
 """Width of the Gaussian (standard deviation) that the worn depth is smoothed by, in Hertz' half-widths."""
 RESOLUTION = 0.2
-"""Largest change of the worn depth, relative to the film's gap at the same place, that the films are not solved for."""
+"""Largest change of the worn depth, relative to the film's gap, for which the films stay as they are."""
 SHARE_RESOLUTION = 0.05
-"""The same times the film's share of the load: an error of the gap counts for the load sharing by what the film
-carries."""
+"""Largest change as `RESOLUTION`, times the film's share of the load, which weights the effect on the load sharing."""
 RETRY = 1.5
 """Growth of the change of the worn depth before a shape without a film is tried again."""
 
@@ -48,13 +49,14 @@ class WornShape:
     """State of the worn shape in a loop, part of its checkpoint.
 
     unworn : (nx,) heights of the standing body before the first cycle, mean along y [m]; None before it.
-    shape : (nx,) [m] of the films; None while the films are those of the unworn bodies.
-    changes, starts : of the films by index of the lattice of loads.
-    updates : shapes that films were solved for. solves : solutions of the film's equations, continuation included.
-    kept : cycles in which an earlier shape stayed since no film of the new one was found.
-    clamped : cycles whose film load lies outside the loads that were solved.
+    shape : (nx,) worn shape of the films [m]; None while the films are those of the unworn bodies.
+    changes, starts : changes of the films and starts of further ones, by index of the lattice of loads.
+    updates : number of shapes that films were solved for. solves : solutions of the film's equations, with
+        continuation.
+    kept : number of cycles with an earlier shape, since no film of the new one was found.
+    clamped : number of cycles whose film load lies outside the loads that were solved.
     retry : change of the worn depth over the gap below which a shape without a film is not tried again.
-    behind : the same change that the films of the last cycle do not know of.
+    behind : change of the worn depth over the gap since the films' shape.
     """
 
     unworn: FloatArray | None = None
@@ -69,7 +71,7 @@ class WornShape:
     behind: float = 0.0
 
     def left(self, heights: FloatArray) -> FloatArray:
-        """Return heights (nx, ny) [m] without the shape that the film has: what the rough contact sees."""
+        """Return heights (nx, ny) [m] for the rough contact, without the shape that the film has."""
         return heights if self.shape is None else heights + self.shape[:, None]
 
 

@@ -1,8 +1,7 @@
-"""Runs of fine voxels above yield, column by column, and which of them leave together.
+"""Runs of fine voxels above yield, column by column, and their union-find.
 
-A column's stress is interpolated between its depths, monotonically, so a run of fine samples above yield is found from
-the few intervals whose ends lie on either side of it. Runs of neighbouring columns that touch are joined by union-find.
-A column is given by its number in the flattened map.
+The stress of a column is interpolated monotonically between its depths, so a run of fine samples above yield is found
+from the few intervals with one end above and one end below yield. A column is given by its number in the flattened map.
 
 Knows arrays only. Verified in tests/wear/test_segmentation.py against labels of the whole refined stack.
 """
@@ -21,9 +20,9 @@ from bem.grid import FloatArray
 class Runs(NamedTuple):
     """Runs of fine samples above yield in some columns.
 
-    columns : (n,) numbers of these columns. first : (n + 1,) where the runs of each begin.
-    top, bottom : (runs,) first and last sample of each. bottom_depth : (runs,) where the stress falls back to yield
-    below it, by linear interpolation between the two fine samples [m].
+    columns : (n,) numbers of these columns. first : (n + 1,) index of the first run of each.
+    top, bottom : (runs,) first and last sample of each. bottom_depth : (runs,) depth at which the stress
+    falls to yield, by linear interpolation between two fine samples [m].
     """
 
     columns: NDArray[np.int64]
@@ -35,7 +34,7 @@ class Runs(NamedTuple):
 
 @compiled
 def yielding_columns(stack, strength):
-    """Columns of (nz, columns) in which any value exceeds its strength."""
+    """Return the columns of a stack (nz, columns) in which any value exceeds the strength (columns,)."""
     above = np.zeros(strength.size, np.bool_)
     for k in range(stack.shape[0]):
         for column in range(strength.size):
@@ -44,12 +43,12 @@ def yielding_columns(stack, strength):
 
 
 _TOGETHER = 64
-"""Columns that are gathered at a time: what is written stays near while all depths are gone through."""
+"""Columns gathered at a time, so that the output stays in the cache over all depths."""
 
 
 @compiled
 def gather_columns(stack, candidates, rows):
-    """(candidates, nz): depth runs fastest. rows : (nz, n) whether each of n parts of a plane counts; else zeros."""
+    """Return the columns (candidates, nz), depth fastest; rows : (nz, n) True for parts of a plane that count."""
     out = np.empty((candidates.size, stack.shape[0]))
     size, part = stack.shape[1] // rows.shape[1], np.empty(_TOGETHER, np.int64)
     for first in range(0, candidates.size, _TOGETHER):
@@ -64,7 +63,8 @@ def gather_columns(stack, candidates, rows):
 
 @compiled
 def _slope(values, depths, k):
-    """Fritsch-Butland slope at sample k: harmonic mean inside, one-sided three-point formula, limited, at the ends."""
+    """Return the Fritsch-Butland slope at sample k: harmonic mean inside, one-sided three-point formula, limited, at
+    the ends."""
     n = values.size
     if n == 2:
         return (values[1] - values[0]) / (depths[1] - depths[0])
@@ -91,7 +91,7 @@ def _slope(values, depths, k):
 
 @compiled
 def _crossing(values, depths, k, limit, refine, cubic):
-    """First fine sample beyond the crossing of the limit between samples k and k + 1, and the depth of the crossing."""
+    """Return the first fine sample beyond the limit between samples k and k + 1, and the depth of the crossing."""
     falls = values[k] > limit
     span = depths[k + 1] - depths[k]
     upper = lower = 0.0
@@ -120,7 +120,7 @@ def _crossing(values, depths, k, limit, refine, cubic):
 
 @compiled
 def find_runs(numbers, columns, depths, strength, refine, cubic):
-    """Runs of the columns `numbers`, whose stress is (n, nz) and strength (n,).
+    """Return the runs of the columns `numbers`, of stress (n, nz) and strength (n,).
 
     Between two depths the interpolant is monotone: an interval with both ends above or both below yield needs no
     sample, one with an end on either side is sampled from above until the side changes.
@@ -181,11 +181,11 @@ def _join(parent, a, b):
 
 @compiled
 def connect(runs, shape, periodic, connectivity):
-    """Union-find over runs that touch: the parent of each.
+    """Join runs that touch by union-find; return the parent of each.
 
     Half of the neighbours suffice, the relation being symmetric.
 
-    shape : (nx, ny) of the map; periodic : whether it goes on across the edges along x and y.
+    shape : (nx, ny) of the map. periodic : True where it continues across the edges along x and y.
     """
     nx, ny = shape
     first, top, bottom = runs.first, runs.top, runs.bottom
@@ -224,9 +224,9 @@ def connect(runs, shape, periodic, connectivity):
 
 @compiled
 def remove(runs, parent, cap, labels, thickness):
-    """Fill labels and thickness (columns of the map,) in place; returns the number of pieces.
+    """Fill labels and thickness (columns of the map,) in place; return the number of pieces.
 
-    cap : whether all above a run leaves with it.
+    cap : True if all material above a run leaves with it.
     """
     columns, first, top = runs.columns, runs.first, runs.top
     reaches_surface = np.zeros(top.size, np.bool_)

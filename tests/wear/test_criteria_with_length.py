@@ -15,7 +15,7 @@ from bem.wear.contact_step import ContactOutcome
 from bem.wear.criterion import AveragedVonMises, Junction, LowCycleFatigue, Sphere
 from bem.wear.damage import move_up
 from bem.wear.junctions import half_spheres, junctions
-from bem.wear.lengths import averaged, disc, holding
+from bem.wear.lengths import averaged, disc, pieces_holding_sphere
 
 STEEL = Material("disk", youngs_modulus=210e9, poissons_ratio=0.3, hardness=1.8e9, yield_stress=0.64e9)
 SOFT, HARD = Body(STEEL), Body(Material("cylinder", youngs_modulus=210e9, poissons_ratio=0.3, hardness=6e9))
@@ -187,7 +187,7 @@ def test_pieces_that_hold_a_sphere_are_those_of_a_search_over_every_place(seed, 
     thickness = np.where(labels > 0, rng.uniform(0.3, 1.6, shape) * diameter, 0.0)
     thickness[3:7, 2:7] *= 1.5
     pieces = Segmentation(labels, thickness, 2, np.array([False, True, False]))
-    found = holding(pieces, Grid(shape, (1.0, 1.0), periodic=(False, True)), diameter)
+    found = pieces_holding_sphere(pieces, Grid(shape, (1.0, 1.0), periodic=(False, True)), diameter)
     radius, expected = diameter / 2, []
     for name in (1, 2):
         x, y = np.arange(-3, 4)[:, None], np.arange(-3, 4)[None, :]
@@ -221,7 +221,7 @@ def test_a_sphere_does_not_reach_beyond_a_free_edge(axis, end):
             np.moveaxis(labels, axis, 0)[part] = 1
         pieces = Segmentation(labels, 8.0 * labels, 1, np.zeros(2, np.bool_))
         wraps = (periodic, True) if axis == 0 else (True, periodic)
-        return holding(pieces, Grid(shape, (1.0, 1.0), periodic=wraps), 8.0).count == 1
+        return pieces_holding_sphere(pieces, Grid(shape, (1.0, 1.0), periodic=wraps), 8.0).count == 1
 
     beside, behind = (slice(6, 7), slice(-1, None)) if end.start == 0 else (slice(-7, -6), slice(0, 1))
     assert [holds(periodic) for periodic in (False, True)] == [False, False]

@@ -59,6 +59,6 @@ class LowCycleFatigue(VonMises):
 
     def detach(self, cycle: BodyCycle) -> Removal:
         """Return broken pieces that reach the surface, and the damage of the remaining material as memory."""
-        from bem.wear.damage import broken
+        from bem.wear.damage import fatigue_removal
 
-        return broken(cycle, self.averaging_length, self.damage)
+        return fatigue_removal(cycle, self.averaging_length, self.damage)

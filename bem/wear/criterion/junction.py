@@ -67,6 +67,6 @@ class Junction(Detachment):
 
     def detach(self, cycle: BodyCycle) -> Removal:
         """Return half spheres under the junctions that are large enough and were dragged far enough."""
-        from bem.wear.junctions import detached
+        from bem.wear.junctions import junction_removal
 
-        return detached(cycle, self.critical_size(cycle.solid.surface_material))
+        return junction_removal(cycle, self.critical_size(cycle.solid.surface_material))

@@ -29,8 +29,8 @@ class Sphere(VonMises):
 
     def detach(self, cycle: BodyCycle) -> Removal:
         """Return the yielded pieces that can hold the sphere."""
-        from bem.wear.lengths import holding
+        from bem.wear.lengths import pieces_holding_sphere
         from bem.wear.yielding import yielded_pieces
 
         found = yielded_pieces(cycle.loads, cycle.setup, cycle.model, cycle.body)
-        return replace(found, pieces=holding(found.pieces, cycle.setup.grid, self.diameter))
+        return replace(found, pieces=pieces_holding_sphere(found.pieces, cycle.setup.grid, self.diameter))
