@@ -1,8 +1,8 @@
 """The one driver of load sharing: balance, friction forces and derived figures of one pair of surfaces.
 
 `LoadSharing.solve` serves a Stribeck curve (`solve`), the comparison of oil volumes (`oil_sensitivity`), error bars
-(`bem.accuracy.mixed`), wear cycles (`bem.wear.mixed`) and passes of a life (`bem.life.passes`). They differ in the film
-model, in the rough contact and in the warm start that they hand over. Verified in tests/friction/test_load_sharing.py.
+(`bem.accuracy.mixed`), and the cycles of wear loops and lives (`bem.wear.mixed`). They differ in the film model, in the
+rough contact and in the warm start that they hand over. Verified in tests/friction/test_load_sharing.py.
 """
 
 from __future__ import annotations

@@ -3,7 +3,7 @@
 A film gives the gap of the smooth bodies. The rough surfaces are pressed into that gap by a load or to an approach; the
 result is the mean opening between them where oil is counted (`oil_volume`). Implementations of `RoughContact`:
 `CoupledContact` (rough half-space) and `UncoupledAsperities` here, `ContactAtSeparation` (`given_separation`),
-`HomogenisedContact` (`homogenised_contact`), and surfaces with particles between them (`bem.wear.third_body_mixed`).
+`HomogenisedContact` (`homogenised_contact`), and surfaces with particles between them (`bem.wear.third_bodies`).
 
 Boundary friction couples into the normal gap by one rule. The flat (lower body) feels the traction f p against its
 sliding over the cylinder, along -x where u1 > u2, and the cylinder feels the opposite. f is the coefficient; of a law,

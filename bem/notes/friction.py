@@ -67,7 +67,7 @@ OIL_COUNTED = define(
         ),
     },
 )
-"""Outside the model where the counted oil and not film and roughness shares the load (`bem.friction.oil_beside`)."""
+"""Outside the model where the oil, not film and roughness, shares the load (`bem.friction.oil_sensitivity`)."""
 BOUNDARY_LUBRICATION = define(
     "boundary-lubrication",
     INFO,
