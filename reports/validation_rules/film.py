@@ -6,7 +6,7 @@ import itertools
 import math
 from collections.abc import Iterable
 
-from bem.particles import dowson_higginson_minimum_film, lambda_ratio
+from bem.reference_solutions.line_film import dowson_higginson_minimum
 from reports.experiments.kept import found
 from reports.validation_values import (
     READING,
@@ -89,7 +89,7 @@ def _pressures_on_the_square() -> str:
 
 def _lambda_at(metres_per_second: float) -> float:
     """Dowson and Higginson's smallest film at 5.5 N over the roughness of 100 nm."""
-    film = dowson_higginson_minimum_film(
+    film = dowson_higginson_minimum(
         load=5.5 / 6e-3,
         radius=2e-3,
         contact_modulus=steel_modulus(),
@@ -97,7 +97,7 @@ def _lambda_at(metres_per_second: float) -> float:
         viscosity=0.36,
         pressure_viscosity=25e-9,
     )
-    return lambda_ratio(film, 100e-9)
+    return film / 100e-9
 
 
 def _shares_by_lambda(summary: Summary) -> list[tuple[float, float]]:
