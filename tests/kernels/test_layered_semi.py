@@ -143,12 +143,14 @@ def test_far_cells_are_line_loads(load, monkeypatch):
     monkeypatch.setattr(semi_periodic, "_LINE_LOAD_DISTANCE", 100.0)
     monkeypatch.setattr(semi_periodic, "_SPLIT", 55.0)
     monkeypatch.setattr(semi_periodic, "_SPLIT_END", 55.0 + 48.0)
-    semi_periodic._bessel_panel.cache_clear()
+    for cached in (semi_periodic._bessel_panel, semi_periodic._cached_short_range_table):
+        cached.cache_clear()
     for before, after in zip(
         results, [surface_remainder(grid, body, load)[None], stress_remainder(grid, body, 0.2, load)], strict=True
     ):
         assert before == pytest.approx(after, abs=3e-13 * np.abs(after).max())  # round-off
-    semi_periodic._bessel_panel.cache_clear()
+    for cached in (semi_periodic._bessel_panel, semi_periodic._cached_short_range_table):
+        cached.cache_clear()
 
 
 @pytest.mark.parametrize("periodic", AXES)
@@ -169,3 +171,29 @@ def test_one_cell_per_period_is_plane_strain(periodic):
         expected += [-np.sin(q * x) @ spectrum[c] for c in (3, 4)]
         assert stress[:5] == pytest.approx(np.array(expected), abs=1e-12)  # round-off
         assert not stress[5].any()
+
+
+@pytest.mark.parametrize("load", list(Load))
+def test_grids_of_one_period_share_their_tables(load, monkeypatch):
+    made = []
+
+    def counted(values):
+        made.append(values.shape)
+        return interpolate(values)
+
+    interpolate = hankel.interpolate_panels
+    monkeypatch.setattr(hankel, "interpolate_panels", counted)
+    monkeypatch.setattr(semi_periodic, "interpolate_panels", counted)
+    body = coated(3.0, 0.3, 0.25, 0.37)  # of no other test
+    surface_remainder(Grid((80, 8), (1.0, 1.0), periodic=(False, True)), body, load)
+    first = len(made)
+    surface_remainder(Grid((40, 4), (2.0, 2.0), periodic=(False, True)), body, load)
+    assert first >= 2
+    assert len(made) == first
+    for other in (
+        Grid((80, 8), (1.0, 1.5), periodic=(False, True)),
+        Grid((8, 80), (1.0, 1.0), periodic=(True, False)),
+    ):
+        known = len(made)
+        surface_remainder(other, body, load)
+        assert len(made) > known

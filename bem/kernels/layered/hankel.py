@@ -110,7 +110,8 @@ class HankelSpectra:
     decay : d [m]; the spectra decay like exp(-q d).
     smallest : wavenumber [rad/m] below which the spectra are smooth.
     path : path of integration.
-    key : response, body, depth and load, which identify the spectra in the cache of tables; None: not cached.
+    key : all that the spectra depend on (response, body, depth, load, period), for the cache of tables; None: not
+    cached.
     """
 
     values: SpectrumFunction = field(compare=False)
@@ -122,7 +123,9 @@ class HankelSpectra:
 
 
 class RadialTable(NamedTuple):
-    """Functions of r as piecewise polynomials; zero beyond the last edge.
+    """Functions of r as piecewise polynomials up to the last edge.
+
+    Where the functions go on beyond it as zero, callers compare r with the last edge: `evaluate` would extrapolate.
 
     edges : (panels + 1,), edges of the panels of r [m].
     coefficients : (panels, powers, tables), of powers of t in (-1, 1) on each panel.
@@ -373,7 +376,7 @@ def panel_of(r: float, edges: FloatArray) -> int:
 
 @compiled
 def evaluate(r: float, edges: FloatArray, coefficients: FloatArray, out: FloatArray) -> None:
-    """Evaluate all tables at r into `out` (tables,), by Horner's rule."""
+    """Evaluate all tables at r into `out` (tables,), by Horner's rule; r is at most the last edge."""
     low = panel_of(r, edges)
     t = (2.0 * r - edges[low] - edges[low + 1]) / (edges[low + 1] - edges[low])
     powers = coefficients.shape[1]

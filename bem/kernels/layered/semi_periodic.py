@@ -5,8 +5,10 @@ The spectrum is split at q0 = 48 / period by the smooth window chi(q) = erfc((q 
 
 1. Short-range part f (1 - chi), of large wavenumbers (`_short_range_table`). Near q = 0, where 1 - chi is below
    round-off, it is smooth, so its Hankel transform decays like exp(-(r w / 2)^2), below round-off beyond 1.5 periods.
-   The loaded cell and its two neighbouring images are integrated as in `cells`. It is below round-off altogether for a
-   decay length of 1.6 periods and more.
+   The loaded cell and its two neighbouring images are integrated as in `cells`. At an offset of half a period a further
+   image, 1.5 periods away, is nearer by half a cell; it is left out, because its contribution is below 1e-14 of the
+   largest value even with two cells in a period. The short-range part is below round-off altogether for a decay length
+   of 1.6 periods and more.
 2. Long-range part f chi, of small wavenumbers (`_long_range`). It ends at 96 / period: a sum over at most 16
    wavenumbers along the period, each integrated over the wavenumber along the free axis, with the exact average over a
    cell.
@@ -15,7 +17,8 @@ The spectrum is split at q0 = 48 / period by the smooth window chi(q) = erfc((q 
 4. Cells more than 8 periods away along the free axis (`_line_load_cells`) see a line load: the mean along the period
    alone, from a table of a Fourier integral (`hankel`).
 
-The cost does not depend on the thickness. The error is round-off of the largest value.
+The cost grows with the logarithm of period / thickness only: panels of r and pieces of cells are graded towards the
+thickness. Tables are cached by body, load, depth and period. The error is round-off of the largest value.
 
 Datum of the displacement under pressure, as in `bem.kernels.semi_periodic`: its mean along the period is zero at one
 length of the grid's free axis from a line load, for the half-space of the layer's material and for the remainder. So a
@@ -83,7 +86,7 @@ def surface_remainder(grid: Grid, body: Body, load: Load) -> FloatArray:
     tangential = load is Load.TANGENTIAL
     parities = (SURFACE_PARITY[load],)
     free, along = _axes(grid)
-    decay = 0.5 * grid.lengths[along]
+    half_period = 0.5 * grid.lengths[along]
     spectra = surface_spectra(body, load)
     limit = np.zeros(1) if tangential else _long_wave_limits(body)[:1]
 
@@ -93,7 +96,7 @@ def surface_remainder(grid: Grid, body: Body, load: Load) -> FloatArray:
     def mean_spectrum(k: NDArray) -> NDArray:
         if tangential and free == 1:
             return np.zeros((1, k.size), dtype=k.dtype)
-        return spectra.values(k) - limit[:, None] * np.exp(-decay * k) / k
+        return spectra.values(k) - limit[:, None] * np.exp(-half_period * k) / k
 
     remainder = _Remainder(spectra, SURFACE_KIND[load], parities, response, mean_spectrum, limit)
     half = _half_period(grid, remainder)
@@ -104,7 +107,7 @@ def surface_remainder(grid: Grid, body: Body, load: Load) -> FloatArray:
 def in_plane_remainder(grid: Grid, body: Body) -> FloatArray:
     """Compute the remainder of the in-plane displacements: (3, nx, ny) [m/Pa]; see `coefficients`."""
     free, along = _axes(grid)
-    decay = 0.5 * grid.lengths[along]
+    half_period = 0.5 * grid.lengths[along]
     in_plane, across = _long_wave_limits(body)
     limit = np.zeros(3)
     limit[free], limit[along] = in_plane, across
@@ -116,7 +119,7 @@ def in_plane_remainder(grid: Grid, body: Body) -> FloatArray:
         even, turned = spectra.values(k)
         out = np.zeros((3, k.size), dtype=k.dtype)
         out[free], out[along] = even + turned, even - turned
-        return out - limit[:, None] * np.exp(-decay * k) / k
+        return out - limit[:, None] * np.exp(-half_period * k) / k
 
     spectra = in_plane_spectra(body)
     remainder = _Remainder(spectra, IN_PLANE, IN_PLANE_PARITY, response, mean_spectrum, limit)
@@ -230,7 +233,8 @@ def _half_period(grid: Grid, remainder: _Remainder) -> FloatArray:
     near = min(grid.shape[free], int(np.ceil(_LINE_LOAD_DISTANCE * period / side + 0.5)))
     out = _long_range(grid, near, cells, remainder)
     if remainder.spectra.decay < _NEGLIGIBLE_DECAY * period:
-        table = _short_range_table(remainder.spectra, period)
+        spectra = remainder.spectra
+        table = (_short_range_table if spectra.key is None else _cached_short_range_table)(spectra, period)
         add_cells(out, grid, table, remainder.kind, (1, 0) if along == 0 else (0, 1))
     if near < grid.shape[free]:
         line = np.broadcast_to(
@@ -273,14 +277,11 @@ def _line_load_table(grid: Grid, remainder: _Remainder, reach: float) -> RadialT
     """Return the table of the mean along the period, less the closed form, over distances up to `reach` [m]."""
     free, along = _axes(grid)
     orders = tuple(0 if parity[free] > 0 else 1 for parity in remainder.parities)
-    decay = (
-        min(remainder.spectra.decay, 0.5 * grid.lengths[along]) if remainder.limit.any() else remainder.spectra.decay
-    )
-    return radial_table(
-        HankelSpectra(remainder.mean_spectrum, orders, decay, remainder.spectra.smallest, remainder.spectra.path),
-        reach,
-        fourier=True,
-    )
+    spectra, period = remainder.spectra, grid.lengths[along]
+    decay = min(spectra.decay, 0.5 * period) if remainder.limit.any() else spectra.decay
+    key = None if spectra.key is None else (*spectra.key, "mean along the period", free, period)
+    mean = HankelSpectra(remainder.mean_spectrum, orders, decay, spectra.smallest, spectra.path, key)
+    return radial_table(mean, reach, fourier=True)
 
 
 def _long_range(grid: Grid, near: int, cells: int, remainder: _Remainder) -> FloatArray:
@@ -383,3 +384,7 @@ def _short_range_table(spectra: HankelSpectra, period: float) -> RadialTable:
         _SPLIT / period,
         _SPLIT_WIDTH / (2 * period),
     )
+
+
+_cached_short_range_table = lru_cache(maxsize=16)(_short_range_table)
+"""`_short_range_table` with a cache: coarser grids of a contact have the same period and need the same table."""
