@@ -3,7 +3,8 @@
 One operator serves free and periodic axes, homogeneous and layered bodies, and friction. Source: discrete convolution
 with zero padding (Liu, Wang and Liu 2000); the kernels have sources of their own.
 
-1. Arguments. `displacement_operator` checks them. Nothing is computed before the first application.
+1. Arguments. `displacement_operator` checks them. Kernels and spectra are computed when an application or a property
+   (`unit`, `symmetric`, `near_field`, `scaled`) first needs them.
 2. Influence coefficients (`bem.kernels.coefficients`) of each body, summed over both (`_spectrum_of_pair`). A doubly
    periodic grid takes the response to harmonic loads instead (`bem.kernels.spectral`); its mean displacement is zero.
    Homogeneous bodies have proportional kernels, so one kernel is computed; with a layer, one for each body.
@@ -11,13 +12,14 @@ with zero padding (Liu, Wang and Liu 2000); the kernels have sources of their ow
    traction changes the normal gap (`couples`: Dundurs' beta is not zero, or layers differ).
 4. Spectrum (`bem.transforms.kernel_spectra`), padded with zeros along free axes. Every kernel is even or odd along each
    axis, so its spectrum is a quarter array of real numbers. Spectra are cached by grid and elastic constants, within a
-   limit on memory, and shared by all operators (`cached_spectra`). Cost: one kernel and one transform, once.
+   limit on memory, and shared by all operators (`cached_spectra`). Cost: a transform for each kernel of step 2, once
+   for each grid, coarser ones included.
 5. Scaling. The spectrum is divided by `unit`, a power of two [m/Pa], so that it is of order one: single precision
    cannot overflow, and results have the same digits in every system of units.
 6. Application (`ScaledConvolution`): one transform forward and one back (`bem.transforms`), in double or single
    precision. Cost: n log n.
-7. Parts for the contact solver: `coarsened`, `near_field`, `smooth_part` and `scaled_inverse` give coarser grids and
-   parts for its preconditioners.
+7. Parts for the contact solver: `coarsened` gives coarser grids, `near_field` and `smooth_part` parts of its
+   preconditioner, and `scaled_inverse` full contact of a doubly periodic gap.
 """
 
 from __future__ import annotations
@@ -40,7 +42,6 @@ from bem.kernels.layered import frequency_response
 from bem.kernels.spectral import surface_response
 from bem.materials import Body, Material
 from bem.numerics.cache import KeptValues, Sized, bytes_of
-from bem.threads import one_blas_thread
 from bem.transforms import (
     Multiplier,
     PaddedTransform,
@@ -361,7 +362,7 @@ class DisplacementOperator:
         key = (np.dtype(dtype).char, "inverse")
         if key not in self._multipliers:
             even, odd = self._spectra.even, self._spectra.odd
-            # the spectrum of truncated coefficients may touch zero: bounded so that the inverse stays definite
+            # positive for all waves but the mean: the bound only guards against round-off in the response of layers
             floor = 1e-3 * float(even.min(initial=math.inf, where=even > 0))
             bounded = np.maximum(np.abs(even), floor)
             if odd is None:
@@ -456,7 +457,6 @@ class DisplacementOperator:
         return displacement
 
 
-@one_blas_thread
 def displacement_operator(
     grid: Grid, bodies: Body | tuple[Body, Body], *, friction: float = 0.0, compliance: float = 0.0
 ) -> DisplacementOperator:

@@ -3,6 +3,8 @@
 A coefficient is the response at the centre of one cell to a unit load on another, at an offset of (i dx, j dy). Along a
 periodic axis the images of the loaded cell are summed. Doubly periodic grids have no coefficients: their operator is
 diagonal in Fourier space, see `spectral`.
+
+Linear algebra has one thread here: its rounding depends on the number of threads, and callers cache the coefficients.
 """
 
 from __future__ import annotations
@@ -16,6 +18,7 @@ from bem.grid import FloatArray, Grid
 from bem.kernels import half_space, semi_periodic, subsurface
 from bem.kernels.loads import IN_PLANE_PARITY, STRESS_PARITY, SURFACE_PARITY, Load
 from bem.materials import Body
+from bem.threads import one_blas_thread
 
 __all__ = [
     "IN_PLANE_PARITY",
@@ -28,6 +31,7 @@ __all__ = [
 ]
 
 
+@one_blas_thread
 def surface_coefficients(grid: Grid, body: Body, load: Load) -> FloatArray:
     """Return the normal surface displacement [m/Pa] of a unit load on the cell at the origin, shape (nx, ny).
 
@@ -48,6 +52,7 @@ def surface_coefficients(grid: Grid, body: Body, load: Load) -> FloatArray:
     return table
 
 
+@one_blas_thread
 def in_plane_coefficients(grid: Grid, body: Body) -> FloatArray:
     """Return the in-plane surface displacements [m/Pa] of unit tractions on the cell at the origin, shape (3, nx, ny).
 
@@ -70,6 +75,7 @@ def in_plane_coefficients(grid: Grid, body: Body) -> FloatArray:
     return table
 
 
+@one_blas_thread
 def stress_coefficients(grid: Grid, body: Body, depth: float, load: Load) -> FloatArray:
     """Return the stresses (xx yy zz yz xz xy) at `depth` [m] of a unit load on the cell at the origin: (6, nx, ny).
 

@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from bem import Body, Grid, InputError, Material
-from bem.kernels.coefficients import stress_coefficients, surface_coefficients
+from bem.kernels import semi_periodic
+from bem.kernels.coefficients import in_plane_coefficients, stress_coefficients, surface_coefficients
 from bem.kernels.half_space import rectangle_displacement
 from bem.kernels.loads import STRESS_PARITY, SURFACE_PARITY, Load
 from bem.kernels.subsurface import rectangle_stress
@@ -60,3 +61,26 @@ def test_bad_input_is_refused():
     for depth in (-1e-9, np.nan, np.inf):
         with pytest.raises(InputError, match="depth"):
             stress_coefficients(Grid((4, 4), (1, 1)), BODY, depth, Load.NORMAL)
+
+
+@pytest.mark.parametrize("kernel", ["surface", "in plane", "stress"])
+def test_coefficients_are_computed_with_one_thread_of_linear_algebra(kernel, monkeypatch):
+    """Callers cache them, and rounding of linear algebra depends on its threads."""
+    from threadpoolctl import threadpool_info, threadpool_limits
+
+    threads, interpolation = set(), semi_periodic._interpolation_along_period
+
+    def counted(*arguments):
+        threads.update(one["num_threads"] for one in threadpool_info() if one["user_api"] == "blas")
+        return interpolation(*arguments)
+
+    monkeypatch.setattr(semi_periodic, "_interpolation_along_period", counted)
+    grid = Grid((4, 6), (1.0, 1.0), periodic=(False, True))
+    with threadpool_limits(2, user_api="blas"):
+        if kernel == "surface":
+            surface_coefficients(grid, BODY, Load.NORMAL)
+        elif kernel == "in plane":
+            in_plane_coefficients(grid, BODY)
+        else:
+            stress_coefficients(grid, BODY, 0.5, Load.NORMAL)
+    assert threads == {1}
