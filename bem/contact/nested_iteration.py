@@ -1,10 +1,12 @@
 """Nested iteration: the solution on a coarser grid, interpolated, starts each grid.
 
-Step 3 of `bem.contact`. The coarsest grid has 17 to 32 cells along its longer side, or half as many as a finest grid of
-up to 32. The square of the pressure falls linearly to zero at the edge of a contact, and the gap outside grows like the
-distance to the power 3/2. The interpolated function is therefore phi = p^2 inside and -c gap^(2/3) outside, which is
-smooth across the edge. The interpolation changes the load of each square by its edges; load errors between squares
-excite long-wavelength displacement errors, so each square of 8 x 8 coarse cells keeps its coarse-grid load.
+Step 3 of `bem.contact`. The coarsest grid has 17 to 32 cells along its longer side, or 16 below a finest grid of 31 or
+32; a finest grid of up to 30 cells has no coarser one (`convolution.SMALLEST_GRID`). The square of the pressure falls
+linearly to zero at the edge of a contact, and the gap outside grows like the distance to the power 3/2. The
+interpolated function is therefore phi = p^2 inside and -c gap^(2/3) outside, which is smooth across the edge. The
+interpolation changes the load of each square by its edges; load errors between squares excite long-wavelength
+displacement errors, so each square of 8 x 8 coarse cells keeps its coarse-grid load, as far as a change of its
+pressures by at most half allows. Squares with a cell at the cap are left as they are.
 
 Coarse grids are solved until a tenth of their first violation is left, which is what the interpolation to them cost,
 and to 6 % of the rms gap at most. The coarsest grid, which has no interpolated start, has the same bounds.
@@ -131,7 +133,11 @@ def interpolation(cells: int, onto: int, periodic: bool) -> Table:
 
 
 def sample(field: FloatArray, shape: tuple[int, int], periodic: tuple[bool, bool]) -> FloatArray:
-    """Restrict a field to a coarser grid of the same rectangle."""
+    """Restrict a field to a coarser grid: every second point, or interpolation along a periodic axis of odd length.
+
+    Nothing is averaged, so short waves alias. On a free axis the coarse rectangle reaches half a fine cell beyond the
+    fine one at the first point, because coarse point k is fine point 2k.
+    """
     for axis in (0, 1):
         n, m = field.shape[axis], shape[axis]
         if n == m:
@@ -222,11 +228,13 @@ def _squares_along(cells: int, onto: int, periodic: bool) -> _Squares:
 
 
 def _edge_scale(pressure: FloatArray, phi: FloatArray, marks: NDArray[np.uint8], cap: float) -> float:
-    """Return c of phi outside: phi then has the same mean slope on both sides of the edges."""
-    squares, opening, edges = _edge_means(pressure, phi, marks, cap)
-    if edges == 0 or not opening > 0:
-        return 0.0 if not squares > 0 else squares
-    return float(squares / opening)
+    """Return c of phi outside: phi then has the same mean slope on both sides of the edges.
+
+    Edges of cells at the cap do not count: the pressure does not fall to zero like a root there. Without an opening at
+    an edge that counts, the slope is unknown, and c is zero: cells outside then count as closed, as at the edge.
+    """
+    squares, opening = _edge_means(pressure, phi, marks, cap)
+    return float(squares / opening) if opening > 0 else 0.0
 
 
 _NEAR_CONTACT, _IN_STENCIL = 1, 2
@@ -271,11 +279,10 @@ def _evaluate_phi(pressure, displacement, gap, approach, wraps_x, wraps_y):
 
 @compiled
 def _edge_means(pressure, phi, marks, cap):
-    """Return the sums of p^2 and of -phi over the links from cells with pressure to cells without, and their number."""
+    """Return the sums of p^2 and of -phi over the links from cells between the bounds to cells without pressure."""
     nx, ny = pressure.shape
     squares = 0.0
     opening = 0.0
-    edges = 0
     for i in range(nx):
         for j in range(ny):
             if marks[i, j] | marks[min(i + 1, nx - 1), j] == 0:
@@ -293,10 +300,7 @@ def _edge_means(pressure, phi, marks, cap):
                 elif q > 0 and q < cap and p <= 0:
                     squares += q * q
                     opening -= phi[i, j]
-                else:
-                    continue
-                edges += 1
-    return squares, opening, edges
+    return squares, opening
 
 
 @compiled
@@ -348,7 +352,7 @@ def _prolong_phi(phi, marks, rows, lines, columns, begins, cap, cells, values):
 
 @compiled
 def _restore_square_loads(pressure, fine, width, rows, columns, cap):
-    """Scale each square without a capped cell to its load on the coarser grid.
+    """Scale each square without a cell at the cap on the finer grid to its load on the coarser one, by at most half.
 
     fine : cells of the finer grid, which has `width` columns, and their pressures.
     """

@@ -141,3 +141,14 @@ def test_a_coarse_result_that_just_misses_its_goal_starts_the_finer_grid(excess,
     monkeypatch.setattr(nested_iteration, "solve_on_grid", stalled)
     start = nested_iteration.start_from_coarser(problem, LoadControl(40.0))
     assert (start.pressure is not None) is kept
+
+
+@pytest.mark.internal
+def test_prolongation_without_an_opening_at_the_edge_depends_on_no_unit_of_length():
+    """The slope of the gap is unknown there; cells farther out are open."""
+    pressure, gap = np.zeros((16, 16)), np.zeros((16, 16))
+    pressure[6:10, 6:10] = 0.5
+    gap[:4], gap[12:], gap[:, :4], gap[:, 12:] = 1.0, 1.0, 1.0, 1.0
+    none = np.zeros_like(gap)
+    here, there = (prolonged((pressure, none, unit * gap, 0.0), np.inf, (32, 32), PERIODIC) for unit in (1.0, 64.0))
+    assert (here == there).all()
