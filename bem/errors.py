@@ -26,7 +26,7 @@ _MESSAGES = {
     Status.CONVERGED: "converged to the requested tolerance",
     Status.INACCURATE: "solved, but the accuracy that was asked for is not met; ask for less, or of fewer figures",
     Status.MAX_ITERATIONS: "stopped at the iteration limit before the tolerance was met; raise either of them",
-    Status.STALLED: "no further progress is possible in double precision; the residual says how far it came",
+    Status.STALLED: "the solver stopped making progress before the tolerance; the residual says how far it came",
     Status.INFEASIBLE: (
         "no solution exists within the bounds; lower the load, raise the hardness or ask for a larger mean gap"
     ),

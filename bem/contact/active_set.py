@@ -1,12 +1,13 @@
 """Primal-dual active set on one grid: conjugate gradients on the active cells, between updates of the set.
 
-Steps 5 to 8 of `bem.contact`, which calls them from `problem.GridProblem.solve` on every grid. The pressure minimises
-p.Kp/2 + p.(gap - approach) over 0 <= p <= cap, with its sum prescribed under load control. An outer iteration
+Steps 5 to 8 of `bem.contact` and the gradient step of step 10, called by `problem.GridProblem.solve` on every grid;
+steps 9 and 10 are called from here. The pressure minimises p.Kp/2 + p.(gap - approach) over 0 <= p <= cap, with its sum
+prescribed under load control. An outer iteration
 
-1. `_evaluate`: applies the operator in double precision, which gives the true gap, its violations and the energy; if
-   the energy has its minimum well before the end of the step, `_backtrack` blends to the minimum, whose displacement
-   takes no convolution, and `_Step.shortened` then projects the unconstrained step of that length, because a cell that
-   is active at either end is active between both;
+1. applies the operator in double precision (`GridWorkspace.begin_round`). `_evaluate` reduces the displacement to the
+   gap, its violations and the energy. If the energy has its minimum well before the end of the step, `_backtrack`
+   blends to the minimum, whose displacement takes no convolution, and `_Step.shortened` then projects the unconstrained
+   step of that length, because a cell that is active at either end is active between both;
 2. `_next_step`: adds the open cells that overlap and the capped cells that open (`grid_workspace`);
 3. solves for pressures without bounds on the active cells (`pcg`; `gcr` with friction or a prescribed mean gap); and
 4. `_to_bounds`: projects onto the bounds and restores the prescribed load (`bounds`, `controls`).
@@ -18,7 +19,7 @@ when a tenth of the violation is reached. Sets of cells can repeat only where th
 round-off.
 
 Where nearly all cells in contact are at the cap, unbounded pressures carry no information. They are discarded for a
-projected gradient step with the length of a single cell's response, which may raise the energy.
+projected gradient step whose length is one over the response of a single cell; it may raise the energy.
 
 Friction in the gap and a prescribed mean gap have no energy; where the sets then swing, `solve_on_grid` has other
 methods.
@@ -92,7 +93,7 @@ def solve_active_set(
     Parameters
     ----------
     operator : displacement operator of the grid.
-    gap : one-dimensional, lowest value zero.
+    gap : one-dimensional; its lowest value is zero on the finest grid only.
     control : prescribed quantity.
     cap : highest pressure; may be infinite.
     start : feasible initial pressure, or None.
@@ -177,7 +178,7 @@ class _Evaluation:
 
     step_fraction : fraction of the step that was taken; below one after backtracking.
     violating : cells that violate their state. violation : largest violation. goal : its tolerance.
-    largest_displacement : of the cells in contact.
+    largest_displacement : of the cells between the bounds; of the capped cells if none is between.
     round_off : True if the violation is near the resolution of the transforms.
     """
 
@@ -302,7 +303,10 @@ class _EnergyGuard:
     def reject_step(self, grid: GridWorkspace, control: Control, last: _Point, refused: _Point) -> Iterate:
         """Replace a step that raised the energy by part of it, or by a gradient step from its beginning.
 
-        A gradient step that raises the energy is replaced by one of a quarter of its length.
+        The first gradient step cannot raise the energy except by round-off of the displacement; each further one has a
+        quarter of the length of the one before. The next `_backtrack` searches the line from the refused pressure,
+        whose displacement is still stored, to the replacement: the energy at its minimum is at most that of the
+        replacement.
         """
         self.rejected += 1
         if self.rejected == 1:

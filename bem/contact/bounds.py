@@ -4,8 +4,8 @@ Step 10 of `bem.contact`, and the merging and blending of sets in steps 7 and 8.
 as the cells strictly between the bounds, their values, and the cells at the cap. Trial pressures of the linear solver
 leave the bounds; three operations bring them back:
 
-- `redistribute_clipped_load` keeps the load of each square of 8 x 8 cells, because load that moves across the surface
-  excites long-wavelength displacement errors;
+- `redistribute_clipped_load` keeps the load of each square of 8 x 8 cells, as far as a change of at most half allows,
+  because load that moves across the surface excites long-wavelength displacement errors;
 - `eliminate_tension` sets negative pressures to zero and corrects their neighbours with the sparse approximate
   inverse, which is the projection in the energy norm as far as near neighbours reach;
 - `shift_to_sum` is the Euclidean projection onto the bounds and a prescribed sum.
@@ -89,7 +89,7 @@ def _with_capped(cells: Indices, values: FloatArray, capped: Indices, cap: float
 
 
 def clip_to_bounds(iterate: Iterate, trial: FloatArray, cap: float) -> Iterate:
-    """Move cells whose trial pressures leave the bounds to the free and to the capped set."""
+    """Make cells whose trial pressures leave the bounds open or capped."""
     below, above = trial <= 0, trial >= cap
     if not (below.any() or above.any()):
         return Iterate(iterate.cells, trial, iterate.capped)
@@ -101,7 +101,8 @@ def clip_to_bounds(iterate: Iterate, trial: FloatArray, cap: float) -> Iterate:
 def clip_to_load(iterate: Iterate, trial: FloatArray, cap: float, force: float, size: int) -> Iterate:
     """Clip trial pressures and restore their sum, the cells at the cap included, to `force`.
 
-    Elastic pressures are scaled; capped ones are shifted uniformly. `size` is the number of cells of the grid.
+    Without a hardness all pressures are scaled. With a hardness the pressures of the active cells are shifted by one
+    constant, and cells at the cap keep it where that suffices. `size` is the number of cells of the grid.
     """
     cells, capped = iterate.cells, iterate.capped
     if math.isinf(cap):
@@ -169,7 +170,7 @@ def eliminate_tension(inverse: SparseInverseOnCells, pressure: FloatArray) -> No
 def merge(old, found, state, cap, surface):
     """Add the cells `found` to the active cells (both ascending).
 
-    old : (cells, values). found : free cells (pressure zero) and capped cells (pressure `cap`), told apart by `state`.
+    old : (cells, values). found : open cells (pressure zero) and capped cells (pressure `cap`), as `state` says.
     surface : (displacement, gap, approach). Returns the cells, their values, their gaps and the mean gap.
     """
     cells, values = old
@@ -289,9 +290,11 @@ def keep_positive(cells, values):
 
 @compiled
 def redistribute_clipped_load(cells, values, cap, shape, side):
-    """Scale the values between the bounds so that clipping leaves the load of each square of `side` cells unchanged.
+    """Scale the values between the bounds so that clipping changes the load of each square as little as possible.
 
-    The cells ascend, so a square is looked up once for all cells of its row.
+    The values of a square of `side` x `side` cells change by at most half (`LARGEST_CHANGE`), and its load is kept as
+    far as that allows. A square without a value between the bounds stays as it is. Scaled values may exceed the cap;
+    the caller clips them. The cells ascend, so a square is looked up once for all cells of its row.
     """
     ny, across = shape[1], (shape[1] - 1) // side + 1
     outside = 0
@@ -321,8 +324,8 @@ def redistribute_clipped_load(cells, values, cap, shape, side):
         else:
             inside[b] += value
     for square in range(excess.size):
-        share = excess[square] / inside[square] if inside[square] > 0 else 0.0
-        excess[square] = 1 - max(-LARGEST_CHANGE, min(LARGEST_CHANGE, share))
+        change = excess[square] / inside[square] if inside[square] > 0 else 0.0
+        excess[square] = 1 - max(-LARGEST_CHANGE, min(LARGEST_CHANGE, change))
     for k in range(cells.size):
         if 0 < values[k] < cap:
             values[k] *= excess[np.uint64(squares[k])]

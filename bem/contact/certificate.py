@@ -29,10 +29,12 @@ _ROUND_OFF = 1e-15
 """Round-off of an approach by the change of units, relative to the lengths that it is a sum of."""
 
 
-def uniform_displacement(request: Request) -> float:
-    """Return the displacement of a free grid under the mean prescribed pressure [m]; zero unless a load is prescribed.
+def displacement_scale(request: Request) -> float:
+    """Return the scale of the displacement under the mean prescribed pressure [m]; zero unless a load is prescribed.
 
-    On a doubly periodic grid a uniform pressure displaces nothing, but displacements are rounded on this scale.
+    It is the mean pressure times the largest value of the operator's spectrum, rounded to a power of two: an order of
+    magnitude. On a doubly periodic grid a uniform pressure displaces nothing, but displacements are rounded on this
+    scale.
     """
     return 0.0 if request.load is None else request.load / request.operator.grid.area * request.operator.unit
 
@@ -47,7 +49,7 @@ def certify(
     iterations: int,
     convolutions_before: float,
 ) -> ContactSolution:
-    """Recompute the residual from the pressure, and convert everything to SI units.
+    """Recompute the residual from the pressure and the solver's approach, and convert everything to SI units.
 
     status_if_unmet : status if the residual exceeds the tolerance.
     """
@@ -76,7 +78,7 @@ def certify(
     elif request.load is not None:
         load_error = _relative(abs(load - request.load), request.load)
     contact, plastic, doubt = _regions(request, pressure, deformed, load, capped=capped > 0)
-    largest_displacement = max(largest_displacement, uniform_displacement(request))
+    largest_displacement = max(largest_displacement, displacement_scale(request))
     reference = largest_displacement if is_flat(rms_gap, largest_displacement) else rms_gap
     residual = max(_relative(largest, reference), load_error)
     status = Status.CONVERGED if residual <= request.tolerance else status_if_unmet

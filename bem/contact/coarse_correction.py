@@ -2,8 +2,9 @@
 
 Second level of the preconditioner of step 9 of `bem.contact`. The kernel on the active cells is taken as a near part,
 whose inverse is the sparse approximation G^T G, plus P F P^T. F is the kernel of a grid up to eight times coarser, less
-the near part's own response to long wavelengths; P is constant on each coarse cell. G P is replaced by W, which has one
-entry per row, the row sum of G, in the column of the coarse cell. The two-level preconditioner is
+0.85 of the near part's own response to long wavelengths, and zero where that is larger; P is constant on each coarse
+cell. G P is replaced by W, which has one entry per row, the row sum of G, in the column of the coarse cell. The
+two-level preconditioner is
 
     inverse = G^T (1 + W F W^T)^-1 G.
 
@@ -112,7 +113,7 @@ class CoarseCorrectionOnCells:
 class Preconditioner:
     """The two-level approximate inverse on the active cells; `values` (n,) is scratch.
 
-    `coarse` is None on grids too small for a coarse correction.
+    `coarse` is None without a coarse correction (`coarse_correction`).
     """
 
     near: SparseInverseOnCells
@@ -130,7 +131,7 @@ class Preconditioner:
 def coarse_correction(operator: DisplacementOperator, near: float) -> CoarseCorrection | None:
     """Prepare the correction of an operator whose sparse inverse has the response `near` to long wavelengths.
 
-    Returns None where the grid is too small.
+    Returns None where the grid is too small, or where the near response leaves nothing of the spectrum.
     """
     coarse = operator
     halvings = 0
@@ -159,7 +160,11 @@ def coarse_correction(operator: DisplacementOperator, near: float) -> CoarseCorr
 
 @lru_cache(maxsize=64)
 def _coarse_cells(cells: int, onto: int, periodic: bool, halvings: int) -> NDArray[np.int64]:
-    """Return the coarse cell, of `onto` along an axis, that contains each cell."""
+    """Return the coarse cell, of `onto` along an axis, that each cell belongs to.
+
+    On a free axis coarse point k lies on fine point 2^halvings k, the first of its cells: the coarse grid is shifted by
+    less than half a coarse cell, alike for all cells, and a common shift leaves a convolution unchanged.
+    """
     coarse = np.arange(cells) * onto // cells if periodic else np.minimum(np.arange(cells) >> halvings, onto - 1)
     coarse.flags.writeable = False
     return coarse

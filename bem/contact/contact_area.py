@@ -4,10 +4,11 @@ A count of the cells in contact is first-order accurate: 8 % high on a rough sur
 boundary p = k sqrt(d) at a distance d inside, and gap = 4 k d^(3/2) / (3 E*) outside (k as at a crack tip: Johnson,
 *Contact Mechanics*, section 5.1). The pressure of the last cell inside and the gap of its neighbour outside therefore
 determine where the boundary crosses the link between their centres: k cancels in q = 3 E* gap / (4 p d n), with d the
-length of the link and n the cosine between link and normal. The discrete solution near the boundary is linear in its
-position, so the crossing is at the fraction (a - b q) / (c + q) of the link. The constants a, b, c depend on n and on
-the discretisation: constant on cells, or waves (`spectral`). The polygon through the crossings, with the segments that
-its chords cut off, bounds the contact.
+length of the link and n the cosine between link and normal. To first order the discrete p and gap at both centres are
+linear in the position s of the boundary between them: p is proportional to b + s, and the gap to a - c s. Their ratio q
+= (a - c s) / (b + s), solved for s, places the crossing at the fraction s = (a - b q) / (c + q) of the link. The
+constants a, b, c depend on n and on the discretisation: constant on cells, or waves (`spectral`). The polygon through
+the crossings, with the segments that its chords cut off, bounds the contact.
 
 The same law holds with hardness less pressure in place of the pressure, and the overlap in place of the gap, where
 contact turns plastic. At a discontinuity of the undeformed gap, as around a punch, the boundary is half-way between the
@@ -102,7 +103,7 @@ def contact_region(
     pressure : (nx, ny) [Pa], zero outside contact.
     gap, undeformed : (nx, ny), deformed and undeformed gap [m].
     grid : of the cells.
-    modulus : E* at wavelengths of the cell size [Pa].
+    modulus : E* at a wavelength of four cells [Pa].
     ends : contributions of narrow regions and gaps, in place of the fitted constants.
     cap : hardness [Pa].
     compliance : additional displacement of a cell by its own pressure [m/Pa].

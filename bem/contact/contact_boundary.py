@@ -341,7 +341,8 @@ def _crossing(strength, opening, cells, normal, link, factors, constants, ends):
     """Return the distance of the crossing from the cell inside, in links of length `link`.
 
     cells : run lengths inside and outside. Where cells give way by their own pressure alone, the overlap give *
-    pressure and the gap are linear across the boundary.
+    pressure and the gap are linear across the boundary, so that it crosses at give / (give + ratio). Adding `give` to
+    numerator and denominator of the elastic law joins both: it is exact without `give` and for a large one.
     """
     factor, give = factors
     along, across = normal

@@ -1,9 +1,9 @@
 """The prescribed quantity: load, approach, or mean gap. Constraints on one algorithm.
 
-The part of steps 3, 6, 9 and 10 of `bem.contact` that depends on the prescribed quantity. Everything that depends on
-the kind of control is a method here: the approach of a pressure, the projection onto the feasible set, the restoration
-of the prescribed quantity, the constraint on search directions, and the transfer to another grid. All numbers are in
-the solver's units: forces are sums of scaled pressures, lengths are scaled gaps.
+The part of steps 3, 6, 9 and 10 of `bem.contact` that depends on the prescribed quantity: the approach of a pressure,
+the projection onto the feasible set, the restoration of the prescribed quantity, the constraint on search directions of
+`gcr`, and the transfer to another grid. `pcg` has the constraint of a prescribed load built in (`zero_sum`). All
+numbers are in the solver's units: forces are sums of scaled pressures, lengths are scaled gaps.
 """
 
 from __future__ import annotations
@@ -46,7 +46,7 @@ class Control(ABC):
 
     @abstractmethod
     def approach_without_contact(self, gap: FloatArray) -> float:
-        """Return the approach without pressure over a gap (one-dimensional, minimum zero); infinite with a load."""
+        """Return the approach without pressure over a gap (one-dimensional); infinite with a load."""
 
     @abstractmethod
     def approach(self, grid: GridWorkspace, iterate: Iterate, separation_sum: float) -> float:
@@ -67,7 +67,11 @@ class Control(ABC):
         return start if isinstance(start, Iterate) else split_field(start, grid.cap)
 
     def keeps_load_of_squares(self, *, capped: bool, mean_free: bool) -> bool:
-        """Return True if clipped load stays in its square of 8 x 8 cells, because no other response would restore it.
+        """Return True if squares of 8 x 8 cells keep clipped load, False if `eliminate_tension` corrects neighbours.
+
+        Elimination has no counterpart for pressures above a cap: their excess would be spread over the whole surface by
+        the shift of `restore`. Where displacements have no mean, elimination changes the mean pressure, which hardly
+        displaces anything near full contact, so that later iterations would restore it slowly.
 
         capped : True below a finite hardness. mean_free : True if displacements have no mean.
         """
@@ -82,7 +86,7 @@ class Control(ABC):
         return np.clip(trial, 0.0, cap)
 
     def unit_approach_coefficient(self, grid: GridWorkspace, iterate: Iterate, unit_approach_load: float) -> float:
-        """Return the multiple of the pressure of a unit approach that is subtracted from a direction of unit sum.
+        """Return the multiple of the pressure of a unit approach that `gcr` subtracts from a direction of unit sum.
 
         The pressure of a unit approach is the preconditioner applied to a uniform unit displacement;
         `unit_approach_load` is its sum.
@@ -90,7 +94,7 @@ class Control(ABC):
         return 0.0
 
     def approach_change(self, response: FloatArray, grid: GridWorkspace, iterate: Iterate) -> float:
-        """Return the change of the approach by a direction.
+        """Return the change of the approach by a direction of `gcr`.
 
         response : displacement on the active cells; the grid's single-precision buffer has the displacement everywhere.
         """
@@ -120,8 +124,9 @@ class LoadControl(Control):
     def approach(self, grid: GridWorkspace, iterate: Iterate, separation_sum: float) -> float:
         """Return the mean of gap + displacement over the cells between the bounds: an estimate of the multiplier.
 
-        Where hardly any cell is between the bounds, return the approach that minimises the largest violation: the
-        midpoint between the least separation below the cap and the largest with pressure.
+        Where hardly any cell is between the bounds, return the least approach at which no cell violates its state: the
+        largest separation of a cell with pressure. If an open cell or one between the bounds has a smaller separation,
+        there is no such approach, and the midpoint between both separations minimises the largest violation.
         """
         if iterate.cells.size > FULLY_PLASTIC_RATIO * iterate.capped.size:
             return separation_sum / iterate.cells.size
@@ -138,11 +143,11 @@ class LoadControl(Control):
         return Iterate(cells, np.full(cells.size, self.force / cells.size), cells[:0])
 
     def keeps_load_of_squares(self, *, capped: bool, mean_free: bool) -> bool:
-        """Return True below a finite hardness; elastic load is restored over all cells."""
+        """Return True below a finite hardness; elastic load is restored by scaling all pressures."""
         return capped
 
     def restore(self, grid: GridWorkspace, iterate: Iterate, trial: FloatArray) -> Iterate:
-        """Clip trial pressures and restore the load: elastic pressures are scaled, capped ones shifted."""
+        """Clip trial pressures and restore the load: by scaling without a hardness, by a uniform shift with one."""
         return clip_to_load(iterate, trial, grid.cap, self.force, grid.gap.size)
 
     def project(self, trial: FloatArray, cap: float) -> FloatArray:

@@ -26,7 +26,7 @@ FloatArray = NDArray[np.float64]
 Indices = NDArray[np.int64]
 
 InitialPressure = FloatArray | Iterate | None
-"""A feasible field, an iterate, or None for no pressure."""
+"""A feasible field, an iterate, or None for the first pressure of the control: uniform under a load, else none."""
 
 _RESOLUTION = 4e-16
 """Violations below this fraction of the lengths they are differences of are round-off."""
@@ -36,7 +36,8 @@ _FLAT = 1e-6
 displacement."""
 
 _FLAT_RESOLUTION = 1e-12
-"""Largest relative violation aimed at for a flat gap; the transforms resolve little less."""
+"""Largest violation aimed at for a flat gap, relative to the displacement. The certificate allows the tolerance times
+the displacement there, which may be more than the whole gap; this one resolves the gap as far as the transforms do."""
 
 
 def is_flat(rms_gap: float, displacement: float) -> bool:
@@ -63,7 +64,7 @@ class IterationBudget:
 
 @dataclass(frozen=True)
 class Tolerance:
-    """Largest violation allowed, from the largest displacement u, the approach d and the first violation v:
+    """Largest violation allowed, from largest displacement u (`ContactSums`), approach d and first violation v:
 
     max(min(absolute, relative u, max(coarse_reduction v, coarse_floor)), _RESOLUTION (|d| + u)).
 
@@ -127,13 +128,15 @@ def mean_opening(gap: FloatArray, result: GridResult) -> float:
 class SolverParameters:
     """Numbers that balance outer iterations against CG iterations.
 
-    CG has residual r (gap) and pressure p. It ends at the first of four conditions.
+    CG has residual r (gap) and pressure p. It ends at the first of the three conditions below, at the limit of
+    iterations, or after a last step of extrapolated length that is expected to meet one of the conditions (`pcg`).
 
     relative_residual : ends CG at |r|_2 <= relative_residual |r_0|_2.
     tolerance_fraction : ends CG at max|r| <= tolerance_fraction tolerance.
     clip_residual_ratio : ends CG at max|r| <= clip_residual_ratio K00 max(-p, p - cap), where K00 is the response of a
         cell to its own pressure: clipping would bring back a residual of the same size.
-    clip_allowed_below : the last condition applies only at |r|_2 <= clip_allowed_below |r_0|_2.
+    clip_allowed_below : the condition on clipping applies only at |r|_2 <= clip_allowed_below |r_0|_2; `pcg` has no
+        such restriction before an extrapolated step.
     iterations_per_round : limit of CG iterations in an outer iteration.
     rounds : limit of outer iterations.
     patience : outer iterations without progress before the energy guard is set.
@@ -284,7 +287,7 @@ class GridWorkspace:
         return reductions.separations(self.displacement_values, self.gap, self.state)
 
     def violations(self, iterate: Iterate, approach: float) -> tuple[NDArray[np.int32], float]:
-        """Write all states; return the cells that violate theirs, and the largest violation."""
+        """Write all states; return the open and capped cells that violate theirs, and their largest violation."""
         pressure = iterate.cells, iterate.values, iterate.capped
         return reductions.find_violations(self.displacement_values, self.gap, self.state, pressure, approach)
 

@@ -48,7 +48,8 @@ class StoppingCriteria(NamedTuple):
     """When conjugate gradients end.
 
     relative_residual : relative squared residual at which they end.
-    clip_allowed_below : relative squared residual from which on clipping ends them.
+    clip_allowed_below : relative squared residual from which on clipping ends them; an extrapolated step may be taken
+        for clipping at any residual.
     goal : largest residual at which they end.
     clip_residual_ratio : largest residual at which they end, per pressure out of bounds.
     iterations : their limit.
@@ -88,6 +89,8 @@ def close_gap(
     grid: GridWorkspace, active: ActiveCells, control: Control, goal: float, budget: IterationBudget
 ) -> FloatArray:
     """Return pressures without bounds on the active cells that bring their gap (overwritten) closer to zero.
+
+    Under a prescribed load the gap is brought closer to a uniform value, which is a change of the approach.
 
     goal : tolerance of the gap.
     """

@@ -43,7 +43,7 @@ def highest_pressure(pressure: FloatArray, grid: Grid, hardness: float = math.in
     found = top(squares)
     if found is None:
         return highest
-    bend = 0.0 if all(grid.periodic) else below + highest + above + left + highest + right - 6 * highest
+    bend = 0.0 if all(grid.periodic) else below + above + left + right - 4 * highest
     if -bend * _LEAST_RADIUS**2 > 2 * highest:
         bend = 0.0
     return min(highest * math.sqrt(found) + _SMOOTH * bend / 24, hardness)

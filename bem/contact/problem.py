@@ -83,7 +83,7 @@ class Units:
 
     @classmethod
     def of(cls, request: Request, rms_gap: float, datum: float) -> Units:
-        """Choose a power of two [m] near the rms gap, or near the expected displacement of a flat gap.
+        """Choose a power of two [m] near the rms gap; near the expected displacement where the rms gap is zero.
 
         The unit is one for a large gap with lowest value zero, which then need not be copied.
         """
@@ -117,7 +117,7 @@ class Settings:
 
     @property
     def scale(self) -> float:
-        """Return the rms gap, or one where the gap is flat."""
+        """Return the rms gap, or one where it is zero."""
         return self.rms_gap or 1.0
 
     def allowed(self, tolerance: float) -> Tolerance:

@@ -3,7 +3,7 @@
 The passes of steps 1, 6 and 12 of `bem.contact`. Passes over whole fields work in blocks of fixed size that threads
 share. Sums are formed block by block in order, so a result has the same bits for every number of threads.
 
-- `contact_sums`: energy, approach and extremes of the gap over the cells with pressure;
+- `contact_sums`: energy over the cells with pressure, sum and extremes of gap + displacement between the bounds;
 - `find_violations`: the state of each cell, and the cells that violate it;
 - `assemble`: the certificate, and the results in SI units;
 - `moments`, `rescale`, `scatter`, `shift_to`: statistics, units, scattering, and the Newton iteration for a shift.
@@ -230,7 +230,7 @@ def _evaluate(given, units, approach, cap, deformed, violations, openings):
     """Convert to SI units; write violations, deformed gaps and open gaps; return the number of cells with pressure."""
     pressure, displacement, gap = given
     to_pressure, length = units
-    most = cap * (1 + 1e-14)  # round-off of the units
+    most = cap * (1 + 1e-14)  # a uniform first pressure at the cap is force / cells, which rounds
     touching = 0
     for k in range(gap.size):
         p = pressure[k] * to_pressure
@@ -241,12 +241,12 @@ def _evaluate(given, units, approach, cap, deformed, violations, openings):
         displacement[k] = u
         opening = gap[k] + u - approach
         apart = max(opening, 0.0)
-        free = p <= 0
-        deformed[k] = apart if free else opening
-        openings[k] = apart if free else 0.0
-        violation = -opening if free else opening if p >= cap else abs(opening)
+        is_open = p <= 0
+        deformed[k] = apart if is_open else opening
+        openings[k] = apart if is_open else 0.0
+        violation = -opening if is_open else opening if p >= cap else abs(opening)
         violations[k] = violation if inside else np.inf
-        touching += not free
+        touching += not is_open
     return touching
 
 
@@ -414,9 +414,10 @@ def mark_states(state, cells, capped):
 def find_violations(
     displacement: FloatArray, gap: FloatArray, state: NDArray[np.uint8], pressure: Cells, approach: float
 ) -> tuple[NDArray[np.int32], float]:
-    """Write the state of every cell; return the cells that violate it, and the largest violation.
+    """Write the state of every cell; return the open and capped cells that violate it, and their largest violation.
 
-    Free cells violate their state where the bodies overlap, cells at the cap where the gap opens.
+    Open cells violate their state where the bodies overlap, cells at the cap where the gap opens. The gap of the cells
+    between the bounds is not looked at.
     """
     found = np.empty(gap.size, np.int32)
     if gap.size <= _ONE_THREAD * BLOCK:

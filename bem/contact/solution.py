@@ -24,8 +24,9 @@ class ContactSolution:
     ----------
     pressure : [Pa], between 0 and the hardness.
     displacement : [m], normal displacement of both surfaces together, the operator applied to `pressure`.
-    gap : [m], undeformed gap + displacement - approach: zero (to the residual) in elastic contact, >= 0 outside,
-        minus `plastic_depth` where the pressure is at the hardness.
+    gap : [m], undeformed gap + displacement - approach: zero (to the residual) in elastic contact, minus
+        `plastic_depth` where the pressure is at the hardness. Outside contact it is >= 0: an overlap, which the
+        residual bounds, is set to zero.
     approach : [m], of the datum of the undeformed gap.
     load : [N].
     contact_area, plastic_area : [m^2], second-order accurate in the cell size (`bem.contact.contact_area`).
@@ -36,9 +37,10 @@ class ContactSolution:
     plastic_depth : [m], overlap of the bodies where the pressure is at the hardness, zero elsewhere.
     iterations : CG iterations on all grids.
     convolutions : applications of the operator on all grids, each weighted by the grid's fraction of the cells.
-    residual : largest violation of the contact conditions, recomputed from `pressure` alone, over the rms roughness of
-        the undeformed gap (over the largest displacement or a larger prescribed mean gap, where the gap is flat in
-        comparison). The error of a prescribed approach or mean gap counts as a violation; the relative error of a
+    residual : largest violation of the contact conditions, recomputed from `pressure` and `approach`, over the standard
+        deviation of the undeformed gap, form included. Where the gap is flat in comparison with the displacement, it is
+        relative to the largest of the displacement, its scale under the mean of a prescribed load, and a prescribed
+        mean gap. The error of a prescribed approach or mean gap counts as a violation; the relative error of a
         prescribed load counts if it is larger.
     status : outcome; `residual` is at most the tolerance if it is converged.
     notes : warnings, such as a contact that reaches the edge of a free grid.

@@ -15,7 +15,7 @@ from numpy.typing import NDArray
 
 from bem.contact import reductions
 from bem.contact.active_set import Report
-from bem.contact.certificate import certify, uniform_displacement
+from bem.contact.certificate import certify, displacement_scale
 from bem.contact.controls import Control
 from bem.contact.grid_workspace import GridResult, IterationBudget, is_flat
 from bem.contact.mean_gap_multiplicity import note_on_several_answers
@@ -64,8 +64,8 @@ def solve_contact(
     tolerance : bound on the residual, see `ContactSolution`.
     initial_pressure : (nx, ny), warm start [Pa]; coarser grids are then skipped.
     max_iterations : limit of CG iterations on all grids.
-    callback : called with iterations, residual and fraction of cells in contact after each outer iteration on the
-        finest grid.
+    callback : called with iterations, an approximate residual and the fraction of cells in contact after each outer
+        iteration on the finest grid.
 
     Notes
     -----
@@ -102,10 +102,10 @@ def solve_contact(
         operator,
         _scaled(request.gap.reshape(-1), units),
         request.cap / units.pressure,
-        _report(callback, settings, uniform_displacement(request) / units.length, operator),
+        _report(callback, settings, displacement_scale(request) / units.length, operator),
     )
     start = None if initial_pressure is None else np.asarray(initial_pressure, np.float64).reshape(-1) / units.pressure
-    flat = is_flat(rms_gap, uniform_displacement(request))
+    flat = is_flat(rms_gap, displacement_scale(request))
     result = _solve_scaled(problem, units.control(request), start, flat=flat)
     solution = certify(
         request,
@@ -147,7 +147,7 @@ def _scaled(gap: FloatArray, units: Units) -> FloatArray:
 def _solve_scaled(problem: GridProblem, control: Control, start: FloatArray | None, *, flat: bool) -> GridResult:
     """Solve in the solver's units, from an initial pressure or from coarser grids.
 
-    flat : True if the gap is flat compared with the displacement of a cell by the load.
+    flat : True if the gap is flat compared with the scale of the displacement under the mean pressure.
     """
     known = without_contact(control, problem.gap)
     known = known or pressed_flat(problem.operator, problem.gap, control, problem.cap, flat=flat)
@@ -168,17 +168,20 @@ def _unmet_status(result: GridResult, budget: IterationBudget) -> Status:
 
 
 def _report(
-    callback: Callback | None, settings: Settings, uniform: float, operator: DisplacementOperator
+    callback: Callback | None, settings: Settings, scale: float, operator: DisplacementOperator
 ) -> Report | None:
-    """Return the user's callback with the arguments of an outer iteration; the residual is that of the certificate.
+    """Return the user's callback with the arguments of an outer iteration.
 
-    uniform : displacement under the prescribed mean pressure, in the solver's length.
+    The residual approximates that of the certificate: the largest displacement is that of the cells between the bounds
+    only, and the relative error of the load is left out.
+
+    scale : scale of the displacement under the prescribed mean pressure, in the solver's length.
     """
     if callback is None:
         return None
 
     def report(iterations: int, violation: float, displacement: float, cells: int) -> None:
-        displacement = max(displacement, uniform)
+        displacement = max(displacement, scale)
         reference = displacement if is_flat(settings.rms_gap, displacement) else settings.rms_gap
         callback(iterations, violation / reference if reference > 0 else violation, cells / operator.grid.cells)
 

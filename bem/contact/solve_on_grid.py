@@ -4,7 +4,7 @@ Steps 2, 4 and 11 of `bem.contact`. `solve_on_grid` is called for every grid. It
 quantity by the active set alone, through `problem.GridProblem.solve`. Fallbacks follow only if that stalls:
 
 1. load, or approach unless displacements have no mean, symmetric operator: again from the last pressure with the energy
-   guard on from the start, and then with clipping ignored as a stopping criterion;
+   guard on from the start, and then without the end of conjugate gradients by clipping;
 2. friction in the gap: the frictional part of the displacement is lagged, so that each contact is frictionless;
 3. approach: a secant search over the load;
 4. mean gap: a secant search over the approach and, below a hardness, over the load; elastic bodies for which neither
@@ -63,7 +63,7 @@ _LARGEST_LOGARITHM = 600.0
 
 @dataclass(frozen=True)
 class Start:
-    """Initial pressure (one-dimensional) and approach."""
+    """Initial pressure, and its approach, which only a prescribed mean gap uses."""
 
     pressure: InitialPressure
     approach: float
@@ -392,7 +392,7 @@ def _as_field(problem: GridProblem, start: InitialPressure) -> FloatArray:
 
 
 def without_contact(control: Control, gap: FloatArray) -> GridResult | None:
-    """Return the result where the bodies do not press on each other; None otherwise. The lowest gap is zero."""
+    """Return the result where the bodies do not press on each other; None otherwise."""
     approach = control.approach_without_contact(gap)
     if approach > 0:
         return None

@@ -2,9 +2,10 @@
 
 Preconditioner of step 9 of `bem.contact`, and the correction of removed tension in step 10. Row k of the triangular
 factor G solves the small system of the kernel on cell k and on those of its ten preceding neighbours that are active,
-scaled to (G K G^T)_kk = 1 (Kolotilina & Yeremin, SIAM J. Matrix Anal. Appl. 14, 1993). The row depends on the bit
-pattern of active neighbours only, so every pattern is solved once per kernel (`Patterns`). With a diagonal added to the
-kernel (curvature of friction discs in `bem.tangential`), each cell has a row of its own.
+scaled to (G K G^T)_kk = 1 (Kolotilina & Yeremin, SIAM J. Matrix Anal. Appl. 14, 1993). At the seam of a periodic axis
+neighbours wrap around, so that rows there are not triangular; G^T G is positive definite all the same. The row depends
+on the bit pattern of active neighbours only, so every pattern is solved once per kernel (`Patterns`). With a diagonal
+added to the kernel (curvature of friction discs in `bem.tangential`), each cell has a row of its own.
 
 G sees near neighbours only; `coarse_correction` adds long wavelengths between G and its transpose. Verified against the
 definition of G in tests/contact/test_sparse_rows.py.

@@ -2,12 +2,12 @@
 
 Lengths are in periods; f is the offset along the free axis, a the offset along the period.
 
-1. Near images: the loaded cell, and its two neighbours if a period has few cells, in closed form (`half_space`,
-   `subsurface`).
+1. Near images: the loaded cell in closed form (`half_space`, `subsurface`), and its two neighbours too, unless cells
+   are at most 1/16 of a period along both axes and the grid is not longer than 6.5 periods.
 2. Tail: the other images form a function of (f, a) that is smooth on the scale of the period. It is sampled at
    Chebyshev nodes along the period (`_interpolation_along_period`), and along the free axis at Chebyshev nodes of
-   panels (`_panels_along_free_axis`) or, if cells are as large as a period, at Gauss nodes over each cell. Weights turn
-   the samples into means over cells.
+   panels (`_panels_along_free_axis`) or, if cells are longer than half a period or the grid is longer than 6.5 periods,
+   at Gauss nodes over each cell. Weights turn the samples into means over cells.
 3. A sample of the tail is a sum over k = 1 (or 2), 2, 3, ... of point forces at +-k periods (`_add_tail`): explicit up
    to k = 9, then the integral from k = 9.5 to infinity by a Gauss rule in a variable in which the integrand is
    analytic, plus the Euler-Maclaurin terms of the midpoint rule, from samples around the lower end in place of
@@ -16,7 +16,8 @@ Lengths are in periods; f is the offset along the free axis, a the offset along 
    error of exp(-2 pi 6.5) = 2e-18. There the plane-strain forms of `half_plane` are used.
 5. Offsets beyond half a period follow by parity (`_coefficients`).
 
-Cost: a closed form or Gauss rule for each cell and near image, and a fixed number of samples for each panel.
+Cost: a closed form or Gauss rule for each cell and near image, and a fixed number of samples for each panel, or for
+each cell along the free axis.
 
 Datum of the displacement. Under pressure the mean along the periodic axis is that of a line load, -2 P / (pi E*) ln|x /
 reference|, P per unit length: it grows without bound and has no natural zero. The reference length taken here is the
@@ -50,7 +51,7 @@ _SPAN = 2.0
 _EULER_POINTS = 16
 _GAUSS_POINTS = 24
 _MANY_CELLS = 16
-"""Number of cells in a period from which the neighbouring images belong to the tail."""
+"""Cells in a period, along both axes, from which the neighbouring images belong to a tail that is sampled at panels."""
 
 
 _EULER_NODES, _EULER_WEIGHTS = euler_maclaurin(_EULER_POINTS, int(_SPAN))
@@ -406,7 +407,7 @@ def _coefficients(
     parity = np.array(parities, dtype=np.float64)
     half = 0.5 * step
     z = depth / period
-    # whole cells within reach, and none so wide that a panel is no gain
+    # the tail is sampled at panels: the whole grid is within reach, and no cell is so wide that a panel is no gain
     smooth = half <= 0.25 and (grid.shape[free] * step) ** 2 + z * z <= _LINE_LOAD_DISTANCE**2
     first = 1 if smooth and cells >= _MANY_CELLS and step <= 1 / _MANY_CELLS else 2
     summand = _Summand(kind, swap, z, nu, pressure, traction, grid.lengths[free] / period, first)

@@ -15,9 +15,10 @@ needed. A convolution takes these steps:
    transformed back, in blocks that stay in cache. The padded spectrum as a whole is not stored.
 6. Rows back (`loops.rows_back`): the nx rows of the field are transformed back along y, and cut to ny.
 
-Cost of a convolution: 2 nx transforms of length py and py of length px (real or half-complex), n log n each. An even
-kernel needs less (`packed_real_fft`): real rows are packed as complex rows of half the length and columns go in pairs
-in steps 4 to 6, because FFTW has vector instructions for complex rows only.
+Cost of a convolution: 2 nx transforms of length py between real rows and their half-complex spectra, and two complex
+ones of length px for each of the py // 2 + 1 columns, n log n each. An even kernel needs less if py is even
+(`packed_real_fft`): real rows are packed as complex rows of half the length and columns go in pairs in steps 4 to 6,
+because FFTW has vector instructions for complex rows only.
 
 `addresses` has pointers for these loops. A convolution is one call of compiled code on one thread; several threads
 share the blocks of each pass, so a result does not depend on their number. `plans` creates FFTW's plans without timing,

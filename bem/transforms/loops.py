@@ -38,7 +38,8 @@ class TransformPlan(NamedTuple):
     row_plans : (2, 2), plans of rows forward and back, for a whole block and for the last block.
     columns : (blocks + 1,), first column of each block.
     column_plans : (2, blocks), plans of columns forward and back.
-    lengths, scales : (blocks,), length of the columns' transforms, and the scale of the inverse transform.
+    lengths, scales : (blocks,), length of the columns' transforms, and the scale 1 / (length py) of the inverse real
+        transform; with packed rows that is half the scale of the packed transform.
     row_spectra : (py // 2 + 1, stride), the rows' spectra, transposed, between both passes.
     twiddles : (2, pairs), sines and cosines for packed rows (`packed_real_fft`), empty otherwise. With packed rows a
         block is of pairs of columns, column plans are of one column, and rows are complex of half the length.

@@ -1,7 +1,7 @@
 """Lengths of padded transforms.
 
-Free axis: the transform is at least twice as long as the field, so that a convolution does not wrap. Periodic axis: no
-padding.
+Free axis of n cells: the transform has at least 2 n - 1 entries, an even number, so that a convolution does not wrap; a
+single cell is not padded. Periodic axis: no padding.
 
 A wave exp(i k y) along a periodic y needs less along a free x (`narrowed_lengths`): outside the loaded cell a
 half-space responds with exp(-k |x|) times a low power of k x, because its displacements are harmonic or biharmonic in
@@ -22,10 +22,10 @@ _FAST = [*(factor << power for power in range(3, 16) for factor in (1, 5, 7, 25)
 
 
 def padded_length(cells: int, periodic: bool) -> int:
-    """Return the length of the transform along an axis: `cells` if periodic, else an even fast length >= 2 cells - 1.
+    """Return the length of the transform along an axis: an even fast length >= 2 cells - 1, or `cells` without padding.
 
-    A power of two is taken where it is at most 10 % longer for 512, 3 % beyond: FFTW's plans without timing are fastest
-    there.
+    Periodic axes and single cells are not padded. A power of two is taken where it is at most 10 % longer for 512, 3 %
+    beyond: FFTW's plans without timing are fastest there.
     """
     if periodic or cells == 1:
         return cells

@@ -103,7 +103,8 @@ def wave_frame_response(
     body : with any number of layers.
     depth : z [m], not negative; an interface itself counts as the layer above it.
     remainder : subtract the response of a half-space of the outermost material (only for depths in that layer). The
-        remainder decays like exp(-q (2 h - z)), is computed without cancellation, and vanishes for identical materials.
+        remainder decays like exp(-q (2 h - z)). For q h >= 1 it is computed without cancellation; for q h < 1 it is the
+        difference of both responses. For identical materials it vanishes, to round-off where q h < 1.
     load : compute the rows under pressure only, or the rows under tractions only; the other rows are zero.
 
     Returns

@@ -109,7 +109,10 @@ def _state_above_interface(factors, c, u, w, tau, sigma):
 
 @compiled
 def _impedance_on_thin_layer(x, c, number, layers):
-    """Return the impedance on top of a thin layer; store its transfer matrix, or tractions of the outermost layer."""
+    """Return the impedance on top of a thin layer; store its transfer matrix, or tractions of the outermost layer.
+
+    What is returned for the outermost layer (number 0) has no meaning and is not used.
+    """
     sinh, cosh, gamma, delta = _exponential(x, c)
     layers[number, _SINH] = sinh
     uu, uw, ww = layers[number, _BELOW_UU], layers[number, _BELOW_UW], layers[number, _BELOW_WW]
@@ -168,7 +171,10 @@ def _reflect(kappa, number, layers):
 
 @compiled
 def _impedance_on_thick_layer(x, kappa, number, layers):
-    """Return the impedance on top of a thick layer from its reflection; store the round-trip matrix of its waves."""
+    """Return the impedance on top of a thick layer from its reflection; store the round-trip matrix of its waves.
+
+    What is returned for the outermost layer (number 0) has no meaning and is not used.
+    """
     pp, pn, nn = layers[number, _REFLECTION_PP], layers[number, _REFLECTION_PN], layers[number, _REFLECTION_NN]
     square = layers[number, _DECAY] * layers[number, _DECAY]
     turn = (2.0 / kappa) * x
