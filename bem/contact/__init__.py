@@ -42,7 +42,7 @@ Steps, in order:
 6. Apply K in double precision; `reductions` returns gap, energy and violations. Cost: one convolution and two passes;
    one more pass with capped cells, and one where at most one cell in contact out of eleven is between the bounds. The
    approach is the mean of gap plus displacement over the cells between the bounds; in the last case it is the least
-   approach at which no cell violates its state or, if there is none, the one with the smallest largest violation.
+   approach at which no cell violates its state or, if there is none, the one whose largest violation is smallest.
 7. If the energy has its minimum between 0.02 and 0.75 of the step, blend both pressures and both displacements there,
    which takes no convolution. If the step came from step 9, the next iterate is the projection (step 10) of the
    unbounded step of that length, and steps 8 and 9 are omitted; after another step they continue from the blend. Under
@@ -67,9 +67,8 @@ Steps, in order:
     active ones, `active_set` discards the solution of step 9 for a projected gradient step. Its length is one over the
     response of a single cell, which may raise the energy.
 11. `solve_on_grid`: up to two reruns with the energy guard from the start, the second without the end of step 9 by
-    clipping;
-    friction lagged by one contact, secant searches over load or approach, and the least mean gap of bodies that cannot
-    be pressed flat (`mean_gap_limits`).
+    clipping; friction lagged by one contact, secant searches over load or approach, and the least mean gap of bodies
+    that cannot be pressed flat (`mean_gap_limits`).
 12. `certificate` recomputes load, gap and residual from the returned pressure; the approach is the solver's, and the
     displacement is computed again unless it already is K p. It adds area and perimeter of second order
     (`contact_area`, `contact_boundary`) and the maximum pressure between cells (`peak_pressure`). The status is

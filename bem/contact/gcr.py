@@ -74,7 +74,10 @@ class _State:
 def close_gap(
     grid: GridWorkspace, active: ActiveCells, control: Control, goal: float, budget: IterationBudget
 ) -> FloatArray:
-    """Return pressures without bounds on the active cells that bring their gap (overwritten) closer to zero."""
+    """Return pressures without bounds on the active cells that bring their gap (overwritten) closer to zero.
+
+    Under a prescribed load the gap is brought closer to a uniform value, which is a change of the approach.
+    """
     iterate, residual, parameters = active.iterate, active.gap, grid.parameters
     cells = iterate.cells
     if control.zero_sum:

@@ -129,7 +129,8 @@ class SolverParameters:
     """Numbers that balance outer iterations against CG iterations.
 
     CG has residual r (gap) and pressure p. It ends at the first of the three conditions below, at the limit of
-    iterations, or after a last step of extrapolated length that is expected to meet one of the conditions (`pcg`).
+    iterations, where the curvature along a direction is not positive, or after a last step of extrapolated length that
+    is expected to meet one of the conditions (`pcg`).
 
     relative_residual : ends CG at |r|_2 <= relative_residual |r_0|_2.
     tolerance_fraction : ends CG at max|r| <= tolerance_fraction tolerance.
