@@ -441,8 +441,7 @@ def _next_step(
         clipped.cells.size <= FULLY_PLASTIC_RATIO * clipped.capped.size
         and clipped.cells.size < 0.5 * iterate.cells.size
     ):
-        # fully plastic: unbounded pressures carry no information, and no extrapolated step is taken that can be judged
-        grid.extrapolation.taken = False
+        # fully plastic: unbounded pressures carry no information
         return _Step(_gradient_step(grid, control, iterate, now.approach, 1 / grid.self_response))
     return _Step(clipped, initial=iterate, near=active.near, trial=trial)
 

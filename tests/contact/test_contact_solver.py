@@ -429,14 +429,6 @@ def test_regions_that_keep_their_load_save_convolutions_and_leave_the_answer(mon
     assert np.abs(kept.pressure - moved.pressure).max() <= 1e-5 * moved.pressure.max()  # both certified to 1e-8
 
 
-def test_a_discarded_step_of_a_plastic_contact_does_not_end_the_extrapolation_of_later_ones():
-    """Steps that a gradient step replaced were judged by the violation after the gradient step: 88.7 convolutions."""
-    op = operator((256, 256), (1 / 256, 1 / 256), FREE)
-    solutions = [solve_contact(-notes_surface(256, seed), op, load=0.012, hardness=0.02) for seed in range(3)]
-    assert all(one.status is Status.CONVERGED for one in solutions)
-    assert sum(one.convolutions for one in solutions) <= 65  # 57.1
-
-
 @pytest.mark.internal
 def test_a_large_gap_that_touches_zero_is_not_copied(monkeypatch):
     """Its scale is a power of two, so only round-off differs; and the user's gap stays as it is."""
