@@ -20,7 +20,7 @@ from reports.experiments import flow_error_bars, particle_error_bars, rubbing_er
     [
         (flow_error_bars.EXPERIMENT, 3, {"grid", "residual"}),
         (rubbing_error_bars.EXPERIMENT, 6, {"grid", "residual"}),
-        (tribofilm_error_bars.EXPERIMENT, 2, {"grid", "reused contacts", "time steps"}),
+        (tribofilm_error_bars.EXPERIMENT, 4, {"grid", "reused contacts", "time steps"}),
         (particle_error_bars.EXPERIMENT, 5, {"grid", "sample"}),
     ],
     ids=lambda item: getattr(item, "name", None),

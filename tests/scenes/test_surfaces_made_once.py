@@ -112,8 +112,10 @@ def test_surfaces_that_are_too_large_are_not_kept(made, monkeypatch):
 
 
 def write_map(path, seed=1):
-    rng = np.random.default_rng(seed)
-    return write_surface(path, Surface(1e-8 * rng.standard_normal((30, 20)), (1e-6, 1e-6)))
+    """Write a map with a spike, which a note tells of where it is removed."""
+    heights = 1e-8 * np.random.default_rng(seed).standard_normal((30, 20))
+    heights[5, 9] = 1e-6
+    return write_surface(path, Surface(heights, (1e-6, 1e-6)))
 
 
 def measured(path, **change):
@@ -123,13 +125,15 @@ def measured(path, **change):
 def test_points_of_a_sweep_share_measured_maps(made, tmp_path):
     """Read, put on the grid and described once, with the same notes at every point; a file that has changed anew."""
     path = write_map(tmp_path / "map.npz")
-    scene = CONTACT | {"lower": CONTACT["lower"] | {"surface": {"kind": "measured", "path": str(path)}}}
+    scene = CONTACT | {"lower": CONTACT["lower"] | {"surface": {"kind": "measured", "path": str(path), "despike": 6}}}
     over = ["contact.mean_pressure=20 MPa,40 MPa,80 MPa"]
     found = run_sweep(scene, over, tmp_path / "s", workers=1)
     assert (found.computed, made) == (3, {"read": 1, "fitted": 1, "described": 1})
     notes = [open_run(point).summary["notes"] for point in (tmp_path / "s" / "points").iterdir()]
-    assert all(any("taken as 16 x 16 cells" in note["text"] for note in of) for of in notes)
-    alone = maps.fitted(measured(path), bem.surfaces.read_surface(path), found_grid(found), lambda text: None)
+    maps_notes = [{note["code"] for note in of if note["code"].startswith("map-")} for of in notes]
+    assert maps_notes == [{"map-coarse", "map-filled", "map-made-periodic"}] * 3
+    whole = bem.surfaces.read_surface(path, despike=6)
+    alone = maps.fitted(measured(path, despike=6), whole, found_grid(found), lambda text: None)
     for point in (tmp_path / "s" / "points").iterdir():
         np.testing.assert_array_equal(open_run(point).arrays["lower_height"].values, alone)
     made.clear()
@@ -146,14 +150,14 @@ def found_grid(sweep):
 def test_other_treatments_of_a_map_are_others(made, tmp_path, change):
     path = write_map(tmp_path / "map.npz")
     grid = Grid((16, 12), (1e-6, 1e-6))
-    for surface in (measured(path), measured(path, **change)):
+    for surface in (measured(path, despike=6), measured(path, despike=6, **change)):
         for _ in range(2):
             told = []
             heights = build.heights_of(surface, grid, 0, told.append)
             np.testing.assert_array_equal(
                 heights, maps.fitted(surface, maps.read_map(surface), grid, lambda text: None)
             )
-            assert any("taken as" in text for text in told)
+            assert any(note.code == "map-filled" for note in told)
             heights += 1.0  # the caller's own
     assert made["read"] == (1 if "mirror" in change else 2)
     assert made["fitted"] == 2 + 4  # four of the test's own
