@@ -145,6 +145,7 @@ def solve_active_set(
         if shorter is not None:
             iterate, step = shorter, None
             continue
+        step = None  # releases the rows of the sparse inverse before the next ones are connected
         step = _next_step(grid, control, now, budget, has_energy=has_energy)
         if step is None:
             return best.result(grid, last=now)
