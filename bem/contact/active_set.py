@@ -4,19 +4,21 @@ Steps 5 to 8 of `bem.contact` and the gradient step of step 10, called by `probl
 steps 9 and 10 are called from here. The pressure minimises p.Kp/2 + p.(gap - approach) over 0 <= p <= cap, with its sum
 prescribed under load control. An outer iteration
 
-1. applies the operator in double precision (`GridWorkspace.begin_round`). `_evaluate` reduces the displacement to the
-   gap, its violations and the energy. If the energy has its minimum well before the end of the step, `_backtrack`
-   blends to the minimum, whose displacement takes no convolution, and `_Step.shortened` then projects the unconstrained
-   step of that length, because a cell that is active at either end is active between both;
+1. applies the operator in double precision (`GridWorkspace.begin_round`). `_evaluate` sums the energy. If the energy
+   has its minimum well before the end of the step, `_backtrack` blends to the minimum, whose displacement takes no
+   convolution, and the sums are taken again. Only then follow the approach, the violations and their tolerance: they
+   are those of the blend, and the end of a step that was blended is not judged. `_Step.shortened` then projects the
+   unconstrained step of that length, because a cell that is active at either end is active between both;
 2. `_next_step`: adds the open cells that overlap and the capped cells that open (`grid_workspace`);
 3. solves for pressures without bounds on the active cells (`pcg`; `gcr` with friction or a prescribed mean gap); and
 4. `_to_bounds`: projects onto the bounds and restores the prescribed load (`bounds`, `controls`).
 
 The energy may rise while the largest violation falls. After a few outer iterations without progress an energy guard
 (`_EnergyGuard`) rejects every step that raises the energy, unless the violation fell by a tenth. It replaces the step
-by part of it, or by a projected gradient step that is shortened as long as it raises the energy. The guard is released
-when a tenth of the violation is reached. Sets of cells can repeat only where their energies differ by less than
-round-off.
+by part of it, which unlike the blend of `_backtrack` takes a convolution, or by a projected gradient step that is
+shortened as long as it raises the energy. The guard is released at a tenth of the least violation before it was set; in
+a guarded run the next outer iteration sets it again. Sets of cells can repeat only where their energies differ by less
+than round-off.
 
 Where nearly all cells in contact are at the cap, unbounded pressures carry no information. They are discarded for a
 projected gradient step whose length is one over the response of a single cell; it may raise the energy.
@@ -71,7 +73,8 @@ _LONGEST_STEP = 0.75
 """Fraction of a step above which its end is accepted instead of the minimum; shorter limits let the sets swing."""
 
 _LONGEST_GUARDED_STEP = 0.98
-"""The same fraction under the energy guard."""
+"""The same fraction for the blend by which the energy guard replaces a rejected step; `_backtrack` keeps its own
+limit."""
 
 _ROUND_OFF_PATIENCE = 5
 """Outer iterations without progress that are made where the violation is round-off of the transforms."""
@@ -211,7 +214,7 @@ class _Evaluation:
     ) -> GridResult:
         """Return the result on this grid; its buffers are released.
 
-        last : the evaluation whose displacement is in the buffer, if it is not this one.
+        last : the evaluation whose displacement is in the buffer; if it is not this one, a convolution replaces it.
         """
         step_fraction = self.step_fraction
         if last is not None and last is not self:
@@ -236,7 +239,7 @@ class _Progress:
     A violation is compared with the violation at the last progress, not with the previous one: a slow but steady fall
     is progress as well.
 
-    rounds : outer iterations so far.
+    rounds : outer iterations so far: pressures evaluated, rejected and shortened steps included.
     first_violation, least_violation : of the largest violations so far.
     patience_mark : violation when it last fell by a tenth.
     rounds_without_improvement : outer iterations since then.
@@ -308,6 +311,9 @@ class _EnergyGuard:
         quarter of the length of the one before. The next `_backtrack` searches the line from the refused pressure,
         whose displacement is still stored, to the replacement: the energy at its minimum is at most that of the
         replacement.
+
+        Energies are compared at the approach of the refused pressure. A blend costs the convolution of the next
+        `begin_round`; a gradient step costs one more, for the displacement of the accepted pressure.
         """
         self.rejected += 1
         if self.rejected == 1:
@@ -355,7 +361,10 @@ def _evaluate(
     tolerance: Tolerance,
     progress: _Progress,
 ) -> _Evaluation:
-    """Evaluate the pressure whose displacement is in the buffer, or the minimum of the energy on the way to it."""
+    """Evaluate the pressure whose displacement is in the buffer, or the minimum of the energy on the way to it.
+
+    Order: sums, blend to the minimum, sums of the blend, approach, violations, tolerance.
+    """
     sums, step_fraction = grid.contact_sums(iterate, None if previous is None else previous.iterate), 1.0
     backtracked = None if previous is None else _backtrack(grid, previous, iterate, sums)
     if backtracked is not None:
@@ -379,7 +388,8 @@ def _backtrack(
     """Return the minimum of the energy along a step, and its fraction of the step; None to accept the end.
 
     Changes of the set that are each right can be too many together, and the sets would swing ever wider. The
-    displacement of the minimum replaces that in the buffer without a convolution. `sums` is that of the end.
+    displacement of the minimum replaces that in the buffer without a convolution. `sums` is that of the end, whose
+    approach is not known yet: energies are compared at the approach of the previous pressure.
     """
     end = _Point(iterate, previous.approach, sums.energy, sums.energy_size, sums.force)
     slope = sums.work - sums.work_of_other - previous.approach * (sums.force - previous.force)
@@ -452,7 +462,8 @@ def _to_bounds(
 ) -> Iterate:
     """Project trial pressures (overwritten) on the active cells onto the bounds, and restore the load.
 
-    The sparse inverse corrects the neighbours of removed tension, or squares of cells keep the load that is clipped.
+    The sparse inverse corrects the neighbours of removed tension, or squares of cells keep the load that will be
+    clipped; `Control.restore` clips.
     """
     mean_free = grid.operator.mean_free
     if control.keeps_load_of_squares(capped=math.isfinite(grid.cap), mean_free=mean_free):

@@ -2,13 +2,16 @@
 
 Step 10 of `bem.contact`, and the merging and blending of sets in steps 7 and 8. An `Iterate` stores a feasible pressure
 as the cells strictly between the bounds, their values, and the cells at the cap. Trial pressures of the linear solver
-leave the bounds; three operations bring them back:
+leave the bounds. One of the first two operations prepares them, and one of the last two brings them back:
 
-- `redistribute_clipped_load` keeps the load of each square of 8 x 8 cells, as far as a change of at most half allows,
-  because load that moves across the surface excites long-wavelength displacement errors;
+- `redistribute_clipped_load` scales the values between the bounds so that each square of 8 x 8 cells will keep its
+  load when it is clipped, as far as a change of at most half allows, because load that moves across the surface excites
+  long-wavelength displacement errors; it does not clip;
 - `eliminate_tension` sets negative pressures to zero and corrects their neighbours with the sparse approximate
   inverse, which is the projection in the energy norm as far as near neighbours reach;
-- `shift_to_sum` is the Euclidean projection onto the bounds and a prescribed sum.
+- `clip_to_bounds` clips, where no load is prescribed;
+- `clip_to_load` clips and scales or, with a hardness, calls `shift_to_sum`, the Euclidean projection onto the bounds
+  and a prescribed sum.
 
 Verified in tests/contact/test_contact_reductions.py and tests/contact/test_tension_elimination.py.
 """
@@ -99,10 +102,13 @@ def clip_to_bounds(iterate: Iterate, trial: FloatArray, cap: float) -> Iterate:
 
 
 def clip_to_load(iterate: Iterate, trial: FloatArray, cap: float, force: float, size: int) -> Iterate:
-    """Clip trial pressures and restore their sum, the cells at the cap included, to `force`.
+    """Bring trial pressures within the bounds and their sum, the cells at the cap included, to `force`.
 
-    Without a hardness all pressures are scaled. With a hardness the pressures of the active cells are shifted by one
-    constant, and cells at the cap keep it where that suffices. `size` is the number of cells of the grid.
+    Without a hardness the trial is clipped, then all pressures are scaled. With a hardness the unclipped trial is
+    shifted by one constant, then clipped, on the active cells; cells at the cap keep it where that suffices. If the
+    capped cells carry more than the load, or the active ones cannot carry the rest, the capped cells are shifted too.
+    If all of these at the cap carry less than the load, all cells of the grid are shifted, and open cells may get
+    pressure. `size` is the number of cells of the grid.
     """
     cells, capped = iterate.cells, iterate.capped
     if math.isinf(cap):

@@ -1,9 +1,10 @@
 """Coarse-grid correction: the long wavelengths of the kernel that the sparse inverse does not see.
 
 Second level of the preconditioner of step 9 of `bem.contact`. The kernel on the active cells is taken as a near part,
-whose inverse is the sparse approximation G^T G, plus P F P^T. F is the kernel of a grid up to eight times coarser, less
-0.85 of the near part's own response to long wavelengths, and zero where that is larger; P is constant on each coarse
-cell. G P is replaced by W, which has one entry per row, the row sum of G, in the column of the coarse cell. The
+whose inverse is the sparse approximation G^T G, plus P F P^T. F is the kernel of a grid up to eight times coarser
+(three halvings, or down to about 16 cells along the longer side, which may be coarser than any grid that is solved),
+less 0.85 of the near part's own response to long wavelengths, and zero where that is larger; P is constant on each
+coarse cell. G P is replaced by W, which has one entry per row, the row sum of G, in the column of the coarse cell. The
 two-level preconditioner is
 
     inverse = G^T (1 + W F W^T)^-1 G.

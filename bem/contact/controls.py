@@ -1,6 +1,6 @@
 """The prescribed quantity: load, approach, or mean gap. Constraints on one algorithm.
 
-The part of steps 3, 6, 9 and 10 of `bem.contact` that depends on the prescribed quantity: the approach of a pressure,
+The part of steps 3, 7, 9 and 10 of `bem.contact` that depends on the prescribed quantity: the approach of a pressure,
 the projection onto the feasible set, the restoration of the prescribed quantity, the constraint on search directions of
 `gcr`, and the transfer to another grid. `pcg` has the constraint of a prescribed load built in (`zero_sum`). All
 numbers are in the solver's units: forces are sums of scaled pressures, lengths are scaled gaps.
@@ -134,7 +134,10 @@ class LoadControl(Control):
         return largest if largest <= smallest else 0.5 * (largest + smallest)
 
     def initial_iterate(self, grid: GridWorkspace, start: InitialPressure) -> Iterate:
-        """Return the start scaled to the load, or a uniform pressure."""
+        """Return the start brought to the load by `restore`, or a uniform pressure.
+
+        With a hardness the start is shifted and clipped, which may change its set; without one it is scaled.
+        """
         if start is not None:
             iterate = start if isinstance(start, Iterate) else split_field(start, grid.cap)
             if iterate.cells.size or iterate.capped.size:
@@ -147,7 +150,11 @@ class LoadControl(Control):
         return capped
 
     def restore(self, grid: GridWorkspace, iterate: Iterate, trial: FloatArray) -> Iterate:
-        """Clip trial pressures and restore the load: by scaling without a hardness, by a uniform shift with one."""
+        """Restore the load within the bounds.
+
+        Without a hardness the trial is clipped, then scaled. With one the unclipped trial is shifted uniformly, then
+        clipped.
+        """
         return clip_to_load(iterate, trial, grid.cap, self.force, grid.gap.size)
 
     def project(self, trial: FloatArray, cap: float) -> FloatArray:

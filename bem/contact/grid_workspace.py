@@ -141,7 +141,7 @@ class SolverParameters:
     iterations_per_round : limit of CG iterations in an outer iteration.
     rounds : limit of outer iterations.
     patience : outer iterations without progress before the energy guard is set.
-    guarded : True if the energy guard is set from the start.
+    guarded : True if the energy guard is set from the first outer iteration.
     stall_limit : outer iterations without progress before the solver gives up.
     """
 
@@ -158,7 +158,13 @@ class SolverParameters:
 
 @dataclass(slots=True)
 class Extrapolation:
-    """Final CG step of extrapolated length, without a convolution; disabled once it fails to halve the violation."""
+    """Final CG step of extrapolated length, without a convolution; disabled once it fails to halve the violation.
+
+    It stays disabled as long as the workspace exists: for the rest of a solution on a grid; a rerun has a new one.
+
+    step_length : of the last CG step, kept between outer iterations; the length of the next extrapolated step.
+    trusted : False once an extrapolated step has failed. taken : True if the last CG step was extrapolated.
+    """
 
     step_length: float = 1.0
     trusted: bool = True
@@ -204,7 +210,7 @@ def _single_field(field: FloatArray) -> NDArray[np.float32]:
 
 
 class GridWorkspace:
-    """Operator, gap, buffers and preconditioner of one grid."""
+    """Operator, gap, buffers and preconditioner of one grid, for one call of `solve_active_set`."""
 
     def __init__(
         self, operator: DisplacementOperator, gap: FloatArray, cap: float, parameters: SolverParameters

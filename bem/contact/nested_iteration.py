@@ -1,15 +1,18 @@
 """Nested iteration: the solution on a coarser grid, interpolated, starts each grid.
 
-Step 3 of `bem.contact`. The coarsest grid has 17 to 32 cells along its longer side, or 16 below a finest grid of 31 or
-32; a finest grid of up to 30 cells has no coarser one (`convolution.SMALLEST_GRID`). The square of the pressure falls
-linearly to zero at the edge of a contact, and the gap outside grows like the distance to the power 3/2. The
-interpolated function is therefore phi = p^2 inside and -c gap^(2/3) outside, which is smooth across the edge. The
+Step 3 of `bem.contact`. The coarsest grid that is solved has 17 to 32 cells along its longer side, or 16 below a finest
+grid of 31 or 32; a finest grid of up to 30 cells has no coarser one (`convolution.SMALLEST_GRID`). The square of the
+pressure falls linearly to zero at the edge of a contact, and the gap outside grows like the distance to the power 3/2.
+The interpolated function is therefore phi = p^2 inside and -c gap^(2/3) outside, which is smooth across the edge. The
 interpolation changes the load of each square by its edges; load errors between squares excite long-wavelength
 displacement errors, so each square of 8 x 8 coarse cells keeps its coarse-grid load, as far as a change of its
-pressures by at most half allows. Squares with a cell at the cap are left as they are.
+pressures by at most half allows. Squares with a cell at the cap are left as they are. A prescribed load is restored by
+`Control.initial_iterate` when the finer grid starts.
 
 Coarse grids are solved until a tenth of their first violation is left, which is what the interpolation to them cost,
-and to 6 % of the rms gap at most. The coarsest grid, which has no interpolated start, has the same bounds.
+but no further than the final tolerance; and in any case to 6 % of the rms gap and 6 % of the displacement. The coarsest
+grid, which has no interpolated start, has the same bounds. A result that misses its goal is still interpolated up to
+twice the bound of 6 %, whatever a tenth of its first violation was (`_is_useful`); beyond, it is dropped.
 Verified in tests/contact/test_nested_iteration.py.
 """
 
@@ -42,8 +45,8 @@ _COARSE_BUDGET = 0.2
 """Fraction of the remaining iterations that a coarse grid may use; a start that takes more is not worth its cost."""
 
 _USEFUL_EXCESS = 2.0
-"""Violation over the bound of coarse grids up to which a result that did not converge is interpolated all the same; a
-larger one is worse than a uniform pressure."""
+"""Violation over the bound by `COARSE_TOLERANCE` up to which a result that did not converge is interpolated all the
+same; a larger one is worse than a uniform pressure."""
 
 COARSE_REDUCTION = 0.1
 """Fraction of the first violation that coarse grids are solved to. On large grids both that violation and the next
@@ -94,7 +97,10 @@ def start_from_coarser(problem: GridProblem, control: Control) -> Start:
 
 
 def _is_useful(result: GridResult, allowed: Tolerance) -> bool:
-    """Return True if a coarse result is worth interpolating: converged, near its goal, or the least mean gap."""
+    """Return True if a coarse result is worth interpolating: converged, near its goal, or the least mean gap.
+
+    allowed : without `COARSE_REDUCTION`: the first violation does not count here.
+    """
     if result.converged or result.least_found is not None or result.least_mean_gap is not None:
         return True
     displacement = float(np.abs(result.displacement).max())

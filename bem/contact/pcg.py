@@ -5,13 +5,15 @@ single-precision convolutions included. Where several threads share a transform,
 and is resumed after it; the arithmetic between transforms is the same, so results have the same bits for every number
 of threads.
 
-- Under load control directions carry no net load. The mean of the residual, weighted by the pressure of a unit approach
-  (`unit_approach`), is subtracted from the residual, which keeps the projected preconditioner symmetric.
-- The direction is that of Polak and Ribiere, which tolerates the inexact coarse correction.
+- Under load control the residual is the gap less its plain mean over the active cells (`_start`, `_advance`), which all
+  ends of the iteration refer to, and directions carry no net load. The preconditioner gets a copy of the residual less
+  its mean weighted by the pressure of a unit approach (`unit_approach`), which keeps it symmetric (`_turn`).
+- The direction is that of Polak and Ribiere with beta >= 0, which tolerates the inexact coarse correction.
 - The iteration ends at a relative residual, at the tolerance, or where clipping to the bounds would bring back a
-  residual of the same size.
-- The last step has an extrapolated length and takes no convolution: the preconditioned kernel is close to one, and the
-  next outer iteration applies the operator anyway and can backtrack.
+  residual of the same size (`grid_workspace.SolverParameters`).
+- The last step may be extrapolated: it reuses the length of the step before, takes no convolution, and counts as an
+  iteration. The preconditioned kernel is close to one, and the next outer iteration applies the operator anyway and can
+  backtrack. The length is carried over between outer iterations (`grid_workspace.Extrapolation`).
 
 Notation: p pressure, r residual (gap), z preconditioned residual, t direction, q response of the gap to t.
 Verified in tests/contact/test_contact_pcg.py.
@@ -171,7 +173,7 @@ def _iterate(state, cells, vectors, near, far, unit_approach, criteria, convolve
 
 @compiled
 def _start(state, cells, vectors, near, far, mean):
-    """Prepare residual and coarse correction."""
+    """Prepare residual (the gap, less its plain mean where directions carry no net load) and coarse correction."""
     residual = vectors[1]
     if vectors[7].size:
         for k in range(residual.size):

@@ -1,6 +1,6 @@
 """Fused reductions over a field or over the cells with pressure; each pass reads and writes memory once.
 
-The passes of steps 1, 6 and 12 of `bem.contact`. Passes over whole fields work in blocks of fixed size that threads
+The passes of steps 1, 6, 7 and 12 of `bem.contact`. Passes over whole fields work in blocks of fixed size that threads
 share. Sums are formed block by block in order, so a result has the same bits for every number of threads.
 
 - `contact_sums`: energy over the cells with pressure, sum and extremes of gap + displacement between the bounds;

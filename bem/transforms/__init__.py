@@ -11,14 +11,15 @@ needed. A convolution takes these steps:
 4. Rows forward (`loops.rows_forward`): the nx rows of the field, not the px - nx rows of padding, are transformed along
    y in blocks, and written transposed to the array of row spectra, so that columns are contiguous. For a field on a few
    cells (`loops.rows_forward_of_cells`), blocks of rows without a cell are left out.
-5. Columns (`loops.columns_through`): the py // 2 + 1 columns are padded, transformed along x, multiplied, and
-   transformed back, in blocks that stay in cache. The padded spectrum as a whole is not stored.
+5. Columns (`loops.columns_through`): the py // 2 + 1 columns (py // 2 where rows are packed) are padded, transformed
+   along x, multiplied, and transformed back, in blocks that stay in cache. The padded spectrum as a whole is not
+   stored.
 6. Rows back (`loops.rows_back`): the nx rows of the field are transformed back along y, and cut to ny.
 
 Cost of a convolution: 2 nx transforms of length py between real rows and their half-complex spectra, and two complex
 ones of length px for each of the py // 2 + 1 columns, n log n each. An even kernel needs less if py is even
-(`packed_real_fft`): real rows are packed as complex rows of half the length and columns go in pairs in steps 4 to 6,
-because FFTW has vector instructions for complex rows only.
+(`packed_real_fft`): real rows are packed as complex rows of half the length, so that there are py // 2 columns, and
+columns k and py // 2 - k go in pairs in steps 4 to 6, because FFTW has vector instructions for complex rows only.
 
 `addresses` has pointers for these loops. A convolution is one call of compiled code on one thread; several threads
 share the blocks of each pass, so a result does not depend on their number. `plans` creates FFTW's plans without timing,

@@ -15,9 +15,10 @@ and in the plane, under traction along x and y,
 
     xx = I0 - cos(2 phi) I2        yy = I0 + cos(2 phi) I2        xy = yx = -sin(2 phi) I2.
 
-The functions are analytic on the scale D = hypot(r, d), d the decay length of the table. A cell takes the smallest
-Gauss rule whose error is below 1e-13 for its ratio of D to half a side, from 2 x 2 points far away to 16 x 16. If none
-is accurate enough, the cell is cut in halves along the sides that are too long. Near the origin of a layer much thinner
+The functions are analytic on the scale hypot(r, d), d the decay length of the table. Each axis has a Gauss rule of its
+own (`_gauss_rules`): the smallest whose error is below 1e-13 for the ratio of D to half the side, from 2 points far
+away to 16, where D is the length of (offset of the centre along this axis, clear distance of the cell along the other,
+d). If none is accurate enough for a side, the cell is cut in halves along it. Near the origin of a layer much thinner
 than a cell the pieces shrink geometrically, so any ratio of thickness to cell works.
 """
 

@@ -3,8 +3,8 @@
 The spectrum f decays like exp(-q d) and is analytic to the right of the imaginary axis except for poles at some angle
 from the real axis. `frequency_response.quadrature_scales` gives the decay, the angle, and the scale near q = 0.
 
-1. Table. g is smooth on the scale of hypot(r, d): the panels of r double in width from d/8 on. Each has a polynomial
-   through 20 Chebyshev nodes (`interpolate_panels`).
+1. Table. g is smooth on the scale of hypot(r, d): the edges of the panels of r grow by a factor of two from d/8 on, by
+   sqrt(2) if poles are near (step 3). Each panel has a polynomial through 20 Chebyshev nodes (`interpolate_panels`).
 2. Nodes with r < d/8 (`_transform_near`): Gauss quadrature on the real axis of q, on panels halved towards 0, as far as
    exp(-q d) = exp(-40).
 3. Nodes with r > d/8 (`_transform_far`): on the real axis as far as q r = 4, on panels halved towards 0. The rest of

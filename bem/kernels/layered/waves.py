@@ -11,8 +11,10 @@ wavenumber:
 2. `_through_loaded_layer` and `_through_layer` carry the displacement from the loaded surface down to the interface
    below the medium of the requested depth. Only displacements are carried: (Zu - Z)^-1 of two definite matrices cannot
    cancel, whatever the moduli.
-3. `_state_at_depth` gives the state at the depth: carried up from the interface by the matrix exponential within 1/q of
-   it, where the waves of a soft layer cancel; else the sum of the waves of both directions.
+3. `_state_at_depth` gives the state at the depth. In a layer with q h < 1, and for the whole response within 1/q of the
+   lower interface of any layer, it is carried up from the interface by the matrix exponential, because the waves of a
+   soft layer cancel there. Otherwise it is the sum of the waves of both directions. The remainder in a layer with
+   q h >= 1 is always such a sum: the downward waves less those of the half-space, and the reflected waves.
 4. `_anti_plane` gives the response across the plane from sums of positive terms.
 """
 
