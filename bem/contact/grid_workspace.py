@@ -162,7 +162,8 @@ class Extrapolation:
 
     It stays disabled as long as the workspace exists: for the rest of a solution on a grid; a rerun has a new one.
 
-    step_length : of the last CG step, kept between outer iterations; the length of the next extrapolated step.
+    step_length : of the last CG step, kept between outer iterations; the length of the next extrapolated step. One at
+        the start.
     trusted : False once an extrapolated step has failed. taken : True if the last CG step was extrapolated.
     """
 
