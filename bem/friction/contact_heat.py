@@ -36,6 +36,9 @@ _HALF = 0.5
 class ContactHeat:
     """Temperatures of the surfaces in contact.
 
+    Not-a-number and stalled where the shear stress of the oil is not known; law and coefficient are then those at the
+    oil's temperature.
+
     mean, maximum : over the cells in contact [K], the mean weighted by pressure. temperature : (nx, ny) [K]. law : of
     boundary friction at the mean temperature. coefficient : of this law. status, notes : of the heat conduction.
     """
@@ -67,6 +70,9 @@ def contact_heat(film: PatchFilm, contact: Pressed, setup: MixedSetup, speeds: t
         return float((found.temperature * pressure).sum() / pressure.sum())
 
     cold = law.mean_coefficient(pressure, filled, slide)
+    if not np.isfinite(of_oil).all():  # a film whose heat was not found has no shear stress; its notes say so
+        unknown = np.full(pressure.shape, math.nan)
+        return ContactHeat(math.nan, math.nan, unknown, law, cold, Status.STALLED)
     found = solve_heat(cold)
     coefficient = cold
     if law.needs_temperature:

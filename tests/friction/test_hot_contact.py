@@ -1,5 +1,6 @@
 """Heat in mixed friction: film and contact temperatures from what is returned, the law that they tell, limits."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -7,12 +8,25 @@ import pytest
 from mixed_case import mixed_case
 from small_scenes import PATCH
 
-from bem import Body, InputError, Lubricant, Material, Status, load_scene, solve_line_film, solve_mixed, stribeck_curve
+from bem import (
+    Body,
+    InputError,
+    Lubricant,
+    Material,
+    Status,
+    load_scene,
+    solve_line_film,
+    solve_mixed,
+    stribeck_curve,
+)
 from bem.accuracy import MixedCase, mixed_bars, solve_coarser_mixed
 from bem.friction.balance import Regime
 from bem.friction.setup import MixedSetup
 from bem.friction.solve import solve_setup
 from bem.heat.steady import surface_temperature
+from bem.lubrication.thermal import lumped
+from bem.notes import has_code
+from bem.notes.lubrication import HEAT_NOT_FOUND
 from bem.runs import run_scene
 
 ELASTIC = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
@@ -135,6 +149,23 @@ def test_heat_of_a_starved_contact():
     assert starved.film.starvation.reduction < 0.5
     assert starved.contact_load > flooded.contact_load
     assert starved.contact_temperature > flooded.contact_temperature
+
+
+def without_temperatures(monkeypatch):
+    """Let the energy equation of every film end without a solution."""
+    solve = lumped.film_temperatures
+    monkeypatch.setattr(lumped, "film_temperatures", lambda *given: replace(solve(*given), residual=1.0))
+
+
+def test_heat_that_is_not_found_stalls_and_says_so(monkeypatch):
+    without_temperatures(monkeypatch)
+    (found,) = stribeck_curve([ROLLING], **CASE | {"thermal": "lumped", "boundary_friction": FALLING})
+    assert found.status is Status.STALLED
+    assert has_code(found.notes, HEAT_NOT_FOUND, reason="lumped")
+    assert found.regime is Regime.MIXED
+    assert math.isnan(found.friction)
+    assert math.isnan(found.contact_temperature)
+    assert math.isnan(found.flash_temperature)
 
 
 def test_what_heat_needs_is_said():
