@@ -71,7 +71,12 @@ class OilVolumeSensitivity:
 
     @property
     def matters(self) -> bool:
-        """Whether contact share or friction depend on the area where oil is counted, or that is not known."""
+        """Whether contact share or friction depend on the area where oil is counted, or that is not known.
+
+        False where the friction itself is not known, as of a film whose heat was not found.
+        """
+        if not math.isfinite(self.friction) or (self.known and not math.isfinite(self.loaded_friction)):
+            return False
         allowed = max(LOAD_CHANGES * self.contact_share, LEAST_CHANGE)
         alike = abs(self.loaded_contact_share - self.contact_share) <= allowed
         return not (alike and abs(self.loaded_friction - self.friction) <= FRICTION_CHANGES * abs(self.friction))

@@ -26,6 +26,7 @@ from bem.friction.solve import solve_setup
 from bem.heat.steady import surface_temperature
 from bem.lubrication.thermal import lumped
 from bem.notes import has_code
+from bem.notes.friction import OIL_COUNTED
 from bem.notes.lubrication import HEAT_NOT_FOUND
 from bem.runs import run_scene
 
@@ -166,6 +167,16 @@ def test_heat_that_is_not_found_stalls_and_says_so(monkeypatch):
     assert math.isnan(found.friction)
     assert math.isnan(found.contact_temperature)
     assert math.isnan(found.flash_temperature)
+
+
+@pytest.mark.parametrize("oil_volume", ["loaded", "patch"])
+def test_unknown_friction_does_not_depend_on_the_volume_of_oil(oil_volume, monkeypatch):
+    without_temperatures(monkeypatch)
+    found = hot(speeds=(12.0, 6.0), oil_volume=oil_volume)
+    assert found.regime is Regime.FULL_FILM
+    assert math.isnan(found.friction)
+    assert not found.oil.matters
+    assert not has_code(found.notes, OIL_COUNTED)
 
 
 def test_what_heat_needs_is_said():
