@@ -187,6 +187,11 @@ class MixedSetup:
             return ['thermal: "full" is not there for the film of a ball; take "lumped" or "off", or a cylinder']
         if self.repeated_cell:
             return ["thermal: a cell that repeats has no heat of its own; take a patch that holds the contact"]
+        if self.grid.periodic[0]:
+            return [
+                "thermal: on a grid periodic along x the heat of the contact warms the bodies for ever; make it free "
+                'along x, or take thermal "off"'
+            ]
         if self.thermal == "full" and self.supply is not None:
             return ['supply: not there with thermal "full"; take "lumped" or "off" with it, or no supply']
         if self.striated_exit:

@@ -10,6 +10,7 @@ from small_scenes import PATCH
 
 from bem import (
     Body,
+    Grid,
     InputError,
     Lubricant,
     Material,
@@ -190,6 +191,8 @@ def test_what_heat_needs_is_said():
         # films with heat have no such force: friction was not a number, and called converged
         ({"thermal": "full", "striated_exit": True}, "striated_exit: not there with heat"),
         ({"striated_exit": True}, "striated_exit: not there with heat"),
+        # refused after the balance, at the first speed with contact
+        ({"grid": Grid((64, 64), (0.8e-6, 0.8e-6), periodic=(True, True))}, "thermal: on a grid periodic along x"),
     ):
         with pytest.raises(InputError, match=words):
             hot(**changes)
