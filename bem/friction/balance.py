@@ -411,7 +411,9 @@ class _LevelSearch:
 
     def film_model_ends(self, trial: _Trial) -> bool:
         """Whether the film under the largest load of its model is still thicker than the opening under the rest."""
-        at_end = trial.log_load >= self.top - _EQUAL_LOGARITHMS and self.top < math.log(self.load)
+        if self.top >= math.log(self.load) - _EQUAL_LOGARITHMS:  # `find` takes that end for full film
+            return False
+        at_end = trial.log_load >= self.top - _EQUAL_LOGARITHMS
         return at_end and self.mismatch(trial) > self.goal
 
     def film_is_molecular(self, trial: _Trial) -> bool:

@@ -248,6 +248,17 @@ def test_the_balance_takes_another_film_model(constant, model):
     assert balance.contacts <= 14
 
 
+@pytest.mark.parametrize("missing", [1e-10, 5e-10])
+def test_a_film_model_that_ends_at_the_load_but_for_rounding_gives_full_film(missing):
+    film = FlatFilm(1e-5, largest_load=5.5 * (1 - missing))
+    rough = rough_contact(MixedSetup(**CASE), HEIGHT, (0.1, 0.0))
+    balance = share_load(film, rough, 5.5, 5e-4, film.under(film.largest_load, 0, None), BalanceStart(2.0))
+    assert balance.status is Status.CONVERGED
+    assert balance.regime is Regime.FULL_FILM
+    assert balance.contact is None
+    assert balance.imbalance == pytest.approx(-missing, rel=1e-3)
+
+
 class Misloaded:
     """A rough contact that carries more than is asked of it, by a share."""
 
