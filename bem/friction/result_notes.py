@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from bem.convolution import couples
+from bem.errors import Status
 from bem.friction.film import PatchFilm
 from bem.friction.forces import Forces
 from bem.friction.oil_sensitivity import OilVolumeSensitivity
@@ -22,6 +23,7 @@ from bem.materials import Body
 from bem.notes import Level, Note
 from bem.notes.contact import FRICTION_ON_PRESSURE
 from bem.notes.friction import FILM_MODEL_ENDS, FILM_WITHOUT_LAYERS, FRICTION_UNPHYSICAL, OIL_COUNTED, OIL_ON_CONTACT
+from bem.notes.lubrication import FILM_NOT_FOUND, HEAT_NOT_FOUND
 
 LARGEST_FRICTION = 1.0
 """Coefficient of friction that neither a boundary layer nor an oil under pressure reaches."""
@@ -38,7 +40,10 @@ DECIDES = 0.2
 def validity_notes(
     friction: float, forces: Forces, film: PatchFilm, whole: PatchFilm, setup: MixedSetup
 ) -> tuple[Note, ...]:
-    """Return notes on an unphysical friction, on a film under the whole load beyond its model, and on coatings."""
+    """Return notes on an unphysical friction, on the film under the whole load, and on coatings.
+
+    The film under the whole load is beyond its model, or not converged where another film carries the balance.
+    """
     notes = []
     if friction > max(LARGEST_FRICTION, 1.01 * forces.coefficient):
         stressed = float(np.abs(film.shear_stress).max()) > float(film.pressure.max())
@@ -46,6 +51,9 @@ def validity_notes(
         notes.append(FRICTION_UNPHYSICAL(friction=float(friction), limit=LARGEST_FRICTION, reason=reason))
     if whole.load < setup.load * (1 - 1e-12):
         notes.append(FILM_MODEL_ENDS(load=float(whole.load), reason="whole-load"))
+    if film.status is Status.CONVERGED and whole.status is not Status.CONVERGED:
+        heat = any(note.code == HEAT_NOT_FOUND.code for note in whole.notes)
+        notes.append((HEAT_NOT_FOUND if heat else FILM_NOT_FOUND)(reason="whole-load"))
     return (*notes, *coating_notes(setup))
 
 

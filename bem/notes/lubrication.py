@@ -76,6 +76,10 @@ FILM_NOT_FOUND = define(
             "The roughness is solved with the film, to a residual of {residual:.1g}: take more cells a wavelength, a "
             "higher speed or a lower surface."
         ),
+        "whole-load": Reason(
+            "It is the film under the whole load, and only lambda_ratio is of it.",
+            "Take friction and load shares, which do not rest on lambda_ratio.",
+        ),
     },
 )
 FILM_THICK = define(
@@ -247,6 +251,10 @@ HEAT_NOT_FOUND = define(
         "lumped": Reason(
             "The film is shown without temperatures, friction and heat.",
             "Give the oil a shear law with a limiting stress.",
+        ),
+        "whole-load": Reason(
+            "It is the heat of the film under the whole load, and only lambda_ratio is of it.",
+            "Take friction and load shares, which do not rest on lambda_ratio.",
         ),
         "full": Reason(
             "The last film that was found is shown without its temperatures, friction and heat.",

@@ -13,9 +13,12 @@ from bem.convolution import COUNT
 from bem.friction import largest_difference
 from bem.friction.balance import BalanceStart, Regime
 from bem.friction.curves import Curve, relative_difference
+from bem.friction.line_film import SolvedLineFilm
 from bem.friction.load_sharing import LoadSharing
 from bem.friction.models import films_of
 from bem.friction.setup import MixedSetup
+from bem.notes import has_code
+from bem.notes.lubrication import FILM_NOT_FOUND, HEAT_NOT_FOUND
 
 CASE = mixed_case(100, 0.9e-6, 4e-6, lubricant=Lubricant(0.36, pressure_viscosity=25e-9), boundary_friction=0.15)
 GRID, ROUGH = CASE["grid"], CASE["height"]
@@ -302,3 +305,25 @@ def test_curve_refusals():
         stribeck_curve([0.01], **misspelt)
     with pytest.raises(InputError, match="stribeck_curve: 'load' is missing"):
         stribeck_curve([0.01], **{key: value for key, value in CASE.items() if key != "load"})
+
+
+@pytest.mark.parametrize("kind", [FILM_NOT_FOUND, HEAT_NOT_FOUND])
+def test_a_film_under_the_whole_load_that_is_not_found_is_noted(kind, monkeypatch):
+    """Only the lambda ratio is of that film: load shares and friction keep their status."""
+    solve, speeds = SolvedLineFilm.under, (0.01, 0.0)
+    found = solve_mixed(**CASE, speeds=speeds)
+    assert found.regime is Regime.MIXED
+    assert not has_code(found.notes, kind)
+
+    def stalled_under_the_whole_load(films, load, level, start):
+        film = solve(films, load, level, start)
+        if load < CASE["load"]:
+            return film
+        return dataclasses.replace(film, status=Status.STALLED, notes=(kind(reason=next(iter(kind.reasons))),))
+
+    monkeypatch.setattr(SolvedLineFilm, "under", stalled_under_the_whole_load)
+    noted = solve_mixed(**CASE, speeds=speeds)
+    assert noted.status is Status.CONVERGED
+    assert noted.friction == found.friction
+    (note,) = [note for note in noted.notes if note.code == kind.code]
+    assert note.values["reason"] == "whole-load"
