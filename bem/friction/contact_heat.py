@@ -1,7 +1,9 @@
 """Frictional heating of the rough contact, and boundary friction at the temperature of the contact.
 
 Friction of the contact and of the oil between its cells heats both bodies: moving half-spaces with the temperature of
-the arriving oil far away (`bem.heat`). A body at rest under a cylinder is cool at the distance of the cylinder's
+the arriving oil far away (`bem.heat`). Oil sheared by the sliding makes the heat tau_m abs(u1 - u2) an area, tau_m the
+shear stress in the middle of the film: a pressure gradient adds to the stress on one wall and takes from that on the
+other. The heat of the flow that the pressure gradient drives is left out. A body at rest under a cylinder is cool at the distance of the cylinder's
 radius. A law of boundary friction over temperature takes the mean temperature of the contact, weighted by pressure.
 That mean depends on the coefficient in turn. Temperatures are linear in the coefficient, so one bracketed root in the
 coefficient closes the loop. Verified in tests/friction/test_hot_contact.py.
@@ -20,7 +22,7 @@ from bem.friction.boundary import BoundaryFriction, filled_part
 from bem.friction.film import PatchFilm
 from bem.friction.rough_contact import Pressed
 from bem.friction.setup import MixedSetup
-from bem.grid import FloatArray
+from bem.grid import FloatArray, Grid
 from bem.heat.bodies import conductors_of
 from bem.heat.solution import TemperatureSolution
 from bem.heat.steady import surface_temperature
@@ -60,7 +62,7 @@ def contact_heat(film: PatchFilm, contact: Pressed, setup: MixedSetup, speeds: t
     moving = speeds if setup.radius is None else _moving(heat, setup.radius, speeds)
     pressure, touching = contact.pressure, contact.pressure > 0
     filled = filled_part(pressure, contact.area / setup.slices, setup.grid)
-    of_oil = np.broadcast_to(np.abs(film.shear_stress), pressure.shape) * np.where(touching, 0.0, slide)
+    of_oil = np.broadcast_to(np.abs(_middle_stress(film, setup.grid)), pressure.shape) * np.where(touching, 0.0, slide)
 
     def solve_heat(coefficient: float) -> TemperatureSolution:
         made = of_oil + coefficient * slide * pressure
@@ -97,6 +99,17 @@ def contact_heat(film: PatchFilm, contact: Pressed, setup: MixedSetup, speeds: t
         status=found.status,
         notes=found.notes,
     )
+
+
+def _middle_stress(film: PatchFilm, grid: Grid) -> FloatArray:
+    """Return the shear stress in the middle of the film [Pa], (nx, ny) or (nx, 1).
+
+    The stress on the flat less its part h/2 dp/dx, with the pressure gradient on the patch.
+    """
+    if grid.shape[0] == 1:
+        return film.shear_stress
+    gradient = np.gradient(film.pressure, grid.x, axis=0)
+    return np.where(film.pressure > 0, film.shear_stress - 0.5 * film.thickness * gradient, 0.0 * film.shear_stress)
 
 
 def _consistent_coefficient(excess: Callable[[float], float], near: float) -> float:

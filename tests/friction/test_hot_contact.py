@@ -44,9 +44,14 @@ def hot(**changes):
 
 
 def conducted(found, coefficient):
-    """Temperatures of what rubs in a solution, and their mean by pressure in contact."""
+    """Temperatures of what rubs in a solution, and their mean by pressure in contact.
+
+    The oil's heat is that of the stress in the middle of the film, on the film's mesh.
+    """
     pressure, slide = found.contact_pressure, abs(found.speeds[0] - found.speeds[1])
-    heat = slide * (coefficient * pressure + np.abs(found.film_shear_stress))
+    stress = np.where(found.film.pressure > 0, np.abs(found.film.sliding_stress), 0.0)
+    sheared = np.interp(found.grid.x, found.film.position, stress)[:, None]
+    heat = slide * (coefficient * pressure + np.where(pressure > 0, 0.0, sheared))
     field = surface_temperature(
         heat, found.grid, (STEEL, STEEL), speeds=found.speeds, bulk=(333.15, 333.15), tolerance=1e-7
     ).temperature
