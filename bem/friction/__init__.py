@@ -6,11 +6,14 @@ together by the rest. Their mean opening must equal the mean film thickness, bot
 counted. One point of a Stribeck curve, `solve.solve_mixed`, in order:
 
 1. `setup.MixedSetup` checks the arguments. `smooth` has the contact of the smooth bodies: half-axes and undeformed gap.
-   `oil_volume` averages film and opening where the film carries load (default), over the patch (the thesis), or over
-   the Hertz contact.
+   `oil_volume` averages film and opening over the patch weighted by the film pressure (default), over the patch (the
+   thesis), or over the Hertz contact. With the default the whole load deforms the film's bodies: their modulus is
+   E* F_film / F, and the surfaces are pressed into the film pressure's part of that deflection.
 2. `models` chooses the film model and the contact model. A film model gives the film under any load, at a coarse and at
    the wanted accuracy (protocol `film.Film`): `line_film` and `point_film` solve films when they are requested,
-   `film_table` interpolates them in load, `worn_film` corrects them for worn bodies.
+   `film_table` interpolates them in load, `worn_film` corrects them for worn bodies. With `thermal` every film of the
+   balance has heat of its own, which thins the film and lowers its shear stress; one such film costs several without
+   heat.
 3. The contact model gives the opening under any load (protocol `rough_contact.RoughContact`): the rough half-space or
    uncoupled `asperities`; `homogenised_contact` with `cell_law` for a cell that repeats over the contact of a ball
    (Greenwood and Tripp 1967); `given_separation` for mean planes at the central film thickness (figures 5 and 6 of
@@ -24,7 +27,9 @@ counted. One point of a Stribeck curve, `solve.solve_mixed`, in order:
    coarse film first. It recognises full film and boundary lubrication as ends of the range. Cost in mixed lubrication:
    three or four films, coarse and fine, each with one rough contact; six to eight without a solution at another speed.
 7. `forces` sums boundary and film friction. `boundary` has the laws of boundary friction, one class each.
-   `contact_heat` adds frictional heat (Jaeger 1942) with `thermal`. Cost: one or a few heat conductions.
+   `contact_heat` has the temperatures of the rough contact (Jaeger 1942) with `thermal`. It follows the balance once:
+   it changes boundary friction of laws over temperature, but neither film nor balance. Cost: one or a few heat
+   conductions.
 8. `oil_sensitivity` repeats the balance with the default area of oil, only where another one was asked for. Cost: a
    third of the convolutions of step 6, up to as many.
 9. `result_notes` reports what is outside the models' validity; `solution.MixedSolution` is the result.

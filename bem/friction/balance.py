@@ -7,7 +7,8 @@ Unknown: x = ln(F_film / (F - F_film)), the log odds of the film load. Equation:
 A film that carries more is thinner, and surfaces that carry less are farther apart, so m decreases with x. In this
 variable m is nearly linear: next to either end only one of both changes.
 
-1. Full film: the film under the whole load clears the roughness. Return it; no contact is solved.
+1. Full film: the film under the whole load clears the roughness. Return it; no contact is solved. Step 2 finds full
+   film too: at the upper end of the search the film is still thicker than the opening under the little that is left.
 2. For each level of the film's accuracy, coarse to fine, find the root of m with `find_decreasing_root`. Each trial
    solves one film and one contact under a prescribed load. On coarse levels the contact is solved only as accurately as
    the balance needs, and the last trial is left to the next level where a secant predicts that it meets the goal.
@@ -17,8 +18,10 @@ variable m is nearly linear: next to either end only one of both changes.
 5. Boundary lubrication: a film with a negligible fraction of the load (a tenth of the tolerance) is thinner than the
    opening under the rest. Return this film with the contact under the rest.
 6. The largest film load that the film model covers may be too small. If the film there is thinner than a few molecules,
-   the contact carries the whole load (boundary lubrication); else the case is infeasible.
-7. Certify: recompute both imbalances, of load and of oil, from the film and the contact that are returned.
+   the film is neglected: return the film and contact of step 5 (boundary lubrication); else the case is infeasible.
+7. Certify: recompute both imbalances, of load and of oil, from the film and the contact that are returned. The contact
+   load is the sum of its pressure; the film load is the one asked of the film model, for which the film's own status
+   stands.
 
 Cost in mixed lubrication from a start at a neighbouring speed: three or four films, coarse and fine, with a contact
 each; six to eight from nothing. Nothing here depends on the kind of film or contact. Verified in
@@ -49,8 +52,13 @@ COARSE_TRIALS, FINEST_CONTACT = 20, 1e-9
 CONTACT_SHARE = 0.1
 """Error of the opening that a contact on coarse levels may have, as a fraction of the goal of the balance."""
 SECANT_MARGIN = 0.3
-"""Fraction of the goal that a secant must predict for its trial to be left to the next level. The prediction is the
-product of the two mismatches that the secant passes through."""
+"""Fraction of the goal that a secant must predict for its trial to be left to the next level.
+
+A secant through the mismatches m1 and m2 of a function f leaves about f''/(2 f'^2) m1 m2. That factor is of order one
+in the log odds, so the prediction is m1 m2. The smallest earlier mismatch of the level is taken for m1, although the
+next step may pass through another trial; a slope that is known counts as one of `SLOPE_ERROR`. A wrong prediction costs
+trials on the finer level, and no accuracy.
+"""
 SLOPE_ERROR = 0.1
 """Relative error of a slope that is known from a similar balance."""
 NEGLIGIBLE = 0.1
@@ -130,8 +138,8 @@ class Balance:
     regime : end of the balance that it is at, or mixed.
     films, contacts : solved in the search.
     convolutions : of the contacts.
-    status : converged where film and contact are converged, the load imbalance is within the tolerance, and so is the
-        oil imbalance or the part of it that the contact's own tolerance does not explain.
+    status : converged where film and contact are converged, the load imbalance is within the tolerance, and the oil
+        imbalance is within the tolerance or within the error of the opening that the contact's tolerance leaves.
     notes : of film, contact and balance.
     oil_imbalance : (mean opening - mean film thickness) / mean film thickness where oil is counted; 0 at the ends.
     refinement : change of the log odds of the film load from the coarse to the fine level.
@@ -342,7 +350,10 @@ class _LevelSearch:
         return _LevelResult(trial, slope, Regime.BOUNDARY if at_bottom else Regime.MIXED, next_log_load)
 
     def next_level_will_do(self, mismatch: float, before: Sequence[float]) -> bool:
-        """Whether a secant predicts that the next trial meets the goal, and a finer level can make that trial."""
+        """Whether a secant predicts that the next trial meets the goal, and a finer level can make that trial.
+
+        before : mismatches of all earlier trials, of which any may predict it; see `SECANT_MARGIN`.
+        """
         return not self.is_finest and any(abs(mismatch * one) <= SECANT_MARGIN * self.goal for one in before)
 
     def log_load(self, log_odds: float) -> float:

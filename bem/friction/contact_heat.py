@@ -3,10 +3,11 @@
 Friction of the contact and of the oil between its cells heats both bodies: moving half-spaces with the temperature of
 the arriving oil far away (`bem.heat`). Oil sheared by the sliding makes the heat tau_m abs(u1 - u2) an area, tau_m the
 shear stress in the middle of the film: a pressure gradient adds to the stress on one wall and takes from that on the
-other. The heat of the flow that the pressure gradient drives is left out. A body at rest under a cylinder is cool at the distance of the cylinder's
-radius. A law of boundary friction over temperature takes the mean temperature of the contact, weighted by pressure.
-That mean depends on the coefficient in turn. Temperatures are linear in the coefficient, so one bracketed root in the
-coefficient closes the loop. Verified in tests/friction/test_hot_contact.py.
+other. The heat of the flow that the pressure gradient drives is left out. A body at rest under a cylinder is cool at
+the distance of the cylinder's radius. A law of boundary friction over temperature takes the mean temperature of the
+contact, weighted by pressure. That mean depends on the coefficient in turn. Temperatures are linear in the coefficient:
+two heat conductions, one bracketed root in the coefficient and a third conduction close the loop. Other laws take one
+conduction and no root. Verified in tests/friction/test_hot_contact.py.
 """
 
 from __future__ import annotations

@@ -1,7 +1,8 @@
 """Warm start of a balance from the solution at another speed, and of the next speed from a balance.
 
 The log odds of the film load, ln(film load / contact load), change about in proportion to the logarithm of the speed.
-The factor (`speed_power`) is that of the last two speeds. Starts affect cost and rounding only. Verified in
+The factor (`speed_power`) is that of the last two speeds. A solution in full film or on another grid predicts no film
+load: the balance then starts from half of the load. Starts affect cost and rounding only. Verified in
 tests/friction/test_continuation.py.
 """
 

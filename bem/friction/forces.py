@@ -29,7 +29,8 @@ class Forces:
     ----------
     boundary : boundary part [N].
     film : film part [N].
-    coefficient : boundary part over contact load; 0 without a contact.
+    coefficient : boundary part over contact load. A constant law has its constant without contact or sliding too; other
+        laws then have 0.
     heat : temperatures of the contact; None without heat, contact or sliding.
     covered : shear force of the film on cells in contact [N], which is not in `film`.
     """

@@ -33,7 +33,11 @@ MOLECULAR_LOAD = 1e4
 LEAST_FILM = 0.5 * THINNEST_FILM
 """Smallest film thickness [m] above `MOLECULAR_LOAD`: half of the thickness below which the film model is not valid."""
 HOT_FRACTION = 0.9
-"""Fraction of the largest load that is used with heat: heating of the inlet thins the oil by less than a fifth."""
+"""Fraction of the largest load that is used with heat.
+
+M goes with the inverse root of the viscosity, so that heating of the inlet may take a fifth of the viscosity. A film
+whose heating takes more may be beyond the largest M; it is then refused with an `InputError`.
+"""
 COARSE_FILM = 1e-3
 """Relative error of films on `BALANCE_POINTS` nodes; the balance is not solved more accurately with them."""
 TOLERANCE, COARSE_TOLERANCE = 1e-8, 1e-5

@@ -5,10 +5,11 @@ The answer depends on the area of the two means:
 
 - `LOADED`, the default: the area where the film carries load, after Johnson, Greenwood and Poon (*Wear* 19, 1972, 91).
   What is conserved is the flow through the loaded zone, so that there the mean gap equals the film thickness. Oil
-  beside the contact is at ambient pressure; it comes and leaves freely, and no volume of it is conserved. Film and
-  surfaces share the pressure in one proportion everywhere, so that the whole load deforms the bodies. The film is that
+  beside the contact is at ambient pressure; it comes and leaves freely, and no volume of it is conserved. For the
+  deflection of the film's bodies, film and surfaces are taken to share the pressure in one proportion everywhere, so
+  that the whole load deforms them; the contact pressure itself is solved without this assumption. The film is that
   under its load F_H between bodies of the modulus E* F_H / F_T, as flat as the Hertz contact under F_T. Both means are
-  weighted by the film pressure. The answer converges with the length of the patch.
+  taken over the patch, weighted by the film pressure. The answer converges with the length of the patch.
 - `PATCH`: the whole rough patch, the choice of the thesis (total area A of eq. 7 in its paper A). Where the film is far
   thinner than the roughness, nearly all of that oil lies in the opening gap beside the Hertz contact. The load share
   then follows the length of the patch.

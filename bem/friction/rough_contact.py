@@ -73,7 +73,7 @@ class Pressed:
     load : on the whole contact [N].
     opening : mean gap that oil has to fill, where oil is counted [m].
     pressure : (nx, ny) [Pa]; of repeated cells their mean pressures on the film's grid.
-    approach : decrease of the distance of the mean planes from the film thickness [m].
+    approach : decrease of the distance of the mean planes from the gap of the smooth bodies under film pressure [m].
     area : real contact area on the whole contact [m^2].
     convolutions : applications of the displacement operator.
     status : outcome.

@@ -37,18 +37,23 @@ class MixedSolution:
     film : smooth film under `film_load`.
     contact : rough contact of one slice as long as the grid is wide (`SpreadContact` of a repeated cell); None in full
         film.
-    separation : (nx,) distance [m] between the mean planes of the undeformed surfaces at the grid's abscissae: film
-        thickness less the approach that keeps the volume of oil; of a ball on y = 0.
-    lambda_ratio : minimum of the smooth film under the whole load over the rms height of the patch.
+    separation : (nx,) distance [m] between the mean planes of the undeformed surfaces at the grid's abscissae: gap of
+        the smooth bodies under film pressure (`PatchFilm.gap`) less the approach that keeps the volume of oil; of a
+        ball on y = 0. In full film the film thickness, without the shift at which rough surfaces hold that oil.
+    lambda_ratio : minimum of the smooth film under the whole load over the rms height of the patch. Outside full film
+        that film is one on the coarse mesh of a cylinder; where the film model ends below the load, it is the film
+        under the largest load of the model.
     minimum_film : minimum thickness [m] of `film`.
     contact_area : real contact area on the whole width [m^2].
-    evaluations : number of films solved.
+    evaluations : number of films solved: those of the balance and those under the whole load. A film with heat counts
+        as one; films of the second balance (`oil`) do not count.
     contact_solves : number of rough contacts solved.
     imbalance : (film_load + contact_load - load) / load, of these three.
     balance_slope : slope of ln(opening / film thickness) over ln(film_load), a warm start of the next speed.
     continuation : other parts of the next speed's warm start.
-    status : converged where the imbalance is within the tolerance and film and contact are converged themselves;
-        infeasible where film and surfaces cannot carry the load within their models.
+    status : converged where the imbalances of load and oil are within the tolerance, and film, contact and heat
+        conduction are converged themselves; infeasible where film and surfaces cannot carry the load within their
+        models.
     grid : as given.
     boundary_friction : as given; a law over temperature has the temperature of the contact.
     oil_imbalance : (mean opening - mean film thickness) / mean film thickness where oil is counted (`oil_volume`), of
@@ -105,7 +110,10 @@ class MixedSolution:
 
     @property
     def film_pressure(self) -> FloatArray:
-        """Pressure of the oil (nx, ny) [Pa], zero on cells in contact."""
+        """Pressure of the oil (nx, ny) [Pa], zero on cells in contact.
+
+        Its sum is not `film_load`, which is that of the smooth film.
+        """
         return np.where(self.contact_pressure > 0, 0.0, self.patch_film.pressure)
 
     @property
@@ -125,7 +133,10 @@ class MixedSolution:
 
     @property
     def film_shear_stress(self) -> FloatArray:
-        """Shear stress of the oil (nx, ny) [Pa], zero on cells in contact; signed like `boundary_shear_stress`."""
+        """Shear stress of the oil (nx, ny) [Pa], zero on cells in contact; signed like `boundary_shear_stress`.
+
+        Its sum is not `film_force`, to which cells in contact add by the fraction of them that does not touch.
+        """
         return np.where(self.contact_pressure > 0, 0.0, self.patch_film.shear_stress)
 
     @property

@@ -85,7 +85,9 @@ def solve_mixed(
     boundary_friction : coefficient where the surfaces touch; or a law of `bem.friction.boundary`, as an object or as a
         table such as {"kind": "pressure_dependent", "shear_strength": 1e6, "pressure_coefficient": 0.1}.
     hardness : cap of the contact pressure [Pa]; None is elastic.
-    tolerance : of the balance, (F_H + F_C - load) / load.
+    tolerance : largest imbalance of the oil, mean opening over mean film thickness less one where oil is counted, and
+        of the load, (F_H + F_C - load) / load. Each trial of the search shares the load exactly, up to the solvers'
+        tolerances; the search closes the imbalance of the oil.
     film_points : nodes of the line film's mesh.
     film_cells : cells of a ball's film along an axis.
     contact_model : "coupled" (rough half-space), or "uncoupled" (every summit a Hertz sphere), the usual baseline.
@@ -104,24 +106,26 @@ def solve_mixed(
         `lambda_ratio` is that of the film between rough walls.
     oil_volume : area over which the mean opening of the rough surfaces equals the mean film thickness
         (`bem.friction.oil_volume`). "loaded": where the film carries load, weighted by its pressure; it conserves the
-        flow through the loaded zone and converges with the patch's length. "patch": the whole patch, the thesis'
-        choice; it follows the patch's length where nearly all oil lies beside the Hertz contact. "hertz": the nominal
-        Hertz contact under the total load. With the last two a second balance is solved at every mixed speed:
-        `MixedSolution.oil` says how far they differ from "loaded".
+        flow through the loaded zone and converges with the patch's length. The whole load then deforms the film's
+        bodies: their modulus is E* F_H / F, and the rough surfaces are pressed into the film pressure's part of that
+        deflection. "patch": the whole patch, the thesis' choice; it follows the patch's length where nearly all oil
+        lies beside the Hertz contact. "hertz": the nominal Hertz contact under the total load. With the last two a
+        second balance is solved at every mixed speed: `MixedSolution.oil` says how far they differ from "loaded".
     supply : oil that reaches the contact, as of `solve_line_film`; of a ball a layer, without flow factors.
         `MixedSolution.film.starvation` has its effect.
     thermal : "off", "lumped" or "full": heat of the film, as of `solve_line_film`, and frictional heat of the contact
         (`bem.friction.contact_heat`), whose temperature laws of boundary friction use. Far away both bodies have the
-        temperature of the oil that arrives. "full" takes no supply and no ball.
+        temperature of the oil that arrives. The grid is free along x. "full" takes no supply and no ball.
 
     Returns
     -------
     MixedSolution; friction = (F_boundary + F_film) / load, F_boundary the sum of the boundary shear stress over the
-    contact (boundary_friction F_C for a coefficient), F_film the shear force of the film on the flat outside the cells
-    in contact. `status` is converged only where the returned film and contact carry the load to `tolerance`; `notes`
-    say where a model is outside its validity. A film with less than a tenth of the tolerance is boundary lubrication:
-    the contact is solved for the rest of the load. The same holds, with a note of its own, where the film model ends
-    while the film is a few molecules thick.
+    contact (boundary_friction F_C for a coefficient), F_film the shear force of the film on the flat outside the real
+    contact: cells in contact count by the fraction of them that does not touch. `status` is converged only where the
+    returned film and contact carry the load and hold the oil to `tolerance`; `notes` say where a model is outside its
+    validity. A film with less than a tenth of the tolerance is boundary lubrication: the contact is solved for the rest
+    of the load. The same holds, with a note of its own, where the film model ends while the film is a few molecules
+    thick.
 
     Raises
     ------
