@@ -228,6 +228,8 @@ def test_a_scene_with_heat_reports_its_temperatures(tmp_path):
         load_scene(scene | {"thermal": "full", "supply": {"layer": "100 nm"}})
     with pytest.raises(InputError, match=r"sharing.striated_exit with thermal = \"lumped\""):
         load_scene(scene | {"sharing": {"striated_exit": True}})
+    with pytest.raises(InputError, match=r"thermal = \"lumped\" on a grid periodic along x"):
+        load_scene(scene | {"grid": PATCH["grid"] | {"periodic": [True, True]}, "sharing": {"separation": "film"}})
     off = run_scene(scene | {"thermal": "off"}, tmp_path / "off", figures=False).summary
     assert not [key for key in off if "temperature" in key]
     with pytest.raises(InputError, match="heat of an oil without temperature"):

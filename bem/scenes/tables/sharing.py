@@ -80,6 +80,11 @@ class HotMixedScene(MixedScene):
                 f'thermal = "{self.thermal}" on a cell that repeats under a ball (grid.periodic = true)',
                 "a patch that holds the contact",
             )
+        if self.grid.periodic[0]:
+            raise problem(
+                f'thermal = "{self.thermal}" on a grid periodic along x, whose heat warms the bodies for ever',
+                'a grid free along x, or thermal = "off"',
+            )
         check_supply_of_heat(self.thermal, self.supply)
         return self
 
