@@ -46,7 +46,8 @@ Steps, in order:
    energy counts as progress there; friction gives up after 10 outer iterations without progress (5 between lagged
    contacts), a mean gap after 12.
 6. Apply K in double precision, to a field with capped cells, else to the list of loaded cells, which skips empty blocks
-   of rows. `reductions.contact_sums` sums energy, force and gap plus displacement over the loaded cells.
+   of rows. `reductions.contact_sums` sums energy and force over the loaded cells, and gap plus displacement over those
+   between the bounds.
 7. Blend, judge and guard, in this order (`active_set`):
    a. *Blend.* If the energy has its minimum between 0.02 and 0.75 of the step, the pressures and displacements at both
       ends are blended there, without a convolution, and summed again. The blend takes the place of the new pressure:

@@ -19,7 +19,7 @@ needed. A convolution takes these steps:
 Cost of a convolution: 2 nx transforms of length py between real rows and their half-complex spectra, and two complex
 ones of length px for each of the py // 2 + 1 columns, n log n each. An even kernel needs less if py is even
 (`packed_real_fft`): real rows are packed as complex rows of half the length, so that there are py // 2 columns, and
-columns k and py // 2 - k go in pairs in steps 4 to 6, because FFTW has vector instructions for complex rows only.
+columns k and py // 2 - k go in pairs in step 5, because FFTW has vector instructions for complex rows only.
 
 `addresses` has pointers for these loops. A convolution is one call of compiled code on one thread; several threads
 share the blocks of each pass, so a result does not depend on their number. `plans` creates FFTW's plans without timing,
