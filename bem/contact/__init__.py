@@ -76,8 +76,9 @@ Steps, in order:
    b. *Ends* (`grid_workspace.SolverParameters`): a relative residual, the tolerance, or where clipping to the bounds
       would bring back a residual of the same size. They refer to r.
    c. *Extrapolated step.* If one more step is expected to meet an end, it is taken with the length of the last CG step,
-      which may be one of the last round, and without a convolution. The first such step that does not halve the
-      violation ends extrapolation for this call of `solve_active_set`.
+      which may be one of the last round, and without a convolution. The first such step after which the
+      next pressure (also if a gradient step replaced it) has not half the violation ends extrapolation for this call
+      of `solve_active_set`.
    d. *Preconditioner*: factorised sparse approximate inverse on ten neighbours (`sparse_inverse`; Kolotilina & Yeremin
       1993) with a correction on a grid up to eight times coarser (`coarse_correction`).
    Cost: a few iterations, each one convolution, unless extrapolated, and one preconditioning, which takes up to 20

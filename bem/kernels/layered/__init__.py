@@ -3,8 +3,10 @@
 Notation: q wavenumber [rad/m], r distance on the surface [m], z depth [m], h thickness of the outermost layer [m].
 
 1. Frequency response f(q): amplitudes of displacement and stress under a load exp(i k.x), q = |k|. `waves` carries
-   the impedance of the media below from the half-space up through each layer, then the displacement from the loaded
-   surface down (derivation: `frequency_response`, which also turns the result into x and y). Source: Burmister (1945);
+   the impedance of the media below from the half-space up to the lower side of the outermost layer. There the load
+   gives the state: for q h >= 1 by the waves in that layer, for q h < 1 by its tractions. From there it is carried to
+   the depth that is asked for, down through other layers or up to the surface (derivation: `frequency_response`,
+   which also turns the result into x and y). Source: Burmister (1945);
    derived anew with decaying exponentials only. Error: 1e-13 of the largest stress or displacement, for any ratio of
    moduli and any q h. Cost: proportional to layers times wavenumbers.
 2. Splitting. In the outermost layer f is the response of a half-space of the layer's material, whose coefficients are
