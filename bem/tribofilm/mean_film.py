@@ -7,6 +7,7 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
+from numpy.typing import ArrayLike
 
 from bem.errors import InputError
 from bem.grid import FloatArray
@@ -166,15 +167,15 @@ def film_map(
     delay equation. The weights in time are collected per solved contact, so that each map is added once.
     """
     nodes, weights = np.polynomial.legendre.leggauss(4)
+    halves = 0.5 * np.diff(history.time)[:, None]
+    when = (0.5 * (history.time[:-1] + history.time[1:])[:, None] + halves * nodes).ravel()
+    thicknesses = np.interp(when, history.time, history.thickness)
+    kept = (halves * weights).ravel() * survival(history.time[-1] - when, wear_coefficient, lag)
     total: dict[float, float] = {}
-    for begin, end in zip(history.time[:-1], history.time[1:], strict=True):
-        for node, weight in zip(nodes.tolist(), weights.tolist(), strict=True):
-            when = 0.5 * (begin + end) + 0.5 * (end - begin) * node
-            thickness = float(np.interp(when, history.time, history.thickness))
-            kept = float(0.5 * (end - begin) * weight * survival(history.time[-1] - when, wear_coefficient, lag))
-            for sample, fraction in table.weights(thickness):
-                total[sample.thickness] = total.get(sample.thickness, 0.0) + kept * fraction
-    remains = initial_thickness * survival(history.time[-1] - history.time[0], wear_coefficient, lag)
+    for thickness, part in zip(thicknesses.tolist(), kept.tolist(), strict=True):
+        for sample, fraction in table.weights(thickness):
+            total[sample.thickness] = total.get(sample.thickness, 0.0) + part * fraction
+    remains = initial_thickness * float(survival(history.time[-1] - history.time[0], wear_coefficient, lag))
     result = np.full(table.samples[0].growth_map.shape, max(remains, 0.0))
     for sample in table.samples:
         weight = total.get(sample.thickness, 0.0)
@@ -183,22 +184,39 @@ def film_map(
     return np.maximum(result, 0.0)
 
 
-def survival(time: float, wear_coefficient: float, lag: float) -> float:
-    """Return the fraction of film left after a time [s] of wear: the solution of K' = -alpha K(t - lag), K(0) = 1,
+def survival(times: ArrayLike, wear_coefficient: float, lag: float) -> FloatArray:
+    """Return the fraction of film left after times [s] of wear: the solution of K' = -alpha K(t - lag), K(0) = 1,
     K(<0) = 0.
 
-    Method of steps: sum over k of (-alpha)^k (t - k lag)^k / k! while t > k lag. It is used for alpha lag < 1, where
-    the terms do not cancel badly before K has died out.
+    Method of steps: over each lag K is a polynomial of the time since the start of that lag, and its derivative is that
+    of the lag before. Coefficients of order j fall as |z|^j / j!, with z + alpha lag exp(-z) = 0 for the slowest decay,
+    and those beyond `_ORDERS` are left out. For alpha lag > pi/2 the solution oscillates with an amplitude that grows,
+    which no film does: K counts as zero where it exceeds `_UNSTABLE`, and in the lags thereafter.
     """
+    when = np.asarray(times, dtype=np.float64)
     if lag <= 0:
-        return math.exp(-wear_coefficient * time)
-    value, k = 0.0, 0
-    while time >= k * lag and k < 60:
-        value += (-wear_coefficient * (time - k * lag)) ** k / math.factorial(k)
-        k += 1
-    if k == 60 or abs(value) > 1e3:
-        return 0.0  # many lags ago: nothing of it is left
-    return value
+        return np.exp(-wear_coefficient * when)
+    lags = when / lag
+    index = np.maximum(np.floor(lags), 0).astype(int)
+    divisors = -wear_coefficient * lag / np.arange(1, _ORDERS)
+    coefficients = np.zeros((int(index.max(initial=0)) + 1, _ORDERS))
+    coefficients[0, 0] = 1.0
+    for before, after in zip(coefficients[:-1], coefficients[1:], strict=True):
+        after[0] = before.sum()
+        if abs(after[0]) > _UNSTABLE:
+            after[0] = 0.0
+            break
+        after[1:] = before[:-1] * divisors
+    powers = (lags - index)[..., None] ** np.arange(_ORDERS)
+    left = np.where(lags < 0, 0.0, (coefficients[index] * powers).sum(axis=-1))
+    return np.where(np.abs(left) > _UNSTABLE, 0.0, left)
+
+
+_ORDERS = 40
+"""Number of coefficients of the polynomial over one lag: 2^40 / 40! is 1e-36."""
+
+_UNSTABLE = 1e3
+"""Largest fraction of film left: beyond it the delay equation has no film as its solution."""
 
 
 def _reach(history: FilmHistory) -> float:

@@ -6,6 +6,7 @@ from tip import LAW, tip_contact
 
 from bem import Body, Grid, InfeasibleError, InputError, Material, flash_temperature, grow_tribofilm
 from bem.tribofilm import Constant, FadingSubstrate, StressActivatedGrowth, solve_film_contact
+from bem.tribofilm.mean_film import survival
 
 DLC = Material("dlc", youngs_modulus=200e9, poissons_ratio=0.25)
 GRID = Grid((32, 32), (1.2e-9, 1.2e-9))
@@ -127,3 +128,32 @@ def test_spots_grow_as_warm_as_rubbing_makes_them():
     assert fast.growth > 1.05 * cold.growth
     with pytest.raises(InputError, match="needs thermal_conductivity"):
         solve_film_contact(contact(speeds=(1.0, 0.0)), 2e-9)
+
+
+@pytest.mark.parametrize("loss", [0.01, 0.3, np.exp(-1), 1.0], ids=["slow", "monotone", "critical", "oscillating"])
+def test_film_left_after_many_lags_is_that_of_step_by_step_integration(loss):
+    """Simpson's rule over one lag after the other, from the values of the lag before."""
+    from scipy.integrate import cumulative_simpson
+
+    lag, steps, count = 10.0, 400, 120
+    lags = [np.ones(steps + 1)]
+    for _ in range(count - 1):
+        worn = cumulative_simpson(lags[-1], dx=1 / steps, initial=0.0)
+        lags.append(lags[-1][-1] - loss * worn)
+    left = np.concatenate([each[:-1] for each in lags])
+    times = np.arange(left.size) * lag / steps
+    # the reference rounds and integrates to 1e-12 per lag, relative to the film of that lag
+    scale = np.repeat([np.abs(each).max() for each in lags], steps)
+    assert (np.abs(survival(times, loss / lag, lag) - left) <= 1e-8 * scale).all()
+    assert left[-1] != 0
+
+
+def test_film_left_of_unstable_wear_is_finite():
+    left = survival(np.arange(0.0, 3000.0), 10.0, 1.0)
+    assert np.isfinite(left).all()
+    assert left[-1] == 0
+
+
+def test_film_map_has_the_mean_thickness_after_many_lags():
+    film = grow_tribofilm(TIMES, contact(), wear_coefficient=3e-4, lag=20.0, initial_thickness=5e-9)
+    assert film.film_map.mean() == pytest.approx(film.history.thickness[-1], rel=5e-3)
