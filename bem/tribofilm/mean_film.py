@@ -32,9 +32,11 @@ class TribofilmGrowth:
     """Result of the growth of a film.
 
     history : thickness, growth, wear and substrate wear over the times asked for.
-    contacts : the contacts that were solved, by increasing thickness.
+    contacts : all contacts that were solved, by increasing thickness; those of single evaluations (`reuse_tolerance`
+        0) without maps.
     film_map : local thickness at the end (nx, ny) [m].
-    steady : thickness at which growth and wear balance [m]; infinite where they do not (no self-limitation).
+    steady : thickness at which growth and wear balance [m]; infinite where growth still exceeds wear at 1.02 times the
+        largest thickness of the history.
     notes : on arguments outside their usual ranges.
     """
 
@@ -56,13 +58,14 @@ class TribofilmGrowth:
 
     @property
     def steady_thickness(self) -> float | None:
-        """Thickness at which growth and wear balance [m]; None where they do not."""
+        """Thickness at which growth and wear balance [m]; None where the history does not come that far."""
         return None if math.isinf(self.steady) else self.steady
 
     @property
     def film_pressure(self) -> FloatArray:
-        """Pressure (nx, ny) of the contact whose film is nearest to that at the end [Pa]."""
-        return min(self.contacts, key=lambda one: abs(one.thickness - self.history.thickness[-1])).pressure
+        """Pressure (nx, ny) of the contact whose film is nearest to that at the end [Pa], among those with maps."""
+        with_maps = [contact for contact in self.contacts if contact.pressure.size]
+        return min(with_maps, key=lambda one: abs(one.thickness - self.history.thickness[-1])).pressure
 
     def wear_depth(self, start: float, end: float) -> float:
         """Depth of substrate worn between two times [s], within those of the history [m]."""
@@ -92,7 +95,8 @@ def grow_tribofilm(
 
     Parameters
     ----------
-    times : increasing, from the start of rubbing [s]; in cycles where the rates are per cycle.
+    times : increasing, from the start of rubbing [s]; in cycles where the rates are per cycle. The film's map is
+        integrated over these times, and is only as good as they resolve growth and wear (`film_map`).
     contact : where it grows.
     wear_coefficient : alpha [1/s].
     lag : delay of the film's wear [s].
@@ -125,8 +129,15 @@ def grow_tribofilm(
             callback(found)
         return found
 
+    single: list[ContactSample] = []
+
+    def growth_of_contact(thickness: float) -> float:
+        found = sample(thickness, None)
+        single.append(found.without_maps())
+        return found.growth
+
     table = GrowthTable(sample, tolerance=reuse_tolerance)
-    growth = table if reuse_tolerance > 0 else (lambda h: sample(h, None).growth)
+    growth = table if reuse_tolerance > 0 else growth_of_contact
     history = evolve_film(
         times,
         growth,
@@ -136,11 +147,13 @@ def grow_tribofilm(
         initial_thickness=initial_thickness,
         tolerance=tolerance,
     )
+    local = film_map(history, table, wear_coefficient, lag, initial_thickness)
+    steady = steady_thickness(growth, wear_coefficient, longest=_reach(history))
     return TribofilmGrowth(
         history=history,
-        contacts=tuple(table.samples),
-        film_map=film_map(history, table, wear_coefficient, lag, initial_thickness),
-        steady=steady_thickness(growth, wear_coefficient, longest=_reach(history)),
+        contacts=tuple(sorted([*table.samples, *single], key=lambda contact: contact.thickness)),
+        film_map=local,
+        steady=steady,
         notes=notes_on_growth(contact, wear_coefficient, initial_thickness),
     )
 
@@ -165,6 +178,9 @@ def film_map(
     Local growth and wear are linear once the mean thickness over time is known, so each point is the convolution of its
     own growth with the survival K(t) of grown film: exp(-alpha t), or with a delay the fundamental solution of the
     delay equation. The weights in time are collected per solved contact, so that each map is added once.
+
+    The mean thickness is taken as linear between the times of the history, and each interval has four Gauss points: the
+    times must resolve the growth and the time 1 / alpha of wear.
     """
     nodes, weights = np.polynomial.legendre.leggauss(4)
     halves = 0.5 * np.diff(history.time)[:, None]

@@ -32,6 +32,8 @@ def test_reused_contacts_give_the_film_of_contacts_solved_at_every_step():
     # growth is reproduced to 2e-3; thickness follows, plus the tolerance of the integration
     assert np.allclose(table.history.thickness[1:], direct.history.thickness[1:], rtol=4e-3)
     assert len(reused) == len(table.contacts)
+    assert len(fresh) == direct.contacts_solved
+    assert direct.film_pressure.sum() == pytest.approx(table.film_pressure.sum(), rel=1e-5)  # the same load
     assert len(reused) < len(fresh) / 2
 
 
