@@ -207,7 +207,8 @@ class MixedContact:
         while True:
             balance = self._sharing(worn).balance(rough, self.film_under_load(worn), start)
             known = len(worn.changes)
-            worn = self.follower.completed(worn, balance)
+            # the last balance of the cycle decides whether its film load lies outside the loads that were solved
+            worn = self.follower.completed(replace(worn, clamped=memory.worn.clamped), balance)
             if len(worn.changes) == known:
                 break
             start = BalanceStart(balance.film.load, balance.slope, pressure)

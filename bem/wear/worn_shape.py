@@ -134,7 +134,7 @@ class ShapeFollower:
 
     def completed(self, worn: WornShape, balance: Balance) -> WornShape:
         """Return the state with the films next to the film load of a balance solved; itself where they are there, or
-        the film carries nothing that counts."""
+        the film carries nothing that counts. `clamped` rises by one where one of them is not found."""
         if self.solver is None or worn.shape is None or balance.regime is Regime.BOUNDARY:
             return worn
         missing = [

@@ -1,13 +1,15 @@
 """Worn shape in the film of a wear loop: balance, volume, effort, checkpoint, shapes without a film."""
 
+from dataclasses import replace
 from functools import cache
 
 import numpy as np
 import pytest
 
 from bem import CATALOGUE, Body, Grid, InputError, Lubricant, Status, generate_surface
+from bem.friction.models import rough_contact
 from bem.friction.setup import MixedSetup
-from bem.friction.worn_film import extended
+from bem.friction.worn_film import ShapeSolver, extended
 from bem.lubrication.line_case import LineCase
 from bem.lubrication.line_shaped import ShapedContact
 from bem.lubrication.steady import line_film
@@ -169,6 +171,24 @@ def test_where_no_film_is_found_the_last_shape_stays(monkeypatch):
     (note,) = [note for note in shared.notes if has_code([note], FILM_OF_OTHER_SHAPE, reason="earlier")]
     assert note.level is Level.OUTSIDE_MODEL
     assert (note.values["kept"], note.values["cycles"]) == (shared.worn.kept, 20)
+
+
+def test_a_cycle_counts_once_where_one_of_two_films_is_missing(monkeypatch):
+    """The balance is repeated with the film that is found, and the other one is missing again."""
+    whole, result = worn_loop()
+    step, memory = contact_of(), whole.memory
+    solved, found = ShapeSolver.film, []
+
+    def only_first(solver, index, shape, starts):
+        found[:] = found or [index]
+        return solved(solver, index, shape, starts) if index in found else None
+
+    monkeypatch.setattr(ShapeSolver, "film", only_first)
+    worn = replace(memory.worn, changes={0: memory.worn.changes[0]}, starts={0: memory.worn.starts[0]}, clamped=3)
+    rough = rough_contact(step.setup, whole.last.heights, step.speeds)
+    _, after = step.share(whole.last.heights, rough, replace(memory, worn=worn), result.pressure)
+    assert set(after.worn.changes) == {0, *found}
+    assert after.worn.clamped == 4
 
 
 def test_a_limited_supply_keeps_the_unworn_film():
