@@ -138,7 +138,7 @@ def run_in(
     cycles : how many, counted from the start of the run.
     model : the replaceable parts.
     criterion : in place of the model's: a name, a table with `kind` and parameters, or a `Detachment`.
-    stop : rule by which the run ends before its last cycle.
+    stop : rule by which the run ends before its last cycle; a state to resume from that has settled gets no cycle more.
     contact_step : contact of one cycle; None is the dry contact of these arguments, `wear.mixed.MixedContact` a
         lubricated one. Local laws wear by the pressure at the end of the cycle with the former (implicit), at its start
         with a contact step that is given.
@@ -167,7 +167,7 @@ def run_in(
         state = initial_state(lower_heights, upper_heights)
     _check_heights(state, grid, choices.moving)
     step, compliance = _contact_step(setup, choices, wearing, contact_step)
-    settled = False
+    settled = stop is not None and state.cycle > 0 and stop(state)
     while state.cycle < cycles and not settled:
         state = advance(state, setup, choices, step, compliance)
         if callback is not None:

@@ -132,6 +132,16 @@ def test_a_stopped_run_goes_on_to_the_same_bits():
     assert np.array_equal(whole.cycles, rest.cycles)
 
 
+def test_a_settled_state_that_is_resumed_gets_no_cycle_more():
+    lower, upper = surfaces()
+    rule = Settled(window=1, tolerance=2.0)  # any two cycles agree
+    whole = run_in(lower, upper, cycles=4, stop=rule, **ARGUMENTS)
+    assert (whole.settled, whole.state.cycle) == (True, 2)
+    again = run_in(lower, upper, cycles=4, stop=rule, state=unpack_state(pack_state(whole.state)), **ARGUMENTS)
+    assert (again.settled, again.state.cycle) == (True, 2)
+    assert np.array_equal(again.lower_heights, whole.lower_heights)
+
+
 def test_interpolated_refinement_is_near_the_exact_one():
     lower, upper = surfaces()
     fixed = setup()
