@@ -5,6 +5,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 
 import numpy as np
 from numpy.typing import ArrayLike
@@ -217,7 +218,7 @@ def survival(times: ArrayLike, wear_coefficient: float, lag: float) -> FloatArra
     divisors = -wear_coefficient * lag / np.arange(1, _ORDERS)
     coefficients = np.zeros((int(index.max(initial=0)) + 1, _ORDERS))
     coefficients[0, 0] = 1.0
-    for before, after in zip(coefficients[:-1], coefficients[1:], strict=True):
+    for before, after in pairwise(coefficients):
         after[0] = before.sum()
         if abs(after[0]) > _UNSTABLE:
             after[0] = 0.0
