@@ -2,13 +2,13 @@
 
 Algorithm, per cycle:
 
-1. The worn shape of the standing body since the last cycle goes into the films (`worn_shape`); the rough contact sees
-   the rest of the heights.
+1. Where the worn shape of the standing body since the first cycle has moved beyond a limit, the films take it over as a
+   whole (`worn_shape`); the rough contact sees the rest of the heights.
 2. Films under any load come from one table per speed (`bem.friction.film_table`): the film of unworn bodies depends on
    its load alone.
 3. `bem.friction.load_sharing.LoadSharing` finds the film load at which film and rough contact carry the load together,
-   from that of the last cycle. Where the balance needs films of the worn shape at other loads, they are solved and the
-   balance is repeated.
+   from that of the last cycle. The films have one level, that of the table. Where the balance needs films of the worn
+   shape at other loads, they are solved and the balance is repeated.
 4. Friction and lambda ratio are those of `solve_mixed`, from the same `SharedLoad`.
 
 Cost: one rough contact per trial of the balance, one to three per cycle; none where the film clears the roughness.
@@ -63,9 +63,11 @@ MIXED_FIELDS = np.dtype(
         ("flash_temperature", np.float64),
         ("evaluations", np.int32),
         ("regime", np.int8),
+        ("rms_height", np.float64),
     ]
 )
-"""A cycle's load sharing as a row of a table: SI units, forces and area on the whole width; regime is an index.
+"""A cycle's load sharing as a row of a table: SI units, forces and area on the whole width; regime is an index;
+rms_height is that of both surfaces together without the worn shape of the film, by which the lambda ratio divides.
 Temperatures are those of the surfaces in contact, mean by pressure and highest; the oil's without contact,
 0 where no heat was asked for."""
 
@@ -245,6 +247,7 @@ class MixedContact:
             *((oil_temperature(setup),) * 2 if heat is None else (heat.mean, heat.maximum)),
             max(balance.films, 1),
             _FILM_NEGLECTED if balance.film_neglected else REGIMES.index(balance.regime),
+            shared.heights.std(),
         )
         last = SharedCycle(
             balance=replace(balance, film=replace(film, solution=None)),
@@ -311,8 +314,9 @@ class MixedCycles:
 
     @property
     def roughness_over_cycles(self) -> FloatArray:
-        """Rms height (cycles,) of both surfaces together [m], by which the lambda ratio divides."""
-        return np.asarray(self._film_under_load.minimum_thickness / self.rows["lambda_ratio"])
+        """Rms height (cycles,) of both surfaces together without the film's worn shape [m], by which the lambda ratio
+        of each cycle divides."""
+        return np.asarray(self.rows["rms_height"])
 
     @property
     def _film_under_load(self) -> PatchFilm:

@@ -135,6 +135,14 @@ def test_the_worn_shape_changes_film_and_friction():
     assert np.array_equal(plain, unworn.contact.table.under(3.0).thickness)
 
 
+def test_the_rms_height_of_each_cycle_is_that_of_its_rough_contact():
+    """Films that follow the worn shape change the film of the whole load and not the heights of earlier cycles."""
+    heights = []
+    shared, _ = loop(contact_of(), callback=lambda state: heights.append(state.contact.last.heights))
+    assert shared.worn.updates > 1
+    assert np.array_equal(shared.roughness_over_cycles, [each.std() for each in heights])
+
+
 def test_where_the_standing_body_keeps_its_shape_both_choices_are_one():
     """The disk moves through the contact, and the harder cylinder does not wear."""
     one, other = (loop(contact_of(film_shape=shape), 6, frame="cylinder")[0] for shape in ("worn", "unworn"))
