@@ -125,16 +125,20 @@ def run_in(
 
     Parameters
     ----------
-    lower_heights, upper_heights : (nx, ny) heights out of each body [m]. The moving body (`model.frame`) slides by
-        `model.shift` cells per cycle in the direction of friction (`sliding_direction`). It may have more rows than
-        the grid, which then pass through the contact, and is taken as periodic along x.
+    lower_heights, upper_heights : (nx, ny) heights out of each body [m]. Before each cycle but the first, the moving
+        body (`model.frame`) slides by `model.shift` cells over the other one: the upper body along +x and the lower one
+        along -x for positive friction (`sliding_direction`). It may have more rows than the grid, which then pass
+        through the contact, and is taken as periodic along x.
     grid : of the contact, usually free in x and periodic in y.
     bodies : (lower, upper).
-    load : on the grid [N].
+    load : on the grid [N]; a contact step that is given has its own.
     depths : (nz,) [m], increasing.
-    gap : macroscopic, of the smooth bodies [m]; None is flat.
-    friction : traction over pressure, along +x on the lower body where positive, along -x where negative.
-    hardness : cap of the contact pressure [Pa]; None takes the softer surface's.
+    gap : macroscopic, of the smooth bodies [m]; None is flat. A contact step that is given has its own.
+    friction : traction over pressure, along +x on the lower body where positive, along -x where negative. With a
+        contact step that is given, the friction of its contacts counts; this one is only checked, and is the direction
+        of sliding until a cycle had friction.
+    hardness : cap of the contact pressure [Pa]; None takes the softer surface's. A contact step that is given has its
+        own.
     cycles : how many, counted from the start of the run.
     model : the replaceable parts.
     criterion : in place of the model's: a name, a table with `kind` and parameters, or a `Detachment`.
@@ -259,6 +263,8 @@ def advance(
 ) -> RunningInState:
     """Advance by one cycle: move a body through the contact, solve the contact, remove what the criterion finds.
 
+    No body moves before the first cycle.
+
     compliance : depth that each place wears by pressure in the cycle [m/Pa], for an implicit step.
     """
     cycle, moving = state.cycle + 1, model.moving
@@ -325,7 +331,11 @@ def advance(
 
 
 def _append_row(table: NDArray[np.void] | None, row: NDArray[np.void] | None) -> NDArray[np.void] | None:
-    return row if table is None or row is None else np.append(table, row)
+    if table is None or row is None:
+        return row
+    if table.dtype != row.dtype:
+        raise InputError("state: its table of load sharing is of another version of the program; start the run anew")
+    return np.append(table, row)
 
 
 def sliding_direction(state: RunningInState, setup: WearSetup, moving: int) -> int:

@@ -163,6 +163,13 @@ def test_a_loop_goes_on_to_the_same_bits(stop):
     assert second.notes == whole.notes
 
 
+def test_a_table_of_another_version_is_refused():
+    state = loop(contact_of(), 1)[1].state
+    fewer = state.sharing[list(state.sharing.dtype.names[:-1])]
+    with pytest.raises(InputError, match="another version of the program; start the run anew"):
+        loop(contact_of(), 2, state=replace(state, sharing=fewer))
+
+
 def test_where_no_film_is_found_the_last_shape_stays(monkeypatch):
     """After some cycles no film of a new shape is found: the loop goes on, and says so."""
     step = contact_of()
