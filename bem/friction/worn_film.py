@@ -3,6 +3,9 @@
 The shape w(x) is the worn depth of the body that stands with the contact, a smooth profile along x. Films with and
 without it are solved on one fixed mesh (`bem.lubrication.line_shaped`) at a few loads of a lattice in ln(load). Their
 ratio multiplies the thickness of the unworn film, their differences add to pressure, shear stress and friction force.
+Load sharing takes thickness and friction force. Film pressure only weights the volume of oil
+(`bem.friction.oil_volume`) and is a result; shear stress counts where cells in contact displace the film and in the
+heat of the contact.
 Between two loads of the lattice ratio and differences are linear in ln(load); beyond them they stay those of the
 nearest, so that there is a film under any load. Without a change the films are the unworn ones to the last bit.
 Verified in tests/friction/test_worn_film.py.

@@ -43,7 +43,7 @@ class ConnectedStress:
 
     planes : (nz, nx, ny) [Pa], not set in rows that were not computed; `clear_other_rows` writes zeros there.
     computed : (nz, nx) True for rows that were computed.
-    exceeding : (nx, ny) True where the limit is exceeded at any depth.
+    exceeding : (nx, ny) True where the limit is exceeded at any depth in a row that was computed.
     passes : number of passes along x: one for each depth, and one for each return from a deeper depth.
     """
 

@@ -5,8 +5,8 @@ film changes the surface too. Per time step:
 
 1. Predict the film of every cell with the growth at the start of the step; wear is integrated exactly, so no step makes
    a film negative (exponential trapezoidal rule ETD2RK, Cox and Matthews 2002).
-2. Solve the contact under the surface raised by the predicted film, with stiffness and hardness of the mean film in the
-   contact.
+2. Solve the contact under the surface raised by the predicted film, with stiffness and hardness of the mean predicted
+   film over the cells in contact in the last step tried.
 3. Correct the film with the mean growth. The difference to the prediction is the error; accept the step or shorten it.
 
 Cost: one contact per step tried.

@@ -7,8 +7,7 @@
 3. Grow the tribofilm in the rough contact of that balance: the gap that the oil film leaves, under its part of the
    load.
 
-Verified in
-tests/tribofilm/test_under_oil.py.
+Verified in tests/tribofilm/test_under_oil.py.
 """
 
 from __future__ import annotations

@@ -2,7 +2,8 @@
 
 Algorithm of `run_in` (running_in.py), one cycle after the other:
 
-1. Move one body through the contact and take the rows of both that face each other (running_in.py, state.py).
+1. Move one body through the contact, not before the first cycle, and take the rows of both that face each other
+   (running_in.py, state.py).
 2. Solve the contact: dry (contact_step.py) or shared with a film (mixed.py, worn_shape.py); particles between the
    surfaces are a step around either (third_bodies.py).
 3. Shear tractions: friction x pressure, or a loop of partial slip (traction/).

@@ -44,7 +44,8 @@ class WearModel:
     frame : which body stands still with the contact. "cylinder": the upper body and the contact are fixed in space and
         the lower body moves through them, so that all places of its track wear alike; "disk": the lower body is fixed
         and the roughness of the upper body moves, so that the contact wears a groove into the lower one.
-    shift : cells that the moving body slides along x per cycle in the direction of friction; negative is against it.
+    shift : cells that the moving body slides over the other one along x before each cycle but the first: for positive
+        friction and shift the upper body along +x, the lower one along -x.
     within_layer : pieces of a coated body end at the interface at the latest; the film is taken as replenished.
     traction : the name of one of `bem.wear.traction` or of your own, a table with `kind` and parameters, or a
         `TractionLaw`. "gross_sliding" is the source's, friction x pressure everywhere; "oscillating_force" and

@@ -39,7 +39,8 @@ class Segmentation:
     labels : (nx, ny) int32, 0 where nothing leaves, else 1..count.
     thickness : (nx, ny) depth that leaves each column, from the surface down [m].
     count : number of pieces.
-    reaches_bottom : (count + 1,) True for pieces that yield at the last depth: their thickness is a lower bound.
+    reaches_bottom : (count + 1,) True for pieces that yield at the last depth: their thickness is a lower bound, unless
+        that depth is the interface at which pieces of a layer end.
     """
 
     labels: NDArray[np.int32]

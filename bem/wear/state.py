@@ -67,7 +67,8 @@ class RunningInState:
     heights : of the lower and the upper body [m]; the moving one may be longer along x than the grid.
     offset : cells that the moving body has slid.
     pressure : of the last cycle [Pa]; None before the first.
-    removed : depth that left each column of the (first) wearing body in the last cycle [m]; None before the first.
+    removed : depth that the criterion removed from each column of the (first) wearing body in the last cycle [m],
+        without the cuts of third bodies; None before the first.
     cycles, particles, times : tables of `CYCLE_FIELDS`, `PARTICLE_FIELDS` and `TIME_FIELDS`.
     memories : memory of the criterion on the material of (lower, upper), (planes, rows, ny) on the heights' own rows;
         None for none.

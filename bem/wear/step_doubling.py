@@ -5,6 +5,9 @@ is twice the difference between the step and its two halves. No body moves betwe
 that meet are no error of a step. Wear corrects the errors of earlier steps: where too little came off, the pressure is
 higher.
 
+Third bodies: the heights that the halves start from are those after their cuts, and their number is that after the
+cycle, so the estimate leaves out the change that they make in one cycle.
+
 Evidence: the largest error of whole loops, against an eighth of their steps, was 0.8 to 1 times the estimate at rest,
 0.9 to 2 times where surfaces slid by 1 to 7 cells between steps, and 4 times in ten steps under a pressure that closed
 most of the gap.

@@ -4,8 +4,9 @@
    A body that moves through the contact wears alike along its whole track and keeps its shape.
 2. The shape deepens the gap of the smooth bodies. The rough contact sees the rest, heights plus w, so that no height
    counts twice.
-3. The films follow w in steps: they are solved anew where w has changed by more than `RESOLUTION` of the gap, or by
-   more than the share of the load that they carry allows (`SHARE_RESOLUTION`), or where the balance needs other loads.
+3. The films follow w in steps. The change of w since the films' shape, without its uniform part, over the gap at the
+   same place has a largest value c; the film carries the share s of the load. Films of the new shape are solved where
+   c > `RESOLUTION` or s c > `SHARE_RESOLUTION`, and films of the same shape where the balance needs other loads.
 4. Where no film of a new shape is found, the last shape stays, and a note says so.
 
 Cost: some films per step of the shape, fewer than cycles. Verified in tests/wear/test_worn_shape.py.

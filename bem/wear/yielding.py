@@ -1,11 +1,14 @@
 """Yielded pieces: equivalent stress from the surface down to a depth without yield, and the pieces above it.
 
 1. A bound on von Mises stress without a transform may prove that nothing yields at the first depth (`cannot_yield`).
-2. Compute the equivalent stress depth by depth, down to one below the first depth without yield (`yielded_stress`); for
-   von Mises stress of one load only in rows that a piece can reach (`piece_stress`).
+2. Compute the equivalent stress depth by depth. `yielded_stress` computes whole planes, down to one below the first
+   depth whose plane has no yield. `piece_stress`, for von Mises stress of one load, follows pieces from the first depth
+   by rows (`bem.stress.connected_regions`), down to two depths below the deepest row that they reach (one below with
+   linear refinement); yield that is not connected to the surface is left out.
 3. Segment it (`bem.wear.segmentation`).
 
-Cost: one to three transforms per depth.
+Cost: along x five transforms per depth for von Mises stress, along y as many for the rows that are computed; six for
+other stresses.
 
 Knows stresses and pieces; no contact, no cycle. Verified in tests/wear/test_cycle.py: skipped depths have no pieces.
 """
@@ -145,7 +148,7 @@ class YieldedStress:
 
     planes : (nz, nx, ny) [Pa]. depths : (nz,) [m]; empty where nothing yields at the surface.
     computed : number of depths computed. seconds : spent.
-    yielding : (nx, ny) True where anything in the column yields; None where unknown.
+    yielding : (nx, ny) True where the column yields at any depth that was computed there; None where unknown.
     rows : (nz, nx) True for rows of the planes that were written; None for all.
     """
 
@@ -199,11 +202,12 @@ def yielded_stress(
 def piece_stress(
     load: FloatArray | Sequence[SurfaceLoad], setup: WearSetup, model: WearChoices, body: int
 ) -> YieldedStress:
-    """Compute the stress as `yielded_stress`, skipping rows that no piece reaches where that is possible.
+    """Compute the stress in the rows that a piece reaches; where that is not possible, as `yielded_stress`.
 
     It is possible for von Mises stress of one load, if pieces leave from the surface down: a piece is followed from
-    depth to depth and row to row (`bem.stress.connected_regions`), since yield between depths needs a depth beside it
-    that yields. The monotone cubic in an interval needs values two depths from the end that yields.
+    depth to depth and row to row, also upwards (`bem.stress.connected_regions`), since yield between depths needs a
+    depth beside it that yields. The monotone cubic in an interval needs values two depths from the end that yields. The
+    search ends where no further row is reached, without a test of whole planes: there may be yield below.
     """
     loads = (SurfaceLoad(load, setup.friction),) if isinstance(load, np.ndarray) else load
     law, removal, (first, *others) = model.law, model.removal, loads
