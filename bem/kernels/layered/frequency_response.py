@@ -14,14 +14,15 @@ units of 2 G q. In the sums and differences p = u + w, n = u - w, P = tau + sigm
 - waves that decay upwards: n, p - 2 s n / kappa, P = p, N = n / kappa, all times exp(-s).
 
 So the impedances (tau, sigma) = Z (u, w) of the two kinds, Zd = -diag(1/kappa, 1) and Zu = diag(1, 1/kappa) in (p, n),
-differ by the same number in both. The solution at one wavenumber (`waves`) starts with the impedance Zd of the
-half-space. The impedance Z of the media below is carried up to the lower side of the outermost layer. A layer of q h >= 1 reflects the
-waves at its lower interface by R = (Zu - Z)^-1 (Z - Zd), which is R' = P^T R P on its top, with P = exp(-q h) [[1, 0],
-[-2 q h / kappa, 1]]. A thinner layer takes exp(-M q h), because the waves in it cancel if moduli differ much. Then
-displacements are carried from the load through the outermost layer (q h >= 1: as waves down; q h < 1: from its lower
-side, whose state the load gives, up to the depth) and down through the others. Only decaying exponentials occur and nothing overflows. With one layer the
-result is the closed form of O'Sullivan and King (1988) for the normal displacement. Across the plane (anti-plane shear)
-every impedance is a sum of positive terms, Z = G (Z + G tanh q h)/(G + Z tanh q h).
+differ by the same number in both. The solution at one wavenumber (`waves`) starts with the impedance Zd of the half-
+space. The impedance Z of the media below is carried up to the lower side of the outermost layer. A layer of q h >= 1
+reflects the waves at its lower interface by R = (Zu - Z)^-1 (Z - Zd), which is R' = P^T R P on its top, with P = exp(-q
+h) [[1, 0], [-2 q h / kappa, 1]]. A thinner layer takes exp(-M q h), because the waves in it cancel if moduli differ
+much. Then displacements are carried from the load through the outermost layer (q h >= 1: as waves down; q h < 1: from
+its lower side, whose state the load gives, up to the depth) and down through the others. Only decaying exponentials
+occur and nothing overflows. With one layer the result is the closed form of O'Sullivan and King (1988) for the normal
+displacement. Across the plane (anti-plane shear) every impedance is a sum of positive terms, Z = G (Z + G tanh q h)/(G
++ Z tanh q h).
 
 All responses are analytic in q, and `wave_frame_response` takes complex q: `hankel` moves the path of integration into
 the complex plane. Error: 1e-13 of the largest stress and displacement (tests/kernels/test_layered.py,
