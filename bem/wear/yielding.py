@@ -116,8 +116,7 @@ def depths_for(setup: WearSetup, model: WearChoices, body: int) -> FloatArray:
 
     These are the setup's depths from the criterion's skin depth down to the outermost interface, refined where the
     refinement is exact. Segmentation counts the stress above the first depth as that at the first depth. In a layer
-    that is thinner than two skins, the skin is half of the layer. A layer has at least two depths: the first one and
-    the interface.
+    that is thinner than two skins, the skin is half of the layer.
     """
     interfaces = setup.bodies[body].interfaces
     layered = bool(interfaces) and model.within_layer
@@ -126,10 +125,7 @@ def depths_for(setup: WearSetup, model: WearChoices, body: int) -> FloatArray:
     sliver = 0.1 * float(np.diff(setup.depths).min())
     depths = _below_skin(setup.depths, min(skin, 0.5 * interfaces[0]) if layered else skin, sliver)
     if layered:
-        above = depths[depths < interfaces[0] - sliver]
-        if not above.size:
-            above = np.minimum(depths[:1], 0.5 * interfaces[0])
-        depths = np.append(above, interfaces[0])
+        depths = np.append(depths[depths < interfaces[0] - sliver], interfaces[0])
     if model.refinement == "exact":
         depths = refine_depths(depths, model.refine)
     return depths
@@ -224,7 +220,7 @@ def piece_stress(
     solid, shear = setup.bodies[body], first.shear(body)
     reached = connected_stress(first.pressure, grid, solid, depths, strength, depths_beside=reach, **shear)
     found, rows = reached.planes, reached.computed
-    used = len(found) if len(found) > 1 else 0  # nothing yields at the first depth if no other depth was reached
+    used = len(found) if len(found) > 1 else 0  # nothing yields at the first depth where it is the only one
     seconds = time.perf_counter() - start
     return YieldedStress(found[:used], depths[:used], len(found), seconds, reached.exceeding, rows[:used])
 

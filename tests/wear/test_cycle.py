@@ -291,17 +291,6 @@ def test_pieces_of_a_film_end_at_its_interface(below):
     assert result.particles["thickness"].max() <= 100e-9 * (1 + 1e-12)
 
 
-@pytest.mark.parametrize("criterion", ["von_mises", "tresca"])
-@pytest.mark.parametrize("depths", [DEPTHS, DEPTHS[1:]], ids=["from the surface", "below the layer"])
-def test_a_layer_much_thinner_than_the_depths_interval_wears_to_its_interface(criterion, depths):
-    film = Material("film", youngs_modulus=88e9, poissons_ratio=0.3, hardness=1.8e9, yield_stress=0.5e9)
-    coated = Body(HARD.material, layers=(Layer(film, 15e-9),))
-    arguments = ARGUMENTS | {"bodies": (coated, HARD), "depths": depths}
-    result = run_in(*surfaces(), cycles=1, model=WearModel(criterion=criterion), **arguments)
-    assert result.particles.size > 0
-    assert result.particles["thickness"].max() == pytest.approx(15e-9, rel=1e-9)
-
-
 @pytest.mark.parametrize("criterion", ["tresca", "maximum_tension"])
 def test_other_criteria_run(criterion):
     lower, upper = surfaces()
