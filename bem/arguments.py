@@ -22,12 +22,12 @@ _MOST_PROPOSED = 6
 
 
 def is_finite(value: object) -> bool:
-    """Whether an argument is a finite real number: no bool, no string."""
+    """Return True if an argument is a finite real number: no bool, no string."""
     return isinstance(value, Real) and not isinstance(value, bool) and math.isfinite(value)
 
 
 def is_positive(value: Any, *, finite: bool = True) -> bool:
-    """Whether it is one above zero; or infinite, where it need not be finite."""
+    """Return True if it is one above zero; or infinite, where it need not be finite."""
     return bool((is_finite(value) or (not finite and value == math.inf)) and value > 0)
 
 

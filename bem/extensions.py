@@ -69,7 +69,7 @@ def load_extensions() -> None:
 
 
 def same_origin(one: object, other: object) -> bool:
-    """Whether two functions or classes are the same one, defined again: a cell of a notebook run twice."""
+    """Return True if two functions or classes are the same one, defined again: a cell of a notebook run twice."""
     names = ("__module__", "__qualname__")
     return all(getattr(one, name, None) == getattr(other, name, None) for name in names)
 

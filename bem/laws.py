@@ -57,7 +57,7 @@ class Parameter:
     source: str = ""
 
     def holds(self, value: object) -> bool:
-        """Whether a number is finite and within the bounds."""
+        """Return True if a number is finite and within the bounds."""
         try:
             number = float(value)  # type: ignore[arg-type]
         except (TypeError, ValueError):

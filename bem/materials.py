@@ -202,7 +202,7 @@ class Body:
 
     @property
     def homogeneous(self) -> bool:
-        """Whether the body is of one material throughout, without layers."""
+        """Return True if the body is of one material throughout, without layers."""
         return not self.layers
 
     @property

@@ -58,7 +58,7 @@ class UsualRange:
     signed: bool = False
 
     def contains(self, value: float) -> bool:
-        """Whether a value is usual; what is not a finite number has no range."""
+        """Return True if a value is usual; what is not a finite number has no range."""
         if not math.isfinite(value):
             return True
         if self.signed:

@@ -29,7 +29,7 @@ class Pair:
 
     @property
     def is_row(self) -> bool:
-        """Whether asperities repeat."""
+        """Return True if asperities repeat."""
         return self.shape == "row"
 
     @property

@@ -164,7 +164,7 @@ def build(folder: Path = RUNS, *, reduced: bool = False) -> Page:
 
 
 def _is_there(folder: Path, scene: str) -> bool:
-    """Whether a finished run of this very scene is in the folder."""
+    """Return True if a finished run of this very scene is in the folder."""
     try:
         return (folder / "scene.toml").read_text("utf-8") == scene and (folder / "summary.json").exists()
     except OSError:
@@ -172,7 +172,7 @@ def _is_there(folder: Path, scene: str) -> bool:
 
 
 def _is_damaged(folder: Path) -> bool:
-    """Whether a run was finished there once, but cannot be trusted now."""
+    """Return True if a run was finished there once, but cannot be trusted now."""
     try:
         return (folder / "summary.json").exists() and bool(damaged_files(folder))
     except BemError:

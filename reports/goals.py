@@ -44,7 +44,7 @@ class Goal:
 
     @property
     def met(self) -> bool | None:
-        """Whether it is reached: `least` of what is wanted, or at most it."""
+        """Return True if it is reached: `least` of what is wanted, or at most it."""
         if self.value is None:
             return None
         return self.value >= self.wanted if self.least else self.value <= self.wanted

@@ -73,7 +73,7 @@ class PlanTime:
 
     @property
     def holds(self) -> bool:
-        """Whether both agree within a factor of `ALLOWED`."""
+        """Return True if both agree within a factor of `ALLOWED`."""
         return max(self.processor, self.planned) < LEAST or 1 / ALLOWED <= self.ratio <= ALLOWED
 
 

@@ -43,7 +43,7 @@ def shown(settings: Sequence[str]) -> list[str]:
 
 
 def is_measured(table: Any) -> bool:
-    """Whether a scene's table names surface files."""
+    """Return True if a scene's table names surface files."""
     return isinstance(table, dict) and ("path" in table or any(is_measured(part) for part in table.values()))
 
 

@@ -115,7 +115,7 @@ def renew(chosen: Sequence[Job], *, folder: Path = RUNS, say: Callable[[str], No
 
 
 def lacks_files(job: Job) -> bool:
-    """Whether a scene is of measured surfaces, and nobody says where they lie."""
+    """Return True if a scene is of measured surfaces, and nobody says where they lie."""
     return is_measured(library()[job.scene]) and not any("path=" in setting for setting in job.settings)
 
 
@@ -180,7 +180,7 @@ def _origin_of(folder: Path) -> Path:
 
 
 def _same_text(folder: Path, text: str) -> bool:
-    """Whether what is or was begun there is this scene; a folder not yet there is."""
+    """Return True if what is or was begun there is this scene; a folder not yet there is."""
     path = folder / "scene.toml"
     return not path.exists() or path.read_text("utf-8") == text
 

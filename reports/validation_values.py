@@ -108,12 +108,12 @@ def echo(summary: Summary) -> None:
 
 
 def within(value: Value, low: float, high: float) -> bool:
-    """Whether the mean lies in a range; our own spread does not widen it."""
+    """Return True if the mean lies in a range; our own spread does not widen it."""
     return low <= value.mean <= high
 
 
 def near(value: Value, wanted: float, factor: float = SLIGHT) -> bool:
-    """Whether the mean lies within a factor of what the source says."""
+    """Return True if the mean lies within a factor of what the source says."""
     return within(value, wanted / factor, wanted * factor)
 
 
@@ -246,22 +246,22 @@ def last_change(summary: Summary, weight: str) -> float:
 
 
 def unchanged(values: Sequence[Value], factor: float = SLIGHT) -> bool:
-    """Whether the largest lies within a factor of the smallest."""
+    """Return True if the largest lies within a factor of the smallest."""
     return max(v.mean for v in values) < factor * min(v.mean for v in values)
 
 
 def falling(values: Sequence[Value]) -> bool:
-    """Whether each value is less than the one before."""
+    """Return True if each value is less than the one before."""
     return all(a.mean > b.mean for a, b in itertools.pairwise(values))
 
 
 def settled_by_mesh(weight: str) -> Callable[[Summary], bool]:
-    """Whether a mean changes by no more than can be read from the source's curve, from 240 to 320 cells."""
+    """Return True if a mean changes by no more than can be read from the source's curve, from 240 to 320 cells."""
     return lambda summary: last_change(summary, weight) < READING
 
 
 def converges_by_mesh(weight: str) -> Callable[[Summary], bool]:
-    """Whether a mean falls from mesh to mesh up to 320 cells, and is settled there."""
+    """Return True if a mean falls from mesh to mesh up to 320 cells, and is settled there."""
     return lambda summary: settled_by_mesh(weight)(summary) and falling(radii_by(summary, weight)[:4])
 
 
@@ -293,7 +293,8 @@ def largest_drop(summary: Summary) -> float:
 
 
 def clear_minimum(summary: Summary) -> bool:
-    """Whether run-in friction is least inside the range of hardness, and both ends are above it by more than spread."""
+    """Return True if run-in friction is least inside the range of hardness, and both ends are above it by more than
+    spread."""
     friction, spread = summary["friction_run_in"], summary["friction_run_in_spread"]
     least = min(range(len(friction)), key=friction.__getitem__)
     return all(friction[end] > friction[least] + max(spread[end], spread[least]) for end in (0, -1))

@@ -197,7 +197,7 @@ def _groups(curves: Sequence[Curve], count: int) -> list[list[Curve]]:
 
 
 def _is_line(group: Sequence[Curve]) -> bool:
-    """Whether the points of each curve lie one behind the other, and not on a grid of points."""
+    """Return True if the points of each curve lie one behind the other, and not on a grid of points."""
     for curve in group:
         axis = int(np.argmax(np.ptp(curve.coordinates, axis=0)))
         if len(np.unique(curve.coordinates[:, axis])) < len(curve.bem):

@@ -113,7 +113,7 @@ def coarser_before(case: ContactCase, solution: ContactSolution) -> Coarser | No
 
 
 def _is_narrow(case: ContactCase) -> bool:
-    """Whether all that touches is one or two cells wide along an axis that it does not fill."""
+    """Return True if all that touches is one or two cells wide along an axis that it does not fill."""
     touching = case.solution.pressure > 0
     widths = [int(np.count_nonzero(touching.any(axis=1 - axis))) for axis in (0, 1)]
     return any(0 < width < min(_FEWEST_ACROSS, n) for width, n in zip(widths, case.grid.shape, strict=True))
@@ -235,19 +235,20 @@ def _overlap_bar(case: ContactCase, coarser: Coarser, known: Mapping[str, bool],
 
 
 def is_resolved(case: ContactCase) -> bool:
-    """Whether figures converge with their order from the grid of twice the cell on: surface and spots are resolved."""
+    """Return True if figures converge with their order from the grid of twice the cell on: surface and spots are
+    resolved."""
     solution = case.solution
     across = 4 * solution.contact_area / solution.contact_perimeter if solution.contact_perimeter > 0 else math.inf
     return surface_is_resolved(case.undeformed, case.grid) and across > SPOT * math.sqrt(case.grid.cell_area)
 
 
 def surface_is_resolved(gap: FloatArray, grid: Grid) -> bool:
-    """Whether a grid of twice the cell resolves the surface: its curvature changes little from cell to cell."""
+    """Return True if a grid of twice the cell resolves the surface: its curvature changes little from cell to cell."""
     return _is_smooth(gap, grid, _RESOLVED)
 
 
 def _is_smooth(gap: FloatArray, grid: Grid, share: float) -> bool:
-    """Whether a surface's curvature changes from cell to cell by no more than this share of itself (rms)."""
+    """Return True if a surface's curvature changes from cell to cell by no more than this share of itself (rms)."""
     turns, bends = 0.0, 0.0
     for axis in (0, 1):
         n = grid.shape[axis]
@@ -263,7 +264,7 @@ def _is_smooth(gap: FloatArray, grid: Grid, share: float) -> bool:
 
 
 def touches_sharply(case: ContactCase) -> bool:
-    """Whether the highest pressure may have no limit: at a sharp edge, ridge or tip."""
+    """Return True if the highest pressure may have no limit: at a sharp edge, ridge or tip."""
     modulus = case.operator.modulus_at(math.pi / math.sqrt(case.grid.cell_area))
     return is_sharp(case.undeformed, case.solution.pressure, case.grid, modulus)
 

@@ -134,7 +134,7 @@ def film_bars(case: FilmCase, other: OtherFilm) -> ErrorBars:
 
 
 def spike_is_unresolved(case: FilmCase) -> bool:
-    """Whether the height of the film's pressure spike is the mesh's."""
+    """Return True if the height of the film's pressure spike is the mesh's."""
     solution = case.solution
     first, second = case.speeds
     there = Case(

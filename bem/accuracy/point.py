@@ -98,7 +98,7 @@ def point_figures(case: PointCase, film: PointFilmSolution) -> dict[str, float]:
 
 
 def spike_at_centre(x: FloatArray, y: FloatArray, pressure: FloatArray) -> bool:
-    """Whether the pressure (nx, ny) [Pa] has its spike around the origin, at x (nx,) and y (ny,) [m]."""
+    """Return True if the pressure (nx, ny) [Pa] has its spike around the origin, at x (nx,) and y (ny,) [m]."""
     i, j = (int(np.abs(axis).argmin()) for axis in (x, y))
     around = pressure[max(i - 1, 0) : i + 2, max(j - 1, 0) : j + 2]
     steep = float(around.min()) < (1 - _STEEP) * float(around.max())

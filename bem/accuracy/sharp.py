@@ -35,7 +35,8 @@ _ROUND_OFF = 1e-9
 
 
 def is_sharp(undeformed: FloatArray, pressure: FloatArray, grid: Grid, modulus: float = math.inf) -> bool:
-    """Whether a contact with that undeformed gap [m] and pressure [Pa] (both nx, ny) ends at steps or touches at kinks.
+    """Return True if a contact with that undeformed gap [m] and pressure [Pa] (both nx, ny) ends at steps or touches at
+    kinks.
 
     modulus : contact modulus of the bodies for waves of two cells [Pa], which says how far pressures at kinks may rise;
         infinite, all kinks count.
@@ -70,8 +71,8 @@ class _Kinks(NamedTuple):
 
 
 def _touches_at_kinks(undeformed: FloatArray, pressure: FloatArray, grid: Grid, modulus: float) -> bool:
-    """Whether there are kinks that may have the highest pressure. Johnson: a wedge of slope t has E* t/pi arcosh(a/x),
-    a cone E* t/2 arcosh(a/r); slopes change by 2 t there, in a cell or two."""
+    """Return True if there are kinks that may have the highest pressure. Johnson: a wedge of slope t has E* t/pi
+    arcosh(a/x), a cone E* t/2 arcosh(a/r); slopes change by 2 t there, in a cell or two."""
     highest, tips = float(pressure.max()), []
     for axis in (0, 1):
         if grid.shape[axis] < 8:

@@ -131,8 +131,8 @@ def _held_back(fine: Mapping[str, float], coarse: Mapping[str, float], limit: fl
 
 
 def _is_centred(touching: NDArray[np.bool_]) -> bool:
-    """Whether the cells that touch (nx, ny) are their own mirror images along both axes, as under a ball whose middle
-    is that of a cell, or of four."""
+    """Return True if the cells that touch (nx, ny) are their own mirror images along both axes, as under a ball whose
+    middle is that of a cell, or of four."""
     box = touching[np.ix_(touching.any(axis=1), touching.any(axis=0))]
     return bool((box == box[::-1]).all() and (box == box[:, ::-1]).all())
 

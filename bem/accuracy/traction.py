@@ -72,7 +72,7 @@ class TractionCase:
 
     @property
     def hot(self) -> bool:
-        """Whether heat is solved for."""
+        """Return True if heat is solved for."""
         return self.bodies is not None
 
     @property

@@ -129,7 +129,7 @@ def _rows_picture(
 
 
 def is_map(picture: Picture) -> bool:
-    """Whether a picture of `map_picture` is a map, not lines."""
+    """Return True if a picture of `map_picture` is a map, not lines."""
     return bool(picture["data"][0]["type"] in ("heatmap", "surface"))
 
 

@@ -75,7 +75,7 @@ def main(folder: Path) -> int:
 
 
 def _asked(folder: Path) -> bool:
-    """Whether the folder was begun by the page: a run begun on the command line goes on from its own scene."""
+    """Return True if the folder was begun by the page: a run begun on the command line goes on from its own scene."""
     return (folder / OWN / ASKED).is_file()
 
 

@@ -288,13 +288,13 @@ def _texts(found: object) -> tuple[str, ...]:
 
 
 def _works_in(process: int, folder: Path) -> bool:
-    """Whether a process is the worker of a folder: numbers are used again."""
+    """Return True if a process is the worker of a folder: numbers are used again."""
     words = Path(f"/proc/{process}/cmdline").read_bytes().split(b"\0")  # empty of one that has ended
     return b"bem.app.worker" in words and os.fsencode(folder) in words
 
 
 def _holds(process: int, lock: Path) -> bool:
-    """Whether a process has the file of a lock open."""
+    """Return True if a process has the file of a lock open."""
     for item in Path(f"/proc/{process}/fd").iterdir():
         with suppress(OSError):
             if os.path.samestat(item.stat(), lock.stat()):

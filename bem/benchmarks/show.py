@@ -383,7 +383,7 @@ def draw_errors(run: Run, kind: str) -> Figure:
 
 
 def _memory_rises(curve: Curve) -> bool:
-    """Whether at least two grids needed more than the process held, and the finer ones the more."""
+    """Return True if at least two grids needed more than the process held, and the finer ones the more."""
     told = [m for m in curve.memory if m > _LEAST_MEMORY]
     return len(told) > 1 and told == sorted(told)
 

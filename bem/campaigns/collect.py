@@ -137,7 +137,7 @@ def _scattering(campaign: Campaign) -> set[str]:
 
 
 def _something(value: Any) -> bool:
-    """Whether any number of a figure is not zero."""
+    """Return True if any number of a figure is not zero."""
     return value is not None and bool(np.nan_to_num(np.asarray(value, dtype=np.float64)).any())
 
 

@@ -25,7 +25,7 @@ def marked(folder: Path) -> Iterator[str]:
 
 
 def sees(folder: Path, token: str) -> bool:
-    """Whether the folder that was given this secret is here."""
+    """Return True if the folder that was given this secret is here."""
     try:
         return (folder / TOKEN).read_text() == token
     except OSError:

@@ -165,7 +165,8 @@ def _what_next(
 
 
 def _matters(part: str, figures: Sequence[str], record: Record, short: set[str]) -> bool:
-    """Whether figures that fall short depend on a resolution, and it has a share worth the work in the error of one."""
+    """Return True if figures that fall short depend on a resolution, and it has a share worth the work in the error of
+    one."""
     touched = short & set(figures) if figures else short
     own = record.error_parts.get(part)
     if not part or own is None:
@@ -180,7 +181,7 @@ def _matters(part: str, figures: Sequence[str], record: Record, short: set[str])
 
 
 def _is_too_large_alone(one: Resolution, record: Record, ratios: Mapping[str, float]) -> bool:
-    """Whether what a resolution leaves is more than a figure may have in all."""
+    """Return True if what a resolution leaves is more than a figure may have in all."""
     parts = record.error_parts.get(one.part, {})
     for name, share in parts.items():
         whole, ratio = record.errors.get(name), ratios.get(name, 0.0)

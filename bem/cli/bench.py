@@ -134,7 +134,7 @@ def _refuse(beside: str, given: Mapping[str, object]) -> None:
 
 
 def _check_files(history: Path | None, figure: Path | None) -> None:
-    """Whether what comes of a run can be written."""
+    """Return True if what comes of a run can be written."""
     from bem.benchmarks.history import read_history
     from bem.cli._quantity import new_file
     from bem.errors import ResultsError

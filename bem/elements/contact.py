@@ -102,7 +102,7 @@ class ElementContact:
         return InletFilm(self.load / self.length, self.radius, viscosity, abs(self.mean_speed), self.inlet)
 
     def conforming(self, modulus: float) -> bool:
-        """Whether the contact is as long as the bodies are round, across or along."""
+        """Return True if the contact is as long as the bodies are round, across or along."""
         found = self.hertz(modulus)
         sides = [(self.half_width(modulus), min(map(abs, self.radii)))]
         if isinstance(found, PointContact):

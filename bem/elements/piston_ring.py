@@ -149,8 +149,8 @@ class PistonRingModel(ElementModel):
         return one.rigid_film(self.oil.build().viscosity)
 
     def _lags(self, one: ElementContact, film: float) -> bool:
-        """Whether a flooded film under this load sinks more slowly than the speed changes, both by time in proportion:
-        1 / sqrt(h) grows linearly (`squeeze_thickness`)."""
+        """Return True if a flooded film under this load sinks more slowly than the speed changes, both by time in
+        proportion: 1 / sqrt(h) grows linearly (`squeeze_thickness`)."""
         assert self.oil is not None
         viscosity, load = self.oil.build().viscosity, self.line_load(one.place)
         sinks = 2 * math.sqrt(film) * load / (6 * math.pi * viscosity * one.radius * math.sqrt(2 * one.radius))

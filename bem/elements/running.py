@@ -46,7 +46,7 @@ class Running:
 
     @property
     def converged(self) -> bool:
-        """Whether film and heat are those of their equations; what is not is no figure of the element."""
+        """Return True if film and heat are those of their equations; what is not is no figure of the element."""
         return self.status is Status.CONVERGED
 
 

@@ -293,7 +293,7 @@ class _LevelSearch:
 
     @property
     def is_finest(self) -> bool:
-        """Whether no finer level follows."""
+        """Return True if no finer level follows."""
         return self.level == len(self.film.errors) - 1
 
     @property
@@ -350,7 +350,7 @@ class _LevelSearch:
         return _LevelResult(trial, slope, Regime.BOUNDARY if at_bottom else Regime.MIXED, next_log_load)
 
     def next_level_will_do(self, mismatch: float, before: Sequence[float]) -> bool:
-        """Whether a secant predicts that the next trial meets the goal, and a finer level can make that trial.
+        """Return True if a secant predicts that the next trial meets the goal, and a finer level can make that trial.
 
         before : mismatches of all earlier trials, of which any may predict it; see `SECANT_MARGIN`.
         """
@@ -366,7 +366,7 @@ class _LevelSearch:
         return math.log(share / max(1 - share, LEAST_REST))
 
     def brackets_one_load(self, sides: Mapping[bool, _Trial]) -> bool:
-        """Whether a trial with too thick a film (True) and one with too thin a film have equal film loads.
+        """Return True if a trial with too thick a film (True) and one with too thin a film have equal film loads.
 
         The opening jumps there: cells at the hardness sink under one load until their neighbours touch.
         """
@@ -421,18 +421,19 @@ class _LevelSearch:
         return _Trial(log_load, film, contact, _load_excess(film, contact, self.load))
 
     def film_model_ends(self, trial: _Trial) -> bool:
-        """Whether the film under the largest load of its model is still thicker than the opening under the rest."""
+        """Return True if the film under the largest load of its model is still thicker than the opening under the
+        rest."""
         if self.top >= math.log(self.load) - _EQUAL_LOGARITHMS:  # `find` takes that end for full film
             return False
         at_end = trial.log_load >= self.top - _EQUAL_LOGARITHMS
         return at_end and self.mismatch(trial) > self.goal
 
     def film_is_molecular(self, trial: _Trial) -> bool:
-        """Whether the film is thinner than a few molecules, and the surfaces can carry the load without it."""
+        """Return True if the film is thinner than a few molecules, and the surfaces can carry the load without it."""
         return trial.film.carrying_thickness < THINNEST_FILM and self.load <= self.rough.largest_load
 
     def is_boundary(self, probe: _Trial) -> bool:
-        """Whether a film with a negligible load is thinner than the opening of the surfaces."""
+        """Return True if a film with a negligible load is thinner than the opening of the surfaces."""
         return self.mismatch(probe) <= 0
 
     def mismatch(self, trial: _Trial) -> float:
@@ -447,7 +448,7 @@ def _load_excess(film: PatchFilm, contact: Pressed | None, load: float) -> float
 
 
 def _volumes_agree(trial: _Trial, rough: RoughContact, goal: float) -> bool:
-    """Whether the opening holds the film's oil, to a goal or to the error of the opening itself."""
+    """Return True if the opening holds the film's oil, to a goal or to the error of the opening itself."""
     assert trial.contact is not None
     oil, opening = rough.oil(trial.film), trial.contact.opening
     if abs(opening - oil) <= trial.contact.opening_error * (1 + 1e-9):

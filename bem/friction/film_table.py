@@ -41,7 +41,7 @@ class TabulatedFilms(Protocol):
 
     @property
     def continued(self) -> bool:
-        """Whether films start from one another, so that their rounding depends on the start."""
+        """Return True if films start from one another, so that their rounding depends on the start."""
 
     @property
     def parabola(self) -> FloatArray:

@@ -94,7 +94,7 @@ class ContactAtSeparation:
         return float(constant_film(film).thickness[0, 0])
 
     def clears(self, film: PatchFilm) -> bool:
-        """Whether surfaces at that separation do not touch; see `RoughContact`."""
+        """Return True if surfaces at that separation do not touch; see `RoughContact`."""
         return self.contact.clears(constant_film(film))
 
     def at_load(self, film: PatchFilm, load: float, tolerance: float, start: FloatArray | None) -> Pressed:

@@ -66,12 +66,12 @@ class OilVolumeSensitivity:
 
     @property
     def known(self) -> bool:
-        """Whether the second balance converged or was not needed."""
+        """Return True if the second balance converged or was not needed."""
         return not math.isnan(self.loaded_contact_share)
 
     @property
     def matters(self) -> bool:
-        """Whether contact share or friction depend on the area where oil is counted, or that is not known.
+        """Return True if contact share or friction depend on the area where oil is counted, or that is not known.
 
         False where the friction itself is not known, as of a film whose heat was not found.
         """
@@ -83,7 +83,7 @@ class OilVolumeSensitivity:
 
     @property
     def decides(self) -> bool:
-        """Whether contact share or friction change by more than `DECIDES`."""
+        """Return True if contact share or friction change by more than `DECIDES`."""
         return self.known and self.change > DECIDES
 
     @property

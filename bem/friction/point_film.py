@@ -209,7 +209,7 @@ def cold_film(contact: PointContact, speeds: Sequence[float], load: float, cells
 
 
 def _deep(contact: PointContact, speeds: Sequence[float], load: float) -> bool:
-    """Whether the layer of oil is so thin that the film under a load [N] is the compressed layer."""
+    """Return True if the layer of oil is so thin that the film under a load [N] is the compressed layer."""
     if not isinstance(contact.supply, OilLayer):
         return False
     return _fitted_film(contact, speeds, load) > DEEP * contact.supply.thickness

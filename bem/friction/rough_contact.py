@@ -119,7 +119,7 @@ class RoughContact(Protocol):
         """Return the mean thickness of a film over the area where oil is counted [m]."""
 
     def clears(self, film: PatchFilm) -> bool:
-        """Whether rough surfaces that hold the film's oil do not touch, without deformation by contact."""
+        """Return True if rough surfaces that hold the film's oil do not touch, without deformation by contact."""
 
     def at_load(self, film: PatchFilm, load: float, tolerance: float, start: FloatArray | None) -> Pressed:
         """Solve the contact under a load [N] on the whole contact.

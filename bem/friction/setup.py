@@ -296,7 +296,8 @@ class MixedSetup:
 
     @property
     def at_film_separation(self) -> bool:
-        """Whether the separation of the undeformed mean planes is the film thickness, in place of a volume of oil."""
+        """Return True if the separation of the undeformed mean planes is the film thickness, in place of a volume of
+        oil."""
         return self.separation == "film"
 
     @cached_property
@@ -317,7 +318,7 @@ class MixedSetup:
 
     @property
     def repeated_cell(self) -> bool:
-        """Whether the rough patch is a cell that repeats over the whole contact of a ball."""
+        """Return True if the rough patch is a cell that repeats over the whole contact of a ball."""
         return self.radii is not None and all(self.grid.periodic)
 
     @property

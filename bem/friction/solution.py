@@ -100,7 +100,7 @@ class MixedSolution:
 
     @property
     def full_film(self) -> bool:
-        """Whether the surfaces do not touch."""
+        """Return True if the surfaces do not touch."""
         return self.contact is None
 
     @property

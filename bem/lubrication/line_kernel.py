@@ -292,7 +292,7 @@ class LineOperator:
 
     @property
     def hierarchical(self) -> bool:
-        """Whether weights are kept hierarchically."""
+        """Return True if weights are kept hierarchically."""
         return len(self.nodes) > HIERARCHICAL_FROM
 
     def stretched(self, factor: float) -> LineOperator:

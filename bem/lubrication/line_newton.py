@@ -330,7 +330,8 @@ def carried(problem: Problem, state: State, mesh: State) -> State | None:
 
 
 def is_start(state: State) -> bool:
-    """Whether a mesh can be made for a state: what did not converge may be anything, down to no pressure at all."""
+    """Return True if a mesh can be made for a state: what did not converge may be anything, down to no pressure at
+    all."""
     arrays = (state.pressure, state.film, np.array([state.exit, state.datum]))
     if not all(np.isfinite(array).all() for array in arrays):
         return False

@@ -230,7 +230,7 @@ class _Search:
         return math.log(-state.offset[0] - self.hertz)
 
     def coarse(self) -> tuple[bool, Outcome, float]:
-        """Whether there is one, the last film, and the slope of what is missed with its place."""
+        """Return True if there is one, the last film, and the slope of what is missed with its place."""
         self._take_reference()
         last = Outcome(replace(self.reference, far_field=0.0), 0, 0.0, True)
         place, step, slope = self.place(last.state), FIRST_STEP, 1.0

@@ -131,7 +131,7 @@ class Step:
 
     @property
     def loaded(self) -> bool:
-        """Whether the load is given; else the datum stays as it is."""
+        """Return True if the load is given; else the datum stays as it is."""
         return bool(np.isfinite(self.problem.load))
 
 

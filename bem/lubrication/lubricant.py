@@ -163,7 +163,7 @@ class Lubricant:
 
     @property
     def shears_film(self) -> bool:
-        """Whether the film's flow follows a shear law other than the Newtonian one."""
+        """Return True if the film's flow follows a shear law other than the Newtonian one."""
         if self.film_rheology == "newtonian":
             return False
         return self.shear_law.thins or bool(np.isfinite(self.shear_law.limit(0.0)))

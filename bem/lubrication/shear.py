@@ -65,7 +65,7 @@ class ShearLaw(Law):
 
     @property
     def thins(self) -> bool:
-        """Whether the stress is another than the Newtonian one below the limit."""
+        """Return True if the stress is another than the Newtonian one below the limit."""
         return type(self).unlimited is not _straight
 
     def newtonian_stress(self, stress: FloatArray) -> tuple[FloatArray, FloatArray]:

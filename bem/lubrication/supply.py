@@ -55,7 +55,7 @@ class Starvation:
 
     @property
     def flooded(self) -> bool:
-        """Whether there is as much oil as the contact takes."""
+        """Return True if there is as much oil as the contact takes."""
         return math.isinf(self.meniscus_position)
 
 

@@ -24,7 +24,7 @@ class Solved(Protocol):
 
     @property
     def status(self) -> Status:
-        """Whether it was found."""
+        """Return True if it was found."""
 
     @property
     def iterations(self) -> int:

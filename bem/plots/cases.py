@@ -126,13 +126,13 @@ def along(run: Any, name: str, axis: str) -> tuple[Array, Array, Array, Array]:
 
 
 def many_speeds(run: Any) -> bool:
-    """Whether there is a curve over speed to draw, not one point."""
+    """Return True if there is a curve over speed to draw, not one point."""
     return bool(run.dataset.sizes["speed"] > 1)
 
 
 def redoes(run: Any, source: str) -> bool:
-    """Whether the scene redoes a part of a source, such as "paper C": what was measured there says nothing of other
-    contacts."""
+    """Return True if the scene redoes a part of a source, such as "paper C": what was measured there says nothing of
+    other contacts."""
     return source in run.scene.get("redoes", "")
 
 

@@ -73,7 +73,7 @@ def largest_of(values: Any) -> float:
 
 
 def is_difference(name: str, words: str = "") -> bool:
-    """Whether a quantity in kelvin is a difference of temperatures, which stays in kelvin.
+    """Return True if a quantity in kelvin is a difference of temperatures, which stays in kelvin.
 
     name, words : name of the variable and its description; rises, differences, errors and spreads are differences.
     """

@@ -83,7 +83,7 @@ def answer_of(answers: int) -> Any:
 
 
 def taken(orders: int, order: bytes) -> bool:
-    """Whether what is sent through a pipe is taken at the other end: not where nobody is there, or hangs for
+    """Return True if what is sent through a pipe is taken at the other end: not where nobody is there, or hangs for
     `PATIENCE`."""
     until, waiting = time.monotonic() + PATIENCE, select.poll()
     waiting.register(orders, select.POLLOUT)
@@ -109,7 +109,7 @@ def ended(process: int, answers: int) -> None:
 
 
 def _alone() -> bool:
-    """Whether this process has one thread: a copy of several may wait for ever for what another one had locked.
+    """Return True if this process has one thread: a copy of several may wait for ever for what another one had locked.
 
     And nobody else who waits for processes that end (a handler of SIGCHLD): copies would be taken for theirs.
     """

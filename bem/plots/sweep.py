@@ -96,7 +96,7 @@ def _chosen(variables: Mapping[str, Variable], keys: Sequence[str], headline: Se
 
 
 def varies(variables: Mapping[str, Variable], keys: Sequence[str], headline: Sequence[str]) -> bool:
-    """Whether any figure that would be drawn over the keys differs along them."""
+    """Return True if any figure that would be drawn over the keys differs along them."""
     return any(_varies(variables[name].values) for name in _chosen(variables, keys, headline))
 
 
@@ -119,7 +119,7 @@ def _drawable(variable: Variable, name: str) -> bool:
 
 
 def _is_rounding(variables: Mapping[str, Variable], name: str) -> bool:
-    """Whether a figure is nothing beside the one that it is a component of, such as the force across beside the
+    """Return True if a figure is nothing beside the one that it is a component of, such as the force across beside the
     force: a curve of rounding errors."""
     words = name_and_unit(name)[0]
     whole = [
@@ -133,7 +133,8 @@ def _is_rounding(variables: Mapping[str, Variable], name: str) -> bool:
 
 
 def _is_key(variables: Mapping[str, Variable], name: str, key: str) -> bool:
-    """Whether a figure is what was asked for, such as the load over contact.load: a straight line says nothing."""
+    """Return True if a figure is what was asked for, such as the load over contact.load: a straight line says
+    nothing."""
     at, figure = variables.get(key), variables[name]
     if at is None or at.values.dtype.kind not in "if" or key not in figure.dimensions:
         return False
@@ -195,7 +196,8 @@ def _panel(
 
 
 def _crowded(position: Any) -> bool:
-    """Whether positive values over more than a decade would lie on one another at the low end of a linear axis."""
+    """Return True if positive values over more than a decade would lie on one another at the low end of a linear
+    axis."""
     values = np.sort(np.asarray(position, float))
     steps = np.diff(values)
     return bool(values[0] > 0 and values[-1] > 10 * values[0] and steps[0] < 0.05 * (values[-1] - values[0]))

@@ -114,12 +114,12 @@ def within(name: str, value: float, error: float, factor: float = 1.0, sign: str
 
 
 def is_list(value: Any) -> bool:
-    """Whether a figure is a list that wants a table: of several values, or of cases."""
+    """Return True if a figure is a list that wants a table: of several values, or of cases."""
     return isinstance(value, list) and (len(value) > 1 or any(isinstance(item, Mapping) for item in value))
 
 
 def is_error(name: str, among: Mapping[str, Any]) -> bool:
-    """Whether a figure is the error bar of another, beside which it stands, or what an origin adds to it."""
+    """Return True if a figure is the error bar of another, beside which it stands, or what an origin adds to it."""
     bare, found, origin = name.rpartition(_ERROR)
     return bool(found) and bare in among and (not origin or bare + _ERROR in among)
 

@@ -29,7 +29,7 @@ class Difference:
 
     @property
     def equal(self) -> bool:
-        """Whether all runs have the same value."""
+        """Return True if all runs have the same value."""
         return all(value == self.values[0] for value in self.values)
 
     def relative(self, run: int) -> tuple[float, float] | None:

@@ -125,12 +125,12 @@ class RunDirectory:
 
     @property
     def finished(self) -> bool:
-        """Whether a summary is there, which is written last."""
+        """Return True if a summary is there, which is written last."""
         return (self.path / SUMMARY).is_file()
 
     @property
     def begun(self) -> bool:
-        """Whether something computed is kept in it, from which a run can go on."""
+        """Return True if something computed is kept in it, from which a run can go on."""
         return (self.path / CHECKPOINT).is_file() or any((self.path / CASES).glob("*.bin"))
 
     @property

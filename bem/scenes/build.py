@@ -177,7 +177,8 @@ def show_layers(body: Body) -> str:
 
 
 def traction_couples(lower: Body, upper: Body | None, friction: float | Law) -> bool:
-    """Whether traction moves the normal gap: friction between elastically different bodies, as the operator has it."""
+    """Return True if traction moves the normal gap: friction between elastically different bodies, as the operator has
+    it."""
     from bem.convolution import couples
 
     return friction != 0 and couples((lower,) if upper is None else (lower, upper))

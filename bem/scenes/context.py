@@ -28,7 +28,7 @@ class Context(Protocol):
 
     @property
     def resumed(self) -> bool:
-        """Whether this run continues an interrupted one."""
+        """Return True if this run continues an interrupted one."""
 
     def seed(self, purpose: str, *indices: int) -> int:
         """A seed of its own for every named purpose (and repetition); the same in every run of the scene."""

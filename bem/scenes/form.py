@@ -147,7 +147,7 @@ def _entries(model: Any, prefix: str, depth: int) -> tuple[Entry, ...]:
 
 
 def _says_which(field: Any, prefix: str) -> bool:
-    """Whether a `kind` only tells which table or scene it is: there is nothing to choose then."""
+    """Return True if a `kind` only tells which table or scene it is: there is nothing to choose then."""
     return not prefix or len(typing.get_args(field.annotation)) == 1
 
 

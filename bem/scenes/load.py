@@ -333,7 +333,7 @@ def plain_value(text: str) -> Any:
 
 
 def _is_pair(data: Mapping[str, Any], key: Key) -> bool:
-    """Whether the list that the key's last index points into has one entry for each axis."""
+    """Return True if the list that the key's last index points into has one entry for each axis."""
     if data.get("kind") not in kind_names() or not isinstance(key[-1], int):
         return False
     return is_pair(key[:-1], data, get_kind(data["kind"]).model)

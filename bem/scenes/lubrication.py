@@ -225,12 +225,12 @@ class MixedScene(SceneModel):
 
     @property
     def cell_repeats(self) -> bool:
-        """Whether the rough patch is a cell that repeats all over the contact of a ball."""
+        """Return True if the rough patch is a cell that repeats all over the contact of a ball."""
         return self.contact.point_radii is not None and all(self.grid.periodic) and self.cell_may_repeat
 
     @property
     def at_film_separation(self) -> bool:
-        """Whether the undeformed mean planes are as far apart as the film is thick."""
+        """Return True if the undeformed mean planes are as far apart as the film is thick."""
         return False
 
     @property
@@ -333,7 +333,8 @@ class MixedScene(SceneModel):
 def _check_patch(
     grid: Grid, film: FilmMeshScene, half_axes: tuple[float, float], *, repeats: bool, endless: bool
 ) -> None:
-    """Whether the rough patch, or a cell that repeats, fits the contact and the film's grid; InputError if not."""
+    """Return True if the rough patch, or a cell that repeats, fits the contact and the film's grid; InputError if
+    not."""
     messages = []
     point = math.isfinite(half_axes[1])
     if repeats:

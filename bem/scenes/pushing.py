@@ -71,7 +71,7 @@ def _contact_of(found: TangentialSolution | CoupledSolution, site: Site) -> Cont
 
 
 def answers(scene: PushedScene) -> bool:
-    """Whether the pressure follows the tractions."""
+    """Return True if the pressure follows the tractions."""
     return scene.push.coupled is not False and coupled(scene)
 
 

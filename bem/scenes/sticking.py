@@ -160,7 +160,7 @@ def bars(scene: StressedScene, site: Site, found: Found, again: Callable[[Site],
 
 
 def coupled(scene: StressedScene) -> bool:
-    """Whether pressure makes the bodies slip, and traction changes the pressure."""
+    """Return True if pressure makes the bodies slip, and traction changes the pressure."""
     from bem.convolution import couples
 
     bodies = build.bodies_of(scene)

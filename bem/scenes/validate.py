@@ -184,7 +184,7 @@ def law_at(annotation: Any, raw: Any) -> type[Law] | None:
 
 
 def is_pair(loc: Sequence[Any], data: Any, model: type[BaseModel]) -> bool:
-    """Whether the field at these keys holds two values, one for each axis."""
+    """Return True if the field at these keys holds two values, one for each axis."""
     arguments = typing.get_args(without_none(_locate(loc, data, model)[1]))
     return len(arguments) == 2 and Ellipsis not in arguments
 
@@ -211,7 +211,7 @@ def without_none(annotation: Any) -> Any:
 
 
 def is_law(annotation: Any) -> bool:
-    """Whether it is a law or a family of them."""
+    """Return True if it is a law or a family of them."""
     return isinstance(annotation, type) and issubclass(annotation, Law)
 
 

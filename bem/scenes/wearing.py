@@ -186,7 +186,7 @@ def film_keys(scene: Any, factor: float) -> dict[str, Any]:
 
 
 def film_is_halved(scene: Any) -> bool:
-    """Whether the film of a scene is still solved on half its points."""
+    """Return True if the film of a scene is still solved on half its points."""
     if scene.contact.point_radii is None:
         return bool(scene.sharing.film_points >= 2 * _FEWEST_POINTS)
     return bool(scene.sharing.film_cells >= 2 * _FEWEST_FILM_CELLS)

@@ -35,7 +35,7 @@ from bem.transforms.loops import BEGINS, ENDS, GOES_ON
 
 
 def check_request(
-    name: str, grid: object, body: object, depths: ArrayLike, friction: object
+    name: str, grid: object, body: object, depths: ArrayLike, friction: float
 ) -> tuple[tuple[float, ...], float]:
     """Return depths and friction of a request as numbers.
 
@@ -57,7 +57,7 @@ def check_request(
         messages.append(f"{name}: depths must be finite and not negative (0 is the surface) [m]")
     if messages:
         raise InputError(messages)
-    return tuple(float(z) for z in values), float(friction)  # type: ignore[arg-type]
+    return tuple(float(z) for z in values), float(friction)
 
 
 def check_out(name: str, out: FloatArray | None, shape: tuple[int, ...]) -> FloatArray:

@@ -56,7 +56,7 @@ class SurfaceFormat:
         _formats[self.name] = self
 
     def fits(self, path: Path) -> bool:
-        """Whether a file is of this format."""
+        """Return True if a file is of this format."""
         if self.suffixes and path.suffix.lower() not in {one.lower() for one in self.suffixes}:
             return False
         if self.recognises is None:

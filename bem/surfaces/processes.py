@@ -66,7 +66,7 @@ class Process:
 
     @property
     def directional(self) -> bool:
-        """Whether it has a lay."""
+        """Return True if it has a lay."""
         return self.across != self.along
 
     def lengths(self, lay: Lay = "y") -> tuple[float, float] | None:

@@ -402,7 +402,7 @@ def _blocks_of_words(line: str, separator: str | None) -> Iterator[list[str]]:
 
 
 def _lists_points(table: FloatArray) -> bool:
-    """Whether three columns name each place of a grid of at least 2 x 2 points once, with a height."""
+    """Return True if three columns name each place of a grid of at least 2 x 2 points once, with a height."""
     if table.shape[1] != 3 or len(table) < 4:
         return False
     sides = [len(np.unique(table[:, k])) for k in (0, 1)]

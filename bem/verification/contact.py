@@ -111,7 +111,7 @@ class _Solved:
 
     @property
     def row(self) -> bool:
-        """Whether it repeats along x."""
+        """Return True if it repeats along x."""
         return self.where.grid.periodic[0]
 
 

@@ -181,7 +181,7 @@ class MixedContact:
         if compliance > 0:
             assert isinstance(rough, CoupledContact)
             rough = replace(rough, compliance=compliance)
-        shared, memory = self.share(heights, rough, memory, pressure)
+        shared, memory = self.share_load(heights, rough, memory, pressure)
         return self.outcome(shared, memory, compliance=compliance)
 
     def begin(self, start: ContactStart | None) -> tuple[MixedMemory, FloatArray | None]:
@@ -195,7 +195,7 @@ class MixedContact:
             memory = replace(memory, worn=self.follower.followed(memory.worn, start.standing_profile, last))
         return memory, start.pressure
 
-    def share(
+    def share_load(
         self, heights: FloatArray, rough: RoughContact, memory: MixedMemory, pressure: FloatArray | None
     ) -> tuple[SharedLoad, MixedMemory]:
         """Return the load shared between film and rough contact, and what the next cycle starts from.

@@ -386,7 +386,7 @@ class MixedContactWithParticles:
         if compliance > 0:
             patch = replace(patch, compliance=compliance)
         rough = RoughContactWithParticles(patch, particles, self.hardnesses)
-        shared, memory = mixed.share(heights, rough, memory, pressure)
+        shared, memory = mixed.share_load(heights, rough, memory, pressure)
         load = rough.particle_load(shared.balance.contact)
         if speeds[0] != speeds[1]:
             shared = replace(shared, forces=rough.with_rolling_friction(shared.forces, load))

@@ -115,7 +115,7 @@ def solve(scene: dict[str, Any]) -> Comparison | None:
 
 
 def _is_zero(found: Any, name: str) -> bool:
-    """Whether a part of the creepage is zero by symmetry."""
+    """Return True if a part of the creepage is zero by symmetry."""
     parts = ("creepage", "creepage_across")
     return name in parts and abs(getattr(found, name)) < 1e-9 * max(abs(getattr(found, part)) for part in parts)
 

@@ -26,7 +26,7 @@ MODEL_AND_LIGHT = (200, 223 + 13)
 
 
 def _falls_with_speed(summary: Summary, key: str) -> bool:
-    """Whether the radius falls from each speed to the next that has particles, and none are left at 0.05 m/s."""
+    """Return True if the radius falls from each speed to the next that has particles, and none are left at 0.05 m/s."""
     found = [i for i, count in enumerate(summary["particles_per_cycle"]) if count > 0]
     return falling([at(summary, key, i) for i in found]) and at_speed(summary, "particles_per_cycle", 0.05).mean == 0.0
 
@@ -55,7 +55,7 @@ def _over_hardness(summary: Summary) -> str:
 
 
 def _contact_load_falls(summary: Summary) -> bool:
-    """Whether the contact load at 0.01 m/s falls by more than its repetitions scatter."""
+    """Return True if the contact load at 0.01 m/s falls by more than its repetitions scatter."""
     before, after = (at(summary, key, speed(0.01)(summary)) for key in ("contact_load_initial_N", "contact_load_N"))
     return before.mean - after.mean > (after.spread or 0.0)
 

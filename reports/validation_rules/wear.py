@@ -141,7 +141,7 @@ def _rises(summary: Summary) -> list[float]:
 
 
 def _below(summary: Summary, newtons: float, sizes: tuple[float, float, float]) -> list[bool]:
-    """Whether length, width and thickness lie below these sizes [nm]."""
+    """Return True if length, width and thickness lie below these sizes [nm]."""
     index = load(newtons)(summary)
     found = (at(summary, f"particle_{quantity}_nm", index).mean for quantity in ("length", "width", "thickness"))
     return [one < size for one, size in zip(found, sizes, strict=True)]

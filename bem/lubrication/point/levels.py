@@ -63,7 +63,7 @@ class PointProblem:
 
     @property
     def starved(self) -> bool:
-        """Whether the gap is not full far away."""
+        """Return True if the gap is not full far away."""
         return self.layer is not None and self.layer < np.inf
 
     @property

@@ -226,7 +226,7 @@ def iterate(
 
 
 def _falls(values: list[float], patience: int) -> bool:
-    """Whether there was a new minimum among so many last ones."""
+    """Return True if there was a new minimum among so many last ones."""
     return patience > 0 and min(values[-patience:]) < min(values[:-patience], default=np.inf)
 
 
@@ -265,7 +265,7 @@ def newton(level: Level, start: State, tolerance: float, most: int = 40, *, cree
 
 
 def _creeps(sizes: list[float], lengths: list[float]) -> bool:
-    """Whether the last steps were short and left more than half of the squares of errors."""
+    """Return True if the last steps were short and left more than half of the squares of errors."""
     if len(sizes) <= HALVED_IN or sizes[-1] <= 0.5 * sizes[-1 - HALVED_IN]:
         return False
     return sum(lengths[-HALVED_IN:]) < HALVED_IN * SHORT

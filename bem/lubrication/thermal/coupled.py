@@ -132,7 +132,7 @@ class Heated:
         return KeptHeat(isothermal, nodes, layers, middles, self.field.rise, self.made.edge, columns)
 
     def met(self, tolerance: float) -> bool:
-        """Whether Reynolds' equation holds at the temperatures, and they at the film."""
+        """Return True if Reynolds' equation holds at the temperatures, and they at the film."""
         return self.residual <= tolerance and self.field.residual <= FINE
 
 
@@ -343,7 +343,8 @@ class History:
 
 
 def _is_misplaced(problem: Problem, state: State, residual: float) -> bool:
-    """Whether a mesh is too coarse somewhere for the film, or a spike of pressure not where its cells are fine."""
+    """Return True if a mesh is too coarse somewhere for the film, or a spike of pressure not where its cells are
+    fine."""
     if mesh_imbalance(problem, state) > MAX_IMBALANCE:
         return True
     if residual > SETTLED:

@@ -204,7 +204,7 @@ class _Pace:
     patience: int = 1
 
     def is_wild(self, longest: float) -> bool:
-        """Whether a step of at most so many K is not to be taken, but anew with all growth held back."""
+        """Return True if a step of at most so many K is not to be taken, but anew with all growth held back."""
         if self.held == 1 or longest <= WILD:
             return False
         self.held, self.length, self.wait, self.patience = 1.0, 1.0, self.patience, 2 * self.patience

@@ -259,7 +259,8 @@ def _thinned(case: LineCase, inlet: InletHeating) -> _Thinned:
 
 
 def _is_near(film: FilmSolution, other: FilmSolution) -> bool:
-    """Whether films are so nearly of one case that one on all points is a better start than a sketch of the case."""
+    """Return True if films are so nearly of one case that one on all points is a better start than a sketch of the
+    case."""
     one, there = film.state, other.state
     if not (isinstance(one, KeptSteady) and isinstance(there, KeptSteady)):
         return False

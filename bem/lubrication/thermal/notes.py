@@ -53,7 +53,7 @@ def notes_of_film(
 
 
 def notes_of_heat(lubricant: Lubricant, hottest: float) -> tuple[Note, ...]:
-    """Of the highest temperature of oil and surfaces [K]."""
+    """Return notes on the highest temperature of oil and surfaces [K]."""
     notes = []
     if hottest > HOTTEST:
         notes.append(OIL_TOO_HOT(limit=HOTTEST - CELSIUS, reason="cracks"))

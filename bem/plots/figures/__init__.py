@@ -31,12 +31,12 @@ def _always(run: Any) -> bool:
 
 
 def two_dimensional(run: Any) -> bool:
-    """Whether a run has more than one cell along both axes, for `applies` of maps that may become lines."""
+    """Return True if a run has more than one cell along both axes, for `applies` of maps that may become lines."""
     return min(run.dataset.sizes["x"], run.dataset.sizes["y"]) > 1
 
 
 def wide_enough(run: Any) -> bool:
-    """Whether a map of a run is more than a hairline, for `applies` of maps that have no lines instead."""
+    """Return True if a map of a run is more than a hairline, for `applies` of maps that have no lines instead."""
     sides = (run.dataset.sizes["x"], run.dataset.sizes["y"])
     return min(sides) > 1 and not min(sides) < FEWEST_CELLS <= max(sides)
 
@@ -82,7 +82,7 @@ class FigureKind:
         _registered[self.name] = self
 
     def fits(self, run: Any) -> bool:
-        """Whether this figure can be drawn from `run`."""
+        """Return True if this figure can be drawn from `run`."""
         return all(name in run.dataset.variables for name in self.needs) and self.applies(run)
 
 

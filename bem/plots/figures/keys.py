@@ -35,7 +35,7 @@ def _figures(run: Any, figure: Figure) -> None:
 
 
 def _applies(run: Any) -> bool:
-    """Whether any headline figure differs along the keys: flat curves say nothing."""
+    """Return True if any headline figure differs along the keys: flat curves say nothing."""
     keys = _keys(run)
     return bool(keys) and varies(_variables(run), keys, get_kind(run.summary["kind"]).headline)
 

@@ -82,7 +82,7 @@ def _maps(run: Any, figure: Figure, name: str, text: str, unit: str) -> None:
 
 
 def _any(name: str) -> Callable[[Any], bool]:
-    """Whether a variable is anywhere other than zero: an empty chart is not drawn."""
+    """Return True if a variable is anywhere other than zero: an empty chart is not drawn."""
     return lambda run: bool((np.nan_to_num(run.dataset[name].values) != 0).any())
 
 

@@ -111,7 +111,8 @@ def _drifting(facts: Facts, outcome: Outcome) -> list[str]:
 
 
 def _worn(outcome: Outcome, loops: int) -> list[bool]:
-    """Whether anything came off in each of so many loops: where nothing did, roughness follows the rows that touch."""
+    """Return True if anything came off in each of so many loops: where nothing did, roughness follows the rows that
+    touch."""
     volume = outcome.variables.get("volume_over_cycles", outcome.variables.get("volume"))
     if volume is None:
         return [True] * loops

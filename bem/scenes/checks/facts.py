@@ -149,7 +149,7 @@ class Facts:
                 yield max(values, key=lambda found: found[0])
 
     def of_kind(self, *kinds: str) -> bool:
-        """Whether the scene is of one of these kinds."""
+        """Return True if the scene is of one of these kinds."""
         return self.scene.kind in kinds
 
 

@@ -36,7 +36,7 @@ class SmoothContact:
 
     @property
     def line(self) -> bool:
-        """Whether it is the contact of a cylinder."""
+        """Return True if it is the contact of a cylinder."""
         return math.isinf(self.semi_axes[1])
 
     @property

@@ -112,7 +112,7 @@ def yield_against_hardness(facts: Facts) -> Iterator[Note]:
 
 
 def _by_tension(case: Case) -> bool:
-    """Whether material leaves where it is in tension: its yield stress is then its tensile strength."""
+    """Return True if material leaves where it is in tension: its yield stress is then its tensile strength."""
     return case.wear is not None and case.wear.criterion.name == "maximum_tension"
 
 

@@ -197,8 +197,8 @@ def _thinner_beside(body: Body) -> list[float]:
 
 
 def _bracketed(interface: float, near: float, depths: Sequence[float]) -> bool:
-    """Whether depths [m] lie on both sides of an interface, no further from it than `near`; one at the interface counts
-    as above it."""
+    """Return True if depths [m] lie on both sides of an interface, no further from it than `near`; one at the interface
+    counts as above it."""
     above = any(interface - near <= depth <= interface for depth in depths)
     return above and any(interface < depth <= interface + near for depth in depths)
 

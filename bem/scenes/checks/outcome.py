@@ -196,7 +196,8 @@ def capped_contact_nearly_full(facts: Facts, outcome: Outcome) -> Iterator[Note]
 
 
 def _anything_at_the_cap(facts: Facts, outcome: Outcome) -> bool:
-    """Whether any pressure is at the hardness, as far as the results tell; without figure, area and map it may be."""
+    """Return True if any pressure is at the hardness, as far as the results tell; without figure, area and map it may
+    be."""
     found = outcome.summary.get("plastic_area_fraction")
     if facts.of_kind("contact") or found is not None:
         return max(numbers(found), default=0.0) > 0

@@ -29,7 +29,7 @@ class Roughened:
 
 
 def with_pieces(facts: Facts) -> bool:
-    """Whether material leaves in pieces: a scar worn by pressure is meant to grow."""
+    """Return True if material leaves in pieces: a scar worn by pressure is meant to grow."""
     return all(case.wear is None or case.wear.criterion.needs_strength for case in facts.cases)
 
 

@@ -46,7 +46,7 @@ class BallRollingScene(Table):
 
     @property
     def at_an_angle(self) -> bool:
-        """Whether a body moves along neither axis."""
+        """Return True if a body moves along neither axis."""
         return any(all(speed) for speed in self.speeds)
 
     @property

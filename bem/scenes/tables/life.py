@@ -123,7 +123,7 @@ class LifeParticles(Table):
         return law
 
     def build(self, grid: Grid, bodies: tuple[Body, Body], hardness: float | None, load: float) -> PieceSizes:
-        """As `bem.life.monitors.PieceSizes`.
+        """Return the criterion of a life that follows the sizes of pieces, `bem.life.monitors.PieceSizes`.
 
         Raises
         ------

@@ -136,7 +136,7 @@ class StressOutputs(Table):
 
     @property
     def below(self) -> bool:
-        """Whether anything below the surface is wanted."""
+        """Return True if anything below the surface is wanted."""
         return self.von_mises
 
     def wanted_depths(self) -> tuple[float, ...]:
@@ -153,7 +153,7 @@ class ContactOutputs(StressOutputs):
 
     @property
     def below(self) -> bool:
-        """Whether anything below the surface is wanted."""
+        """Return True if anything below the surface is wanted."""
         return self.von_mises or self.stresses
 
     @property

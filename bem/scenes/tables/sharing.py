@@ -176,12 +176,12 @@ class CurveScene(HotMixedScene):
 
     @property
     def capped(self) -> bool:
-        """Whether any of the models has a cap."""
+        """Return True if any of the models has a cap."""
         return any(model in ("capped", "uncoupled") for model in self.sharing.models)
 
     @property
     def coupled(self) -> bool:
-        """Whether the model is the rough half-space."""
+        """Return True if the model is the rough half-space."""
         (model,) = self.sharing.models
         return model in BASELINE
 
