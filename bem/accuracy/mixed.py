@@ -167,7 +167,8 @@ def mixed_bars(case: MixedCase, coarser: CoarserShares) -> ErrorBars:
         for name in OF_FILM:
             parts[POINTS][name] += FILM_SHARE * thinner * abs(found[name])
     # film and contact sum to the load, so that one is as wrong as the other; boundary friction goes with the latter
-    parts[GRID] |= dict.fromkeys(_LOAD_SHARES, max(parts[GRID][name] for name in _LOAD_SHARES))
+    for part in parts.values():
+        part |= dict.fromkeys(_LOAD_SHARES, max(part[name] for name in _LOAD_SHARES))
     if found["contact_load"] > 0:
         of_contact = parts[GRID]["contact_load"] / found["contact_load"]
         parts[GRID]["boundary_part"] = max(parts[GRID]["boundary_part"], of_contact * abs(found["boundary_part"]))

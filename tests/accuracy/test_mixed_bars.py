@@ -44,6 +44,9 @@ def test_a_bar_is_the_sum_of_its_parts():
     for name, value in mixed_figures(case.solution).items():
         assert bars.values[name] == pytest.approx(sum(part[name] for part in bars.parts.values()))
         assert 0 < bars.values[name] < 2 * abs(value), name
+    # film and contact sum to the load
+    for origin, part in bars.parts.items():
+        assert part["film_load"] == part["contact_load"] > 0, origin
 
 
 @pytest.mark.internal
