@@ -201,7 +201,7 @@ def test_a_cycle_counts_once_where_one_of_two_films_is_missing(monkeypatch):
     monkeypatch.setattr(ShapeSolver, "film", only_first)
     worn = replace(memory.worn, changes={0: memory.worn.changes[0]}, starts={0: memory.worn.starts[0]}, clamped=3)
     rough = rough_contact(step.setup, whole.last.heights, step.speeds)
-    _, after = step.share(whole.last.heights, rough, replace(memory, worn=worn), result.pressure)
+    _, after = step.share_load(whole.last.heights, rough, replace(memory, worn=worn), result.pressure)
     assert set(after.worn.changes) == {0, *found}
     assert after.worn.clamped == 4
 
