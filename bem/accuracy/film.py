@@ -21,7 +21,7 @@ from bem.accuracy.bars import POINTS, RESIDUAL, TWICE, ErrorBars
 from bem.arguments import named
 from bem.errors import Status
 from bem.lubrication import FilmSolution, Lubricant, solve_line_film
-from bem.lubrication.validity import Case, spike_unresolved
+from bem.lubrication.checks import Case, spike_unresolved
 from bem.notes.accuracy import NoBar
 
 FEWEST = 100

@@ -16,11 +16,11 @@ import numpy as np
 
 from bem.grid import FloatArray
 from bem.lubrication import FilmSolution, Lubricant, solve_line_film
-from bem.lubrication.line_kept import KeptSteady
-from bem.lubrication.line_kernel import LineOperator
-from bem.lubrication.line_newton import State, newton
-from bem.lubrication.line_scales import scaled_problem
-from bem.lubrication.steady import lowest_film
+from bem.lubrication.line.deflection import LineOperator
+from bem.lubrication.line.newton import State, newton
+from bem.lubrication.line.scales import scaled_problem
+from bem.lubrication.line.state import KeptSteady
+from bem.lubrication.line.steady import lowest_film
 from bem.numerics.monotone import MonotoneCubic
 from bem.reference_solutions.line_film import dowson_higginson_minimum, moes_central
 

@@ -22,17 +22,18 @@ FILM = {"load": 900.0, "radius": 2e-3, "contact_modulus": 115.4e9, "speeds": (0.
 def line_film(points: float, dense: bool = False) -> Timed:
     """A line-contact film of `points` nodes, its equations solved for as always or by dense matrices; the error is that
     against the limit of finer meshes."""
-    from bem.lubrication import Lubricant, line_kernel, solve_line_film
+    from bem.lubrication import Lubricant, solve_line_film
+    from bem.lubrication.line import deflection
 
     oil = Lubricant(0.36, pressure_viscosity=25e-9)
 
     def solve() -> FilmSolution:
-        usual = line_kernel.HIERARCHICAL_FROM
-        line_kernel.HIERARCHICAL_FROM = 10**9 if dense else usual
+        usual = deflection.HIERARCHICAL_FROM
+        deflection.HIERARCHICAL_FROM = 10**9 if dense else usual
         try:
             return solve_line_film(**FILM, lubricant=oil, points=int(points))  # type: ignore[arg-type]
         finally:
-            line_kernel.HIERARCHICAL_FROM = usual
+            deflection.HIERARCHICAL_FROM = usual
 
     def judge(film: FilmSolution) -> Outcome:
         minimum, central, shear = _film_reference()
@@ -50,8 +51,8 @@ def line_film(points: float, dense: bool = False) -> Timed:
 
 def _work(film: FilmSolution, dense: bool) -> dict[str, float]:
     """Millions of multiplications for Newton's equations on the last mesh, and megabytes of their weights."""
-    from bem.lubrication.line_elimination import BORDER
-    from bem.lubrication.line_kept import KeptSteady
+    from bem.lubrication.line.elimination import BORDER
+    from bem.lubrication.line.state import KeptSteady
 
     assert isinstance(film.state, KeptSteady)
     operator = film.state.state.operator

@@ -39,7 +39,7 @@ from bem.errors import Status
 from bem.friction.film import Film, PatchFilm
 from bem.friction.rough_contact import Pressed, RoughContact
 from bem.grid import FloatArray
-from bem.lubrication.validity import THINNEST_FILM
+from bem.lubrication.checks import THINNEST_FILM
 from bem.notes import Note
 from bem.notes.friction import BOUNDARY_LUBRICATION, FILM_MODEL_ENDS
 from bem.numerics.bracketed_root import find_decreasing_root

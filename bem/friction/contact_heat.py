@@ -27,7 +27,7 @@ from bem.grid import FloatArray, Grid
 from bem.heat.bodies import conductors_of
 from bem.heat.solution import TemperatureSolution
 from bem.heat.steady import surface_temperature
-from bem.lubrication.with_heat import FilmHeat
+from bem.lubrication.thermal.model import FilmHeat
 from bem.notes import Note
 
 TOLERANCE = 1e-6

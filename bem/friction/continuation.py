@@ -16,7 +16,7 @@ from bem.friction.film import PatchFilm
 from bem.friction.setup import MixedSetup
 from bem.friction.solution import MixedSolution
 from bem.lubrication import FilmSolution
-from bem.lubrication.line_kept import without_equations
+from bem.lubrication.line.state import without_equations
 
 LARGEST_START = 0.999
 """Largest fraction of the load with which a first film is solved."""

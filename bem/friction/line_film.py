@@ -1,8 +1,8 @@
 """Film model of a line contact: every film is solved when the balance requests it, on a coarse or on the wanted mesh.
 
-Films come from `bem.lubrication.steady.line_film`, with heat from `bem.lubrication.with_heat`. Warm starts: the film of
-the nearest load of the same balance, or a film of a similar case. Verified in tests/friction/test_balance.py and
-test_continuation.py.
+Films come from `bem.lubrication.line.steady.line_film`, with heat from `bem.lubrication.thermal.model`. Warm starts:
+the film of the nearest load of the same balance, or a film of a similar case. Verified in
+tests/friction/test_balance.py and test_continuation.py.
 """
 
 from __future__ import annotations
@@ -18,13 +18,13 @@ from bem.friction.film import PatchFilm, smooth_gap
 from bem.friction.smooth import LineContact
 from bem.grid import FloatArray
 from bem.lubrication import FilmSolution, PointFilmSolution
-from bem.lubrication.line_case import MOES_LOADS, LineCase, load_range
-from bem.lubrication.line_kept import without_equations
-from bem.lubrication.line_scales import line_scales
-from bem.lubrication.line_starts import on_mesh_of
-from bem.lubrication.steady import line_film
-from bem.lubrication.validity import THINNEST_FILM
-from bem.lubrication.with_heat import film_with_heat
+from bem.lubrication.checks import THINNEST_FILM
+from bem.lubrication.line.case import MOES_LOADS, LineCase, load_range
+from bem.lubrication.line.interpolation import on_mesh_of
+from bem.lubrication.line.scales import line_scales
+from bem.lubrication.line.state import without_equations
+from bem.lubrication.line.steady import line_film
+from bem.lubrication.thermal.model import film_with_heat
 
 BALANCE_POINTS = 400
 """Nodes of the coarse mesh, on which the balance is first looked for."""

@@ -20,7 +20,7 @@ from bem.friction.setup import MixedSetup
 from bem.friction.smooth import PointContact
 from bem.grid import FloatArray
 from bem.lubrication import FilmSolution, PointFilmSolution
-from bem.lubrication.line_case import check_entrainment
+from bem.lubrication.line.case import check_entrainment
 
 if TYPE_CHECKING:
     from bem.friction.point_film import SolvedPointFilm

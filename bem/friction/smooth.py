@@ -15,9 +15,9 @@ from numpy.typing import NDArray
 
 from bem.grid import FloatArray, Grid
 from bem.lubrication import Lubricant
-from bem.lubrication.rough_walls import WallFactors
+from bem.lubrication.flow_factors import WallFactors
 from bem.lubrication.supply import Supply
-from bem.lubrication.with_heat import FilmHeat
+from bem.lubrication.thermal.model import FilmHeat
 from bem.reference_solutions.hertz import ellipse_contact
 
 

@@ -30,8 +30,8 @@ from bem.friction.setup import FILM_CELLS, MixedSetup
 from bem.friction.solution import MixedSolution
 from bem.grid import FloatArray, Grid
 from bem.lubrication import FilmSolution, Lubricant, PointFilmSolution
-from bem.lubrication.line_kept import without_equations
-from bem.lubrication.rough_walls import WallFactors
+from bem.lubrication.flow_factors import WallFactors
+from bem.lubrication.line.state import without_equations
 from bem.lubrication.supply import Supply
 from bem.materials import Body
 from bem.notes import Note

@@ -1,7 +1,7 @@
 """Film model of a line contact between worn bodies: films of the unworn cylinder, corrected for the worn shape.
 
 The shape w(x) is the worn depth of the body that stands with the contact, a smooth profile along x. Films with and
-without it are solved on one fixed mesh (`bem.lubrication.line_shaped`) at a few loads of a lattice in ln(load). Their
+without it are solved on one fixed mesh (`bem.lubrication.line.shaped`) at a few loads of a lattice in ln(load). Their
 ratio multiplies the thickness of the unworn film, their differences add to pressure, shear stress and friction force.
 Load sharing takes thickness and friction force. Film pressure only weights the volume of oil
 (`bem.friction.oil_volume`) and is a result; shear stress counts where cells in contact displace the film and in the
@@ -25,8 +25,8 @@ from bem.friction.film import Film, PatchFilm, smooth_gap
 from bem.friction.smooth import LineContact
 from bem.grid import FloatArray
 from bem.lubrication import FilmSolution
-from bem.lubrication.line_case import LineCase, load_range
-from bem.lubrication.line_shaped import ShapedContact, ShapedOutcome, ShapedStart
+from bem.lubrication.line.case import LineCase, load_range
+from bem.lubrication.line.shaped import ShapedContact, ShapedOutcome, ShapedStart
 from bem.numerics.monotone import MonotoneCubic
 
 LATTICE_STEP = 0.125

@@ -1,11 +1,9 @@
 """Rheology and the film of line and point contacts, steady and in time.
 
 Laws of the oil: `viscosity`, `density`, `shear`, gathered in `lubricant`; grades of it in `oils`; what a shear law does
-across a film: `shear_profile`. The steady film: `solve` chooses the model of heat; `steady` solves without heat, by
-Newton's method (`line_newton`, from the starts of `line_continuation`) on a mesh that follows it (`line_mesh`), with
-hierarchical weights of the deflection (`line_kernel`); coarsely: `line_sketch`; starved: `supply`, `line_starved`. In
-time: `transient`, in steps (`line_step`) with a ruptured film (`line_rupture`, `cavitation`). Point contacts: `point`.
-Heat: `thermal`. `validity` says where a model ends. Names are loaded when first used, so that laws cost no solver.
+across a film: `shear_profile`. Films: of line contacts `line`, of point contacts `point`, with heat `thermal`; `solve`
+chooses the model of heat. Shared: `results`, `supply`, `cavitation`, `flow_factors`, `time_stepping`, `inlet_heating`;
+`checks` says where a model ends. Names are loaded when first used, so that laws cost no solver.
 
 Sees grids, laws and the dry contact of smooth bodies, no scene. Verified in tests/lubrication: Martin's and Hertz'
 limits, both equations by plain quadrature, order of convergence, closed forms of cavitation, conservation.
@@ -17,7 +15,7 @@ from bem.startup.lazy import loader
 
 if TYPE_CHECKING:
     from bem.lubrication.cavitation import Cavitation
-    from bem.lubrication.film import FilmSolution
+    from bem.lubrication.line.transient import march_line_film
     from bem.lubrication.lubricant import Lubricant
     from bem.lubrication.oils import Oil, find_oil
     from bem.lubrication.point.film import PointFilmSolution
@@ -25,6 +23,7 @@ if TYPE_CHECKING:
     from bem.lubrication.point.rough_film import RoughPointFilm, solve_rough_point_film
     from bem.lubrication.point.solve import solve_point_film
     from bem.lubrication.point.transient import march_point_film
+    from bem.lubrication.results import FilmSolution
     from bem.lubrication.solve import solve_line_film
     from bem.lubrication.supply import InletDistance, OilLayer
     from bem.lubrication.thermal import (
@@ -33,7 +32,6 @@ if TYPE_CHECKING:
         solve_full_thermal_line_film,
         solve_thermal_line_film,
     )
-    from bem.lubrication.transient import march_line_film
 
 __all__ = [
     "Cavitation",
@@ -64,7 +62,7 @@ __getattr__ = loader(
     __name__,
     {
         "cavitation": ["Cavitation"],
-        "film": ["FilmSolution"],
+        "line.transient": ["march_line_film"],
         "lubricant": ["Lubricant"],
         "oils": ["Oil", "find_oil"],
         "point.film": ["PointFilmSolution"],
@@ -72,9 +70,9 @@ __getattr__ = loader(
         "point.rough_film": ["RoughPointFilm", "solve_rough_point_film"],
         "point.solve": ["solve_point_film"],
         "point.transient": ["march_point_film"],
+        "results": ["FilmSolution"],
         "solve": ["solve_line_film"],
         "supply": ["InletDistance", "OilLayer"],
         "thermal": ["FullThermalFilm", "ThermalFilm", "solve_full_thermal_line_film", "solve_thermal_line_film"],
-        "transient": ["march_line_film"],
     },
 )

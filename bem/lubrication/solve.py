@@ -7,14 +7,14 @@ from dataclasses import replace
 
 from bem.grid import FloatArray
 from bem.lubrication.cavitation import Cavitation, cavitation_of
-from bem.lubrication.film import FilmSolution
-from bem.lubrication.line_case import LineCase
-from bem.lubrication.line_kept import without_equations
+from bem.lubrication.flow_factors import WallFactors
+from bem.lubrication.line.case import LineCase
+from bem.lubrication.line.state import without_equations
+from bem.lubrication.line.steady import line_film
 from bem.lubrication.lubricant import Lubricant
-from bem.lubrication.rough_walls import WallFactors
-from bem.lubrication.steady import line_film
+from bem.lubrication.results import FilmSolution
 from bem.lubrication.supply import Supply, checked_supply
-from bem.lubrication.with_heat import FilmHeat, film_with_heat
+from bem.lubrication.thermal.model import FilmHeat, film_with_heat
 from bem.materials import Body
 from bem.notes import Note
 from bem.plausibility import body_arguments, lubricant_arguments, notes_on_arguments
@@ -63,7 +63,7 @@ def solve_line_film(
         rupture where p = dp/dx = 0, and behind a cylinder the gap only opens, so no film forms again.
         In time (`march_line_film`) the two differ.
     flow_factors : "off", or a table of `bem.flow_factors`: pressure flow is then phi_x times, Couette flow h + k s
-        phi_s (`bem.lubrication.rough_walls`). Shear stress and what is behind the exit stay those of smooth walls.
+        phi_s (`bem.lubrication.flow_factors`). Shear stress and what is behind the exit stay those of smooth walls.
     supply : oil that reaches the contact, an `OilLayer` or an `InletDistance` (`bem.lubrication.supply`), or the
         thickness of a layer [m]; None is flooded. `FilmSolution.starvation` has the meniscus, the oil that goes
         through, and how much thinner the film is than flooded. Upstream of the meniscus there is no pressure and no

@@ -1,7 +1,7 @@
 """How much oil reaches a contact, and what is said of a film that gets less than it would take.
 
 Supplies are small frozen dataclasses given to `solve_line_film` and `solve_point_film`; the solvers are in
-`line_starved` and `point.starved`. Verified in tests/lubrication/test_supply.py and point/test_point_supply.py.
+`line.starved` and `point.starved`. Verified in tests/lubrication/test_supply.py and point/test_point_supply.py.
 """
 
 from __future__ import annotations

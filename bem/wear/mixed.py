@@ -41,7 +41,7 @@ from bem.friction.result_notes import coupling_notes, covered_notes, oil_notes, 
 from bem.friction.rough_contact import CoupledContact, RoughContact, boundary_traction
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray
-from bem.lubrication.validity import THINNEST_FILM
+from bem.lubrication.checks import THINNEST_FILM
 from bem.notes import Note
 from bem.notes.friction import BOUNDARY_LUBRICATION, OIL_COUNTED
 from bem.wear.contact_step import ContactOutcome, ContactStart, contact_rows

@@ -29,7 +29,7 @@ from bem.friction.setup import MixedSetup
 from bem.friction.smooth import LineContact
 from bem.friction.worn_film import SearchedWornFilms, ShapeChange, ShapeSolver, WornFilms, neighbours
 from bem.grid import FloatArray
-from bem.lubrication.line_shaped import ShapedStart
+from bem.lubrication.line.shaped import ShapedStart
 from bem.notes import Note
 from bem.notes.wear import FILM_OF_OTHER_SHAPE
 

@@ -13,11 +13,12 @@ from bem.friction.balance import BalanceStart, Regime
 from bem.friction.film_table import FilmTable
 from bem.friction.models import films_of
 from bem.friction.setup import MixedSetup
-from bem.lubrication import line_kernel, line_linear
-from bem.lubrication.line_case import LineCase
-from bem.lubrication.line_kept import without_equations
-from bem.lubrication.line_starts import on_mesh_of
-from bem.lubrication.steady import line_film
+from bem.lubrication.line import deflection as line_kernel
+from bem.lubrication.line import linear as line_linear
+from bem.lubrication.line.case import LineCase
+from bem.lubrication.line.interpolation import on_mesh_of
+from bem.lubrication.line.state import without_equations
+from bem.lubrication.line.steady import line_film
 
 OIL = Lubricant(0.36, pressure_viscosity=25e-9)
 CASE = mixed_case(48, 90e-6 / 48, 4e-6, lubricant=OIL, boundary_friction=0.15, film_points=800)

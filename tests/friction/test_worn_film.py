@@ -90,7 +90,7 @@ def test_beyond_the_solved_loads_the_nearest_change_counts():
 
 
 def test_a_film_that_is_not_found_is_said_so(monkeypatch):
-    monkeypatch.setattr("bem.lubrication.line_shaped.ShapedContact.solve", lambda self, profile, start: None)
+    monkeypatch.setattr("bem.lubrication.line.shaped.ShapedContact.solve", lambda self, profile, start: None)
     film = SearchedWornFilms(solver_of(table_of()), np.full_like(POSITION, 1e-7)).under(2.0)
     assert film.status is Status.STALLED
 

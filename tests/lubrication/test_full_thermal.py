@@ -13,14 +13,14 @@ from bem.errors import InputError, Status
 from bem.heat.bodies import Conductor
 from bem.lubrication import Lubricant, solve_full_thermal_line_film, solve_line_film, solve_thermal_line_film
 from bem.lubrication.density import DowsonHigginson
-from bem.lubrication.kept_heat import middles
+from bem.lubrication.line.temperatures import middles
 from bem.lubrication.shear import Newtonian
-from bem.lubrication.thermal import coupled
-from bem.lubrication.thermal.across import Given
+from bem.lubrication.thermal import coupling
+from bem.lubrication.thermal.columns import Strip
+from bem.lubrication.thermal.cross_film import Given
 from bem.lubrication.thermal.field import Duct, Sources, carried, temperature_field, warming_of
+from bem.lubrication.thermal.heat_source import Made
 from bem.lubrication.thermal.layers import HotFilm, Oil
-from bem.lubrication.thermal.made import Made
-from bem.lubrication.thermal.strip import Strip
 from bem.materials import CATALOGUE, Body, Material
 from bem.notes import has_code
 from bem.notes.lubrication import HEAT_NOT_FOUND, OIL_DATA_SHORT
@@ -426,14 +426,14 @@ def test_second_order_in_columns_and_layers(monkeypatch):
     """Film, heat carried and mean temperature between bodies that stay cool, on one film mesh: what a halving
     changes is a quarter of what the one before did; the film hardly knows the columns. Columns of evenly many nodes."""
     steel = STEEL.material
-    monkeypatch.setattr(coupled, "SKETCH", 1000)  # films that begin on fewer cells have meshes that differ a little
+    monkeypatch.setattr(coupling, "SKETCH", 1000)  # films that begin on fewer cells have meshes that differ a little
     cool = Body(
         Material("cool", youngs_modulus=steel.youngs_modulus, poissons_ratio=steel.poissons_ratio,
                  thermal_conductivity=1e9, density=7850.0, heat_capacity=470.0)
     )  # fmt: skip
 
     def figures(stride, layers):
-        monkeypatch.setattr(coupled, "cell_edges", lambda x, pressure, cells: x[::stride])
+        monkeypatch.setattr(coupling, "cell_edges", lambda x, pressure, cells: x[::stride])
         found = film(4.0, 0.5, points=961, tolerance=1e-7, layers=layers, bodies=(cool, cool))
         assert found.status is Status.CONVERGED
         return np.array([found.central_thickness, found.power_carried, found.film_temperature.max()])
@@ -477,7 +477,7 @@ def test_heat_costs_some_isothermal_films():
 @pytest.mark.internal
 def test_what_is_not_met_is_not_converged(monkeypatch):
     """One round leaves the film without what its heat makes of it; the words say so."""
-    monkeypatch.setattr(coupled, "MOST_ROUNDS", 1)
+    monkeypatch.setattr(coupling, "MOST_ROUNDS", 1)
     found = film(5.0, 0.5)
     assert found.residual > 1e-3
     assert found.status is Status.STALLED
@@ -501,7 +501,7 @@ def test_a_spike_without_limit_does_not_keep_heat_from_its_film(monkeypatch):
     thinner = [one.central_thickness / one.isothermal.central_thickness for one in (found, blunt)]
     # the inlet, where heat thins the film, knows nothing of the spike; its oil's density differs by some hundredths
     assert thinner[0] == pytest.approx(thinner[1], rel=0.01)
-    monkeypatch.setattr(coupled, "MOST_ROUNDS", 1)
+    monkeypatch.setattr(coupling, "MOST_ROUNDS", 1)
     assert any(
         "dowson_higginson" in note.values["remedy"]
         for note in film(5.0, 0.0, lubricant=plain).notes
@@ -567,17 +567,17 @@ def test_a_film_that_runs_backwards_is_the_mirror_image():
 @pytest.mark.internal
 def test_fine_meshes_begin_where_coarse_ones_ended(monkeypatch):
     """On 2000 cells few Newton steps are left to do, and the film is that of rounds on these alone."""
-    fine, newton = [], coupled.newton
+    fine, newton = [], coupling.newton
 
     def counted(problem, state, tolerance, limit):
         outcome = newton(problem, state, tolerance, limit)
-        fine.extend([outcome.iterations] if len(state.offset) > coupled.SKETCH + 1 else [])
+        fine.extend([outcome.iterations] if len(state.offset) > coupling.SKETCH + 1 else [])
         return outcome
 
-    monkeypatch.setattr(coupled, "newton", counted)
+    monkeypatch.setattr(coupling, "newton", counted)
     nested = film(3.0, 0.2, points=2001)
     steps = sum(fine)
-    monkeypatch.setattr(coupled, "SKETCH", 2000)
+    monkeypatch.setattr(coupling, "SKETCH", 2000)
     fine.clear()
     alone = film(3.0, 0.2, points=2001)
     assert nested.status is alone.status is Status.CONVERGED

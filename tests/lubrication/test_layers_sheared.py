@@ -10,12 +10,12 @@ from scipy.optimize import brentq
 from test_full_thermal import duct, flat
 
 from bem.lubrication import Lubricant
-from bem.lubrication.kept_heat import middles
+from bem.lubrication.line.temperatures import middles
 from bem.lubrication.shear import Carreau, Eyring, Newtonian
 from bem.lubrication.shear_profile import shear_profile
 from bem.lubrication.thermal.field import temperature_field
+from bem.lubrication.thermal.layered_shear import Section
 from bem.lubrication.thermal.layers import sums_of
-from bem.lubrication.thermal.section import Section
 
 pytestmark = pytest.mark.internal
 

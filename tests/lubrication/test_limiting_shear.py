@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from bem.errors import InputError
 from bem.lubrication import Lubricant, march_line_film, solve_line_film
-from bem.lubrication.validity import viscosity_beyond_range
+from bem.lubrication.checks import viscosity_beyond_range
 from bem.notes import has_code
 from bem.notes.lubrication import (
     FILM_MOLECULAR,

@@ -9,8 +9,8 @@ from scipy.optimize import brentq
 
 from bem import InputError, Lubricant, Status, march_line_film, solve_line_film
 from bem.lubrication import Cavitation
-from bem.lubrication.line_flow import Problem
-from bem.lubrication.line_step import Film, mesh_of, step_of, time_step
+from bem.lubrication.line.reynolds import Problem
+from bem.lubrication.line.time_step import Film, mesh_of, step_of, time_step
 
 OIL = {"radius": 2e-3, "contact_modulus": 115.5e9, "lubricant": Lubricant(0.36, pressure_viscosity=25e-9)}
 LOAD = 5.5 / 6e-3

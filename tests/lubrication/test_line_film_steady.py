@@ -12,15 +12,15 @@ from hypothesis import strategies as st
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-import bem.lubrication.line_continuation as line_continuation
-import bem.lubrication.line_newton as line_newton
+import bem.lubrication.line.continuation as line_continuation
+import bem.lubrication.line.newton as line_newton
 from bem import InputError, Lubricant, Status, solve_line_film
 from bem.benchmarks.line_film import LOADS, PIEZO, film_row, read_table
-from bem.lubrication import steady
-from bem.lubrication.line_case import LineCase
-from bem.lubrication.line_friction import rolling_upstream
-from bem.lubrication.line_newton import newton
-from bem.lubrication.steady import lowest_film
+from bem.lubrication.line import steady
+from bem.lubrication.line.case import LineCase
+from bem.lubrication.line.friction import rolling_upstream
+from bem.lubrication.line.newton import newton
+from bem.lubrication.line.steady import lowest_film
 from bem.notes.lubrication import FILM_NOT_FOUND
 from bem.reference_solutions import line_film
 from bem.reference_solutions.line_film import MartinFilm, dowson_higginson_minimum, moes_central

@@ -6,14 +6,14 @@ import mpmath
 import numpy as np
 import pytest
 
-import bem.lubrication.line_kernel as line_kernel
-import bem.lubrication.line_linear as line_linear
-import bem.lubrication.line_newton as line_newton
+import bem.lubrication.line.deflection as line_kernel
+import bem.lubrication.line.linear as line_linear
+import bem.lubrication.line.newton as line_newton
 from bem import solve_line_film
 from bem.benchmarks.line_film import similarity_case
-from bem.lubrication.line_elimination import eliminate
-from bem.lubrication.line_equations import by_film
-from bem.lubrication.line_kernel import LineOperator, logarithmic_integral, logarithmic_weights
+from bem.lubrication.line.deflection import LineOperator, logarithmic_integral, logarithmic_weights
+from bem.lubrication.line.elimination import eliminate
+from bem.lubrication.line.equations import by_film
 
 
 def graded(cells):

@@ -16,7 +16,7 @@ from bem import (
     solve_mixed,
 )
 from bem.flow import FlowFactors
-from bem.lubrication.rough_walls import RoughWalls
+from bem.lubrication.flow_factors import RoughWalls
 from bem.notes import has_code
 from bem.notes.contact import FLOW_BARRED
 from bem.notes.lubrication import FACTORS_EXTRAPOLATED

@@ -4,9 +4,9 @@ import numpy as np
 import pytest
 
 from bem import Lubricant
-from bem.lubrication.line_case import LineCase
-from bem.lubrication.line_shaped import ShapedContact
-from bem.lubrication.steady import line_film
+from bem.lubrication.line.case import LineCase
+from bem.lubrication.line.shaped import ShapedContact
+from bem.lubrication.line.steady import line_film
 
 OIL = Lubricant(0.36, pressure_viscosity=25e-9)
 HALF_LENGTH = 45e-6

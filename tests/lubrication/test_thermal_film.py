@@ -9,11 +9,12 @@ from bem.errors import InputError, Status
 from bem.grid import Grid
 from bem.heat import surface_temperature
 from bem.heat.bodies import Conductor
-from bem.lubrication import Lubricant, line_case, solve_line_film
+from bem.lubrication import Lubricant, solve_line_film
 from bem.lubrication.inlet_heating import inlet_heating_factor
+from bem.lubrication.line import case as line_case
 from bem.lubrication.thermal import lumped, solve_full_thermal_line_film, solve_thermal_line_film
-from bem.lubrication.thermal.energy import Channel, film_temperatures
 from bem.lubrication.thermal.hot_viscosity import HotViscosity
+from bem.lubrication.thermal.lumped_energy import Channel, film_temperatures
 from bem.materials import CATALOGUE, Body, Material
 from bem.notes import has_code
 from bem.notes.lubrication import HEAT_LEFT_OUT, HEAT_NOT_FOUND, LUMPED_HEAT_LIMIT, OIL_TOO_HOT

@@ -23,9 +23,9 @@ from bem.friction.setup import MixedSetup
 from bem.friction.smooth import PointContact
 from bem.lubrication.inlet_heating import InletHeating
 from bem.lubrication.thermal import lumped_point
-from bem.lubrication.thermal.conductors import moving_bodies
+from bem.lubrication.thermal.bodies import moving_bodies
 from bem.lubrication.thermal.lumped_point import point_heat, thinning
-from bem.lubrication.with_heat import FilmHeat
+from bem.lubrication.thermal.model import FilmHeat
 from bem.notes import has_code
 from bem.notes.lubrication import HEAT_LEFT_OUT, HEAT_NOT_FOUND, LUMPED_HEAT_LIMIT
 from bem.reference_solutions.hertz import ellipse_contact

@@ -7,7 +7,7 @@ import pytest
 
 from bem.errors import Status
 from bem.lubrication import Lubricant, solve_line_film
-from bem.lubrication.thermal import coupled, lumped
+from bem.lubrication.thermal import coupling, lumped
 from bem.materials import CATALOGUE, Body
 from bem.packing import packed, unpacked
 
@@ -98,7 +98,7 @@ def test_motion_the_other_way_starts_from_this_one():
 @pytest.mark.internal
 def test_a_film_that_was_not_met_is_no_start(monkeypatch):
     """Its temperatures are not those of its film: none are kept."""
-    monkeypatch.setattr(coupled, "MOST_ROUNDS", 1)
+    monkeypatch.setattr(coupling, "MOST_ROUNDS", 1)
     assert film(5.0, 0.5).state.heat is None
 
 

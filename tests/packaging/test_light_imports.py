@@ -164,7 +164,7 @@ def test_a_run_of_a_contact_loads_hardly_anything_of_scipy_and_nothing_of_wear(t
     ("modules", "heavy"),
     [
         (
-            "bem.lubrication.steady, bem.lubrication.line_march, bem.friction.solve, bem.tribofilm",
+            "bem.lubrication.line.steady, bem.lubrication.line.march, bem.friction.solve, bem.tribofilm",
             ("interpolate", "optimize", "constants", "spatial"),
         ),
         ("bem.lubrication.point.transient", ("interpolate",)),

@@ -8,7 +8,7 @@ import pytest
 from bem.errors import Status
 from bem.grid import Grid
 from bem.lubrication import Lubricant
-from bem.lubrication.line_kernel import LineOperator
+from bem.lubrication.line.deflection import LineOperator
 from bem.packing import packed, unpacked
 from bem.results.checkpoint import load_checkpoint, save_checkpoint
 

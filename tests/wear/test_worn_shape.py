@@ -10,9 +10,9 @@ from bem import CATALOGUE, Body, Grid, InputError, Lubricant, Status, generate_s
 from bem.friction.models import rough_contact
 from bem.friction.setup import MixedSetup
 from bem.friction.worn_film import ShapeSolver, extended
-from bem.lubrication.line_case import LineCase
-from bem.lubrication.line_shaped import ShapedContact
-from bem.lubrication.steady import line_film
+from bem.lubrication.line.case import LineCase
+from bem.lubrication.line.shaped import ShapedContact
+from bem.lubrication.line.steady import line_film
 from bem.notes import Level, has_code
 from bem.notes.wear import FILM_OF_OTHER_SHAPE
 from bem.wear import WearModel, pack_state, run_in, unpack_state
@@ -176,7 +176,7 @@ def test_where_no_film_is_found_the_last_shape_stays(monkeypatch):
     before, first = loop(step, 8)
     shape = before.worn.shape
     assert shape is not None
-    monkeypatch.setattr("bem.lubrication.line_shaped.ShapedContact.solve", lambda self, profile, start: None)
+    monkeypatch.setattr("bem.lubrication.line.shaped.ShapedContact.solve", lambda self, profile, start: None)
     shared, result = loop(step, 20, state=first.state)
     assert len(result.cycles) == 20
     assert result.status is Status.CONVERGED

@@ -11,9 +11,9 @@ from scipy.sparse import csr_matrix
 
 from bem.convolution import DisplacementOperator
 from bem.grid import FloatArray
+from bem.lubrication.flow_factors import PlaneWalls
 from bem.lubrication.point import lines
 from bem.lubrication.point.far import Far, far_load
-from bem.lubrication.rough_walls import PlaneWalls
 
 DENSE = 1100
 """Cells of a grid whose matrix is inverted as a whole."""

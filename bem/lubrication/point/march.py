@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from bem.grid import FloatArray
-from bem.lubrication import time_steps
+from bem.lubrication import time_stepping
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.point.cascade import Reached as Found
 from bem.lubrication.point.cascade import solved
@@ -23,7 +23,7 @@ from bem.lubrication.point.scales import PointScales
 from bem.lubrication.point.setting import Frame, Operators, Rectangle, Setting, scaled_oil
 from bem.lubrication.point.solve import Request, entrainment, result_of, vectors
 from bem.lubrication.point.validity import coarse_heights
-from bem.lubrication.time_steps import Derivative, Reached
+from bem.lubrication.time_stepping import Derivative, Reached
 from bem.notes.lubrication import FIRST_FILM
 from bem.reference_solutions.hertz import ellipse_contact
 
@@ -238,7 +238,7 @@ def _with_heights(
 
 def advance(march: PointMarch, at: Reached[Moment], time: float) -> tuple[Reached[Moment], PointFilmSolution]:
     """One step to a time, or halves of it."""
-    return time_steps.advance(partial(_step, march), at, time)
+    return time_stepping.advance(partial(_step, march), at, time)
 
 
 def _step(march: PointMarch, at: Reached[Moment], time: float) -> tuple[Moment, PointFilmSolution]:

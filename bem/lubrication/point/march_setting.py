@@ -13,7 +13,7 @@ from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.point.march import Operation, PointMarch
 from bem.lubrication.point.setting import Rectangle, Setting, default_rectangle, setting_of
 from bem.lubrication.point.solve import check_extent, check_load, entrainment, vectors
-from bem.lubrication.time_steps import Schedule
+from bem.lubrication.time_stepping import Schedule
 from bem.materials import Body
 
 LOOKED_AT = 60

@@ -1,6 +1,6 @@
 """Flow of a point contact between rough walls on cells: what `loops.flows` is between smooth ones.
 
-Pressure flow goes with phi h^3 and what is dragged with h + k s phi_s (`bem.lubrication.rough_walls`). The factor of a
+Pressure flow goes with phi h^3 and what is dragged with h + k s phi_s (`bem.lubrication.flow_factors`). The factor of a
 face is the harmonic mean of those of its cells: where contact bars one, nothing flows past it. Knows arrays alone;
 verified in tests/lubrication/point/test_rough_point.py.
 """

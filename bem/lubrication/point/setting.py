@@ -10,10 +10,10 @@ import numpy as np
 
 from bem.convolution import DisplacementOperator, displacement_operator
 from bem.grid import FloatArray, Grid
+from bem.lubrication.flow_factors import LEAST_FACTOR, PlaneWalls
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.point.levels import PointProblem
 from bem.lubrication.point.scales import PointScales, nijenbanning_film, point_scales, rigid_film
-from bem.lubrication.rough_walls import LEAST_FACTOR, PlaneWalls
 from bem.materials import Body, Material
 from bem.reference_solutions.hertz import PointContact, ellipse_contact
 

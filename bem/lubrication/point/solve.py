@@ -12,6 +12,8 @@ import numpy as np
 from bem.arguments import is_finite, is_positive
 from bem.errors import InputError, Status
 from bem.lubrication.cavitation import Cavitation, cavitation_of
+from bem.lubrication.checks import check_oil
+from bem.lubrication.flow_factors import WallFactors, notes_on_factors, plane_walls_of
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.point.cascade import Reached, solved
 from bem.lubrication.point.film import PointFilmSolution
@@ -19,9 +21,7 @@ from bem.lubrication.point.kept import KeptPoint, central_film, certificate, fil
 from bem.lubrication.point.setting import Rectangle, Setting, setting_of
 from bem.lubrication.point.starved import checked_layer, starvation, starved
 from bem.lubrication.point.validity import notes_on_point
-from bem.lubrication.rough_walls import WallFactors, notes_on_factors, plane_walls_of
 from bem.lubrication.supply import Starvation, Supply
-from bem.lubrication.validity import check_oil
 from bem.materials import Body
 from bem.plausibility import body_arguments, lubricant_arguments, notes_on_arguments
 from bem.threads import one_blas_thread

@@ -12,14 +12,14 @@ import numpy as np
 
 from bem.errors import InputError
 from bem.grid import FloatArray
-from bem.lubrication import time_steps
+from bem.lubrication import time_stepping
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.point.film import PointFilmSolution
 from bem.lubrication.point.march import Moment, Operation, advance, film_start, gap_start, steady_start
 from bem.lubrication.point.march_setting import MarchCase, march_of
 from bem.lubrication.point.moving import MovingSurface, Roughness, Travel, heights_over
 from bem.lubrication.point.solve import checked, edges, entrainment, numbers, vectors
-from bem.lubrication.time_steps import (
+from bem.lubrication.time_stepping import (
     MarchState,
     Reached,
     Schedule,
@@ -139,7 +139,7 @@ def march_point_film(
             )
         state = MarchState(None, Reached(at, moment), (opening,))
         tell(state)
-    films = time_steps.march(schedule.times, state, partial(advance, march), tell)
+    films = time_stepping.march(schedule.times, state, partial(advance, march), tell)
     return with_argument_notes(films, _notes_on_arguments(case))
 
 

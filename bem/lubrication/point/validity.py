@@ -11,7 +11,7 @@ import numpy as np
 
 from bem.errors import Status
 from bem.grid import FloatArray
-from bem.lubrication import validity
+from bem.lubrication import checks
 from bem.lubrication.inlet_heating import inlet_heating_factor
 from bem.lubrication.point.cascade import COARSEST, shapes_up_to
 from bem.lubrication.point.far import far_shear
@@ -70,7 +70,7 @@ def coarse_heights(heights: FloatArray) -> tuple[Note, ...]:
 
 
 @dataclass(frozen=True)
-class PointCase(validity.Case):
+class PointCase(checks.Case):
     """A point film for the checks of line films: fields (nx, ny), speeds of the same sum and difference along one axis,
     `radius` along the flow; y beside the position [m]; `moes` of rigid bodies were they of steel, (M, L)."""
 
@@ -88,9 +88,9 @@ class PointCase(validity.Case):
 def inlet_heating(case: PointCase) -> Note | None:
     """Shear in the inlet heats the oil; by the factor of line contacts, for a mineral oil."""
     heating = inlet_heating_factor(
-        case.lubricant.viscosity, validity.OIL_SOFTENING, validity.OIL_CONDUCTIVITY, case.speeds, case.hertz_ratio
+        case.lubricant.viscosity, checks.OIL_SOFTENING, checks.OIL_CONDUCTIVITY, case.speeds, case.hertz_ratio
     )
-    if heating.factor >= validity.LEAST_INLET_FACTOR * case.reduction:
+    if heating.factor >= checks.LEAST_INLET_FACTOR * case.reduction:
         return None
     return HEAT_LEFT_OUT(factor=1 / heating.factor, reason="inlet")
 
@@ -118,7 +118,7 @@ def bodies_not_rigid(case: PointCase) -> Note | None:
 
 
 def film_heating(case: PointCase) -> Note | None:
-    """Sliding heats film and surfaces: as `validity.film_heating`, with the mean over the loaded area and its length
+    """Sliding heats film and surfaces: as `checks.film_heating`, with the mean over the loaded area and its length
     along the flow."""
     loaded = case.pressure > 0.05 * case.pressure.max(initial=0.0)
     root = math.sqrt(abs(case.speeds[0])) + math.sqrt(abs(case.speeds[1]))
@@ -126,23 +126,23 @@ def film_heating(case: PointCase) -> Note | None:
     if not loaded.any() or root == 0 or slide == 0:
         return None
     heat = float(case.sliding_stress[loaded].mean()) * slide
-    film = heat * float(np.median(case.thickness[loaded])) / (8 * validity.OIL_CONDUCTIVITY)
-    flash = 2 * heat * math.sqrt(case.length / math.pi) / (validity.STEEL_EFFUSIVITY * root)
-    if film + flash <= validity.LARGEST_HEATING:
+    film = heat * float(np.median(case.thickness[loaded])) / (8 * checks.OIL_CONDUCTIVITY)
+    flash = 2 * heat * math.sqrt(case.length / math.pi) / (checks.STEEL_EFFUSIVITY * root)
+    if film + flash <= checks.LARGEST_HEATING:
         return None
-    return HEAT_LEFT_OUT(limit=validity.LARGEST_HEATING, rise=film + flash, reason="sliding")
+    return HEAT_LEFT_OUT(limit=checks.LARGEST_HEATING, rise=film + flash, reason="sliding")
 
 
 CHECKS: list[Callable[[PointCase], Note | None]] = [
-    validity.film_not_found,
-    validity.film_thick_for_radius,
+    checks.film_not_found,
+    checks.film_thick_for_radius,
     bodies_not_rigid,
-    validity.shear_beyond_measurements,
-    validity.shear_at_the_limit,
-    validity.viscosity_beyond_range,
+    checks.shear_beyond_measurements,
+    checks.shear_at_the_limit,
+    checks.viscosity_beyond_range,
     inlet_heating,
     film_heating,
-    validity.molecular_film,
+    checks.molecular_film,
 ]
 
 
@@ -201,7 +201,7 @@ def _moes_of_steel(film: PointFilmSolution, scales: PointScales) -> tuple[float,
 def _not_found(film: PointFilmSolution, setting: Setting) -> Note:
     """Return why no film was found, and what to do."""
     hertz = 0.0 if setting.hertz is None else setting.hertz.maximum_pressure * setting.scales.pressure
-    return validity.why_not_found(film.lubricant, math.inf if setting.scales.rigid else hertz, _other_cells(film))
+    return checks.why_not_found(film.lubricant, math.inf if setting.scales.rigid else hertz, _other_cells(film))
 
 
 def _other_cells(film: PointFilmSolution) -> Note:

@@ -1,12 +1,12 @@
 """Heat in line films: lumped across the film, `solve_thermal_line_film` (in `lumped`), or along and across it,
 `solve_full_thermal_line_film` (in `full`).
 
-Lumped: `bem.lubrication.inlet_heating` has the factor of inlet heating, `strip` the film in cells, `energy` their
-balance with two moving half-spaces. Full: `layers` what temperatures across the film do to its flow, `across` speeds,
-stress and heat across it, `made` that in columns and layers, `field` their temperatures, `coupled` film and
-temperatures at once; their warm start is `bem.lubrication.kept_heat`. Both: `hot_viscosity` the oil over pressure and
-temperature, `conductors` the bodies, `notes` where the models end. Sees films, oils and `bem.heat`. Names are loaded
-when they are first used. Verified in tests/lubrication/test_thermal_film.py, test_full_thermal.py and
+Lumped: `bem.lubrication.inlet_heating` has the factor of inlet heating, `columns` the film in cells, `lumped_energy`
+their balance with two moving half-spaces. Full: `layers` what temperatures across the film do to its flow, `cross_film`
+speeds, stress and heat across it, `heat_source` that in columns and layers, `field` their temperatures, `coupling` film
+and temperatures at once; their warm start is `bem.lubrication.line.temperatures`. Both: `hot_viscosity` the oil over
+pressure and temperature, `bodies` the bodies, `checks` where the models end, `model` chooses one. Names are loaded when
+they are first used. Verified in tests/lubrication/test_thermal_film.py, test_full_thermal.py and
 test_thermal_warm_start.py.
 """
 

@@ -18,19 +18,19 @@ import numpy as np
 
 from bem.errors import InputError, Status
 from bem.grid import FloatArray
-from bem.lubrication.film import FilmSolution, HeatedFilm
-from bem.lubrication.kept_heat import middles
-from bem.lubrication.line_case import LineCase
-from bem.lubrication.line_kept import KeptSteady, without_equations
-from bem.lubrication.line_newton import Outcome
+from bem.lubrication.flow_factors import WallFactors, notes_on_factors
+from bem.lubrication.line.case import LineCase
+from bem.lubrication.line.newton import Outcome
+from bem.lubrication.line.state import KeptSteady, without_equations
+from bem.lubrication.line.steady import line_film, solution_of
+from bem.lubrication.line.temperatures import middles
 from bem.lubrication.lubricant import Lubricant
-from bem.lubrication.rough_walls import WallFactors, notes_on_factors
-from bem.lubrication.steady import line_film, solution_of
-from bem.lubrication.thermal.conductors import moving_bodies
-from bem.lubrication.thermal.coupled import Coupling, Heated, Neighbour, coupled
+from bem.lubrication.results import FilmSolution, HeatedFilm
+from bem.lubrication.thermal.bodies import moving_bodies
+from bem.lubrication.thermal.checks import notes_of_film, notes_of_heat
+from bem.lubrication.thermal.coupling import Coupling, Heated, Neighbour, coupled
 from bem.lubrication.thermal.field import LEAST_RISE, carried
 from bem.lubrication.thermal.layers import Oil, expansion_of
-from bem.lubrication.thermal.notes import notes_of_film, notes_of_heat
 from bem.materials import Body
 from bem.notes import Note
 from bem.notes.lubrication import HEAT_NOT_FOUND, OIL_DATA_SHORT

@@ -20,7 +20,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from bem.grid import FloatArray
-from bem.lubrication.kept_heat import middles
+from bem.lubrication.line.temperatures import middles
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.thermal.hot_viscosity import LARGEST_LOGARITHM, HotViscosity
 
@@ -122,12 +122,12 @@ class _At:
 
 @dataclass(frozen=True)
 class HotFilm:
-    """Temperatures of a film at the nodes of its mesh as Reynolds' equation sees them (`line_flow.Layered`), in which
+    """Temperatures of a film at the nodes of its mesh as Reynolds' equation sees them (`reynolds.Layered`), in which
     density and viscosity follow the pressure that it solves for.
 
     cold : ln of the viscosity at the oil's own temperature, over scaled pressure, in a unit [Pa]. temperature : (n, K)
     [K]. times, plus : (n, K), see `HotViscosity.line`. slide : (u2 - u1)/(u1 + u2). thinning : (n,) see
-    `line_flow.Layered`, at temperatures and film that it was found at.
+    `reynolds.Layered`, at temperatures and film that it was found at.
     """
 
     oil: Oil

@@ -24,22 +24,22 @@ import numpy as np
 from bem.errors import InputError, Status
 from bem.grid import FloatArray
 from bem.heat.bodies import Conductor
-from bem.lubrication.film import FilmSolution, HeatedFilm
+from bem.lubrication.flow_factors import WallFactors, notes_on_factors
 from bem.lubrication.inlet_heating import InletHeating, hertz_over_modulus, inlet_heating_factor
-from bem.lubrication.line_case import LineCase, load_range
-from bem.lubrication.line_kept import KeptSteady, without_equations
-from bem.lubrication.line_scales import line_scales
-from bem.lubrication.line_sketch import sketch_line_film
+from bem.lubrication.line.case import LineCase, load_range
+from bem.lubrication.line.coarse import sketch_line_film
+from bem.lubrication.line.scales import line_scales
+from bem.lubrication.line.state import KeptSteady, without_equations
+from bem.lubrication.line.steady import line_film
 from bem.lubrication.lubricant import Lubricant
-from bem.lubrication.rough_walls import WallFactors, notes_on_factors
+from bem.lubrication.results import FilmSolution, HeatedFilm
 from bem.lubrication.shear_profile import middle_stress
-from bem.lubrication.steady import line_film
 from bem.lubrication.supply import Supply
-from bem.lubrication.thermal.conductors import moving_bodies
-from bem.lubrication.thermal.energy import Channel, Temperatures, film_temperatures
+from bem.lubrication.thermal.bodies import moving_bodies
+from bem.lubrication.thermal.checks import heat_limits, notes_of_film, notes_of_heat
+from bem.lubrication.thermal.columns import Strip, cell_edges, derivative_of, strip_of, summed
 from bem.lubrication.thermal.hot_viscosity import HotViscosity
-from bem.lubrication.thermal.notes import heat_limits, notes_of_film, notes_of_heat
-from bem.lubrication.thermal.strip import Strip, cell_edges, derivative_of, strip_of, summed
+from bem.lubrication.thermal.lumped_energy import Channel, Temperatures, film_temperatures
 from bem.lubrication.viscosity import ViscosityLaw
 from bem.materials import Body
 from bem.notes import Note
@@ -68,7 +68,7 @@ class ThermalFilm(HeatedFilm):
     Attributes
     ----------
     film : solution of the film, of the oil as thin as inlet heating makes it; its own shear force is isothermal.
-    isothermal : the film without heat, a sketch (`bem.lubrication.line_sketch`).
+    isothermal : the film without heat, a sketch (`bem.lubrication.line.coarse`).
     position : (m,) middles of cells [m].
     width : (m,) of them [m].
     film_temperature : (m,) mean across the film [K].

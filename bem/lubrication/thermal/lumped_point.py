@@ -22,11 +22,11 @@ from bem.heat.line_contact import band_temperatures
 from bem.lubrication.inlet_heating import InletHeating
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.point.film import PointFilmSolution
-from bem.lubrication.thermal.conductors import moving_bodies
-from bem.lubrication.thermal.energy import Channel, film_temperatures
+from bem.lubrication.thermal.bodies import moving_bodies
+from bem.lubrication.thermal.checks import LARGEST_RISE, heat_limits, notes_of_heat
 from bem.lubrication.thermal.hot_viscosity import HotViscosity
 from bem.lubrication.thermal.lumped import FACTOR_TOLERANCE, MOST_FILMS, thinned_oil
-from bem.lubrication.thermal.notes import LARGEST_RISE, heat_limits, notes_of_heat
+from bem.lubrication.thermal.lumped_energy import Channel, film_temperatures
 from bem.materials import Body
 from bem.notes import without
 from bem.notes.lubrication import HEAT_LEFT_OUT, HEAT_NOT_FOUND, LUMPED_HEAT_LIMIT

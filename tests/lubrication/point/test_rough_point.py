@@ -14,9 +14,9 @@ from bem import (
     solve_line_film,
     solve_point_film,
 )
+from bem.lubrication.flow_factors import plane_walls_of
 from bem.lubrication.point import loops
 from bem.lubrication.point.linear import flows
-from bem.lubrication.rough_walls import plane_walls_of
 from bem.reference_solutions.hertz import ellipse_contact
 
 CASE = {"load": 20.0, "radii": (0.01, 0.01), "contact_modulus": 1.1e11, "shape": (48, 48)}

@@ -5,13 +5,13 @@ from __future__ import annotations
 import numpy as np
 
 from bem.grid import FloatArray
-from bem.lubrication.film import FilmSolution
+from bem.lubrication.checks import Case, notes_on, why_no_line_film
 from bem.lubrication.inlet_heating import InletHeating
-from bem.lubrication.line_kept import KeptSteady
+from bem.lubrication.line.state import KeptSteady
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.oils.oil import EXTRAPOLATED, HOTTEST, Oil
 from bem.lubrication.oils.over_temperature import CELSIUS
-from bem.lubrication.validity import Case, notes_on, why_no_line_film
+from bem.lubrication.results import FilmSolution
 from bem.notes import Note, without
 from bem.notes.lubrication import HEAT_LEFT_OUT, LUMPED_HEAT_LIMIT, OIL_DATA_SHORT, OIL_TOO_HOT
 

@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bem.grid import FloatArray
-from bem.lubrication.kept_heat import middles
+from bem.lubrication.line.temperatures import middles
 from bem.lubrication.shear import Moments, ShearLaw
 from bem.lubrication.thermal.layers import Sums
 

@@ -6,9 +6,9 @@ import math
 from dataclasses import dataclass
 
 from bem.grid import FloatArray
-from bem.lubrication.line_flow import Problem
+from bem.lubrication.flow_factors import RoughWalls
+from bem.lubrication.line.reynolds import Problem
 from bem.lubrication.lubricant import Lubricant
-from bem.lubrication.rough_walls import RoughWalls
 from bem.lubrication.shear_profile import shear_flow
 
 RIGID_LOAD = 1e-4

@@ -12,16 +12,16 @@ import numpy as np
 
 from bem.grid import FloatArray
 from bem.heat.bodies import Conductor
-from bem.lubrication.film import FilmSolution
-from bem.lubrication.kept_heat import KeptHeat, moved
-from bem.lubrication.line_continuation import MAX_IMBALANCE, neighbour, smallest_cell
-from bem.lubrication.line_flow import Problem
-from bem.lubrication.line_newton import Outcome, State, mesh_imbalance, newton, remesh, spike_cell
-from bem.lubrication.thermal.across import Given
+from bem.lubrication.line.continuation import MAX_IMBALANCE, neighbour, smallest_cell
+from bem.lubrication.line.newton import Outcome, State, mesh_imbalance, newton, remesh, spike_cell
+from bem.lubrication.line.reynolds import Problem
+from bem.lubrication.line.temperatures import KeptHeat, moved
+from bem.lubrication.results import FilmSolution
+from bem.lubrication.thermal.columns import Strip, cell_edges, strip_of
+from bem.lubrication.thermal.cross_film import Given
 from bem.lubrication.thermal.field import TOLERANCE, Duct, Field, temperature_field, warming_of
+from bem.lubrication.thermal.heat_source import Made
 from bem.lubrication.thermal.layers import HotFilm, Oil
-from bem.lubrication.thermal.made import Made
-from bem.lubrication.thermal.strip import Strip, cell_edges, strip_of
 
 MOST_ROUNDS = 80
 SKETCH, SKETCHED = 400, 1e-3
@@ -95,7 +95,7 @@ class Coupling:
 
     def layered(self, layers: FloatArray) -> HotFilm:
         """Temperatures at the nodes [K] and, last, the thinning of layers (n, K + 1), see
-        `line_flow.Layered`."""
+        `reynolds.Layered`."""
         cold, temperature, thinning = self.problem.log_viscosity, layers[:, :-1], layers[:, -1]
         return HotFilm.of(self.oil, temperature, cold, self.slide, self.unit, thinning)
 

@@ -10,8 +10,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.grid import FloatArray
-from bem.lubrication.line_kernel import DEFLECTION, LineOperator
-from bem.lubrication.rough_walls import RoughWalls
+from bem.lubrication.flow_factors import RoughWalls
+from bem.lubrication.line.deflection import DEFLECTION, LineOperator
 from bem.lubrication.shear_profile import ShearFlow
 
 SPIKE_REACH = 60

@@ -1,19 +1,19 @@
 """Sketches of a steady line film: on a coarse mesh, where the spike of pressure has few cells.
 
 They tell by how much a film changes with its oil, at a share of the cost of the film itself, whose start they are. Sees
-what `bem.lubrication.steady` does. Verified in tests/lubrication/test_thermal_film.py.
+what `bem.lubrication.line.steady` does. Verified in tests/lubrication/test_thermal_film.py.
 """
 
 from __future__ import annotations
 
 from dataclasses import replace
 
-from bem.lubrication.film import FilmSolution
-from bem.lubrication.line_case import LineCase
-from bem.lubrication.line_continuation import sketched
-from bem.lubrication.line_kept import KeptSteady
-from bem.lubrication.line_newton import is_start
-from bem.lubrication.steady import solution_of
+from bem.lubrication.line.case import LineCase
+from bem.lubrication.line.continuation import sketched
+from bem.lubrication.line.newton import is_start
+from bem.lubrication.line.state import KeptSteady
+from bem.lubrication.line.steady import solution_of
+from bem.lubrication.results import FilmSolution
 
 
 def sketch_line_film(case: LineCase) -> FilmSolution:

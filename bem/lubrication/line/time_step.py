@@ -1,6 +1,6 @@
 """One implicit time step of the line-contact film on a fixed mesh, with cavitation as a complementarity.
 
-In similarity variables (see `line_newton`), with time in units of 2 length / reference speed and s the entrainment
+In similarity variables (see `newton`), with time in units of 2 length / reference speed and s the entrainment
 speed over that reference:
 
     d/dX (s rho H - rho H^3/(6 m) P') + d/dT (rho H) >= 0,   P >= 0,   one of them zero at every node,
@@ -13,7 +13,7 @@ filled, the balance is an equation at every node, and P >= 0 is complementary to
 says which of P and theta is unknown at a node, and changes with every Newton step. A face carries the theta of the
 node upstream on the film extrapolated to it: of second order in the full film, without oscillations behind it, and the
 same formula whoever is full, so that the discrete problem has one solution. What differs between the two models is in
-`line_rupture`.
+`cavitation`.
 """
 
 from __future__ import annotations
@@ -26,10 +26,10 @@ from scipy.linalg import lu_factor, lu_solve
 from bem.compiled import compiled
 from bem.grid import FloatArray
 from bem.lubrication.cavitation import Cavitation
-from bem.lubrication.line_flow import Problem, longest_step, mean_fluidity
-from bem.lubrication.line_kernel import DEFLECTION, logarithmic_weights
-from bem.lubrication.line_mesh import trapezoidal_weights, upwind_extrapolation
-from bem.lubrication.line_rupture import RUPTURES, Indices, Iterate, Nodes, Rupture
+from bem.lubrication.line.cavitation import RUPTURES, Indices, Iterate, Nodes, Rupture
+from bem.lubrication.line.deflection import DEFLECTION, logarithmic_weights
+from bem.lubrication.line.mesh import trapezoidal_weights, upwind_extrapolation
+from bem.lubrication.line.reynolds import Problem, longest_step, mean_fluidity
 from bem.lubrication.shear_profile import Driven, newtonian
 
 

@@ -10,19 +10,19 @@ import numpy as np
 
 from bem.errors import Status
 from bem.grid import FloatArray
-from bem.lubrication import time_steps
+from bem.lubrication import time_stepping
 from bem.lubrication.cavitation import Cavitation
-from bem.lubrication.film import FilmSolution
-from bem.lubrication.line_flow import Problem
-from bem.lubrication.line_friction import rolling_part
-from bem.lubrication.line_rupture import Nodes
-from bem.lubrication.line_scales import Scales
-from bem.lubrication.line_step import Film, FixedMesh, StepOutcome, elastic_film, step_of, time_step
+from bem.lubrication.checks import Case, notes_on, why_no_line_film
+from bem.lubrication.line.cavitation import Nodes
+from bem.lubrication.line.friction import rolling_part
+from bem.lubrication.line.reynolds import Problem
+from bem.lubrication.line.scales import Scales
+from bem.lubrication.line.steady import lowest_film
+from bem.lubrication.line.time_step import Film, FixedMesh, StepOutcome, elastic_film, step_of, time_step
 from bem.lubrication.lubricant import Lubricant
+from bem.lubrication.results import FilmSolution
 from bem.lubrication.shear_profile import middle_stress
-from bem.lubrication.steady import lowest_film
-from bem.lubrication.time_steps import Derivative, Reached
-from bem.lubrication.validity import Case, notes_on, why_no_line_film
+from bem.lubrication.time_stepping import Derivative, Reached
 from bem.notes.lubrication import FIRST_FILM
 
 SETTLING = (0.3, 0.03, 1e-3)
@@ -173,7 +173,7 @@ def advance(march: March, at: Reached[Film], time: float) -> tuple[Reached[Film]
         outcome = march.step(time, at.film, change.leading, change.history(at, lambda film: film.mass))
         return outcome.film, solution_at(march, outcome.film, time, outcome)
 
-    return time_steps.advance(step, at, time)
+    return time_stepping.advance(step, at, time)
 
 
 def solution_at(march: March, film: Film, time: float, outcome: StepOutcome | None = None) -> FilmSolution:

@@ -9,9 +9,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.grid import FloatArray
-from bem.lubrication.film import FilmSolution
-from bem.lubrication.line_friction import rolling_upstream, upstream_of_mesh
-from bem.lubrication.line_kept import KeptSteady
+from bem.lubrication.line.friction import rolling_upstream, upstream_of_mesh
+from bem.lubrication.line.state import KeptSteady
+from bem.lubrication.results import FilmSolution
 
 
 @dataclass(frozen=True)

@@ -16,10 +16,10 @@ from numpy.typing import NDArray
 
 from bem.compiled import compiled
 from bem.grid import FloatArray
-from bem.lubrication.line_mesh import trapezoidal_weights
+from bem.lubrication.line.mesh import trapezoidal_weights
 
 DEFLECTION = 4 / math.pi
-"""Times the weights and the pressures in similarity variables (`line_newton`): by how much a film is thinner."""
+"""Times the weights and the pressures in similarity variables (`newton`): by how much a film is thinner."""
 HIERARCHICAL_FROM = 300
 """Cells from which weights are kept hierarchically; below, dense matrices are as fast."""
 LEAF = 64

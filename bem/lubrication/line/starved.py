@@ -14,10 +14,10 @@ from typing import Protocol
 
 import numpy as np
 
-from bem.lubrication.line_continuation import COARSE_TOLERANCE, MIDDLE, from_neighbour, refined, smallest_cell
-from bem.lubrication.line_flow import Problem
-from bem.lubrication.line_kernel import LineOperator
-from bem.lubrication.line_newton import Outcome, State, newton, remesh, stretched
+from bem.lubrication.line.continuation import COARSE_TOLERANCE, MIDDLE, from_neighbour, refined, smallest_cell
+from bem.lubrication.line.deflection import LineOperator
+from bem.lubrication.line.newton import Outcome, State, newton, remesh, stretched
+from bem.lubrication.line.reynolds import Problem
 
 FIRST_STEP = 1.0
 """In the logarithm of how far the meniscus is beyond Hertz' contact, on the way in."""

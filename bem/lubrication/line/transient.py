@@ -12,12 +12,11 @@ import numpy as np
 from bem.arguments import is_positive
 from bem.errors import InputError
 from bem.grid import FloatArray
-from bem.lubrication import time_steps
+from bem.lubrication import time_stepping
 from bem.lubrication.cavitation import Cavitation, cavitation_of
-from bem.lubrication.film import FilmSolution
-from bem.lubrication.line_case import check_speeds
-from bem.lubrication.line_continuation import typical_half_width
-from bem.lubrication.line_march import (
+from bem.lubrication.line.case import LineCase, check_speeds
+from bem.lubrication.line.continuation import typical_half_width
+from bem.lubrication.line.march import (
     Contact,
     March,
     Operation,
@@ -28,12 +27,14 @@ from bem.lubrication.line_march import (
     given_start,
     steady_start,
 )
-from bem.lubrication.line_scales import line_scales, scaled_problem
-from bem.lubrication.line_step import Film, FixedMesh, fixed_mesh
+from bem.lubrication.line.scales import line_scales, scaled_problem
+from bem.lubrication.line.state import without_equations
+from bem.lubrication.line.steady import line_film
+from bem.lubrication.line.time_step import Film, FixedMesh, fixed_mesh
 from bem.lubrication.lubricant import Lubricant
-from bem.lubrication.solve import solve_line_film
+from bem.lubrication.results import FilmSolution
 from bem.lubrication.supply import OilLayer, checked_supply
-from bem.lubrication.time_steps import MarchState, Schedule, first_of, load_messages, schedule_of, start_messages
+from bem.lubrication.time_stepping import MarchState, Schedule, first_of, load_messages, schedule_of, start_messages
 from bem.plausibility import lubricant_arguments, notes_on_arguments, with_argument_notes
 from bem.threads import one_blas_thread
 
@@ -131,7 +132,7 @@ def march_line_film(
             reached, opening = (steady_start if steady else given_start)(march, film, at)
         state = MarchState(initial if steady else None, reached, (opening,))
         tell(state)
-    films = time_steps.march(schedule.times, state, partial(advance, march), tell)
+    films = time_stepping.march(schedule.times, state, partial(advance, march), tell)
     arguments = {
         "load": ("load per unit length", tuple(schedule.loads)),
         "radius": ("radius", radius),
@@ -175,8 +176,7 @@ def _steady_film(schedule: Schedule, contact: Contact, points: int, layer: OilLa
             f"speeds: {tuple(pair)!r} at the first time entrain no oil, so there is no steady film to start "
             "from; give initial_thickness or initial"
         )
-    steady = partial(
-        solve_line_film,
+    case = LineCase(
         load=schedule.loads[0],
         radius=contact.radius,
         contact_modulus=contact.contact_modulus,
@@ -184,10 +184,11 @@ def _steady_film(schedule: Schedule, contact: Contact, points: int, layer: OilLa
         lubricant=contact.lubricant,
         points=min(points, 800),
     )
-    film = steady(supply=layer)
+    film = without_equations(line_film(case, supply=layer))
     if film.starvation is None or not film.starvation.flooded:
         return film
-    return steady(supply=OilLayer(BARELY_FLOODED * film.starvation.flooded_layer), initial=film)
+    barely = OilLayer(BARELY_FLOODED * film.starvation.flooded_layer)
+    return without_equations(line_film(replace(case, initial=film), supply=barely))
 
 
 def _discretised(

@@ -11,12 +11,12 @@ import numpy as np
 from bem.arguments import is_finite
 from bem.errors import InputError
 from bem.grid import FloatArray
-from bem.lubrication.film import FilmSolution
-from bem.lubrication.line_flow import Problem
-from bem.lubrication.line_scales import Scales, line_scales, scaled_problem
+from bem.lubrication.checks import check_oil
+from bem.lubrication.flow_factors import WallFactors, walls_of
+from bem.lubrication.line.reynolds import Problem
+from bem.lubrication.line.scales import Scales, line_scales, scaled_problem
 from bem.lubrication.lubricant import Lubricant
-from bem.lubrication.rough_walls import WallFactors, walls_of
-from bem.lubrication.validity import check_oil
+from bem.lubrication.results import FilmSolution
 
 MOES_LOADS = (1e-5, 3e5)
 """Loads M for which a film is looked for. Up to the last films of L = 0 to 10 converge and are independent of the mesh

@@ -7,11 +7,11 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from bem.lubrication.film import FilmSolution
-from bem.lubrication.line_continuation import MIDDLE, SPIKE_CELLS
-from bem.lubrication.line_kept import KeptSteady
-from bem.lubrication.line_newton import carried, is_start, spike_cell
-from bem.lubrication.line_scales import scaled_problem
+from bem.lubrication.line.continuation import MIDDLE, SPIKE_CELLS
+from bem.lubrication.line.newton import carried, is_start, spike_cell
+from bem.lubrication.line.scales import scaled_problem
+from bem.lubrication.line.state import KeptSteady
+from bem.lubrication.results import FilmSolution
 
 
 def on_mesh_of(film: FilmSolution, other: FilmSolution) -> FilmSolution:

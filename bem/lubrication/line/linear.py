@@ -1,4 +1,4 @@
-"""Newton's step of the steady line contact: solved for hierarchically (`line_elimination`), densely where that fails or
+"""Newton's step of the steady line contact: solved for hierarchically (`elimination`), densely where that fails or
 there are few nodes. Verified in tests/lubrication/test_line_operator.py."""
 
 from __future__ import annotations
@@ -9,9 +9,9 @@ import numpy as np
 from scipy.linalg import lu_factor, lu_solve
 
 from bem.grid import FloatArray
-from bem.lubrication.line_elimination import Elimination, eliminate
-from bem.lubrication.line_equations import Equations, by_film
-from bem.lubrication.line_kernel import DEFLECTION, LineOperator
+from bem.lubrication.line.deflection import DEFLECTION, LineOperator
+from bem.lubrication.line.elimination import Elimination, eliminate
+from bem.lubrication.line.equations import Equations, by_film
 
 LARGEST_LINEAR_RESIDUAL = 0.05
 """Of the hierarchical solution, relative; beyond it the equations are solved once more with a dense matrix."""

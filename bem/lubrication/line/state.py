@@ -1,8 +1,8 @@
 """What a steady line film leaves behind its figures: to be looked at anywhere, and for others to start from.
 
 Equations of the last Newton step are megabytes, and of use only to a start next to it: who solves many films in a row
-keeps them from one to the next (`bem.lubrication.steady.line_film`), results are handed out without. Knows the discrete
-film. Verified in tests/lubrication/test_line_film_steady.py and tests/friction/test_continuation.py.
+keeps them from one to the next (`steady.line_film`), results are handed out without. Knows the discrete film.
+Verified in tests/lubrication/test_line_film_steady.py and tests/friction/test_continuation.py.
 """
 
 from __future__ import annotations
@@ -12,18 +12,18 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from bem.grid import FloatArray
-from bem.lubrication.film import FilmSolution
-from bem.lubrication.kept_heat import KeptHeat
-from bem.lubrication.line_kernel import DEFLECTION, logarithmic_integral
-from bem.lubrication.line_newton import State
-from bem.lubrication.line_scales import Scales
+from bem.lubrication.line.deflection import DEFLECTION, logarithmic_integral
+from bem.lubrication.line.newton import State
+from bem.lubrication.line.scales import Scales
+from bem.lubrication.line.temperatures import KeptHeat
+from bem.lubrication.results import FilmSolution
 from bem.numerics.monotone import MonotoneCubic
 from bem.threads import one_blas_thread
 
 
 @dataclass(frozen=True)
 class KeptSteady:
-    """What a warm start and a look at other positions need; `flooded`: without a supply, `sketch`: of `line_sketch`,
+    """What a warm start and a look at other positions need; `flooded`: without a supply, `sketch`: of `coarse`,
     `heat`: what full heat starts from."""
 
     state: State

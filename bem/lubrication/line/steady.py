@@ -10,18 +10,18 @@ import numpy as np
 from bem.errors import InputError, Status
 from bem.grid import FloatArray
 from bem.lubrication.cavitation import Cavitation
-from bem.lubrication.film import FilmSolution
-from bem.lubrication.line_case import LineCase
-from bem.lubrication.line_continuation import from_neighbour, from_newtonian, from_scratch
-from bem.lubrication.line_flow import Problem
-from bem.lubrication.line_friction import friction_forces
-from bem.lubrication.line_kept import KeptSteady, sampled_state
-from bem.lubrication.line_newton import Outcome, State, is_start
-from bem.lubrication.line_scales import Scales
-from bem.lubrication.line_starved import Neighbour, Wanted, WantedDistance, WantedLayer, starved, through
-from bem.lubrication.rough_walls import notes_on_factors
+from bem.lubrication.checks import Case, notes_on, why_no_line_film
+from bem.lubrication.flow_factors import notes_on_factors
+from bem.lubrication.line.case import LineCase
+from bem.lubrication.line.continuation import from_neighbour, from_newtonian, from_scratch
+from bem.lubrication.line.friction import friction_forces
+from bem.lubrication.line.newton import Outcome, State, is_start
+from bem.lubrication.line.reynolds import Problem
+from bem.lubrication.line.scales import Scales
+from bem.lubrication.line.starved import Neighbour, Wanted, WantedDistance, WantedLayer, starved, through
+from bem.lubrication.line.state import KeptSteady, sampled_state
+from bem.lubrication.results import FilmSolution
 from bem.lubrication.supply import OilLayer, Starvation, Supply, checked_supply, inside_hertz
-from bem.lubrication.validity import Case, notes_on, why_no_line_film
 from bem.numerics.monotone import MonotoneCubic
 from bem.threads import one_blas_thread
 

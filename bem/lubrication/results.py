@@ -63,7 +63,7 @@ class FilmSolution:
     starvation : what a supply of oil made of a steady film; None where none was given: flooded.
     heat : the same film with all that is known of its heat, a `ThermalFilm` or a `FullThermalFilm`; None without heat.
     state : the discrete solution as its solver left it, to start the next one from; None where none is kept.
-    notes : where the model is outside its validity, a sentence each (`bem.lubrication.validity`).
+    notes : where the model is outside its validity, a sentence each (`bem.lubrication.checks`).
     """
 
     position: FloatArray

@@ -6,8 +6,7 @@ from __future__ import annotations
 import math
 from dataclasses import replace
 
-from bem.lubrication.line_flow import Problem
-from bem.lubrication.line_newton import (
+from bem.lubrication.line.newton import (
     MAX_IMBALANCE,
     Outcome,
     State,
@@ -20,6 +19,7 @@ from bem.lubrication.line_newton import (
     spike_cells_to_exit,
     stretched,
 )
+from bem.lubrication.line.reynolds import Problem
 
 ATTEMPTS = ((160, 4.0), (240, 2.0), (200, 1.5))
 """Coarse cells and first factor of the load, tried in turn until the continuation arrives."""

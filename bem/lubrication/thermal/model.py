@@ -10,8 +10,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 
 from bem.errors import InputError
-from bem.lubrication.film import FilmSolution
-from bem.lubrication.line_case import LineCase
+from bem.lubrication.line.case import LineCase
+from bem.lubrication.results import FilmSolution
 from bem.lubrication.supply import Supply
 from bem.materials import Body
 

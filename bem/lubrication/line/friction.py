@@ -9,10 +9,10 @@ from dataclasses import dataclass
 import numpy as np
 
 from bem.grid import FloatArray
-from bem.lubrication.line_kernel import logarithmic_integral
-from bem.lubrication.line_linear import DEFLECTION
-from bem.lubrication.line_newton import State
-from bem.lubrication.line_scales import Scales
+from bem.lubrication.line.deflection import logarithmic_integral
+from bem.lubrication.line.linear import DEFLECTION
+from bem.lubrication.line.newton import State
+from bem.lubrication.line.scales import Scales
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.shear_profile import middle_stress
 

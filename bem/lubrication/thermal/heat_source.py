@@ -10,10 +10,10 @@ from numpy.typing import NDArray
 
 from bem.compiled import compiled
 from bem.grid import FloatArray
-from bem.lubrication.thermal.across import Across, Given, across
+from bem.lubrication.thermal.columns import Strip
+from bem.lubrication.thermal.cross_film import Across, Given, across
 from bem.lubrication.thermal.field import Sources
 from bem.lubrication.thermal.layers import Oil
-from bem.lubrication.thermal.strip import Strip
 
 
 @dataclass(frozen=True)

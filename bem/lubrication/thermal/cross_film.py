@@ -18,13 +18,13 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.grid import FloatArray
-from bem.lubrication.kept_heat import middles
+from bem.lubrication.line.temperatures import middles
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.shear_profile import Profile, shear_profile
+from bem.lubrication.thermal.columns import Strip
 from bem.lubrication.thermal.hot_viscosity import LARGEST_LOGARITHM
+from bem.lubrication.thermal.layered_shear import Section
 from bem.lubrication.thermal.layers import Oil, Sums, sums_of
-from bem.lubrication.thermal.section import Section
-from bem.lubrication.thermal.strip import Strip
 
 _EASED, _LEAST = 50.0, 1e-300
 _STEP = 1e-4
@@ -44,7 +44,7 @@ class Across:
     crossing : by that in what pressure shears; leaning : by the pressure's in the sliding. expanding : heat that
     compression makes, over temperature and rise of `Oil.expanded` (n, K) [m^2/s]. softer : -d ln(viscosity)/dT (n, K)
     [1/K]. share : of the sliding (n, K). dense : density over that of the oil without pressure (n, K). slow : one over
-    the flux (n, K). thinning : (n,) see `line_flow.Layered`. pushed : rise of speed through a layer by the pressure
+    the flux (n, K). thinning : (n,) see `reynolds.Layered`. pushed : rise of speed through a layer by the pressure
     over lever (n, K) [m/s]. lever : s less where the fluidity has its centre (n, K). turning : heat lost as that centre
     moves (n, K) [W/m^2]. yielding : d ln(flow driven)/dT (n, K) [1/K].
     """

@@ -8,7 +8,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.grid import FloatArray
-from bem.lubrication.film import FilmSolution
+from bem.lubrication.results import FilmSolution
 
 
 @dataclass(frozen=True)

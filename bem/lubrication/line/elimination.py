@@ -20,8 +20,8 @@ import numpy as np
 
 from bem.compiled import compiled
 from bem.grid import FloatArray
-from bem.lubrication.line_equations import Equations
-from bem.lubrication.line_kernel import DEFLECTION, Level, LineOperator
+from bem.lubrication.line.deflection import DEFLECTION, Level, LineOperator
+from bem.lubrication.line.equations import Equations
 
 BORDER = 3
 """Columns that are solved for besides those of the levels: datum, exit, the exit's film."""

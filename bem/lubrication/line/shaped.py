@@ -1,7 +1,7 @@
 """Steady film of a line contact whose undeformed gap is a parabola plus a given profile, such as a worn groove.
 
-Film and pressure solve the complementarity problem of one time step (`line_step`) without its time derivative, on a
-fixed mesh: a film may rupture and form again inside a groove, where the single free exit of `line_newton` does not
+Film and pressure solve the complementarity problem of one time step (`time_step`) without its time derivative, on a
+fixed mesh: a film may rupture and form again inside a groove, where the single free exit of `newton` does not
 exist. Where Newton's method does not converge from the start, the profile changes in smaller steps, each of them the
 start of the next (continuation in the profile). Where a small step does not converge either, implicit steps in time
 lead to the steady film (pseudo-transient continuation). Verified in tests/lubrication/test_shaped_film.py.
@@ -16,11 +16,11 @@ import numpy as np
 
 from bem.grid import FloatArray
 from bem.lubrication.cavitation import Cavitation
-from bem.lubrication.film import FilmSolution
-from bem.lubrication.line_case import LineCase, check_entrainment
-from bem.lubrication.line_march import Contact, March, Operation, Scaling, film_of_solution, solution_at
-from bem.lubrication.line_scales import line_scales, scaled_problem
-from bem.lubrication.line_step import Film, StepOutcome, elastic_film, fixed_mesh, step_of, time_step
+from bem.lubrication.line.case import LineCase, check_entrainment
+from bem.lubrication.line.march import Contact, March, Operation, Scaling, film_of_solution, solution_at
+from bem.lubrication.line.scales import line_scales, scaled_problem
+from bem.lubrication.line.time_step import Film, StepOutcome, elastic_film, fixed_mesh, step_of, time_step
+from bem.lubrication.results import FilmSolution
 from bem.threads import one_blas_thread
 
 CELLS = 400

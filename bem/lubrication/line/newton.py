@@ -22,11 +22,10 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 
 from bem.grid import FloatArray
-from bem.lubrication.line_equations import Equations
-from bem.lubrication.line_flow import Flow, Parts, Problem, eased, longest_step
-from bem.lubrication.line_kernel import DEFLECTION, LineOperator
-from bem.lubrication.line_linear import Change, Linear, again, solve
-from bem.lubrication.line_mesh import (
+from bem.lubrication.line.deflection import DEFLECTION, LineOperator
+from bem.lubrication.line.equations import Equations
+from bem.lubrication.line.linear import Change, Linear, again, solve
+from bem.lubrication.line.mesh import (
     FAR_INLET,
     cell_densities,
     cell_sizes,
@@ -34,6 +33,7 @@ from bem.lubrication.line_mesh import (
     trapezoidal_weights,
     upwind_extrapolation,
 )
+from bem.lubrication.line.reynolds import Flow, Parts, Problem, eased, longest_step
 from bem.numerics.monotone import MonotoneCubic
 
 SHARP_FROM = 1500
