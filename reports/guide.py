@@ -353,9 +353,8 @@ def contributing() -> list[Section]:
     intro = text(
         "A kernel knows no solver, a solver knows no file format, a plot never solves, the command "
         "line is thin; imports "
-        "run one way, and a test holds that. Every tolerance says why it is what it is. A kind of scene is one file in "
-        "bem/scenes/kinds/, a figure one function in "
-        "bem/plots/figures/, a command one "
+        "run one way, and a test holds that. Every tolerance says why it is what it is. A kind of scene is one folder "
+        "in bem/kinds/ with its figures and built-in scenes, a figure one function in its figures.py, a command one "
         "file in bem/cli/. make test-fast and make lint before every commit."
     )
     return [

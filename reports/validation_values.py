@@ -21,7 +21,7 @@ from reports.builder import HERE
 from reports.validation_origin import stale
 
 if TYPE_CHECKING:
-    from bem.scenes.kinds.wear import WearScene
+    from bem.kinds.wear.scene import WearScene
 
 STORED = HERE / "results" / "validation"
 EXPERIMENTS = HERE / "results" / "experiments"

@@ -10,8 +10,8 @@ import typer
 
 def complete_kind(incomplete: str) -> list[str]:
     """Kinds of scene that begin like this, for tab completion; loads nothing."""
-    folder = Path(__file__).resolve().parents[1] / "scenes" / "kinds"
-    names = (item.stem.replace("_", "-") for item in folder.glob("*.py") if not item.name.startswith("_"))
+    folder = Path(__file__).resolve().parents[1] / "kinds"
+    names = (item.parent.name.replace("_", "-") for item in folder.glob("*/scene.py"))
     return sorted(name for name in names if name.startswith(incomplete))
 
 

@@ -13,8 +13,8 @@ from bem.cli._quantity import named_folder
 
 def complete_scene(incomplete: str) -> list[str]:
     """Built-in scenes that begin like this, for tab completion; loads nothing."""
-    folder = Path(__file__).resolve().parents[1] / "scenes" / "library"
-    return sorted(item.stem for item in folder.glob("*.toml") if item.stem.startswith(incomplete))
+    folder = Path(__file__).resolve().parents[1] / "kinds"
+    return sorted(item.stem for item in folder.glob("*/examples/*.toml") if item.stem.startswith(incomplete))
 
 
 SceneArgument = Annotated[

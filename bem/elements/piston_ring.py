@@ -19,12 +19,12 @@ from pydantic import Field, model_validator
 
 from bem.elements.contact import ElementContact
 from bem.elements.model import Contacts, ElementModel
+from bem.kinds.traction.along import columns_or_file
 from bem.materials import contact_modulus
 from bem.notes import Note
 from bem.notes.elements import CONTACT_LOST, FILM_BY_SQUEEZE, RING_AT_EDGE
 from bem.reference_solutions.line_film import InletFilm
 from bem.scenes.common import PositiveLength, Table, problem
-from bem.scenes.tables.along import columns_or_file
 from bem.scenes.units import Angle, Force, Pressure, Ratio, RotationSpeed
 
 _LEAST_CROWN = 1e-9

@@ -1,10 +1,10 @@
-"""Scenes: validated files that say what is wanted, the planner, and the kinds of scene there are.
+"""Scenes: validated files that say what is wanted, the planner, and what a kind of scene is.
 
 `load` reads a scene and writes it resolved, `validate` turns mistakes into messages, `units` reads quantities, `build`
-makes bodies, surfaces and grids of it, `checks` warns of what an expert would, `planner` estimates; `kinds` has a file
-for each kind, `library` the built-in scenes, `records` what a case gives.
+makes bodies, surfaces and grids of it, `checks` warns of what an expert would, `planner` estimates;
+`records` says what a case gives. The kinds themselves and the built-in scenes are in `bem.kinds`.
 
-Sees the solvers through its kinds, and no folder of results. Verified in tests/scenes, tests/gallery (every built-in
+Sees the solvers, and no folder of results. Verified in tests/scenes, tests/gallery (every built-in
 scene) and tests/reliability (hostile and random scenes).
 """
 

@@ -1,5 +1,5 @@
-"""What a kind of scene is, and which there are: those of the package, one file of `bem.scenes.kinds` each, and those
-that `bem.register` entered.
+"""What a kind of scene is, and which there are: those of the package, one folder of `bem/kinds` each, and those that
+`bem.register` entered.
 
 Knows plans, records and axes; no kind of its own until one is asked for. Verified in tests/scenes and tests/extension.
 """
@@ -27,6 +27,8 @@ from bem.scenes.records import Record
 from bem.scenes.records import headline as headline_of
 from bem.scenes.resolutions import Resolution
 
+KINDS = Path(__file__).resolve().parents[1] / "kinds"
+"""Folder of the package's kinds: each one's parts, and its built-in scenes under `examples`."""
 _NAME = re.compile(r"[a-z][a-z0-9-]{0,63}")
 
 
@@ -36,7 +38,7 @@ class Kind:
 
     Attributes
     ----------
-    name : what `kind = "..."` in a scene says; the file's name with "-" for "_".
+    name : what `kind = "..."` in a scene says; the folder's name with "-" for "_".
     title : one line.
     model : of the scene's tables.
     plan : what will be computed, without any work.
@@ -158,8 +160,7 @@ def kind_names() -> tuple[str, ...]:
 
 @cache
 def _of_the_package() -> tuple[str, ...]:
-    home = Path(__file__).with_name("kinds")
-    return tuple(sorted(module.name.replace("_", "-") for module in pkgutil.iter_modules([str(home)])))
+    return tuple(sorted(module.name.replace("_", "-") for module in pkgutil.iter_modules([str(KINDS)]) if module.ispkg))
 
 
 def get_kind(name: str) -> Kind:
@@ -168,7 +169,7 @@ def get_kind(name: str) -> Kind:
         raise KeyError(name)
     if name in _registered:
         return _registered[name]
-    kind = importlib.import_module(f"bem.scenes.kinds.{name.replace('-', '_')}").KIND
+    kind = importlib.import_module(f"bem.kinds.{name.replace('-', '_')}.scene").KIND
     assert isinstance(kind, Kind)
-    assert kind.name == name, f"kind {kind.name!r} must live in {kind.name.replace('-', '_')}.py"
+    assert kind.name == name, f"kind {kind.name!r} must live in bem/kinds/{kind.name.replace('-', '_')}"
     return kind

@@ -11,7 +11,6 @@ import re
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence
 from contextlib import suppress
-from importlib import resources
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -22,7 +21,7 @@ from bem.arguments import did_you_mean, read_small
 from bem.errors import InputError
 from bem.laws import Law
 from bem.scenes.common import SceneModel
-from bem.scenes.kind import get_kind, kind_names
+from bem.scenes.kind import KINDS, get_kind, kind_names
 from bem.scenes.laws import plain
 from bem.scenes.paths import MOST_PARTS, Key, absolute, drop, parse_key, put, values_in_file
 from bem.scenes.units import Dimension
@@ -167,14 +166,17 @@ def library() -> dict[str, dict[str, Any]]:
 @functools.cache
 def _parsed_library() -> dict[str, dict[str, Any]]:
     """The tables of the built-in scenes, parsed once in a process."""
-    folder = resources.files("bem.scenes") / "library"
-    files = sorted(item.name for item in folder.iterdir() if item.name.endswith(".toml"))
-    return {name.removesuffix(".toml"): tomllib.loads((folder / name).read_text("utf-8")) for name in files}
+    return {name: tomllib.loads(path.read_text("utf-8")) for name, path in _library_files().items()}
+
+
+def _library_files() -> dict[str, Path]:
+    """Files of the built-in scenes by name, in alphabetical order."""
+    return {path.stem: path for path in sorted(KINDS.glob("*/examples/*.toml"), key=lambda path: path.stem)}
 
 
 def library_text(name: str) -> str:
     """The commented TOML text of a built-in scene."""
-    return (resources.files("bem.scenes") / "library" / f"{name}.toml").read_text("utf-8")
+    return _library_files()[name].read_text("utf-8")
 
 
 def _read(source: str | os.PathLike[str] | Mapping[str, Any], settings: Sequence[str]) -> tuple[dict[str, Any], Path]:

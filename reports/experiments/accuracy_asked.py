@@ -17,9 +17,9 @@ import numpy as np
 
 from bem.campaigns.refine import solve_case
 from bem.errors import Status
+from bem.scenes import get_kind
 from bem.scenes.axes import with_keys
 from bem.scenes.context import PlainContext
-from bem.scenes.kinds import get_kind
 from bem.scenes.load import scene_from_table
 from reports.experiments.judging import Comparison, Experiment, compare_records, main
 

@@ -73,7 +73,7 @@ def scene_names() -> list[str]:
     """Of the built-in scenes."""
     import bem
 
-    return sorted(path.stem for path in (Path(bem.__file__).parent / "scenes" / "library").glob("*.toml"))
+    return sorted(path.stem for path in (Path(bem.__file__).parent / "kinds").glob("*/examples/*.toml"))
 
 
 def outside(scene: str, folder: str) -> dict[str, float]:

@@ -40,7 +40,7 @@ from bem.wear.segmentation import describe_pieces
 from reports.experiments.kept import keep, rounded
 
 if TYPE_CHECKING:
-    from bem.scenes.kinds.wear import WearScene
+    from bem.kinds.wear.scene import WearScene
 
 RESULT = Path(__file__).resolve().parents[1] / "results" / "piece_shapes.json"
 SCENE = "wear-steel-steel"

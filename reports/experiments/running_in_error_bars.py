@@ -17,10 +17,10 @@ import numpy as np
 
 from bem.accuracy.wear import MIXED_RULES
 from bem.errors import BemError
+from bem.kinds.running_in import scene as running_in
 from bem.scenes import build
 from bem.scenes.context import PlainContext
 from bem.scenes.kind import get_kind
-from bem.scenes.kinds import running_in
 from bem.scenes.load import scene_from_table
 from reports.experiments.contact_error_bars import waves_through
 from reports.experiments.judging import Comparison, Experiment, compare_records, main, worn_bodies

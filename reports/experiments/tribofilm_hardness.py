@@ -24,10 +24,10 @@ from scipy.interpolate import RectBivariateSpline
 from scipy.optimize import brentq, least_squares
 
 from bem.grid import FloatArray
+from bem.kinds.tribofilm.scene import TribofilmScene
 from bem.runs import plan_scene
 from bem.scenes import build
 from bem.scenes.context import PlainContext
-from bem.scenes.kinds.tribofilm import TribofilmScene
 from bem.tribofilm import Constant, FadingSubstrate, evolve_film, solve_film_contact
 from reports.experiments.kept import keep, rounded
 

@@ -16,10 +16,10 @@ from typing import Any
 import numpy as np
 
 from bem.accuracy.wear import RULES
+from bem.kinds.wear import scene as wear
 from bem.scenes import build
 from bem.scenes.context import PlainContext
 from bem.scenes.kind import get_kind
-from bem.scenes.kinds import wear
 from bem.scenes.load import load_scene
 from reports.experiments.contact_error_bars import waves_through
 from reports.experiments.judging import Comparison, Experiment, compare_records, main, worn_bodies

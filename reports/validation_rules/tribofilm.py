@@ -9,7 +9,7 @@ from bem.scenes.load import load_scene
 from reports.validation_values import READING, Rule, Summary, at, echo, experiment, falling, listed, quoted
 
 if TYPE_CHECKING:
-    from bem.scenes.kinds.tribofilm import TribofilmScene
+    from bem.kinds.tribofilm.scene import TribofilmScene
 
 STIFF = "tribofilm-modulus-130-gpa"
 AS_STEEL = "tribofilm-modulus-210-gpa"

@@ -45,8 +45,8 @@ from reports.validation_values import (
 )
 
 if TYPE_CHECKING:
-    from bem.scenes.kinds.running_in import RunningInScene
-    from bem.scenes.kinds.wear import WearScene
+    from bem.kinds.running_in.scene import RunningInScene
+    from bem.kinds.wear.scene import WearScene
 
 
 def _spread_of_sizes(summary: Summary) -> float:

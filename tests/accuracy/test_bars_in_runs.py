@@ -7,13 +7,13 @@ import pytest
 
 from bem.campaigns.collect import _figures, outcome_of
 from bem.cli._terminal import print_numbers
+from bem.kinds.running_in.scene import RunningInRecord
+from bem.kinds.wear.scene import WearRecord
 from bem.plots.report import with_error
 from bem.plots.tables import origin_table
 from bem.runs import run_scene
 from bem.scenes.context import PlainContext
 from bem.scenes.kind import get_kind
-from bem.scenes.kinds.running_in import RunningInRecord
-from bem.scenes.kinds.wear import WearRecord
 from bem.scenes.load import load_scene
 from bem.scenes.records import Figure, Series, described, without_bars
 

@@ -10,9 +10,9 @@ from small_scenes import PATCH
 from bem import ConvergenceError, Grid
 from bem.accuracy import running_in_bars
 from bem.accuracy.wear import FROM_START, MIXED_RULES
+from bem.kinds.running_in.scene import at_resolution
 from bem.runs import run_scene
 from bem.scenes import build, get_kind
-from bem.scenes.kinds.running_in import at_resolution
 from bem.scenes.load import scene_from_table
 from bem.scenes.wearing import on_every_second_cell
 from reports.experiments.running_in_error_bars import EXPERIMENT

@@ -16,10 +16,10 @@ from bem.campaigns import campaign_of, compute, jobs, plan
 from bem.campaigns.engine import Board, notes_of
 from bem.campaigns.local import compute_locally
 from bem.errors import ConvergenceError, InputError, interrupts_as_they_are
+from bem.kinds.wear import scene as wear
 from bem.results import open_run
 from bem.runs import plan_scene, run_scene
 from bem.scenes import load_scene, wearing
-from bem.scenes.kinds import wear
 
 TIMES = ("wall_time_s", "seconds_by_stage")
 SCENE = {

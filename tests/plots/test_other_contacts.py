@@ -10,9 +10,14 @@ import xarray as xr
 from matplotlib.figure import Figure
 from matplotlib.image import imread
 
+from bem.kinds.contact import figures as contact
+from bem.kinds.friction import figures as friction
+from bem.kinds.point_film import figures as point_film
+from bem.kinds.running_in import figures as running_in
+from bem.kinds.wear import figures as wear
 from bem.plots import draw as drawing
 from bem.plots.cases import along
-from bem.plots.figures import contact, friction, friction_map, point_film, running_in, wear
+from bem.plots.figures import friction_map
 from bem.plots.report import with_error
 from bem.plots.sweep import fill
 from bem.plots.tables import figure_tables

@@ -6,8 +6,8 @@ from pydantic import ValidationError
 from small_scenes import FILM
 
 from bem.campaigns.collect import outcome_of
+from bem.kinds.film.scene import KIND, FilmScene
 from bem.scenes import PlainContext
-from bem.scenes.kinds.film import KIND, FilmScene
 
 pytestmark = pytest.mark.internal
 

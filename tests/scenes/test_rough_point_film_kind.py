@@ -7,10 +7,10 @@ import pytest
 from small_scenes import oiled_ball
 
 from bem import Grid, InputError, generate_surface, load_scene, solve_rough_point_film
+from bem.kinds.point_film.touching import REMEDY, TouchingScene
 from bem.lubrication import MeasuredHeights
 from bem.lubrication.point.rough_film import LEAST_FILM
 from bem.runs import plan_scene, run_scene
-from bem.scenes.tables.touching import REMEDY, TouchingScene
 
 WAVES = {"hurst": 0.8, "rolloff_wavelength": 100e-6, "cutoff_wavelength": 60e-6}
 BUMPS = {"kind": "generated", "rms_height": "40 nm", "seed": 5} | WAVES

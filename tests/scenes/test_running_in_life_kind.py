@@ -6,7 +6,8 @@ from small_scenes import PATCH
 
 from bem import InputError
 from bem.friction.solve import solve_setup
-from bem.scenes import PlainContext, build, get_kind, lives, load_scene
+from bem.kinds.running_in_life import lives
+from bem.scenes import PlainContext, build, get_kind, load_scene
 from bem.wear import WearModel
 
 LIFE = PATCH | {

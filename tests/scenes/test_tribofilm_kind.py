@@ -7,8 +7,8 @@ import pytest
 
 from bem.campaigns import campaign_of, compute, plan
 from bem.errors import InfeasibleError, InputError
-from bem.scenes import load_scene
-from bem.scenes.kinds import get_kind, tribofilm
+from bem.kinds.tribofilm import scene as tribofilm
+from bem.scenes import get_kind, load_scene
 
 SMALL = """
 kind = "tribofilm"

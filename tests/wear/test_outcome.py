@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from bem.grid import FloatArray, Grid
+from bem.kinds.wear import scene as wear
 from bem.scenes import library
 from bem.scenes.context import PlainContext
 from bem.scenes.kind import get_kind
-from bem.scenes.kinds import wear
 from bem.scenes.load import load_scene
 from bem.wear.outcome import contact_strip, drift, hertz_area, rms_error, sizes_over_cycles, strip_wear
 from bem.wear.state import PARTICLE_FIELDS

@@ -1,5 +1,8 @@
-"""The figures there are. A module here holds a tuple `FIGURES` of `FigureKind`; a new one needs nothing else. One from
-outside the package is registered by `bem.register(FigureKind(...))`.
+"""The figures there are.
+
+A module holds a tuple `FIGURES` of `FigureKind`: `figures.py` in the folder of a kind of scene (`bem/kinds`), or a
+module here where several kinds share figures. A new one needs nothing else. One from outside the package is registered
+by `bem.register(FigureKind(...))`.
 
 `draw(run, figure)` fills an empty matplotlib figure from `run.dataset` (`bem.results.arrays`: values, axes, units),
 `run.summary` and `run.scene` (tables of plain values). It never solves and never writes. `bem.plots.style` has the
@@ -22,6 +25,7 @@ from bem.errors import InputError
 from bem.extensions import load_extensions, same_origin
 from bem.plots.backend import load_matplotlib
 from bem.plots.labels import FEWEST_CELLS
+from bem.scenes.kind import KINDS
 
 _NAME = re.compile(r"[a-z][a-z0-9-]{0,63}")
 
@@ -103,8 +107,10 @@ def all_figures() -> dict[str, FigureKind]:
 def _of_the_package() -> dict[str, FigureKind]:
     load_matplotlib()
     found: dict[str, FigureKind] = {}
-    for module in sorted(item.name for item in pkgutil.iter_modules(__path__)):
-        loaded = importlib.import_module(f"bem.plots.figures.{module}")
+    shared = [f"{__name__}.{item.name}" for item in pkgutil.iter_modules(__path__)]
+    of_kinds = [f"bem.kinds.{path.parent.name}.figures" for path in KINDS.glob("*/figures.py")]
+    for module in sorted([*shared, *of_kinds]):
+        loaded = importlib.import_module(module)
         for kind in loaded.FIGURES:
             assert kind.name not in found, f"two figures are called {kind.name!r}"
             found[kind.name] = replace(kind, all_cases=getattr(loaded, "ALL_CASES", False))

@@ -18,10 +18,10 @@ from bem.scenes.tables.film_defect import film_defect
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars
     from bem.friction.setup import MixedSetup
+    from bem.kinds.running_in_life.tables import LifeFilm
     from bem.life.march import LifeState
     from bem.life.monitors import Monitors
     from bem.life.surfaces import GrowingFilm, LifeCase
-    from bem.scenes.tables.life import LifeFilm
 
 _JUMPS_OF_FATIGUE = 16  # at least: the stresses of a jump are those of its ends
 
@@ -49,9 +49,9 @@ def on_grid(scene: Any) -> float:
 
 def case_of(scene: Any, setup: MixedSetup) -> LifeCase:
     """Return the parts of the life that stay the same."""
+    from bem.kinds.running_in_life.tables import INDICES
     from bem.life.passes import Passing
     from bem.life.surfaces import LifeCase
-    from bem.scenes.tables.life import INDICES
     from bem.wear.mixed import MixedContact, shared_film_table
 
     (speeds,), wear, life = scene.speeds.build(), scene.wear, scene.life

@@ -14,6 +14,7 @@ from pydantic import model_validator
 
 from bem.errors import InfeasibleError
 from bem.grid import FloatArray, Grid
+from bem.kinds.wear.tables import CyclesScene, CylinderScene, DomainScene, WearVariantScene
 from bem.scenes import build, pieces, plans, wearing
 from bem.scenes.axes import Axis, listed, variants, with_keys
 from bem.scenes.common import BodyScene, Repetitions, SceneModel, problem
@@ -23,7 +24,6 @@ from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Series, filled, grid_map
 from bem.scenes.resolutions import first_domain, of_loop
 from bem.scenes.tables.shape import ShapeScene
-from bem.scenes.tables.wear import CyclesScene, CylinderScene, DomainScene, WearVariantScene
 from bem.scenes.tables.wear_model import WearScenePart
 from bem.scenes.third_bodies import THIRD_BODIES, tell_of_third_bodies
 from bem.wear.criterion import WearCriterion

@@ -14,6 +14,8 @@ from pydantic import model_validator
 from bem.accuracy.bars import POINTS
 from bem.errors import Status
 from bem.grid import FloatArray
+from bem.kinds.traction.along import AlongScene, with_first_row
+from bem.kinds.traction.rolling import FilmPointsScene, RollerScene, RollingScene
 from bem.notes.scenes import FILM_THINNER_THAN_ROUGHNESS
 from bem.scenes import build, plans
 from bem.scenes.axes import Axis
@@ -24,9 +26,7 @@ from bem.scenes.oil import OilScene
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import LAMBDA_WHOLE, Figure, Record, Series, filled
 from bem.scenes.resolutions import counted
-from bem.scenes.tables.along import AlongScene, with_first_row
 from bem.scenes.tables.heat import check_film_heat, check_supply_of_heat
-from bem.scenes.tables.rolling import FilmPointsScene, RollerScene, RollingScene
 from bem.scenes.tables.supply import SupplyScene, build_supply
 
 if TYPE_CHECKING:

@@ -15,9 +15,11 @@ import numpy as np
 from pydantic import model_validator
 
 from bem.grid import FloatArray
+from bem.kinds.running_in_life import lives
+from bem.kinds.running_in_life.tables import LifeCycles, LifeFatigue, LifeFilm, LifeParticles, LifeWear
 from bem.notes.accuracy import BARS_PARTIAL
 from bem.notes.wear import LIFE_DISTANCE_DIFFERS
-from bem.scenes import build, film_plans, lives, plans
+from bem.scenes import build, film_plans, plans
 from bem.scenes.axes import Axis
 from bem.scenes.common import Repetitions, problem
 from bem.scenes.context import Context, error_bars, tell
@@ -26,7 +28,6 @@ from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step, padded_points
 from bem.scenes.records import LAMBDA_WHOLE, MINIMUM_FILM, Figure, GridRecord, Series, filled, grid_map
 from bem.scenes.tables.film_defect import film_defect
-from bem.scenes.tables.life import LifeCycles, LifeFatigue, LifeFilm, LifeParticles, LifeWear
 from bem.scenes.tables.sharing import TEMPERATURES, OneLoadScene, RunningInSharing, heated
 
 if TYPE_CHECKING:

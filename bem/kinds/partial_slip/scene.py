@@ -12,6 +12,7 @@ import numpy as np
 
 from bem.errors import InfeasibleError, Status
 from bem.grid import FloatArray, Grid
+from bem.kinds.partial_slip.pushing import PRESSING_STEPS, Path, answers, figures_of, pressed, pressing_steps, pushed
 from bem.notes import Note
 from bem.notes.contact import PRESSING_PATH
 from bem.notes.scenes import JOINT_CLOSED, PART_UNSOLVED
@@ -20,7 +21,6 @@ from bem.scenes.context import Context, error_bars
 from bem.scenes.kind import Kind
 from bem.scenes.packing import keep, kept
 from bem.scenes.planner import SEARCHED_IN_SINGLE, Plan, Step
-from bem.scenes.pushing import PRESSING_STEPS, Path, answers, figures_of, pressed, pressing_steps, pushed
 from bem.scenes.records import Figure, Series, filled, grid_map
 from bem.scenes.resolutions import CELLS, DEPTHS
 from bem.scenes.sticking import Coarse, Found, Site, StickRecord

@@ -12,6 +12,7 @@ from pydantic import model_validator
 
 from bem.errors import Status
 from bem.grid import FloatArray, Grid
+from bem.kinds.flow_factors.tables import FlowScene, PatchGridScene
 from bem.scenes import build, plans
 from bem.scenes.common import BodyScene, SceneModel, UpperBodyScene, problem
 from bem.scenes.context import Context, error_bars, tell
@@ -19,7 +20,6 @@ from bem.scenes.kind import Kind
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, filled
 from bem.scenes.resolutions import CELLS
-from bem.scenes.tables.flow import FlowScene, PatchGridScene
 
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars

@@ -13,6 +13,7 @@ import numpy as np
 
 from bem.errors import InputError, Status
 from bem.grid import FloatArray, Grid
+from bem.kinds.asperities.tables import ArrayScene
 from bem.notes.accuracy import NoBar
 from bem.scenes import build, plans
 from bem.scenes.axes import Axis, listed
@@ -23,7 +24,6 @@ from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, filled
 from bem.scenes.resolutions import cell_at
-from bem.scenes.tables.asperities import ArrayScene
 
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars

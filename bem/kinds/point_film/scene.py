@@ -13,6 +13,7 @@ from pydantic import model_validator
 from bem.accuracy.bars import GRID
 from bem.errors import Status
 from bem.grid import FloatArray, Grid
+from bem.kinds.point_film.touching import REMEDY, TouchingScene, check_touching, rough_body, rough_notes
 from bem.notes.scenes import FILM_THINNER_THAN_ROUGHNESS, LEAST_FILM_DECIDES
 from bem.reference_solutions.hertz import ellipse_contact
 from bem.scenes import build, plans
@@ -27,7 +28,6 @@ from bem.scenes.resolutions import Resolution
 from bem.scenes.tables.ball import BallRollingScene, BallScene, FilmCellsScene
 from bem.scenes.tables.passing import PatchScene
 from bem.scenes.tables.supply import SupplyScene, build_supply, check_layer
-from bem.scenes.tables.touching import REMEDY, TouchingScene, check_touching, rough_body, rough_notes
 
 if TYPE_CHECKING:
     from bem.accuracy.point import PointCase

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING, Annotated, Literal
 import numpy as np
 
 from bem.grid import FloatArray, Grid
+from bem.kinds.particles.tables import ArchardScene, SedimentationScene, SeparationScene, SyntheticMapScene
 from bem.notes.scenes import MAP_SYNTHETIC
 from bem.scenes import plans
 from bem.scenes.common import MeasuredSurface, OutputsScene, SceneModel, one_of
@@ -18,7 +19,6 @@ from bem.scenes.kind import Kind
 from bem.scenes.pieces import ParticleTable, particle_rows
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Series, columns, filled
-from bem.scenes.tables.particles import ArchardScene, SedimentationScene, SeparationScene, SyntheticMapScene
 
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars

@@ -11,6 +11,7 @@ from pydantic import model_validator
 
 from bem.accuracy.bars import POINTS, STEPS
 from bem.grid import FloatArray
+from bem.kinds.film.tables import FilmCylinderScene, MarchScene, MotionScene
 from bem.scenes import build, plans
 from bem.scenes.common import BodyScene, OutputsScene, SceneModel, UpperBodyScene, check_smooth, problem
 from bem.scenes.context import Context
@@ -20,7 +21,6 @@ from bem.scenes.oil import OilScene
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Series, columns, filled
 from bem.scenes.resolutions import counted
-from bem.scenes.tables.motion import FilmCylinderScene, MarchScene, MotionScene
 from bem.scenes.tables.supply import SupplyScene
 
 if TYPE_CHECKING:

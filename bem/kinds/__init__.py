@@ -1,0 +1,15 @@
+"""Kinds of scene: a folder here is a kind, `running-in` in `running_in`, and nothing else has to know of it.
+
+A kind is one case. Its folder has the scene's tables, what a case will cost (`plan`), the solver call (`run`), a typed
+record of the results, its figures (`figures.py`) and its built-in scenes (`examples`). A kind knows the solvers,
+`bem.scenes` and its context, and no other kind. Loops over loads, variants, repetitions and whatever `[over]` names,
+workers, resuming, statistics, dataset and summary are the business of `bem.campaigns`, which reads them from `axes` and
+from the record (`bem.scenes.records`).
+
+How to write one, in the package or in a file of your own that ends in `bem.register(KIND)`, is in the guide
+(reports/prose/kinds.toml), part by part; tests/extension/test_kinds_and_readers_from_outside.py holds a whole one,
+small. Tables of several kinds stand in `bem.scenes.tables`, `bem.scenes.common`, `wearing` and `lubrication`; grids,
+bodies and heights in `bem.scenes.build`; steps of plans in `bem.scenes.plans`; the class `Kind` in `bem.scenes.kind`.
+
+Verified in tests/scenes (each kind), tests/gallery (every built-in scene), tests/campaigns (cases, resuming).
+"""

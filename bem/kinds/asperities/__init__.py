@@ -1,0 +1,4 @@
+"""Kind of scene `asperities`.
+
+A regular array of spherical asperities against a flat: load per asperity over depth.
+"""

@@ -1,0 +1,4 @@
+"""Kind of scene `flow-factors`.
+
+Flow factors of rough surfaces over separation, as deformed in their contact.
+"""

@@ -1,0 +1,4 @@
+"""Kind of scene `partial-slip`.
+
+Pressed bodies pushed along, once or there and back: where they stick and slip, loop, energy of friction.
+"""

@@ -1,0 +1,4 @@
+"""Kind of scene `point-film-time`.
+
+Film of a ball or barrel in time: dents, waviness and roughness that pass through, start, stop, impact.
+"""

@@ -1,0 +1,4 @@
+"""Kind of scene `running-in-life`.
+
+Running-in over a life: wear and tribofilm over millions of cycles in mixed lubrication, in jumps of known error.
+"""

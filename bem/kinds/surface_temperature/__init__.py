@@ -1,0 +1,4 @@
+"""Kind of scene `surface-temperature`.
+
+Heat of friction in a rough or smooth contact: surface temperature, its share between the bodies.
+"""

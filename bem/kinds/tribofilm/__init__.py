@@ -1,0 +1,4 @@
+"""Kind of scene `tribofilm`.
+
+A tribofilm that grows under stress and heat, wears, and takes substrate with it.
+"""

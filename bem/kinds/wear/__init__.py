@@ -1,0 +1,4 @@
+"""Kind of scene `wear`.
+
+Wear particles and running-in of a cylinder on a flat in boundary lubrication.
+"""
