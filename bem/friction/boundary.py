@@ -100,7 +100,7 @@ class ConstantFriction(BoundaryFriction):
     """Shear stress proportional to the pressure: Amontons and Coulomb."""
 
     name: ClassVar[str] = "constant"
-    friction: float = parameter("coefficient of friction", at_least=0)
+    friction: float = parameter("friction coefficient", at_least=0)
 
     def shear_stress(self, pressure: FloatArray, sliding_speed: float) -> FloatArray:
         """Coefficient times pressure."""
@@ -122,8 +122,8 @@ class PressureDependentShear(BoundaryFriction):
     """
 
     name: ClassVar[str] = "pressure_dependent"
-    shear_strength: float = parameter("tau_0, shear strength without pressure", "Pa", at_least=0)
-    pressure_coefficient: float = parameter("a, its slope with pressure", at_least=0, at_most=2)
+    shear_strength: float = parameter("shear strength tau_0 without pressure", "Pa", at_least=0)
+    pressure_coefficient: float = parameter("pressure coefficient a of the shear strength", at_least=0, at_most=2)
 
     def shear_stress(self, pressure: FloatArray, sliding_speed: float) -> FloatArray:
         """tau_0 + a p."""
@@ -140,7 +140,9 @@ class PressureLimitedShear(PressureDependentShear):
     """
 
     name: ClassVar[str] = "pressure_limited"
-    largest_shear_stress: float = parameter("shear strength of the softer surface", "Pa", above=0)
+    largest_shear_stress: float = parameter(
+        "largest shear stress: the shear strength of the softer body, about hardness / 4.8", "Pa", above=0
+    )
 
     def shear_stress(self, pressure: FloatArray, sliding_speed: float) -> FloatArray:
         """tau_0 + a p, cut."""
@@ -157,10 +159,10 @@ class SpeedDependentFriction(BoundaryFriction):
     """
 
     name: ClassVar[str] = "speed_dependent"
-    static_friction: float = parameter("f_s, coefficient of friction at rest", at_least=0, at_most=2)
-    kinetic_friction: float = parameter("f_k, coefficient at high speed", at_least=0, at_most=2)
-    speed_scale: float = parameter("u_s, sliding speed over which it changes", "m/s", above=0)
-    speed_exponent: float = parameter("n", default=1.0, above=0, at_most=4)
+    static_friction: float = parameter("static friction coefficient f_s", at_least=0, at_most=2)
+    kinetic_friction: float = parameter("kinetic friction coefficient f_k at high speed", at_least=0, at_most=2)
+    speed_scale: float = parameter("sliding speed u_s over which friction falls from static to kinetic", "m/s", above=0)
+    speed_exponent: float = parameter("exponent n of the sliding speed", default=1.0, above=0, at_most=4)
 
     def shear_stress(self, pressure: FloatArray, sliding_speed: float) -> FloatArray:
         """The coefficient above times pressure."""
@@ -175,9 +177,9 @@ class TemperatureDependentFriction(BoundaryFriction):
 
     name: ClassVar[str] = "temperature_dependent"
     needs_temperature: ClassVar[bool] = True
-    friction: float = parameter("f_0, coefficient of friction at T_0", at_least=0)
-    softening: float = parameter("c, positive where it falls with temperature", "1/K", at_least=-0.1, at_most=0.1)
-    reference_temperature: float = parameter("T_0", "K", above=0)
+    friction: float = parameter("friction coefficient f_0 at the reference temperature", at_least=0)
+    softening: float = parameter("relative decrease c of friction per kelvin", "1/K", at_least=-0.1, at_most=0.1)
+    reference_temperature: float = parameter("reference temperature T_0", "K", above=0)
 
     def shear_stress(self, pressure: FloatArray, sliding_speed: float) -> FloatArray:
         """The coefficient above times pressure."""
@@ -197,10 +199,10 @@ class ActivatedShear(BoundaryFriction):
 
     name: ClassVar[str] = "activated"
     needs_temperature: ClassVar[bool] = True
-    activation_energy: float = parameter("Q, barrier without pressure and shear", "J", at_least=0)
-    pressure_volume: float = parameter("W, activation volume of the pressure", "m^3", at_least=0)
-    shear_volume: float = parameter("F, activation volume of the shear stress", "m^3", above=0)
-    reference_speed: float = parameter("u_0, speed without a barrier", "m/s", above=0)
+    activation_energy: float = parameter("activation energy Q without pressure and shear", "J", at_least=0)
+    pressure_volume: float = parameter("activation volume W of the pressure", "m^3", at_least=0)
+    shear_volume: float = parameter("activation volume F of the shear stress", "m^3", above=0)
+    reference_speed: float = parameter("reference speed u_0: sliding speed without a barrier", "m/s", above=0)
 
     def shear_stress(self, pressure: FloatArray, sliding_speed: float) -> FloatArray:
         """The stress above."""
@@ -213,7 +215,9 @@ class ActivatedShear(BoundaryFriction):
 class _FrictionTable(BoundaryFriction):
     """Coefficients of friction at ascending values of one variable; linear between them, constant beyond the ends."""
 
-    coefficients: tuple[float, ...] = parameter("coefficients of friction", at_least=0, at_most=2, several=True)
+    coefficients: tuple[float, ...] = parameter(
+        "friction coefficients of the table", at_least=0, at_most=2, several=True
+    )
 
     @abstractmethod
     def _values(self) -> tuple[float, ...]:
@@ -237,7 +241,7 @@ class FrictionOverPressure(_FrictionTable):
     """Measured coefficient over the contact pressure of each cell."""
 
     name: ClassVar[str] = "table_over_pressure"
-    pressures: tuple[float, ...] = parameter("pressures of the table", "Pa", at_least=0, several=True)
+    pressures: tuple[float, ...] = parameter("contact pressures of the table", "Pa", at_least=0, several=True)
 
     def _values(self) -> tuple[float, ...]:
         return self.pressures

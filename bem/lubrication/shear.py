@@ -129,7 +129,7 @@ class LimitedShear(ShearLaw):
 
     name: ClassVar[str] = "limited"
     limiting_shear_coefficient: float = parameter(
-        "slope of the limiting shear stress with pressure",
+        "limiting shear stress coefficient: slope of the limiting shear stress with pressure",
         default=0.08,
         above=0,
         source="the middle of 0.04 to 0.12: Bair and Winer, J. Lubr. Technol. 101 (1979) 251, Hoglund and Jacobson, "
@@ -155,7 +155,7 @@ class Eyring(LimitedShear):
     """tau = tau0 asinh(mu du/h / tau0), tau0 the Eyring stress; Eyring (1936), Johnson and Tevaarwerk (1977)."""
 
     name: ClassVar[str] = "eyring"
-    shear_stress_limit: float = parameter("Eyring stress, where thinning begins", "Pa", above=0)
+    shear_stress_limit: float = parameter("Eyring stress, where shear thinning begins", "Pa", above=0)
 
     def unlimited(self, newtonian: FloatArray) -> FloatArray:
         """The stress above."""
@@ -208,12 +208,12 @@ class Carreau(LimitedShear):
     one Yasuda's; Bair (2007)."""
 
     name: ClassVar[str] = "carreau"
-    shear_stress_limit: float = parameter("critical stress, where thinning begins", "Pa", above=0)
+    shear_stress_limit: float = parameter("critical shear stress, where shear thinning begins", "Pa", above=0)
     carreau_exponent: float = parameter(
-        "slope of ln(stress) with ln(rate) far beyond it", default=0.5, above=0, at_most=1
+        "power-law exponent of stress over shear rate, far above the critical stress", default=0.5, above=0, at_most=1
     )
     yasuda_exponent: float = parameter(
-        "how sharply thinning begins",
+        "Yasuda exponent: how sharply shear thinning begins; 2 is Carreau's law",
         default=2.0,
         at_least=0.1,
         at_most=20,

@@ -13,6 +13,7 @@ from pydantic_core import PydanticCustomError
 
 from bem.materials import CATALOGUE, Body, Layer, Material
 from bem.scenes.asked import AskedAccuracy
+from bem.scenes.keys import key
 from bem.scenes.paths import checksum_of, what_is_wrong_with
 from bem.scenes.ranges import values_of_keys
 from bem.scenes.table import Table, check_rising, exactly_one, one_for_both, one_of, problem
@@ -32,7 +33,7 @@ BODIES = ("lower", "upper")
 class Variant(Table):
     """A case that differs from the scene in what is given here; kinds say which keys."""
 
-    name: Annotated[str, Field(min_length=1, max_length=60)]
+    name: Annotated[str, Field(min_length=1, max_length=60)] = key("Name of the case in tables and figures.", "basic")
 
     def changes(self) -> dict[str, Any]:
         """The keys that are given, with their values."""
@@ -41,10 +42,12 @@ class Variant(Table):
 
 
 class CylinderTable(Table):
-    """A cylinder along y on a flat; forces are on its full width."""
+    """A cylinder along y on a flat; forces act on its full width."""
 
-    radius: PositiveLength
-    width: PositiveLength
+    radius: PositiveLength = key("Radius of the cylinder.", "basic")
+    width: PositiveLength = key(
+        "Width of the contact: length of the cylinder along y, on which the load acts.", "basic"
+    )
 
 
 _Entry = TypeVar("_Entry")
@@ -60,17 +63,33 @@ def _named(name: Any, catalogue: Mapping[str, _Entry], wrong: str) -> _Entry:
 
 
 class MaterialScene(Table):
-    """`material = "steel-52100"` from the catalogue, or constants of one's own; with both, the constants win."""
+    """Elastic solid: a name of the catalogue (`bem materials`), or constants of your own, which win over its own."""
 
-    name: str = "unnamed"
-    youngs_modulus: PositivePressure
-    poissons_ratio: Annotated[Ratio, Field(gt=-1, lt=0.5)]
-    hardness: PositivePressure | None = None
-    yield_stress: PositivePressure | None = None
-    thermal_conductivity: Annotated[ThermalConductivity, Field(gt=0)] | None = None
-    density: Annotated[Density, Field(gt=0)] | None = None
-    heat_capacity: Annotated[HeatCapacity, Field(gt=0)] | None = None
-    source: str = ""
+    name: str = key("Name of the material in reports.", "advanced", default="unnamed")
+    youngs_modulus: PositivePressure = key("Young's modulus E.", "basic")
+    poissons_ratio: Annotated[Ratio, Field(gt=-1, lt=0.5)] = key("Poisson's ratio, above -1 and below 0.5.", "basic")
+    hardness: PositivePressure | None = key(
+        "Indentation hardness: the highest contact pressure of elastic-perfectly plastic models.",
+        "advanced",
+        default=None,
+        reason="2.8 times the yield stress",
+    )
+    yield_stress: PositivePressure | None = key(
+        "Yield stress, with which wear criteria compare the equivalent stress.",
+        "advanced",
+        default=None,
+        reason="hardness / 2.8",
+    )
+    thermal_conductivity: Annotated[ThermalConductivity, Field(gt=0)] | None = key(
+        "Thermal conductivity; only temperatures need it.", "advanced", default=None
+    )
+    density: Annotated[Density, Field(gt=0)] | None = key(
+        "Density; only temperatures need it.", "advanced", default=None
+    )
+    heat_capacity: Annotated[HeatCapacity, Field(gt=0)] | None = key(
+        "Specific heat capacity; only temperatures need it.", "advanced", default=None
+    )
+    source: str = key("Source of the constants, repeated in the scene file of the run.", "expert", default="")
 
     @model_validator(mode="before")
     @classmethod
@@ -94,10 +113,12 @@ class MaterialScene(Table):
 
 
 class LayerScene(Table):
-    """A bonded layer."""
+    """Coating: a bonded layer of uniform thickness."""
 
-    material: MaterialScene
-    thickness: PositiveLength
+    material: MaterialScene = key(
+        "Material of the layer: a name of the catalogue (`bem materials`), or a table of constants.", "basic"
+    )
+    thickness: PositiveLength = key("Thickness of the layer.", "basic")
 
     def build(self) -> Layer:
         """As `bem.Layer`."""
@@ -105,37 +126,69 @@ class LayerScene(Table):
 
 
 class SmoothSurface(Table):
-    """No roughness."""
+    """Surface without roughness."""
 
-    kind: Literal["smooth"] = "smooth"
+    kind: Literal["smooth"] = key("Smooth surface, without roughness.", "basic", default="smooth")
 
 
 class GeneratedSurface(Table):
-    """A random surface of prescribed statistics; see `bem.generate_surface`.
+    """Random rough surface with given statistics; `process` supplies every statistic that is not given."""
 
-    `elongation` is the ratio of the correlation lengths along x and y, of which `correlation_length` is then the
-    geometric mean. `drawn_on` draws the surface on so many cells whatever the grid has, and carries its waves to the
-    grid: the same surface on all grids that are as fine. `process` gives every statistic that is not given beside it;
-    `lay` is the direction of its ridges. `feed_marks` or `cross_hatch` are added, and the statistics are then those of
-    what lies between them.
-    """
-
-    kind: Literal["generated"] = "generated"
-    process: ProcessName | None = None
-    lay: Lay | None = None
-    rms_height: PositiveLength
-    correlation_length: PositiveLength | None = None
-    elongation: Annotated[Ratio, Field(ge=0.01, le=100)] | None = None
-    hurst: Annotated[Ratio, Field(gt=0, le=1)] | None = None
-    rolloff_wavelength: PositiveLength | None = None
-    cutoff_wavelength: PositiveLength | None = None
-    skewness: Ratio = 0.0
-    kurtosis: Annotated[Ratio, Field(gt=1)] = 3.0
-    feed_marks: FeedMarksScene | None = None
-    cross_hatch: CrossHatchScene | None = None
-    seed: Annotated[int, Field(strict=True, ge=0, lt=2**63)] | None = None
-    drawn_on: tuple[Cells, Cells] | None = None
-    source: str = ""
+    kind: Literal["generated"] = key("Random rough surface with given statistics.", "basic", default="generated")
+    process: ProcessName | None = key(
+        "Manufacturing process, which supplies typical roughness statistics (`bem surfaces` lists them).",
+        "basic",
+        default=None,
+    )
+    lay: Lay | None = key(
+        "Direction of the ridges of a directional process: x along sliding, y across.",
+        "advanced",
+        default=None,
+        reason="y, the usual lay across sliding",
+    )
+    rms_height: PositiveLength = key("Root-mean-square roughness Sq.", "basic")
+    correlation_length: PositiveLength | None = key(
+        "Autocorrelation length (decay to 1/e); geometric mean over both axes; or give hurst.", "basic", default=None
+    )
+    elongation: Annotated[Ratio, Field(ge=0.01, le=100)] | None = key(
+        "Ratio of the autocorrelation lengths along x and y (anisotropy).",
+        "advanced",
+        default=None,
+        reason="1, or that of the process",
+    )
+    hurst: Annotated[Ratio, Field(gt=0, le=1)] | None = key(
+        "Hurst exponent of a self-affine power spectrum; instead of correlation_length.", "advanced", default=None
+    )
+    rolloff_wavelength: PositiveLength | None = key(
+        "Roll-off wavelength: the self-affine power spectrum is flat above it.", "advanced", default=None
+    )
+    cutoff_wavelength: PositiveLength | None = key(
+        "Shortest wavelength of the roughness; several cells, or slopes depend on the grid.", "advanced", default=None
+    )
+    skewness: Ratio = key("Skewness Ssk of the heights; 0 is Gaussian.", "advanced", default=0.0)
+    kurtosis: Annotated[Ratio, Field(gt=1)] = key(
+        "Kurtosis Sku of the heights; 3 is Gaussian, the least is 1 + Ssk^2.", "advanced", default=3.0
+    )
+    feed_marks: FeedMarksScene | None = key(
+        'Turning marks added to the random roughness; {} with process "turned" takes typical ones.',
+        "advanced",
+        default=None,
+    )
+    cross_hatch: CrossHatchScene | None = key(
+        'Honing grooves cut into the random roughness; {} with process "honed" takes typical ones.',
+        "advanced",
+        default=None,
+    )
+    seed: Annotated[int, Field(strict=True, ge=0, lt=2**63)] | None = key(
+        "Seed of this surface's random numbers.", "expert", default=None, reason="derived from the seed of the scene"
+    )
+    drawn_on: tuple[Cells, Cells] | None = key(
+        "Number of cells along x and y on which the surface is generated; all grids as fine then see the same surface.",
+        "expert",
+        default=None,
+        reason="the cells of the grid",
+    )
+    source: str = key("Source of the statistics, repeated in the scene file of the run.", "expert", default="")
 
     _pairs = field_validator("drawn_on", mode="before")(one_for_both)
 
@@ -201,21 +254,60 @@ class MeasuredSurface(Table):
     scene has the file's checksum: one that has changed since is refused.
     """
 
-    kind: Literal["measured"] = "measured"
-    path: str
-    detrend: Literal["plane", "curvature", "none"] = "plane"
-    despike: Annotated[Ratio, Field(ge=3)] | None = None
-    fill: bool = Field(default=True, strict=True)
-    channel: str | Annotated[int, Field(strict=True, ge=0)] | None = None
-    spacing: tuple[PositiveLength, PositiveLength] | None = None
-    height_unit: str | None = None
-    crop: tuple[PositiveLength, PositiveLength] | None = None
-    centre: tuple[Length, Length] = (0.0, 0.0)
-    low_pass: PositiveLength | None = None
-    high_pass: PositiveLength | None = None
-    mirror: Axis = "none"
-    rms_height: PositiveLength | None = None
-    sha256: Annotated[str, Field(pattern="^[0-9a-f]{64}$")] | None = None
+    kind: Literal["measured"] = key("Measured surface, from the file of an instrument.", "basic", default="measured")
+    path: str = key(
+        "File of the measured heights, relative to the scene file; `bem surface describe FILE` shows it.", "basic"
+    )
+    detrend: Literal["plane", "curvature", "none"] = key(
+        "Form removal: subtract the mean plane, a second-order surface (curvature), or nothing.",
+        "advanced",
+        default="plane",
+        reason="the plane, because tilt is not roughness",
+    )
+    despike: Annotated[Ratio, Field(ge=3)] | None = key(
+        "Remove outliers that stand out from their neighbours by this many standard deviations (6: spikes only).",
+        "advanced",
+        default=None,
+    )
+    fill: bool = key(
+        "Fill missing points by harmonic interpolation; false refuses maps with missing points.",
+        "advanced",
+        default=True,
+        strict=True,
+    )
+    channel: str | Annotated[int, Field(strict=True, ge=0)] | None = key(
+        "Name or number of the data channel, for files that hold several.", "advanced", default=None
+    )
+    spacing: tuple[PositiveLength, PositiveLength] | None = key(
+        "Pixel size along x and y, for files that do not state it or state it wrongly.", "advanced", default=None
+    )
+    height_unit: str | None = key(
+        'Unit of the heights, such as "um", for files that do not state it.', "advanced", default=None
+    )
+    crop: tuple[PositiveLength, PositiveLength] | None = key(
+        "Lengths along x and y of the part of the map that is used.", "advanced", default=None, reason="the whole map"
+    )
+    centre: tuple[Length, Length] = key(
+        "Centre of that part, measured from the middle of the map.", "advanced", default=(0.0, 0.0)
+    )
+    low_pass: PositiveLength | None = key(
+        "Low-pass filter: removes shorter wavelengths than this.", "advanced", default=None
+    )
+    high_pass: PositiveLength | None = key(
+        "High-pass filter: removes longer wavelengths than this.", "advanced", default=None
+    )
+    mirror: Axis = key(
+        "Mirror the map along these axes to make it periodic.",
+        "advanced",
+        default="none",
+        reason="none: edge steps of a periodic map are removed by the periodic-plus-smooth decomposition",
+    )
+    rms_height: PositiveLength | None = key(
+        "Scales the measured heights to this root-mean-square roughness Sq.", "advanced", default=None
+    )
+    sha256: Annotated[str, Field(pattern="^[0-9a-f]{64}$")] | None = key(
+        "Checksum of the file, written by a run; a changed file is then refused.", "expert", default=None
+    )
 
     _pairs = field_validator("spacing", "crop", mode="before")(one_for_both)
 
@@ -242,9 +334,15 @@ SurfaceScene = Annotated[SmoothSurface | GeneratedSurface | MeasuredSurface, Fie
 class _LayeredScene(Table):
     """What both bodies share: a stack of layers and a surface."""
 
-    layer: LayerScene | None = None
-    layers: list[LayerScene] = Field(default=[])
-    surface: SurfaceScene = SmoothSurface()
+    layer: LayerScene | None = key("Coating: one bonded layer of uniform thickness.", "advanced", default=None)
+    layers: list[LayerScene] = key(
+        "Stack of coatings, outermost first, each with material and thickness; instead of layer.",
+        "advanced",
+        default=[],
+    )
+    surface: SurfaceScene = key(
+        "Roughness of the body: smooth, generated or measured.", "basic", default=SmoothSurface()
+    )
 
     @field_validator("surface", mode="before")
     @classmethod
@@ -275,9 +373,11 @@ class _LayeredScene(Table):
 
 
 class BodyScene(_LayeredScene):
-    """One of the two bodies: what it is made of and what its surface looks like."""
+    """One of the two bodies: material, coating and roughness."""
 
-    material: MaterialScene
+    material: MaterialScene = key(
+        "Material: a name of the catalogue (`bem materials`), or a table of constants.", "basic"
+    )
 
     def build(self) -> Body:
         """As `bem.Body`."""
@@ -285,9 +385,13 @@ class BodyScene(_LayeredScene):
 
 
 class UpperBodyScene(_LayeredScene):
-    """The upper body; without a material it is rigid."""
+    """The upper body: material, coating and roughness; without a material it is rigid."""
 
-    material: MaterialScene | None = None
+    material: MaterialScene | None = key(
+        "Material: a name of the catalogue (`bem materials`), or constants; without it the body is rigid.",
+        "basic",
+        default=None,
+    )
 
     @model_validator(mode="after")
     def _layer_needs_material(self) -> UpperBodyScene:
@@ -309,10 +413,21 @@ class GridScene(Table):
     common area; where an accuracy is asked for, shape and, of a round contact, lengths are chosen.
     """
 
-    shape: tuple[Cells, Cells] | None = None
-    spacing: tuple[PositiveLength, PositiveLength] | None = None
-    lengths: tuple[PositiveLength, PositiveLength] | None = None
-    periodic: tuple[Annotated[bool, Field(strict=True)], Annotated[bool, Field(strict=True)]] = (False, False)
+    shape: tuple[Cells, Cells] | None = key(
+        "Number of cells along x and y; one number stands for both.", "basic", default=None
+    )
+    spacing: tuple[PositiveLength, PositiveLength] | None = key(
+        "Cell size along x and y; the shortest wavelength of the roughness needs several cells.", "basic", default=None
+    )
+    lengths: tuple[PositiveLength, PositiveLength] | None = key(
+        "Side lengths of the grid along x and y; instead of spacing.", "basic", default=None
+    )
+    periodic: tuple[Annotated[bool, Field(strict=True)], Annotated[bool, Field(strict=True)]] = key(
+        "Periodic continuation along x and y; true for a nominally flat contact.",
+        "advanced",
+        default=(False, False),
+        reason="free edges, for a contact inside the grid",
+    )
 
     _pairs = field_validator("shape", "spacing", "lengths", "periodic", mode="before")(one_for_both)
 
@@ -330,13 +445,23 @@ class LineGridScene(GridScene):
     common area.
     """
 
-    periodic: tuple[Annotated[bool, Field(strict=True)], Annotated[bool, Field(strict=True)]] = (False, True)
+    periodic: tuple[Annotated[bool, Field(strict=True)], Annotated[bool, Field(strict=True)]] = key(
+        "Periodic continuation along x and y; [true, true] under a ball: a repeating cell of the roughness.",
+        "advanced",
+        default=(False, True),
+        reason="a line contact continues along y, the patch under a ball ends",
+    )
 
 
 class OutputsScene(Table):
-    """What is wanted besides the figures: their error bars."""
+    """Results besides the standard ones: error estimates."""
 
-    errors: bool = Field(default=True, strict=True)
+    errors: bool = key(
+        "Error estimate of every result, from a second solution on a coarser grid or mesh.",
+        "advanced",
+        default=True,
+        strict=True,
+    )
 
 
 class SceneModel(Table):
@@ -348,14 +473,28 @@ class SceneModel(Table):
     what the scene resolves is then refined until the error bars say so.
     """
 
-    kind: str
-    name: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]{0,63}$")] = "scene"
-    description: str = ""
-    redoes: str = ""
-    seed: Annotated[int, Field(strict=True, ge=0, lt=2**63)] = 1
-    repetitions: Repetitions | None = None
-    over: dict[str, list[Any]] | None = None
-    accuracy: AskedAccuracy | None = None
+    kind: str = key("Kind of computation.", "basic")
+    name: Annotated[str, Field(pattern=r"^[A-Za-z0-9][A-Za-z0-9_.-]{0,63}$")] = key(
+        "Name of the run's folder.", "advanced", default="scene", reason="the name of the file"
+    )
+    description: str = key("Title of the report.", "advanced", default="")
+    redoes: str = key("Figure or table of the literature that the scene reproduces.", "expert", default="")
+    seed: Annotated[int, Field(strict=True, ge=0, lt=2**63)] = key(
+        "Seed of all random numbers; the same seed gives the same surfaces.", "advanced", default=1
+    )
+    repetitions: Repetitions | None = key(
+        "Number of runs with other random surfaces, for means and standard deviations.", "advanced", default=None
+    )
+    over: dict[str, list[Any]] | None = key(
+        "Parameter study: dotted keys with lists of values, of which all combinations are run.",
+        "advanced",
+        default=None,
+    )
+    accuracy: AskedAccuracy | None = key(
+        'Target accuracy, such as "1 %": grid, mesh and steps are refined until the error estimates meet it.',
+        "advanced",
+        default=None,
+    )
     _source: dict[str, Any] | None = PrivateAttr(default=None)
 
     @field_validator("over", mode="before")

@@ -42,10 +42,19 @@ def fields_of(law: type[Law]) -> dict[str, FieldInfo]:
     """The parameters of a law as fields of a table."""
     made = {}
     for key, about in law.parameters().items():
-        made[key] = FieldInfo.from_annotation(annotation_of(about))
+        field = made[key] = FieldInfo.from_annotation(annotation_of(about))
+        field.description = sentence(about.meaning)
+        level = "basic" if key in law.required() else "advanced"
+        extra: dict[str, Any] = {"level": level} | ({"reason": about.source} if about.source else {})
+        field.json_schema_extra = extra
         if key not in law.required():
             made[key].default = _default_of(law, key)
     return made
+
+
+def sentence(text: str) -> str:
+    """Return a text that begins with a capital letter and ends in a full stop."""
+    return f"{text[:1].upper()}{text[1:].rstrip('.')}." if text else ""
 
 
 def fields_of_family(family: str) -> dict[str, FieldInfo]:
@@ -53,6 +62,7 @@ def fields_of_family(family: str) -> dict[str, FieldInfo]:
     laws = laws_of(family)
     kinds: Any = Literal[tuple(laws)]
     found = {"kind": FieldInfo.from_annotation(kinds)}
+    found["kind"].description = "Name of the law."
     for law in laws.values():
         found = fields_of(law) | found
     return found
@@ -208,6 +218,7 @@ class LawTable(Table):
                 if name != "kind" and name not in cls.model_fields:
                     if field.is_required():
                         field.default = None
+                    field.json_schema_extra = {**_extra(field), "level": "advanced"}
                     found[name] = field
         return found
 
@@ -269,6 +280,11 @@ def checked(
     return mistakes, values
 
 
+def _extra(field: FieldInfo) -> dict[str, Any]:
+    extra = field.json_schema_extra
+    return dict(extra) if isinstance(extra, dict) else {}
+
+
 def _default_of(law: type[Law], key: str) -> Any:
     value = law.__dataclass_fields__[key].default
     return list(value) if isinstance(value, tuple) else value
@@ -290,7 +306,9 @@ def _json_properties(fields: Mapping[str, FieldInfo]) -> dict[str, Any]:
     made = {}
     for name, field in fields.items():
         whole: Any = Annotated[field.annotation, *field.metadata]
-        made[name] = TypeAdapter(whole).json_schema()
+        made[name] = TypeAdapter(whole).json_schema() | _extra(field)
+        if field.description:
+            made[name]["description"] = field.description
         if not field.is_required() and field.default is not None:
             made[name]["default"] = field.default
     return made

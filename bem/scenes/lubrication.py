@@ -32,12 +32,13 @@ from bem.scenes.common import (
     Table,
     problem,
 )
+from bem.scenes.keys import key
 from bem.scenes.laws import LawOrNumber
 from bem.scenes.oil import OilScene
 from bem.scenes.records import Figure
 from bem.scenes.tables.smooth import SmoothShapeScene
 from bem.scenes.tables.supply import SupplyScene, build_supply, check_layer
-from bem.scenes.units import Pressure, Ratio, Speed
+from bem.scenes.units import Length, Pressure, Ratio, Speed
 
 if TYPE_CHECKING:
     from bem.friction.setup import MixedSetup
@@ -55,12 +56,23 @@ class SpeedsScene(Table):
     rolling. Speeds against x are negative; without entrainment (speed 0, or `cylinder` -1) there is no steady film.
     """
 
-    values: Annotated[list[Speed], Field(min_length=1, max_length=512)] | None = None
-    first: Speed | None = None
-    last: Speed | None = None
-    count: Annotated[int, Field(strict=True, ge=2, le=512)] = 20
-    cylinder: Ratio = 0.0
-    slide_roll_ratio: Annotated[Ratio, Field(gt=-2, le=2)] | None = None
+    values: Annotated[list[Speed], Field(min_length=1, max_length=512)] | None = key(
+        "Speeds of the lower body (flat); instead of first, last and count.", "advanced", default=None
+    )
+    first: Speed | None = key("First speed of the lower body (flat).", "basic", default=None)
+    last: Speed | None = key("Last speed of the lower body (flat).", "basic", default=None)
+    count: Annotated[int, Field(strict=True, ge=2, le=512)] = key(
+        "Number of speeds from first to last, in a geometric series.", "basic", default=20
+    )
+    cylinder: Ratio = key(
+        "Speed of the upper body over that of the lower: 0 is pure sliding, 1 pure rolling.", "advanced", default=0.0
+    )
+    slide_roll_ratio: Annotated[Ratio, Field(gt=-2, le=2)] | None = key(
+        "Slide-to-roll ratio 2 (u1 - u2)/(u1 + u2): 0 is pure rolling, 2 pure sliding.",
+        "basic",
+        default=None,
+        reason="pure sliding",
+    )
 
     @model_validator(mode="before")
     @classmethod
@@ -119,18 +131,18 @@ def slide_roll_ratio(other_over_flat: Any) -> Any:
 
 
 class LubricatedScene(SmoothShapeScene):
-    """The contact as a whole: a cylinder along y, a ball or an ellipsoid on a flat. Loads are on all of it.
+    """The contact as a whole: a cylinder, ball or ellipsoid on a flat, its load and its boundary friction."""
 
-    Loads may be given as maximum Hertz pressures of the smooth contact instead. `hardness` defaults to the softer
-    body's. `boundary_friction` is a coefficient, or a law with its parameters.
-    """
-
-    loads: Loads | None = None
-    hertz_pressures: Annotated[list[Annotated[Pressure, Field(gt=0)]], Field(min_length=1, max_length=64)] | None = None
+    loads: Loads | None = key("Normal loads on the whole contact, one result for each.", "basic", default=None)
+    hertz_pressures: Annotated[list[Annotated[Pressure, Field(gt=0)]], Field(min_length=1, max_length=64)] | None = key(
+        "Maximum Hertz pressures of the smooth contact; instead of loads.", "advanced", default=None
+    )
     boundary_friction: Annotated[
         float | BoundaryFriction, LawOrNumber("boundary_friction", number=Annotated[Ratio, Field(ge=0, le=2)])
-    ]
-    hardness: PositivePressure | None = None
+    ] = key("Friction coefficient where the surfaces touch, or a law of boundary friction.", "basic")
+    hardness: PositivePressure | None = key(
+        "Hardness that limits the contact pressure.", "advanced", default=None, reason="that of the softer body"
+    )
 
     @model_validator(mode="after")
     def _one_load(self) -> LubricatedScene:
@@ -158,27 +170,19 @@ class LubricatedScene(SmoothShapeScene):
 
 
 class FilmMeshScene(Table):
-    """The film's mesh of `points`, graded and as long as the inlet needs, which the solver sees to; of a ball's film as
-    many `cells` along an axis.
+    """Mesh of the oil film; grading and inlet length are chosen automatically."""
 
-    With `from`, `to` the film is also given on `count` equal steps there; they must reach the inlet and hold the rough
-    patch.
-    """
-
-    points: Annotated[int, Field(strict=True, ge=100, le=20000)] = 2000
-    cells: FilmCells = FILM_CELLS
-    start: float | None = None
-    end: float | None = None
-    count: Annotated[int, Field(strict=True, ge=50, le=20000)] = 2000
-
-    @model_validator(mode="before")
-    @classmethod
-    def _lengths(cls, data: Any) -> Any:
-        from bem.scenes.units import LENGTH
-
-        if isinstance(data, dict):
-            data = {key: LENGTH.parse(v) if key in ("start", "end") and v is not None else v for key, v in data.items()}
-        return data
+    points: Annotated[int, Field(strict=True, ge=100, le=20000)] = key(
+        "Number of nodes of the film mesh of a line contact.", "expert", default=2000
+    )
+    cells: FilmCells = key(
+        "Number of cells of the film mesh of a point contact along each axis.", "expert", default=FILM_CELLS
+    )
+    start: Length | None = key("Inlet end of a uniform output mesh.", "expert", default=None)
+    end: Length | None = key("Outlet end of the uniform output mesh.", "expert", default=None)
+    count: Annotated[int, Field(strict=True, ge=50, le=20000)] = key(
+        "Number of nodes of the uniform output mesh.", "expert", default=2000
+    )
 
     @model_validator(mode="after")
     def _both(self) -> FilmMeshScene:
@@ -196,13 +200,15 @@ class FilmMeshScene(Table):
 class MixedScene(SceneModel):
     """A rough cylinder, ball or ellipsoid on a rough flat with oil between them."""
 
-    lower: BodyScene
-    upper: BodyScene
-    contact: LubricatedScene
-    oil: OilScene
-    speeds: SpeedsScene
-    supply: SupplyScene | None = None
-    grid: LineGridScene = LineGridScene()
+    lower: BodyScene = key("Lower body, on which friction acts along +x.", "basic")
+    upper: BodyScene = key("Upper body, which has the shape of the contact.", "basic")
+    contact: LubricatedScene = key("Shape of the contact, load and boundary friction.", "basic")
+    oil: OilScene = key("Lubricant.", "basic")
+    speeds: SpeedsScene = key("Speeds of both surfaces.", "basic")
+    supply: SupplyScene | None = key(
+        "Oil supply of a starved contact; without it the inlet is flooded.", "advanced", default=None
+    )
+    grid: LineGridScene = key("Grid of the rough contact.", "basic", default=LineGridScene())
 
     cell_may_repeat: ClassVar[bool] = False
     """Whether the rough patch of a ball may be a cell that repeats all over the contact."""

@@ -17,6 +17,7 @@ from bem.lubrication.oils.catalogue import find_oil, oil_from_viscosities
 from bem.lubrication.shear import LimitedShear, ShearLaw
 from bem.lubrication.viscosity import Roelands, ViscosityLaw
 from bem.scenes.common import problem
+from bem.scenes.keys import key
 from bem.scenes.laws import LawKey, LawTable
 from bem.scenes.units import (
     Density,
@@ -50,24 +51,75 @@ class OilScene(LawTable):
     the shear law act on the film and not on the friction alone.
     """
 
-    grade: str | None = None
-    viscosities: Annotated[list[tuple[Temperature, KinematicViscosity]], Field(min_length=2, max_length=64)] | None = (
-        None
+    grade: str | None = key(
+        "Oil of the catalogue by name or grade (`bem oils` lists them), at the given temperature.",
+        "basic",
+        default=None,
     )
-    viscosity: Viscosity | None = None
-    temperature: Temperature | None = None
-    viscosity_index: Annotated[Ratio, Field(ge=-100, le=450)] | None = None
-    base: Base | None = None
-    temperature_law: Literal["walther", "vogel", "andrade", "table"] | None = None
-    pressure_viscosity: Annotated[PressureViscosity, Field(ge=0)] | None = None
-    density: Annotated[Density, Field(gt=0)] | None = None
-    heat_capacity: Annotated[HeatCapacity, Field(gt=0)] | None = None
-    thermal_conductivity: Annotated[ThermalConductivity, Field(gt=0)] | None = None
-    temperature_viscosity: Annotated[Softening, Field(gt=0)] | None = None
-    viscosity_law: Annotated[ViscosityLaw, LawKey("viscosity_law", beside=True)] = Roelands()
-    density_law: Annotated[DensityLaw, LawKey("density_law", beside=True)] = Incompressible()
-    shear_law: Annotated[ShearLaw, LawKey("shear_law", beside=True)] = LimitedShear()
-    film_rheology: Literal["newtonian", "shear_law"] = "newtonian"
+    viscosities: Annotated[list[tuple[Temperature, KinematicViscosity]], Field(min_length=2, max_length=64)] | None = (
+        key("Measured kinematic viscosities at two or more temperatures; instead of grade.", "advanced", default=None)
+    )
+    viscosity: Viscosity | None = key(
+        "Dynamic viscosity at ambient pressure and the temperature of the contact; instead of grade.",
+        "advanced",
+        default=None,
+    )
+    temperature: Temperature | None = key("Temperature of the oil at the inlet.", "basic", default=None)
+    viscosity_index: Annotated[Ratio, Field(ge=-100, le=450)] | None = key(
+        "Viscosity index of the grade.", "advanced", default=None, reason="the usual one of the base oil"
+    )
+    base: Base | None = key(
+        "Base oil, which decides viscosity index, pressure-viscosity coefficient, density and thermal constants.",
+        "advanced",
+        default=None,
+        reason="that of the grade, else mineral",
+    )
+    temperature_law: Literal["walther", "vogel", "andrade", "table"] | None = key(
+        "Viscosity-temperature law through measured viscosities: walther (ASTM D341), vogel, andrade or table.",
+        "advanced",
+        default=None,
+    )
+    pressure_viscosity: Annotated[PressureViscosity, Field(ge=0)] | None = key(
+        "Pressure-viscosity coefficient alpha at the oil's temperature.",
+        "advanced",
+        default=None,
+        reason="that of the grade, or 0 beside viscosity",
+    )
+    density: Annotated[Density, Field(gt=0)] | None = key(
+        "Density.", "advanced", default=None, reason="that of the oil"
+    )
+    heat_capacity: Annotated[HeatCapacity, Field(gt=0)] | None = key(
+        "Specific heat capacity.", "advanced", default=None, reason="that of the oil"
+    )
+    thermal_conductivity: Annotated[ThermalConductivity, Field(gt=0)] | None = key(
+        "Thermal conductivity.", "advanced", default=None, reason="that of the oil"
+    )
+    temperature_viscosity: Annotated[Softening, Field(gt=0)] | None = key(
+        "Temperature-viscosity coefficient beta = -d ln(viscosity)/dT.",
+        "advanced",
+        default=None,
+        reason="that of the oil",
+    )
+    viscosity_law: Annotated[ViscosityLaw, LawKey("viscosity_law", beside=True)] = key(
+        "Pressure-viscosity law.",
+        "advanced",
+        default=Roelands(),
+        reason="roelands, as Barus' law overestimates viscosity at high pressure",
+    )
+    density_law: Annotated[DensityLaw, LawKey("density_law", beside=True)] = key(
+        "Density-pressure law; dowson_higginson blunts the pressure spike.", "advanced", default=Incompressible()
+    )
+    shear_law: Annotated[ShearLaw, LawKey("shear_law", beside=True)] = key(
+        "Rheology at high shear: shear thinning and limiting shear stress of the oil.",
+        "advanced",
+        default=LimitedShear(),
+        reason="Newtonian up to a limiting shear stress",
+    )
+    film_rheology: Literal["newtonian", "shear_law"] = key(
+        "Viscosity in the Reynolds equation: newtonian, or generalised by shear_law, which thins the film.",
+        "advanced",
+        default="newtonian",
+    )
 
     def check_point_film(self) -> None:
         """Refuse a shear law in the film of a point contact."""

@@ -18,6 +18,7 @@ from pydantic import Field
 
 from bem.grid import FloatArray, Grid
 from bem.scenes.common import BODIES, PositiveLength, Table
+from bem.scenes.keys import key
 from bem.scenes.records import Figure, Record, Series, without_bars
 from bem.scenes.units import Length, WearCoefficient
 from bem.wear.setup import LOWER, UPPER, wearing_bodies
@@ -29,10 +30,12 @@ QUANTITIES = ("equivalent_radius", "length", "width", "thickness")
 
 
 class WearRateScene(Table):
-    """Archard's law: the wear volume that the criterion cannot give, and so the number of particles."""
+    """Archard's wear law, which gives the wear volume and so the number of particles."""
 
-    specific_wear_rate: Annotated[WearCoefficient, Field(gt=0)]
-    distance: PositiveLength
+    specific_wear_rate: Annotated[WearCoefficient, Field(gt=0)] = key(
+        "Specific wear rate k: worn volume per load and sliding distance.", "basic"
+    )
+    distance: PositiveLength = key("Sliding distance.", "basic")
 
     def figures(self, load: float, mean_particle_volume: float) -> dict[str, float]:
         """What records hold of it, for a load [N] and particles of a mean volume [m^3]."""
@@ -47,15 +50,20 @@ ARCHARD_FIGURES = ("wear_volume", "particle_number", "particles_per_mm_and_N")
 
 
 class SizesScene(Table):
-    """How particle sizes are reported.
+    """Statistics of the wear particle sizes."""
 
-    `report` names the mean that stands as `particle_equivalent_radius_nm`; `smallest` is the equivalent radius under
-    which particles are left out of the means "above".
-    """
-
-    report: Literal["number", "area", "volume", "number_above"] = "volume"
-    smallest: Annotated[Length, Field(ge=0)] = 25e-9
-    particles_of: Literal["wearing", "lower", "upper"] = "wearing"
+    report: Literal["number", "area", "volume", "number_above"] = key(
+        "Mean that is reported as the particle size: by number, area or volume, or number above smallest.",
+        "advanced",
+        default="volume",
+        reason="volume, because it converges with the grid",
+    )
+    smallest: Annotated[Length, Field(ge=0)] = key(
+        "Equivalent radius below which particles are left out of the mean number_above.", "advanced", default=25e-9
+    )
+    particles_of: Literal["wearing", "lower", "upper"] = key(
+        "Body whose particles are reported.", "advanced", default="wearing"
+    )
 
     def particles(self, result: RunningIn) -> NDArray[np.void]:
         """The particles that are reported of a wear loop."""

@@ -114,7 +114,8 @@ class Dimension:
     ) -> dict[str, Any]:
         """A number or a string."""
         number = dict(handler(schema))
-        return {"anyOf": [number, {"type": "string"}], "description": self.allowed, "examples": [self.example]}
+        text = {"type": "string", "description": self.allowed}
+        return {"anyOf": [number, text], "examples": [self.example]} | ({"unit": self.unit} if self.unit else {})
 
 
 @dataclass(frozen=True)
@@ -197,6 +198,7 @@ Speed = Annotated[float, Dimension("m/s", "a speed", "0.1 m/s")]
 Time = Annotated[float, Dimension("s", "a time", "45 min")]
 Rate = Annotated[float, Dimension("1/s", "a rate", "6.9e-4 1/s")]
 RotationSpeed = Annotated[float, Rotation("rad/s", "a speed of rotation", "1500 rpm")]
+NumberPerArea = Annotated[float, Dimension("1/m^2", "a number per area", "1e12 1/m^2")]
 InverseLength = Annotated[float, Dimension("1/m", "an inverse length", "1.24e7 1/m")]
 Viscosity = Annotated[float, Dimension("Pa*s", "a dynamic viscosity", "0.36 Pa*s")]
 KinematicViscosity = Annotated[float, Dimension("m^2/s", "a kinematic viscosity", "68 mm^2/s")]

@@ -21,6 +21,7 @@ from bem.grid import FloatArray, Grid
 from bem.scenes import plans
 from bem.scenes.common import PositiveLength, Table, problem
 from bem.scenes.context import Context, PlainContext, tell
+from bem.scenes.keys import key
 from bem.scenes.planner import Step, padded_points, stress_kernel_seconds
 from bem.scenes.records import Figure, Series
 from bem.scenes.rubbing import RubbedRecord, rubbed, rubbing_step
@@ -43,11 +44,11 @@ IntArray = NDArray[np.int_]
 
 
 class WearDepthsScene(Table):
-    """Equally spaced depths: `first`, `first + spacing`, ..."""
+    """Equally spaced depths at which stresses are computed."""
 
-    count: Annotated[int, Field(strict=True, ge=2, le=1024)] = 64
-    spacing: PositiveLength
-    first: Annotated[Length, Field(ge=0)] = 0.0
+    count: Annotated[int, Field(strict=True, ge=2, le=1024)] = key("Number of depths.", "basic", default=64)
+    spacing: PositiveLength = key("Distance between depths; particles are resolved by it.", "basic")
+    first: Annotated[Length, Field(ge=0)] = key("First depth below the surface.", "expert", default=0.0)
 
     def build(self) -> NDArray[np.float64]:
         """Depths [m]; InputError if they are beyond numbers."""
@@ -59,14 +60,16 @@ class WearDepthsScene(Table):
 
 
 class LastCycles(Table):
-    """How many cycles, and over how many of the last ones means are taken.
+    """Number of wear cycles, and of the last ones over which means are taken."""
 
-    `coarser_grid` : the same cycles once more on the grid of twice the cell, for error bars of what cells leave open.
-    """
-
-    count: Count = 200
-    settled: Count = 50
-    coarser_grid: bool = Field(default=False, strict=True)
+    count: Count = key("Number of wear cycles.", "basic", default=200)
+    settled: Count = key("Number of last cycles over which means of wear particles are taken.", "advanced", default=50)
+    coarser_grid: bool = key(
+        "Repeat the cycles on twice the cell size, for discretisation errors of roughness, wear and friction.",
+        "advanced",
+        default=False,
+        strict=True,
+    )
 
     @model_validator(mode="after")
     def _enough(self) -> Self:

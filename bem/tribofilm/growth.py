@@ -48,9 +48,11 @@ class StressActivatedGrowth(GrowthLaw):
     """
 
     name: ClassVar[str] = "stress_activated"
-    prefactor: float = parameter("growth rate without a barrier", "m/s", above=0)
-    activation_energy: float = parameter("barrier without stress", "J", above=0)
-    activation_volume: float = parameter("by which stress lowers the barrier; 0 is plain Arrhenius", "m^3", at_least=0)
+    prefactor: float = parameter("pre-exponential factor: growth rate without a barrier", "m/s", above=0)
+    activation_energy: float = parameter("activation energy without stress", "J", above=0)
+    activation_volume: float = parameter(
+        "activation volume, by which stress lowers the activation energy; 0 is Arrhenius", "m^3", at_least=0
+    )
 
     @classmethod
     def from_electron_volts(

@@ -47,7 +47,7 @@ class Constant(PropertyLaw):
     """The same value [Pa] at every thickness and temperature."""
 
     name: ClassVar[str] = "constant"
-    value: float = parameter("of the film", "Pa", above=0)
+    value: float = parameter("value of the property", "Pa", above=0)
 
     def __call__(self, thickness: float, temperature: float) -> float:
         """Return the value [Pa]."""
@@ -84,14 +84,14 @@ class FadingSubstrate(PropertyLaw):
     """
 
     name: ClassVar[str] = "fading_substrate"
-    substrate: float = parameter("at zero thickness", "Pa", above=0)
-    film: float = parameter("of a thick film at the reference temperature", "Pa", above=0)
-    length: float = parameter("thickness over which the substrate fades by 1/e", "m", above=0)
-    temperature_slope: float = parameter("fall of the film's own factor per kelvin", "1/K", default=0.0)
-    reference_temperature: float = parameter("where both factors are one", "K", default=298.15, above=0)
-    lowest_factor: float = parameter("lower bound of both factors", default=0.1, above=0)
+    substrate: float = parameter("value at zero film thickness", "Pa", above=0)
+    film: float = parameter("value of a thick film at the reference temperature", "Pa", above=0)
+    length: float = parameter("film thickness over which the influence of the substrate decays to 1/e", "m", above=0)
+    temperature_slope: float = parameter("relative decrease of the film's own value per kelvin", "1/K", default=0.0)
+    reference_temperature: float = parameter("reference temperature of both values", "K", default=298.15, above=0)
+    lowest_factor: float = parameter("lower bound of the temperature factors", default=0.1, above=0)
     substrate_temperature_slope: float = parameter(
-        "fall of the substrate's factor per kelvin; as temperature_slope: one factor on the whole curve",
+        "relative decrease of the substrate's value per kelvin",
         "1/K",
         default=0.0,
         source="0: steel keeps its hardness below 200 degrees Celsius",
@@ -131,10 +131,12 @@ class Table(PropertyLaw):
     """
 
     name: ClassVar[str] = "table"
-    thickness: tuple[float, ...] = parameter("increasing", "m", at_least=0, several=True)
-    value: tuple[float, ...] = parameter("at each thickness", "Pa", above=0, several=True)
-    temperature: tuple[float, ...] = parameter("increasing", "K", default=(298.15,), above=0, several=True)
-    factor: tuple[float, ...] = parameter("at each temperature", default=(1.0,), above=0, several=True)
+    thickness: tuple[float, ...] = parameter("film thicknesses of the table, increasing", "m", at_least=0, several=True)
+    value: tuple[float, ...] = parameter("values at these thicknesses", "Pa", above=0, several=True)
+    temperature: tuple[float, ...] = parameter(
+        "temperatures of the factors, increasing", "K", default=(298.15,), above=0, several=True
+    )
+    factor: tuple[float, ...] = parameter("factors at these temperatures", default=(1.0,), above=0, several=True)
 
     def rules(self) -> Iterator[str]:
         """Check that each pair of lists is a curve."""

@@ -19,6 +19,7 @@ from bem.scenes import build, plans
 from bem.scenes.axes import Axis, listed
 from bem.scenes.common import BodyScene, OutputsScene, SceneModel, UpperBodyScene
 from bem.scenes.context import Context, error_bars
+from bem.scenes.keys import key
 from bem.scenes.kind import Kind
 from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step
@@ -36,11 +37,15 @@ _CHECKPOINT_EVERY = 5  # contacts
 class AsperitiesScene(SceneModel):
     """Load per asperity over how deep the tops are pressed in, for several spacings."""
 
-    kind: Literal["asperities"] = "asperities"
-    lower: BodyScene
-    upper: UpperBodyScene = UpperBodyScene()
-    array: ArrayScene
-    outputs: OutputsScene = OutputsScene()
+    kind: Literal["asperities"] = key("Kind of computation.", "basic", default="asperities")
+    lower: BodyScene = key("Lower body, the flat.", "basic")
+    upper: UpperBodyScene = key(
+        "Upper body, with the asperities; without a material it is rigid.", "basic", default=UpperBodyScene()
+    )
+    array: ArrayScene = key("Square array of equal spherical asperities.", "basic")
+    outputs: OutputsScene = key(
+        "Results besides the standard ones: error estimates.", "advanced", default=OutputsScene()
+    )
 
 
 def plan(scene: AsperitiesScene) -> Plan:

@@ -9,20 +9,27 @@ from pydantic import Field, model_validator
 
 from bem.grid import Grid
 from bem.scenes.common import Cells, PositiveLength, Table, problem
+from bem.scenes.keys import key
 from bem.scenes.units import Length
 
 
 class ArrayScene(Table):
-    """Spheres of `radius` that stand `height` out of the flat, `spacings` apart; `window` is the side of the square
-    array whose deflection counts when depths are measured from the undeformed flat."""
+    """Square array of equal spherical asperities on a flat."""
 
-    radius: PositiveLength
-    height: PositiveLength
-    spacings: Annotated[list[PositiveLength], Field(min_length=1, max_length=64)]
-    interferences: Annotated[list[Annotated[Length, Field(gt=0)]], Field(min_length=1, max_length=256)]
-    cell: PositiveLength
-    window: PositiveLength
-    cells_at_most: Cells = 1024
+    radius: PositiveLength = key("Tip radius of the asperities.", "basic")
+    height: PositiveLength = key("Height of the asperities above the flat.", "basic")
+    spacings: Annotated[list[PositiveLength], Field(min_length=1, max_length=64)] = key(
+        "Centre distances of the asperities, one result for each.", "basic"
+    )
+    interferences: Annotated[list[Annotated[Length, Field(gt=0)]], Field(min_length=1, max_length=256)] = key(
+        "Interferences: depths by which the asperities are pressed into the other surface.", "basic"
+    )
+    cell: PositiveLength = key("Cell size of the grid.", "basic")
+    window: PositiveLength = key(
+        "Side length of the finite array whose deflection counts, if depth is measured from the undeformed flat.",
+        "basic",
+    )
+    cells_at_most: Cells = key("Largest number of cells along an axis.", "expert", default=1024)
 
     @model_validator(mode="after")
     def _apart(self) -> ArrayScene:

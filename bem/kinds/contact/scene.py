@@ -19,6 +19,7 @@ from bem.numerics.blocks import deviation
 from bem.scenes import build, plans
 from bem.scenes.context import Context, error_bars, release, set_aside, tell
 from bem.scenes.cut_off import is_cut_off
+from bem.scenes.keys import key
 from bem.scenes.kind import Kind
 from bem.scenes.packing import keep, kept, kept_coarser
 from bem.scenes.planner import Plan
@@ -37,8 +38,8 @@ _STRESS_COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
 class ContactScene(StressedScene):
     """Two bodies, a grid and a load."""
 
-    kind: Literal["contact"] = "contact"
-    outputs: ContactOutputs = ContactOutputs()
+    kind: Literal["contact"] = key("Kind of computation.", "basic", default="contact")
+    outputs: ContactOutputs = key("Results besides pressure, gap and displacement.", "basic", default=ContactOutputs())
 
 
 def plan(scene: ContactScene) -> Plan:

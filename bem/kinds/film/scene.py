@@ -15,6 +15,7 @@ from bem.kinds.film.tables import FilmCylinderScene, MarchScene, MotionScene
 from bem.scenes import build, plans
 from bem.scenes.common import BodyScene, OutputsScene, SceneModel, UpperBodyScene, check_smooth, problem
 from bem.scenes.context import Context
+from bem.scenes.keys import key
 from bem.scenes.kind import Kind
 from bem.scenes.marching import JUMPS, Marched, MarchedRecord, few_of
 from bem.scenes.oil import OilScene
@@ -31,15 +32,21 @@ if TYPE_CHECKING:
 class FilmScene(SceneModel):
     """A smooth cylinder on a flat with oil between them, in time."""
 
-    kind: Literal["film"] = "film"
-    lower: BodyScene
-    upper: UpperBodyScene = UpperBodyScene()
-    cylinder: FilmCylinderScene
-    oil: OilScene
-    motion: MotionScene
-    march: MarchScene
-    supply: SupplyScene | None = None
-    outputs: OutputsScene = OutputsScene()
+    kind: Literal["film"] = key("Kind of computation.", "basic", default="film")
+    lower: BodyScene = key("Lower body, the flat; it moves and must be smooth.", "basic")
+    upper: UpperBodyScene = key(
+        "Upper body, the cylinder; without a material it is rigid.", "basic", default=UpperBodyScene()
+    )
+    cylinder: FilmCylinderScene = key("Cylinder and load.", "basic")
+    oil: OilScene = key("Lubricant.", "basic")
+    motion: MotionScene = key("Speed of the flat over time.", "basic")
+    march: MarchScene = key("Duration and time steps.", "basic")
+    supply: SupplyScene | None = key(
+        "Oil supply of a starved contact; without it the inlet is flooded.", "advanced", default=None
+    )
+    outputs: OutputsScene = key(
+        "Results besides the standard ones: error estimates.", "advanced", default=OutputsScene()
+    )
 
     @model_validator(mode="after")
     def _smooth(self) -> FilmScene:

@@ -9,14 +9,17 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from bem.scenes.common import CylinderTable, Force, Table, check_rising, problem
+from bem.scenes.keys import key
 from bem.scenes.units import Length, Speed, Time
 
 
 class FilmCylinderScene(CylinderTable):
-    """The cylinder and the load on its width; `load_end` changes it linearly over the run."""
+    """The cylinder on the flat, and its load."""
 
-    load: Annotated[Force, Field(gt=0)]
-    load_end: Annotated[Force, Field(gt=0)] | None = None
+    load: Annotated[Force, Field(gt=0)] = key("Normal load on the width.", "basic")
+    load_end: Annotated[Force, Field(gt=0)] | None = key(
+        "Normal load at the end of the run, reached linearly.", "advanced", default=None, reason="a constant load"
+    )
 
     def per_length(self, share: float) -> float:
         """The load per unit length [N/m] where so much of the run is over."""
@@ -25,16 +28,21 @@ class FilmCylinderScene(CylinderTable):
 
 
 class MotionScene(Table):
-    """Speed of the flat over time; the cylinder stands still.
+    """Speed of the flat over time; the cylinder stands still."""
 
-    table : `speeds` at `times`, linear in between. reciprocating : `speed` cos(2 pi t / `period`).
-    """
-
-    kind: Literal["table", "reciprocating"]
-    times: Annotated[list[Time], Field(min_length=2, max_length=1000)] | None = None
-    speeds: Annotated[list[Speed], Field(min_length=2, max_length=1000)] | None = None
-    speed: Annotated[Speed, Field(gt=0)] | None = None
-    period: Annotated[Time, Field(gt=0)] | None = None
+    kind: Literal["table", "reciprocating"] = key(
+        "Motion of the flat: table (speeds at times) or reciprocating (speed x cos(2 pi t / period)).", "basic"
+    )
+    times: Annotated[list[Time], Field(min_length=2, max_length=1000)] | None = key(
+        "Times of the table, in rising order.", "basic", default=None
+    )
+    speeds: Annotated[list[Speed], Field(min_length=2, max_length=1000)] | None = key(
+        "Speeds of the flat at these times, linear in between.", "basic", default=None
+    )
+    speed: Annotated[Speed, Field(gt=0)] | None = key(
+        "Speed amplitude of the reciprocating motion.", "basic", default=None
+    )
+    period: Annotated[Time, Field(gt=0)] | None = key("Period of the reciprocating motion.", "basic", default=None)
 
     @model_validator(mode="after")
     def _complete(self) -> MotionScene:
@@ -60,14 +68,24 @@ class MotionScene(Table):
 
 
 class MarchScene(Table):
-    """How long and how finely; `initial_thickness` where the motion starts from rest.
+    """Duration and time steps."""
 
-    cavitation : "swift_stieber" forgets the oil behind a rupture, "mass_conserving" carries it along, so that a film
-        that forms again, as after a reversal, has no more than that.
-    """
-
-    duration: Annotated[Time, Field(gt=0)]
-    steps: Annotated[int, Field(strict=True, ge=2, le=100_000)] = 200
-    points: Annotated[int, Field(strict=True, ge=101, le=5000)] = 501
-    initial_thickness: Annotated[Length, Field(gt=0)] | None = None
-    cavitation: Literal["swift_stieber", "mass_conserving"] = "swift_stieber"
+    duration: Annotated[Time, Field(gt=0)] = key("Simulated time.", "basic")
+    steps: Annotated[int, Field(strict=True, ge=2, le=100_000)] = key(
+        "Number of time steps; doubling it shows the error in time.", "basic", default=200
+    )
+    points: Annotated[int, Field(strict=True, ge=101, le=5000)] = key(
+        "Number of nodes of the film mesh.", "advanced", default=501
+    )
+    initial_thickness: Annotated[Length, Field(gt=0)] | None = key(
+        "Film thickness at the start; a motion that starts from rest needs it.",
+        "advanced",
+        default=None,
+        reason="the steady film",
+    )
+    cavitation: Literal["swift_stieber", "mass_conserving"] = key(
+        "Cavitation model: swift_stieber (Reynolds condition) or mass_conserving (Jakobsson, Floberg, Olsson).",
+        "advanced",
+        default="swift_stieber",
+        reason="swift_stieber, the faster one; after a reversal use mass_conserving",
+    )

@@ -16,6 +16,7 @@ from bem.kinds.flow_factors.tables import FlowScene, PatchGridScene
 from bem.scenes import build, plans
 from bem.scenes.common import BodyScene, SceneModel, UpperBodyScene, problem
 from bem.scenes.context import Context, error_bars, tell
+from bem.scenes.keys import key
 from bem.scenes.kind import Kind
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series, filled
@@ -29,11 +30,11 @@ if TYPE_CHECKING:
 class FlowFactorsScene(SceneModel):
     """Two surfaces, one of them rough at least, and separations."""
 
-    kind: Literal["flow-factors"] = "flow-factors"
-    grid: PatchGridScene = PatchGridScene()
-    lower: BodyScene
-    upper: UpperBodyScene = UpperBodyScene()
-    flow: FlowScene
+    kind: Literal["flow-factors"] = key("Kind of computation.", "basic", default="flow-factors")
+    grid: PatchGridScene = key("Grid of the rough patch.", "basic", default=PatchGridScene())
+    lower: BodyScene = key("Lower body.", "basic")
+    upper: UpperBodyScene = key("Upper body; without a material it is rigid.", "basic", default=UpperBodyScene())
+    flow: FlowScene = key("Separations of the surfaces, and how their asperities deform.", "basic")
 
     @model_validator(mode="after")
     def _rough(self) -> FlowFactorsScene:

@@ -7,6 +7,7 @@ from typing import Annotated, Literal
 from pydantic import Field, model_validator
 
 from bem.scenes.common import GridScene, PositiveLength, PositivePressure, Table, exactly_one, problem
+from bem.scenes.keys import key
 from bem.scenes.units import Ratio
 
 
@@ -16,7 +17,11 @@ class PatchGridScene(GridScene):
     See `GridScene` for what is taken from measured surfaces.
     """
 
-    periodic: tuple[Annotated[bool, Field(strict=True)], Annotated[bool, Field(strict=True)]] = (True, True)
+    periodic: tuple[Annotated[bool, Field(strict=True)], Annotated[bool, Field(strict=True)]] = key(
+        "Periodic continuation along x and y, always both: flow factors belong to a repeating patch.",
+        "expert",
+        default=(True, True),
+    )
 
     @model_validator(mode="after")
     def _repeats(self) -> PatchGridScene:
@@ -26,18 +31,34 @@ class PatchGridScene(GridScene):
 
 
 class FlowScene(Table):
-    """Where: separations of the mean planes, or their ratio to the rms height of both surfaces together.
+    """Separations of the surfaces, and how their asperities deform."""
 
-    behaviour : the roughness is pressed together elastically, capped at the hardness, or not at all (`undeformed`: what
-        overlaps is cut off, as in Patir and Cheng's simulations).
-    """
-
-    separations: Annotated[list[PositiveLength], Field(min_length=1, max_length=100)] | None = None
-    ratios: Annotated[list[Annotated[Ratio, Field(gt=0)]], Field(min_length=1, max_length=100)] | None = None
-    behaviour: Literal["elastic", "capped", "undeformed"] = "elastic"
-    hardness: PositivePressure | None = None
-    tolerance: Annotated[Ratio, Field(ge=1e-10, le=1e-2)] = 1e-6
-    errors: bool = Field(default=True, strict=True)
+    separations: Annotated[list[PositiveLength], Field(min_length=1, max_length=100)] | None = key(
+        "Separations of the undeformed mean planes, one result for each; instead of ratios.", "basic", default=None
+    )
+    ratios: Annotated[list[Annotated[Ratio, Field(gt=0)]], Field(min_length=1, max_length=100)] | None = key(
+        "Separations over the combined rms roughness Sq (lambda ratios); instead of separations.", "basic", default=None
+    )
+    behaviour: Literal["elastic", "capped", "undeformed"] = key(
+        "Deformation of the asperities: capped is limited by the hardness, undeformed cuts overlap off.",
+        "basic",
+        default="elastic",
+    )
+    hardness: PositivePressure | None = key(
+        'Hardness that limits the contact pressure with behaviour "capped".',
+        "advanced",
+        default=None,
+        reason="that of the softer body",
+    )
+    tolerance: Annotated[Ratio, Field(ge=1e-10, le=1e-2)] = key(
+        "Relative tolerance of the contact and flow solutions.", "expert", default=1e-6
+    )
+    errors: bool = key(
+        "Error estimate of every result, from a second solution on twice the cell size.",
+        "advanced",
+        default=True,
+        strict=True,
+    )
 
     @model_validator(mode="after")
     def _one_list(self) -> FlowScene:

@@ -22,6 +22,7 @@ from bem.scenes import build, film_plans, plans
 from bem.scenes.axes import Axis, listed, over_last, variants
 from bem.scenes.common import OutputsScene, Repetitions
 from bem.scenes.context import Context, notes_over, tell
+from bem.scenes.keys import key
 from bem.scenes.kind import Kind
 from bem.scenes.lubrication import in_words_of_the_scene, notes_of_balance
 from bem.scenes.packing import keep, kept
@@ -57,10 +58,16 @@ measured, 0.7 of a ball's, 0.4 to 0.8 of both with heat."""
 class FrictionScene(CurveScene):
     """A rough cylinder, ball or ellipsoid on a rough flat with oil between them, at many speeds."""
 
-    kind: Literal["friction"] = "friction"
-    outputs: OutputsScene = OutputsScene()
-    variants: list[SurfaceVariant] = []  # noqa: RUF012
-    repetitions: Repetitions = 1
+    kind: Literal["friction"] = key("Kind of computation.", "basic", default="friction")
+    outputs: OutputsScene = key(
+        "Results besides the standard ones: error estimates.", "advanced", default=OutputsScene()
+    )
+    variants: list[SurfaceVariant] = key(
+        "Cases with other roughness of the lower surface, compared in one result.", "advanced", default=[]
+    )
+    repetitions: Repetitions = key(
+        "Number of runs with other random surfaces, for means and standard deviations.", "advanced", default=1
+    )
 
 
 def resolve(scene: FrictionScene) -> FrictionScene:

@@ -18,6 +18,7 @@ from bem.notes.contact import PRESSING_PATH
 from bem.notes.scenes import JOINT_CLOSED, PART_UNSOLVED
 from bem.scenes import build, sticking
 from bem.scenes.context import Context, error_bars
+from bem.scenes.keys import key
 from bem.scenes.kind import Kind
 from bem.scenes.packing import keep, kept
 from bem.scenes.planner import SEARCHED_IN_SINGLE, Plan, Step
@@ -40,7 +41,7 @@ _ANSWERED = 4.0
 class PartialSlipScene(PushedScene):
     """Two bodies, what presses them together and what pushes them along."""
 
-    kind: Literal["partial-slip"] = "partial-slip"
+    kind: Literal["partial-slip"] = key("Kind of computation.", "basic", default="partial-slip")
 
 
 def plan(scene: PartialSlipScene) -> Plan:

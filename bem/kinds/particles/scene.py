@@ -15,6 +15,7 @@ from bem.notes.scenes import MAP_SYNTHETIC
 from bem.scenes import plans
 from bem.scenes.common import MeasuredSurface, OutputsScene, SceneModel, one_of
 from bem.scenes.context import Context, error_bars
+from bem.scenes.keys import key
 from bem.scenes.kind import Kind
 from bem.scenes.pieces import ParticleTable, particle_rows
 from bem.scenes.planner import Plan, Step
@@ -28,13 +29,23 @@ if TYPE_CHECKING:
 class ParticlesScene(SceneModel):
     """A height map, and what is wanted of it."""
 
-    kind: Literal["particles"] = "particles"
-    map: MeasuredSurface | None = None
-    synthetic: SyntheticMapScene | None = None
-    separation: SeparationScene = SeparationScene()
-    archard: ArchardScene | None = None
-    sedimentation: SedimentationScene | None = None
-    outputs: OutputsScene = OutputsScene()
+    kind: Literal["particles"] = key("Kind of computation.", "basic", default="particles")
+    map: MeasuredSurface | None = key(
+        "Measured height map of dried wear particles; instead of synthetic.", "basic", default=None
+    )
+    synthetic: SyntheticMapScene | None = key(
+        "Synthetic height map with particles of known sizes; instead of map.", "basic", default=None
+    )
+    separation: SeparationScene = key("How particles are found in the height map.", "basic", default=SeparationScene())
+    archard: ArchardScene | None = key(
+        "Archard's wear law, which gives the number of particles.", "basic", default=None
+    )
+    sedimentation: SedimentationScene | None = key(
+        "Centrifuge run: whether small particles had time to settle.", "advanced", default=None
+    )
+    outputs: OutputsScene = key(
+        "Results besides the standard ones: error estimates.", "advanced", default=OutputsScene()
+    )
 
     _one_map = one_of("map", "synthetic")
 

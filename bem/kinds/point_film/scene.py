@@ -20,6 +20,7 @@ from bem.scenes import build, plans
 from bem.scenes.axes import changed
 from bem.scenes.common import BodyScene, OutputsScene, PositiveLength, SceneModel
 from bem.scenes.context import Context, error_bars, tell
+from bem.scenes.keys import key
 from bem.scenes.kind import Kind
 from bem.scenes.oil import OilScene
 from bem.scenes.planner import Plan, Step
@@ -47,18 +48,24 @@ class PointFilmScene(SceneModel):
     together, taken smooth, for the lambda ratio. Or one of the bodies is rough (its `surface`, on a `patch`) and stands
     still, and `contact` says how they touch where the film is no more."""
 
-    kind: Literal["point-film"] = "point-film"
-    lower: BodyScene
-    upper: BodyScene
-    ball: BallScene
-    oil: OilScene
-    rolling: BallRollingScene
-    roughness: PositiveLength | None = None
-    film: FilmCellsScene = FilmCellsScene()
-    supply: SupplyScene | None = None
-    patch: PatchScene | None = None
-    contact: TouchingScene | None = None
-    outputs: OutputsScene = OutputsScene()
+    kind: Literal["point-film"] = key("Kind of computation.", "basic", default="point-film")
+    lower: BodyScene = key("Lower body, the flat.", "basic")
+    upper: BodyScene = key("Upper body, the ball.", "basic")
+    ball: BallScene = key("Ball or barrel, and its load.", "basic")
+    oil: OilScene = key("Lubricant.", "basic")
+    rolling: BallRollingScene = key("Surface speeds of both bodies.", "basic")
+    roughness: PositiveLength | None = key(
+        "Combined rms roughness Sq of both surfaces, for the lambda ratio.", "basic", default=None
+    )
+    film: FilmCellsScene = key("Mesh of the oil film.", "basic", default=FilmCellsScene())
+    supply: SupplyScene | None = key(
+        "Oil supply of a starved contact; without it the inlet is flooded.", "advanced", default=None
+    )
+    patch: PatchScene | None = key("Grid of the rough patch; needed where a body is rough.", "advanced", default=None)
+    contact: TouchingScene | None = key("Asperity contact; needed where a body is rough.", "advanced", default=None)
+    outputs: OutputsScene = key(
+        "Results besides the standard ones: error estimates.", "advanced", default=OutputsScene()
+    )
 
     @model_validator(mode="after")
     def _together(self) -> PointFilmScene:

@@ -14,6 +14,7 @@ from bem.notes import Note
 from bem.notes.checks import ROUGHNESS_UNRESOLVED
 from bem.notes.scenes import PATCH_SMALLER_THAN_HERTZ
 from bem.scenes.common import PositiveLength, Table, problem
+from bem.scenes.keys import key
 from bem.scenes.units import Ratio
 
 if TYPE_CHECKING:
@@ -26,11 +27,12 @@ REMEDY = "take finer film.cells, a higher rolling.mean_speed, or a surface that 
 
 
 class TouchingScene(Table):
-    """Contact of a rough body inside the film: surfaces touch where the film comes down to `least_film`, of a few
-    molecules, and rub there with `boundary_friction`."""
+    """Asperity contact of a rough body inside the film."""
 
-    boundary_friction: Annotated[Ratio, Field(ge=0)]
-    least_film: PositiveLength = 1e-9
+    boundary_friction: Annotated[Ratio, Field(ge=0)] = key("Friction coefficient where the surfaces touch.", "basic")
+    least_film: PositiveLength = key(
+        "Film thickness at which the surfaces touch.", "advanced", default=1e-9, reason="a few molecules"
+    )
 
 
 def rough_body(scene: Any) -> str | None:

@@ -15,6 +15,7 @@ from bem.notes.scenes import WAVE_STEPS_FEW
 from bem.scenes import build, plans
 from bem.scenes.common import BodyScene, OutputsScene, SceneModel, problem
 from bem.scenes.context import Context
+from bem.scenes.keys import key
 from bem.scenes.kind import Kind
 from bem.scenes.marching import JUMPS, Marched, MarchedRecord, few_of
 from bem.scenes.oil import OilScene
@@ -43,19 +44,23 @@ class PointFilmTimeScene(SceneModel):
     """A ball or barrel on a flat with oil between them, in time: speed and load that change (`over_time`), `dents`,
     `waves` and, on a `patch`, rough surfaces of the bodies, which carry them along."""
 
-    kind: Literal["point-film-time"] = "point-film-time"
-    lower: BodyScene
-    upper: BodyScene
-    ball: BallScene
-    oil: OilScene
-    rolling: BallRollingScene
-    over_time: OverTimeScene | None = None
-    dents: tuple[DentScene, ...] = ()
-    waves: WavesScene | None = None
-    patch: PatchScene | None = None
-    film: PassingCellsScene = PassingCellsScene(cells=(64, 64))
-    march: BallMarchScene
-    outputs: OutputsScene = OutputsScene()
+    kind: Literal["point-film-time"] = key("Kind of computation.", "basic", default="point-film-time")
+    lower: BodyScene = key("Lower body, the flat.", "basic")
+    upper: BodyScene = key("Upper body, the ball.", "basic")
+    ball: BallScene = key("Ball or barrel, and its load.", "basic")
+    oil: OilScene = key("Lubricant.", "basic")
+    rolling: BallRollingScene = key("Surface speeds of both bodies.", "basic")
+    over_time: OverTimeScene | None = key(
+        "Changes of speed and load over time.", "advanced", default=None, reason="both constant"
+    )
+    dents: tuple[DentScene, ...] = key("Round dents or bumps that pass through the contact.", "basic", default=())
+    waves: WavesScene | None = key("Waviness that passes through the contact.", "advanced", default=None)
+    patch: PatchScene | None = key("Grid of the rough patch; needed where a body is rough.", "advanced", default=None)
+    film: PassingCellsScene = key("Mesh of the oil film.", "basic", default=PassingCellsScene(cells=(64, 64)))
+    march: BallMarchScene = key("Duration and time steps.", "basic")
+    outputs: OutputsScene = key(
+        "Results besides the standard ones: error estimates.", "advanced", default=OutputsScene()
+    )
 
     @model_validator(mode="after")
     def _together(self) -> PointFilmTimeScene:

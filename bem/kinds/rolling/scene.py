@@ -11,6 +11,7 @@ from bem.errors import Status
 from bem.grid import FloatArray, Grid
 from bem.scenes import build, sticking
 from bem.scenes.context import Context, error_bars, tell
+from bem.scenes.keys import key
 from bem.scenes.kind import Kind
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Series, filled, grid_map
@@ -31,7 +32,7 @@ vector passes."""
 class RollingContactScene(RolledScene):
     """Two bodies, what presses them together and how they roll."""
 
-    kind: Literal["rolling"] = "rolling"
+    kind: Literal["rolling"] = key("Kind of computation.", "basic", default="rolling")
 
 
 def plan(scene: RollingContactScene) -> Plan:

@@ -19,6 +19,7 @@ from bem.scenes import build, film_plans, pieces, plans, wearing
 from bem.scenes.axes import Axis, changed, over_last, with_keys
 from bem.scenes.common import PositivePressure, Repetitions
 from bem.scenes.context import Context, error_bars, tell
+from bem.scenes.keys import key
 from bem.scenes.kind import Kind
 from bem.scenes.lubrication import notes_of_balance
 from bem.scenes.planner import Plan, Step
@@ -51,14 +52,20 @@ _DEPTHS_NEEDED = 6
 class RunningInScene(OneLoadScene):
     """A rough cylinder, ball or ellipsoid slides on a rough flat in oil; what yields and reaches the surface leaves."""
 
-    kind: Literal["running-in"] = "running-in"
-    depths: wearing.WearDepthsScene
-    wear: WearScenePart = WearScenePart()
-    cycles: RunningInCycles = RunningInCycles()
-    sharing: WearingSharing = WearingSharing()
-    sizes: pieces.SizesScene = pieces.SizesScene()
-    hardnesses: list[PositivePressure] = []  # noqa: RUF012
-    repetitions: Repetitions = 1
+    kind: Literal["running-in"] = key("Kind of computation.", "basic", default="running-in")
+    depths: wearing.WearDepthsScene = key("Depths at which stresses are computed.", "basic")
+    wear: WearScenePart = key(
+        "Wear model: detachment criterion or wear law, and how material leaves.", "advanced", default=WearScenePart()
+    )
+    cycles: RunningInCycles = key("Number of wear cycles.", "basic", default=RunningInCycles())
+    sharing: WearingSharing = key("Load sharing between oil film and asperities.", "advanced", default=WearingSharing())
+    sizes: pieces.SizesScene = key("Statistics of the wear particle sizes.", "advanced", default=pieces.SizesScene())
+    hardnesses: list[PositivePressure] = key(
+        "Hardnesses of the lower body, one result for each.", "advanced", default=[]
+    )
+    repetitions: Repetitions = key(
+        "Number of runs with other random surfaces, for means and standard deviations.", "advanced", default=1
+    )
 
 
 def resolve(scene: RunningInScene) -> RunningInScene:

@@ -23,6 +23,7 @@ from bem.scenes import build, film_plans, plans
 from bem.scenes.axes import Axis
 from bem.scenes.common import Repetitions, problem
 from bem.scenes.context import Context, error_bars, tell
+from bem.scenes.keys import key
 from bem.scenes.kind import Kind
 from bem.scenes.packing import keep, kept
 from bem.scenes.planner import Plan, Step, padded_points
@@ -44,14 +45,24 @@ _JUMPS = 25  # steps of a life of a million cycles, each of three rounds
 class RunningInLifeScene(OneLoadScene):
     """A rough cylinder and a rough flat that wear each other in oil over a life."""
 
-    kind: Literal["running-in-life"] = "running-in-life"
-    wear: LifeWear
-    life: LifeCycles = LifeCycles()
-    sharing: RunningInSharing = RunningInSharing()
-    tribofilm: LifeFilm | None = None
-    particles: LifeParticles | None = None
-    fatigue: LifeFatigue | None = None
-    repetitions: Repetitions = 1
+    kind: Literal["running-in-life"] = key("Kind of computation.", "basic", default="running-in-life")
+    wear: LifeWear = key("Wear law of both bodies.", "basic")
+    life: LifeCycles = key("Number of cycles of the life.", "basic", default=LifeCycles())
+    sharing: RunningInSharing = key(
+        "Load sharing between oil film and asperities.", "advanced", default=RunningInSharing()
+    )
+    tribofilm: LifeFilm | None = key(
+        "Tribofilm on the lower body, which grows and wears in the same loop.", "advanced", default=None
+    )
+    particles: LifeParticles | None = key(
+        "Sizes of the particles that a detachment criterion finds.", "advanced", default=None
+    )
+    fatigue: LifeFatigue | None = key(
+        "Rolling contact fatigue of one body, in competition with wear.", "advanced", default=None
+    )
+    repetitions: Repetitions = key(
+        "Number of runs with other random surfaces, for means and standard deviations.", "advanced", default=1
+    )
 
     @model_validator(mode="after")
     def _cylinder_and_film(self) -> RunningInLifeScene:

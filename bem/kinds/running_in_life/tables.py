@@ -10,6 +10,7 @@ from pydantic import Field, field_validator
 
 from bem.grid import FloatArray, Grid
 from bem.scenes.common import Table, problem
+from bem.scenes.keys import key
 from bem.scenes.laws import LawKey
 from bem.scenes.tables.film_defect import FilmDefectScene
 from bem.scenes.tables.tribofilm import KineticsScene
@@ -30,17 +31,24 @@ INDICES = {"lower": (LOWER,), "upper": (UPPER,), "both": (LOWER, UPPER)}
 
 
 class LifeCycles(Table):
-    """How long: `count` cycles, in jumps whose error is at most `tolerance` of what wears in them.
+    """Number of cycles of the life, computed in cycle jumps."""
 
-    `first_step` is tried first; figures over cycles have `points` of them, in equal ratios. `coarser_lives`: two more,
-    on twice the cell and there in half the positions, for error bars of what cells and positions leave open.
-    """
-
-    count: Annotated[Ratio, Field(gt=0, le=1e12)] = 1e6
-    tolerance: Annotated[Ratio, Field(ge=1e-4, le=0.5)] = 0.05
-    first_step: Annotated[Ratio, Field(gt=0)] = 1.0
-    points: Annotated[int, Field(strict=True, ge=2, le=10_000)] = 61
-    coarser_lives: bool = Field(default=True, strict=True)
+    count: Annotated[Ratio, Field(gt=0, le=1e12)] = key("Number of cycles of the whole life.", "basic", default=1e6)
+    tolerance: Annotated[Ratio, Field(ge=1e-4, le=0.5)] = key(
+        "Permitted relative error of the wear in a cycle jump, estimated by step doubling.", "advanced", default=0.05
+    )
+    first_step: Annotated[Ratio, Field(gt=0)] = key(
+        "Number of cycles of the first trial jump; all jumps are powers of two times it.", "expert", default=1.0
+    )
+    points: Annotated[int, Field(strict=True, ge=2, le=10_000)] = key(
+        "Number of cycles, in a geometric series, at which curves over the life are stored.", "expert", default=61
+    )
+    coarser_lives: bool = key(
+        "Two more lives, with twice the cell size and with half the positions, for error estimates (40 % more work).",
+        "advanced",
+        default=True,
+        strict=True,
+    )
 
     def reported(self) -> FloatArray:
         """The cycles that figures over them have."""
@@ -48,19 +56,24 @@ class LifeCycles(Table):
 
 
 class LifeWear(Table):
-    """What wears, by pressure and distance: a law whose `distance` is what a place slides in a cycle under the patch.
+    """Wear law of both bodies, and which of them pass through the contact."""
 
-    A body that passes has all its rows go under the patch in a cycle, evenly in `positions`; one that does not lies
-    under it and wears a scar: `passes` "lower" is the frame "cylinder" of the wear table of other kinds, the upper body
-    fixed with the contact, "upper" is the frame "disk"; with "both" neither body stands still. A place that passes
-    slides by slide-to-roll ratio x length of its body's map.
-    """
-
-    law: Annotated[Detachment, LawKey("criterion")]
-    wears: Bodies = "both"
-    passes: Bodies = "both"
-    positions: Annotated[int, Field(strict=True, ge=1, le=256)] = 8
-    film_defect: FilmDefectScene | None = None
+    law: Annotated[Detachment, LawKey("criterion")] = key(
+        "Wear law by pressure and sliding distance, with its parameters: archard, archard_over_hardness or energy.",
+        "basic",
+    )
+    wears: Bodies = key("Bodies that lose material.", "advanced", default="both")
+    passes: Bodies = key(
+        "Bodies whose surface moves through the contact; one that does not gets a wear scar.",
+        "advanced",
+        default="both",
+    )
+    positions: Annotated[int, Field(strict=True, ge=1, le=256)] = key(
+        "Number of relative positions of the rough surfaces over which a jump is averaged.", "expert", default=8
+    )
+    film_defect: FilmDefectScene | None = key(
+        "Adsorbed boundary film that protects the surfaces from wear.", "advanced", default=None
+    )
 
     @field_validator("law")
     @classmethod
@@ -88,17 +101,26 @@ class LifeWear(Table):
 
 
 class LifeFilm(KineticsScene):
-    """A tribofilm on the lower body: it raises the surface and hides substrate by 1 - exp(-C1 h), from wear and, with
-    `friction_on_film`, from friction.
+    """Tribofilm on the lower body, which grows, wears, and covers the substrate."""
 
-    `cycle_time` is for which a place is under the patch in a cycle: growth and the film's wear count in it. The
-    temperature is the oil's where it is not given; with `heat` each spot grows as warm as rubbing makes it.
-    """
-
-    cycle_time: Annotated[Time, Field(gt=0)]
-    temperature: Annotated[Temperature, Field(gt=0)] | None = None
-    friction_on_film: Annotated[Ratio, Field(ge=0, le=2)] | None = None
-    heat: bool = Field(default=False, strict=True)
+    cycle_time: Annotated[Time, Field(gt=0)] = key(
+        "Time for which a point of the surface is under the patch in each cycle.", "basic"
+    )
+    temperature: Annotated[Temperature, Field(gt=0)] | None = key(
+        "Temperature at which the film grows.", "basic", default=None, reason="the oil's"
+    )
+    friction_on_film: Annotated[Ratio, Field(ge=0, le=2)] | None = key(
+        "Boundary friction coefficient where the tribofilm covers the substrate.",
+        "advanced",
+        default=None,
+        reason="that of the contact",
+    )
+    heat: bool = key(
+        "Growth at the local surface temperature, with the flash temperature of sliding.",
+        "advanced",
+        default=False,
+        strict=True,
+    )
 
     def build(self, friction: float, temperature: LocalTemperature) -> GrowingFilm:
         """As `bem.life.surfaces.GrowingFilm`."""
@@ -109,11 +131,12 @@ class LifeFilm(KineticsScene):
 
 
 class LifeParticles(Table):
-    """Sizes of what a criterion would take from the lower body in single passes; as many come off as carry away what
-    wears (Archard's volume over the mean volume of a piece, the thesis' way). None is taken from the surface."""
+    """Sizes of the particles that a detachment criterion finds; none of them is taken from the surface."""
 
-    criterion: Annotated[Detachment, LawKey("criterion")] = VonMises()
-    depths: WearDepthsScene
+    criterion: Annotated[Detachment, LawKey("criterion")] = key(
+        "Detachment criterion that finds the particles.", "advanced", default=VonMises()
+    )
+    depths: WearDepthsScene = key("Depths at which stresses are computed.", "basic")
 
     @field_validator("criterion")
     @classmethod
@@ -135,19 +158,32 @@ class LifeParticles(Table):
 
 
 class LifeFatigue(Table):
-    """Damage of one body by the stresses of passing roughness, while it wears; see `bem.life.criteria.FatigueLimit`.
+    """Rolling contact fatigue of one body under the stresses of passing roughness, in competition with wear."""
 
-    `bending` and `slope` are of the limit in reversed bending over ln of the cycles; the default is hardened 52100,
-    which loses 43 MPa a decade. `residual_stress` stays along x and y, negative where it is compressive.
-    """
-
-    body: Literal["lower", "upper"] = "lower"
-    criterion: Literal["dang_van", "crossland"] = "dang_van"
-    bending: Annotated[Pressure, Field(gt=0)] = 1220e6
-    slope: Annotated[Pressure, Field(lt=0)] = -43e6 / math.log(10)
-    hydrostatic: Annotated[Ratio, Field(ge=0, le=3)] | None = None
-    residual_stress: Pressure = 0.0
-    depths: WearDepthsScene
+    body: Literal["lower", "upper"] = key("Body whose fatigue damage is computed.", "basic", default="lower")
+    criterion: Literal["dang_van", "crossland"] = key(
+        "Multiaxial high-cycle fatigue criterion.", "advanced", default="dang_van"
+    )
+    bending: Annotated[Pressure, Field(gt=0)] = key(
+        "Constant B of the fatigue limit in reversed bending, B + A ln N.",
+        "advanced",
+        default=1220e6,
+        reason="hardened 52100 bearing steel",
+    )
+    slope: Annotated[Pressure, Field(lt=0)] = key(
+        "Slope A of the fatigue limit in reversed bending, B + A ln N.",
+        "advanced",
+        default=-43e6 / math.log(10),
+        reason="hardened 52100: -43 MPa a decade of cycles",
+    )
+    hydrostatic: Annotated[Ratio, Field(ge=0, le=3)] | None = key(
+        "Weight of the hydrostatic stress in the criterion.",
+        "expert",
+        default=None,
+        reason="0.232 for Dang Van, 0 for Crossland",
+    )
+    residual_stress: Pressure = key("Residual stress along x and y, negative in compression.", "advanced", default=0.0)
+    depths: WearDepthsScene = key("Depths at which stresses are computed.", "basic")
 
     def build(self, bodies: tuple[Body, Body], friction: float, hardness: float | None = None) -> RollingFatigue:
         """As `bem.life.fatigue.RollingFatigue`; friction : traction over pressure, as the lower body feels it;

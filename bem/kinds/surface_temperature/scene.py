@@ -9,6 +9,7 @@ from bem.errors import Status
 from bem.grid import FloatArray
 from bem.scenes import build, plans
 from bem.scenes.context import Context, error_bars, tell
+from bem.scenes.keys import key
 from bem.scenes.kind import Kind
 from bem.scenes.planner import Plan, Step, padded_points
 from bem.scenes.records import Figure, GridRecord, filled, grid_map
@@ -19,7 +20,7 @@ from bem.scenes.tables.heat import RubbingScene
 class SurfaceTemperatureScene(RubbingScene):
     """Two bodies, a load, and speeds."""
 
-    kind: Literal["surface-temperature"] = "surface-temperature"
+    kind: Literal["surface-temperature"] = key("Kind of computation.", "basic", default="surface-temperature")
 
 
 def plan(scene: SurfaceTemperatureScene) -> Plan:

@@ -19,6 +19,7 @@ from pydantic import Field, ValidationError, model_validator
 
 from bem.arguments import read_small
 from bem.scenes.common import Force, Table, check_rising, problem
+from bem.scenes.keys import key
 from bem.scenes.units import Length, Speed
 from bem.scenes.validate import nearest
 
@@ -34,14 +35,13 @@ COLUMNS = ("position", "radius", "load", "lower_speed", "upper_speed")
 
 
 class MarksScene(Table):
-    """Places on a line of action by their letters, marked in figures: start of contact A, inner point of single contact
-    B, pitch point C, outer point of single contact D, end of contact E. Those that are left out have no mark."""
+    """Characteristic points of a gear's path of contact, marked in figures."""
 
-    A: Length | None = None
-    B: Length | None = None
-    C: Length | None = None
-    D: Length | None = None
-    E: Length | None = None
+    A: Length | None = key("Position of the start of contact.", "advanced", default=None)
+    B: Length | None = key("Position of the inner point of single contact.", "advanced", default=None)
+    C: Length | None = key("Position of the pitch point.", "advanced", default=None)
+    D: Length | None = key("Position of the outer point of single contact.", "advanced", default=None)
+    E: Length | None = key("Position of the end of contact.", "advanced", default=None)
 
     def places(self) -> dict[str, float]:
         """Return the given places [m] by their letters, in alphabetical order."""
@@ -50,15 +50,22 @@ class MarksScene(Table):
 
 
 class AlongScene(Table):
-    """Rows: where, and there the radius of the roller, the load on its width, and the speeds of both surfaces over the
-    contact. `path` names a file with these columns. `marks` : letters of places on a gear's line of action."""
+    """Contact conditions row by row, as along a gear's path of contact: columns, or a file of them named by `path`."""
 
-    position: Annotated[list[Length], _Rows]
-    radius: Annotated[list[_Positive], _Rows]
-    load: Annotated[list[Annotated[Force, Field(gt=0)]], _Rows]
-    lower_speed: Annotated[list[Annotated[Speed, Field(ge=0)]], _Rows]
-    upper_speed: Annotated[list[Annotated[Speed, Field(ge=0)]], _Rows]
-    marks: MarksScene | None = None
+    position: Annotated[list[Length], _Rows] = key("Positions along the path, in rising order.", "basic")
+    radius: Annotated[list[_Positive], _Rows] = key("Radius of relative curvature at each position.", "basic")
+    load: Annotated[list[Annotated[Force, Field(gt=0)]], _Rows] = key(
+        "Normal load on the width at each position.", "basic"
+    )
+    lower_speed: Annotated[list[Annotated[Speed, Field(ge=0)]], _Rows] = key(
+        "Surface speed of the lower body over the contact at each position.", "basic"
+    )
+    upper_speed: Annotated[list[Annotated[Speed, Field(ge=0)]], _Rows] = key(
+        "Surface speed of the upper body over the contact at each position.", "basic"
+    )
+    marks: MarksScene | None = key(
+        "Positions of the characteristic points A to E, marked in figures.", "advanced", default=None
+    )
 
     @model_validator(mode="before")
     @classmethod

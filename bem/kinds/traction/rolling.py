@@ -8,15 +8,20 @@ from typing import Annotated
 from pydantic import Field
 
 from bem.scenes.common import CylinderTable, Force, PositivePressure, Table, one_of
+from bem.scenes.keys import key
 from bem.scenes.tables.heat import BulkTemperature
 from bem.scenes.units import Ratio, Speed
 
 
 class RollerScene(CylinderTable):
-    """The roller, and the load on its width or the maximum Hertz pressure that it makes."""
+    """The roller on the flat, and its load."""
 
-    load: Annotated[Force, Field(gt=0)] | None = None
-    hertz_pressure: PositivePressure | None = None
+    load: Annotated[Force, Field(gt=0)] | None = key(
+        "Normal load on the width; instead of hertz_pressure.", "basic", default=None
+    )
+    hertz_pressure: PositivePressure | None = key(
+        "Maximum Hertz pressure of the smooth contact; instead of load.", "basic", default=None
+    )
 
     _one_load = one_of("load", "hertz_pressure")
 
@@ -29,14 +34,20 @@ class RollerScene(CylinderTable):
 
 
 class RollingScene(Table):
-    """Speeds of both surfaces over the contact: their mean, and the slide-to-roll ratio, the difference of flat and
-    roller over the mean. At a ratio of 2 the roller stands still, at -2 the flat. Temperatures of the bodies far from
-    the contact are the oil's where they are not given."""
+    """Surface speeds of both bodies, and their bulk temperatures."""
 
-    mean_speed: Annotated[Speed, Field(gt=0)]
-    slide_roll_ratio: Annotated[Ratio, Field(ge=-2, le=2)] = 0.0
-    lower_bulk: BulkTemperature | None = None
-    upper_bulk: BulkTemperature | None = None
+    mean_speed: Annotated[Speed, Field(gt=0)] = key("Entrainment speed: mean of both surface speeds.", "basic")
+    slide_roll_ratio: Annotated[Ratio, Field(ge=-2, le=2)] = key(
+        "Slide-to-roll ratio 2 (u1 - u2)/(u1 + u2), u1 of the flat: 0 is pure rolling, 2 a roller at rest.",
+        "basic",
+        default=0.0,
+    )
+    lower_bulk: BulkTemperature | None = key(
+        "Bulk temperature of the lower body.", "advanced", default=None, reason="the oil's"
+    )
+    upper_bulk: BulkTemperature | None = key(
+        "Bulk temperature of the upper body.", "advanced", default=None, reason="the oil's"
+    )
 
     @property
     def speeds(self) -> tuple[float, float]:
@@ -46,6 +57,8 @@ class RollingScene(Table):
 
 
 class FilmPointsScene(Table):
-    """The film's mesh."""
+    """Mesh of the oil film; grading and inlet length are chosen automatically."""
 
-    points: Annotated[int, Field(strict=True, ge=100, le=20000)] = 1000
+    points: Annotated[int, Field(strict=True, ge=100, le=20000)] = key(
+        "Number of nodes of the film mesh.", "basic", default=1000
+    )

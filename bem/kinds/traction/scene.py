@@ -21,6 +21,7 @@ from bem.scenes import build, plans
 from bem.scenes.axes import Axis
 from bem.scenes.common import BodyScene, OutputsScene, PositiveLength, SceneModel, check_smooth
 from bem.scenes.context import Context, error_bars, tell
+from bem.scenes.keys import key
 from bem.scenes.kind import Kind
 from bem.scenes.oil import OilScene
 from bem.scenes.planner import Plan, Step
@@ -37,25 +38,34 @@ _SHOWN = np.linspace(-2.5, 1.5, 401)
 
 
 class TractionScene(SceneModel):
-    """A smooth roller on a smooth flat with oil between them, in steady motion.
+    """A smooth roller on a smooth flat with oil between them, in steady motion."""
 
-    `thermal`: "lumped" for `bem.solve_thermal_line_film`, "full" for `bem.solve_full_thermal_line_film`, or "off".
-    `along`: rows of radius, load and speeds, each a case; the scene then says nothing else of them. `roughness`: rms
-    height of both surfaces together, for the lambda ratio.
-    """
-
-    kind: Literal["traction"] = "traction"
-    lower: BodyScene
-    upper: BodyScene
-    roller: RollerScene
-    oil: OilScene
-    rolling: RollingScene
-    thermal: Literal["off", "lumped", "full"] = "lumped"
-    supply: SupplyScene | None = None
-    along: AlongScene | None = None
-    roughness: PositiveLength | None = None
-    film: FilmPointsScene = FilmPointsScene()
-    outputs: OutputsScene = OutputsScene()
+    kind: Literal["traction"] = key("Kind of computation.", "basic", default="traction")
+    lower: BodyScene = key("Lower body, the flat.", "basic")
+    upper: BodyScene = key("Upper body, the roller.", "basic")
+    roller: RollerScene = key("Roller and load.", "basic")
+    oil: OilScene = key("Lubricant.", "basic")
+    rolling: RollingScene = key("Surface speeds of both bodies.", "basic")
+    thermal: Literal["off", "lumped", "full"] = key(
+        "Frictional heat: off (isothermal), lumped (mean film temperature), or full (along and across the film).",
+        "basic",
+        default="lumped",
+    )
+    supply: SupplyScene | None = key(
+        "Oil supply of a starved contact; without it the inlet is flooded.", "advanced", default=None
+    )
+    along: AlongScene | None = key(
+        "Contact conditions row by row, such as along a gear's path of contact; each row is a case.",
+        "advanced",
+        default=None,
+    )
+    roughness: PositiveLength | None = key(
+        "Combined rms roughness Sq of both surfaces, for the lambda ratio.", "basic", default=None
+    )
+    film: FilmPointsScene = key("Mesh of the oil film.", "basic", default=FilmPointsScene())
+    outputs: OutputsScene = key(
+        "Results besides the standard ones: error estimates.", "advanced", default=OutputsScene()
+    )
 
     @model_validator(mode="before")
     @classmethod

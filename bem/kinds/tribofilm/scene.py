@@ -19,6 +19,7 @@ from bem.scenes import build, film_plans, plans
 from bem.scenes.axes import Axis, listed, variants
 from bem.scenes.common import OutputsScene, Repetitions, problem
 from bem.scenes.context import Context, error_bars, tell
+from bem.scenes.keys import key
 from bem.scenes.kind import Kind
 from bem.scenes.lubrication import notes_of_balance
 from bem.scenes.packing import keep, kept
@@ -43,11 +44,19 @@ _CHECKPOINT_EVERY = 5  # contacts
 class TribofilmScene(RubbedScene):
     """A film on the lower body, under a rough, capped, layered contact."""
 
-    kind: Literal["tribofilm"] = "tribofilm"
-    variants: list[VariantScene] = []  # noqa: RUF012
-    reuse_tolerance: Annotated[Ratio, Field(ge=0, lt=1)] = 2e-3
-    outputs: OutputsScene = OutputsScene()
-    repetitions: Repetitions = 1
+    kind: Literal["tribofilm"] = key("Kind of computation.", "basic", default="tribofilm")
+    variants: list[VariantScene] = key(
+        "Cases with other constants of the film, compared in one result.", "advanced", default=[]
+    )
+    reuse_tolerance: Annotated[Ratio, Field(ge=0, lt=1)] = key(
+        "Relative change of growth below which a contact is interpolated and not solved again.", "expert", default=2e-3
+    )
+    outputs: OutputsScene = key(
+        "Results besides the standard ones: error estimates.", "advanced", default=OutputsScene()
+    )
+    repetitions: Repetitions = key(
+        "Number of runs with other random surfaces, for means and standard deviations.", "advanced", default=1
+    )
 
     @model_validator(mode="after")
     def _delay_needs_the_mean(self) -> TribofilmScene:

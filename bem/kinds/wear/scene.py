@@ -19,6 +19,7 @@ from bem.scenes import build, pieces, plans, wearing
 from bem.scenes.axes import Axis, listed, variants, with_keys
 from bem.scenes.common import BodyScene, Repetitions, SceneModel, problem
 from bem.scenes.context import Context, error_bars
+from bem.scenes.keys import key
 from bem.scenes.kind import Kind
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Series, filled, grid_map
@@ -42,18 +43,26 @@ _DEPTHS_AT_FIRST = 40  # the same in the first cycle, of sharp asperities
 class WearScene(SceneModel):
     """A rough cylinder slides on a rough flat; what yields and reaches the surface leaves."""
 
-    kind: Literal["wear"] = "wear"
-    lower: BodyScene
-    upper: BodyScene
-    cylinder: CylinderScene
-    domain: DomainScene
-    depths: wearing.WearDepthsScene
-    wear: WearScenePart = WearScenePart()
-    cycles: CyclesScene = CyclesScene()
-    sizes: pieces.SizesScene = pieces.SizesScene()
-    archard: pieces.WearRateScene | None = None
-    variants: list[WearVariantScene] = []  # noqa: RUF012
-    repetitions: Repetitions = 1
+    kind: Literal["wear"] = key("Kind of computation.", "basic", default="wear")
+    lower: BodyScene = key("Lower body, on which friction acts along +x.", "basic")
+    upper: BodyScene = key("Upper body, the cylinder.", "basic")
+    cylinder: CylinderScene = key("Cylinder, loads and friction.", "basic")
+    domain: DomainScene = key("The slice of the contact that is computed.", "basic")
+    depths: wearing.WearDepthsScene = key("Depths at which stresses are computed.", "basic")
+    wear: WearScenePart = key(
+        "Wear model: detachment criterion or wear law, and how material leaves.", "advanced", default=WearScenePart()
+    )
+    cycles: CyclesScene = key("Number of wear cycles.", "basic", default=CyclesScene())
+    sizes: pieces.SizesScene = key("Statistics of the wear particle sizes.", "advanced", default=pieces.SizesScene())
+    archard: pieces.WearRateScene | None = key(
+        "Archard's wear law, which gives the number of particles.", "advanced", default=None
+    )
+    variants: list[WearVariantScene] = key(
+        "Cases with other mesh, roughness, film or wear model, compared in one result.", "advanced", default=[]
+    )
+    repetitions: Repetitions = key(
+        "Number of runs with other random surfaces, for means and standard deviations.", "advanced", default=1
+    )
 
     @model_validator(mode="after")
     def _flat_needs_lengths(self) -> WearScene:

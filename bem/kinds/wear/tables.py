@@ -22,6 +22,7 @@ from bem.scenes.common import (
     one_for_both,
     problem,
 )
+from bem.scenes.keys import key
 from bem.scenes.laws import LawKey
 from bem.scenes.units import Length, Ratio
 from bem.scenes.wearing import LastCycles, WearDepthsScene
@@ -31,26 +32,39 @@ from bem.wear.traction import TractionLaw
 
 
 class CylinderScene(CylinderTable):
-    """The contact as a whole: a cylinder along y on a flat, and the loads on its full width; radius 0 is a flat."""
+    """The cylinder on the flat, its loads and its friction; radius 0 is a flat."""
 
-    radius: Annotated[Length, Field(ge=0)] = 0.0
-    loads: Loads
-    friction: Annotated[Ratio, Field(ge=0, le=2)] = 0.0
-    hardness: PositivePressure | None = None
+    radius: Annotated[Length, Field(ge=0)] = key("Radius of the cylinder; 0 is a flat.", "basic", default=0.0)
+    loads: Loads = key("Normal loads on the width, one result for each.", "basic")
+    friction: Annotated[Ratio, Field(ge=0, le=2)] = key(
+        "Friction coefficient of boundary lubrication: traction over pressure.", "basic", default=0.0
+    )
+    hardness: PositivePressure | None = key(
+        "Hardness that limits the contact pressure.", "advanced", default=None, reason="that of the softer body"
+    )
 
 
 class DomainScene(Table):
-    """The slice that is computed: `cells` over a square of `half_widths` Hertz half-widths, or of given `lengths`.
+    """The slice of the contact that is computed."""
 
-    The half-width is that at each load, as in the thesis, or that at `half_widths_at`, so that cells stay the same over
-    loads. Free in x and periodic in y, or periodic in both.
-    """
-
-    cells: tuple[Cells, Cells] = (240, 240)
-    half_widths: Annotated[Ratio, Field(gt=0, le=100)] | None = None
-    half_widths_at: Annotated[Force, Field(gt=0)] | None = None
-    lengths: tuple[PositiveLength, PositiveLength] | None = None
-    periodic: Literal["y", "both"] = "y"
+    cells: tuple[Cells, Cells] = key(
+        "Number of cells along x and y; check that particle sizes do not depend on it.", "basic", default=(240, 240)
+    )
+    half_widths: Annotated[Ratio, Field(gt=0, le=100)] | None = key(
+        "Side length of the slice in half-widths of the Hertz line contact; instead of lengths.", "basic", default=None
+    )
+    half_widths_at: Annotated[Force, Field(gt=0)] | None = key(
+        "Load whose Hertz half-width sets the slice for all loads.",
+        "advanced",
+        default=None,
+        reason="each load its own",
+    )
+    lengths: tuple[PositiveLength, PositiveLength] | None = key(
+        "Side lengths of the slice along x and y; instead of half_widths.", "basic", default=None
+    )
+    periodic: Literal["y", "both"] = key(
+        "Periodic continuation: along y (line contact), or both axes (nominally flat contact).", "advanced", default="y"
+    )
 
     _pairs = field_validator("cells", "lengths", mode="before")(one_for_both)
 
@@ -75,26 +89,50 @@ class DomainScene(Table):
 
 
 class CyclesScene(LastCycles):
-    """How long: `count` cycles, or until settled; means are over the last `settled` cycles."""
+    """Number of wear cycles, and of the last ones over which means are taken."""
 
-    stop_when_settled: bool = Field(default=False, strict=True)
-    tolerance: Annotated[Ratio, Field(gt=0, lt=1)] = 0.02
+    stop_when_settled: bool = key(
+        "End the run as soon as particle size and roughness have settled.", "advanced", default=False, strict=True
+    )
+    tolerance: Annotated[Ratio, Field(gt=0, lt=1)] = key(
+        "Relative change of particle size and roughness below which they have settled.", "advanced", default=0.02
+    )
 
 
 class WearVariantScene(Variant):
-    """A run that differs from the scene in what is given here: mesh, roughness, film, sliding per cycle."""
+    """Changes of mesh, roughness, film and wear model."""
 
-    cells: Annotated[int, Field(strict=True, ge=2, le=8192)] | None = None
-    depths: WearDepthsScene | None = None
-    shift: Annotated[int, Field(strict=True, ge=-10_000, le=10_000)] | None = None
-    lower_rms_height: PositiveLength | None = None
-    upper_rms_height: PositiveLength | None = None
-    layer_thickness: PositiveLength | None = None
-    connectivity: Literal[6, 18, 26] | None = None
-    refinement: Literal["monotone_cubic", "linear", "exact"] | None = None
-    criterion: Annotated[Detachment, LawKey("criterion")] | None = None
-    removal: Annotated[RemovalLaw, LawKey("removal")] | None = None
-    traction: Annotated[TractionLaw, LawKey("traction")] | None = None
+    cells: Annotated[int, Field(strict=True, ge=2, le=8192)] | None = key(
+        "Number of cells along x and y.", "basic", default=None
+    )
+    depths: WearDepthsScene | None = key("Depths at which stresses are computed.", "basic", default=None)
+    shift: Annotated[int, Field(strict=True, ge=-10_000, le=10_000)] | None = key(
+        "Sliding distance of a cycle, in cells.", "advanced", default=None
+    )
+    lower_rms_height: PositiveLength | None = key(
+        "Root-mean-square roughness Sq of the lower surface.", "basic", default=None
+    )
+    upper_rms_height: PositiveLength | None = key(
+        "Root-mean-square roughness Sq of the upper surface.", "basic", default=None
+    )
+    layer_thickness: PositiveLength | None = key("Thickness of the (outermost) layer.", "basic", default=None)
+    connectivity: Literal[6, 18, 26] | None = key(
+        "Neighbours that belong to one particle: 6 by faces, 18 also by edges, 26 also by corners.",
+        "expert",
+        default=None,
+    )
+    refinement: Literal["monotone_cubic", "linear", "exact"] | None = key(
+        "Interpolation of the stress over depth.", "expert", default=None
+    )
+    criterion: Annotated[Detachment, LawKey("criterion")] | None = key(
+        "Detachment criterion or wear law.", "advanced", default=None
+    )
+    removal: Annotated[RemovalLaw, LawKey("removal")] | None = key(
+        "Material that leaves with a yielded region.", "advanced", default=None
+    )
+    traction: Annotated[TractionLaw, LawKey("traction")] | None = key(
+        "Traction on the surface: gross sliding, or partial slip.", "advanced", default=None
+    )
 
     def applied(self, scene: Model) -> Model:
         """The scene with a variant's changes in it.

@@ -9,17 +9,21 @@ from pydantic import Field, field_validator
 
 from bem.reference_solutions.hertz import ellipse_load
 from bem.scenes.common import Force, PositiveLength, PositivePressure, Table, one_for_both, one_of
+from bem.scenes.keys import key
 from bem.scenes.units import Angle, Ratio, Speed
 
 
 class BallScene(Table):
-    """A ball of `radius`, or with `radius_y` a barrel: reduced radii along x and y. `load`, or the maximum Hertz
-    pressure that it makes."""
+    """A ball, or with `radius_y` a barrel, on a flat: reduced radii and load."""
 
-    radius: PositiveLength
-    radius_y: PositiveLength | None = None
-    load: Annotated[Force, Field(gt=0)] | None = None
-    hertz_pressure: PositivePressure | None = None
+    radius: PositiveLength = key(
+        "Reduced radius (radius of relative curvature) along x; of a ball along both axes.", "basic"
+    )
+    radius_y: PositiveLength | None = key("Reduced radius along y of a barrel (ellipsoid).", "advanced", default=None)
+    load: Annotated[Force, Field(gt=0)] | None = key("Normal load; instead of hertz_pressure.", "basic", default=None)
+    hertz_pressure: PositivePressure | None = key(
+        "Maximum Hertz pressure of the smooth contact; instead of load.", "basic", default=None
+    )
 
     _one_load = one_of("load", "hertz_pressure")
 
@@ -37,12 +41,15 @@ class BallScene(Table):
 
 
 class BallRollingScene(Table):
-    """Speeds of both surfaces over the contact: their mean, the slide-to-roll ratio, the difference of flat and ball
-    over the mean, and the direction of both from x. At a ratio of 2 the ball stands still, at -2 the flat."""
+    """Surface speeds of both bodies."""
 
-    mean_speed: Annotated[Speed, Field(gt=0)]
-    slide_roll_ratio: Annotated[Ratio, Field(ge=-2, le=2)] = 0.0
-    direction: Angle = 0.0
+    mean_speed: Annotated[Speed, Field(gt=0)] = key("Entrainment speed: mean of both surface speeds.", "basic")
+    slide_roll_ratio: Annotated[Ratio, Field(ge=-2, le=2)] = key(
+        "Slide-to-roll ratio 2 (u1 - u2)/(u1 + u2), u1 of the flat: 0 is pure rolling, 2 a ball at rest.",
+        "basic",
+        default=0.0,
+    )
+    direction: Angle = key("Direction of entrainment, measured from x.", "advanced", default=0.0)
 
     @property
     def at_an_angle(self) -> bool:
@@ -63,8 +70,10 @@ Cells = Annotated[int, Field(strict=True, ge=32, le=2048)]
 
 
 class FilmCellsScene(Table):
-    """The film's grid."""
+    """Mesh of the oil film; its extent is chosen automatically."""
 
-    cells: tuple[Cells, Cells] = (128, 128)
+    cells: tuple[Cells, Cells] = key(
+        "Number of cells of the film mesh along x and y; one number stands for both.", "basic", default=(128, 128)
+    )
 
     _pair = field_validator("cells", mode="before")(one_for_both)

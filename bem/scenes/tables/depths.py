@@ -7,16 +7,21 @@ from typing import Annotated, Any
 from pydantic import Field, model_validator
 
 from bem.scenes.common import PositiveLength, Table, check_rising, exactly_one
+from bem.scenes.keys import key
 from bem.scenes.units import Length, Ratio
 
 
 class DepthsScene(Table):
-    """Depths where stresses are wanted: a list, or `deepest` with `count` depths that are finer near the surface."""
+    """Depths at which stresses are computed: a list, or graded down to `deepest`."""
 
-    values: Annotated[list[Annotated[Length, Field(ge=0)]], Field(min_length=1, max_length=1024)] | None = None
-    deepest: PositiveLength | None = None
-    count: Annotated[int, Field(strict=True, ge=2, le=1024)] = 32
-    grading: Annotated[Ratio, Field(ge=1, le=5)] = 2.0
+    values: Annotated[list[Annotated[Length, Field(ge=0)]], Field(min_length=1, max_length=1024)] | None = key(
+        "List of depths; instead of deepest and count.", "advanced", default=None
+    )
+    deepest: PositiveLength | None = key("Largest depth.", "basic", default=None)
+    count: Annotated[int, Field(strict=True, ge=2, le=1024)] = key("Number of depths.", "basic", default=32)
+    grading: Annotated[Ratio, Field(ge=1, le=5)] = key(
+        "Exponent of the grading: 1 is uniform, larger values refine near the surface.", "expert", default=2.0
+    )
 
     @model_validator(mode="before")
     @classmethod

@@ -8,6 +8,7 @@ from pydantic import Field
 
 from bem.errors import InputError
 from bem.scenes.common import PositiveLength, Table
+from bem.scenes.keys import key
 from bem.scenes.units import Energy, Speed, Temperature, Time
 
 if TYPE_CHECKING:
@@ -15,17 +16,23 @@ if TYPE_CHECKING:
 
 
 class FilmDefectScene(Table):
-    """Molecules on the surfaces that keep them from wearing where they stay; the law's rate is then that of bare ones.
+    """Adsorbed boundary film, whose defects let the surfaces wear; the wear law's rate is that of bare surfaces."""
 
-    `sliding_speed` and `temperature` are those of speeds and oil where there are some; with `thermal` lumped or full
-    each place has its flash temperature. See `bem.wear.film_defect`.
-    """
-
-    adsorption_energy: Annotated[Energy, Field(gt=0)]
-    molecule_length: PositiveLength = 5e-10
-    vibration_time: Annotated[Time, Field(gt=0)] = 3e-12
-    sliding_speed: Annotated[Speed, Field(ge=0)] | None = None
-    temperature: Annotated[Temperature, Field(gt=0)] | None = None
+    adsorption_energy: Annotated[Energy, Field(gt=0)] = key(
+        "Adsorption energy: energy that a molecule needs to leave the surface.", "basic"
+    )
+    molecule_length: PositiveLength = key("Length of an adsorbed molecule along sliding.", "advanced", default=5e-10)
+    vibration_time: Annotated[Time, Field(gt=0)] = key(
+        "Vibration period of an adsorbed molecule; its residence time is this times exp(adsorption_energy / kT).",
+        "advanced",
+        default=3e-12,
+    )
+    sliding_speed: Annotated[Speed, Field(ge=0)] | None = key(
+        "Sliding speed.", "basic", default=None, reason="from the table speeds; kind wear has none and needs it here"
+    )
+    temperature: Annotated[Temperature, Field(gt=0)] | None = key(
+        "Surface temperature.", "basic", default=None, reason="the oil's; kind wear has none and needs it here"
+    )
 
     def build(self, speeds: tuple[float, float] | None = None, temperature: float | None = None) -> FilmDefect:
         """Of surfaces at speeds (u1, u2) [m/s] and a temperature [K], where the table has none of its own.

@@ -10,6 +10,7 @@ from bem.friction.setup import HEAT_NEEDS
 from bem.grid import Grid
 from bem.scenes import build
 from bem.scenes.common import BodyScene, Table, problem
+from bem.scenes.keys import key
 from bem.scenes.oil import OilScene
 from bem.scenes.tables.pressing import PressedScene
 from bem.scenes.tables.supply import SupplyScene
@@ -23,12 +24,22 @@ ROOM = 293.15
 
 
 class RubbingHeatScene(Table):
-    """Speeds of the surfaces over the contact, along x, and temperatures far below them."""
+    """Surface speeds over the contact along x, and bulk temperatures of both bodies."""
 
-    lower_speed: Speed
-    upper_speed: Speed = 0.0
-    lower_bulk: BulkTemperature = ROOM
-    upper_bulk: BulkTemperature = ROOM
+    lower_speed: Speed = key("Surface speed of the lower body over the contact, along x.", "basic")
+    upper_speed: Speed = key("Surface speed of the upper body over the contact, along x.", "basic", default=0.0)
+    lower_bulk: BulkTemperature = key(
+        "Bulk temperature of the lower body, far from the contact.",
+        "basic",
+        default=ROOM,
+        reason="room temperature, 20 degC",
+    )
+    upper_bulk: BulkTemperature = key(
+        "Bulk temperature of the upper body, far from the contact.",
+        "basic",
+        default=ROOM,
+        reason="room temperature, 20 degC",
+    )
 
 
 def check_film_heat(oil: OilScene, lower: BodyScene, upper: BodyScene) -> None:
@@ -58,7 +69,10 @@ def check_supply_of_heat(thermal: str, supply: SupplyScene | None) -> None:
 class RubbingScene(PressedScene):
     """A contact whose friction makes heat; all of it enters the lower body where the upper one has no material."""
 
-    heat: RubbingHeatScene
+    heat: RubbingHeatScene = key(
+        "Surface speeds and bulk temperatures; the heat flux is friction coefficient x pressure x sliding speed.",
+        "basic",
+    )
 
     def case(self, grid: Grid) -> RubbingCase:
         """As `bem.accuracy.RubbingCase`."""

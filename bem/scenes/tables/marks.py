@@ -7,6 +7,7 @@ from typing import Annotated
 
 from pydantic import Field, model_validator
 
+from bem.scenes.keys import key
 from bem.scenes.table import Table, problem
 from bem.scenes.units import Angle, Length
 
@@ -14,10 +15,10 @@ _Length = Annotated[Length, Field(gt=0)]
 
 
 class FeedMarksScene(Table):
-    """Cusps of a round tool nose, one in each feed; see `bem.surfaces.feed_marks`. Of process turned both are known."""
+    """Turning marks: cusps of a round tool nose, one in each feed."""
 
-    feed: _Length
-    nose_radius: _Length
+    feed: _Length = key("Feed of the tool per revolution, the spacing of the marks; at least four cells.", "basic")
+    nose_radius: _Length = key("Nose radius of the tool; the cusps are feed^2 / (8 nose_radius) high.", "basic")
 
     @model_validator(mode="after")
     def _shallow(self) -> FeedMarksScene:
@@ -27,15 +28,14 @@ class FeedMarksScene(Table):
 
 
 class CrossHatchScene(Table):
-    """Grooves of two directions; see `bem.surfaces.cross_hatch`. Of process honed all are known.
+    """Honing grooves in two directions."""
 
-    `angle` lies between both directions, halved by `lay`; `spacing` is the mean one of one direction's grooves.
-    """
-
-    angle: Annotated[Angle, Field(gt=0, lt=math.pi)]
-    spacing: _Length
-    width: _Length
-    depth: _Length
+    angle: Annotated[Angle, Field(gt=0, lt=math.pi)] = key(
+        "Cross-hatch angle between the two directions, halved by the lay.", "basic"
+    )
+    spacing: _Length = key("Mean distance of the grooves of one direction.", "basic")
+    width: _Length = key("Width of a groove at the surface; at least four cells.", "basic")
+    depth: _Length = key("Depth of a groove, whose section is a parabola.", "basic")
 
     @model_validator(mode="after")
     def _apart(self) -> CrossHatchScene:

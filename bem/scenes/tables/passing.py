@@ -8,6 +8,7 @@ import numpy as np
 from pydantic import Field, model_validator
 
 from bem.scenes.common import GridScene, PositiveLength, Table, check_rising, problem
+from bem.scenes.keys import key
 from bem.scenes.tables.ball import FilmCellsScene
 from bem.scenes.units import Angle, Length, Ratio, Time
 
@@ -19,12 +20,12 @@ Place = tuple[Length, Length]
 
 
 class DentScene(Table):
-    """A round dent (negative depth: a bump) on the `lower` or `upper` body, at a place of the contact at first."""
+    """Round dent, or with a negative depth a bump, that a body carries through the contact."""
 
-    depth: Length
-    radius: PositiveLength
-    at: Place
-    of: Carrier = "lower"
+    depth: Length = key("Depth of the dent; negative for a bump.", "basic")
+    radius: PositiveLength = key("Radius of the dent.", "basic")
+    at: Place = key("Position [x, y] of its centre at the start.", "basic")
+    of: Carrier = key("Body that carries the dent.", "advanced", default="lower")
 
     def build(self) -> MovingSurface:
         """The surface."""
@@ -34,14 +35,18 @@ class DentScene(Table):
 
 
 class WavesScene(Table):
-    """Waviness on the `lower` or `upper` body, with a direction from x; `begin`: its front at first, ahead of which
-    the body is smooth."""
+    """Waviness that a body carries through the contact."""
 
-    amplitude: PositiveLength
-    wavelength: PositiveLength
-    direction: Angle = 0.0
-    begin: Length | None = None
-    of: Carrier = "lower"
+    amplitude: PositiveLength = key("Amplitude of the waviness.", "basic")
+    wavelength: PositiveLength = key("Wavelength of the waviness.", "basic")
+    direction: Angle = key("Direction of the waves, measured from x.", "advanced", default=0.0)
+    begin: Length | None = key(
+        "Position of the wave front at the start; the surface ahead of it is smooth.",
+        "advanced",
+        default=None,
+        reason="waves everywhere",
+    )
+    of: Carrier = key("Body that carries the waves.", "advanced", default="lower")
 
     def build(self) -> MovingSurface:
         """The surface."""
@@ -51,17 +56,21 @@ class WavesScene(Table):
 
 
 class PatchScene(GridScene):
-    """The patch of the bodies' rough surfaces (`lower.surface`, `upper.surface`) and where its centre is at first."""
+    """Grid of a patch of the bodies' rough surfaces."""
 
-    at: Place = (0.0, 0.0)
+    at: Place = key("Position [x, y] of the patch's centre at the start.", "advanced", default=(0.0, 0.0))
 
 
 class OverTimeScene(Table):
-    """Factors on mean speed and load at some times, linear in between; negative speeds run backwards."""
+    """Changes of speed and load over time, linear between the given times."""
 
-    times: Annotated[list[Time], Field(min_length=2, max_length=1000)]
-    speed: Annotated[list[Ratio], Field(min_length=2, max_length=1000)] | None = None
-    load: Annotated[list[Annotated[Ratio, Field(gt=0)]], Field(min_length=2, max_length=1000)] | None = None
+    times: Annotated[list[Time], Field(min_length=2, max_length=1000)] = key("Times, in rising order.", "basic")
+    speed: Annotated[list[Ratio], Field(min_length=2, max_length=1000)] | None = key(
+        "Factors on the entrainment speed at these times; negative runs backwards.", "basic", default=None
+    )
+    load: Annotated[list[Annotated[Ratio, Field(gt=0)]], Field(min_length=2, max_length=1000)] | None = key(
+        "Factors on the normal load at these times.", "basic", default=None
+    )
 
     @model_validator(mode="after")
     def _as_many(self) -> OverTimeScene:
@@ -80,16 +89,26 @@ class OverTimeScene(Table):
 
 
 class PassingCellsScene(FilmCellsScene):
-    """The film's grid; `extent`: its edges x0, x1, y0, y1 around the origin, by default where the films of all times
-    need no more."""
+    """Mesh of the oil film."""
 
-    extent: tuple[Length, Length, Length, Length] | None = None
+    extent: tuple[Length, Length, Length, Length] | None = key(
+        "Edges [x0, x1, y0, y1] of the film mesh.",
+        "advanced",
+        default=None,
+        reason="as far as the film needs at all times",
+    )
 
 
 class BallMarchScene(Table):
-    """How long and in how many steps; `initial_thickness`: the gap that it begins with where that is not the steady
-    film of smooth bodies."""
+    """Duration and time steps."""
 
-    duration: Annotated[Time, Field(gt=0)]
-    steps: Annotated[int, Field(strict=True, ge=4, le=100_000)] = 80
-    initial_thickness: PositiveLength | None = None
+    duration: Annotated[Time, Field(gt=0)] = key("Simulated time.", "basic")
+    steps: Annotated[int, Field(strict=True, ge=4, le=100_000)] = key(
+        "Number of time steps; doubling it shows the error in time.", "basic", default=80
+    )
+    initial_thickness: PositiveLength | None = key(
+        "Film thickness at the start; a motion that starts from rest needs it.",
+        "advanced",
+        default=None,
+        reason="the steady film of smooth bodies",
+    )

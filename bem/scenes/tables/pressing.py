@@ -22,6 +22,7 @@ from bem.scenes.common import (
     exactly_one,
     problem,
 )
+from bem.scenes.keys import key
 from bem.scenes.tables.depths import DepthsScene
 from bem.scenes.tables.shape import ShapeScene
 from bem.scenes.units import Length, Ratio
@@ -32,17 +33,40 @@ if TYPE_CHECKING:
 
 
 class ContactControl(Table):
-    """How the bodies are pressed together: by load, mean pressure, approach from first touch or mean gap."""
+    """How the bodies are pressed together: load, mean pressure, normal approach or mean gap."""
 
-    load: Annotated[Force, Field(gt=0)] | None = None
-    mean_pressure: PositivePressure | None = None
-    approach: Length | None = None
-    mean_gap: Annotated[Length, Field(gt=0)] | None = None
-    behaviour: Literal["elastic", "capped"] = "elastic"
-    hardness: PositivePressure | None = None
-    friction: Annotated[Ratio, Field(ge=-10, le=10)] = 0.0
-    tolerance: Annotated[Ratio, Field(ge=1e-12, le=0.1)] = 1e-8
-    max_iterations: Annotated[int, Field(strict=True, ge=1, le=1_000_000)] = 2000
+    load: Annotated[Force, Field(gt=0)] | None = key(
+        "Normal load; instead of mean_pressure, approach or mean_gap.", "basic", default=None
+    )
+    mean_pressure: PositivePressure | None = key(
+        "Nominal pressure: load over the area of the grid; instead of load.", "basic", default=None
+    )
+    approach: Length | None = key(
+        "Normal approach of the bodies from first touch; instead of load.", "advanced", default=None
+    )
+    mean_gap: Annotated[Length, Field(gt=0)] | None = key(
+        "Mean gap, the volume between the surfaces per area; instead of load.", "advanced", default=None
+    )
+    behaviour: Literal["elastic", "capped"] = key(
+        "Contact model: elastic, or capped (elastic-perfectly plastic: pressure limited by the hardness).",
+        "basic",
+        default="elastic",
+    )
+    hardness: PositivePressure | None = key(
+        'Hardness that limits the contact pressure with behaviour "capped".',
+        "advanced",
+        default=None,
+        reason="that of the softer body",
+    )
+    friction: Annotated[Ratio, Field(ge=-10, le=10)] = key(
+        "Friction coefficient of sliding: traction over pressure, for stresses and heat.", "basic", default=0.0
+    )
+    tolerance: Annotated[Ratio, Field(ge=1e-12, le=0.1)] = key(
+        "Relative tolerance of the contact conditions; smaller values cost little.", "expert", default=1e-8
+    )
+    max_iterations: Annotated[int, Field(strict=True, ge=1, le=1_000_000)] = key(
+        "Largest number of iterations; a run that needs more ends as not converged.", "expert", default=2000
+    )
 
     @model_validator(mode="after")
     def _one_control(self) -> ContactControl:
@@ -95,11 +119,11 @@ class ContactControl(Table):
 class PressedScene(SceneModel):
     """Two bodies, a grid and what presses them together."""
 
-    grid: GridScene = GridScene()
-    lower: BodyScene
-    upper: UpperBodyScene = UpperBodyScene()
-    shape: ShapeScene = ShapeScene()
-    contact: ContactControl
+    grid: GridScene = key("Grid of the contact.", "basic", default=GridScene())
+    lower: BodyScene = key("Lower body, on which friction acts along +x.", "basic")
+    upper: UpperBodyScene = key("Upper body, which carries the smooth shape.", "basic", default=UpperBodyScene())
+    shape: ShapeScene = key("Smooth shape of the upper body.", "basic", default=ShapeScene())
+    contact: ContactControl = key("How the bodies are pressed together.", "basic")
 
     def resolved(self) -> Self:
         """With the grid filled in where measured surfaces decide it, and the softer surface's hardness where capped."""
@@ -128,11 +152,16 @@ class PressedScene(SceneModel):
 
 
 class StressOutputs(Table):
-    """What is wanted below the surface."""
+    """Stresses below the surface."""
 
-    von_mises: bool = Field(default=False, strict=True)
-    depths: DepthsScene | None = None
-    body: Literal["lower", "upper"] = "lower"
+    von_mises: bool = key("Von Mises stress below the surface.", "basic", default=False, strict=True)
+    depths: DepthsScene | None = key(
+        "Depths at which stresses are computed.",
+        "basic",
+        default=None,
+        reason="24 depths down to a quarter of the grid",
+    )
+    body: Literal["lower", "upper"] = key("Body in which stresses are computed.", "advanced", default="lower")
 
     @property
     def below(self) -> bool:
@@ -145,11 +174,16 @@ class StressOutputs(Table):
 
 
 class ContactOutputs(StressOutputs):
-    """What is wanted besides pressure, gap and displacement."""
+    """Results besides pressure, gap and displacement."""
 
-    stresses: bool = Field(default=False, strict=True)
-    vtk: bool = Field(default=True, strict=True)
-    errors: bool = Field(default=True, strict=True)
+    stresses: bool = key("All six stress components below the surface.", "basic", default=False, strict=True)
+    vtk: bool = key("Write the stresses as a volume file for ParaView.", "advanced", default=True, strict=True)
+    errors: bool = key(
+        "Error estimate of every result, from a second solution on twice the cell size.",
+        "advanced",
+        default=True,
+        strict=True,
+    )
 
     @property
     def below(self) -> bool:
@@ -166,7 +200,7 @@ class ContactOutputs(StressOutputs):
 class StressedScene(PressedScene):
     """A pressed contact, and what is wanted below its surface."""
 
-    outputs: StressOutputs = StressOutputs()
+    outputs: StressOutputs = key("Results besides pressure, gap and displacement.", "basic", default=StressOutputs())
 
     @model_validator(mode="after")
     def _stresses_in_an_elastic_body(self) -> Self:

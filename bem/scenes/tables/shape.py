@@ -8,16 +8,21 @@ from typing import Literal
 from pydantic import model_validator
 
 from bem.scenes.common import PositiveLength, Table, problem
+from bem.scenes.keys import key
 
 
 class ShapeScene(Table):
-    """The smooth shape of the upper body; it touches at the middle of the grid."""
+    """Smooth shape of the upper body, which touches at the middle of the grid."""
 
-    kind: Literal["flat", "sphere", "cylinder", "ellipsoid", "sinusoid"] = "flat"
-    radius: PositiveLength | None = None
-    radius_y: PositiveLength | None = None
-    amplitude: PositiveLength | None = None
-    wavelength: PositiveLength | None = None
+    kind: Literal["flat", "sphere", "cylinder", "ellipsoid", "sinusoid"] = key(
+        "Shape: flat, sphere, cylinder (along y), ellipsoid or sinusoid.", "basic", default="flat"
+    )
+    radius: PositiveLength | None = key(
+        "Radius of the sphere or cylinder; of an ellipsoid along x.", "basic", default=None
+    )
+    radius_y: PositiveLength | None = key("Radius of the ellipsoid along y.", "advanced", default=None)
+    amplitude: PositiveLength | None = key("Amplitude of the sinusoid.", "advanced", default=None)
+    wavelength: PositiveLength | None = key("Wavelength of the sinusoid.", "advanced", default=None)
 
     @model_validator(mode="after")
     def _parameters(self) -> ShapeScene:

@@ -10,6 +10,7 @@ from pydantic import Field, model_validator
 from bem.errors import InputError
 from bem.scenes.axes import with_keys
 from bem.scenes.common import PositiveLength, Table, Variant, problem
+from bem.scenes.keys import key
 from bem.scenes.lubrication import FilmCells, FilmMeshScene, MixedScene
 from bem.scenes.records import Figure
 from bem.scenes.tables.heat import check_film_heat, check_supply_of_heat
@@ -27,26 +28,45 @@ BASELINE = {"capped": "uncoupled", "elastic": "uncoupled_elastic"}
 
 
 class SharingScene(Table):
-    """How the load is shared.
+    """Mixed lubrication: how film and asperities share the load."""
 
-    `models`: "elastic" and "capped" (at the hardness) are the rough half-space; "uncoupled" and "uncoupled_elastic"
-    take every summit as a Hertz sphere of its own, the usual baseline. `asperity_separation`: mean planes of the
-    uncoupled summits as far apart as keeps the oil's "volume", or as the "film" is thick. `separation`: mean planes of
-    all models as far apart as keeps the oil's "volume", or as the "film" is thick (a cylinder, and a patch that is
-    periodic along x and y). `flow_factors`: whether the
-    film flows between smooth walls ("off"), or between the "surfaces" as `bem.flow_factors` has them. `oil_volume`:
-    area over which the mean opening of the surfaces equals the mean film thickness, where the film is "loaded", the
-    whole "patch" (the thesis), or the nominal "hertz" contact.
-    """
-
-    models: Annotated[list[Model], Field(min_length=1, max_length=4)] = ["capped"]  # noqa: RUF012
-    tolerance: Annotated[Ratio, Field(ge=1e-9, le=0.1)] = 1e-4
-    contact_tolerance: Annotated[Ratio, Field(gt=0, le=1e-2)] = 1e-6
-    asperity_separation: Literal["volume", "film"] = "volume"
-    separation: Literal["volume", "film"] = "volume"
-    striated_exit: bool = Field(default=False, strict=True)
-    flow_factors: Literal["off", "surfaces"] = "off"
-    oil_volume: Literal["loaded", "patch", "hertz"] = "loaded"
+    models: Annotated[list[Model], Field(min_length=1, max_length=4)] = key(
+        "Contact models to compare: rough half-space, or uncoupled asperities as Hertz spheres; capped or elastic.",
+        "advanced",
+        default=["capped"],
+    )
+    tolerance: Annotated[Ratio, Field(ge=1e-9, le=0.1)] = key(
+        "Relative tolerance of the load balance.", "expert", default=1e-4
+    )
+    contact_tolerance: Annotated[Ratio, Field(gt=0, le=1e-2)] = key(
+        "Relative tolerance of the rough contact.", "expert", default=1e-6
+    )
+    asperity_separation: Literal["volume", "film"] = key(
+        "Separation of uncoupled asperities: from the oil volume, or the film thickness.", "expert", default="volume"
+    )
+    separation: Literal["volume", "film"] = key(
+        "Separation of the undeformed mean planes: from the oil volume, or the film thickness.",
+        "advanced",
+        default="volume",
+        reason="volume; film needs a patch that is periodic along x and y",
+    )
+    striated_exit: bool = key(
+        "Add the shear stress of oil streamers behind the exit, 2 to 8 % of the friction; isothermal line contacts.",
+        "advanced",
+        default=False,
+        strict=True,
+    )
+    flow_factors: Literal["off", "surfaces"] = key(
+        "Flow between the rough surfaces with flow factors computed from them, or between smooth walls (off).",
+        "advanced",
+        default="off",
+    )
+    oil_volume: Literal["loaded", "patch", "hertz"] = key(
+        "Area over which mean gap and mean film thickness agree: loaded zone, whole patch, or Hertz contact.",
+        "advanced",
+        default="loaded",
+        reason="loaded, which does not depend on the length of the patch",
+    )
 
     @model_validator(mode="after")
     def _each_once(self) -> SharingScene:
@@ -66,7 +86,11 @@ heated = partial(Figure, "C", optional=True, no_bar=BAR_OF_HEAT)
 class HotMixedScene(MixedScene):
     """A `MixedScene` whose film (lumped, or along and across it) and surfaces (conducted) may have their heat."""
 
-    thermal: Literal["off", "lumped", "full"] = "off"
+    thermal: Literal["off", "lumped", "full"] = key(
+        "Frictional heat: off (isothermal), lumped (mean film temperature), or full (along and across the film).",
+        "basic",
+        default="off",
+    )
 
     @model_validator(mode="after")
     def _heat(self) -> Self:
@@ -115,8 +139,10 @@ class CurveScene(HotMixedScene):
     """A rough cylinder, ball or ellipsoid on a rough flat with oil between them, at many speeds; in a case there is one
     model."""
 
-    film: FilmMeshScene = FilmMeshScene()
-    sharing: SharingScene = SharingScene()
+    film: FilmMeshScene = key("Mesh of the oil film.", "expert", default=FilmMeshScene())
+    sharing: SharingScene = key(
+        "Mixed lubrication: how film and asperities share the load.", "advanced", default=SharingScene()
+    )
 
     cell_may_repeat = True
 
@@ -204,10 +230,14 @@ class CurveScene(HotMixedScene):
 
 
 class SurfaceVariant(Variant):
-    """Changes to the generated lower surface."""
+    """Changes of the generated lower surface."""
 
-    correlation_length: PositiveLength | None = None
-    rms_height: PositiveLength | None = None
+    correlation_length: PositiveLength | None = key(
+        "Autocorrelation length of the lower surface.", "basic", default=None
+    )
+    rms_height: PositiveLength | None = key(
+        "Root-mean-square roughness Sq of the lower surface.", "basic", default=None
+    )
 
     def applied(self, scene: Line) -> Line:
         """The scene with a variant's changes to the lower surface."""
@@ -222,31 +252,42 @@ class SurfaceVariant(Variant):
 
 
 class RunningInSharing(Table):
-    """Accuracy of the load sharing in each cycle.
+    """Load sharing between oil film and asperities in each cycle."""
 
-    `film_points`: nodes of the film's mesh, `film_cells` those of a ball's film along an axis; films are tabulated over
-    the load they carry, once per speed.
-    `oil_volume`: as of kind friction, "loaded", "patch" or "hertz".
-    """
-
-    tolerance: Annotated[Ratio, Field(ge=1e-8, le=0.01)] = 5e-4
-    contact_tolerance: Annotated[Ratio, Field(gt=0, le=1e-2)] = 1e-4
-    film_points: Annotated[int, Field(strict=True, ge=100, le=5000)] = 400
-    film_cells: FilmCells = 64
-    oil_volume: Literal["loaded", "patch", "hertz"] = "loaded"
+    tolerance: Annotated[Ratio, Field(ge=1e-8, le=0.01)] = key(
+        "Relative tolerance of the load balance.", "expert", default=5e-4
+    )
+    contact_tolerance: Annotated[Ratio, Field(gt=0, le=1e-2)] = key(
+        "Relative tolerance of the rough contact.", "expert", default=1e-4
+    )
+    film_points: Annotated[int, Field(strict=True, ge=100, le=5000)] = key(
+        "Number of nodes of the film mesh of a line contact.", "expert", default=400
+    )
+    film_cells: FilmCells = key(
+        "Number of cells of the film mesh of a point contact along each axis.", "expert", default=64
+    )
+    oil_volume: Literal["loaded", "patch", "hertz"] = key(
+        "Area over which mean gap and mean film thickness agree: loaded zone, whole patch, or Hertz contact.",
+        "advanced",
+        default="loaded",
+        reason="loaded, which does not depend on the length of the patch",
+    )
 
 
 class WearingSharing(RunningInSharing):
-    """Load sharing in running-in with the macroscopic shape of the film.
+    """Load sharing between oil film and asperities in each cycle, and the shape of the film."""
 
-    `film_shape`: macroscopic shape of a cylinder's film, "worn" as the body that stands with the contact
-    (`wear.frame`), or "unworn" throughout. The film of a ball keeps the unworn shape.
-    """
-
-    film_shape: Literal["worn", "unworn"] = "worn"
+    film_shape: Literal["worn", "unworn"] = key(
+        "Macroscopic shape of a cylinder's film: worn like the body that stands with the contact, or unworn.",
+        "advanced",
+        default="worn",
+        reason="worn; the film of a ball keeps the unworn shape",
+    )
 
 
 class RunningInCycles(LastCycles):
-    """How many cycles; run-in friction is the mean of the last `averaged`, particles those of the last `settled`."""
+    """Number of wear cycles, and of the last ones over which means are taken."""
 
-    averaged: Count = 10
+    averaged: Count = key(
+        "Number of last cycles over which the run-in friction coefficient is averaged.", "advanced", default=10
+    )

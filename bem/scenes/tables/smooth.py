@@ -9,16 +9,23 @@ from pydantic import model_validator
 
 from bem.reference_solutions.hertz import cylinder_contact, ellipse_contact, ellipse_load
 from bem.scenes.common import PositiveLength, Table, problem
+from bem.scenes.keys import key
 
 
 class SmoothShapeScene(Table):
     """One of three: `radius` (or `cylinder`, which says the same) and `width` of a cylinder along y, forces being on
     its full width; the radius of a `ball`; `radii` of relative curvature along x and y."""
 
-    radius: PositiveLength | None = None
-    width: PositiveLength | None = None
-    ball: PositiveLength | None = None
-    radii: tuple[PositiveLength, PositiveLength] | None = None
+    radius: PositiveLength | None = key(
+        "Radius of a cylinder along y; with width, instead of ball or radii.", "basic", default=None
+    )
+    width: PositiveLength | None = key(
+        "Width of the line contact along y, on which the load acts.", "basic", default=None
+    )
+    ball: PositiveLength | None = key("Radius of a ball; instead of radius and width.", "basic", default=None)
+    radii: tuple[PositiveLength, PositiveLength] | None = key(
+        "Reduced radii along x and y of an elliptical contact; instead of ball.", "advanced", default=None
+    )
 
     @model_validator(mode="before")
     @classmethod

@@ -11,6 +11,7 @@ from pydantic import Field
 
 from bem.lubrication.supply import InletDistance, OilLayer, Supply
 from bem.scenes.common import Table, one_of, problem
+from bem.scenes.keys import key
 from bem.scenes.tables.ball import BallRollingScene
 from bem.scenes.units import Length
 
@@ -18,14 +19,14 @@ SupplyLength = Annotated[Length, Field(gt=0)]
 
 
 class SupplyScene(Table):
-    """Oil of a starved contact; without this table the inlet is flooded.
+    """Oil supply of a starved contact; without this table the inlet is flooded."""
 
-    layer : thickness of the oil on both surfaces together, as if all of it moved at their mean speed. distance : how
-    far before the axis the gap begins to be full.
-    """
-
-    layer: SupplyLength | None = None
-    distance: SupplyLength | None = None
+    layer: SupplyLength | None = key(
+        "Thickness of the oil on both surfaces together ahead of the contact.", "basic", default=None
+    )
+    distance: SupplyLength | None = key(
+        "Distance of the inlet meniscus from the centre of a line contact.", "basic", default=None
+    )
 
     _one = one_of("layer", "distance")
 

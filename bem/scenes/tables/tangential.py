@@ -9,28 +9,47 @@ from pydantic import Field, model_validator
 
 from bem.grid import FloatArray
 from bem.scenes.common import Force, Table, exactly_one, problem
+from bem.scenes.keys import key
 from bem.scenes.tables.pressing import StressedScene, StressOutputs
 from bem.scenes.units import Angle, InverseLength, Length, Ratio
 
 
 class PushScene(Table):
-    """A force or a shift along x, a rotation, or both, up to a peak and in cycles between it and its opposite."""
+    """Tangential loading: force, displacement or rotation up to a peak, and in cycles."""
 
-    friction: Annotated[Ratio, Field(gt=0, le=10)]
-    share: Annotated[Ratio, Field(gt=0, lt=1)] | None = None
-    """Peak force over friction x load."""
-    force: Annotated[Force, Field(gt=0)] | None = None
-    shift: Annotated[Length, Field(gt=0)] | None = None
-    rotation: Annotated[Angle, Field(gt=0, le=0.1)] | None = None
-    """Of the lower body against the upper one about the grid's centre, from x to y, beside the push or alone."""
-    cycles: Annotated[int, Field(strict=True, ge=0, le=10_000)] = 0
-    steps: Annotated[int, Field(strict=True, ge=1, le=10_000)] = 8
-    """From rest to the peak; a cycle has four times as many."""
-    pressing_steps: Annotated[int, Field(strict=True, ge=1, le=1000)] | None = None
-    """In which the load comes, before the push; 1 for bodies alike, which do not slip under pressure, else 16."""
-    coupled: bool | None = None
-    """Whether the pressure follows the tractions; of bodies that differ it does where this is left out."""
-    tolerance: Annotated[Ratio, Field(ge=1e-12, le=0.1)] = 1e-7
+    friction: Annotated[Ratio, Field(gt=0, le=10)] = key(
+        "Friction coefficient (Coulomb): the traction never exceeds it times the pressure.", "basic"
+    )
+    share: Annotated[Ratio, Field(gt=0, lt=1)] | None = key(
+        "Peak tangential force over friction coefficient x load; or give force or shift.", "basic", default=None
+    )
+    force: Annotated[Force, Field(gt=0)] | None = key(
+        "Peak tangential force on the lower body; or give share or shift.", "basic", default=None
+    )
+    shift: Annotated[Length, Field(gt=0)] | None = key(
+        "Peak tangential displacement; or give share or force.", "basic", default=None
+    )
+    rotation: Annotated[Angle, Field(gt=0, le=0.1)] | None = key(
+        "Peak rotation about the normal through the grid's centre, beside the push or alone.", "advanced", default=None
+    )
+    cycles: Annotated[int, Field(strict=True, ge=0, le=10_000)] = key(
+        "Number of load cycles between the peak and its opposite, after the first loading.", "basic", default=0
+    )
+    steps: Annotated[int, Field(strict=True, ge=1, le=10_000)] = key(
+        "Number of load steps from rest to the peak; a cycle has four times as many.", "basic", default=8
+    )
+    pressing_steps: Annotated[int, Field(strict=True, ge=1, le=1000)] | None = key(
+        "Number of steps in which the normal load is applied before.",
+        "expert",
+        default=None,
+        reason="16 for dissimilar materials, which slip under it, else 1",
+    )
+    coupled: bool | None = key(
+        "Coupling of pressure and traction.", "expert", default=None, reason="on for dissimilar materials"
+    )
+    tolerance: Annotated[Ratio, Field(ge=1e-12, le=0.1)] = key(
+        "Relative tolerance of Coulomb's conditions in each step.", "expert", default=1e-7
+    )
 
     @model_validator(mode="after")
     def _one_control(self) -> PushScene:
@@ -67,23 +86,29 @@ class StickingScene(StressedScene):
 
 
 class StickOutputs(StressOutputs):
-    """What is wanted besides pressure, tractions and slip."""
+    """Results besides pressure, traction and slip."""
 
-    errors: bool = Field(default=True, strict=True)
+    errors: bool = key(
+        "Error estimate of every result, from a second solution on twice the cell size.",
+        "advanced",
+        default=True,
+        strict=True,
+    )
 
 
 class SlipOutputs(StickOutputs):
-    """The same of a contact that is pushed."""
+    """Results besides pressure, traction and slip."""
 
-    stiffness: bool = Field(default=False, strict=True)
-    """Normal and tangential stiffness of the contact before anything slips."""
+    stiffness: bool = key(
+        "Normal and tangential contact stiffness before anything slips.", "basic", default=False, strict=True
+    )
 
 
 class PushedScene(StickingScene):
     """A contact that is pushed along x."""
 
-    push: PushScene
-    outputs: SlipOutputs = SlipOutputs()
+    push: PushScene = key("Tangential loading.", "basic")
+    outputs: SlipOutputs = key("Results besides pressure, traction and slip.", "basic", default=SlipOutputs())
 
     @model_validator(mode="after")
     def _turned_on_a_free_grid(self) -> Self:
@@ -93,19 +118,26 @@ class PushedScene(StickingScene):
 
 
 class RollScene(Table):
-    """Steady rolling along +x: creepage and spin of the lower body against the upper one over the rolling velocity, or
-    the force along x that is carried over, of which the creepage follows."""
+    """Steady rolling along +x with creepage and spin."""
 
-    friction: Annotated[Ratio, Field(gt=0, le=10)]
-    creepage: Annotated[Ratio, Field(ge=-1, le=1)] = 0.0
-    """Along x, the direction of rolling."""
-    creepage_across: Annotated[Ratio, Field(ge=-1, le=1)] = 0.0
-    """Along y: a wheel that runs at an angle."""
-    spin: InverseLength = 0.0
-    """Angular velocity about the normal, from x to y, over the rolling velocity."""
-    share: Annotated[Ratio, Field(gt=-1, lt=1)] | None = None
-    """Force along x on the lower body over friction x load, instead of a creepage."""
-    tolerance: Annotated[Ratio, Field(ge=1e-12, le=0.1)] = 1e-7
+    friction: Annotated[Ratio, Field(gt=0, le=10)] = key(
+        "Friction coefficient (Coulomb): the traction never exceeds it times the pressure.", "basic"
+    )
+    creepage: Annotated[Ratio, Field(ge=-1, le=1)] = key(
+        "Longitudinal creepage: relative velocity of the lower body over the rolling velocity, along x.",
+        "basic",
+        default=0.0,
+    )
+    creepage_across: Annotated[Ratio, Field(ge=-1, le=1)] = key("Lateral creepage, along y.", "basic", default=0.0)
+    spin: InverseLength = key(
+        "Spin creepage: relative angular velocity about the normal over the rolling velocity.", "basic", default=0.0
+    )
+    share: Annotated[Ratio, Field(gt=-1, lt=1)] | None = key(
+        "Longitudinal force over friction coefficient x load; instead of a creepage.", "advanced", default=None
+    )
+    tolerance: Annotated[Ratio, Field(ge=1e-12, le=0.1)] = key(
+        "Relative tolerance of Coulomb's conditions.", "expert", default=1e-7
+    )
 
     @model_validator(mode="after")
     def _one_control(self) -> RollScene:
@@ -117,5 +149,5 @@ class RollScene(Table):
 class RolledScene(StickingScene):
     """A contact that rolls along x."""
 
-    roll: RollScene
-    outputs: StickOutputs = StickOutputs()
+    roll: RollScene = key("Steady rolling with creepage and spin.", "basic")
+    outputs: StickOutputs = key("Results besides pressure, traction and slip.", "basic", default=StickOutputs())

@@ -8,30 +8,47 @@ from typing import TYPE_CHECKING, Annotated, Self
 from pydantic import Field, model_validator
 
 from bem.scenes.common import PositiveLength, PositivePressure, Table, problem
-from bem.scenes.units import Ratio, WearCoefficient
+from bem.scenes.keys import key
+from bem.scenes.units import NumberPerArea, Ratio, WearCoefficient
 
 if TYPE_CHECKING:
     from bem.wear.third_bodies import ThirdBodies
 
 
 class ThirdBodiesScene(Table):
-    """Particles that stay between the surfaces, `number_per_area` of them [1/m^2]; see `bem.wear.third_bodies`.
+    """Third bodies: wear particles between the surfaces, which carry load, roll and cut."""
 
-    The number is given, or found: the share `kept` of what Archard's wear rate makes within a sliding length of
-    `residence`. Without `hardness` they are harder than the surfaces. From cycle to cycle the share `shed` of what
-    wears joins them, and the share `leaving` of those there leaves; with neither their number stays.
-    """
-
-    diameter: PositiveLength
-    number_per_area: Annotated[float, Field(ge=0)] | None = None
-    specific_wear_rate: Annotated[WearCoefficient, Field(gt=0)] | None = None
-    residence: PositiveLength | None = None
-    kept: Annotated[Ratio, Field(gt=0, le=1)] = 1.0
-    hardness: PositivePressure | None = None
-    friction: Annotated[Ratio, Field(ge=0, le=2)] = 0.0
-    removed: Annotated[Ratio, Field(ge=0, le=1)] = 0.0
-    shed: Annotated[Ratio, Field(ge=0, le=1)] = 0.0
-    leaving: Annotated[Ratio, Field(ge=0, le=1)] = 0.0
+    diameter: PositiveLength = key("Diameter of the spherical particles.", "basic")
+    number_per_area: Annotated[NumberPerArea, Field(ge=0)] | None = key(
+        "Number of particles per area; or give specific_wear_rate and residence.", "basic", default=None
+    )
+    specific_wear_rate: Annotated[WearCoefficient, Field(gt=0)] | None = key(
+        "Specific wear rate at which particles form.", "basic", default=None
+    )
+    residence: PositiveLength | None = key(
+        "Sliding distance after which a particle has left the contact.", "basic", default=None
+    )
+    kept: Annotated[Ratio, Field(gt=0, le=1)] = key(
+        "Fraction of the worn volume that becomes such particles.", "advanced", default=1.0
+    )
+    hardness: PositivePressure | None = key(
+        "Hardness of the particles.", "advanced", default=None, reason="harder than both surfaces"
+    )
+    friction: Annotated[Ratio, Field(ge=0, le=2)] = key(
+        "Rolling friction coefficient of the particles.", "advanced", default=0.0
+    )
+    removed: Annotated[Ratio, Field(ge=0, le=1)] = key(
+        "Fraction of a particle's groove that is cut off; the rest is ploughed aside.", "advanced", default=0.0
+    )
+    shed: Annotated[Ratio, Field(ge=0, le=1)] = key(
+        "Fraction of the worn volume of a cycle that joins the particles.", "advanced", default=0.0
+    )
+    leaving: Annotated[Ratio, Field(ge=0, le=1)] = key(
+        "Fraction of the particles that leaves in a cycle.",
+        "advanced",
+        default=0.0,
+        reason="0; with shed = 0 their number stays",
+    )
 
     @model_validator(mode="after")
     def _one_way(self) -> Self:

@@ -16,6 +16,7 @@ from bem.reference_solutions.hertz import sphere_contact
 from bem.scenes import build
 from bem.scenes.axes import Model, with_keys
 from bem.scenes.common import BodyScene, GridScene, Loads, SceneModel, Table, Variant, problem
+from bem.scenes.keys import key
 from bem.scenes.laws import LawKey
 from bem.scenes.lubrication import FilmCells
 from bem.scenes.oil import OilScene
@@ -36,13 +37,28 @@ class KineticsScene(Table):
     Growth is stress-activated, of the energy, volume and prefactor given, or that of another law, `growth`.
     """
 
-    growth: Annotated[GrowthLaw, LawKey("growth")] | None = None
-    prefactor: Annotated[Speed, Field(gt=0)] = 1e-2
-    activation_energy: Annotated[Energy, Field(gt=0)] | None = None
-    activation_volume: Annotated[Volume, Field(ge=0)] | None = None
-    wear_coefficient: Annotated[Rate, Field(ge=0)]
-    concentration_constant: Annotated[InverseLength, Field(gt=0)] | None = None
-    initial_thickness: Annotated[Length, Field(ge=0)] = 0.0
+    growth: Annotated[GrowthLaw, LawKey("growth")] | None = key(
+        "Growth law of the tribofilm; instead of activation_energy and activation_volume.", "advanced", default=None
+    )
+    prefactor: Annotated[Speed, Field(gt=0)] = key(
+        "Pre-exponential factor of the stress-activated growth rate.", "advanced", default=1e-2
+    )
+    activation_energy: Annotated[Energy, Field(gt=0)] | None = key(
+        "Activation energy of the growth without stress.", "basic", default=None
+    )
+    activation_volume: Annotated[Volume, Field(ge=0)] | None = key(
+        "Activation volume, by which shear stress lowers the activation energy.", "basic", default=None
+    )
+    wear_coefficient: Annotated[Rate, Field(ge=0)] = key(
+        "Wear coefficient alpha: wear rate of the film over its thickness.", "basic"
+    )
+    concentration_constant: Annotated[InverseLength, Field(gt=0)] | None = key(
+        "Constant C1: the worn film holds the fraction exp(-C1 h) of substrate.",
+        "basic",
+        default=None,
+        reason="no substrate in the film",
+    )
+    initial_thickness: Annotated[Length, Field(ge=0)] = key("Film thickness at the start.", "advanced", default=0.0)
 
     @model_validator(mode="after")
     def _one_kinetics(self) -> Self:
@@ -69,15 +85,31 @@ class KineticsScene(Table):
 
 
 class FilmScene(KineticsScene):
-    """The film: kinetics, properties, wear."""
+    """The tribofilm: growth kinetics, mechanical properties, wear."""
 
-    hardness: Annotated[PropertyLaw, LawKey("film_property")]
-    youngs_modulus: Annotated[PropertyLaw, LawKey("film_property")]
-    poissons_ratio: Annotated[Ratio, Field(gt=-1, lt=0.5)] = 0.3
-    lag: Annotated[Time, Field(ge=0)] = 0.0
-    average: Literal["contact", "nominal"] = "contact"
-    feedback: Literal["mean", "local"] = "mean"
-    local_tolerance: Annotated[Ratio, Field(gt=0, lt=1)] = 1e-2
+    hardness: Annotated[PropertyLaw, LawKey("film_property")] = key(
+        "Hardness of the film over thickness and temperature, which limits the pressure that drives growth.", "basic"
+    )
+    youngs_modulus: Annotated[PropertyLaw, LawKey("film_property")] = key(
+        "Young's modulus of the film over its thickness.", "basic"
+    )
+    poissons_ratio: Annotated[Ratio, Field(gt=-1, lt=0.5)] = key(
+        "Poisson's ratio of the film.", "advanced", default=0.3
+    )
+    lag: Annotated[Time, Field(ge=0)] = key(
+        "Delay of the film's wear behind its thickness, which gives an overshoot.", "advanced", default=0.0
+    )
+    average: Literal["contact", "nominal"] = key(
+        "Area over which growth is averaged: the real contact, or the nominal contact area.",
+        "advanced",
+        default="contact",
+    )
+    feedback: Literal["mean", "local"] = key(
+        "Film in the contact: one mean thickness, or cell by cell (local).", "advanced", default="mean"
+    )
+    local_tolerance: Annotated[Ratio, Field(gt=0, lt=1)] = key(
+        "Relative tolerance of the time steps of a local film.", "expert", default=1e-2
+    )
 
     def balance(self) -> FilmBalance:
         """As `bem.tribofilm.balance.FilmBalance`, with the lag."""
@@ -85,12 +117,20 @@ class FilmScene(KineticsScene):
 
 
 class VariantScene(Variant):
-    """A film that differs from the scene's in what is given here."""
+    """Changes of the film."""
 
-    wear_coefficient: Annotated[Rate, Field(ge=0)] | None = None
-    lag: Annotated[Time, Field(ge=0)] | None = None
-    activation_volume: Annotated[Volume, Field(ge=0)] | None = None
-    activation_energy: Annotated[Energy, Field(gt=0)] | None = None
+    wear_coefficient: Annotated[Rate, Field(ge=0)] | None = key(
+        "Wear coefficient alpha: wear rate of the film over its thickness.", "basic", default=None
+    )
+    lag: Annotated[Time, Field(ge=0)] | None = key(
+        "Delay of the film's wear behind its thickness.", "advanced", default=None
+    )
+    activation_volume: Annotated[Volume, Field(ge=0)] | None = key(
+        "Activation volume, by which shear stress lowers the activation energy.", "basic", default=None
+    )
+    activation_energy: Annotated[Energy, Field(gt=0)] | None = key(
+        "Activation energy of the growth without stress.", "basic", default=None
+    )
 
     def applied(self, scene: Model) -> Model:
         """The scene with these changes in it."""
@@ -98,17 +138,30 @@ class VariantScene(Variant):
 
 
 class RubbingScene(Table):
-    """Loads, temperatures and how long; `cycle` converts cycles to time for figures against cycles. With `speeds` of
-    both surfaces over the contact the film grows as warm as rubbing makes each spot."""
+    """Loads, temperatures and duration of rubbing."""
 
-    loads: Loads
-    temperatures: Annotated[list[Annotated[Temperature, Field(gt=0)]], Field(min_length=1, max_length=64)]
-    friction: Annotated[Ratio, Field(ge=0, le=2)] = 0.1
-    duration: Annotated[Time, Field(gt=0)]
-    points: Annotated[int, Field(strict=True, ge=2, le=100_000)] = 241
-    report: tuple[Annotated[Time, Field(ge=0)], Annotated[Time, Field(ge=0)]] | None = None
-    cycle: Annotated[Time, Field(gt=0)] | None = None
-    speeds: tuple[Speed, Speed] | None = None
+    loads: Loads = key("Normal loads, one result for each.", "basic")
+    temperatures: Annotated[list[Annotated[Temperature, Field(gt=0)]], Field(min_length=1, max_length=64)] = key(
+        "Temperatures, one result for each.", "basic"
+    )
+    friction: Annotated[Ratio, Field(ge=0, le=2)] = key(
+        "Friction coefficient: the shear stress that activates growth over the pressure.", "basic", default=0.1
+    )
+    duration: Annotated[Time, Field(gt=0)] = key("Duration of rubbing.", "basic")
+    points: Annotated[int, Field(strict=True, ge=2, le=100_000)] = key(
+        "Number of output points in time.", "expert", default=241
+    )
+    report: tuple[Annotated[Time, Field(ge=0)], Annotated[Time, Field(ge=0)]] | None = key(
+        "The two times between which the wear depth is reported.", "advanced", default=None, reason="the whole duration"
+    )
+    cycle: Annotated[Time, Field(gt=0)] | None = key(
+        "Duration of a cycle, for curves against cycles.", "advanced", default=None
+    )
+    speeds: tuple[Speed, Speed] | None = key(
+        "Surface speeds of lower and upper body; the film then grows at its local flash temperature.",
+        "basic",
+        default=None,
+    )
 
     @model_validator(mode="after")
     def _within(self) -> RubbingScene:
@@ -124,14 +177,19 @@ class RubbedScene(SceneModel):
     of `oil_cells` along an axis; it is as warm as the contact.
     """
 
-    grid: GridScene = GridScene()
-    lower: BodyScene
-    upper: BodyScene
-    shape: ShapeScene = ShapeScene()
-    rubbing: RubbingScene
-    film: FilmScene
-    oil: OilScene | None = None
-    oil_cells: FilmCells = 64
+    grid: GridScene = key("Grid of the contact.", "basic", default=GridScene())
+    lower: BodyScene = key("Lower body, on which the film grows.", "basic")
+    upper: BodyScene = key("Upper body (counter-body), which carries the smooth shape.", "basic")
+    shape: ShapeScene = key("Smooth shape of the upper body.", "basic", default=ShapeScene())
+    rubbing: RubbingScene = key("Loads, temperatures and duration of rubbing.", "basic")
+    film: FilmScene = key("The tribofilm: growth kinetics, mechanical properties, wear.", "basic")
+    oil: OilScene | None = key(
+        "Lubricant; the asperities under a ball then carry the load that the oil film leaves them.",
+        "advanced",
+        default=None,
+        reason="boundary lubrication: the asperities carry the whole load",
+    )
+    oil_cells: FilmCells = key("Number of cells of the oil film along each axis.", "expert", default=64)
 
     @model_validator(mode="after")
     def _oil_under_a_ball(self) -> Self:

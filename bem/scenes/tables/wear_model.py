@@ -7,6 +7,7 @@ from typing import Annotated, Literal, Self
 from pydantic import Field, model_validator
 
 from bem.scenes.common import Table, problem
+from bem.scenes.keys import key
 from bem.scenes.laws import LawKey
 from bem.scenes.tables.film_defect import FilmDefectScene
 from bem.scenes.tables.third_bodies import ThirdBodiesScene
@@ -17,21 +18,63 @@ from bem.wear.traction import GrossSliding, TractionLaw
 
 
 class WearScenePart(Table):
-    """The replaceable parts of the wear model; see `bem.wear.WearModel`."""
+    """Wear model: detachment criterion or wear law, and how material leaves."""
 
-    criterion: Annotated[Detachment, LawKey("criterion")] = VonMises()
-    stress_range: bool = Field(default=False, strict=True)
-    refine: Annotated[int, Field(strict=True, ge=1, le=100)] = 10
-    refinement: Literal["monotone_cubic", "linear", "exact"] = "monotone_cubic"
-    connectivity: Literal[6, 18, 26] = 6
-    removal: Annotated[RemovalLaw, LawKey("removal")] = Cap()
-    wears: Literal["softer", "lower", "upper", "both"] = "softer"
-    frame: Literal["cylinder", "disk"] = "cylinder"
-    shift: Annotated[int, Field(strict=True, ge=-10_000, le=10_000)] = 3
-    within_layer: bool = Field(default=True, strict=True)
-    traction: Annotated[TractionLaw, LawKey("traction")] = GrossSliding()
-    third_bodies: ThirdBodiesScene | None = None
-    film_defect: FilmDefectScene | None = None
+    criterion: Annotated[Detachment, LawKey("criterion")] = key(
+        "Detachment criterion (von_mises and others) or wear law (archard, archard_over_hardness, energy).",
+        "advanced",
+        default=VonMises(),
+    )
+    stress_range: bool = key(
+        "Compare the range of the stress over a cycle, not its value, with the yield stress.",
+        "advanced",
+        default=False,
+        strict=True,
+    )
+    refine: Annotated[int, Field(strict=True, ge=1, le=100)] = key(
+        "Number of interpolated depths between two computed ones.", "expert", default=10
+    )
+    refinement: Literal["monotone_cubic", "linear", "exact"] = key(
+        "Interpolation of the stress over depth; exact computes it at every depth (slower).",
+        "expert",
+        default="monotone_cubic",
+    )
+    connectivity: Literal[6, 18, 26] = key(
+        "Neighbours that belong to one particle: 6 by faces, 18 also by edges, 26 also by corners.", "expert", default=6
+    )
+    removal: Annotated[RemovalLaw, LawKey("removal")] = key(
+        "Material that leaves: cap (all above a yielded region) or top_run (only what yields from the surface down).",
+        "advanced",
+        default=Cap(),
+    )
+    wears: Literal["softer", "lower", "upper", "both"] = key(
+        "Body that loses material.", "basic", default="softer", reason="the softer one"
+    )
+    frame: Literal["cylinder", "disk"] = key(
+        "Body that stands with the contact: cylinder (the lower track wears evenly) or disk (it gets a groove).",
+        "advanced",
+        default="cylinder",
+    )
+    shift: Annotated[int, Field(strict=True, ge=-10_000, le=10_000)] = key(
+        "Sliding distance of a cycle, in cells, along the friction on the moving body.", "expert", default=3
+    )
+    within_layer: bool = key(
+        "Particles end at the interface of the outermost layer.", "advanced", default=True, strict=True
+    )
+    traction: Annotated[TractionLaw, LawKey("traction")] = key(
+        "Traction on the surface: gross_sliding (friction x pressure), or partial slip of an oscillating contact.",
+        "advanced",
+        default=GrossSliding(),
+    )
+    third_bodies: ThirdBodiesScene | None = key(
+        "Third bodies: wear particles that stay between the surfaces, carry load, roll and cut.",
+        "advanced",
+        default=None,
+        reason="all particles leave",
+    )
+    film_defect: FilmDefectScene | None = key(
+        "Adsorbed boundary film that protects the surfaces from wear by an archard-type law.", "advanced", default=None
+    )
 
     @model_validator(mode="after")
     def _goes_together(self) -> Self:

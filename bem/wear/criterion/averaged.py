@@ -24,7 +24,7 @@ class AveragedVonMises(VonMises):
     name: ClassVar[str] = "averaged_von_mises"
     length_key: ClassVar[str] = "averaging_length"
     averaging_length: float = parameter(
-        "diameter of the disc",
+        "diameter of the disc over which stresses are averaged",
         "m",
         default=300e-9,
         above=0,

@@ -99,7 +99,7 @@ class WearCriterion(Detachment):
     """
 
     skin_depth: float = parameter(
-        "depth below the surface down to which stress counts as that at this depth, 0 for none",
+        "depth below the surface down to which the stress counts as that at this depth",
         "m",
         default=SKIN_DEPTH,
         at_least=0,

@@ -32,11 +32,20 @@ class LowCycleFatigue(VonMises):
     name: ClassVar[str] = "low_cycle_fatigue"
     length_key: ClassVar[str] = "averaging_length"
     ductility: float = parameter(
-        "ef: plastic strain that breaks in one reversal", default=0.59, above=0, source=_UNIFORM
+        "fatigue ductility: plastic strain that breaks the material in one reversal (Coffin, Manson)",
+        default=0.59,
+        above=0,
+        source=_UNIFORM,
     )
-    exponent: float = parameter("c of plastic strain over reversals", default=0.58, above=0, below=1, source=_UNIFORM)
+    exponent: float = parameter(
+        "fatigue exponent of plastic strain over reversals (Coffin, Manson)",
+        default=0.58,
+        above=0,
+        below=1,
+        source=_UNIFORM,
+    )
     passes: float = parameter(
-        "passes of the counterface that one computed cycle stands for",
+        "number of passes of the counterface that a computed cycle stands for",
         default=1000.0,
         above=0,
         source="a choice: steel bears some thousand passes here, so that a hundred cycles show the steady wear",

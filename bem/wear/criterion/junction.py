@@ -29,7 +29,7 @@ class Junction(Detachment):
 
     name: ClassVar[str] = "junction"
     surface_energy: float = parameter(
-        "w: energy of the crack per area, both faces",
+        "fracture energy w of the crack per area, both faces",
         "J/m^2",
         default=0.06,
         above=0,
@@ -37,13 +37,13 @@ class Junction(Detachment):
         "1977), and no junction of a lubricated rough contact is as large as d* then",
     )
     strength_ratio: float = parameter(
-        "tau over the yield stress",
+        "shear strength of the junction over the yield stress",
         default=3**-0.5,
         above=0,
         source="1/sqrt(3): von Mises in pure shear",
     )
     shape_factor: float = parameter(
-        "Lambda: 12 is a half sphere in pure shear",
+        "shape factor Lambda of the energy balance; 12 is a half sphere in pure shear",
         default=12.0,
         above=0,
         source="the energy balance above; of order one to ten in Aghababaei, Warner and Molinari 2016",

@@ -32,7 +32,7 @@ class LocalWear(Detachment):
     """
 
     distance: float = parameter(
-        "distance slid that one computed cycle stands for; none in partial slip", "m", default=0.0, at_least=0
+        "sliding distance that a computed cycle stands for; none in partial slip", "m", default=0.0, at_least=0
     )
     upper_over_lower: float = parameter("wear rate of the upper body over that of the lower", default=1.0, at_least=0)
 
@@ -107,7 +107,9 @@ class Archard(LocalWear):
     """h = k p s, k the specific wear rate (Archard 1953)."""
 
     name: ClassVar[str] = "archard"
-    specific_wear_rate: float = parameter("k: volume by load and distance", "m^2/N", at_least=0)
+    specific_wear_rate: float = parameter(
+        "specific wear rate k: worn volume per load and sliding distance", "m^2/N", at_least=0
+    )
 
     def rate(self, body: Body, friction: float) -> float:
         """Return k."""
@@ -120,7 +122,7 @@ class ArchardOverHardness(LocalWear):
     """h = K p s / H, K without dimension, H the hardness of the body that wears (Archard 1953)."""
 
     name: ClassVar[str] = "archard_over_hardness"
-    archard_coefficient: float = parameter("K", at_least=0)
+    archard_coefficient: float = parameter("Archard's wear coefficient K, without dimension", at_least=0)
 
     def rate(self, body: Body, friction: float) -> float:
         """Return K / H."""
@@ -136,7 +138,9 @@ class EnergyWear(LocalWear):
     """h = alpha |f| p s: in proportion to the work of friction (Fouvry, Liskiewicz, Kapsa, Hannel and Sauger 2003)."""
 
     name: ClassVar[str] = "energy"
-    energy_wear_rate: float = parameter("alpha: volume by energy, m^3/J", "m^2/N", at_least=0)
+    energy_wear_rate: float = parameter(
+        "energy wear rate alpha: worn volume per friction work, m^3/J", "m^2/N", at_least=0
+    )
 
     def rate(self, body: Body, friction: float) -> float:
         """Return alpha times the friction of the cycle."""

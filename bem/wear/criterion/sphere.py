@@ -20,7 +20,7 @@ class Sphere(VonMises):
     name: ClassVar[str] = "sphere"
     length_key: ClassVar[str] = "diameter"
     diameter: float = parameter(
-        "of the sphere",
+        "diameter of the sphere that a wear particle must hold",
         "m",
         default=200e-9,
         above=0,

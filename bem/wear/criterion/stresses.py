@@ -83,7 +83,7 @@ class MaximumTension(WearCriterion):
 
     name: ClassVar[str] = "maximum_tension"
     skin_depth: float = parameter(
-        "depth below the surface down to which stress counts as that at this depth, 0 for none",
+        "depth below the surface down to which the stress counts as that at this depth",
         "m",
         default=0.0,
         at_least=0,

@@ -34,7 +34,9 @@ class Oscillating(TractionLaw):
     loop; a local law wears by the slip distance of `loops` of them.
     """
 
-    loops: float = parameter("loops that one computed cycle stands for, of a local law", default=1.0, above=0)
+    loops: float = parameter(
+        "number of loops to and fro that a computed cycle stands for, with a local wear law", default=1.0, above=0
+    )
 
     @property
     def loops_per_cycle(self) -> float:
@@ -109,7 +111,7 @@ class OscillatingForce(Oscillating):
     """A tangential force between plus and minus a share of friction x load: the contact always sticks somewhere."""
 
     name: ClassVar[str] = "oscillating_force"
-    share: float = parameter("largest force over friction x load", above=0, below=1)
+    share: float = parameter("largest tangential force over friction coefficient x load", above=0, below=1)
 
     def peak(self, limit: float) -> dict[str, float]:
         """Return the force: that share of the limit."""
@@ -126,7 +128,7 @@ class OscillatingShift(Oscillating):
     (fretting; Vingsbo and Soderberg 1988)."""
 
     name: ClassVar[str] = "oscillating_shift"
-    amplitude: float = parameter("of the bodies' movement against each other, far from the contact", "m", above=0)
+    amplitude: float = parameter("displacement amplitude of the bodies, far from the contact", "m", above=0)
 
     def peak(self, limit: float) -> dict[str, float]:
         """Return the shift: the amplitude along the friction."""
