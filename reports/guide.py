@@ -13,6 +13,7 @@ from bem.laws import FAMILIES, Law, laws_of
 from bem.notes import Level, NoteKind
 from bem.notes.catalogue import PARTS
 from bem.scenes import get_kind, kind_names, library
+from bem.scenes.keys import level_of, reason_of
 from bem.scenes.laws import LawKey
 from bem.scenes.template import about_field, default_text, scene_template
 from bem.scenes.validate import fields_of_table, literals, unwrap, without_none
@@ -35,8 +36,6 @@ THEORY: tuple[tuple[str, str, str, str, str], ...] = tuple(
 """Title, formula, where it comes from, errata of the source, where it lives."""
 
 LIMITS: tuple[tuple[str, str], ...] = tuple((item["assumption"], item["meaning"]) for item in _WORDS["limits"])
-EFFECTS: dict[str, str] = prose("options")
-"""What each key of a scene does, in a line."""
 
 
 def build() -> Page:
@@ -207,7 +206,7 @@ def _options() -> Iterator[Section]:
     for kind in kind_names():
         found = get_kind(kind)
         body = text(found.title[0].upper() + found.title[1:] + ".")
-        body += table(("key", "default", "allowed", "effect"), list(keys_of(found.model, "")))
+        body += table(("key", "level", "default", "allowed", "meaning"), list(keys_of(found.model, "")))
         try:
             start = scene_template(kind)
         except InputError:
@@ -217,7 +216,7 @@ def _options() -> Iterator[Section]:
         yield Section(f"Kind {kind}", body, level=3)
 
 
-def keys_of(model: Any, prefix: str) -> Iterator[tuple[str, str, str, str]]:
+def keys_of(model: Any, prefix: str) -> Iterator[tuple[str, str, str, str, str]]:
     """Rows of a table of keys, those of inner tables below their own."""
     shown: set[str] = set()
     for key, field in fields_of_table(model).items():
@@ -226,13 +225,15 @@ def keys_of(model: Any, prefix: str) -> Iterator[tuple[str, str, str, str]]:
         if key == "kind" and not prefix:
             continue
         default = "" if tables else default_text(field).replace("(not set)", "-").replace("...", "required")
-        yield name, default, about_field(field), effect_of(name)
+        meaning = field.description or ""
+        why = reason_of(field)
+        yield name, level_of(field), default, about_field(field), f"{meaning} Default: {why}." if why else meaning
         if key == "layers" or (key in ("material", "layer", "surface") and prefix not in ("lower.", "layer.")):
             continue  # said once, for the lower body's layer
         if len(tables) > 1:
             tags = [tag for inner in tables for tag in _tags(inner)]
             shown.add(f"{name}.kind")
-            yield f"{name}.kind", "", "one of " + ", ".join(tags), effect_of(f"{name}.kind")
+            yield f"{name}.kind", level_of(field), "", "one of " + ", ".join(tags), meaning
         for inner in tables:
             for row in keys_of(inner, f"{name}."):
                 if row[0] not in shown:
@@ -248,12 +249,6 @@ def _laws_at(field: Any) -> list[Any]:
 
 def _tags(table: Any) -> list[str]:
     return [table.name] if issubclass(table, Law) else list(literals(fields_of_table(table)["kind"].annotation))
-
-
-def effect_of(name: str) -> str:
-    """What a dotted key does; the same word may mean different things in different tables."""
-    *tables, key = name.split(".")
-    return EFFECTS.get(f"{tables[-1]}.{key}" if tables else key, EFFECTS.get(key, ""))
 
 
 def _tables(annotation: Any) -> list[Any]:
@@ -404,4 +399,4 @@ def _spelt(words: str) -> str:
     return shown.replace("&lt;=", "≤").replace("&gt;=", "≥").replace(" * ", " ∗ ")
 
 
-__all__: Sequence[str] = ("EFFECTS", "SNIPPETS", "build")
+__all__: Sequence[str] = ("SNIPPETS", "build")

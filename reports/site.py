@@ -75,7 +75,7 @@ def kind_page(kind: str, runs: Mapping[str, FinishedRun | str]) -> Page:
         Section("Pictures", "".join(_pictures(scene, runs.get(scene)) for scene in words["scenes"])),
         Section("Built-in scenes", table(("name", "what it is", "redoes"), list(_scenes(kind)))),
         Section("A scene", _scene(kind)),
-        Section("Keys", table(("key", "default", "allowed", "effect"), list(guide.keys_of(found.model, "")))),
+        Section("Keys", table(("key", "level", "default", "allowed", "meaning"), list(guide.keys_of(found.model, "")))),
         Section("Figures and their errors", _errors(kind)),
         Section("Theory", "".join(guide.formula(*item) for item in formulas)),
         Section("Limits", table(("assumption", "what it means"), limits)),
