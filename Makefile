@@ -4,7 +4,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 STAMP := .venv/.installed
 
-.PHONY: setup setup-fem setup-browser run test test-fast gates lint bench report docs notebooks validation gallery wheel clean golden mutants reproduce
+.PHONY: setup setup-fem setup-browser setup-docs run test test-fast gates lint bench report docs notebooks validation gallery wheel clean golden mutants reproduce examples
 
 setup: $(STAMP)
 
@@ -20,11 +20,18 @@ setup-fem:
 setup-browser:
 	.ci/apt chromium
 
+# Sphinx and its extensions, for `make docs`.
+setup-docs: setup .venv/.docs
+
+.venv/.docs: pyproject.toml .ci/constraints.txt
+	$(BIN)/uv pip install -q --python $(BIN)/python --constraint .ci/constraints.txt --requirement pyproject.toml --extra docs
+	@touch $@
+
 run: setup
 	$(BIN)/bem run rough-contact
 
 # All tests but the gates of `bem verify`, which are as long as half of the others: `make gates` runs those.
-test: setup setup-fem setup-browser
+test: setup setup-fem setup-browser setup-docs
 	$(BIN)/python -m pytest -n 2 --dist worksteal -m "not gate"
 
 gates: setup
@@ -62,9 +69,15 @@ bench: setup
 report: setup
 	$(BIN)/python -m reports --pdf
 
-# The guide as a site, a page for each kind of scene with pictures of small runs: reports/site/index.html.
-docs: setup
-	$(BIN)/python -m reports.site
+# The documentation as a site: reports/site/index.html. It is built without a network; warnings are errors.
+docs: setup setup-docs
+	rm -rf reports/site
+	$(BIN)/python -m sphinx -q -W --keep-going -b html -d reports/site/.doctrees reports/docs reports/site
+	@echo reports/site/index.html
+
+# Run the worked examples of the documentation again and store their numbers and pictures; one only: make examples TASK=stribeck-curve
+examples: setup
+	$(BIN)/python -m reports.docs.tasks $(TASK)
 
 # Run the notebooks in place and store what their cells show.
 notebooks: setup

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 HERE = Path(__file__).resolve().parent
 
-ORDER = ("verification", "performance", "validation", "guide", "gallery")
+ORDER = ("verification", "performance", "validation", "gallery")
 """Of the pages in the index."""
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")
@@ -132,7 +132,7 @@ def write_site(
     *,
     pdf: bool = False,
     title: str = "reports",
-    about: str = "what was checked, how fast it is, what it predicts, and how to use it.",
+    about: str = "what was checked, how fast it is, and what it predicts.",
 ) -> list[Path]:
     """Write every page and the index into `folder`, each whole or not at all; PDFs too where a browser is installed.
 

@@ -30,7 +30,7 @@ RUNS = HERE / "gallery"
 _STAND_IN_CELLS, _STAND_IN_LENGTH = 256, 100e-6
 
 
-def gallery_scene(name: str, folder: Path, *, reduced: bool = False, speeds: int = 0) -> dict[str, Any]:
+def gallery_scene(name: str, folder: Path, *, reduced: bool = False) -> dict[str, Any]:
     """The table of a built-in scene as the gallery runs it.
 
     Parameters
@@ -38,7 +38,6 @@ def gallery_scene(name: str, folder: Path, *, reduced: bool = False, speeds: int
     name : of the scene.
     folder : where stand-ins for measured surfaces are written, if the scene needs them.
     reduced : fewer cells, cycles, speeds, loads and repetitions; the physics and every code path stay.
-    speeds : of a reduced scene's curve over speed, which the guide shows; 0 is as few as it can do with.
     """
     scene = copy.deepcopy(library()[name]) | {"name": name}
     for place, side in enumerate(("lower", "upper")):
@@ -47,21 +46,7 @@ def gallery_scene(name: str, folder: Path, *, reduced: bool = False, speeds: int
             surface["path"] = str(_stand_in(folder, side, seed=place + 1))
     if not reduced:
         return scene
-    small = _reduced(scene)
-    if speeds and "speeds" in small:
-        small["speeds"] = _speeds(library()[name]["speeds"], speeds)
-    return small
-
-
-def _speeds(table: dict[str, Any], most: int) -> dict[str, Any]:
-    """The table `speeds` of a scene with so many speeds over its whole range, or as many as it lists."""
-    table = copy.deepcopy(table)
-    if "count" in table:
-        table["count"] = most
-    elif len(table.get("values", ())) > most:
-        values = table["values"]
-        table["values"] = [values[round(i * (len(values) - 1) / (most - 1))] for i in range(most)]
-    return table
+    return _reduced(scene)
 
 
 def run_gallery(
@@ -69,14 +54,12 @@ def run_gallery(
     *,
     names: Sequence[str] = (),
     reduced: bool = False,
-    speeds: int = 0,
     say: Callable[[str], None] = lambda words: None,
 ) -> dict[str, FinishedRun | str]:
     """Run scenes (all where none is named), the quickest first; what went wrong stands in a run's place.
 
     Finished runs of the very same scene are taken as they are, begun ones go on from their checkpoint. A scene that
     fails, in whatever way, does not keep the others from running. `say` is told what runs, and about how much is left.
-    `speeds` as of `gallery_scene`.
     """
     found: dict[str, FinishedRun | str] = {}
     chosen = list(names or library())
@@ -84,7 +67,7 @@ def run_gallery(
     planned: dict[str, float] = {}
     for name in chosen:
         try:
-            scenes[name] = gallery_scene(name, folder, reduced=reduced, speeds=speeds)
+            scenes[name] = gallery_scene(name, folder, reduced=reduced)
             scene, plan = plan_scene(scenes[name])
             planned[name] = 0.0 if _is_there(folder / name, dump_scene(scene)) else plan.seconds(machine_rate())
         except Exception as error:

@@ -177,7 +177,7 @@ def _load_shares(curves: list[dict[str, Any]]) -> str:
             "volume of oil over the rough patch lets the film carry a share at any speed however low: most of that oil "
             "lies beside Hertz' contact, and the longer the patch, the more of it there is. At small Lambda such a "
             "share is the patch's and not the surface's. Counted where the film is loaded (sharing.oil_volume), oil "
-            "beside it has no say, nor has the length. See the guide on lubrication."
+            "beside it has no say, nor has the length. See the documentation on oil films."
         )
     )
 

@@ -1,4 +1,4 @@
-"""The guide's table of what lumped heat misses of full heat: what the stored experiment found."""
+"""The table of the documentation of what lumped heat misses of full heat: what the stored experiment found."""
 
 from __future__ import annotations
 
@@ -8,9 +8,8 @@ from functools import cache
 from pathlib import Path
 from typing import Any
 
-from reports.builder import Section, table, text
+from reports.builder import Section, table
 from reports.experiments.kept import age
-from reports.prose import prose
 
 RESULT = Path(__file__).parent / "results" / "lumped_heat.json"
 HEADERS = (
@@ -33,10 +32,8 @@ def rows() -> tuple[dict[str, Any], ...]:
 
 
 def chapter() -> Section:
-    """The table."""
-    return Section(
-        "What lumped heat misses", text(prose("guide")["lumped_heat"]) + table(HEADERS, _cells()) + age("lumped_heat")
-    )
+    """Return the table."""
+    return Section("Lumped against full heat", table(HEADERS, _cells()) + age("lumped_heat"))
 
 
 def _cells() -> Iterator[tuple[str, ...]]:

@@ -1,4 +1,4 @@
-"""The guide's chapter on wear criteria and their lengths: what the stored experiment found."""
+"""The chapter of the documentation on wear criteria and their lengths: what the stored experiment found."""
 
 from __future__ import annotations
 
@@ -57,7 +57,7 @@ def change(criterion: str, name: str) -> float:
 
 def chapter() -> list[Section]:
     """Convergence, what matters and what does not, and the verdict."""
-    words = prose("guide")["wear_lengths"]
+    words = prose("wear_lengths")
     return [
         Section(
             "What decides the size of a particle",
@@ -109,7 +109,7 @@ def _drawing() -> Any:
     """Radii by number and volume and the wear rate over the cell, a line for each criterion."""
     import matplotlib.pyplot as plt
 
-    names = prose("guide")["wear_lengths"]["names"]
+    names = prose("wear_lengths")["names"]
     drawing, axes = plt.subplots(1, 3, figsize=(12, 4), layout="constrained")
     panels = (
         (SIZES[0], 1e9, "mean radius by number [nm]"),

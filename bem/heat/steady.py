@@ -49,6 +49,8 @@ def surface_temperature(
     InputError : an argument that cannot be used; a body with layers; a grid on which no steady temperature exists
         (periodic along x, or along y under a body at rest): the heat in it would warm the body for ever.
 
+    Notes
+    -----
     Carslaw and Jaeger, Conduction of Heat in Solids (1959), sections 10.2 and 10.7; J. C. Jaeger, Proc. R. Soc. NSW 76
     (1942) 203.
     """

@@ -10,6 +10,8 @@ from bem.errors import InputError
 class Cavitation(Enum):
     """Model of the ruptured film.
 
+    Attributes
+    ----------
     SWIFT_STIEBER : Reynolds' equation or no pressure, a complementarity (Swift 1932, Stieber 1933). Oil behind the
         rupture is forgotten: a film that forms again is supplied with as much as it can take.
     MASS_CONSERVING : Jakobsson and Floberg (1957), Olsson (1965), in the form of Elrod and Adams (1974): where there is

@@ -18,14 +18,16 @@ from bem.surfaces.surface import Surface, check_map, spacing_of
 class SurfaceDescription:
     """Parameters of a surface about its mean height; names and definitions of ISO 25178-2 where there is one.
 
+    Attributes
+    ----------
     Sq, Sa : rms and mean absolute height [m].
     Sz : highest peak to lowest valley [m].
     Ssk, Sku : skewness, kurtosis (Gaussian: 0, 3); nan for a flat surface.
     Sdq : rms slope, sqrt(slope_x^2 + slope_y^2), from differences of neighbouring cells.
     slope_x, slope_y : rms slope along each axis; nan where an axis has one cell.
     autocorrelation_length_x, autocorrelation_length_y : where the autocorrelation along the axis falls to 1/e [m].
-    decay_length_x, decay_length_y : where it falls to 0.2 [m] (the level of ISO's Sal). All four are nan where it
-        does not fall so far within half the map.
+    decay_length_x, decay_length_y : where it falls to 0.2 [m] (the level of ISO's Sal). The four lengths are nan
+        where the autocorrelation does not fall so far within half the map.
     """
 
     Sq: float
@@ -117,6 +119,8 @@ def autocorrelation(heights: FloatArray, axis: int, *, periodic: bool = False) -
 class RadialSpectrum:
     """Power spectral density averaged over directions.
 
+    Attributes
+    ----------
     wavenumber : (n,) angular, mean over each ring [rad/m].
     density : (n,) [m^4], two-dimensional; Sq^2 = integral of density q dq / 2 pi.
     modes : (n,) number of wavevectors in each ring; fewer than ten scatter.

@@ -24,9 +24,12 @@ _HEAD = 4096
 class SurfaceFormat:
     """A format of surface files: enter it with `bem.register`.
 
-    name : what metadata and messages call it. read : of a path, see `HeightMap`; may raise anything of a damaged file.
-    suffixes : endings such as ".xyz"; none for any. recognises : whether a file begins so, of its first 4096 bytes;
-    None for any. One of both is needed.
+    Attributes
+    ----------
+    name : in metadata and messages.
+    read : function of a path that returns a `HeightMap`; it may raise anything on a damaged file.
+    suffixes : endings such as ".xyz"; none for any. Endings or `recognises` are needed.
+    recognises : function of the first 4096 bytes that says whether the file has this format; None for any.
     """
 
     name: str

@@ -37,15 +37,20 @@ _EXCLUDED = {
 class Process:
     """A manufacturing process.
 
+    Attributes
+    ----------
     title : in a few words.
-    rms_height : Sq [m]; usual : from where to where it lies in practice [m].
+    rms_height : Sq [m].
+    usual : lowest and highest usual Sq [m].
     across, along : lengths at which the autocorrelation falls to 1/e across and along the lay [m]; equal without one;
         None of a self-affine surface.
     hurst, rolloff_wavelength : of a self-affine surface: exponent, and the wavelength above which it is flat [m].
     skewness, kurtosis : of the heights.
     feed_marks, cross_hatch : arguments of what draws the tool's marks, besides grid, seed and lay; None without them.
     between : statistics of what lies between those marks, in place of the others.
-    source : of the figures; chosen : which of them are not from there; left_out : what of the process is not drawn.
+    source : of the numbers.
+    chosen : which numbers are not from the source.
+    left_out : what of the process is not drawn.
     """
 
     title: str

@@ -39,17 +39,19 @@ class Browser:
             assert time.monotonic() < end, "chromium does not start"
             time.sleep(0.05)
         self._port = int(port.read_text().splitlines()[0])
+        self._tabs = contextlib.ExitStack()
 
     def tab(self):
         """A new tab."""
         asked = urllib.request.Request(f"http://127.0.0.1:{self._port}/json/new?about:blank", method="PUT")
         with urllib.request.urlopen(asked) as answer:
-            return Tab(json.load(answer)["webSocketDebuggerUrl"])
+            return self._tabs.enter_context(contextlib.closing(Tab(json.load(answer)["webSocketDebuggerUrl"])))
 
     def __enter__(self):
         return self
 
     def __exit__(self, *_):
+        self._tabs.close()  # their sockets have threads
         self._process.terminate()
         self._process.wait(20)
         shutil.rmtree(self._home, ignore_errors=True)

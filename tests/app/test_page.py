@@ -21,6 +21,8 @@ from bem import crop, describe_surface, open_run, read_surface, run_scene
 from bem.surfaces.examples import FOLDER
 
 pytest.importorskip("nicegui")
+from bem.app.workspace import Workspace
+
 sys.path.insert(0, str(Path(__file__).parent))
 import browser as chromium
 
@@ -77,9 +79,13 @@ def serve(tmp_path):
     for server in servers:
         if server.process.poll() is None:
             server.kill()
-    for file in (tmp_path / "work" / "runs").glob("*/.app/pid"):  # runs outlive their server
-        with contextlib.suppress(OSError, ValueError):
-            os.kill(int(file.read_text()), signal.SIGKILL)
+    if servers:
+        workspace = Workspace(tmp_path / "work")
+        for folder in workspace.runs_folder.iterdir():  # runs outlive their server
+            process = workspace.process_of(folder)  # not the number in a file: the run may have ended
+            if process is not None:
+                with contextlib.suppress(ProcessLookupError):
+                    os.kill(process, signal.SIGKILL)
 
 
 @pytest.fixture(scope="module")

@@ -16,10 +16,10 @@ from bem.reference_solutions.hertz import sphere_contact
 from bem.scenes.kind import get_kind
 from bem.surfaces import formats
 from bem.surfaces.formats import SurfaceFormat
-from reports.prose import prose
+from reports.docs import EXAMPLES
 
-EXAMPLE = prose("kinds")["example"]  # what the guide prints
-KIND, SCENE = EXAMPLE["kind"], EXAMPLE["scene"]
+KIND, SCENE = ((EXAMPLES / name).read_text("utf-8") for name in ("kind.py", "kind.toml"))
+"""What the documentation shows."""
 READER = '''
 import numpy as np
 

@@ -44,11 +44,16 @@ class Line:
 class Oil:
     """An oil at ambient pressure, over temperature.
 
-    name : such as "ISO VG 68". base : "mineral", "pao", "ester", "pag" or "water-glycol", or a word of your own.
-    viscosity : law of the kinematic viscosity. viscosity_source : of its points.
+    Attributes
+    ----------
+    name : such as "ISO VG 68".
+    base : "mineral", "pao", "ester", "pag" or "water-glycol", or a word of your own.
+    viscosity : law of the kinematic viscosity.
+    viscosity_source : of its points.
     density, heat_capacity, thermal_conductivity : lines [kg/m^3, J/(kg K), W/(m K)]; None where it is not known.
     pressure_viscosity : correlation of the coefficient, or one that is given; None where it is not known.
-    freezing_point, flash_point, boiling_point, largest_service : [K], None where not known. limits_source : theirs.
+    freezing_point, flash_point, boiling_point, largest_service : temperatures [K], None where not known.
+    limits_source : source of these temperatures.
     """
 
     name: str

@@ -28,8 +28,11 @@ SMOOTH = 0.5
 class MovingSurface:
     """Heights on one of the bodies, which carries them with its speed.
 
-    heights : function of x, y on the body [m], which are those of the contact at the first time; a `Dent`, `Waves`,
-    `MeasuredHeights` or any other. of : the body, "lower" is the flat of the first speed.
+    Attributes
+    ----------
+    heights : function of x, y on the body [m], equal to those of the contact at the first time; a `Dent`, `Waves`,
+        `MeasuredHeights` or any other.
+    of : the body; "lower" is the flat of the first speed.
     """
 
     heights: Heights

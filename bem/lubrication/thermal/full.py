@@ -154,6 +154,8 @@ def solve_full_thermal_line_film(
     InputError : as `solve_line_film`; a lubricant without temperature and heat constants, bodies without theirs, a bulk
         temperature above 300 degrees Celsius.
 
+    Notes
+    -----
     Dowson (1962) for the film, Carslaw and Jaeger (1959) for the bodies; Cheng and Sternlicht, J. Basic Eng. 87 (1965)
     695, for both together in a line contact.
     """

@@ -181,6 +181,8 @@ def solve_thermal_line_film(
     InputError : as `solve_line_film`; a lubricant without temperature and heat constants, bodies without theirs, a bulk
         temperature above 300 degrees Celsius; inlet heating that leaves an oil too thin for a film to be looked for.
 
+    Notes
+    -----
     Jaeger (1942) for moving heat, Crook (1961) for heat across the film, Gupta et al. (1992) for the inlet.
     """
     case = LineCase(

@@ -1,0 +1,144 @@
+"""Sphinx directives that fill pages from the code."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Callable
+from typing import Any
+
+from docutils import nodes
+from sphinx.application import Sphinx
+from sphinx.util.docutils import SphinxDirective
+
+import bem
+from reports import lumped_heat, wear_lengths
+from reports.builder import Section
+from reports.docs import content
+from reports.docs.tasks import HERE as TASKS
+
+MARKDOWN: dict[str, Callable[..., str]] = {
+    "scene-keys": content.scene_keys,
+    "kind-keys": content.kind_keys,
+    "shared-tables": content.shared_tables,
+    "built-in-scenes": content.built_in_scenes,
+    "results": content.results,
+    "laws": content.laws,
+    "notes": content.notes,
+    "processes": content.processes,
+    "task-numbers": content.task_numbers,
+    "gates": content.gates,
+    "verdicts": content.verdicts,
+    "error-coverage": content.error_coverage,
+    "accuracy-met": content.accuracy_met,
+    "commands": content.commands,
+}
+"""Functions of the words behind the directive that return Markdown."""
+
+CHAPTERS: dict[str, Callable[[], Any]] = {
+    "wear-lengths": wear_lengths.chapter,
+    "lumped-heat": lumped_heat.chapter,
+}
+"""Chapters of the reports, filled from stored experiments."""
+
+
+class Markdown(SphinxDirective):
+    """Markdown from a function of `MARKDOWN`, as if it stood on the page."""
+
+    optional_arguments = 2
+
+    def run(self) -> list[nodes.Node]:
+        """Parse the text."""
+        return self.parse_text_to_nodes(MARKDOWN[self.name](*self.arguments), allow_section_headings=True)
+
+
+class TaskFile(SphinxDirective):
+    """The file of an example, to copy."""
+
+    required_arguments = 1
+
+    def run(self) -> list[nodes.Node]:
+        """Show the file under its name."""
+        text = (TASKS / self.arguments[0]).read_text("utf-8").rstrip()
+        name = self.arguments[0].rpartition("/")[2]
+        return self.parse_text_to_nodes(f"```{{code-block}} toml\n:caption: {name}\n\n{text}\n```\n")
+
+
+class Chapter(SphinxDirective):
+    """A chapter of the reports as sections of the page."""
+
+    required_arguments = 1
+
+    def run(self) -> list[nodes.Node]:
+        """Return the sections."""
+        found = CHAPTERS[self.arguments[0]]()
+        return [self.section(one) for one in ([found] if isinstance(found, Section) else found)]
+
+    def section(self, chapter: Section) -> nodes.section:
+        """Return a heading of the page with the chapter's HTML below it."""
+        section = nodes.section(ids=[f"{self.arguments[0]}-{chapter.anchor}"], names=[chapter.title.lower()])
+        section += nodes.title(chapter.title, chapter.title)
+        body = re.sub(r'<div class="wide">', '<div class="pst-scrollable-table-container">', chapter.body)
+        section += nodes.raw("", body.replace("<table>", '<table class="table">'), format="html")
+        return section
+
+
+class Api(SphinxDirective):
+    """Public names of bem, one a line, with their docstrings."""
+
+    has_content = True
+
+    def run(self) -> list[nodes.Node]:
+        """Document each name as the class, function or value that it is."""
+        calls = "".join(_call(name) for name in " ".join(self.content).split())
+        return self.parse_text_to_nodes("```{eval-rst}\n" + calls + "```\n")
+
+
+def _call(name: str) -> str:
+    """Return the directive of autodoc that documents a name."""
+    item = getattr(bem, name)
+    if isinstance(item, type):
+        return f".. autoclass:: bem.{name}\n   :members:\n\n"
+    return f".. autofunction:: bem.{name}\n\n" if callable(item) else f".. autodata:: bem.{name}\n   :no-value:\n\n"
+
+
+_SECTIONS = ("Parameters", "Attributes", "Returns", "Yields", "Raises")
+
+
+def docstring_lines(lines: list[str]) -> list[str]:
+    """Return a docstring as numpydoc reads it.
+
+    In the docstrings of bem a description follows its name on the same line, `name : description`, where numpydoc has
+    the type. It moves to a line of its own. Bars are escaped: |x| is an absolute value, no substitution.
+    """
+    found: list[str] = []
+    inside = False
+    for number, line in enumerate(lines):
+        following = lines[number + 1] if number + 1 < len(lines) else ""
+        if following and set(following.strip()) == {"-"}:
+            inside = line.strip() in _SECTIONS
+        line = "".join(
+            part if part.startswith("`") else part.replace("|", r"\|") for part in re.split("(`[^`]*`)", line)
+        )
+        name, colon, words = line.partition(" : ")
+        if inside and colon and not line.startswith(" "):
+            found += [name, f"    {words}"]
+        else:
+            found.append(line)
+    return found
+
+
+def arrange_docstring(app: Sphinx, what: str, name: str, item: Any, options: Any, lines: list[str]) -> None:
+    """Arrange a docstring before numpydoc reads it."""
+    del app, what, name, item, options
+    lines[:] = docstring_lines(lines)
+
+
+def setup(app: Sphinx) -> dict[str, bool]:
+    """Enter the directives."""
+    app.connect("autodoc-process-docstring", arrange_docstring, priority=100)
+    for name in MARKDOWN:
+        app.add_directive(name, Markdown)
+    app.add_directive("task-file", TaskFile)
+    app.add_directive("chapter", Chapter)
+    app.add_directive("api", Api)
+    return {"parallel_read_safe": True, "parallel_write_safe": True}
