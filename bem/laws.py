@@ -110,7 +110,7 @@ def parameter(
     ----------
     meaning : in words, for the guide and for messages.
     unit : SI unit, "" for none; scenes take any unit of the same dimension.
-    default : value where none is given; without it the parameter is required.
+    default : value where none is given; without it the parameter is required. None: the law finds the value elsewhere.
     above, at_least, below, at_most : bounds.
     several : a tuple of numbers instead of one.
     source : where default or bounds come from.
@@ -136,8 +136,11 @@ class Law(metaclass=ABCMeta):  # noqa: B024 - its families say what is abstract
 
     def __post_init__(self) -> None:
         messages = []
+        optional = {field.name for field in dataclasses.fields(self) if field.default is None}
         for key, about in self.parameters().items():
             value = getattr(self, key)
+            if value is None and key in optional:
+                continue
             numbers = tuple(value) if about.several and not isinstance(value, str) and _iterable(value) else (value,)
             if not all(about.holds(number) for number in numbers) or (about.several and not _iterable(value)):
                 messages.append(f"{type(self).__name__}: {key} {value!r} {about.allowed}")

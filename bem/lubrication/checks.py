@@ -37,6 +37,8 @@ LARGEST_AMBIENT_STRENGTH = 5e6
 """Largest shear strength at ambient pressure that was measured [Pa]; Hoglund and Jacobson (1986)."""
 LOAD_AT_THE_LIMIT = 0.1
 """Share of the load over the places where the limit holds, from which it is the limit that sets the friction."""
+NEAR_THE_LIMIT = 0.89
+"""Stress over limit from which a law that joins its limit smoothly is at it: its own stress is beyond the limit."""
 SHARP_SPIKE = 0.7
 """A spike whose neighbouring node has less than this of its pressure is not resolved: on finer meshes its height then
 changed by 2 % to 30 %, and by less than 1 % where the neighbour had more."""
@@ -94,6 +96,8 @@ class Case:
     @cached_property
     def sliding_stress(self) -> FloatArray:
         """The same, as the oil carries it [Pa]."""
+        if self.hot_stress is not None:
+            return self.newtonian_stress
         return self.lubricant.shear_stress(self.newtonian_stress, self.pressure)
 
     def integral(self, values: FloatArray) -> float:
@@ -134,7 +138,10 @@ def shear_beyond_measurements(case: Case) -> Note | None:
 
 def shear_at_the_limit(case: Case) -> Note | None:
     """The friction is the limit's."""
-    cut = case.sliding_stress < case.lubricant.shear_stress(case.newtonian_stress)
+    if case.lubricant.shear_law.softens:
+        cut = case.sliding_stress > NEAR_THE_LIMIT * case.lubricant.limiting_stress(case.pressure)
+    else:
+        cut = case.sliding_stress < case.lubricant.shear_stress(case.newtonian_stress)
     if _load_share(case, cut) < LOAD_AT_THE_LIMIT:
         return None
     law = case.lubricant.shear_law

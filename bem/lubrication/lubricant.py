@@ -40,8 +40,10 @@ class Lubricant:
     pressure_viscosity : alpha, slope of ln(viscosity) with pressure at ambient pressure [1/Pa]; 0 is isoviscous.
     viscosity_law : "roelands", "barus" or "isoviscous", the name of a law of your own, or a law.
     density_law : "incompressible", "dowson_higginson", another name or a law.
-    shear_law : "limited", "newtonian", "eyring", "carreau", another name or a law. All of these but "newtonian" carry
-        no more than a limiting shear stress in proportion to pressure; below that "limited" is Newtonian.
+    shear_law : "limited", "newtonian", "eyring", "carreau", "base_oil", another name or a law. All of these but
+        "newtonian" carry no more than a limiting shear stress in proportion to pressure; below that "limited" is
+        Newtonian. "base_oil" is Eyring's law under a limit that falls with temperature, with the constants of the
+        oil's base.
     film_rheology : "newtonian": the shear law acts on the friction and not on the film; "shear_law": on both, through
         the profile of stress and speed across the film (`bem.lubrication.shear_profile`).
     temperature : that of the oil [K], for a reader; None where it is not known, as the next four.
@@ -50,6 +52,7 @@ class Lubricant:
     thermal_conductivity : [W/(m K)].
     temperature_viscosity : beta, -d ln(viscosity)/dT at ambient pressure [1/K].
     oil : the oil it is of at that temperature, which knows it at others; see `of` and `bem.lubrication.oils`.
+    base : base of an oil that is not given, for the constants of "base_oil": "mineral" where it is left out.
     **parameters : of the laws, by name: `shear_stress_limit` [Pa] of eyring and carreau, `carreau_exponent`,
         `limiting_shear_coefficient`, `ambient_shear_strength` [Pa], those of your own laws. They are attributes, too.
 
@@ -86,6 +89,7 @@ class Lubricant:
         temperature_viscosity: float | None = None,
         oil: Oil | None = None,
         film_rheology: str = "newtonian",
+        base: str | None = None,
         **parameters: float | None,
     ) -> None:
         messages = []
@@ -124,6 +128,7 @@ class Lubricant:
             messages += [f"Lubricant: {text}" for text in refusals]
         if messages:
             raise InputError(messages)
+        laws["shear_law"] = _completed(laws["shear_law"], oil, base)
         values = {"viscosity": float(viscosity), "pressure_viscosity": float(pressure_viscosity), **laws}
         values |= {key: None if value is None else float(value) for key, value in heat.items()}
         for key, value in (values | {"oil": oil, "film_rheology": film_rheology}).items():
@@ -192,15 +197,39 @@ class Lubricant:
         """Density over that at ambient pressure and its derivative [1/Pa] at pressures >= 0 [Pa]."""
         return self.density_law.density_ratio(pressure)
 
-    def shear_stress(self, newtonian_stress: FloatArray, pressure: FloatArray | float | None = None) -> FloatArray:
+    def shear_stress(
+        self,
+        newtonian_stress: FloatArray,
+        pressure: FloatArray | float | None = None,
+        temperature: FloatArray | float | None = None,
+    ) -> FloatArray:
         """Shear stress [Pa] the oil carries where a Newtonian one would carry `newtonian_stress`; odd in it.
 
         With the pressures there [Pa] no more than the limiting shear stress. Without pressures what the law gives
-        before any limit.
+        before any limit. `temperature` : that of the film [K], which some limits depend on; the oil's by default.
         """
         if pressure is None:
             return self.shear_law.unlimited(newtonian_stress)
-        return self.shear_law.shear_stress(newtonian_stress, pressure)
+        if not self.shear_law.softens:
+            return self.shear_law.shear_stress(newtonian_stress, pressure)
+        at = self.temperature if temperature is None else temperature
+        return self.shear_law.shear_stress(newtonian_stress, pressure, at)
+
+    def limiting_stress(
+        self, pressure: FloatArray | float, temperature: FloatArray | float | None = None
+    ) -> FloatArray | float:
+        """Limiting shear stress [Pa] at pressures [Pa] and temperatures [K], by default the oil's own."""
+        return self.shear_law.limit_at(pressure, self.temperature if temperature is None else temperature)
+
+
+def _completed(law: ShearLaw, oil: Oil | None, base: str | None) -> ShearLaw:
+    """Return a shear law with the constants of the oil where the law leaves them open."""
+    if None not in law.values().values():
+        return law
+    from bem.lubrication.oils.rheology import rheology_of
+
+    own = None if oil is None else oil.shear
+    return law.of_oil(own or rheology_of(base or (oil.base if oil is not None else None)))
 
 
 def _is_number(value: object) -> bool:

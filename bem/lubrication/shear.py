@@ -1,26 +1,34 @@
 """Shear laws: the shear stress an oil carries where a Newtonian one would carry mu times the shear rate.
 
 To add a law, derive from `LimitedShear` (or `ShearLaw`, which has no limit) and register it, here or in a file of your
-own. `unlimited` alone will do; its inverse, `newtonian_stress`, is found from it if a law has no formula. How laws act
-across a film is in `shear_profile`.
+own. `unlimited` alone will do; its inverse, `newtonian_stress`, is found from it if a law has no formula. A law whose
+limit depends on temperature defines `limit_at` and sets `softens`. How laws act across a film is in `shear_profile`.
 """
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from abc import abstractmethod
 from dataclasses import dataclass
-from typing import ClassVar
+from typing import TYPE_CHECKING, Any, ClassVar
 
 import numpy as np
 
 from bem.grid import FloatArray
 from bem.laws import Law, parameter, register
 
+if TYPE_CHECKING:
+    from bem.lubrication.oils.rheology import ShearRheology
+
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(20)
 _STEPS = 60
 _WIDEST = 650.0
 _HALVINGS = 60
+REFERENCE_TEMPERATURE = 313.15
+"""Temperature at which limiting coefficients are given [K]: 40 degrees Celsius."""
+SHARPNESS = 6.0
+"""Exponent that joins a law to its limit smoothly: 11 % below where the law reaches the limit, 1 % at 0.68 of it."""
 
 
 @dataclass(frozen=True)
@@ -57,11 +65,30 @@ class ShearLaw(Law):
         """Largest shear stress [Pa] at pressures [Pa]; infinite unless a law says otherwise."""
         return math.inf
 
-    def shear_stress(self, newtonian: FloatArray, pressure: FloatArray | float) -> FloatArray:
-        """Shear stress [Pa]: a sharp cut at the limit, as measured flow curves have it (Bair and Winer 1979), so that
-        below it `unlimited` stays to the last bit."""
-        limit = self.limit(pressure)
-        return np.clip(self.unlimited(newtonian), -limit, limit)
+    def limit_at(self, pressure: FloatArray | float, temperature: FloatArray | float | None) -> FloatArray | float:
+        """Largest shear stress [Pa] at pressures [Pa] and temperatures [K]; of most laws the same at all of them."""
+        return self.limit(pressure)
+
+    def under_limit(self, stress: FloatArray, limit: FloatArray | float) -> FloatArray:
+        """Shear stress [Pa] that a limit leaves of a law's stress: a sharp cut, as measured flow curves have it (Bair
+        and Winer 1979), so that below it `unlimited` stays to the last bit."""
+        return np.clip(stress, -limit, limit)
+
+    def shear_stress(
+        self,
+        newtonian: FloatArray,
+        pressure: FloatArray | float,
+        temperature: FloatArray | float | None = None,
+    ) -> FloatArray:
+        """Shear stress [Pa] under the limit at pressures [Pa] and temperatures [K]."""
+        return self.under_limit(self.unlimited(newtonian), self.limit_at(pressure, temperature))
+
+    def of_oil(self, rheology: ShearRheology) -> ShearLaw:
+        """Return the law with constants of an oil where it leaves them open; most laws leave none open."""
+        return self
+
+    softens: ClassVar[bool] = False
+    """Whether the limit depends on temperature."""
 
     @property
     def thins(self) -> bool:
@@ -246,3 +273,111 @@ class Carreau(LimitedShear):
         steep = 1 + (n - 1) * -np.expm1(-np.logaddexp(0.0, a * at))
         value = self.shear_stress_limit * np.exp(at)
         return np.copysign(value, stress), np.exp(at - wanted) / steep
+
+
+@dataclass(frozen=True)
+class StressSlopes:
+    """Shear stress and its derivatives, each (n,).
+
+    stress : [Pa]. by_newtonian : with the Newtonian stress [-]. by_limit : with the limiting stress [-].
+    by_eyring : with the Eyring stress [-]. by_pressure : at constant Newtonian stress [-].
+    by_temperature : at constant Newtonian stress [Pa/K].
+    """
+
+    stress: FloatArray
+    by_newtonian: FloatArray
+    by_limit: FloatArray
+    by_eyring: FloatArray
+    by_pressure: FloatArray
+    by_temperature: FloatArray
+
+
+@register
+@dataclass(frozen=True, kw_only=True)
+class BaseOilShear(Eyring):
+    """Eyring's law under a limiting stress that falls with temperature, with the constants of the oil's base.
+
+    tau_e = tau0 asinh(mu du/dz / tau0) before the limit, tau = tau_e [1 + (tau_e / tau_L)^6]^(-1/6) with it, and
+    tau_L = (tau_a + Lambda p) exp(-k (T - 40 degC)), T the temperature of the film. A constant that is not given is
+    that of the oil (`bem.lubrication.oils.rheology`), of a mineral oil where the base is not known.
+    """
+
+    name: ClassVar[str] = "base_oil"
+    softens: ClassVar[bool] = True
+    shear_stress_limit: float = parameter(
+        "Eyring stress, where thinning begins", "Pa", default=None, above=0, source="by default that of the oil's base"
+    )
+    limiting_shear_coefficient: float = parameter(
+        "slope of the limiting shear stress with pressure, at 40 degC",
+        default=None,
+        above=0,
+        source="by default that of the oil's base",
+    )
+    limiting_shear_softening: float = parameter(
+        "k, relative fall of the limiting shear stress with temperature",
+        "1/K",
+        default=None,
+        at_least=0,
+        source="by default that of the oil's base",
+    )
+    ambient_shear_strength: float = parameter(
+        "limiting shear stress at ambient pressure and 40 degC",
+        "Pa",
+        default=None,
+        above=0,
+        source="by default that of the oil's base",
+    )
+
+    def of_oil(self, rheology: ShearRheology) -> ShearLaw:
+        """Return the law with the oil's constants where none are given."""
+        own = rheology.parameters()
+        missing: dict[str, Any] = {key: own[key] for key, value in self.values().items() if value is None}
+        return dataclasses.replace(self, **missing)
+
+    def limit(self, pressure: FloatArray | float) -> FloatArray | float:
+        """The limit at 40 degC."""
+        return self.ambient_shear_strength + self.limiting_shear_coefficient * pressure
+
+    def limit_at(self, pressure: FloatArray | float, temperature: FloatArray | float | None) -> FloatArray | float:
+        """The limit above; at 40 degC where no temperature is known."""
+        if temperature is None:
+            return self.limit(pressure)
+        warmer = np.subtract(temperature, REFERENCE_TEMPERATURE)
+        return np.asarray(self.limit(pressure) * np.exp(-self.limiting_shear_softening * warmer))
+
+    def under_limit(self, stress: FloatArray, limit: FloatArray | float) -> FloatArray:
+        """The smooth join above."""
+        less, more = np.minimum(np.abs(stress), limit), np.maximum(np.abs(stress), limit)
+        return np.copysign(less * (1 + (less / more) ** SHARPNESS) ** (-1 / SHARPNESS), stress)
+
+    def slopes(
+        self,
+        newtonian: FloatArray,
+        pressure: FloatArray | float,
+        temperature: FloatArray | float | None = None,
+    ) -> StressSlopes:
+        """Return the shear stress with its exact derivatives.
+
+        Parameters
+        ----------
+        newtonian : (n,) [Pa]. pressure : (n,) [Pa]. temperature : (n,) [K]; None is 40 degC.
+        """
+        unit, limit = self.shear_stress_limit, np.asarray(self.limit_at(pressure, temperature))
+        share = newtonian / unit
+        free = unit * np.arcsinh(share)
+        size = np.abs(free)
+        ratio = np.minimum(size, limit) / np.maximum(size, limit)
+        near = (1 + ratio**SHARPNESS) ** (-1 - 1 / SHARPNESS)
+        far = ratio ** (SHARPNESS + 1) * near
+        by_free = np.where(size < limit, near, far)
+        by_limit = np.copysign(np.where(size < limit, far, near), newtonian)
+        steep = 1 / np.hypot(1.0, share)
+        softened = limit / np.asarray(self.limit(pressure))
+        return StressSlopes(
+            stress=self.under_limit(free, limit),
+            by_newtonian=by_free * steep,
+            by_limit=by_limit,
+            by_eyring=by_free * (np.arcsinh(share) - share * steep),
+            by_pressure=by_limit * self.limiting_shear_coefficient * softened,
+            by_temperature=-by_limit * self.limiting_shear_softening * limit,
+        )

@@ -165,22 +165,50 @@ def shear_flow(lubricant: Lubricant, sliding: float, film: float, pressure: floa
     law = lubricant.shear_law
 
     def limit(scaled: FloatArray) -> tuple[FloatArray | float, FloatArray | float]:
-        value = law.limit(scaled * pressure)
+        value = lubricant.limiting_stress(scaled * pressure)
         if not np.isfinite(value).all():
             return value, 0.0
-        return value, (law.limit(scaled * pressure + _STEP) - value) / _STEP * pressure
+        return value, (lubricant.limiting_stress(scaled * pressure + _STEP) - value) / _STEP * pressure
 
     return ShearFlow(law, lubricant.viscosity * abs(sliding) / film, 0.5 * film * pressure / length, limit)
 
 
 def middle_stress(
-    lubricant: Lubricant, newtonian: FloatArray, pressure: FloatArray, film: FloatArray, gradient: FloatArray
+    lubricant: Lubricant,
+    newtonian: FloatArray,
+    pressure: FloatArray,
+    film: FloatArray,
+    gradient: FloatArray,
+    temperature: FloatArray | None = None,
 ) -> FloatArray:
     """Shear stress in the middle of films [Pa] at Newtonian stresses mu (u1 - u2)/h and pressures [Pa], films [m] and
     pressure gradients [Pa/m]: the law's at the sliding alone, or that of the profile where the oil's film follows it.
+    `temperature` : of the films [K], by default the oil's own.
     """
     if not lubricant.shears_film:
-        return lubricant.shear_stress(newtonian, pressure)
-    law = lubricant.shear_law
-    profile = shear_profile(law, np.abs(newtonian), 0.5 * film * gradient, law.limit(pressure))
-    return np.copysign(profile.middle, newtonian)
+        return lubricant.shear_stress(newtonian, pressure, temperature)
+    law, half, size = lubricant.shear_law, 0.5 * film * gradient, np.abs(newtonian)
+    limit = lubricant.limiting_stress(pressure, temperature)
+    if law.softens:
+        return np.copysign(smooth_middle(law, size, half, limit), newtonian)
+    return np.copysign(shear_profile(law, size, half, limit).middle, newtonian)
+
+
+def smooth_middle(
+    law: ShearLaw,
+    newtonian: FloatArray,
+    half: FloatArray,
+    limit: FloatArray | float,
+    layers: Sheared | None = None,
+) -> FloatArray:
+    """Return the stress in the middle of films [Pa] under a law that joins its limit smoothly.
+
+    The flow slips at the limit sharply (`shear_profile`); the friction joins it as the law does, at the stress that the
+    wall of the larger stress leaves to the middle. Arguments as of `shear_profile`; `layers` : of the film, if they
+    differ.
+    """
+    size = np.abs(half)
+    top = np.maximum(limit - size, 1e-9 * limit)
+    with np.errstate(over="ignore", invalid="ignore"):
+        free = (layers or law).middle_stress(newtonian, np.minimum(size, limit))
+    return law.under_limit(free, top)

@@ -70,7 +70,8 @@ def fields_of_family(family: str) -> dict[str, FieldInfo]:
 
 def plain(law: Law) -> str | dict[str, Any]:
     """A law as a scene writes it: its name, with its parameters where it has any."""
-    values = {key: list(value) if isinstance(value, tuple) else value for key, value in law.values().items()}
+    given = {key: value for key, value in law.values().items() if value is not None}
+    values = {key: list(value) if isinstance(value, tuple) else value for key, value in given.items()}
     return {"kind": law.name, **values} if values else law.name
 
 

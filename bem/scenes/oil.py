@@ -14,7 +14,7 @@ from pydantic import Field, field_validator, model_validator
 from bem.errors import InputError
 from bem.lubrication.density import DensityLaw, Incompressible
 from bem.lubrication.oils.catalogue import find_oil, oil_from_viscosities
-from bem.lubrication.shear import LimitedShear, ShearLaw
+from bem.lubrication.shear import BaseOilShear, LimitedShear, ShearLaw
 from bem.lubrication.viscosity import Roelands, ViscosityLaw
 from bem.scenes.common import problem
 from bem.scenes.keys import key
@@ -38,7 +38,7 @@ if TYPE_CHECKING:
 
 _NO_FILM = "a positive viscosity; an oil without viscosity makes no film (a dry contact is kind contact or wear)"
 _WAYS = "exactly one of grade, viscosities, viscosity"
-Base = Literal["mineral", "pao", "ester", "pag", "water-glycol"]
+Base = Literal["mineral", "naphthenic", "pao", "ester", "pag", "water-glycol", "traction"]
 
 
 class OilScene(LawTable):
@@ -48,7 +48,8 @@ class OilScene(LawTable):
     and `base` in place of the usual ones; or `viscosities` with `temperature`: kinematic, [["40 degC", "68 mm^2/s"],
     ["100 degC", "8.6 mm^2/s"]], joined by `temperature_law`; or `viscosity` at the temperature of the contact. What
     else is given here (`pressure_viscosity`, `density`, ...) replaces the oil's own. `film_rheology = "shear_law"` lets
-    the shear law act on the film and not on the friction alone.
+    the shear law act on the film and not on the friction alone. `shear_law = "base_oil"` has the constants of the oil's
+    base; beside `viscosity` it takes `base`, too.
     """
 
     grade: str | None = key(
@@ -145,6 +146,8 @@ class OilScene(LawTable):
             raise problem(f"{' and '.join(given)} are given" if given else "no oil", _WAYS)
         if self.viscosity is not None:
             for name in ("viscosity_index", "base", "temperature_law"):
+                if name == "base" and self.shear_law.name == BaseOilShear.name:
+                    continue
                 if getattr(self, name) is not None:
                     raise problem(f"{name} beside viscosity", f"{name} with grade or viscosities")
             if self.viscosity <= 0:
@@ -198,6 +201,7 @@ class OilScene(LawTable):
             self.viscosity,
             pressure_viscosity=self.pressure_viscosity or 0.0,
             temperature=self.temperature,
+            base=self.base,
             **laws,
         )
 

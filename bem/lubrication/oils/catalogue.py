@@ -15,6 +15,7 @@ from bem.errors import InputError
 from bem.lubrication.oils.oil import Line, Oil
 from bem.lubrication.oils.over_temperature import CELSIUS, LAWS, MM2_S, OverTemperature, ViscosityTable, Walther
 from bem.lubrication.oils.pressure import PressureViscosity
+from bem.lubrication.oils.rheology import rheology_of
 from bem.lubrication.oils.viscosity_index import viscosity_at_40, viscosity_at_100
 
 _T40, _T100 = 40.0 + CELSIUS, 100.0 + CELSIUS
@@ -59,7 +60,8 @@ def find_oil(name: str, *, viscosity_index: float | None = None, base: str | Non
     ----------
     name : the oil or its grade.
     viscosity_index : in place of the usual one of the grade's base; multigrades have at least what their W asks for.
-    base : of an ISO grade: "mineral" (the default), "pao", "ester", "pag" or "water-glycol".
+    base : of an ISO grade: "mineral" (paraffinic, the default), "naphthenic", "pao", "ester", "pag", "water-glycol" or
+        "traction".
 
     Raises
     ------
@@ -272,6 +274,7 @@ def _made(name: str, base: str, law: OverTemperature, source: str, own: Mapping[
         alpha,
         **limits,
         limits_source=table.get("limits_source", ""),
+        shear=rheology_of(base, own.get("shear", {})),
     )
 
 

@@ -9,6 +9,7 @@ from bem.arguments import is_finite
 from bem.errors import InputError
 from bem.lubrication.oils.over_temperature import CELSIUS, OverTemperature
 from bem.lubrication.oils.pressure import PressureViscosity
+from bem.lubrication.oils.rheology import ShearRheology
 from bem.notes import Note
 from bem.notes.lubrication import OIL_DATA_SHORT, OIL_TOO_HOT, OIL_TOO_THICK
 
@@ -47,13 +48,15 @@ class Oil:
     Attributes
     ----------
     name : such as "ISO VG 68".
-    base : "mineral", "pao", "ester", "pag" or "water-glycol", or a word of your own.
+    base : "mineral" (paraffinic), "naphthenic", "pao", "ester", "pag", "water-glycol" or "traction", or a word of
+        your own.
     viscosity : law of the kinematic viscosity.
     viscosity_source : of its points.
     density, heat_capacity, thermal_conductivity : lines [kg/m^3, J/(kg K), W/(m K)]; None where it is not known.
     pressure_viscosity : correlation of the coefficient, or one that is given; None where it is not known.
     freezing_point, flash_point, boiling_point, largest_service : temperatures [K], None where not known.
     limits_source : source of these temperatures.
+    shear : rheology in shear, measured or that of the base; None where it is not known.
     """
 
     name: str
@@ -69,6 +72,7 @@ class Oil:
     boiling_point: float | None = None
     largest_service: float | None = None
     limits_source: str = ""
+    shear: ShearRheology | None = None
 
     def check(self, temperature: float) -> None:
         """Refuse a temperature [K] at which it is no liquid.

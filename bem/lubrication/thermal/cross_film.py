@@ -20,7 +20,7 @@ from numpy.typing import NDArray
 from bem.grid import FloatArray
 from bem.lubrication.line.temperatures import middles
 from bem.lubrication.lubricant import Lubricant
-from bem.lubrication.shear_profile import Profile, shear_profile
+from bem.lubrication.shear_profile import Profile, shear_profile, smooth_middle
 from bem.lubrication.thermal.columns import Strip
 from bem.lubrication.thermal.hot_viscosity import LARGEST_LOGARITHM
 from bem.lubrication.thermal.layered_shear import Section
@@ -29,6 +29,8 @@ from bem.lubrication.thermal.layers import Oil, Sums, sums_of
 _EASED, _LEAST = 50.0, 1e-300
 _STEP = 1e-4
 """Relative, of the Newtonian stress, for the slope of the law."""
+_WARMER = 1e-3
+"""Step [K] for the fall of the limiting stress with temperature."""
 _SLIGHT = 1e-6
 """Of the largest half stress, from which on thinning is that of none."""
 
@@ -39,7 +41,8 @@ class Across:
 
     through : mass through every section over the oil's density [m^2/s]. newtonian : stress of the sliding of a
     Newtonian oil (n,) [Pa]. stress : tau in the middle, of du/dz (n,) [Pa]; centred : where the fluidity has its
-    centre, and steep : d ln(it)/d ln(newtonian) (n,). flux : mass through a layer over the oil's density (n, K)
+    centre, and steep : d ln(it)/d ln(newtonian) (n,). weaker : -d ln(centred)/dT through the limiting stress, T the
+    mean temperature across (n,) [1/K]. flux : mass through a layer over the oil's density (n, K)
     [m^2/s]. heat : made in a layer by shear (n, K) [W/m^2]; of these sheared : by the centred stress in the sliding;
     crossing : by that in what pressure shears; leaning : by the pressure's in the sliding. expanding : heat that
     compression makes, over temperature and rise of `Oil.expanded` (n, K) [m^2/s]. softer : -d ln(viscosity)/dT (n, K)
@@ -53,6 +56,7 @@ class Across:
     newtonian: FloatArray
     stress: FloatArray
     centred: FloatArray
+    weaker: FloatArray
     flux: FloatArray
     heat: FloatArray
     sheared: FloatArray
@@ -111,9 +115,10 @@ def across(oil: Oil, strip: Strip, temperature: FloatArray, given: Given) -> Acr
     viscosity = lubricant.viscosity * np.exp(least)
     eased = np.exp(np.clip(least - np.log(np.maximum(found.driven, _LEAST)) - given.resistance, -_EASED, _EASED))
     half = 0.5 * strip.thickness * strip.gradient * eased
-    thinned = _thinned(oil, strip, found, viscosity)
+    mean_temperature = temperature.mean(axis=1)
+    thinned = _thinned(oil, strip, found, viscosity, mean_temperature)
     resisting = viscosity / thinned.by
-    sheared = _sheared(oil, strip, found, viscosity, given.centre)
+    sheared = _sheared(oil, strip, found, viscosity, given.centre, mean_temperature)
     lever = s - (found.by_place / found.mean)[:, None]
     share = found.fluidity * weight / found.mean[:, None]
     pushed = (strip.thickness * half / resisting)[:, None] * found.fluidity * weight
@@ -137,6 +142,7 @@ def across(oil: Oil, strip: Strip, temperature: FloatArray, given: Given) -> Acr
         newtonian=sheared.newtonian,
         stress=sheared.stress,
         centred=sheared.centred,
+        weaker=sheared.weaker,
         flux=flux,
         heat=dragged + (crossing + leaning) * lever + half[:, None] * (pushed * lever**2 + inner),
         sheared=dragged,
@@ -158,36 +164,72 @@ def across(oil: Oil, strip: Strip, temperature: FloatArray, given: Given) -> Acr
 
 @dataclass(frozen=True)
 class _Sheared:
-    """Stress of the sliding of a Newtonian oil, that in the middle, that where the fluidity has its centre and its
-    slope, all (n,)."""
+    """Stress of the sliding of a Newtonian oil, that in the middle, that where the fluidity has its centre, its slope
+    and its relative fall with temperature, all (n,)."""
 
     newtonian: FloatArray
     stress: FloatArray
     centred: FloatArray
     steep: FloatArray
+    weaker: FloatArray
 
 
-def _sheared(oil: Oil, strip: Strip, found: Sums, viscosity: FloatArray, centre: FloatArray) -> _Sheared:
+def _sheared(
+    oil: Oil,
+    strip: Strip,
+    found: Sums,
+    viscosity: FloatArray,
+    centre: FloatArray,
+    temperature: FloatArray,
+) -> _Sheared:
     lubricant, sliding = oil.lubricant, -strip.sliding
     newtonian = viscosity * sliding / (strip.thickness * found.mean)
     half = 0.5 * strip.thickness * strip.gradient
 
-    def centred_of(value: FloatArray) -> FloatArray:
+    def centred_of(value: FloatArray, warmer: float = 0.0) -> FloatArray:
+        warm = temperature + warmer
         if not lubricant.shears_film:
-            return lubricant.shear_stress(value, strip.pressure)
-        middle = _profile(lubricant, strip, found, value, half).middle
+            return lubricant.shear_stress(value, strip.pressure, warm)
+        middle = _middle(lubricant, strip, found, value, half, warm)
         return math.copysign(1.0, sliding) * middle + half * found.by_place / found.mean
 
     centred = centred_of(newtonian)
     with np.errstate(invalid="ignore", divide="ignore"):
         steep = np.where(centred != 0, (centred_of(newtonian * (1 + _STEP)) / centred - 1) / _STEP, 1.0)
-    return _Sheared(newtonian, centred - half * centre, centred, steep)
+        weaker = np.zeros_like(steep)
+        if lubricant.shear_law.softens:
+            weaker = np.where(centred != 0, (1 - centred_of(newtonian, _WARMER) / centred) / _WARMER, 0.0)
+    return _Sheared(newtonian, centred - half * centre, centred, steep, weaker)
 
 
-def _profile(lubricant: Lubricant, strip: Strip, found: Sums, newtonian: FloatArray, half: FloatArray) -> Profile:
+def _profile(
+    lubricant: Lubricant,
+    strip: Strip,
+    found: Sums,
+    newtonian: FloatArray,
+    half: FloatArray,
+    temperature: FloatArray,
+) -> Profile:
     """Of layers whose oil its shear law thins, as if sliding sheared it by positive stress."""
-    law, rising = lubricant.shear_law, half * math.copysign(1.0, -strip.sliding)
-    return shear_profile(Section.of(law, found, rising), np.abs(newtonian), half, law.limit(strip.pressure))
+    section = Section.of(lubricant.shear_law, found, half * math.copysign(1.0, -strip.sliding))
+    return shear_profile(section, np.abs(newtonian), half, lubricant.limiting_stress(strip.pressure, temperature))
+
+
+def _middle(
+    lubricant: Lubricant,
+    strip: Strip,
+    found: Sums,
+    newtonian: FloatArray,
+    half: FloatArray,
+    temperature: FloatArray,
+) -> FloatArray:
+    """Stress in the middle of such layers (n,) [Pa], under the limit as the law joins it."""
+    law = lubricant.shear_law
+    if not law.softens:
+        return _profile(lubricant, strip, found, newtonian, half, temperature).middle
+    section = Section.of(law, found, half * math.copysign(1.0, -strip.sliding))
+    limit = lubricant.limiting_stress(strip.pressure, temperature)
+    return smooth_middle(law, np.abs(newtonian), half, limit, section)
 
 
 @dataclass(frozen=True)
@@ -199,7 +241,7 @@ class _Thinned:
     more: FloatArray
 
 
-def _thinned(oil: Oil, strip: Strip, found: Sums, viscosity: FloatArray) -> _Thinned:
+def _thinned(oil: Oil, strip: Strip, found: Sums, viscosity: FloatArray, temperature: FloatArray) -> _Thinned:
     """With the film's own pressure."""
     lubricant = oil.lubricant
     if not lubricant.shears_film:
@@ -208,8 +250,9 @@ def _thinned(oil: Oil, strip: Strip, found: Sums, viscosity: FloatArray) -> _Thi
     least = _SLIGHT * np.abs(half).max()
     half = np.where(np.abs(half) < least, least, half)
     newtonian = np.abs(viscosity * strip.sliding / (strip.thickness * found.mean))
-    uniform = shear_profile(lubricant.shear_law, newtonian, half, lubricant.shear_law.limit(strip.pressure))
-    layered = _profile(lubricant, strip, found, newtonian, half)
+    limit = lubricant.limiting_stress(strip.pressure, temperature)
+    uniform = shear_profile(lubricant.shear_law, newtonian, half, limit)
+    layered = _profile(lubricant, strip, found, newtonian, half, temperature)
     with np.errstate(invalid="ignore", divide="ignore"):
         by, more = layered.moment / half, np.log(layered.moment / uniform.moment)
     return _Thinned(

@@ -75,9 +75,8 @@ class Made:
         blunted = _blunted(driven.sum(axis=1), total - made.sum(axis=1))
         made += blunted[:, None] * driven
         made += ((total - made.sum(axis=1)) / layers)[:, None]
-        slope, growth = self._gathered(
-            found.sheared, found.softer, (1 + found.steep)[:, None] * found.share * found.softer
-        )
+        lost = (1 + found.steep)[:, None] * found.share * found.softer + (found.weaker / layers)[:, None]
+        slope, growth = self._gathered(found.sheared, found.softer, lost)
         edge = self.edge
         bending = found.bent(strip, edge)
         shifted = self._shifted(found, nodes, bending, blunted)

@@ -345,8 +345,8 @@ def _heated(thinned: _Thinned, lubricant: Lubricant, bodies: tuple[Conductor, Co
         value, slope = viscosity(strip.pressure, at)
         rate, extra = strip.sliding / strip.thickness, 1e-4
         stress, warmer = (
-            middle_stress(lubricant, mu * rate, strip.pressure, strip.thickness, strip.gradient)
-            for mu in (value, value + extra * slope)
+            middle_stress(lubricant, mu * rate, strip.pressure, strip.thickness, strip.gradient, warm)
+            for mu, warm in ((value, at), (value + extra * slope, at + extra))
         )
         slopes = np.where(np.abs(stress) < LARGEST_STRESS, (warmer - stress) / extra, 0.0)
         return np.clip(stress, -LARGEST_STRESS, LARGEST_STRESS), slopes

@@ -174,7 +174,7 @@ def point_heat(film: PointFilmSolution, lubricant: Lubricant, bodies: tuple[Cond
 
     def stresses(j: int, at: FloatArray) -> FloatArray:
         newtonian = viscosity(pressure[:, j], at)[0] * abs(slide) / thickness[:, j]
-        return np.where(pressure[:, j] > 0, lubricant.shear_stress(newtonian, pressure[:, j]), 0.0)
+        return np.where(pressure[:, j] > 0, lubricant.shear_stress(newtonian, pressure[:, j], at), 0.0)
 
     highest = pressure.max(axis=0)
     for j in range(pressure.shape[1]):
