@@ -1,0 +1,131 @@
+"""Scatter of a film's friction from the scatter of its oil's constants in shear.
+
+Oils of one base differ: each constant of the shear law "base_oil" has a range (`bem.lubrication.oils.rheology`). The
+friction of a solved film is evaluated anew with each constant at both ends of its range, at the film's own pressures,
+thicknesses and temperatures, and the changes are added in quadrature, as of independent constants. A film whose heat is
+solved for gets warmer where its friction is larger, so that the scatter of the solved friction is smaller than this
+estimate: it is an upper bound. Verified in tests/lubrication/test_oil_scatter.py.
+"""
+
+from __future__ import annotations
+
+import dataclasses
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+import numpy as np
+
+from bem.errors import InputError
+from bem.grid import FloatArray
+from bem.lubrication.film import FilmSolution
+from bem.lubrication.lubricant import Lubricant
+from bem.lubrication.oils.rheology import ShearRheology, rheology_of
+from bem.lubrication.point.film import PointFilmSolution
+from bem.lubrication.shear import BaseOilShear
+from bem.lubrication.thermal.full import FullThermalFilm
+from bem.lubrication.thermal.hot_viscosity import HotViscosity
+from bem.lubrication.thermal.lumped import ThermalFilm
+
+
+@dataclass(frozen=True)
+class OilScatter:
+    """Sliding friction of a film and its scatter from the oil's constants.
+
+    friction : sliding force over load. down, up : scatter to smaller and larger friction, positive.
+    parts : change of the friction with each constant at its low and its high end, by the law's parameter.
+    """
+
+    friction: float
+    down: float
+    up: float
+    parts: Mapping[str, tuple[float, float]]
+
+    @property
+    def half_width(self) -> float:
+        """Mean of both scatters."""
+        return 0.5 * (self.down + self.up)
+
+    def __str__(self) -> str:
+        return f"{self.friction:.3g} (-{self.down:.2g}, +{self.up:.2g} by the oil's constants)"
+
+
+def oil_scatter(
+    film: FilmSolution | PointFilmSolution | ThermalFilm | FullThermalFilm,
+    lubricant: Lubricant | None = None,
+    rheology: ShearRheology | None = None,
+) -> OilScatter:
+    """Return the scatter of a film's sliding friction from the scatter of the oil's constants.
+
+    Parameters
+    ----------
+    film : steady film of a line or a point contact, with or without heat.
+    lubricant : the oil as it was given to the solver; by default the film's own, which a film with lumped heat has as
+        thin as inlet heating leaves it.
+    rheology : constants with their ranges; by default those of the oil. A constant that the lubricant has otherwise
+        than as the central value was given by the user and counts as exact.
+
+    Raises
+    ------
+    InputError : a lubricant with another shear law than "base_oil".
+    """
+    solved = film.as_film() if isinstance(film, ThermalFilm | FullThermalFilm) else film
+    oil = lubricant or solved.lubricant
+    law = oil.shear_law
+    if not isinstance(law, BaseOilShear):
+        raise InputError(f'oil_scatter: shear_law "{law.name}" has no known scatter; allowed: "base_oil"')
+    own = oil.oil.shear if oil.oil is not None else None
+    known = rheology or own or rheology_of(None)
+    if isinstance(solved, PointFilmSolution):
+        sheared, load = _sheared_point(solved, oil), solved.load
+    else:
+        sheared, load = _sheared_line(solved, oil), solved.load
+
+    def friction(of: BaseOilShear) -> float:
+        stress = of.shear_stress(sheared.newtonian, sheared.pressure, sheared.temperature)
+        return float(np.sum(sheared.weight * stress)) / load
+
+    middle, parts = friction(law), {}
+    for name, constant in known.constants().items():
+        if getattr(law, name) != constant.value:
+            continue
+        ends = (dataclasses.replace(law, **{name: end}) for end in (constant.low, constant.high))
+        low, high = (friction(end) - middle for end in ends)
+        parts[name] = (low, high)
+    down = math.sqrt(sum(min(*ends, 0.0) ** 2 for ends in parts.values()))
+    up = math.sqrt(sum(max(*ends, 0.0) ** 2 for ends in parts.values()))
+    return OilScatter(middle, down, up, parts)
+
+
+@dataclass(frozen=True)
+class _Sheared:
+    """Where a film is sheared, each of one shape: size of the Newtonian stress [Pa], pressure [Pa], temperature [K],
+    area or length that it counts with."""
+
+    newtonian: FloatArray
+    pressure: FloatArray
+    temperature: FloatArray | float | None
+    weight: FloatArray
+
+
+def _sheared_line(film: FilmSolution, oil: Lubricant) -> _Sheared:
+    """Nodes of a line film, weighted by the trapezoidal rule."""
+    pressure = np.maximum(film.pressure, 0.0)
+    weight = np.where(film.pressure > 0, np.gradient(film.position), 0.0)
+    rate = abs(film.speeds[0] - film.speeds[1]) / film.thickness
+    if film.heat is None:
+        return _Sheared(oil.viscosity_at(pressure) * rate, pressure, oil.temperature, weight)
+    at = np.interp(film.position, film.heat.position, film.heat.film_temperature)
+    return _Sheared(HotViscosity.of(oil)(pressure, at)[0] * rate, pressure, at, weight)
+
+
+def _sheared_point(film: PointFilmSolution, oil: Lubricant) -> _Sheared:
+    """Cells of a point film."""
+    cell = float((film.x[1] - film.x[0]) * (film.y[1] - film.y[0]))
+    weight = np.where(film.pressure > 0, cell, 0.0)
+    slide = math.hypot(*np.subtract(film.speeds[1], film.speeds[0]))
+    rate = slide / film.thickness
+    if film.temperature is None:
+        return _Sheared(oil.viscosity_at(film.pressure) * rate, film.pressure, oil.temperature, weight)
+    flat = HotViscosity.of(oil)(film.pressure.ravel(), film.temperature.ravel())[0]
+    return _Sheared(flat.reshape(film.pressure.shape) * rate, film.pressure, film.temperature, weight)
