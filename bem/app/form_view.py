@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
+from functools import partial
 from typing import Any
 
 from nicegui import ui
@@ -10,6 +11,7 @@ from nicegui import ui
 from bem.app.layout import say
 from bem.errors import BemError
 from bem.scenes.form import Entry, FormTable, text_of, with_kind, with_value
+from bem.scenes.keys import LEVELS
 from bem.scenes.paths import parse_key, value_at
 
 _UNSET = "(not set)"
@@ -72,6 +74,33 @@ class FormView:
         self._changed(self.table)
 
     def _entries(self, entries: Sequence[Entry], top: bool = False) -> None:
+        """Keys of a table: its lowest level, and the others behind folds, open where a value is set."""
+        present = [level for level in LEVELS if any(entry.level == level for entry in entries)]
+        for level in present:
+            group = [entry for entry in entries if entry.level == level]
+            if level == present[0]:
+                self._group(group, top)
+                continue
+            is_open = any(self._value(entry.key) is not None for entry in group)
+            fold = ui.expansion(f"{level}: {_names(group)}", value=is_open).classes("w-full").props("dense")
+            fold.props["data-level"] = f"{group[0].key.rpartition('.')[0]}:{level}"
+            self._fill_when_open(fold, partial(self._group, group, top), is_open)
+
+    def _fill_when_open(self, outer: Any, fill: Callable[[], None], is_open: bool) -> None:
+        """Fill an expansion once, when it is opened first."""
+        filled = [False]
+
+        def once() -> None:
+            if not filled[0]:
+                filled[0] = True
+                with outer:
+                    fill()
+
+        outer.on_value_change(lambda e: once() if e.value else None)
+        if is_open:
+            once()
+
+    def _group(self, entries: Sequence[Entry], top: bool) -> None:
         plain = [entry for entry in entries if not entry.tables]
         with ui.element("div").classes("w-full").style(_GRID):
             for entry in plain:
@@ -81,6 +110,11 @@ class FormView:
                 self._inner(entry, top)
 
     def _leaf(self, entry: Entry) -> None:
+        with ui.element("div"):
+            self._field(entry)
+            ui.label(entry.meaning).classes("text-caption text-grey-8").style("line-height: 1.25")
+
+    def _field(self, entry: Entry) -> None:
         value = self._value(entry.key)
         words = entry.name + (" *" if entry.required else "")
         if entry.switch:
@@ -104,13 +138,11 @@ class FormView:
             item = ui.input(
                 words,
                 value=text_of(value),
-                placeholder=entry.default,
+                placeholder=entry.default or f"such as {entry.example.strip(chr(34))}",
                 on_change=lambda e, key=entry.key: self._put(key, e.value or ""),
                 autocomplete=list(entry.choices) or None,
             ).props("dense outlined debounce=400 stack-label")
         item.classes("w-full").props["data-key"] = entry.key
-        if entry.allowed and not entry.switch:
-            item.props["hint"] = entry.allowed
         self._inputs[entry.key] = item
 
     def _inner(self, entry: Entry, top: bool) -> None:
@@ -121,17 +153,8 @@ class FormView:
         outer = ui.expansion(heading, value=is_open).classes("w-full").props("dense header-class=text-bold")
         outer.style("border-left: 3px solid #bcd4de; background: white")
         outer.props["data-table"] = entry.key
-        filled = [False]
-
-        def fill() -> None:
-            if not filled[0]:
-                filled[0] = True
-                with outer:
-                    self._inside(entry)
-
-        outer.on_value_change(lambda e: fill() if e.value else None)
-        if is_open:
-            fill()
+        outer.props["caption"] = entry.description
+        self._fill_when_open(outer, partial(self._inside, entry), is_open)
 
     def _inside(self, entry: Entry) -> None:
         body = ui.column().classes("w-full gap-1 q-pl-sm")
@@ -153,7 +176,6 @@ class FormView:
                 return
             if value is None and not entry.required:
                 ui.label("not set; what is filled in here sets it").classes("text-caption text-grey")
-            self._about(entry.tables[0])
             self._entries(entry.tables[0].entries)
             return
         chosen = _member_of(entry, value)
@@ -207,7 +229,13 @@ class FormView:
             ui.label(table.about).classes("text-caption text-grey-8")
 
 
-_GRID = "display: grid; grid-template-columns: repeat(auto-fill, minmax(230px, 1fr)); gap: 18px 10px; padding: 0 0 14px"
+_GRID = "display: grid; grid-template-columns: repeat(auto-fill, minmax(230px, 1fr)); gap: 10px; padding: 0 0 14px"
+
+
+def _names(entries: Sequence[Entry]) -> str:
+    """Names of the first keys of a fold."""
+    names = [entry.name for entry in entries]
+    return ", ".join(names[:5]) + (f" and {len(names) - 5} more" if len(names) > 5 else "")
 
 
 def _member_of(entry: Entry, value: Any) -> FormTable | None:

@@ -33,19 +33,23 @@ def register(app: typer.Typer) -> None:
         file: Annotated[
             Path | None, typer.Argument(metavar="[FILE]", help="File to write; without it KIND.toml.")
         ] = None,
+        everything: Annotated[
+            bool, typer.Option("--all", help="Write all keys, with those that few users set behind a #.")
+        ] = False,
     ) -> None:
-        """Write a commented scene of a kind, with all its keys, to start from.
+        """Write a commented scene of a kind to start from: the keys that every user sets, with meaning and unit.
 
         \b
         Examples:
           bem new
           bem new contact
+          bem new contact --all
           bem new wear my-wear.toml
           bem new stribeck
           bem new gear-pair gears.toml
         """
         from bem.cli._terminal import print_written
-        from bem.errors import ResultsError
+        from bem.errors import InputError, ResultsError
         from bem.results.atomic import write_text
         from bem.scenes.template import scene_template
 
@@ -55,7 +59,9 @@ def register(app: typer.Typer) -> None:
         element = element_text(kind)
         if not element:
             _check_kind(kind)
-        text = element or scene_template(kind)
+        elif everything:
+            raise InputError(f"--all: {kind} is a machine element; its file has all keys; allowed: without --all")
+        text = element or scene_template(kind, everything=everything)
         path = file or Path(f"{kind}.toml")
         if path.exists():
             raise ResultsError(f"{path}: exists; give another FILE")

@@ -18,10 +18,10 @@ import numpy as np
 
 from bem.errors import InputError
 from bem.grid import FloatArray
-from bem.lubrication.film import FilmSolution
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.oils.rheology import ShearRheology, rheology_of
 from bem.lubrication.point.film import PointFilmSolution
+from bem.lubrication.results import FilmSolution
 from bem.lubrication.shear import BaseOilShear
 from bem.lubrication.thermal.full import FullThermalFilm
 from bem.lubrication.thermal.hot_viscosity import HotViscosity

@@ -44,9 +44,9 @@ class Variant(Table):
 class CylinderTable(Table):
     """A cylinder along y on a flat; forces act on its full width."""
 
-    radius: PositiveLength = key("Radius of the cylinder.", "basic")
+    radius: PositiveLength = key("Radius of the cylinder.", "basic", example="10 mm")
     width: PositiveLength = key(
-        "Width of the contact: length of the cylinder along y, on which the load acts.", "basic"
+        "Width of the contact: length of the cylinder along y, on which the load acts.", "basic", example="8 mm"
     )
 
 
@@ -65,26 +65,28 @@ def _named(name: Any, catalogue: Mapping[str, _Entry], wrong: str) -> _Entry:
 class MaterialScene(Table):
     """Elastic solid: a name of the catalogue (`bem materials`), or constants of your own, which win over its own."""
 
-    name: str = key("Name of the material in reports.", "advanced", default="unnamed")
-    youngs_modulus: PositivePressure = key("Young's modulus E.", "basic")
+    name: str = key("Name of the material in reports.", "advanced", default="unnamed", example="my steel")
+    youngs_modulus: PositivePressure = key("Young's modulus E.", "basic", example="210 GPa")
     poissons_ratio: Annotated[Ratio, Field(gt=-1, lt=0.5)] = key("Poisson's ratio, above -1 and below 0.5.", "basic")
     hardness: PositivePressure | None = key(
         "Indentation hardness: the highest contact pressure of elastic-perfectly plastic models.",
         "advanced",
         default=None,
         reason="2.8 times the yield stress",
+        example="7 GPa",
     )
     yield_stress: PositivePressure | None = key(
         "Yield stress, with which wear criteria compare the equivalent stress.",
         "advanced",
         default=None,
         reason="hardness / 2.8",
+        example="2.5 GPa",
     )
     thermal_conductivity: Annotated[ThermalConductivity, Field(gt=0)] | None = key(
         "Thermal conductivity; only temperatures need it.", "advanced", default=None
     )
     density: Annotated[Density, Field(gt=0)] | None = key(
-        "Density; only temperatures need it.", "advanced", default=None
+        "Density; only temperatures need it.", "advanced", default=None, example="7850 kg/m^3"
     )
     heat_capacity: Annotated[HeatCapacity, Field(gt=0)] | None = key(
         "Specific heat capacity; only temperatures need it.", "advanced", default=None
@@ -118,7 +120,7 @@ class LayerScene(Table):
     material: MaterialScene = key(
         "Material of the layer: a name of the catalogue (`bem materials`), or a table of constants.", "basic"
     )
-    thickness: PositiveLength = key("Thickness of the layer.", "basic")
+    thickness: PositiveLength = key("Thickness of the layer.", "basic", example="2 um")
 
     def build(self) -> Layer:
         """As `bem.Layer`."""
@@ -136,9 +138,10 @@ class GeneratedSurface(Table):
 
     kind: Literal["generated"] = key("Random rough surface with given statistics.", "basic", default="generated")
     process: ProcessName | None = key(
-        "Manufacturing process, which supplies typical roughness statistics (`bem surfaces` lists them).",
+        "Manufacturing process, which supplies typical statistics (`bem surfaces`).",
         "basic",
         default=None,
+        example="ground",
     )
     lay: Lay | None = key(
         "Direction of the ridges of a directional process: x along sliding, y across.",
@@ -146,24 +149,37 @@ class GeneratedSurface(Table):
         default=None,
         reason="y, the usual lay across sliding",
     )
-    rms_height: PositiveLength = key("Root-mean-square roughness Sq.", "basic")
+    rms_height: PositiveLength = key("Root-mean-square roughness Sq.", "basic", example="0.2 um")
     correlation_length: PositiveLength | None = key(
-        "Autocorrelation length (decay to 1/e); geometric mean over both axes; or give hurst.", "basic", default=None
+        "Autocorrelation length (decay to 1/e); geometric mean over both axes; or give hurst.",
+        "basic",
+        default=None,
+        example="15 um",
     )
     elongation: Annotated[Ratio, Field(ge=0.01, le=100)] | None = key(
         "Ratio of the autocorrelation lengths along x and y (anisotropy).",
         "advanced",
         default=None,
         reason="1, or that of the process",
+        example=3.0,
     )
     hurst: Annotated[Ratio, Field(gt=0, le=1)] | None = key(
-        "Hurst exponent of a self-affine power spectrum; instead of correlation_length.", "advanced", default=None
+        "Hurst exponent of a self-affine power spectrum; instead of correlation_length.",
+        "advanced",
+        default=None,
+        example=0.8,
     )
     rolloff_wavelength: PositiveLength | None = key(
-        "Roll-off wavelength: the self-affine power spectrum is flat above it.", "advanced", default=None
+        "Roll-off wavelength: the self-affine power spectrum is flat above it.",
+        "advanced",
+        default=None,
+        example="40 um",
     )
     cutoff_wavelength: PositiveLength | None = key(
-        "Shortest wavelength of the roughness; several cells, or slopes depend on the grid.", "advanced", default=None
+        "Shortest wavelength of the roughness; several cells, or slopes depend on the grid.",
+        "advanced",
+        default=None,
+        example="12 um",
     )
     skewness: Ratio = key("Skewness Ssk of the heights; 0 is Gaussian.", "advanced", default=0.0)
     kurtosis: Annotated[Ratio, Field(gt=1)] = key(
@@ -180,13 +196,18 @@ class GeneratedSurface(Table):
         default=None,
     )
     seed: Annotated[int, Field(strict=True, ge=0, lt=2**63)] | None = key(
-        "Seed of this surface's random numbers.", "expert", default=None, reason="derived from the seed of the scene"
+        "Seed of this surface's random numbers.",
+        "expert",
+        default=None,
+        reason="derived from the seed of the scene",
+        example=7,
     )
     drawn_on: tuple[Cells, Cells] | None = key(
         "Number of cells along x and y on which the surface is generated; all grids as fine then see the same surface.",
         "expert",
         default=None,
         reason="the cells of the grid",
+        example=256,
     )
     source: str = key("Source of the statistics, repeated in the scene file of the run.", "expert", default="")
 
@@ -247,7 +268,7 @@ class GeneratedSurface(Table):
 
 
 class MeasuredSurface(Table):
-    """A surface from an instrument's file; see `bem.read_surface`. Paths are relative to the scene file.
+    """Measured surface from an instrument's file.
 
     In this order: read, despiked, levelled, missing points filled, cropped to lengths around `centre`, filtered,
     resampled to the grid, levelled again, made periodic (mirrored or seams closed), scaled to `rms_height`. A run's
@@ -256,7 +277,9 @@ class MeasuredSurface(Table):
 
     kind: Literal["measured"] = key("Measured surface, from the file of an instrument.", "basic", default="measured")
     path: str = key(
-        "File of the measured heights, relative to the scene file; `bem surface describe FILE` shows it.", "basic"
+        "File of the measured heights, relative to the scene file; `bem surface describe FILE` shows it.",
+        "basic",
+        example="my-surface.sur",
     )
     detrend: Literal["plane", "curvature", "none"] = key(
         "Form removal: subtract the mean plane, a second-order surface (curvature), or nothing.",
@@ -268,6 +291,7 @@ class MeasuredSurface(Table):
         "Remove outliers that stand out from their neighbours by this many standard deviations (6: spikes only).",
         "advanced",
         default=None,
+        example=6.0,
     )
     fill: bool = key(
         "Fill missing points by harmonic interpolation; false refuses maps with missing points.",
@@ -276,25 +300,32 @@ class MeasuredSurface(Table):
         strict=True,
     )
     channel: str | Annotated[int, Field(strict=True, ge=0)] | None = key(
-        "Name or number of the data channel, for files that hold several.", "advanced", default=None
+        "Name or number of the data channel, for files that hold several.", "advanced", default=None, example="Height"
     )
     spacing: tuple[PositiveLength, PositiveLength] | None = key(
-        "Pixel size along x and y, for files that do not state it or state it wrongly.", "advanced", default=None
+        "Pixel size along x and y, for files that do not state it or state it wrongly.",
+        "advanced",
+        default=None,
+        example="0.5 um",
     )
     height_unit: str | None = key(
-        'Unit of the heights, such as "um", for files that do not state it.', "advanced", default=None
+        'Unit of the heights, such as "um", for files that do not state it.', "advanced", default=None, example="um"
     )
     crop: tuple[PositiveLength, PositiveLength] | None = key(
-        "Lengths along x and y of the part of the map that is used.", "advanced", default=None, reason="the whole map"
+        "Lengths along x and y of the part of the map that is used.",
+        "advanced",
+        default=None,
+        reason="the whole map",
+        example="200 um",
     )
     centre: tuple[Length, Length] = key(
         "Centre of that part, measured from the middle of the map.", "advanced", default=(0.0, 0.0)
     )
     low_pass: PositiveLength | None = key(
-        "Low-pass filter: removes shorter wavelengths than this.", "advanced", default=None
+        "Low-pass filter: removes shorter wavelengths than this.", "advanced", default=None, example="2.5 um"
     )
     high_pass: PositiveLength | None = key(
-        "High-pass filter: removes longer wavelengths than this.", "advanced", default=None
+        "High-pass filter: removes longer wavelengths than this.", "advanced", default=None, example="80 um"
     )
     mirror: Axis = key(
         "Mirror the map along these axes to make it periodic.",
@@ -303,7 +334,7 @@ class MeasuredSurface(Table):
         reason="none: edge steps of a periodic map are removed by the periodic-plus-smooth decomposition",
     )
     rms_height: PositiveLength | None = key(
-        "Scales the measured heights to this root-mean-square roughness Sq.", "advanced", default=None
+        "Scales the measured heights to this root-mean-square roughness Sq.", "advanced", default=None, example="0.2 um"
     )
     sha256: Annotated[str, Field(pattern="^[0-9a-f]{64}$")] | None = key(
         "Checksum of the file, written by a run; a changed file is then refused.", "expert", default=None
@@ -341,7 +372,7 @@ class _LayeredScene(Table):
         default=[],
     )
     surface: SurfaceScene = key(
-        "Roughness of the body: smooth, generated or measured.", "basic", default=SmoothSurface()
+        "Roughness of the body: generated or measured; smooth without this table.", "basic", default=SmoothSurface()
     )
 
     @field_validator("surface", mode="before")
@@ -414,13 +445,16 @@ class GridScene(Table):
     """
 
     shape: tuple[Cells, Cells] | None = key(
-        "Number of cells along x and y; one number stands for both.", "basic", default=None
+        "Number of cells along x and y; one number stands for both.", "basic", default=None, example=256
     )
     spacing: tuple[PositiveLength, PositiveLength] | None = key(
-        "Cell size along x and y; the shortest wavelength of the roughness needs several cells.", "basic", default=None
+        "Cell size along x and y; the shortest wavelength of the roughness needs several cells.",
+        "basic",
+        default=None,
+        example="1 um",
     )
     lengths: tuple[PositiveLength, PositiveLength] | None = key(
-        "Side lengths of the grid along x and y; instead of spacing.", "basic", default=None
+        "Side lengths of the grid along x and y; instead of spacing.", "basic", default=None, example="256 um"
     )
     periodic: tuple[Annotated[bool, Field(strict=True)], Annotated[bool, Field(strict=True)]] = key(
         "Periodic continuation along x and y; true for a nominally flat contact.",
@@ -483,17 +517,22 @@ class SceneModel(Table):
         "Seed of all random numbers; the same seed gives the same surfaces.", "advanced", default=1
     )
     repetitions: Repetitions | None = key(
-        "Number of runs with other random surfaces, for means and standard deviations.", "advanced", default=None
+        "Number of runs with other random surfaces, for means and standard deviations.",
+        "advanced",
+        default=None,
+        example=5,
     )
     over: dict[str, list[Any]] | None = key(
         "Parameter study: dotted keys with lists of values, of which all combinations are run.",
         "advanced",
         default=None,
+        example={"seed": [1, 2, 3]},
     )
     accuracy: AskedAccuracy | None = key(
         'Target accuracy, such as "1 %": grid, mesh and steps are refined until the error estimates meet it.',
         "advanced",
         default=None,
+        example="1 %",
     )
     _source: dict[str, Any] | None = PrivateAttr(default=None)
 

@@ -18,7 +18,13 @@ LEVELS: tuple[Level, ...] = ("basic", "advanced", "expert")
 
 
 def key(
-    description: str, level: Level, *, default: Any = PydanticUndefined, reason: str = "", **constraints: Any
+    description: str,
+    level: Level,
+    *,
+    default: Any = PydanticUndefined,
+    reason: str = "",
+    example: Any = None,
+    **constraints: Any,
 ) -> Any:
     """Field of a table that explains itself.
 
@@ -28,10 +34,12 @@ def key(
     level : "basic" (what every user sets), "advanced" (choice of model or option), "expert" (numerics).
     default : value where the key is not given; without it the key is required.
     reason : why the default is what it is; of a default None, what is taken then.
+    example : a typical value as it would be typed, for templates; without it one of the key's dimension.
     constraints : bounds and further arguments of `pydantic.Field`.
     """
     extra: dict[str, Any] = {"level": level} | ({"reason": reason} if reason else {})
-    return Field(default, description=description, json_schema_extra=extra, **constraints)
+    examples = None if example is None else [example]
+    return Field(default, description=description, json_schema_extra=extra, examples=examples, **constraints)
 
 
 def level_of(field: FieldInfo) -> Level:

@@ -57,10 +57,13 @@ class SpeedsScene(Table):
     """
 
     values: Annotated[list[Speed], Field(min_length=1, max_length=512)] | None = key(
-        "Speeds of the lower body (flat); instead of first, last and count.", "advanced", default=None
+        "Speeds of the lower body (flat), one by one; instead of first, last and count.",
+        "basic",
+        default=None,
+        example=["0.1 m/s", "1 m/s"],
     )
-    first: Speed | None = key("First speed of the lower body (flat).", "basic", default=None)
-    last: Speed | None = key("Last speed of the lower body (flat).", "basic", default=None)
+    first: Speed | None = key("First speed of the lower body (flat).", "basic", default=None, example="0.01 m/s")
+    last: Speed | None = key("Last speed of the lower body (flat).", "basic", default=None, example="1 m/s")
     count: Annotated[int, Field(strict=True, ge=2, le=512)] = key(
         "Number of speeds from first to last, in a geometric series.", "basic", default=20
     )
@@ -68,10 +71,11 @@ class SpeedsScene(Table):
         "Speed of the upper body over that of the lower: 0 is pure sliding, 1 pure rolling.", "advanced", default=0.0
     )
     slide_roll_ratio: Annotated[Ratio, Field(gt=-2, le=2)] | None = key(
-        "Slide-to-roll ratio 2 (u1 - u2)/(u1 + u2): 0 is pure rolling, 2 pure sliding.",
+        "Slide-to-roll ratio 2 (u1 - u2)/(u1 + u2), u1 of the lower body: 0 is pure rolling, 2 pure sliding.",
         "basic",
         default=None,
         reason="pure sliding",
+        example=0.5,
     )
 
     @model_validator(mode="before")
@@ -133,15 +137,24 @@ def slide_roll_ratio(other_over_flat: Any) -> Any:
 class LubricatedScene(SmoothShapeScene):
     """The contact as a whole: a cylinder, ball or ellipsoid on a flat, its load and its boundary friction."""
 
-    loads: Loads | None = key("Normal loads on the whole contact, one result for each.", "basic", default=None)
+    loads: Loads | None = key(
+        "Normal loads on the whole contact, one result for each.", "basic", default=None, example=["20 N"]
+    )
     hertz_pressures: Annotated[list[Annotated[Pressure, Field(gt=0)]], Field(min_length=1, max_length=64)] | None = key(
-        "Maximum Hertz pressures of the smooth contact; instead of loads.", "advanced", default=None
+        "Maximum Hertz pressures of the smooth contact; instead of loads.",
+        "advanced",
+        default=None,
+        example=["0.8 GPa"],
     )
     boundary_friction: Annotated[
         float | BoundaryFriction, LawOrNumber("boundary_friction", number=Annotated[Ratio, Field(ge=0, le=2)])
-    ] = key("Friction coefficient where the surfaces touch, or a law of boundary friction.", "basic")
+    ] = key("Friction coefficient where the surfaces touch, or a law of boundary friction.", "basic", example=0.12)
     hardness: PositivePressure | None = key(
-        "Hardness that limits the contact pressure.", "advanced", default=None, reason="that of the softer body"
+        "Hardness that limits the contact pressure.",
+        "advanced",
+        default=None,
+        reason="that of the softer body",
+        example="7 GPa",
     )
 
     @model_validator(mode="after")
@@ -178,8 +191,8 @@ class FilmMeshScene(Table):
     cells: FilmCells = key(
         "Number of cells of the film mesh of a point contact along each axis.", "expert", default=FILM_CELLS
     )
-    start: Length | None = key("Inlet end of a uniform output mesh.", "expert", default=None)
-    end: Length | None = key("Outlet end of the uniform output mesh.", "expert", default=None)
+    start: Length | None = key("Inlet end of a uniform output mesh.", "expert", default=None, example="-1 mm")
+    end: Length | None = key("Outlet end of the uniform output mesh.", "expert", default=None, example="0.5 mm")
     count: Annotated[int, Field(strict=True, ge=50, le=20000)] = key(
         "Number of nodes of the uniform output mesh.", "expert", default=2000
     )
@@ -200,15 +213,17 @@ class FilmMeshScene(Table):
 class MixedScene(SceneModel):
     """A rough cylinder, ball or ellipsoid on a rough flat with oil between them."""
 
-    lower: BodyScene = key("Lower body, on which friction acts along +x.", "basic")
-    upper: BodyScene = key("Upper body, which has the shape of the contact.", "basic")
+    lower: BodyScene = key("Lower body: the flat or disc, on which friction acts along +x.", "basic")
+    upper: BodyScene = key("Upper body: the cylinder or ball.", "basic")
     contact: LubricatedScene = key("Shape of the contact, load and boundary friction.", "basic")
     oil: OilScene = key("Lubricant.", "basic")
     speeds: SpeedsScene = key("Speeds of both surfaces.", "basic")
     supply: SupplyScene | None = key(
         "Oil supply of a starved contact; without it the inlet is flooded.", "advanced", default=None
     )
-    grid: LineGridScene = key("Grid of the rough contact.", "basic", default=LineGridScene())
+    grid: LineGridScene = key(
+        "Grid of the rough contact, a patch that holds the Hertz contact.", "basic", default=LineGridScene()
+    )
 
     cell_may_repeat: ClassVar[bool] = False
     """Whether the rough patch of a ball may be a cell that repeats all over the contact."""

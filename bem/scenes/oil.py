@@ -56,18 +56,25 @@ class OilScene(LawTable):
         "Oil of the catalogue by name or grade (`bem oils` lists them), at the given temperature.",
         "basic",
         default=None,
+        example="ISO VG 68",
     )
     viscosities: Annotated[list[tuple[Temperature, KinematicViscosity]], Field(min_length=2, max_length=64)] | None = (
-        key("Measured kinematic viscosities at two or more temperatures; instead of grade.", "advanced", default=None)
+        key(
+            "Measured kinematic viscosities at two or more temperatures; instead of grade.",
+            "advanced",
+            default=None,
+            example=[["40 degC", "68 mm^2/s"], ["100 degC", "8.6 mm^2/s"]],
+        )
     )
     viscosity: Viscosity | None = key(
         "Dynamic viscosity at ambient pressure and the temperature of the contact; instead of grade.",
         "advanced",
         default=None,
+        example="20 mPa*s",
     )
     temperature: Temperature | None = key("Temperature of the oil at the inlet.", "basic", default=None)
     viscosity_index: Annotated[Ratio, Field(ge=-100, le=450)] | None = key(
-        "Viscosity index of the grade.", "advanced", default=None, reason="the usual one of the base oil"
+        "Viscosity index of the grade.", "advanced", default=None, reason="the usual one of the base oil", example=95
     )
     base: Base | None = key(
         "Base oil, which decides viscosity index, pressure-viscosity coefficient, density and thermal constants.",
@@ -85,15 +92,16 @@ class OilScene(LawTable):
         "advanced",
         default=None,
         reason="that of the grade, or 0 beside viscosity",
+        example="20 1/GPa",
     )
     density: Annotated[Density, Field(gt=0)] | None = key(
         "Density.", "advanced", default=None, reason="that of the oil"
     )
     heat_capacity: Annotated[HeatCapacity, Field(gt=0)] | None = key(
-        "Specific heat capacity.", "advanced", default=None, reason="that of the oil"
+        "Specific heat capacity.", "advanced", default=None, reason="that of the oil", example="2000 J/(kg*K)"
     )
     thermal_conductivity: Annotated[ThermalConductivity, Field(gt=0)] | None = key(
-        "Thermal conductivity.", "advanced", default=None, reason="that of the oil"
+        "Thermal conductivity.", "advanced", default=None, reason="that of the oil", example="0.14 W/(m*K)"
     )
     temperature_viscosity: Annotated[Softening, Field(gt=0)] | None = key(
         "Temperature-viscosity coefficient beta = -d ln(viscosity)/dT.",

@@ -35,7 +35,7 @@ class WearRateScene(Table):
     specific_wear_rate: Annotated[WearCoefficient, Field(gt=0)] = key(
         "Specific wear rate k: worn volume per load and sliding distance.", "basic"
     )
-    distance: PositiveLength = key("Sliding distance.", "basic")
+    distance: PositiveLength = key("Sliding distance.", "basic", example="100 m")
 
     def figures(self, load: float, mean_particle_volume: float) -> dict[str, float]:
         """What records hold of it, for a load [N] and particles of a mean volume [m^3]."""

@@ -1,26 +1,26 @@
-"""A commented scene of any kind, written from the kind's model: what is set, and what could be."""
+"""Commented scenes of any kind, written from the entries of its form: the keys that every user sets, or all of them."""
 
 from __future__ import annotations
 
 import json
 import re
-import typing
+import textwrap
+import tomllib
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
+from importlib import resources
 from typing import Any
 
-from pydantic import BaseModel
-from pydantic.fields import FieldInfo
-from pydantic_core import PydanticUndefined
-
 from bem.errors import InputError
-from bem.laws import Law
+from bem.scenes.form import Entry, FormTable, keys_of_kind
+from bem.scenes.keys import LEVELS
 from bem.scenes.kind import get_kind, kind_names
-from bem.scenes.laws import LawOrNumber
 from bem.scenes.load import dumped, library, library_text
-from bem.scenes.units import Dimension
-from bem.scenes.validate import fields_of_table, law_at, literals, member_of, nearest, show, unwrap, without_none
+from bem.scenes.validate import nearest, show
 
-_NOT_SHOWN = ("kind", "redoes", "name")
+_MOST_CHOICES = 12
+_WIDEST, _WIDTH = 42, 118
+"""Column of the comments behind keys, at most, and where they end."""
 
 
 ALSO = {
@@ -81,17 +81,22 @@ def kind_meant(word: str) -> str:
     return name if name in kind_names() else ALSO.get(name, word)
 
 
-def scene_template(kind: str) -> str:
-    """A TOML scene that runs as it is, with every other key of the kind as a comment: default, unit, choices.
+def scene_template(kind: str, *, everything: bool = False) -> str:
+    """Return a TOML scene that runs as it is: the keys that every user sets, each with its meaning and unit.
 
-    `kind` may be one of the names that people guess, or that of a built-in scene: its own text is then given.
+    Parameters
+    ----------
+    kind : a kind, a name that people guess for one, or a built-in scene, whose own text is then given.
+    everything : also all other keys, as comments by level; refused for a built-in scene.
 
     Raises
     ------
-    InputError : no such kind, or none of its built-in scenes can serve as a start.
+    InputError : no such kind, or none of its scenes can serve as a start.
     """
     kind = kind_meant(kind)
     if kind not in kind_names() and kind in library():
+        if everything:
+            raise InputError(f"--all: {kind} is a built-in scene; allowed: a kind, such as {library()[kind]['kind']}")
         return without_description(library_text(kind))
     if kind not in kind_names():
         listed = ", ".join(f'"{name}"' for name in kind_names())
@@ -99,17 +104,29 @@ def scene_template(kind: str) -> str:
         raise InputError(
             f"KIND {show(kind)}: not a kind of scene{close}; allowed: {listed}, or a built-in scene of `bem scenes`"
         )
-    found = get_kind(kind)
-    name, data = shortest_scene(kind)
-    data = {key: value for key, value in data.items() if key != "description"}
+    data = start_scene(kind)
+    more = "Keys behind a # show their default or an example; levels: basic, advanced (models), expert (numerics)."
     lines = [
-        f"# {found.title}",
-        f"# Values are those of the built-in scene `{name}`; lines behind a # are other keys with their defaults.",
-        "# Numbers without a unit are in SI units. `bem plan FILE` says what would run, `bem run FILE` runs it.",
+        f"# {get_kind(kind).title[:1].upper()}{get_kind(kind).title[1:]}.",
+        "# Change the values. A quoted value has its own unit; a bare number is in the SI unit in [brackets].",
+        f"# {more}" if everything else f"# Keys behind a # are alternatives; `bem new {kind} --all` writes all.",
+        "# `bem plan FILE` checks the file and shows the work, `bem run FILE` runs it.",
         f'kind = "{kind}"',
-        *_table(found.model, data, (), commented=False),
+        *_Writer(everything).table(keys_of_kind(kind), data, ()),
     ]
     return "\n".join(lines).rstrip() + "\n"
+
+
+def start_scene(kind: str) -> dict[str, Any]:
+    """Values of a first scene of a kind, for keys that every user sets; of a kind without one, its shortest built-in
+    scene.
+
+    Raises
+    ------
+    InputError : there is neither.
+    """
+    file = resources.files("bem.scenes") / "starts" / f"{kind}.toml"
+    return tomllib.loads(file.read_text("utf-8")) if file.is_file() else shortest_scene(kind)[1]
 
 
 def without_description(text: str) -> str:
@@ -133,117 +150,147 @@ def shortest_scene(kind: str) -> tuple[str, dict[str, Any]]:
     return name, plain[name]
 
 
-def _table(model: Any, data: Mapping[str, Any], path: tuple[str, ...], *, commented: bool) -> Iterator[str]:
-    """The keys of a table, then its tables, each under its heading."""
-    inner: list[tuple[str, Any, Any]] = []
-    mark = "# " if commented else ""
-    fields = fields_of_table(model)
-    for key in data:  # short forms that are no fields, such as the name of a catalogue material
-        if key not in fields:
-            yield f"{mark}{key} = {dumped(data[key])}"
-    for key, field in fields.items():
-        if key in _NOT_SHOWN and not (path and key == "kind" and key in data):
-            continue
-        value = data.get(key)
-        if key in data and not isinstance(value, Mapping):
-            if isinstance(value, list) and value and isinstance(value[0], Mapping):
-                inner.append((key, field, value))
-            else:
-                yield _line(f"{mark}{key} = {dumped(value)}", field)
-        elif key in data or _is_table(field.annotation):
-            inner.append((key, field, value))
-        else:
-            yield _line(f"# {key} = {default_text(field)}", field)
-    for key, field, value in inner:
-        yield from _inner(key, field, value, (*path, key), commented)
+class _Writer:
+    """Lines of the tables of a scene.
+
+    Parameters
+    ----------
+    everything : whether to write all keys; otherwise those at the level basic, in tables that have values.
+    """
+
+    def __init__(self, everything: bool) -> None:
+        self._everything = everything
+        self._written: dict[Any, str] = {}
+
+    def table(self, table: FormTable, data: Mapping[str, Any], path: tuple[str, ...]) -> Iterator[str]:
+        """The keys of a table with values, by level, then its tables."""
+        self._written.setdefault(_identity(table), ".".join(path))
+        lines = [(f"catalogue = {dumped(data['catalogue'])}", _CATALOGUE)] if "catalogue" in data else []
+        if table.kind and path and "kind" in data:
+            lines.append((f"kind = {dumped(data['kind'])}", table.about))
+        inner: list[tuple[Entry, Any]] = []
+        for one in _by_level(table):
+            value = data.get(one.last)
+            if _has_heading(one, value):
+                inner.append((one, value))
+                continue
+            if value is not None:
+                lines.append((f"{one.last} = {_typed(value)}", _meaning(one, short=not self._everything)))
+            elif one.typed and not one.rows and (self._everything or one.level == "basic"):
+                lines.append((f"# {one.last} = {one.example}", _meaning(one, short=not self._everything)))
+            if self._everything and (one.tables or one.rows) and not _beside(table, one):
+                inner.append((one, None))
+        yield from _aligned(lines)
+        order = {name: number for number, name in enumerate(data)}  # tables with values first, as they were given
+        for one, value in sorted(
+            inner, key=lambda item: (order.get(item[0].last, len(order)), LEVELS.index(item[0].level))
+        ):
+            yield from self._inner(one, value, (*path, one.last))
+
+    def _inner(self, entry: Entry, value: Any, path: tuple[str, ...]) -> Iterator[str]:
+        """A table or tables at a key: with values, or behind a #."""
+        heading, chosen = ".".join(path), None
+        if isinstance(value, list) and entry.rows is not None:
+            for row in value:
+                yield from ("", *_comment(entry.description), f"[[{heading}]]")
+                yield from self.table(entry.rows, row, path)
+        elif isinstance(value, Mapping):
+            chosen = _member(entry, value)
+            yield from ("", *_comment(entry.description), f"[{heading}]")
+            yield from self.table(chosen, value, path)
+        if self._everything and not isinstance(value, list):
+            yield from self._behind(entry, heading, chosen)
+
+    def _behind(self, entry: Entry, heading: str, chosen: FormTable | None = None) -> Iterator[str]:
+        """The tables at a key behind a #, but for the chosen one; keys of a table stand where it comes first."""
+        tables = [entry.rows] if entry.rows else [one for one in entry.tables if one is not chosen and one.entries]
+        label = f"[[{heading}]]" if entry.rows else f"[{heading}]"
+        for number, table in enumerate(tables):
+            about = entry.meaning if number == 0 and chosen is None else "Instead of that:"
+            yield ""
+            yield from _comment(about if entry.level == "basic" else f"({entry.level}) {about}")
+            known = self._written.get(_identity(table))
+            kind = f'  kind = "{table.kind}"' if table.kind and known is not None else ""
+            yield f"# {label}{kind}" + (f"  # keys as in [{known}]" if known is not None else "")
+            if known is not None:
+                continue
+            self._written[_identity(table)] = heading
+            lines = [(f'# kind = "{table.kind}"', table.about)] if table.kind else []
+            lines += [
+                (f"# {one.last} = {one.example}", _meaning(one, above=entry.level))
+                for one in _by_level(table)
+                if one.typed and not one.rows
+            ]
+            yield from _aligned(lines)
+            for one in _by_level(table):
+                if (one.tables or one.rows) and not _beside(table, one):
+                    yield from self._behind(one, f"{heading}.{one.last}")
 
 
-def _inner(key: str, field: Any, value: Any, path: tuple[str, ...], commented: bool) -> Iterator[str]:
-    annotation = without_none(field.annotation)
-    yield ""
+_CATALOGUE = "Material of the catalogue (`bem materials`); further keys here replace its constants."
+
+
+def _by_level(table: FormTable) -> list[Entry]:
+    """Entries of a table, basic ones first."""
+    return sorted(table.entries, key=lambda one: LEVELS.index(one.level))
+
+
+def _identity(table: FormTable) -> tuple[Any, ...]:
+    """What tables of one model have in common, wherever they stand."""
+    return table.kind, table.about, tuple((one.last, one.description) for one in table.entries)
+
+
+def _has_heading(entry: Entry, value: Any) -> bool:
+    """Return True if a value is written under a heading of its own; laws are written on their line."""
     if isinstance(value, list):
-        item = unwrap(typing.get_args(annotation)[0])[0]
-        for entry in value:
-            yield f"[[{'.'.join(path)}]]"
-            for own, number in entry.items():
-                yield f"{own} = {dumped(number)}"
-            yield from (f"# {line}" for line in about_table(item))
-        return
-    if isinstance(value, Mapping):
-        model = law_at(annotation, value) or member_of(annotation, value.get("kind")) or annotation
-        yield from (f"# {line}" for line in about_table(model))
-        yield f"[{'.'.join(path)}]" if not commented else f"# [{'.'.join(path)}]"
-        yield from _table(model, value, path, commented=commented)
-        return
-    if typing.get_origin(annotation) is list:
-        item = unwrap(typing.get_args(annotation)[0])[0]
-        yield from (f"# {line}" for line in about_table(item))
-        yield f"# [[{'.'.join(path)}]]"
-        for name, inner in fields_of_table(item).items():
-            yield _line(f"# {name} = {default_text(inner)}", inner)
-        return
-    members = [annotation] if fields_of_table(annotation) else [unwrap(m)[0] for m in typing.get_args(annotation)]
-    for model in members:
-        if not fields_of_table(model):
+        return entry.rows is not None
+    return isinstance(value, Mapping) and bool(entry.tables) and not entry.is_law
+
+
+def _beside(table: FormTable, entry: Entry) -> bool:
+    """Return True if an entry's laws have their parameters beside it."""
+    names = {one.last for one in table.entries}
+    return entry.is_law and all(one.last in names for law in entry.tables for one in law.entries)
+
+
+def _member(entry: Entry, value: Mapping[str, Any]) -> FormTable:
+    """The table that a value is of."""
+    kind = value.get("kind", "generated" if "process" in value else None)
+    return next((one for one in entry.tables if one.kind == kind), entry.tables[0])
+
+
+def _meaning(entry: Entry, *, short: bool = False, above: str = "basic") -> str:
+    """Meaning, unit and choices of a key, after its level where that is not the one of its table.
+
+    short : without the reason of the default and without laws to choose from. above : level of the table.
+    """
+    named = all(word in entry.description for word in entry.choices) or (short and entry.is_law)
+    listed = "" if named or entry.unit or len(entry.choices) > _MOST_CHOICES else ", ".join(entry.choices)
+    level = "" if entry.level == above else f"({entry.level}) "
+    meaning = replace(entry, reason="").meaning if short else entry.meaning
+    return f"{level}{meaning}" + (f" One of {listed}." if listed else "")
+
+
+def _comment(text: str) -> Iterator[str]:
+    """A comment over several lines where it is long."""
+    yield from textwrap.wrap(text, _WIDTH - 4, initial_indent="# ", subsequent_indent="# ")
+
+
+def _aligned(lines: list[tuple[str, str]]) -> Iterator[str]:
+    """Keys with their comments in one column, below each other where they are long; above a key that is long."""
+    column = max((len(text) for text, _ in lines if len(text) <= _WIDEST), default=0)
+    for text, about in lines:
+        if len(text) > _WIDEST:
+            yield from _comment(about)
+            yield text
             continue
-        yield from (f"# {line}" for line in about_table(model))
-        yield f"# [{'.'.join(path)}]"
-        for name, inner in fields_of_table(model).items():
-            yield _line(f"# {name} = {default_text(inner)}", inner)
+        first, *more = textwrap.wrap(about, _WIDTH - column) or [""]
+        yield f"{text:<{column}}  # {first}"
+        yield from (f"{'#' * text.startswith('#'):<{column}}  # {line}" for line in more)
 
 
-def _is_table(annotation: Any) -> bool:
-    annotation = without_none(annotation)
-    if fields_of_table(annotation):
-        return True
-    arguments = typing.get_args(annotation)
-    if typing.get_origin(annotation) is list:
-        return bool(fields_of_table(arguments[0]))
-    return bool(arguments) and all(
-        bool(fields_of_table(unwrap(item)[0])) for item in arguments if item not in (type(None), Ellipsis)
-    )
-
-
-def _line(text: str, field: Any) -> str:
-    about = about_field(field)
-    return f"{text:<36}  # {about}" if about else text
-
-
-def about_field(field: Any) -> str:
-    """Unit and choices of a key."""
-    annotation, metadata = unwrap(without_none(field.annotation))
-    pending = [*metadata, *field.metadata, *typing.get_args(annotation)]
-    words: list[str] = list(literals(annotation))
-    for item in sorted(pending, key=lambda item: not isinstance(item, LawOrNumber)):
-        item, more = unwrap(item)
-        pending_more = [*more, item]
-        for part in pending_more:
-            if isinstance(part, LawOrNumber):
-                return f"{about_field(FieldInfo.from_annotation(part.number))}, or a law: {', '.join(part.names())}"
-            if isinstance(part, Dimension):
-                return part.allowed
-        words = words or list(literals(item))
-    if words:
-        return "one of " + ", ".join(words)
-    if annotation is bool:
-        return "true or false"
-    return ""
-
-
-def about_table(model: Any) -> list[str]:
-    """The first paragraph of a table's docstring."""
-    if not (isinstance(model, type) and issubclass(model, BaseModel | Law)) or not model.__doc__:
-        return []
-    return [line.strip() for line in model.__doc__.strip().split("\n\n")[0].splitlines()]
-
-
-def default_text(field: Any) -> str:
-    """The default of a key as it would be typed; "..." where one is needed, "(not set)" for none."""
-    if field.default is PydanticUndefined or field.default is None:
-        return "..." if field.default is PydanticUndefined else "(not set)"
-    try:
-        if isinstance(field.default, Law):
-            return dumped(field.default.name)
-        return dumped(field.default)
-    except TypeError:
-        return "..."
+def _typed(value: Any) -> str:
+    """A value as it would be typed, tables on one line."""
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{key} = {_typed(item)}" for key, item in value.items()) + " }"
+    return dumped(value)

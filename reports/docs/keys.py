@@ -14,9 +14,9 @@ from typing import Any
 
 from bem.laws import Law, laws_of
 from bem.scenes import get_kind, kind_names, library
+from bem.scenes.form import about_field, default_text
 from bem.scenes.keys import level_of, reason_of
 from bem.scenes.laws import LawKey
-from bem.scenes.template import about_field, default_text
 from bem.scenes.validate import fields_of_table, literals, unwrap, without_none
 
 _TOP = ("name", "description", "redoes", "seed", "repetitions", "over", "accuracy")

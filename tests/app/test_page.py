@@ -138,13 +138,17 @@ def test_from_a_file_to_results_and_back(serve, chrome, tmp_path):
     assert tomllib.loads(file.read_text())["grid"] == {"shape": [32, 32], "lengths": ["60 um", "60 um"]}
 
     tab.go(f"{server.base}/scene/contact")
-    tab.click("[data-table='lower.layer'] .q-item")  # another coating
+    assert tab.look(
+        "document.querySelector('[data-table=\"lower.layer\"]') === null"
+    )  # advanced keys lie behind a fold
+    tab.click("[data-level='lower:advanced'] .q-item")
+    tab.click("[data-table='lower.layer'] .q-item")  # a coating
     tab.type("lower.layer.thickness", "1 um")
-    tab.wait_text("1 um of dlc")
     tab.choose("lower.layer.material", "tungsten-carbide")
     tab.wait_text("1 um of tungsten-carbide")  # in the plan
     layer = tomllib.loads(file.read_text())["lower"]["layer"]
     assert layer == {"material": "tungsten-carbide", "thickness": "1 um"}
+    tab.wait_text("Normal load; instead of mean_pressure, approach or mean_gap [N].")  # what a key means stands by it
     tab.type("contact.load", "2 M")
     tab.wait("document.querySelector('[data-mistake]').innerText.startsWith('contact.load')")
     tab.type("contact.load", "0.3 N")

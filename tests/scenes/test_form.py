@@ -66,10 +66,23 @@ def test_what_is_typed_goes_into_the_table_and_nothing_takes_it_out():
     assert mistake.startswith("contact.laod: unknown key - did you mean")
 
 
+def test_entries_say_meaning_unit_and_level():
+    load = entry(form_of("contact"), "contact.load")
+    assert (load.unit, load.level) == ("N", "basic")
+    assert load.meaning == "Normal load; instead of mean_pressure, approach or mean_gap [N]."
+    assert entry(form_of("contact"), "contact.tolerance").level == "expert"
+    layer = entry(form_of("contact"), "lower.layer.thickness")
+    assert layer.level == "advanced"  # that of its table
+    assert layer.example == '"2 um"'
+    oil = entry(form_of("friction"), "oil.pressure_viscosity")
+    assert oil.meaning.endswith("[1/Pa]. Without it: that of the grade, or 0 beside viscosity.")
+    assert [one.last for one in entry(form_of("wear"), "variants").rows.entries][:2] == ["name", "cells"]
+
+
 def test_a_coating_is_taken_off_with_its_last_key():
     """Its empty table would ask for both keys again."""
     table = start_of("contact")
-    assert "layer" in table["lower"]
+    table["lower"] = {**table["lower"], "layer": {"material": "dlc", "thickness": "2 um"}}
     without = with_value(with_value(table, "lower.layer.thickness", ""), "lower.layer.material", "")
     assert "layer" not in without["lower"]
     assert load_scene(without).lower.stack == []
@@ -81,7 +94,7 @@ def test_another_table_keeps_what_both_have():
     table = start_of("contact")
     form = form_of("contact")
     one = entry(form, "lower.surface")
-    generated = with_kind(table, one, "generated")
+    generated = with_value(with_kind(table, one, "generated"), "lower.surface.process", "")
     generated = with_value(generated, "lower.surface.rms_height", "50 nm")
     measured = with_kind(generated, one, "measured")
     assert measured["lower"]["surface"] == {"kind": "measured", "rms_height": "50 nm"}

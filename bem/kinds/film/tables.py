@@ -18,7 +18,11 @@ class FilmCylinderScene(CylinderTable):
 
     load: Annotated[Force, Field(gt=0)] = key("Normal load on the width.", "basic")
     load_end: Annotated[Force, Field(gt=0)] | None = key(
-        "Normal load at the end of the run, reached linearly.", "advanced", default=None, reason="a constant load"
+        "Normal load at the end of the run, reached linearly.",
+        "advanced",
+        default=None,
+        reason="a constant load",
+        example="100 N",
     )
 
     def per_length(self, share: float) -> float:
@@ -34,15 +38,17 @@ class MotionScene(Table):
         "Motion of the flat: table (speeds at times) or reciprocating (speed x cos(2 pi t / period)).", "basic"
     )
     times: Annotated[list[Time], Field(min_length=2, max_length=1000)] | None = key(
-        "Times of the table, in rising order.", "basic", default=None
+        "Times of the table, in rising order.", "basic", default=None, example=["0 s", "10 ms"]
     )
     speeds: Annotated[list[Speed], Field(min_length=2, max_length=1000)] | None = key(
-        "Speeds of the flat at these times, linear in between.", "basic", default=None
+        "Speeds of the flat at these times, linear in between.", "basic", default=None, example=["0.2 m/s", "0 m/s"]
     )
     speed: Annotated[Speed, Field(gt=0)] | None = key(
-        "Speed amplitude of the reciprocating motion.", "basic", default=None
+        "Speed amplitude of the reciprocating motion.", "basic", default=None, example="0.1 m/s"
     )
-    period: Annotated[Time, Field(gt=0)] | None = key("Period of the reciprocating motion.", "basic", default=None)
+    period: Annotated[Time, Field(gt=0)] | None = key(
+        "Period of the reciprocating motion.", "basic", default=None, example="20 ms"
+    )
 
     @model_validator(mode="after")
     def _complete(self) -> MotionScene:
@@ -82,6 +88,7 @@ class MarchScene(Table):
         "advanced",
         default=None,
         reason="the steady film",
+        example="0.2 um",
     )
     cavitation: Literal["swift_stieber", "mass_conserving"] = key(
         "Cavitation model: swift_stieber (Reynolds condition) or mass_conserving (Jakobsson, Floberg, Olsson).",

@@ -34,10 +34,16 @@ class FlowScene(Table):
     """Separations of the surfaces, and how their asperities deform."""
 
     separations: Annotated[list[PositiveLength], Field(min_length=1, max_length=100)] | None = key(
-        "Separations of the undeformed mean planes, one result for each; instead of ratios.", "basic", default=None
+        "Separations of the undeformed mean planes, one result for each; instead of ratios.",
+        "basic",
+        default=None,
+        example=["0.2 um", "0.4 um"],
     )
     ratios: Annotated[list[Annotated[Ratio, Field(gt=0)]], Field(min_length=1, max_length=100)] | None = key(
-        "Separations over the combined rms roughness Sq (lambda ratios); instead of separations.", "basic", default=None
+        "Separations over the combined rms roughness Sq (lambda ratios); instead of separations.",
+        "basic",
+        default=None,
+        example=[1.0, 2.0, 3.0],
     )
     behaviour: Literal["elastic", "capped", "undeformed"] = key(
         "Deformation of the asperities: capped is limited by the hardness, undeformed cuts overlap off.",
@@ -49,6 +55,7 @@ class FlowScene(Table):
         "advanced",
         default=None,
         reason="that of the softer body",
+        example="7 GPa",
     )
     tolerance: Annotated[Ratio, Field(ge=1e-10, le=1e-2)] = key(
         "Relative tolerance of the contact and flow solutions.", "expert", default=1e-6

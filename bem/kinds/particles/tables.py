@@ -37,6 +37,7 @@ class SeparationScene(Table):
         "advanced",
         default=None,
         reason="touching particles count as one",
+        example=0.1,
     )
     border: Literal["exclude", "include"] = key(
         "Particles cut by the edge of the map: exclude or include.", "advanced", default="exclude"
@@ -60,16 +61,16 @@ class ArchardScene(WearRateScene):
 class SedimentationScene(Table):
     """Centrifuge run: the time until particles of a radius have settled."""
 
-    distance: PositiveLength = key("Sedimentation distance.", "basic")
-    viscosity: Annotated[Viscosity, Field(gt=0)] = key("Dynamic viscosity of the liquid.", "basic")
+    distance: PositiveLength = key("Sedimentation distance.", "basic", example="90 mm")
+    viscosity: Annotated[Viscosity, Field(gt=0)] = key("Dynamic viscosity of the liquid.", "basic", example="55 mPa*s")
     relative_centrifugal_force: Annotated[Ratio, Field(gt=0)] = key(
-        "Relative centrifugal force, in multiples of gravity.", "basic"
+        "Relative centrifugal force, in multiples of gravity.", "basic", example=10000
     )
-    particle_density: Annotated[Density, Field(gt=0)] = key("Density of the particles.", "basic")
-    liquid_density: Annotated[Density, Field(ge=0)] = key("Density of the liquid.", "basic")
-    particle_radius: PositiveLength = key("Smallest particle radius that must settle.", "basic")
+    particle_density: Annotated[Density, Field(gt=0)] = key("Density of the particles.", "basic", example="7900 kg/m^3")
+    liquid_density: Annotated[Density, Field(ge=0)] = key("Density of the liquid.", "basic", example="800 kg/m^3")
+    particle_radius: PositiveLength = key("Smallest particle radius that must settle.", "basic", example="25 nm")
     available: Annotated[Time, Field(gt=0)] | None = key(
-        "Time in the centrifuge, compared with the sedimentation time.", "advanced", default=None
+        "Time in the centrifuge, compared with the sedimentation time.", "advanced", default=None, example="15 hour"
     )
 
     def figures(self) -> dict[str, Any]:

@@ -55,7 +55,7 @@ class PointFilmScene(SceneModel):
     oil: OilScene = key("Lubricant.", "basic")
     rolling: BallRollingScene = key("Surface speeds of both bodies.", "basic")
     roughness: PositiveLength | None = key(
-        "Combined rms roughness Sq of both surfaces, for the lambda ratio.", "basic", default=None
+        "Combined rms roughness Sq of both surfaces, for the lambda ratio.", "basic", default=None, example="50 nm"
     )
     film: FilmCellsScene = key("Mesh of the oil film.", "basic", default=FilmCellsScene())
     supply: SupplyScene | None = key(

@@ -29,7 +29,9 @@ REMEDY = "take finer film.cells, a higher rolling.mean_speed, or a surface that 
 class TouchingScene(Table):
     """Asperity contact of a rough body inside the film."""
 
-    boundary_friction: Annotated[Ratio, Field(ge=0)] = key("Friction coefficient where the surfaces touch.", "basic")
+    boundary_friction: Annotated[Ratio, Field(ge=0)] = key(
+        "Friction coefficient where the surfaces touch.", "basic", example=0.12
+    )
     least_film: PositiveLength = key(
         "Film thickness at which the surfaces touch.", "advanced", default=1e-9, reason="a few molecules"
     )

@@ -61,7 +61,7 @@ class RunningInScene(OneLoadScene):
     sharing: WearingSharing = key("Load sharing between oil film and asperities.", "advanced", default=WearingSharing())
     sizes: pieces.SizesScene = key("Statistics of the wear particle sizes.", "advanced", default=pieces.SizesScene())
     hardnesses: list[PositivePressure] = key(
-        "Hardnesses of the lower body, one result for each.", "advanced", default=[]
+        "Hardnesses of the lower body, one result for each.", "advanced", default=[], example=["1 GPa", "2 GPa"]
     )
     repetitions: Repetitions = key(
         "Number of runs with other random surfaces, for means and standard deviations.", "advanced", default=1

@@ -61,6 +61,7 @@ class LifeWear(Table):
     law: Annotated[Detachment, LawKey("criterion")] = key(
         "Wear law by pressure and sliding distance, with its parameters: archard, archard_over_hardness or energy.",
         "basic",
+        example="archard",
     )
     wears: Bodies = key("Bodies that lose material.", "advanced", default="both")
     passes: Bodies = key(
@@ -104,7 +105,7 @@ class LifeFilm(KineticsScene):
     """Tribofilm on the lower body, which grows, wears, and covers the substrate."""
 
     cycle_time: Annotated[Time, Field(gt=0)] = key(
-        "Time for which a point of the surface is under the patch in each cycle.", "basic"
+        "Time for which a point of the surface is under the patch in each cycle.", "basic", example="300 us"
     )
     temperature: Annotated[Temperature, Field(gt=0)] | None = key(
         "Temperature at which the film grows.", "basic", default=None, reason="the oil's"
@@ -114,6 +115,7 @@ class LifeFilm(KineticsScene):
         "advanced",
         default=None,
         reason="that of the contact",
+        example=0.1,
     )
     heat: bool = key(
         "Growth at the local surface temperature, with the flash temperature of sliding.",
@@ -181,6 +183,7 @@ class LifeFatigue(Table):
         "expert",
         default=None,
         reason="0.232 for Dang Van, 0 for Crossland",
+        example=0.232,
     )
     residual_stress: Pressure = key("Residual stress along x and y, negative in compression.", "advanced", default=0.0)
     depths: WearDepthsScene = key("Depths at which stresses are computed.", "basic")

@@ -37,11 +37,11 @@ COLUMNS = ("position", "radius", "load", "lower_speed", "upper_speed")
 class MarksScene(Table):
     """Characteristic points of a gear's path of contact, marked in figures."""
 
-    A: Length | None = key("Position of the start of contact.", "advanced", default=None)
-    B: Length | None = key("Position of the inner point of single contact.", "advanced", default=None)
-    C: Length | None = key("Position of the pitch point.", "advanced", default=None)
-    D: Length | None = key("Position of the outer point of single contact.", "advanced", default=None)
-    E: Length | None = key("Position of the end of contact.", "advanced", default=None)
+    A: Length | None = key("Position of the start of contact.", "advanced", default=None, example="-9.5 mm")
+    B: Length | None = key("Position of the inner point of single contact.", "advanced", default=None, example="-3 mm")
+    C: Length | None = key("Position of the pitch point.", "advanced", default=None, example="0 mm")
+    D: Length | None = key("Position of the outer point of single contact.", "advanced", default=None, example="3 mm")
+    E: Length | None = key("Position of the end of contact.", "advanced", default=None, example="9.5 mm")
 
     def places(self) -> dict[str, float]:
         """Return the given places [m] by their letters, in alphabetical order."""
@@ -52,16 +52,20 @@ class MarksScene(Table):
 class AlongScene(Table):
     """Contact conditions row by row, as along a gear's path of contact: columns, or a file of them named by `path`."""
 
-    position: Annotated[list[Length], _Rows] = key("Positions along the path, in rising order.", "basic")
-    radius: Annotated[list[_Positive], _Rows] = key("Radius of relative curvature at each position.", "basic")
+    position: Annotated[list[Length], _Rows] = key(
+        "Positions along the path, in rising order.", "basic", example=["-5 mm", "5 mm"]
+    )
+    radius: Annotated[list[_Positive], _Rows] = key(
+        "Radius of relative curvature at each position.", "basic", example=["8 mm", "12 mm"]
+    )
     load: Annotated[list[Annotated[Force, Field(gt=0)]], _Rows] = key(
-        "Normal load on the width at each position.", "basic"
+        "Normal load on the width at each position.", "basic", example=["900 N", "900 N"]
     )
     lower_speed: Annotated[list[Annotated[Speed, Field(ge=0)]], _Rows] = key(
-        "Surface speed of the lower body over the contact at each position.", "basic"
+        "Surface speed of the lower body over the contact at each position.", "basic", example=["1 m/s", "3 m/s"]
     )
     upper_speed: Annotated[list[Annotated[Speed, Field(ge=0)]], _Rows] = key(
-        "Surface speed of the upper body over the contact at each position.", "basic"
+        "Surface speed of the upper body over the contact at each position.", "basic", example=["4 m/s", "3 m/s"]
     )
     marks: MarksScene | None = key(
         "Positions of the characteristic points A to E, marked in figures.", "advanced", default=None

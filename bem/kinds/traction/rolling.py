@@ -17,10 +17,10 @@ class RollerScene(CylinderTable):
     """The roller on the flat, and its load."""
 
     load: Annotated[Force, Field(gt=0)] | None = key(
-        "Normal load on the width; instead of hertz_pressure.", "basic", default=None
+        "Normal load on the width; instead of hertz_pressure.", "basic", default=None, example="500 N"
     )
     hertz_pressure: PositivePressure | None = key(
-        "Maximum Hertz pressure of the smooth contact; instead of load.", "basic", default=None
+        "Maximum Hertz pressure of the smooth contact; instead of load.", "basic", default=None, example="1 GPa"
     )
 
     _one_load = one_of("load", "hertz_pressure")
@@ -43,7 +43,7 @@ class RollingScene(Table):
         default=0.0,
     )
     lower_bulk: BulkTemperature | None = key(
-        "Bulk temperature of the lower body.", "advanced", default=None, reason="the oil's"
+        "Bulk temperature of the lower body.", "advanced", default=None, reason="the oil's", example="60 degC"
     )
     upper_bulk: BulkTemperature | None = key(
         "Bulk temperature of the upper body.", "advanced", default=None, reason="the oil's"

@@ -47,7 +47,7 @@ class TractionScene(SceneModel):
     oil: OilScene = key("Lubricant.", "basic")
     rolling: RollingScene = key("Surface speeds of both bodies.", "basic")
     thermal: Literal["off", "lumped", "full"] = key(
-        "Frictional heat: off (isothermal), lumped (mean film temperature), or full (along and across the film).",
+        "Frictional heat: off (isothermal), lumped (mean film temperature) or full (across the film too).",
         "basic",
         default="lumped",
     )
@@ -60,7 +60,7 @@ class TractionScene(SceneModel):
         default=None,
     )
     roughness: PositiveLength | None = key(
-        "Combined rms roughness Sq of both surfaces, for the lambda ratio.", "basic", default=None
+        "Combined rms roughness Sq of both surfaces, for the lambda ratio.", "basic", default=None, example="0.2 um"
     )
     film: FilmPointsScene = key("Mesh of the oil film.", "basic", default=FilmPointsScene())
     outputs: OutputsScene = key(

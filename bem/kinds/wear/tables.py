@@ -40,7 +40,11 @@ class CylinderScene(CylinderTable):
         "Friction coefficient of boundary lubrication: traction over pressure.", "basic", default=0.0
     )
     hardness: PositivePressure | None = key(
-        "Hardness that limits the contact pressure.", "advanced", default=None, reason="that of the softer body"
+        "Hardness that limits the contact pressure.",
+        "advanced",
+        default=None,
+        reason="that of the softer body",
+        example="2 GPa",
     )
 
 
@@ -51,7 +55,10 @@ class DomainScene(Table):
         "Number of cells along x and y; check that particle sizes do not depend on it.", "basic", default=(240, 240)
     )
     half_widths: Annotated[Ratio, Field(gt=0, le=100)] | None = key(
-        "Side length of the slice in half-widths of the Hertz line contact; instead of lengths.", "basic", default=None
+        "Side length of the slice in half-widths of the Hertz line contact; instead of lengths.",
+        "basic",
+        default=None,
+        example=4.0,
     )
     half_widths_at: Annotated[Force, Field(gt=0)] | None = key(
         "Load whose Hertz half-width sets the slice for all loads.",
@@ -60,7 +67,7 @@ class DomainScene(Table):
         reason="each load its own",
     )
     lengths: tuple[PositiveLength, PositiveLength] | None = key(
-        "Side lengths of the slice along x and y; instead of half_widths.", "basic", default=None
+        "Side lengths of the slice along x and y; instead of half_widths.", "basic", default=None, example="40 um"
     )
     periodic: Literal["y", "both"] = key(
         "Periodic continuation: along y (line contact), or both axes (nominally flat contact).", "advanced", default="y"
@@ -103,23 +110,24 @@ class WearVariantScene(Variant):
     """Changes of mesh, roughness, film and wear model."""
 
     cells: Annotated[int, Field(strict=True, ge=2, le=8192)] | None = key(
-        "Number of cells along x and y.", "basic", default=None
+        "Number of cells along x and y.", "basic", default=None, example=256
     )
     depths: WearDepthsScene | None = key("Depths at which stresses are computed.", "basic", default=None)
     shift: Annotated[int, Field(strict=True, ge=-10_000, le=10_000)] | None = key(
-        "Sliding distance of a cycle, in cells.", "advanced", default=None
+        "Sliding distance of a cycle, in cells.", "advanced", default=None, example=3
     )
     lower_rms_height: PositiveLength | None = key(
-        "Root-mean-square roughness Sq of the lower surface.", "basic", default=None
+        "Root-mean-square roughness Sq of the lower surface.", "basic", default=None, example="0.2 um"
     )
     upper_rms_height: PositiveLength | None = key(
-        "Root-mean-square roughness Sq of the upper surface.", "basic", default=None
+        "Root-mean-square roughness Sq of the upper surface.", "basic", default=None, example="0.1 um"
     )
     layer_thickness: PositiveLength | None = key("Thickness of the (outermost) layer.", "basic", default=None)
     connectivity: Literal[6, 18, 26] | None = key(
         "Neighbours that belong to one particle: 6 by faces, 18 also by edges, 26 also by corners.",
         "expert",
         default=None,
+        example=26,
     )
     refinement: Literal["monotone_cubic", "linear", "exact"] | None = key(
         "Interpolation of the stress over depth.", "expert", default=None

@@ -19,10 +19,14 @@ class BallScene(Table):
     radius: PositiveLength = key(
         "Reduced radius (radius of relative curvature) along x; of a ball along both axes.", "basic"
     )
-    radius_y: PositiveLength | None = key("Reduced radius along y of a barrel (ellipsoid).", "advanced", default=None)
-    load: Annotated[Force, Field(gt=0)] | None = key("Normal load; instead of hertz_pressure.", "basic", default=None)
+    radius_y: PositiveLength | None = key(
+        "Reduced radius along y of a barrel (ellipsoid).", "advanced", default=None, example="20 mm"
+    )
+    load: Annotated[Force, Field(gt=0)] | None = key(
+        "Normal load; instead of hertz_pressure.", "basic", default=None, example="20 N"
+    )
     hertz_pressure: PositivePressure | None = key(
-        "Maximum Hertz pressure of the smooth contact; instead of load.", "basic", default=None
+        "Maximum Hertz pressure of the smooth contact; instead of load.", "basic", default=None, example="0.8 GPa"
     )
 
     _one_load = one_of("load", "hertz_pressure")

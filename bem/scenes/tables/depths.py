@@ -15,9 +15,9 @@ class DepthsScene(Table):
     """Depths at which stresses are computed: a list, or graded down to `deepest`."""
 
     values: Annotated[list[Annotated[Length, Field(ge=0)]], Field(min_length=1, max_length=1024)] | None = key(
-        "List of depths; instead of deepest and count.", "advanced", default=None
+        "List of depths; instead of deepest and count.", "advanced", default=None, example=["1 um", "5 um"]
     )
-    deepest: PositiveLength | None = key("Largest depth.", "basic", default=None)
+    deepest: PositiveLength | None = key("Largest depth.", "basic", default=None, example="50 um")
     count: Annotated[int, Field(strict=True, ge=2, le=1024)] = key("Number of depths.", "basic", default=32)
     grading: Annotated[Ratio, Field(ge=1, le=5)] = key(
         "Exponent of the grading: 1 is uniform, larger values refine near the surface.", "expert", default=2.0

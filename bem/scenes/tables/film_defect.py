@@ -19,7 +19,7 @@ class FilmDefectScene(Table):
     """Adsorbed boundary film, whose defects let the surfaces wear; the wear law's rate is that of bare surfaces."""
 
     adsorption_energy: Annotated[Energy, Field(gt=0)] = key(
-        "Adsorption energy: energy that a molecule needs to leave the surface.", "basic"
+        "Adsorption energy: energy that a molecule needs to leave the surface.", "basic", example="0.6 eV"
     )
     molecule_length: PositiveLength = key("Length of an adsorbed molecule along sliding.", "advanced", default=5e-10)
     vibration_time: Annotated[Time, Field(gt=0)] = key(

@@ -22,9 +22,9 @@ Place = tuple[Length, Length]
 class DentScene(Table):
     """Round dent, or with a negative depth a bump, that a body carries through the contact."""
 
-    depth: Length = key("Depth of the dent; negative for a bump.", "basic")
-    radius: PositiveLength = key("Radius of the dent.", "basic")
-    at: Place = key("Position [x, y] of its centre at the start.", "basic")
+    depth: Length = key("Depth of the dent; negative for a bump.", "basic", example="0.2 um")
+    radius: PositiveLength = key("Radius of the dent.", "basic", example="20 um")
+    at: Place = key("Position [x, y] of its centre at the start.", "basic", example=["-200 um", "0 um"])
     of: Carrier = key("Body that carries the dent.", "advanced", default="lower")
 
     def build(self) -> MovingSurface:
@@ -37,14 +37,15 @@ class DentScene(Table):
 class WavesScene(Table):
     """Waviness that a body carries through the contact."""
 
-    amplitude: PositiveLength = key("Amplitude of the waviness.", "basic")
-    wavelength: PositiveLength = key("Wavelength of the waviness.", "basic")
+    amplitude: PositiveLength = key("Amplitude of the waviness.", "basic", example="0.1 um")
+    wavelength: PositiveLength = key("Wavelength of the waviness.", "basic", example="100 um")
     direction: Angle = key("Direction of the waves, measured from x.", "advanced", default=0.0)
     begin: Length | None = key(
         "Position of the wave front at the start; the surface ahead of it is smooth.",
         "advanced",
         default=None,
         reason="waves everywhere",
+        example="-200 um",
     )
     of: Carrier = key("Body that carries the waves.", "advanced", default="lower")
 
@@ -64,12 +65,17 @@ class PatchScene(GridScene):
 class OverTimeScene(Table):
     """Changes of speed and load over time, linear between the given times."""
 
-    times: Annotated[list[Time], Field(min_length=2, max_length=1000)] = key("Times, in rising order.", "basic")
+    times: Annotated[list[Time], Field(min_length=2, max_length=1000)] = key(
+        "Times, in rising order.", "basic", example=["0 s", "1 ms"]
+    )
     speed: Annotated[list[Ratio], Field(min_length=2, max_length=1000)] | None = key(
-        "Factors on the entrainment speed at these times; negative runs backwards.", "basic", default=None
+        "Factors on the entrainment speed at these times; negative runs backwards.",
+        "basic",
+        default=None,
+        example=[1.0, 0.0],
     )
     load: Annotated[list[Annotated[Ratio, Field(gt=0)]], Field(min_length=2, max_length=1000)] | None = key(
-        "Factors on the normal load at these times.", "basic", default=None
+        "Factors on the normal load at these times.", "basic", default=None, example=[1.0, 2.0]
     )
 
     @model_validator(mode="after")
@@ -96,6 +102,7 @@ class PassingCellsScene(FilmCellsScene):
         "advanced",
         default=None,
         reason="as far as the film needs at all times",
+        example=["-300 um", "200 um", "-250 um", "250 um"],
     )
 
 
@@ -111,4 +118,5 @@ class BallMarchScene(Table):
         "advanced",
         default=None,
         reason="the steady film of smooth bodies",
+        example="0.2 um",
     )

@@ -36,16 +36,19 @@ class ContactControl(Table):
     """How the bodies are pressed together: load, mean pressure, normal approach or mean gap."""
 
     load: Annotated[Force, Field(gt=0)] | None = key(
-        "Normal load; instead of mean_pressure, approach or mean_gap.", "basic", default=None
+        "Normal load; instead of mean_pressure, approach or mean_gap.", "basic", default=None, example="20 N"
     )
     mean_pressure: PositivePressure | None = key(
-        "Nominal pressure: load over the area of the grid; instead of load.", "basic", default=None
+        "Nominal pressure: load over the area of the grid; instead of load.", "basic", default=None, example="200 MPa"
     )
     approach: Length | None = key(
-        "Normal approach of the bodies from first touch; instead of load.", "advanced", default=None
+        "Normal approach of the bodies from first touch; instead of load.", "advanced", default=None, example="1 um"
     )
     mean_gap: Annotated[Length, Field(gt=0)] | None = key(
-        "Mean gap, the volume between the surfaces per area; instead of load.", "advanced", default=None
+        "Mean gap, the volume between the surfaces per area; instead of load.",
+        "advanced",
+        default=None,
+        example="0.2 um",
     )
     behaviour: Literal["elastic", "capped"] = key(
         "Contact model: elastic, or capped (elastic-perfectly plastic: pressure limited by the hardness).",
@@ -57,6 +60,7 @@ class ContactControl(Table):
         "advanced",
         default=None,
         reason="that of the softer body",
+        example="7 GPa",
     )
     friction: Annotated[Ratio, Field(ge=-10, le=10)] = key(
         "Friction coefficient of sliding: traction over pressure, for stresses and heat.", "basic", default=0.0

@@ -18,11 +18,11 @@ class ShapeScene(Table):
         "Shape: flat, sphere, cylinder (along y), ellipsoid or sinusoid.", "basic", default="flat"
     )
     radius: PositiveLength | None = key(
-        "Radius of the sphere or cylinder; of an ellipsoid along x.", "basic", default=None
+        "Radius of the sphere or cylinder; of an ellipsoid along x.", "basic", default=None, example="10 mm"
     )
-    radius_y: PositiveLength | None = key("Radius of the ellipsoid along y.", "advanced", default=None)
-    amplitude: PositiveLength | None = key("Amplitude of the sinusoid.", "advanced", default=None)
-    wavelength: PositiveLength | None = key("Wavelength of the sinusoid.", "advanced", default=None)
+    radius_y: PositiveLength | None = key("Radius of the ellipsoid along y.", "advanced", default=None, example="20 mm")
+    amplitude: PositiveLength | None = key("Amplitude of the sinusoid.", "advanced", default=None, example="1 um")
+    wavelength: PositiveLength | None = key("Wavelength of the sinusoid.", "advanced", default=None, example="50 um")
 
     @model_validator(mode="after")
     def _parameters(self) -> ShapeScene:

@@ -87,7 +87,7 @@ class HotMixedScene(MixedScene):
     """A `MixedScene` whose film (lumped, or along and across it) and surfaces (conducted) may have their heat."""
 
     thermal: Literal["off", "lumped", "full"] = key(
-        "Frictional heat: off (isothermal), lumped (mean film temperature), or full (along and across the film).",
+        "Frictional heat: off (isothermal), lumped (mean film temperature) or full (across the film too).",
         "basic",
         default="off",
     )
@@ -233,10 +233,10 @@ class SurfaceVariant(Variant):
     """Changes of the generated lower surface."""
 
     correlation_length: PositiveLength | None = key(
-        "Autocorrelation length of the lower surface.", "basic", default=None
+        "Autocorrelation length of the lower surface.", "basic", default=None, example="15 um"
     )
     rms_height: PositiveLength | None = key(
-        "Root-mean-square roughness Sq of the lower surface.", "basic", default=None
+        "Root-mean-square roughness Sq of the lower surface.", "basic", default=None, example="0.1 um"
     )
 
     def applied(self, scene: Line) -> Line:

@@ -17,14 +17,19 @@ class SmoothShapeScene(Table):
     its full width; the radius of a `ball`; `radii` of relative curvature along x and y."""
 
     radius: PositiveLength | None = key(
-        "Radius of a cylinder along y; with width, instead of ball or radii.", "basic", default=None
+        "Radius of a cylinder along y; with width, instead of ball or radii.", "basic", default=None, example="10 mm"
     )
     width: PositiveLength | None = key(
-        "Width of the line contact along y, on which the load acts.", "basic", default=None
+        "Width of the line contact along y, on which the load acts.", "basic", default=None, example="8 mm"
     )
-    ball: PositiveLength | None = key("Radius of a ball; instead of radius and width.", "basic", default=None)
+    ball: PositiveLength | None = key(
+        "Radius of a ball; instead of radius and width.", "basic", default=None, example="10 mm"
+    )
     radii: tuple[PositiveLength, PositiveLength] | None = key(
-        "Reduced radii along x and y of an elliptical contact; instead of ball.", "advanced", default=None
+        "Reduced radii along x and y of an elliptical contact; instead of ball.",
+        "advanced",
+        default=None,
+        example=["10 mm", "20 mm"],
     )
 
     @model_validator(mode="before")

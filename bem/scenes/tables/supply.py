@@ -22,10 +22,10 @@ class SupplyScene(Table):
     """Oil supply of a starved contact; without this table the inlet is flooded."""
 
     layer: SupplyLength | None = key(
-        "Thickness of the oil on both surfaces together ahead of the contact.", "basic", default=None
+        "Thickness of the oil on both surfaces together ahead of the contact.", "basic", default=None, example="1 um"
     )
     distance: SupplyLength | None = key(
-        "Distance of the inlet meniscus from the centre of a line contact.", "basic", default=None
+        "Distance of the inlet meniscus from the centre of a line contact.", "basic", default=None, example="1 mm"
     )
 
     _one = one_of("layer", "distance")

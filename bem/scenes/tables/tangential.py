@@ -10,7 +10,7 @@ from pydantic import Field, model_validator
 from bem.grid import FloatArray
 from bem.scenes.common import Force, Table, exactly_one, problem
 from bem.scenes.keys import key
-from bem.scenes.tables.pressing import StressedScene, StressOutputs
+from bem.scenes.tables.pressing import ContactControl, StressedScene, StressOutputs
 from bem.scenes.units import Angle, InverseLength, Length, Ratio
 
 
@@ -21,16 +21,22 @@ class PushScene(Table):
         "Friction coefficient (Coulomb): the traction never exceeds it times the pressure.", "basic"
     )
     share: Annotated[Ratio, Field(gt=0, lt=1)] | None = key(
-        "Peak tangential force over friction coefficient x load; or give force or shift.", "basic", default=None
+        "Peak tangential force over friction coefficient x load; or give force or shift.",
+        "basic",
+        default=None,
+        example=0.6,
     )
     force: Annotated[Force, Field(gt=0)] | None = key(
-        "Peak tangential force on the lower body; or give share or shift.", "basic", default=None
+        "Peak tangential force on the lower body; or give share or shift.", "basic", default=None, example="4 N"
     )
     shift: Annotated[Length, Field(gt=0)] | None = key(
-        "Peak tangential displacement; or give share or force.", "basic", default=None
+        "Peak tangential displacement; or give share or force.", "basic", default=None, example="0.5 um"
     )
     rotation: Annotated[Angle, Field(gt=0, le=0.1)] | None = key(
-        "Peak rotation about the normal through the grid's centre, beside the push or alone.", "advanced", default=None
+        "Peak rotation about the normal through the grid's centre, beside the push or alone.",
+        "advanced",
+        default=None,
+        example="0.01 deg",
     )
     cycles: Annotated[int, Field(strict=True, ge=0, le=10_000)] = key(
         "Number of load cycles between the peak and its opposite, after the first loading.", "basic", default=0
@@ -43,6 +49,7 @@ class PushScene(Table):
         "expert",
         default=None,
         reason="16 for dissimilar materials, which slip under it, else 1",
+        example=16,
     )
     coupled: bool | None = key(
         "Coupling of pressure and traction.", "expert", default=None, reason="on for dissimilar materials"
@@ -71,8 +78,18 @@ class PushScene(Table):
         return np.concatenate([rise, np.tile(cycle, self.cycles)])
 
 
+class StickingControl(ContactControl):
+    """How the bodies are pressed together: load, mean pressure, normal approach or mean gap."""
+
+    friction: Annotated[Ratio, Field(ge=-10, le=10)] = key(
+        "Not used: push.friction or roll.friction is the friction coefficient.", "expert", default=0.0
+    )
+
+
 class StickingScene(StressedScene):
     """A contact whose surfaces stick and slip."""
+
+    contact: StickingControl = key("How the bodies are pressed together.", "basic")
 
     @model_validator(mode="after")
     def _friction_in_one_place(self) -> Self:
@@ -133,7 +150,10 @@ class RollScene(Table):
         "Spin creepage: relative angular velocity about the normal over the rolling velocity.", "basic", default=0.0
     )
     share: Annotated[Ratio, Field(gt=-1, lt=1)] | None = key(
-        "Longitudinal force over friction coefficient x load; instead of a creepage.", "advanced", default=None
+        "Longitudinal force over friction coefficient x load; instead of a creepage.",
+        "advanced",
+        default=None,
+        example=0.5,
     )
     tolerance: Annotated[Ratio, Field(ge=1e-12, le=0.1)] = key(
         "Relative tolerance of Coulomb's conditions.", "expert", default=1e-7

@@ -18,7 +18,7 @@ if TYPE_CHECKING:
 class ThirdBodiesScene(Table):
     """Third bodies: wear particles between the surfaces, which carry load, roll and cut."""
 
-    diameter: PositiveLength = key("Diameter of the spherical particles.", "basic")
+    diameter: PositiveLength = key("Diameter of the spherical particles.", "basic", example="0.3 um")
     number_per_area: Annotated[NumberPerArea, Field(ge=0)] | None = key(
         "Number of particles per area; or give specific_wear_rate and residence.", "basic", default=None
     )
@@ -26,13 +26,13 @@ class ThirdBodiesScene(Table):
         "Specific wear rate at which particles form.", "basic", default=None
     )
     residence: PositiveLength | None = key(
-        "Sliding distance after which a particle has left the contact.", "basic", default=None
+        "Sliding distance after which a particle has left the contact.", "basic", default=None, example="1 mm"
     )
     kept: Annotated[Ratio, Field(gt=0, le=1)] = key(
         "Fraction of the worn volume that becomes such particles.", "advanced", default=1.0
     )
     hardness: PositivePressure | None = key(
-        "Hardness of the particles.", "advanced", default=None, reason="harder than both surfaces"
+        "Hardness of the particles.", "advanced", default=None, reason="harder than both surfaces", example="10 GPa"
     )
     friction: Annotated[Ratio, Field(ge=0, le=2)] = key(
         "Rolling friction coefficient of the particles.", "advanced", default=0.0

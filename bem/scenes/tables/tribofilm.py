@@ -47,7 +47,10 @@ class KineticsScene(Table):
         "Activation energy of the growth without stress.", "basic", default=None
     )
     activation_volume: Annotated[Volume, Field(ge=0)] | None = key(
-        "Activation volume, by which shear stress lowers the activation energy.", "basic", default=None
+        "Activation volume, by which shear stress lowers the activation energy.",
+        "basic",
+        default=None,
+        example="50 angstrom^3",
     )
     wear_coefficient: Annotated[Rate, Field(ge=0)] = key(
         "Wear coefficient alpha: wear rate of the film over its thickness.", "basic"
@@ -57,6 +60,7 @@ class KineticsScene(Table):
         "basic",
         default=None,
         reason="no substrate in the film",
+        example="1.2e7 1/m",
     )
     initial_thickness: Annotated[Length, Field(ge=0)] = key("Film thickness at the start.", "advanced", default=0.0)
 
@@ -152,15 +156,20 @@ class RubbingScene(Table):
         "Number of output points in time.", "expert", default=241
     )
     report: tuple[Annotated[Time, Field(ge=0)], Annotated[Time, Field(ge=0)]] | None = key(
-        "The two times between which the wear depth is reported.", "advanced", default=None, reason="the whole duration"
+        "The two times between which the wear depth is reported.",
+        "advanced",
+        default=None,
+        reason="the whole duration",
+        example=["30 min", "60 min"],
     )
     cycle: Annotated[Time, Field(gt=0)] | None = key(
-        "Duration of a cycle, for curves against cycles.", "advanced", default=None
+        "Duration of a cycle, for curves against cycles.", "advanced", default=None, example="10 ms"
     )
     speeds: tuple[Speed, Speed] | None = key(
         "Surface speeds of lower and upper body; the film then grows at its local flash temperature.",
         "basic",
         default=None,
+        example=["0.1 m/s", "0 m/s"],
     )
 
     @model_validator(mode="after")
