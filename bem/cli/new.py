@@ -11,7 +11,7 @@ import typer
 def complete_kind(incomplete: str) -> list[str]:
     """Kinds of scene that begin like this, for tab completion; loads nothing."""
     folder = Path(__file__).resolve().parents[1] / "kinds"
-    names = (item.parent.name.replace("_", "-") for item in folder.glob("*/scene.py"))
+    names = (item.parent.name.replace("_", "-") for item in folder.glob("*/kind.py"))
     return sorted(name for name in names if name.startswith(incomplete))
 
 

@@ -58,7 +58,8 @@ def run_contact(element: Element, contact: ElementContact) -> Running:
     InputError : no oil, or surfaces that run against each other.
     """
     from bem.accuracy import traction_figures
-    from bem.kinds.traction.scene import TractionScene, case_of
+    from bem.kinds.traction.run import case_of
+    from bem.kinds.traction.scene import TractionScene
 
     scene = load_scene(element.scene(contact, "traction"))
     assert isinstance(scene, TractionScene)

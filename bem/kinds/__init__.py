@@ -1,10 +1,11 @@
 """Kinds of scene: a folder here is a kind, `running-in` in `running_in`, and nothing else has to know of it.
 
-A kind is one case. Its folder has the scene's tables, what a case will cost (`plan`), the solver call (`run`), a typed
-record of the results, its figures (`figures.py`) and its built-in scenes (`examples`). A kind knows the solvers,
-`bem.scenes` and its context, and no other kind. Loops over loads, variants, repetitions and whatever `[over]` names,
-workers, resuming, statistics, dataset and summary are the business of `bem.campaigns`, which reads them from `axes` and
-from the record (`bem.scenes.records`).
+A kind is one case. `kind.py` puts its parts together: `scene` (keys and axes), `record` (results), `plan` (what a case
+costs), `run` (solver calls), `errors` (error bars), `checks` (contacts that checks examine), `figures` (pictures,
+loaded when something is drawn). `examples` has its built-in scenes. A kind knows the solvers, `bem.scenes` and its
+context, and no other kind. Loops over loads, variants, repetitions and whatever `[over]` names, workers, resuming,
+statistics, dataset and summary are the business of `bem.campaigns`, which reads them from `axes` and from the record
+(`bem.scenes.records`).
 
 How to write one, in the package or in a file of your own that ends in `bem.register(KIND)`, is in the guide
 (reports/prose/kinds.toml), part by part; tests/extension/test_kinds_and_readers_from_outside.py holds a whole one,

@@ -55,6 +55,9 @@ class Kind:
     always_lists : whether the summary has lists for a single case too.
     resolutions : what is refined where an accuracy
         is asked for.
+    contacts : contacts of a scene, each a `bem.scenes.checks.Case`, that plans show and checks examine; None where
+        there are none.
+    warm_up : built-in scenes and the settings that make them small; their runs compile the loops of the kind.
     """
 
     name: str
@@ -72,21 +75,12 @@ class Kind:
     scattering: Callable[[Any], tuple[str, ...]] = lambda scene: ()
     always_lists: bool = False
     resolutions: tuple[Resolution, ...] = ()
+    contacts: Callable[[Any], list[Any]] | None = None
+    warm_up: tuple[tuple[str, tuple[str, ...]], ...] = ()
 
     def __post_init__(self) -> None:
         marked = (key for key in headline_of(self.record) if key not in self.headline)
         object.__setattr__(self, "headline", (*self.headline, *marked))
-
-    @classmethod
-    def of(cls, file: Mapping[str, Any], model: type[SceneModel], record: type[Record], title: str, **own: Any) -> Kind:
-        """That of a file, `vars()` at its end: its functions `plan`, `run`, `resolve`, `axes`, `summarise`, `volumes`
-        and `scattering`; the kind's name is the model's, whose own `resolved` is `resolve` where it has one; `own` are
-        the other parameters."""
-        parts = {name: file[name] for name in _PARTS if name in file}
-        if hasattr(model, "resolved"):
-            parts.setdefault("resolve", model.resolved)
-        name = model.model_fields["kind"].default
-        return cls(**({"name": name, "title": title, "model": model, "record": record} | parts | own))
 
     def resolved(self, scene: Any) -> Any:
         """The scene with what files decide filled in, and, where it asks for an accuracy, with its first level.
@@ -148,7 +142,6 @@ def with_checksums(table: Any) -> Any:
     return table.model_copy(update=changed) if changed else table
 
 
-_PARTS = ("plan", "run", "resolve", "axes", "summarise", "volumes", "scattering")
 _registered: dict[str, Kind] = {}
 
 
@@ -169,7 +162,7 @@ def get_kind(name: str) -> Kind:
         raise KeyError(name)
     if name in _registered:
         return _registered[name]
-    kind = importlib.import_module(f"bem.kinds.{name.replace('-', '_')}.scene").KIND
+    kind = importlib.import_module(f"bem.kinds.{name.replace('-', '_')}.kind").KIND
     assert isinstance(kind, Kind)
     assert kind.name == name, f"kind {kind.name!r} must live in bem/kinds/{kind.name.replace('-', '_')}"
     return kind

@@ -19,7 +19,7 @@ import typing
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from functools import partial
-from typing import Annotated, Any, ClassVar, Literal, TypeVar
+from typing import Annotated, Any, ClassVar, Literal
 
 import numpy as np
 from numpy.typing import NDArray
@@ -193,26 +193,6 @@ def unit_of(key: str) -> tuple[str, str]:
         if unit and key.endswith(f"_{unit}") and not key.endswith(f"_and_{unit}"):
             return key[: -len(unit) - 1], _WRITTEN.get(unit, unit)
     return key, ""
-
-
-Made = TypeVar("Made", bound=Record)
-
-
-def filled(record: type[Made], *sources: Any, **own: Any) -> Made:
-    """The record with `own` in it; its other fields, and its status, are what the sources have under their names, the
-    first that has it.
-
-    sources : solutions, grids (their attributes), tables and mappings (their columns and keys). A field without a value
-    anywhere keeps its default; one without default is a `TypeError`.
-    """
-    for source in sources:
-        wanted = {*described(record), "status"} - own.keys()
-        if isinstance(source, Mapping | np.ndarray):
-            has = source.keys() if isinstance(source, Mapping) else set(source.dtype.names or ())
-            own |= {name: source[name] for name in wanted & has}
-        else:
-            own |= {name: getattr(source, name) for name in wanted & set(dir(source))}
-    return record(**own)
 
 
 def columns(rows: Iterable[Any], names: Iterable[str], prefix: str = "") -> dict[str, NDArray[Any]]:

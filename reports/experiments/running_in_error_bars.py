@@ -17,7 +17,9 @@ import numpy as np
 
 from bem.accuracy.wear import MIXED_RULES
 from bem.errors import BemError
-from bem.kinds.running_in import scene as running_in
+from bem.kinds.running_in.errors import at_resolution
+from bem.kinds.running_in.errors import bars as bars_of_loop
+from bem.kinds.running_in.solve import wear_down
 from bem.scenes import build
 from bem.scenes.context import PlainContext
 from bem.scenes.kind import get_kind
@@ -59,9 +61,9 @@ def solve(table: dict[str, Any]) -> Comparison | None:
     lower, upper = (waves_through(h, 1) for h in build.both_heights(scene, grid, PlainContext(scene.seed)))
     fine = (waves_through(lower, FINER), waves_through(upper, FINER))
     try:
-        found = running_in.wear_down(scene, (lower, upper), PlainContext(scene.seed))
-        bars = running_in.bars(scene, (lower, upper), found)
-        truth = running_in.wear_down(running_in.at_resolution(scene, FINER), fine, PlainContext(scene.seed))
+        found = wear_down(scene, (lower, upper), PlainContext(scene.seed))
+        bars = bars_of_loop(scene, (lower, upper), found)
+        truth = wear_down(at_resolution(scene, FINER), fine, PlainContext(scene.seed))
     except BemError as error:
         print(error)
         return None

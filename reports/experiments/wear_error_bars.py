@@ -16,7 +16,9 @@ from typing import Any
 import numpy as np
 
 from bem.accuracy.wear import RULES
-from bem.kinds.wear import scene as wear
+from bem.kinds.wear.errors import at_resolution
+from bem.kinds.wear.errors import bars as bars_of_loop
+from bem.kinds.wear.solve import wear_down
 from bem.scenes import build
 from bem.scenes.context import PlainContext
 from bem.scenes.kind import get_kind
@@ -59,10 +61,10 @@ def solve(table: dict[str, Any]) -> Comparison:
     scene = get_kind("wear").resolved(load_scene(table))
     grid = scene.domain.at(scene.cylinder, build.modulus_of(scene))[0]
     lower, upper = (waves_through(h, 1) for h in build.both_heights(scene, grid, PlainContext(scene.seed)))
-    found = wear.wear_down(scene, (lower, upper), PlainContext(scene.seed))
-    bars = wear.bars(scene, (lower, upper), found)
+    found = wear_down(scene, (lower, upper), PlainContext(scene.seed))
+    bars = bars_of_loop(scene, (lower, upper), found)
     fine = (waves_through(lower, FINER), waves_through(upper, FINER))
-    truth = wear.wear_down(wear.at_resolution(scene, FINER), fine, PlainContext(scene.seed))
+    truth = wear_down(at_resolution(scene, FINER), fine, PlainContext(scene.seed))
     names = RULES if truth.worn_volume_per_cycle > 0 else ()
     return compare_records(found, truth, bars.values, names, bars.parts)
 

@@ -7,8 +7,8 @@ import pytest
 
 from bem.campaigns.collect import _figures, outcome_of
 from bem.cli._terminal import print_numbers
-from bem.kinds.running_in.scene import RunningInRecord
-from bem.kinds.wear.scene import WearRecord
+from bem.kinds.running_in.record import RunningInRecord
+from bem.kinds.wear.record import WearRecord
 from bem.plots.report import with_error
 from bem.plots.tables import origin_table
 from bem.runs import run_scene

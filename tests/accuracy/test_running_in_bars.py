@@ -10,7 +10,7 @@ from small_scenes import PATCH
 from bem import ConvergenceError, Grid
 from bem.accuracy import running_in_bars
 from bem.accuracy.wear import FROM_START, MIXED_RULES
-from bem.kinds.running_in.scene import at_resolution
+from bem.kinds.running_in.errors import at_resolution
 from bem.runs import run_scene
 from bem.scenes import build, get_kind
 from bem.scenes.load import scene_from_table

@@ -13,7 +13,7 @@ from bem import Grid
 from bem.accuracy import wear_bars
 from bem.accuracy.bars import GRID, ErrorBars
 from bem.accuracy.wear import RULES
-from bem.kinds.wear.scene import at_resolution
+from bem.kinds.wear.errors import at_resolution
 from bem.runs import plan_scene, run_scene
 from bem.scenes import load_scene
 from bem.scenes.wearing import on_every_second_cell, with_least_area

@@ -16,7 +16,7 @@ from bem.campaigns import campaign_of, compute, jobs, plan
 from bem.campaigns.engine import Board, notes_of
 from bem.campaigns.local import compute_locally
 from bem.errors import ConvergenceError, InputError, interrupts_as_they_are
-from bem.kinds.wear import scene as wear
+from bem.kinds.wear.kind import KIND
 from bem.results import open_run
 from bem.runs import plan_scene, run_scene
 from bem.scenes import load_scene, wearing
@@ -162,7 +162,7 @@ def test_stopped_between_and_inside_cases_it_ends_in_the_same_bits(alone, tmp_pa
 
 @pytest.mark.internal
 def test_a_case_that_fails_is_named_and_the_others_are_kept(tmp_path, monkeypatch):
-    run = wear.run
+    run = KIND.run
 
     def failing(scene, context):
         if scene.cylinder.loads == [5.0]:
@@ -172,7 +172,7 @@ def test_a_case_that_fails_is_named_and_the_others_are_kept(tmp_path, monkeypatc
             context.note("of one load")
         return run(scene, context)
 
-    kind = __import__("dataclasses").replace(wear.KIND, run=failing)
+    kind = __import__("dataclasses").replace(KIND, run=failing)
     monkeypatch.setattr("bem.campaigns.engine.get_kind", lambda name: kind)
     telling = Telling()
     done = run_scene(SCENE, tmp_path / "run", figures=False, workers=1, watcher=telling)
@@ -243,7 +243,7 @@ def test_work_adds_up_in_the_plan_and_memory_does_not():
 def test_every_mistake_of_the_cases_is_said_once():
     scene = load_scene(SCENE, ['cylinder.loads=["1 MN", "2 MN"]', "repetitions=3"])
     with pytest.raises(InputError) as caught:
-        plan(campaign_of(wear.KIND.resolve(scene)))
+        plan(campaign_of(KIND.resolve(scene)))
     assert len(caught.value.messages) == 2
     assert "1e+06 N" in caught.value.messages[0]
 

@@ -16,7 +16,7 @@ from bem.elements.element import element_template, load_element
 from bem.elements.gear_pair import path_of_contact
 from bem.elements.running import columns, notes, run_all, run_contact, summary, wear_per_pass, worn_volume_rate
 from bem.errors import Status
-from bem.kinds.traction.scene import case_of
+from bem.kinds.traction.run import case_of
 from bem.wear.criterion.local import Archard
 
 WEAR_RATE = 1e-18  # m^2/N, 1e-9 mm^3/(N m)

@@ -70,7 +70,7 @@ def test_points_out_of_range_do_not_count_and_too_few_are_refused():
 def test_a_stribeck_curves_fit_is_in_the_summary_for_each_model():
     from types import SimpleNamespace
 
-    from bem.kinds.friction.scene import summarise
+    from bem.kinds.friction.record import summarise
 
     def record(b):
         share = np.exp(-b * RATIO**1.4)

@@ -257,7 +257,7 @@ def test_depths_of_a_wear_scene_are_planned_within_a_factor_of_two_and_of_both_b
 @pytest.mark.internal
 def test_depths_of_the_first_cycle_are_within_what_memory_is_planned_for():
     """The memory of a plan holds spectra of so many depths; the first cycle, of the sharpest asperities, needs most."""
-    from bem.kinds.wear.scene import _DEPTHS_AT_FIRST
+    from bem.kinds.wear.plan import _DEPTHS_AT_FIRST
 
     settings = ["repetitions=1", "cycles.count=1", "cycles.settled=1", 'cylinder.loads=["10 N"]']
     scene, _ = plan_scene("wear-steel-steel", settings)

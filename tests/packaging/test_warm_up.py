@@ -16,8 +16,9 @@ from numba import types
 from bem import compiled
 from bem.runs import plan_scene
 from bem.startup.signatures import SignatureRecord, SignatureWriter
-from bem.warm_up import RECORD, SCENES
+from bem.warm_up import RECORD, scenes
 
+SCENES = scenes()
 ROOT = Path(__file__).resolve().parents[2]
 
 

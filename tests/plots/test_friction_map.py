@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 from matplotlib.figure import Figure
 
-from bem.plots.figures.friction_map import FIGURES
+from bem.kinds.friction.friction_map import FRICTION_MAP
 from bem.runs import run_scene
 from bem.scenes import library
 
@@ -35,7 +35,7 @@ def test_the_map_holds_the_friction(run):
 
 @pytest.mark.internal
 def test_the_picture_says_shares_and_shows_what_carries(run):
-    (kind,) = FIGURES
+    kind = FRICTION_MAP
     assert kind.fits(run)
     figure = Figure()
     kind.draw(run, figure)

@@ -12,12 +12,13 @@ from matplotlib.image import imread
 
 from bem.kinds.contact import figures as contact
 from bem.kinds.friction import figures as friction
+from bem.kinds.friction import friction_map
 from bem.kinds.point_film import figures as point_film
 from bem.kinds.running_in import figures as running_in
 from bem.kinds.wear import figures as wear
 from bem.plots import draw as drawing
 from bem.plots.cases import along
-from bem.plots.figures import friction_map
+from bem.plots.figures import all_figures
 from bem.plots.report import with_error
 from bem.plots.sweep import fill
 from bem.plots.tables import figure_tables
@@ -199,7 +200,7 @@ def test_the_surface_of_one_body_leaves_no_half_empty():
 
 def test_maps_of_friction_fill_their_figure_however_long_the_patch_is():
     """Of a patch twice as long as wide they were small, one below the other in a wide figure."""
-    (kind,) = friction_map.FIGURES
+    kind = friction_map.FRICTION_MAP
     for cells in ((16, 16), (32, 16), (64, 16)):
         x, y = (1e-6 * (np.arange(n) - (n - 1) / 2) for n in cells)
         stress = np.full(cells, 1e8)
@@ -217,7 +218,7 @@ def test_maps_of_friction_fill_their_figure_however_long_the_patch_is():
 
 def test_a_map_without_anything_on_it_is_not_drawn():
     """Oil that carries a thousandth of the friction left half of the figure empty."""
-    (kind,) = friction_map.FIGURES
+    kind = friction_map.FRICTION_MAP
     x, y = (1e-6 * (np.arange(cells) - (cells - 1) / 2) for cells in (16, 28))
     stress = np.full((16, 28), 1e8)
     for oil, maps in ((1e3, 1), (1e8, 2)):
@@ -277,7 +278,7 @@ def test_maps_longer_than_wide_leave_no_half_empty(tmp_path):
         run.summary = {"contact_area_fraction": float(state.mean())}
         del run.dataset.attrs["axes"]
         for name in ("contact-map", "pressure-map"):
-            kind = next(kind for kind in contact.FIGURES if kind.name == name)
+            kind = all_figures()[name]
             for size in (None, (5.0, 4.0)):
                 (path,) = drawing.draw(run, kind, tmp_path, size=size).paths
                 asked[cells, name, size is None] = imread(path)

@@ -3,7 +3,7 @@
 import numpy as np
 import pytest
 
-from bem.kinds.contact.figures import _one_colour
+from bem.plots.figures.pressure import _one_colour
 from bem.plots.figures.subsurface import _drawn_over_depth
 from bem.plots.style import along_x, field_axes, height_limit, map_of_heights, named_axes
 from bem.results.arrays import Array

@@ -139,6 +139,16 @@ def test_approach_and_mean_gap_reach_the_same_contact_as_the_load():
 
 
 @pytest.mark.internal
+def test_a_figure_that_its_solution_lost_is_an_error(monkeypatch):
+    """An optional figure was left out in silence when its name in the solution changed."""
+    from bem.stress.stress_summary import StressSummary
+
+    monkeypatch.delattr(StressSummary, "max_von_mises_of_points")
+    with pytest.raises(AttributeError, match="max_von_mises_of_points"):
+        run(rough())
+
+
+@pytest.mark.internal
 def test_von_mises_alone_is_the_same_as_from_all_stresses():
     _, alone, _ = run(ROUGH)
     _, everything, _ = run(rough(outputs={"stresses": True}))

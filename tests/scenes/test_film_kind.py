@@ -6,7 +6,8 @@ from pydantic import ValidationError
 from small_scenes import FILM
 
 from bem.campaigns.collect import outcome_of
-from bem.kinds.film.scene import KIND, FilmScene
+from bem.kinds.film.kind import KIND
+from bem.kinds.film.scene import FilmScene
 from bem.scenes import PlainContext
 
 pytestmark = pytest.mark.internal

@@ -1,6 +1,6 @@
 """The kind `flow-factors`: a scene from tables to figures, and its mistakes in words."""
 
-from types import SimpleNamespace
+import dataclasses
 
 import numpy as np
 import pytest
@@ -10,9 +10,8 @@ from bem import InputError, flow_factors, load_scene
 from bem.accuracy import flow_bars
 from bem.errors import Status
 from bem.runs import run_scene
-from bem.scenes import build
+from bem.scenes import build, get_kind
 from bem.scenes.context import PlainContext
-from bem.scenes.records import Record, filled
 
 
 def scene(**changes):
@@ -100,9 +99,18 @@ def test_mistakes(changes, words):
 
 
 @pytest.mark.internal
-def test_a_record_has_the_status_of_what_it_was_filled_from():
+def test_the_record_has_the_status_of_the_factors(monkeypatch):
     """Factors that did not converge were said to be: the kind gave where, but no status."""
-    solved = SimpleNamespace(status=Status.STALLED)
-    assert filled(Record, solved, where="separation 3 nm").status is Status.STALLED
-    assert filled(Record, solved, where="separation 3 nm").where == "separation 3 nm"
-    assert filled(Record, SimpleNamespace(status=Status.CONVERGED), where="separation 3 nm").where == ""
+    import bem.flow
+
+    solve = bem.flow.flow_factors
+
+    def stalled(*given, **named):
+        found = solve(*given, **named)
+        return dataclasses.replace(found, statuses=(Status.STALLED,) * len(found.statuses))
+
+    monkeypatch.setattr(bem.flow, "flow_factors", stalled)
+    kind = get_kind("flow-factors")
+    record = kind.run(kind.resolved(load_scene(scene())), PlainContext(0))
+    assert record.status is Status.STALLED
+    assert record.where.startswith("separation ")

@@ -7,7 +7,7 @@ import pytest
 
 from bem.campaigns import campaign_of, compute, plan
 from bem.errors import InfeasibleError, InputError
-from bem.kinds.tribofilm import scene as tribofilm
+from bem.kinds.tribofilm.kind import KIND
 from bem.scenes import get_kind, load_scene
 
 SMALL = """
@@ -88,8 +88,8 @@ def test_a_finished_film_is_not_grown_again(tmp_path, monkeypatch):
     whole = compute(campaign, tmp_path)
     (tmp_path / "cases" / "00001.bin").unlink()
     grown = []
-    run = tribofilm.run
-    counting = dataclasses.replace(tribofilm.KIND, run=lambda *given: grown.append(given) or run(*given))
+    run = KIND.run
+    counting = dataclasses.replace(KIND, run=lambda *given: grown.append(given) or run(*given))
     monkeypatch.setattr("bem.campaigns.engine.get_kind", lambda name: counting)
     rest = compute(campaign, tmp_path)
     assert len(grown) == 1

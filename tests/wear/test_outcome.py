@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from bem.grid import FloatArray, Grid
-from bem.kinds.wear import scene as wear
+from bem.kinds.wear.errors import bars
+from bem.kinds.wear.solve import wear_down
 from bem.scenes import library
 from bem.scenes.context import PlainContext
 from bem.scenes.kind import get_kind
@@ -61,9 +62,9 @@ def worn_cylinder(cells: int):
     table["wear"]["criterion"] = table["wear"]["criterion"] | {"distance": "535 mm"}
     scene = get_kind("wear").resolved(load_scene(table))
     flat = (np.zeros((cells, 2)), np.zeros((cells, 2)))
-    found = wear.wear_down(scene, flat, PlainContext(0))
-    bars = wear.bars(scene, flat, found).values
-    return np.array([found.worn_depth, found.Sq_final, found.contact_area_fraction]), bars
+    found = wear_down(scene, flat, PlainContext(0))
+    of_each = bars(scene, flat, found).values
+    return np.array([found.worn_depth, found.Sq_final, found.contact_area_fraction]), of_each
 
 
 def test_scar_of_archard_wear_converges_with_the_grid():

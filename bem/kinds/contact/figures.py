@@ -1,4 +1,4 @@
-"""Figures of a dry contact: pressure, state, a section, the distribution of pressure, convergence, surfaces."""
+"""Figures of a dry contact: state, a section, the distribution of pressure, convergence, surfaces."""
 
 from __future__ import annotations
 
@@ -9,10 +9,10 @@ from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
 from matplotlib.ticker import MaxNLocator
-from numpy.typing import NDArray
 
 from bem.numerics.blocks import deviation
-from bem.plots.figures import FigureKind, two_dimensional, wide_enough
+from bem.plots.figures import FigureKind, wide_enough
+from bem.plots.figures.pressure import in_contact
 from bem.plots.style import (
     BLACK,
     BLUE,
@@ -22,44 +22,15 @@ from bem.plots.style import (
     along_x,
     field_axes,
     label,
-    map_of,
     map_of_heights,
     prefix,
     thinned,
 )
 from bem.scenes.context import release
 
-_AT_ONE_PRESSURE = 0.1
-"""From this share of the contact on, that it is at one pressure is written over the map."""
-
 
 def _array(run: Any, name: str) -> Any:
     return run.dataset[name].values
-
-
-def _pressure_map(run: Any, figure: Figure) -> None:
-    pressure = _array(run, "pressure")
-    shown = thinned(pressure)
-    axes = figure.add_subplot()
-    map_of(
-        figure, axes, _array(run, "x"), _array(run, "y"), np.where(shown > 0, shown, np.nan), "contact pressure", "Pa",
-        ends=(0.0, float(pressure.max())),
-    )  # fmt: skip
-    axes.set_title(_one_colour(pressure), loc="right")
-
-
-def _one_colour(pressure: NDArray[np.float64]) -> str:
-    """What a map says in its darkest colour alone; nothing where less than a tenth of what touches is at one pressure.
-
-    Only a cap, or full contact of smooth bodies, makes so many cells alike.
-    """
-    highest, touching = float(pressure.max()), int(np.count_nonzero(pressure > 0))
-    factor, unit = prefix([highest], "Pa")
-    share = float(np.count_nonzero(pressure >= highest * (1 - 1e-6))) / max(touching, 1)
-    if touching < 2 or share < _AT_ONE_PRESSURE:
-        return ""
-    part = "all" if share > 0.999 else f"{100 * share:.0f} %"
-    return f"{part} of the cells in contact are at one pressure, {highest * factor:.3g} {unit}"
 
 
 def _contact_map(run: Any, figure: Figure) -> None:
@@ -176,26 +147,11 @@ def _length(value: float) -> str:
     return f"{value * factor:.3g} {unit}"
 
 
-def _in_contact(run: Any) -> bool:
-    return bool((_array(run, "pressure") > 0).any())
-
-
 def _rough(run: Any) -> bool:
     return wide_enough(run) and any(name in run.dataset for name in ("lower_height", "upper_height"))
 
 
-def _map_in_contact(run: Any) -> bool:
-    return two_dimensional(run) and _in_contact(run)
-
-
 FIGURES = (
-    FigureKind(
-        "pressure-map",
-        "Contact pressure; cells out of contact are left blank.",
-        ("x", "y", "pressure"),
-        _pressure_map,
-        applies=_map_in_contact,
-    ),
     FigureKind(
         "contact-map",
         "Where the surfaces touch, and where the pressure has reached the hardness; shares are counts of cells, "
@@ -211,7 +167,7 @@ FIGURES = (
         ("x", "y", "pressure", "gap", "undeformed_gap"),
         _section,
         (6.0, 4.0),
-        _in_contact,
+        in_contact,
     ),
     FigureKind(
         "pressure-histogram",
@@ -219,7 +175,7 @@ FIGURES = (
         ("pressure",),
         _histogram,
         (5.0, 3.2),
-        _in_contact,
+        in_contact,
     ),
     FigureKind(
         "convergence", "Residual of the contact solver.", ("iteration", "residual_history"), _convergence, (5.0, 3.2)

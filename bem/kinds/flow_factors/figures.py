@@ -13,7 +13,6 @@ from bem.plots.figures import FigureKind
 from bem.plots.style import BLACK, BLUE, GREEN, ORANGE, PINK, SKY, VERMILION, map_of_heights
 from bem.reference_solutions.rough_flow import PATIR_CHENG, patir_cheng_pressure, patir_cheng_shear
 
-ALL_CASES = True
 _COLOURS = (BLUE, VERMILION, GREEN, PINK, ORANGE, SKY, BLACK)
 _ELONGATION = "lower.surface.elongation"
 
@@ -81,6 +80,7 @@ FIGURES = (
         ("separation_over_Sq", "pressure_x", "pressure_y", "shear_x"),
         _factors,
         (8.0, 3.8),
+        all_cases=True,
     ),
     FigureKind(
         "flow-heights",
@@ -89,5 +89,6 @@ FIGURES = (
         _heights,
         (5.0, 4.0),
         lambda run: run.summary["kind"] == "flow-factors",
+        all_cases=True,
     ),
 )

@@ -1,4 +1,4 @@
-"""Figures of friction: Stribeck curves with their parts, sections through film and surface, loads of asperities.
+"""Figures of friction: Stribeck curves with their parts, sections through film and surface.
 
 Knows a run's dataset, summary and scene; solves nothing. Verified in tests/plots/test_figures.py: every figure of every
 built-in scene is drawn.
@@ -13,6 +13,7 @@ from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from numpy.typing import NDArray
 
+from bem.kinds.friction.friction_map import FRICTION_MAP
 from bem.plots.cases import case_words, grouped, many_speeds
 from bem.plots.figures import FigureKind
 from bem.plots.style import (
@@ -220,34 +221,10 @@ def _difference(run: Any, figure: Figure) -> None:
     axes.legend()
 
 
-def _asperity_loads(run: Any, figure: Figure) -> None:
-    data = run.dataset
-    depth = data["interference"].values
-    spacing = data["asperity_spacing"].values
-    factor, unit = prefix(data["hertz_load"].values, "N")
-    many = figure.subplots(1, 2, sharey=True)
-    for axes, key, title in zip(
-        many,
-        ("asperity_load", "asperity_load_window"),
-        ("mean plane of the deformed flat", "finite array, from the undeformed flat"),
-        strict=True,
-    ):
-        axes.plot(depth * 1e9, data["hertz_load"].values * factor, "--", color="0.3", label="Hertz")
-        for colour, each, values in zip(_COLOURS, spacing, data[key].values, strict=False):
-            axes.plot(depth * 1e9, values * factor, color=colour, label=f"{each * 1e6:g} µm apart")
-        axes.set_title(title)
-        axes.set_xlabel("tops pressed in by (nm)")
-        axes.set_xlim(0)
-        axes.set_ylim(0)
-    many[0].set_ylabel(label("load per asperity", unit))
-    many[0].legend()
-
-
 def _has_differences(run: Any) -> bool:
     return bool(run.summary.get("largest_difference"))
 
 
-ALL_CASES = True
 FIGURES = (
     FigureKind(
         "stribeck-curve",
@@ -257,6 +234,7 @@ FIGURES = (
         _stribeck,
         (5.4, 4.0),
         many_speeds,
+        all_cases=True,
     ),
     FigureKind(
         "load-sharing",
@@ -265,6 +243,7 @@ FIGURES = (
         _sharing,
         (5.0, 4.6),
         many_speeds,
+        all_cases=True,
     ),
     FigureKind(
         "contact-temperatures",
@@ -273,6 +252,7 @@ FIGURES = (
         _temperatures,
         (5.2, 3.6),
         many_speeds,
+        all_cases=True,
     ),
     FigureKind(
         "film-section",
@@ -281,6 +261,7 @@ FIGURES = (
         _section,
         (6.0, 4.8),
         lambda run: bool(run.dataset["pressure"].values.any()),
+        all_cases=True,
     ),
     FigureKind(
         "film-pressure",
@@ -289,6 +270,7 @@ FIGURES = (
         ("film_x", "film_pressure", "film_thickness", "shown_speed"),
         _film,
         (5.4, 3.4),
+        all_cases=True,
     ),
     FigureKind(
         "largest-difference",
@@ -297,12 +279,7 @@ FIGURES = (
         _difference,
         (5.6, 3.6),
         _has_differences,
+        all_cases=True,
     ),
-    FigureKind(
-        "asperity-loads",
-        "Load of one asperity among equal neighbours, over how deep its top is pressed in, measured in two ways.",
-        ("interference", "asperity_spacing", "asperity_load", "asperity_load_window", "hertz_load"),
-        _asperity_loads,
-        (8.0, 3.8),
-    ),
+    FRICTION_MAP,
 )

@@ -169,7 +169,6 @@ def _many_hardnesses(run: Any) -> bool:
 
 
 _WIDE = (5.6, 3.6)
-ALL_CASES = True
 FIGURES = (
     FigureKind(
         "running-in-stribeck",
@@ -178,6 +177,7 @@ FIGURES = (
         _run_in_stribeck,
         _WIDE,
         many_speeds,
+        all_cases=True,
     ),
     FigureKind(
         "friction-over-cycles",
@@ -185,6 +185,7 @@ FIGURES = (
         ("cycle", "friction_over_cycles", "speed", "hardness"),
         _cycles("friction_over_cycles", "coefficient of friction"),
         (6.2, 3.6),
+        all_cases=True,
     ),
     FigureKind(
         "contact-share-over-cycles",
@@ -193,6 +194,7 @@ FIGURES = (
         _cycles("contact_share", "share of the load on contact"),
         (6.2, 3.6),
         lambda run: bool((run.dataset["contact_share"].values > 0).any()),
+        all_cases=True,
     ),
     FigureKind(
         "particle-radius-over-speed",
@@ -202,6 +204,7 @@ FIGURES = (
         _radius_over_speed,
         _WIDE,
         lambda run: many_speeds(run) and bool((run.dataset["particle_equivalent_radius"].values > 0).any()),
+        all_cases=True,
     ),
     FigureKind(
         "friction-over-hardness",
@@ -210,6 +213,7 @@ FIGURES = (
         _over_hardness,
         _WIDE,
         _many_hardnesses,
+        all_cases=True,
     ),
     FigureKind(
         "running-in-frames",
@@ -218,5 +222,6 @@ FIGURES = (
         _frames,
         (8.4, 3.0),
         animate=_animate,
+        all_cases=True,
     ),
 )

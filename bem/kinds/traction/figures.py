@@ -16,7 +16,6 @@ from bem.plots.figures import FigureKind
 from bem.plots.over import COLOURS, axis_of, lines_over
 from bem.plots.style import BLACK, BLUE, VERMILION, has_unresolved_spike, label, mark_spike, name_case, prefix
 
-ALL_CASES = True
 _CELSIUS = 273.15
 _MOST_TEMPERATURES = 6
 """Cases that are drawn with temperatures of oil and surfaces; of more, every n-th."""
@@ -299,6 +298,7 @@ FIGURES = (
         _curve,
         size=(5.0, 5.0),
         applies=lambda run: _ratio_of(run) is not None,
+        all_cases=True,
     ),
     FigureKind(
         "film-temperatures",
@@ -309,6 +309,7 @@ FIGURES = (
         ("oil_temperature", "lower_surface_temperature", "upper_surface_temperature"),
         _temperatures,
         applies=lambda run: bool(_known(run, "oil_temperature")),
+        all_cases=True,
     ),
     FigureKind(
         "temperature-field",
@@ -318,6 +319,7 @@ FIGURES = (
         _field,
         size=(6.0, 6.0),
         applies=lambda run: bool(_known(run, "field")),
+        all_cases=True,
     ),
     FigureKind(
         "starvation-curve",
@@ -327,6 +329,7 @@ FIGURES = (
         _starvation,
         size=(5.0, 6.0),
         applies=_starves,
+        all_cases=True,
     ),
     FigureKind(
         "along-the-way",
@@ -337,6 +340,7 @@ FIGURES = (
         _along,
         size=(5.5, 10.5),
         applies=_has_way,
+        all_cases=True,
     ),
     FigureKind(
         "rolling-film",
@@ -344,5 +348,6 @@ FIGURES = (
         "ends at 1.25 times the highest pressure beside it.",
         ("pressure", "thickness"),
         _film,
+        all_cases=True,
     ),
 )

@@ -94,15 +94,14 @@ def _line(
     name: str, caption: str, variable: str, text: str, unit: str, applies: Callable[[Any], bool] = lambda run: True
 ) -> FigureKind:
     draw = partial(_over_time, name=variable, text=text, unit=unit)
-    return FigureKind(name, caption, ("time", variable), draw, (5.0, 3.4), applies)
+    return FigureKind(name, caption, ("time", variable), draw, (5.0, 3.4), applies, all_cases=True)
 
 
 def _map(name: str, caption: str, variable: str, text: str, unit: str) -> FigureKind:
     draw = partial(_maps, name=variable, text=text, unit=unit)
-    return FigureKind(name, caption, ("x", "y", variable), draw, (7.6, 3.4), _any(variable))
+    return FigureKind(name, caption, ("x", "y", variable), draw, (7.6, 3.4), _any(variable), all_cases=True)
 
 
-ALL_CASES = True
 FIGURES = (
     _line("film-thickness", "Mean film thickness.", "thickness", "mean film thickness", "m"),
     _line(
@@ -135,6 +134,7 @@ FIGURES = (
         ("sample_thickness", "sample_mean_pressure"),
         _pressure,
         (5.0, 3.4),
+        all_cases=True,
     ),
     _map("film-map", "Local film thickness at the end.", "film_map", "local film thickness", "m"),
     _map("film-pressure-map", "Contact pressure at the end.", "film_pressure", "contact pressure", "Pa"),

@@ -193,7 +193,6 @@ def _many_runs(run: Any) -> bool:
     return _any_piece(run) and np.unique(run.dataset["load"].values).size > 1
 
 
-ALL_CASES = True
 FIGURES = (
     FigureKind(
         "particle-radius-over-cycles",
@@ -202,6 +201,7 @@ FIGURES = (
         _radius,
         (5.0, 3.4),
         _any_piece,
+        all_cases=True,
     ),
     FigureKind(
         "wear-volume-over-cycles",
@@ -210,6 +210,7 @@ FIGURES = (
         _volume,
         (5.0, 3.4),
         lambda run: bool((run.dataset["volume"].values > 0).any()),
+        all_cases=True,
     ),
     FigureKind(
         "contact-pressure-over-cycles",
@@ -218,6 +219,7 @@ FIGURES = (
         _pressure,
         (5.0, 3.4),
         lambda run: bool((run.dataset["contact_load"].values > 0).any()),
+        all_cases=True,
     ),
     FigureKind(
         "roughness-over-cycles",
@@ -225,6 +227,7 @@ FIGURES = (
         ("rms_height", "cycle", "load"),
         _roughness,
         (5.0, 3.4),
+        all_cases=True,
     ),
     FigureKind(
         "particle-distribution",
@@ -233,6 +236,7 @@ FIGURES = (
         _distribution,
         (5.0, 3.4),
         lambda run: run.dataset["particle_volume"].size > 0,
+        all_cases=True,
     ),
     FigureKind(
         "radius-over-load",
@@ -241,6 +245,7 @@ FIGURES = (
         _over_load,
         (5.0, 3.4),
         _many_runs,
+        all_cases=True,
     ),
     FigureKind(
         "worn-surface",
@@ -248,6 +253,7 @@ FIGURES = (
         ("x", "y", "height_before", "height_after"),
         _worn_surface,
         (7.6, 3.4),
+        all_cases=True,
     ),
     FigureKind(
         "particle-shapes",
@@ -256,5 +262,6 @@ FIGURES = (
         _shapes,
         (8.0, 5.8),
         _something_left,
+        all_cases=True,
     ),
 )

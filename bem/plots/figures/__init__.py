@@ -16,7 +16,7 @@ import importlib
 import pkgutil
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
 from typing import Any
@@ -58,8 +58,7 @@ class FigureKind:
     size : width and height [inch].
     applies : applies(run) -> whether there is anything to show.
     animate : animate(run, path) writes an animated GIF beside the figure; None for most.
-    all_cases : whether it shows all cases of a run, as those of a module with `ALL_CASES = True` do; others are given
-        the arrays of the first case.
+    all_cases : whether it shows all cases of a run; others are given the arrays of the first case.
     """
 
     name: str
@@ -113,5 +112,5 @@ def _of_the_package() -> dict[str, FigureKind]:
         loaded = importlib.import_module(module)
         for kind in loaded.FIGURES:
             assert kind.name not in found, f"two figures are called {kind.name!r}"
-            found[kind.name] = replace(kind, all_cases=getattr(loaded, "ALL_CASES", False))
+            found[kind.name] = kind
     return found

@@ -13,8 +13,6 @@ from bem.scenes.context import Variable
 from bem.scenes.kind import get_kind
 from bem.scenes.records import figures
 
-ALL_CASES = True
-
 
 def _keys(run: Any) -> list[str]:
     return [axis for axis in axes_of(run.dataset) if axis in (run.scene.get("over") or {})]
@@ -52,5 +50,6 @@ FIGURES = (
         _figures,
         (7.0, 5.6),
         _applies,
+        all_cases=True,
     ),
 )

@@ -42,7 +42,6 @@ def _slip_and_wear(run: Any, figure: Figure) -> None:
         axes.set_xlabel(label("x", unit))
 
 
-ALL_CASES = True
 FIGURES = (
     FigureKind(
         "slip-and-wear",
@@ -50,5 +49,6 @@ FIGURES = (
         ("x", "y", "slid", "pressure", "traction_x", "height_before", "height_after"),
         _slip_and_wear,
         (7.8, 3.4),
+        all_cases=True,
     ),
 )

@@ -1,4 +1,4 @@
-"""Figures of partial slip and rolling: where it sticks, tractions under their bound, force over shift."""
+"""Figures of partial slip and rolling: where it sticks, tractions under their bound."""
 
 from __future__ import annotations
 
@@ -47,20 +47,6 @@ def _section(run: Any, figure: Figure) -> None:
     axes.legend()
 
 
-def _loop(run: Any, figure: Figure) -> None:
-    data = run.dataset
-    axes = figure.add_subplot()
-    shift = np.concatenate([[0.0], data["step_shift"].values])
-    force = np.concatenate([[0.0], data["step_force"].values])
-    factor, unit = prefix([float(np.abs(shift).max())], "m")
-    scale, force_unit = prefix([float(np.abs(force).max())], "N")
-    axes.plot(shift * factor, force * scale, "o-", color=BLACK, markersize=2.5, linewidth=0.9)
-    axes.axhline(0, color="0.6", linewidth=0.6)
-    axes.axvline(0, color="0.6", linewidth=0.6)
-    axes.set_xlabel(label("shift", unit))
-    axes.set_ylabel(label("tangential force", force_unit))
-
-
 FIGURES = (
     FigureKind(
         "slip-map",
@@ -76,11 +62,5 @@ FIGURES = (
         "Tractions along x through the row with most load, at the end, between the bounds of friction.",
         ("x", "y", "pressure", "traction_x", "traction_y"),
         _section,
-    ),
-    FigureKind(
-        "slip-loop",
-        "Force over shift, step by step from rest; what a cycle encloses is the energy of friction.",
-        ("step_shift", "step_force"),
-        _loop,
     ),
 )

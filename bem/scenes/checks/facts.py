@@ -162,18 +162,18 @@ def examine(scene: SceneModel) -> Facts:
     """The facts of a resolved scene. Surfaces are read, generated and described when they are first asked for.
 
     Its cases are those of the kind's axes, each once: what differs in temperature alone is one contact. A scene of a
-    kind that is not known here, or without bodies, has the facts of its materials alone.
+    kind without contacts has the facts of its materials alone.
     """
-    make = _CASES.get(scene.kind)
-    if make is None or not hasattr(scene, "lower"):
+    kind = get_kind(scene.kind)
+    if kind.contacts is None:
         return Facts(scene, ())
-    axes = get_kind(scene.kind).axes(scene)
+    axes = kind.axes(scene)
     found: list[tuple[tuple[int, ...], Case]] = []
     for place in product(*(range(len(axis)) for axis in axes)):
         own: Any = scene
         for axis, i in zip(axes, place, strict=True):
             own = axis.pick(own, i)
-        found += [(place, case) for case in make(own) if all(case != known for _, known in found)]
+        found += [(place, case) for case in kind.contacts(own) if all(case != known for _, known in found)]
     telling = [k for k in range(len(axes)) if len({place[k] for place, _ in found}) > 1]
     several = len({case.label for _, case in found}) > 1
     cases = []
@@ -188,16 +188,19 @@ def _words(axis: Axis, i: int) -> str:
     return str(value) if isinstance(value, str) else si(value, axis.si)
 
 
-def _bodies(scene: Any) -> dict[str, Any]:
+def bodies_of(scene: Any) -> dict[str, Any]:
+    """Bodies of a scene and the tables of their surfaces, as arguments of `Case`."""
     upper = None if scene.upper.material is None else scene.upper.build()
     surfaces = {"lower": scene.lower.surface, "upper": scene.upper.surface}
     return {"lower": scene.lower.build(), "upper": upper, "surfaces": surfaces}
 
 
-def _contact(scene: Any) -> list[Case]:
-    grid, bodies, control = build.grid_of(scene.grid), _bodies(scene), scene.contact
-    outputs: Any = getattr(scene, "outputs", None)  # the kind `surface-temperature` has none
-    wanted = outputs is not None and outputs.below and outputs.depths is not None
+def dry_contacts(scene: Any, depths: tuple[float, ...] = ()) -> list[Case]:
+    """Contact of two bodies on a grid without oil.
+
+    depths : at which stresses are wanted [m].
+    """
+    grid, bodies, control = build.grid_of(scene.grid), bodies_of(scene), scene.contact
     return [
         Case(
             grid=grid,
@@ -205,7 +208,7 @@ def _contact(scene: Any) -> list[Case]:
             smooth=scene.smooth_contact(grid.lengths),
             cap=control.hardness,
             friction=control.friction,
-            depths=outputs.depths.build() if wanted else (),
+            depths=depths,
             shape=scene.shape.kind,
             wavelength=scene.shape.wavelength,
             **bodies,
@@ -213,14 +216,16 @@ def _contact(scene: Any) -> list[Case]:
     ]
 
 
-def _lubricated(scene: Any) -> list[Case]:
-    """Kinds `friction`, `running-in` and `running-in-life`: a cylinder, ball or ellipsoid on a flat, a rough patch
-    under it."""
-    grid, bodies, contact, wear = build.grid_of(scene.grid), _bodies(scene), scene.contact, getattr(scene, "wear", None)
+def lubricated_contacts(
+    scene: Any, cap: float | None, depths: tuple[float, ...] = (), wear: WearScenePart | None = None
+) -> list[Case]:
+    """Contact of a cylinder, ball or ellipsoid with a flat in mixed lubrication, on the rough patch under it.
+
+    cap : highest pressure of a cell [Pa]. depths : at which stresses are wanted [m]. wear : model of a wear loop.
+    """
+    grid, bodies, contact = build.grid_of(scene.grid), bodies_of(scene), scene.contact
     modulus = contact_modulus(bodies["lower"].material, bodies["upper"].material)
     (load,) = contact.forces(modulus)
-    depths = getattr(scene, "depths", None)
-    cap: float | None = getattr(scene, "cap", contact.hardness)  # a curve of several models has caps of its own
     cell = []
     if scene.cell_repeats:  # of the contact, and part of a flat
         cell = [Case(grid=grid, load=contact.mean_pressure(load, modulus) * grid.area, cap=cap, **bodies)]
@@ -232,106 +237,18 @@ def _lubricated(scene: Any) -> list[Case]:
             smooth=smooth_contact(bodies["lower"], bodies["upper"], contact.curvature, load=load / contact.length),
             cap=cap,
             friction=contact.nominal_friction(load, modulus, scene.speeds.build()[0], scene.oil.temperature),
-            depths=() if depths is None else tuple(float(d) for d in depths.build()),
+            depths=depths,
             width=contact.width,
-            slide=scene.wear.shift * grid.spacing[0] if hasattr(wear, "shift") else None,
-            wear=wear if hasattr(wear, "shift") else None,
+            slide=None if wear is None else wear.shift * grid.spacing[0],
+            wear=wear,
             shape="cylinder" if contact.point_radii is None else "ellipsoid",
             **bodies,
         ),
     ]
 
 
-def _wear(scene: Any) -> list[Case]:
-    (load,), cylinder, bodies = scene.cylinder.loads, scene.cylinder, _bodies(scene)
-    grid, on_slice = scene.domain.at(cylinder, build.modulus_of(scene))
-    radii = (cylinder.radius or math.inf, math.inf)
-    return [
-        Case(
-            grid=grid,
-            load=on_slice,
-            smooth=smooth_contact(bodies["lower"], bodies["upper"], radii, load=load / cylinder.width),
-            cap=cylinder.hardness,
-            friction=cylinder.friction,
-            depths=tuple(float(d) for d in scene.depths.build()),
-            width=cylinder.width,
-            slide=scene.wear.shift * grid.spacing[0],
-            wear=scene.wear,
-            shape="cylinder" if cylinder.radius else "flat",
-            **bodies,
-        )
-    ]
-
-
-def _tribofilm(scene: Any) -> list[Case]:
-    from bem.tribofilm.properties import Constant
-
-    grid, bodies, radii = build.grid_of(scene.grid), _bodies(scene), scene.shape.radii
-    (load,), hardness = scene.rubbing.loads, scene.film.hardness
-    on_it = load / grid.lengths[1] if math.isinf(radii[1]) else load
-    return [
-        Case(
-            grid=grid,
-            load=load,
-            smooth=smooth_contact(bodies["lower"], bodies["upper"], radii, load=on_it),
-            cap=hardness.value if isinstance(hardness, Constant) else None,
-            friction=scene.rubbing.friction,
-            shape=scene.shape.kind,
-            wavelength=scene.shape.wavelength,
-            **bodies,
-        )
-    ]
-
-
-def _film(scene: Any) -> list[Case]:
-    bodies, cylinder = _bodies(scene), scene.cylinder
-    load = max(cylinder.load, cylinder.load_end or 0.0)
-    radii = (cylinder.radius, math.inf)
-    smooth = smooth_contact(bodies["lower"], bodies["upper"], radii, load=load / cylinder.width)
-    return [Case(smooth=smooth, width=cylinder.width, shape="cylinder", **bodies)]
-
-
-def _point_film(scene: Any) -> list[Case]:
-    bodies = _bodies(scene)
+def ball_contacts(scene: Any) -> list[Case]:
+    """Smooth contact of a ball or barrel."""
+    bodies = bodies_of(scene)
     force = scene.ball.force(build.modulus_of(scene))
     return [Case(smooth=smooth_contact(bodies["lower"], bodies["upper"], scene.ball.radii, load=force), **bodies)]
-
-
-def _traction(scene: Any) -> list[Case]:
-    bodies, roller = _bodies(scene), scene.roller
-    load, radii = roller.per_length(build.modulus_of(scene)), (roller.radius, math.inf)
-    smooth = smooth_contact(bodies["lower"], bodies["upper"], radii, load=load)
-    return [Case(smooth=smooth, width=roller.width, shape="cylinder", **bodies)]
-
-
-def _asperities(scene: Any) -> list[Case]:
-    (spacing,), array, bodies = scene.array.spacings, scene.array, _bodies(scene)
-    radii = (array.radius, array.radius)
-    return [
-        Case(
-            label=f"{si(depth, 'm')} deep",
-            grid=array.grid(spacing),
-            smooth=smooth_contact(bodies["lower"], bodies["upper"], radii, approach=depth),
-            shape="sphere",
-            **bodies,
-        )
-        for depth in sorted({min(array.interferences), max(array.interferences)})
-    ]
-
-
-_CASES: dict[str, Callable[[Any], list[Case]]] = {
-    "asperities": _asperities,
-    "contact": _contact,
-    "partial-slip": _contact,
-    "rolling": _contact,
-    "point-film": _point_film,
-    "point-film-time": _point_film,
-    "surface-temperature": _contact,
-    "film": _film,
-    "friction": _lubricated,
-    "running-in": _lubricated,
-    "running-in-life": _lubricated,
-    "traction": _traction,
-    "tribofilm": _tribofilm,
-    "wear": _wear,
-}

@@ -1,4 +1,4 @@
-"""Figures of stick and slip over many cases: the creep curve of rolling, stiffness of a contact over its load."""
+"""Figure of rolling: the creep curve."""
 
 from __future__ import annotations
 
@@ -8,9 +8,7 @@ from matplotlib.figure import Figure
 
 from bem.plots.figures import FigureKind
 from bem.plots.over import axis_of, lines_over
-from bem.plots.style import BLACK
 
-ALL_CASES = True
 _CREEP = ("roll.creepage", "roll.creepage_across", "roll.spin", "roll.share")
 _WORDS = {
     "roll.creepage": "creepage along x",
@@ -18,8 +16,6 @@ _WORDS = {
     "roll.spin": "spin (1/m)",
     "roll.share": "force over friction x load",
 }
-_PRESSED = ("contact.load", "contact.mean_pressure", "contact.approach", "contact.mean_gap")
-_UNITS = ("load (N)", "mean pressure (Pa)", "approach (m)", "mean gap (m)")
 
 
 def _creep(run: Any, figure: Figure) -> None:
@@ -37,20 +33,6 @@ def _creep(run: Any, figure: Figure) -> None:
         upper.legend()
 
 
-def _stiffness(run: Any, figure: Figure) -> None:
-    data, axis = run.dataset, axis_of(run, *_PRESSED)
-    axes = figure.add_subplot()
-    for name, words in (("normal_stiffness", "normal"), ("tangential_stiffness", "tangential")):
-        lines_over(axes, data, name, axis, words=words)
-    for line, colour in zip(axes.get_lines()[::3], (BLACK, "0.5"), strict=False):
-        line.set_color(colour)
-    axes.set_xscale("log")
-    axes.set_yscale("log")
-    axes.set_xlabel(_UNITS[_PRESSED.index(axis or "contact.load")])
-    axes.set_ylabel("stiffness (N/m)")
-    axes.legend()
-
-
 FIGURES = (
     FigureKind(
         "creep-curve",
@@ -59,12 +41,6 @@ FIGURES = (
         _creep,
         size=(5.0, 5.0),
         applies=lambda run: axis_of(run, *_CREEP) is not None,
-    ),
-    FigureKind(
-        "contact-stiffness",
-        "Normal and tangential stiffness of the contact before anything slips, over what presses it.",
-        ("normal_stiffness", "tangential_stiffness"),
-        _stiffness,
-        applies=lambda run: axis_of(run, *_PRESSED) is not None,
+        all_cases=True,
     ),
 )

@@ -87,15 +87,13 @@ def _some(run: Any) -> bool:
     return wide_enough(run) and bool((run.dataset["boundary_stress"].values > 0).any())
 
 
-FIGURES = (
-    FigureKind(
-        "friction-map",
-        "Where friction comes from, at the speed at which film and contact share the load most evenly: shear stress "
-        "that resists the sliding, of the surfaces where they touch and of the oil beside, in the same colours; blank "
-        "where there is next to none.",
-        ("x", "y", "boundary_stress", "oil_stress", "shown_speed", "boundary_part", "film_part"),
-        _friction_map,
-        (8.0, 3.6),
-        _some,
-    ),
+FRICTION_MAP = FigureKind(
+    "friction-map",
+    "Where friction comes from, at the speed at which film and contact share the load most evenly: shear stress "
+    "that resists the sliding, of the surfaces where they touch and of the oil beside, in the same colours; blank "
+    "where there is next to none.",
+    ("x", "y", "boundary_stress", "oil_stress", "shown_speed", "boundary_part", "film_part"),
+    _friction_map,
+    (8.0, 3.6),
+    _some,
 )

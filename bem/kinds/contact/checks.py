@@ -1,0 +1,18 @@
+"""Contacts of a scene of kind `contact`, as plans show and checks examine them."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bem.kinds.contact.scene import ContactScene
+
+if TYPE_CHECKING:
+    from bem.scenes.checks.facts import Case
+
+
+def contacts(scene: ContactScene) -> list[Case]:
+    """Contact of the two bodies on the grid."""
+    from bem.scenes.checks.facts import dry_contacts
+
+    outputs = scene.outputs
+    return dry_contacts(scene, outputs.depths.build() if outputs.below and outputs.depths is not None else ())

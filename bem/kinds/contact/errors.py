@@ -1,0 +1,45 @@
+"""Error bars of kind `contact`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import TYPE_CHECKING
+
+from bem.grid import FloatArray
+from bem.kinds.contact.scene import ContactScene
+from bem.kinds.contact.solve import level_before
+from bem.scenes import build
+from bem.scenes.context import Context
+from bem.scenes.resolutions import CELLS, DEPTHS
+
+if TYPE_CHECKING:
+    from bem.accuracy import ErrorBars
+    from bem.contact import ContactSolution
+    from bem.stress import StressSummary
+
+
+def bars_of(
+    scene: ContactScene,
+    undeformed: FloatArray,
+    solution: ContactSolution,
+    below: StressSummary | None,
+    rough: Mapping[str, FloatArray],
+    context: Context,
+) -> ErrorBars:
+    """Bars of the contact, and of the stresses below it where there are any."""
+    from bem.accuracy import ContactCase, coarser_before, contact_bars, solve_coarser, stress_bars
+
+    grid, before = build.grid_of(scene.grid), level_before(context)
+    operator = build.operator_of(scene, grid, scene.contact.friction)
+    case = ContactCase(operator, undeformed, solution, **scene.contact.prescribed(grid.area), from_touch=bool(rough))
+    nested = None if before is None else coarser_before(case, before)
+    coarser = nested or solve_coarser(case, scene.contact.max_iterations)
+    bars = contact_bars(case, coarser)
+    if below is None:
+        return bars
+    body, sign = scene.stressed()
+    return bars | stress_bars(case, coarser, body, below, sign * scene.contact.friction)
+
+
+RESOLUTIONS = (CELLS, DEPTHS)
+"""What is refined where an accuracy is asked for."""

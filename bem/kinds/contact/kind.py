@@ -1,0 +1,41 @@
+"""Kind `contact`, from its parts."""
+
+from __future__ import annotations
+
+from bem.kinds.contact.checks import contacts
+from bem.kinds.contact.errors import RESOLUTIONS
+from bem.kinds.contact.plan import plan
+from bem.kinds.contact.record import ContactRecord
+from bem.kinds.contact.run import run
+from bem.kinds.contact.scene import ContactScene
+from bem.scenes.kind import Kind
+
+KIND = Kind(
+    name="contact",
+    title="two rough, possibly coated bodies pressed together: pressure, contact area, approach, stresses below",
+    model=ContactScene,
+    record=ContactRecord,
+    plan=plan,
+    run=run,
+    resolve=ContactScene.resolved,
+    resolutions=RESOLUTIONS,
+    volumes=lambda scene: scene.outputs.volumes,
+    contacts=contacts,
+    figures=(
+        "pressure-map",
+        "contact-map",
+        "contact-section",
+        "pressure-histogram",
+        "von-mises-section",
+        "von-mises-depth",
+        "convergence",
+        "surface-maps",
+    ),
+    warm_up=(
+        ("rough-contact", ("grid.shape=256",)),
+        ("hertz-sphere", ()),
+        ("hertz-cylinder", ()),
+        ("sinusoid", ()),
+        ("coated-sphere", ("grid.shape=96",)),
+    ),
+)

@@ -1,0 +1,68 @@
+"""What a case of kind `contact` gives."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated
+
+import numpy as np
+from numpy.typing import NDArray
+
+from bem.grid import FloatArray
+from bem.scenes.records import Figure, GridRecord, Series, grid_map
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class ContactRecord(GridRecord):
+    """A solved contact, and the stresses below it where they are asked for."""
+
+    load: Annotated[float, Figure("N", "load", headline=True)]
+    contact_area_fraction: Annotated[float, Figure("", "real contact area over that of the grid", headline=True)]
+    plastic_area_fraction: Annotated[
+        float,
+        Figure("", "area at the hardness over that of the grid", headline=True, part_of=("contact_area_fraction",)),
+    ]
+    contact_area: Annotated[float, Figure("m2", "real contact area")]
+    counted_contact_area_fraction: Annotated[float, Figure("", "cells in contact over all", unjudged=True)]
+    counted_plastic_area_fraction: Annotated[float, Figure("", "cells at the hardness over all", unjudged=True)]
+    contact_spots: Annotated[int, Figure("", "separate spots of contact", unjudged=True)]
+    contact_perimeter: Annotated[float, Figure("m", "length of the edges of contact")]
+    mean_contact_pressure: Annotated[float, Figure("Pa", "mean pressure over the real contact area", headline=True)]
+    max_pressure: Annotated[float, Figure("Pa", "highest pressure", headline=True)]
+    max_pressure_of_cells: Annotated[float, Figure("Pa", "highest pressure of a cell", unjudged=True)]
+    approach: Annotated[float, Figure("m", "approach from first touch", headline=True)]
+    mean_gap: Annotated[float, Figure("m", "mean of the open gap")]
+    residual: Annotated[float, Figure("", "relative residual", headline=True, unjudged=True)]
+    iterations: Annotated[int, Figure("", "iterations", unjudged=True)]
+    convolutions: Annotated[float, Figure("", "convolutions", unjudged=True)]
+    lower_Sq: Annotated[float | None, Figure("m", "Sq of the lower surface", optional=True, unjudged=True)] = None
+    upper_Sq: Annotated[float | None, Figure("m", "Sq of the upper surface", optional=True, unjudged=True)] = None
+    max_von_mises: Annotated[float | None, Figure("Pa", "highest von Mises stress", optional=True, headline=True)] = (
+        None
+    )
+    max_von_mises_depth: Annotated[float | None, Figure("m", "depth of it", optional=True)] = None
+    max_von_mises_of_points: Annotated[
+        float | None, Figure("Pa", "highest von Mises stress of a point", optional=True, unjudged=True)
+    ] = None
+    yielded_volume: Annotated[float | None, Figure("m3", "volume beyond the yield stress", optional=True)] = None
+    counted_yielded_volume: Annotated[
+        float | None, Figure("m3", "that of whole cells", optional=True, unjudged=True)
+    ] = None
+    pressure: Annotated[FloatArray, grid_map("Pa", "contact pressure")]
+    displacement: Annotated[FloatArray, grid_map("m", "normal displacement of both bodies together")]
+    gap: Annotated[FloatArray, grid_map("m", "gap between the deformed surfaces")]
+    contact_state: Annotated[NDArray[np.int8], grid_map("1", "0 open, 1 elastic, 2 capped")]
+    undeformed_gap: Annotated[FloatArray, grid_map("m", "gap before deformation, zero at first touch")]
+    plastic_depth: Annotated[FloatArray | None, grid_map("m", "overlap of the surfaces where capped")] = None
+    lower_height: Annotated[FloatArray | None, grid_map("m", "height of the lower surface")] = None
+    upper_height: Annotated[FloatArray | None, grid_map("m", "height of the upper surface")] = None
+    iteration: Annotated[NDArray[np.int64] | None, Series(("iteration",), "1", "iteration")] = None
+    residual_history: Annotated[
+        FloatArray | None, Series(("iteration",), "1", "relative residual of the contact solver")
+    ] = None
+    depth: Annotated[FloatArray | None, Series(("depth",), "m", "depth below the surface")] = None
+    von_mises: Annotated[FloatArray | None, Series(("depth", "x", "y"), "Pa", "von Mises stress")] = None
+    component: Annotated[list[str] | None, Series(("component",), "1", "component of the stress")] = None
+    stress: Annotated[
+        FloatArray | None, Series(("component", "depth", "x", "y"), "Pa", "stress, positive in tension")
+    ] = None

@@ -1,0 +1,135 @@
+"""Run of a case of kind `contact`."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from bem.errors import Status
+from bem.grid import FloatArray, Grid
+from bem.kinds.contact.errors import bars_of
+from bem.kinds.contact.record import ContactRecord
+from bem.kinds.contact.scene import ContactScene
+from bem.kinds.contact.solve import solve_scene
+from bem.notes import Level, Note, has_code
+from bem.notes.contact import CONTACT_AT_EDGE
+from bem.notes.scenes import BODIES_APART
+from bem.numerics.blocks import deviation
+from bem.scenes import build
+from bem.scenes.context import Context, error_bars, release, set_aside, tell
+from bem.scenes.cut_off import is_cut_off
+
+if TYPE_CHECKING:
+    from bem.contact import ContactSolution
+    from bem.stress import StressSummary
+
+_STRESS_COMPONENTS = ("xx", "yy", "zz", "yz", "xz", "xy")
+
+
+def run(scene: ContactScene, context: Context) -> ContactRecord:
+    """Solve the contact and, where asked for, the stresses below it."""
+    from bem.accuracy import counted_figures, figures_of
+    from bem.contact.solution import contact_state
+
+    grid = build.grid_of(scene.grid)
+    lower, upper = build.both_heights(scene, grid, context)
+    undeformed = build.undeformed_gap(scene, grid, lower, upper)
+    rough = {name: heights for name, heights in (("lower", lower), ("upper", upper)) if heights.any()}
+    roughness: dict[str, Any] = {f"{name}_Sq": deviation(heights) for name, heights in rough.items()}
+    rough = {name: set_aside(context, heights) for name, heights in rough.items()}
+    del lower, upper
+    with context.timer("contact"):
+        solution, history = solve_scene(scene, grid, undeformed, context)
+    tell(context, _cut_off(scene, grid, solution))
+    tell(context, _standing_off(solution))
+    below: StressSummary | None = None
+    if scene.outputs.wanted_depths():
+        with context.timer("stresses"):
+            below = _stresses(scene, grid, solution.pressure, context)
+    wanted = scene.outputs.errors and solution.status is Status.CONVERGED
+    errors = error_bars(context, wanted, lambda: bars_of(scene, undeformed, solution, below, rough, context))
+    figures: dict[str, Any] = figures_of(solution, grid.area) | counted_figures(solution, grid)
+    return ContactRecord(
+        **figures,
+        **roughness,
+        **{f"{name}_height": heights for name, heights in rough.items()},  # type: ignore[arg-type]
+        **_stress_fields(below),
+        residual=solution.residual,
+        iterations=solution.iterations,
+        convolutions=solution.convolutions,
+        x=grid.x,
+        y=grid.y,
+        pressure=solution.pressure,
+        displacement=solution.displacement,
+        gap=solution.gap,
+        iteration=history[:, 0].astype(np.int64) if len(history) else None,
+        residual_history=history[:, 1] if len(history) else None,
+        contact_state=contact_state(solution.pressure, scene.contact.hardness),
+        undeformed_gap=undeformed,
+        plastic_depth=solution.plastic_depth if np.any(solution.plastic_depth) else None,
+        **errors,
+        status=solution.status,
+        where=f"contact solve: {solution.status.message}, residual {solution.residual:.2g}",
+    )
+
+
+def _stress_fields(below: StressSummary | None) -> dict[str, Any]:
+    """Fields of the record on the stresses below the surface; none where none were asked for."""
+    if below is None:
+        return {}
+    return {
+        "max_von_mises": below.max_von_mises,
+        "max_von_mises_depth": below.max_von_mises_depth,
+        "max_von_mises_of_points": below.max_von_mises_of_points,
+        "yielded_volume": below.yielded_volume,
+        "counted_yielded_volume": below.counted_yielded_volume,
+        "depth": below.depths,
+        "von_mises": below.von_mises,
+        "component": None if below.stress is None else list(_STRESS_COMPONENTS),
+        "stress": below.stress,
+    }
+
+
+def _cut_off(scene: ContactScene, grid: Grid, solution: ContactSolution) -> tuple[Note, ...]:
+    """Return the solver's notes, outside the model where the grid's edge cuts off the contact of a curved body.
+
+    A flat patch with a free edge is a punch, which ends there.
+    """
+    notes, periodic = solution.notes, grid.periodic
+    curved = [axis for axis in range(2) if not periodic[axis] and math.isfinite(scene.shape.radii[axis])]
+    if not has_code(notes, CONTACT_AT_EDGE) or not is_cut_off(solution.pressure, curved):
+        return notes
+    return tuple(
+        CONTACT_AT_EDGE(note.where, level=Level.OUTSIDE_MODEL, **note.values)
+        if note.code == CONTACT_AT_EDGE.code
+        else note
+        for note in notes
+    )
+
+
+def _standing_off(solution: ContactSolution) -> tuple[Note, ...]:
+    """What is said of bodies that do not touch, so that figures of zero are not taken for those of a contact."""
+    if solution.pressure.any() or solution.status is not Status.CONVERGED or solution.approach >= 0:
+        return ()
+    from bem.accuracy.contact import mean_opening
+
+    touching = mean_opening(solution.gap) + solution.approach
+    return (BODIES_APART(apart=float(-solution.approach), touching=float(touching)),)
+
+
+def _stresses(scene: ContactScene, grid: Grid, pressure: FloatArray, context: Context) -> StressSummary:
+    """Stresses in the body asked for, at every depth; von Mises on disk where it is very large."""
+    from bem.stress import summarise_stress
+
+    depths, (body, sign) = np.array(scene.outputs.wanted_depths()), scene.stressed()
+    friction = sign * scene.contact.friction
+    field = context.scratch((len(depths), *grid.shape))
+
+    def after(done: int) -> None:
+        release(field)
+        context.progress(done, len(depths), "stresses")
+
+    wanted = scene.outputs.stresses
+    return summarise_stress(pressure, grid, body, depths, friction=friction, components=wanted, out=field, after=after)

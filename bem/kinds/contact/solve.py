@@ -1,0 +1,58 @@
+"""Solver calls of kind `contact` that a run and its error bars share."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING
+
+import numpy as np
+
+from bem.grid import FloatArray, Grid
+from bem.kinds.contact.scene import ContactScene
+from bem.scenes import build
+from bem.scenes.context import Context
+from bem.scenes.packing import keep, kept, kept_coarser
+
+if TYPE_CHECKING:
+    from bem.contact import ContactSolution
+
+
+def solve_scene(
+    scene: ContactScene, grid: Grid, undeformed: FloatArray, context: Context
+) -> tuple[ContactSolution, FloatArray]:
+    """The contact, from the checkpoint where it was solved before, and (n, 2) iterations and residuals."""
+    from bem.contact import solve_contact
+
+    solved: tuple[ContactSolution, FloatArray] | None = kept(context)
+    if solved is not None:
+        return solved
+    operator = build.operator_of(scene, grid, scene.contact.friction)
+    history = []
+
+    def watch(iterations: int, residual: float, fraction: float) -> None:
+        history.append((iterations, residual))
+        # convergence is near linear in the logarithm of the residual
+        share = math.log(min(max(residual, 1e-300), 1.0)) / math.log(scene.contact.tolerance)
+        context.progress(int(100 * min(share, 1.0)), 100, "contact", residual=residual, area_fraction=fraction)
+
+    asked = scene.contact.prescribed(grid.area) | scene.contact.accuracy()
+    solution = solve_contact(undeformed, operator, **asked, initial_pressure=_begin(context, grid), callback=watch)
+    del operator  # and with it its spectra
+    context.progress(100, 100, "contact", residual=solution.residual)
+    solved = solution, np.array(history, dtype=np.float64).reshape(-1, 2)
+    keep(context, solved)
+    return solved
+
+
+def _begin(context: Context, grid: Grid) -> FloatArray | None:
+    """The pressure of the level before: each of its cells cut in four with the same force, or as it is."""
+    before = level_before(context)
+    if before is None or before.pressure.shape == grid.shape:
+        return None if before is None else before.pressure
+    return np.repeat(np.repeat(before.pressure, 2, axis=0), 2, axis=1)
+
+
+def level_before(context: Context) -> ContactSolution | None:
+    """The contact on the grid of twice the cell, where an accuracy is refined to."""
+    before: tuple[ContactSolution, FloatArray] | None = kept_coarser(context)
+    return None if before is None else before[0]

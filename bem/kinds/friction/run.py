@@ -1,0 +1,162 @@
+"""Run of a case of kind `friction`."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Collection, Mapping
+from typing import TYPE_CHECKING, Any, Literal
+
+import numpy as np
+
+from bem.accuracy.bars import table
+from bem.errors import Status
+from bem.grid import FloatArray, Grid
+from bem.kinds.friction.errors import bars_of
+from bem.kinds.friction.record import CurveRecord
+from bem.kinds.friction.scene import FrictionScene
+from bem.notes import Note
+from bem.notes.scenes import PART_UNSOLVED
+from bem.scenes import build
+from bem.scenes.context import Context, notes_over, tell
+from bem.scenes.lubrication import in_words_of_the_scene, notes_of_balance
+from bem.scenes.packing import keep, kept
+from bem.scenes.records import (
+    columns,
+)
+
+if TYPE_CHECKING:
+    from bem.flow import FlowFactors
+    from bem.friction import MixedSolution
+    from bem.friction.curves import Curve
+_OF_SUPPLY = ("film_reduction", "meniscus_position")
+_OF_HEAT = ("oil_temperature", "contact_temperature", "flash_temperature")
+
+
+def run(scene: FrictionScene, context: Context) -> CurveRecord:
+    """One curve, speed by speed, with a checkpoint after each."""
+    from bem.accuracy.mixed import ORIGINS, RULES
+    from bem.friction.curves import Curve
+    from bem.friction.result_notes import covered_notes, oil_notes
+    from bem.friction.solve import solve_setup
+
+    grid, pairs = build.grid_of(scene.grid), scene.speeds.build()
+    lower, upper = build.both_heights(scene, grid, context)
+    height = lower + upper
+    with in_words_of_the_scene():
+        setup = scene.curve_setup(_flow_factors(scene, grid, lower, upper, context))
+    made_again = (setup.grid, setup.lubricant, setup.boundary_friction)
+    nothing: tuple[Curve, list[FloatArray]] = (Curve(), [])
+    curve, errors = kept(context, made_again) or nothing
+    for speeds in pairs[len(curve.points) :]:
+        with context.timer("load sharing"), in_words_of_the_scene():
+            own = solve_setup(setup, height, speeds, curve.last)
+        notes = _notes(own)
+        if scene.outputs.errors:
+            bars = bars_of(setup, height, own, context)
+            errors.append(table(bars.values, bars.parts, RULES, ORIGINS))
+            notes += bars.notes
+        curve = curve.then(own, notes)
+        if len(curve.points) < len(pairs):
+            keep(context, (curve, errors), made_again)
+        context.progress(len(curve.points), len(pairs), "speeds", friction=own.friction)
+    tell(context, notes_over("speed", "m/s", [p.speed for p in curve.points], [p.notes for p in curve.points]))
+    tell(context, oil_notes([point.oil for point in curve.points]))
+    tell(context, covered_notes([(point.friction, point.oil_on_contact) for point in curve.points]))
+    left_out = (_OF_SUPPLY if scene.supply is None else ()) + (_OF_HEAT if scene.thermal == "off" else ())
+    return _record(grid, curve, height, errors, left_out)
+
+
+def _notes(solution: MixedSolution) -> tuple[Note, ...]:
+    """What is noted of one speed; what the oil says is told of all of them together."""
+    from bem.friction.result_notes import covered_notes, oil_notes
+
+    of_oil = oil_notes([solution.oil]) + covered_notes([(solution.friction, solution.oil_on_contact)])
+    return notes_of_balance([note for note in solution.notes if note not in of_oil], solution.film.notes)
+
+
+def _flow_factors(
+    scene: FrictionScene, grid: Grid, lower: FloatArray, upper: FloatArray, context: Context
+) -> FlowFactors | Literal["off"]:
+    """Those of both surfaces [m] where they are asked for: once for all speeds."""
+    if scene.sharing.flow_factors == "off":
+        return "off"
+    from bem.flow import factors_for_films
+
+    with context.timer("flow factors"):
+        table = factors_for_films(lower, upper, grid, scene.bodies, hardness=scene.cap)
+    tell(context, table.notes, "flow factors")
+    if table.status is not Status.CONVERGED:
+        context.note(
+            PART_UNSOLVED(
+                part="table of flow factors",
+                message=table.status.message,
+                residual=float(table.residual.max()),
+                action='Take more cells, or flow_factors = "off"',
+            )
+        )
+    return table
+
+
+def _record(
+    grid: Grid, curve: Curve, height: FloatArray, errors: list[FloatArray], left_out: Collection[str]
+) -> CurveRecord:
+    """A row for each speed, but for the figures left out; fields of the speed where film and contact share most
+    evenly."""
+    from bem.accuracy.bars import from_tables
+    from bem.accuracy.mixed import ORIGINS, RULES
+    from bem.friction.asperities import AsperityContact
+    from bem.friction.boundary import sliding_sign
+
+    bars, parts = from_tables(errors, RULES, ORIGINS)
+    shown = curve.shown
+    assert shown is not None
+    resists = sliding_sign(shown.speeds)
+    bad = [one for one in curve.points if one.status is not Status.CONVERGED]
+    rows: dict[str, Any] = columns(curve.points, [name for name in _OF_SPEED if name not in left_out])
+    sections: dict[str, Any] = dict(zip(_ON_PATCH, shown.film_along_x, strict=True))
+    sections |= dict(zip(_ON_ITS_MESH, shown.film_section, strict=True))
+    rms = float(height.std())
+    to_ratio = 1 / rms if rms > 0 else math.inf
+    for each in (bars, *parts.values()):
+        if "minimum_film" in each:
+            each["lambda_ratio_mixed"] = to_ratio * each["minimum_film"]
+    displacement = np.zeros(grid.shape)
+    if shown.contact is not None and not isinstance(shown.contact, AsperityContact):
+        displacement = shown.contact.displacement
+    return CurveRecord(
+        **rows,
+        lambda_ratio_mixed=to_ratio * rows["minimum_film"],
+        rms_height=rms,
+        shown_speed=np.array(shown.speeds[0]),
+        x=grid.x,
+        y=grid.y,
+        height=height,
+        displacement=displacement,
+        pressure=shown.contact_pressure,
+        boundary_stress=resists * shown.boundary_shear_stress,
+        oil_stress=resists * shown.film_shear_stress,
+        separation=shown.separation,
+        **sections,
+        errors=_kept(bars, left_out),
+        error_parts={origin: _kept(part, left_out) for origin, part in parts.items()},
+        status=bad[0].status if bad else Status.CONVERGED,
+        where="; ".join(f"speed {one.speed:g} m/s: {one.status.value}" for one in bad[:5]),
+    )
+
+
+def _kept(errors: Mapping[str, FloatArray], left_out: Collection[str]) -> dict[str, FloatArray]:
+    """Errors of the figures that are not left out."""
+    return {name: error for name, error in errors.items() if name not in left_out}
+
+
+_OF_SPEED = (
+    *("speed", "friction", "boundary_part", "film_part", "contact_load", "film_load", "minimum_film", "lambda_ratio"),
+    *("contact_area_fraction", "film_solves", "contact_solves"),
+    *("oil_beside_contact", "loaded_contact_load", "loaded_friction"),
+    *(*_OF_SUPPLY, *_OF_HEAT),
+)
+"""Figures of every speed, under one name in `CurvePoint` and in the record."""
+_ON_PATCH, _ON_ITS_MESH = (
+    ("film_pressure_patch", "film_thickness_patch"),
+    ("film_x", "film_pressure", "film_thickness"),
+)

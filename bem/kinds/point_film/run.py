@@ -1,0 +1,170 @@
+"""Run of a case of kind `point-film`."""
+
+from __future__ import annotations
+
+import math
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from bem.errors import Status
+from bem.kinds.point_film.record import PointFilmRecord
+from bem.kinds.point_film.scene import PointFilmScene, patch_grid
+from bem.kinds.point_film.touching import REMEDY, rough_body, rough_notes
+from bem.notes.scenes import FILM_THINNER_THAN_ROUGHNESS, LEAST_FILM_DECIDES
+from bem.reference_solutions.hertz import ellipse_contact
+from bem.scenes import build
+from bem.scenes.context import Context, error_bars, tell
+from bem.scenes.tables.supply import build_supply
+
+if TYPE_CHECKING:
+    from bem.accuracy.point import PointCase
+    from bem.accuracy.rough_point import RoughPointCase
+    from bem.lubrication import PointFilmSolution, RoughPointFilm
+    from bem.lubrication.point.setting import Setting
+    from bem.reference_solutions.hertz import PointContact
+
+_SHOWN = np.linspace(-2.0, 1.5, 281)
+"""Where sections are given, in half-axes of Hertz' ellipse."""
+_CENTRAL = (("central_thickness", "thickness"), ("central_pressure", "pressure"))
+
+
+def run(scene: PointFilmScene, context: Context) -> PointFilmRecord:
+    """Solve the film."""
+    if scene.patch is not None:
+        return _rough(scene, context)
+    from bem.accuracy.point import point_bars, point_figures
+    from bem.lubrication.point.validity import but_unknown
+
+    case = _case(scene)
+    with context.timer("film"):
+        film = case.on(case.cells)
+    assert film.state is not None
+    tell(context, but_unknown(film.notes))  # bars are of grids of their own, and say where they are unknown
+    if scene.roughness is not None and film.minimum_thickness < scene.roughness:
+        context.note(FILM_THINNER_THAN_ROUGHNESS(where=""))
+    wanted = scene.outputs.errors and film.status is Status.CONVERGED
+    figures: dict[str, Any] = point_figures(case, film)
+    return PointFilmRecord(
+        **figures,
+        **_given(case, film, film.state.setting),
+        maximum_pressure=film.maximum_pressure,
+        residual=film.residual,
+        mass_imbalance=film.mass_imbalance,
+        newton_steps=film.iterations,
+        convolutions=film.convolutions,
+        x=film.x,
+        y=film.y,
+        pressure=film.pressure,
+        thickness=film.thickness,
+        film_fraction=film.film_fraction,
+        status=film.status,
+        **error_bars(context, wanted, lambda: point_bars(case, film)),
+        where=f"film: {film.status.message}, residual {film.residual:.1e}",
+    )
+
+
+def _case(scene: PointFilmScene) -> PointCase:
+    from bem.accuracy.point import PointCase
+
+    return PointCase(
+        **_asked(scene), cells=scene.film.cells, roughness=scene.roughness, supply=build_supply(scene.supply)
+    )
+
+
+def _asked(scene: PointFilmScene) -> dict[str, Any]:
+    """What films of smooth and of rough bodies are asked for with."""
+    modulus, bodies = build.modulus_of(scene), (scene.lower.build(), scene.upper.build())
+    return {
+        "load": scene.ball.force(modulus),
+        "radii": scene.ball.radii,
+        "contact_modulus": modulus,
+        "speeds": scene.rolling.speeds,
+        "lubricant": scene.oil.build(),
+        "bodies": bodies if any(body.layers for body in bodies) else None,
+    }
+
+
+def _rough(scene: PointFilmScene, context: Context) -> PointFilmRecord:
+    """The film of a rough body at rest, and what it bears itself."""
+    from bem.accuracy.rough_point import RoughPointCase, narrow_notes, rough_point_bars, rough_point_figures
+    from bem.lubrication import MeasuredHeights
+    from bem.lubrication.point.setting import setting_of
+    from bem.lubrication.point.solve import entrainment
+
+    assert scene.patch is not None
+    assert scene.contact is not None
+    grid, rough = patch_grid(scene), rough_body(scene)
+    heights = build.both_heights(scene, grid, context)[0 if rough == "lower" else 1]
+    asked = _asked(scene)
+    case = RoughPointCase(
+        **asked,
+        heights=MeasuredHeights(heights, grid.spacing, scene.patch.at),
+        least_film=scene.contact.least_film,
+        boundary_friction=scene.contact.boundary_friction,
+    )
+    dry = _dry(case)
+    with context.timer("film"):
+        film = case.on(scene.film.cells)
+    setting = setting_of(
+        case.load, case.radii, case.contact_modulus, entrainment(case.speeds), case.lubricant, None, case.bodies
+    )
+    given = _given(case, film, setting)
+    tell(context, [*film.notes, *rough_notes(scene, grid, dry.semi_axes, film), *narrow_notes(case, film)])
+    if given["formula_central"] < case.least_film:
+        context.note(LEAST_FILM_DECIDES())
+    area = math.pi * dry.semi_axes[0] * dry.semi_axes[1]
+    wanted = scene.outputs.errors and film.status is Status.CONVERGED
+    middle = {name: float(given[f"{field}_along"][_SHOWN.searchsorted(-1e-9)]) for name, field in _CENTRAL}
+    figures: dict[str, Any] = rough_point_figures(case, film, area) | middle
+    return PointFilmRecord(
+        **figures,
+        **given,
+        maximum_pressure=float(film.pressure.max()),
+        oil_friction=film.oil_friction,
+        oil_on_contact=film.oil_on_contact,
+        residual=film.residual,
+        mass_imbalance=film.mass_imbalance,
+        x=film.x,
+        y=film.y,
+        pressure=film.pressure,
+        thickness=film.thickness,
+        oil_pressure=film.oil_pressure,
+        contact_pressure=film.contact_pressure,
+        status=film.status,
+        film_over_rms=given["formula_central"] / float(heights.std()),
+        surface_heights=film.heights,
+        newton_steps=film.iterations,
+        **error_bars(context, wanted, lambda: rough_point_bars(case, film, area)),
+        where=f"film: {film.status.message}, residual {film.residual:.1e}; {REMEDY}",
+    )
+
+
+def _dry(case: PointCase | RoughPointCase) -> PointContact:
+    return ellipse_contact(radii=case.radii, contact_modulus=case.contact_modulus, load=case.load)
+
+
+def _given(
+    case: PointCase | RoughPointCase, film: PointFilmSolution | RoughPointFilm, setting: Setting
+) -> dict[str, Any]:
+    """The dry contact, Moes' numbers and the sections through the middle."""
+    a, b = _dry(case).semi_axes
+    sections = {}
+    for name in ("thickness", "pressure"):
+        field = getattr(film, name)
+        for end, half, at, across, values in (
+            ("along", a, film.x, film.y, field),
+            ("across", b, film.y, film.x, field.T),
+        ):
+            middle = [np.interp(0.0, across, row) for row in values]
+            sections[f"{name}_{end}"] = np.interp(_SHOWN * half, at, middle, left=np.nan, right=np.nan)
+    return sections | {
+        "along": _SHOWN,
+        "load": case.load,
+        "hertz_pressure": _dry(case).maximum_pressure,
+        "half_axis_x": a,
+        "half_axis_y": b,
+        "moes_load": setting.scales.load,
+        "moes_material": case.lubricant.pressure_viscosity * setting.scales.pressure,
+        "formula_central": setting.problem.typical_film * setting.scales.film,
+    }

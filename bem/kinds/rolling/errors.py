@@ -1,0 +1,39 @@
+"""Error bars of kind `rolling`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bem.errors import Status
+from bem.kinds.rolling.scene import RollingContactScene
+from bem.kinds.rolling.solve import rolled_figures, solve_rolling_contact
+from bem.scenes import sticking
+from bem.scenes.resolutions import CELLS, DEPTHS
+from bem.scenes.sticking import Coarse, Found, Site
+
+if TYPE_CHECKING:
+    from bem.accuracy import ErrorBars
+    from bem.stress import StressSummary
+    from bem.tangential import TangentialSolution
+
+
+def bars_of(
+    scene: RollingContactScene, site: Site, found: TangentialSolution, below: StressSummary | None
+) -> ErrorBars:
+    """From the same on the grid of twice the cell."""
+    from bem.accuracy.sticking import ROLL_RULES
+
+    def again(coarser: Site) -> Coarse:
+        there = solve_rolling_contact(scene, coarser)
+        figures, converged = rolled_figures(coarser, there, scene.roll.spin), there.status is Status.CONVERGED
+        return Coarse(figures, coarser.contact, there.traction, converged)
+
+    given = ("creepage", "creepage_across") if scene.roll.share is None else ("force", "force_across")
+    residual = max(site.contact.residual, found.residual)
+    limit = scene.roll.friction * site.contact.load
+    figures = rolled_figures(site, found, scene.roll.spin)
+    return sticking.bars(scene, site, Found(figures, site.contact, ROLL_RULES, given, residual, limit, below), again)
+
+
+RESOLUTIONS = (CELLS, DEPTHS)
+"""What is refined where an accuracy is asked for."""

@@ -1,0 +1,33 @@
+"""What a case of kind `rolling` gives."""
+
+from __future__ import annotations
+
+from dataclasses import dataclass
+from typing import Annotated
+
+from bem.grid import FloatArray
+from bem.scenes.records import Figure, Series, grid_map
+from bem.scenes.sticking import StickRecord
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class RollingRecord(StickRecord):
+    """A contact that rolls steadily."""
+
+    x: Annotated[FloatArray, Series(("x",), "m", "x, along rolling")]
+    force: Annotated[float, Figure("N", "force on the lower body along x", headline=True)]
+    force_across: Annotated[float, Figure("N", "force on the lower body along y", headline=True)]
+    traction_coefficient: Annotated[float, Figure("", "size of the force over load", headline=True)]
+    creepage: Annotated[float, Figure("", "creepage along x", headline=True)]
+    creepage_across: Annotated[float, Figure("", "creepage along y")]
+    stick_fraction: Annotated[float, Figure("", "share of the contact that sticks", headline=True)]
+    friction_work: Annotated[float, Figure("N", "energy of friction over the distance rolled, a drag", headline=True)]
+    resolved_work: Annotated[float, Figure("", "share of it that the map of cells shows", unjudged=True)]
+    max_von_mises: Annotated[float | None, Figure("Pa", "highest von Mises stress", optional=True, headline=True)] = (
+        None
+    )
+    max_von_mises_depth: Annotated[float | None, Figure("m", "depth of it", optional=True)] = None
+    slip_residual: Annotated[float, Figure("", "relative residual of slip and stick", unjudged=True)]
+    convolutions: Annotated[float, Figure("", "convolutions of the rolling", unjudged=True)]
+    slip: Annotated[FloatArray, grid_map("1", "sliding over rolling velocity")]
+    friction_energy: Annotated[FloatArray, grid_map("J/m^3", "energy of friction over area and distance rolled")]

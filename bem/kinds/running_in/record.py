@@ -1,0 +1,122 @@
+"""What a case of kind `running-in` gives."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+from functools import partial
+from typing import Annotated, Any, ClassVar
+
+import numpy as np
+
+from bem.grid import FloatArray
+from bem.kinds.running_in.scene import RunningInScene
+from bem.scenes import pieces, wearing
+from bem.scenes.axes import Axis, over_last
+from bem.scenes.records import (
+    LAMBDA_MIXED,
+    LAMBDA_WHOLE,
+    MINIMUM_FILM,
+    Figure,
+    GridRecord,
+    Series,
+    without_bars,
+)
+from bem.scenes.tables.sharing import TEMPERATURES
+
+_over, _shown, _line = (partial(Series, ("cycle",)), partial(Series, ("x", "y"), of="first"), partial(Series, ("x",)))
+_FOLLOWS_CELL = f"{pieces.FOLLOWS_CELL}; in mixed lubrication the mean by volume follows it too"
+
+
+_heated = partial(Figure, "C", optional=True)
+
+
+@dataclass(frozen=True, eq=False)
+class RunningInRecord(GridRecord, wearing.WornRecord):
+    """A lubricated wear loop: friction before and after, particles, histories, the last film and surface."""
+
+    scatters: ClassVar[tuple[str, ...]] = (
+        *("friction_initial", "friction_run_in", "friction", "boundary_friction_part", "film_friction_part"),
+        *("Sq_initial", "Sq_final", "worn_depth", "contact_load_initial", "contact_load", "film_load"),
+        *("lambda_ratio", "lambda_ratio_mixed"),
+        *("minimum_film", "contact_area_fraction", "criterion_wear_rate", *TEMPERATURES),
+    )
+    friction_initial: Annotated[float, Figure("", "friction in the first cycle", headline=True)]
+    friction_run_in: Annotated[float, Figure("", "friction, mean of the last cycles", headline=True)]
+    particle_equivalent_radius: Annotated[
+        float, Figure("nm", "equivalent radius of the particles, settled", headline=True, no_bar=_FOLLOWS_CELL)
+    ]
+    Sq_initial: Annotated[float, Figure("nm", "Sq in the contact region (Hertz' contact), unworn", headline=True)]
+    Sq_final: Annotated[float, Figure("nm", "Sq in the contact region (Hertz' contact), run in", headline=True)]
+    contact_load: Annotated[float, Figure("N", "load carried by contact, run in", headline=True)]
+    film_load: Annotated[float, Figure("N", "load carried by the film, run in", headline=True)]
+    lambda_ratio: Annotated[float, Figure("", f"{LAMBDA_WHOLE}, run in", headline=True)]
+    lambda_ratio_mixed: Annotated[float, Figure("", f"{LAMBDA_MIXED}, run in")]
+    friction: Annotated[float, Figure("", "friction, mean of the last cycles")]
+    boundary_friction_part: Annotated[float, Figure("", "boundary part of the run-in friction")]
+    film_friction_part: Annotated[float, Figure("", "film part of the run-in friction")]
+    contact_load_initial: Annotated[float, Figure("N", "load carried by contact in the first cycle")]
+    minimum_film: Annotated[float, Figure("nm", f"{MINIMUM_FILM}, run in")]
+    contact_area_fraction: Annotated[float, Figure("", "real contact area over patch, run in")]
+    worn_depth: Annotated[float, Figure("nm", "mean depth worn in the contact region (Hertz' contact)")]
+    step_error: Annotated[
+        float | None,
+        Figure("nm", "what its step leaves open of a depth worn by pressure, last cycle", optional=True, unjudged=True),
+    ]
+    criterion_wear_rate: Annotated[
+        float | None, Figure("mm3_Nm", "volume that the criterion removes by load and distance")
+    ]
+    particles_per_cycle: Annotated[
+        float, Figure("", "particles per cycle of one body, settled", no_bar=pieces.FOLLOWS_CELL)
+    ]
+    particles_first_cycle: Annotated[
+        float, Figure("", "particles of the first cycle, of one body", no_bar=pieces.FOLLOWS_CELL)
+    ]
+    particles_last_cycles: Annotated[
+        float, Figure("", "particles of the last cycles, of one body", no_bar=pieces.FOLLOWS_CELL)
+    ]
+    film_table_error: Annotated[float, Figure("", "error of the film that is interpolated in the table", unjudged=True)]
+    contact_temperature: Annotated[float | None, _heated("surfaces in contact, mean by pressure, run in")]
+    flash_temperature: Annotated[float | None, _heated("surfaces in contact, highest, run in")]
+    evaluations_per_cycle: Annotated[float, Figure("", "films per cycle", unjudged=True)]
+    number_mean_radius: Annotated[float, Figure("nm", "the same, mean by number", no_bar=pieces.FOLLOWS_CELL)]
+    volume_mean_radius: Annotated[float, Figure("nm", "the same, mean by volume", no_bar=_FOLLOWS_CELL)]
+    scattering_mean_radius: Annotated[
+        float, Figure("nm", "the same, z-average of light scattering (sum R^6 / sum R^5)", no_bar=pieces.FEW_LARGEST)
+    ]
+    friction_over_cycles: Annotated[FloatArray, _over("1", "coefficient of friction")]
+    film_load_over_cycles: Annotated[FloatArray, _over("N", "load carried by the film")]
+    minimum_film_over_cycles: Annotated[FloatArray, _over("m", MINIMUM_FILM)]
+    contact_share: Annotated[FloatArray, _over("1", "share of the load carried by contact")]
+    rms_height_over_cycles: Annotated[FloatArray, _over("m", "Sq of the worn surface in the contact region")]
+    volume_over_cycles: Annotated[FloatArray, _over("m^3", "volume worn per cycle, of all bodies that wear")]
+    particles_over_cycles: Annotated[FloatArray, _over("1", "particles per cycle of one body")]
+    film_thickness_patch: Annotated[FloatArray, _line("m", "film")]
+    film_pressure_patch: Annotated[FloatArray, _line("Pa", "film pressure")]
+    separation: Annotated[FloatArray, _line("m", "distance of mean planes")]
+    height_before: Annotated[FloatArray, _shown("m", "height of the wearing surface, unworn")]
+    height_after: Annotated[FloatArray, _shown("m", "height of the wearing surface, run in")]
+    pressure: Annotated[FloatArray, _shown("Pa", "contact pressure in the last cycle")]
+    frame: Annotated[wearing.IntArray, Series(("frame",), "1", "cycle of the frame", of="first")]
+    pressure_frames: Annotated[
+        FloatArray, Series(("frame", "x", "y"), "Pa", "contact pressure over the cycles", of="first")
+    ]
+
+
+def summarise(scene: RunningInScene, axes: Sequence[Axis], records: Sequence[RunningInRecord | None]) -> dict[str, Any]:
+    """What is the same for all cases, and the hardness of least friction where several were tried."""
+    from bem.wear.mixed_figures import least_friction
+
+    summary: dict[str, Any] = {"cycles": scene.cycles.count, "load_N": scene.load, "reported_mean": scene.sizes.report}
+    summary |= pieces.particles_of(scene)
+    if len(scene.hardnesses) <= 2:
+        return summary
+    (hardnesses, _, _), friction = over_last(3, axes, [np.nan if r is None else r.friction_run_in for r in records])
+    best = least_friction(hardnesses, friction.astype(np.float64))
+    inside = best not in (min(scene.hardnesses), max(scene.hardnesses))
+    return summary | {"hardness_of_least_friction_Pa": best, "least_friction_inside_range": inside}
+
+
+def scattering(scene: RunningInScene) -> tuple[str, ...]:
+    """Figures of pieces where there are none; that any converge here was shown of no criterion."""
+    return () if scene.wear.criterion.needs_strength else tuple(without_bars(RunningInRecord))

@@ -1,0 +1,123 @@
+"""Solver calls of kind `running-in` that a run and its error bars share."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from bem.grid import FloatArray
+from bem.kinds.running_in.record import RunningInRecord
+from bem.kinds.running_in.scene import RunningInScene
+from bem.scenes import pieces, wearing
+from bem.scenes.context import Context, tell
+from bem.scenes.lubrication import notes_of_balance
+from bem.scenes.third_bodies import tell_of_third_bodies
+
+if TYPE_CHECKING:
+    from bem.wear import RunningIn, RunningInState
+    from bem.wear.mixed import MixedCycles
+
+
+def wear_down(
+    scene: RunningInScene, initial: tuple[FloatArray, FloatArray], context: Context, *, heat_mesh: float = 1.0
+) -> RunningInRecord:
+    """The wear loop of a scene from these heights [m] on its grid, with times the columns and layers of full heat."""
+    from bem.wear.mixed import MixedContact, MixedCycles, shared_film_table
+
+    sharing, (speeds,), saved = scene.sharing, scene.speeds.build(), context.saved()
+    setup = scene.setup(**sharing.model_dump(exclude={"film_shape"}), heat_mesh=heat_mesh)
+    frames = [] if saved is None else [np.asarray(frame) for frame in saved["frames"]]
+    load = scene.contact.on_patch(setup.load, setup.grid.lengths)
+    table = shared_film_table(setup, speeds)
+    step = MixedContact(setup, speeds, table=table, film_shape=sharing.film_shape)
+
+    def watch(now: RunningInState) -> dict[str, float]:
+        if now.cycle in _frame_cycles(scene.cycles.count) and now.pressure is not None:
+            frames.append(now.pressure)
+        assert now.sharing is not None
+        row = now.sharing[-1]
+        return {"friction": float(row["friction"]), "contact_share": float(row["contact_load"]) / setup.load}
+
+    result = wearing.wear_loop(
+        scene,
+        context,
+        initial,
+        watch=watch,
+        keep=lambda: {"frames": list(frames)},
+        grid=setup.grid,
+        load=load,
+        friction=scene.contact.nominal_friction(
+            setup.load, setup.smooth.contact_modulus, speeds, scene.oil.temperature
+        ),
+        hardness=scene.contact.hardness,
+        contact_step=step,
+    )
+    assert result.state.sharing is not None
+    shared = MixedCycles(step, result.state.sharing, result.state.contact)
+    with context.timer("films"):
+        film_error = step.table.error(float(shared.rows["film_load"][-1]))
+    found = _record(scene, initial, result, shared, film_table_error=film_error, pressure_frames=np.array(frames))
+    tell_of_third_bodies(context, found.third_body_load_share)
+    tell(context, notes_of_balance(shared.notes, shared.film.notes))
+    return found
+
+
+def _frame_cycles(count: int) -> list[int]:
+    """Cycles whose pressure is kept for the animation: early ones close together."""
+    return sorted({1, count, *(round(v) for v in np.geomspace(1, count, 24))})
+
+
+def _record(
+    scene: RunningInScene, initial: tuple[FloatArray, FloatArray], result: RunningIn, shared: MixedCycles, **own: Any
+) -> RunningInRecord:
+    """The figures of a wear loop and what is kept of it."""
+    from bem.wear.mixed_figures import mixed_figures
+    from bem.wear.outcome import hertz_area, sizes_over_cycles
+
+    setup, cycles, rows, averaged = shared.contact.setup, result.cycles, shared.rows, scene.cycles.averaged
+    grid, load = setup.grid, scene.contact.on_patch(setup.load, setup.grid.lengths)
+    # the same strip before and after, at all speeds
+    strip = hertz_area(grid, setup.smooth.half_axes(setup.load))
+    worn = wearing.WornSurface.of(scene, initial, result, grid, load, strip)
+    figures = mixed_figures(shared, cycles, averaged)
+    over: dict[str, Any] = {f"{n}_over_cycles": rows[n].copy() for n in ("friction", "film_load", "minimum_film")}
+    over |= {f"{n}_over_cycles": cycles[n].astype(np.float64) for n in ("rms_height", "volume")}
+    over["particles_over_cycles"] = sizes_over_cycles(cycles["cycle"], worn.particles)[1]
+    over |= pieces.mean_radii(worn.late, scene.sizes, *_RADII)
+    hot = scene.thermal != "off"
+    return RunningInRecord(
+        **worn.figures,
+        **over,
+        x=grid.x,
+        y=grid.y,
+        height_before=worn.height_before,
+        height_after=worn.height_after,
+        pressure=worn.pressure,
+        friction_initial=figures.friction_initial,
+        contact_load_initial=figures.contact_load_initial,
+        friction=figures.friction,
+        boundary_friction_part=figures.boundary_friction_part,
+        film_friction_part=figures.film_friction_part,
+        contact_load=figures.contact_load,
+        film_load=figures.film_load,
+        minimum_film=figures.minimum_film,
+        lambda_ratio=figures.lambda_ratio,
+        lambda_ratio_mixed=figures.lambda_ratio_mixed,
+        contact_area_fraction=figures.contact_area_fraction,
+        contact_temperature=figures.contact_temperature if hot else None,
+        flash_temperature=figures.flash_temperature if hot else None,
+        evaluations_per_cycle=figures.evaluations_per_cycle,
+        contact_share=figures.contact_share,
+        film_thickness_patch=figures.film_thickness_patch,
+        film_pressure_patch=figures.film_pressure_patch,
+        separation=figures.separation,
+        friction_run_in=figures.friction,
+        particles_first_cycle=float((worn.particles["cycle"] == 1).sum()),
+        particles_last_cycles=float((worn.particles["cycle"] > len(cycles) - averaged).sum()),
+        frame=np.array(_frame_cycles(scene.cycles.count)[: len(own["pressure_frames"])]),
+        **own,
+    )
+
+
+_RADII = ("particle_equivalent_radius", "number_mean_radius", "volume_mean_radius", "scattering_mean_radius")

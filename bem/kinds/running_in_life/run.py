@@ -1,0 +1,137 @@
+"""Run of a case of kind `running-in-life`."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+import numpy as np
+
+from bem.grid import FloatArray
+from bem.kinds.running_in_life import lives
+from bem.kinds.running_in_life.plan import JUMPS_ALONE
+from bem.kinds.running_in_life.record import RunningInLifeRecord
+from bem.kinds.running_in_life.scene import RunningInLifeScene
+from bem.notes.accuracy import BARS_PARTIAL
+from bem.notes.wear import LIFE_DISTANCE_DIFFERS
+from bem.scenes import build
+from bem.scenes.context import Context, error_bars, tell
+from bem.scenes.packing import keep, kept
+from bem.scenes.tables.sharing import TEMPERATURES
+
+if TYPE_CHECKING:
+    from bem.friction.setup import MixedSetup
+    from bem.life.march import LifeState
+    from bem.life.monitors import Monitors
+    from bem.notes import Note
+
+
+def run(scene: RunningInLifeScene, context: Context) -> RunningInLifeRecord:
+    """One life."""
+    from bem.life.error_bars import jump_bars
+    from bem.life.march import initial_state, run_life
+
+    setup = scene.setup(**scene.sharing.model_dump())
+    initial = build.both_heights(scene, setup.grid, context)
+    case = lives.case_of(scene, setup)
+    monitors, saved = lives.monitors_of(scene, setup, case), kept(context)
+    if saved is None:
+        state = monitors.start(initial_state(case, *initial))
+    else:
+        state, pieces, pits = saved
+        monitors = replace(monitors, pieces=pieces, pits=pits, last=state)
+
+    def after(now: LifeState) -> LifeState:
+        now = monitors.record(now)
+        keep(context, (now, monitors.pieces, monitors.pits))
+        done = np.log1p(now.cycles / case.first_step) / np.log1p(case.cycles / case.first_step)
+        context.progress(round(1000 * done), 1000, "cycles", friction=float(now.over("friction")[-1]))
+        return now
+
+    with context.timer("cycles"):
+        end = run_life(case, *initial, state=state, callback=after)
+    _tell(scene, context, setup, end.passes[-1].film_notes)
+    for note in monitors.notes():
+        context.note(note)
+    wanted = scene.life.coarser_lives
+    bars = error_bars(context, wanted, lambda: lives.bars(scene, initial, end)) or {"errors": jump_bars(end)}
+    bars["errors"] = _with_body(bars["errors"])
+    if "error_parts" in bars:
+        bars["error_parts"] = {origin: _with_body(part) for origin, part in bars["error_parts"].items()}
+    return replace(_record(scene, setup, end, monitors), **bars)
+
+
+def _with_body(figures: Mapping[str, Any]) -> dict[str, Any]:
+    """Figures, or their errors, with those of the lower surface also under names that say so."""
+    names = ("Sq_initial", "Sq_final", "worn_depth")
+    return {**figures, **{f"lower_{name}": figures[name] for name in names if name in figures}}
+
+
+def _tell(scene: RunningInLifeScene, context: Context, setup: MixedSetup, film_notes: tuple[Note, ...]) -> None:
+    """What the reader must know."""
+    wear, (speeds,) = scene.wear, scene.speeds.build()
+    hold = "cycle jumps, positions, cells and points of the films" if scene.life.coarser_lives else JUMPS_ALONE
+    context.note(BARS_PARTIAL(positions=wear.positions, hold=hold, reason="life"))
+    mean, slide = 0.5 * abs(sum(speeds)), abs(speeds[0] - speeds[1])
+    passing = wear.passes == "both" and mean > 0
+    length = setup.grid.lengths[0]
+    slid = length * slide / mean if passing else wear.distance
+    if passing and slid > 0 and abs(wear.distance / slid - 1) > 0.05:
+        context.note(LIFE_DISTANCE_DIFFERS(given=wear.distance, slid=slid, length=length))
+    tell(context, film_notes, "film")
+
+
+def _record(scene: RunningInLifeScene, setup: MixedSetup, end: LifeState, monitors: Monitors) -> RunningInLifeRecord:
+    """The figures of a life."""
+    from bem.life.error_bars import life_figures
+
+    cycle, at = scene.life.reported(), end.over("cycles")
+    over: dict[str, Any] = {name: np.interp(cycle, at, end.over(column)) for name, column in _COLUMNS.items()}
+    film, missed = end.surfaces.film, float(end.over("depth_error")[-1])
+    figures = _with_body(life_figures(end))
+    if film is None:
+        figures["tribofilm_thickness"] = None
+    return RunningInLifeRecord(
+        x=setup.grid.x,
+        y=setup.grid.y,
+        **figures,
+        **over,
+        **monitors.figures(cycle, end),
+        cycle=cycle,
+        **_temperatures(scene, cycle, end),
+        tribofilm_over_cycles=None if film is None else np.interp(cycle, at, end.over("film_thickness")),
+        film_map=film,
+        jump_error=missed,
+        jumps=len(end.rows) - 1,
+        jumps_rejected=end.rejected,
+        convolutions=end.convolutions,
+        step_cycle=at[1:],
+        step_length=end.over("step")[1:],
+        step_error=end.over("step_error")[1:],
+        height_before=end.first[0],
+        height_after=end.surfaces.heights[0],
+        pressure=end.passes[0].pressure,
+    )
+
+
+def _temperatures(scene: RunningInLifeScene, cycle: FloatArray, end: LifeState) -> dict[str, Any]:
+    """Of the contact, where its heat was asked for."""
+    if scene.thermal == "off":
+        return dict.fromkeys((*TEMPERATURES, "flash_temperature_over_cycles"))
+    flash = np.interp(cycle, end.over("cycles"), end.over("flash_temperature"))
+    return {name: float(end.over(name)[-1]) for name in TEMPERATURES} | {"flash_temperature_over_cycles": flash}
+
+
+_COLUMNS = {
+    "friction_over_cycles": "friction",
+    "boundary_friction_over_cycles": "boundary_friction",
+    "contact_share": "contact_share",
+    "minimum_film_over_cycles": "minimum_film",
+    "lambda_over_cycles": "lambda_ratio",
+    "lower_rms_over_cycles": "lower_rms",
+    "upper_rms_over_cycles": "upper_rms",
+    "lower_depth_over_cycles": "lower_depth",
+    "upper_depth_over_cycles": "upper_depth",
+    "depth_error_over_cycles": "depth_error",
+}

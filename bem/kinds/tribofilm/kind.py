@@ -1,0 +1,40 @@
+"""Kind `tribofilm`, from its parts."""
+
+from __future__ import annotations
+
+from bem.kinds.tribofilm.checks import contacts
+from bem.kinds.tribofilm.errors import RESOLUTIONS
+from bem.kinds.tribofilm.plan import plan
+from bem.kinds.tribofilm.record import FilmRecord, summarise
+from bem.kinds.tribofilm.run import run
+from bem.kinds.tribofilm.scene import TribofilmScene, axes
+from bem.scenes import build
+from bem.scenes.kind import Kind
+
+KIND = Kind(
+    name="tribofilm",
+    title="a tribofilm that grows under stress and heat, wears, and takes substrate with it",
+    model=TribofilmScene,
+    record=FilmRecord,
+    plan=plan,
+    run=run,
+    axes=axes,
+    summarise=summarise,
+    resolve=build.with_grid,
+    resolutions=RESOLUTIONS,
+    contacts=contacts,
+    figures=(
+        "film-thickness",
+        "film-wear-rate",
+        "substrate-wear",
+        "substrate-concentration",
+        "film-pressure-over-thickness",
+        "film-map",
+        "film-pressure-map",
+    ),
+    headline=("temperature_C",),
+    warm_up=(
+        ("tribofilm-afm-tip", ('rubbing.loads=["600 nN"]', "grid.shape=48")),
+        ("tribofilm-macro", ('rubbing.temperatures=["80 degC"]', "grid.shape=256", "grid.lengths=200 um")),
+    ),
+)

@@ -1,0 +1,38 @@
+"""Error bars of kind `wear`."""
+
+from __future__ import annotations
+
+from typing import TYPE_CHECKING
+
+from bem.grid import FloatArray
+from bem.kinds.wear.record import WearRecord
+from bem.kinds.wear.scene import WearScene, slice_of
+from bem.kinds.wear.solve import wear_down
+from bem.scenes import pieces, wearing
+from bem.scenes.axes import with_keys
+from bem.scenes.resolutions import first_domain, of_loop
+
+if TYPE_CHECKING:
+    from bem.accuracy import ErrorBars
+
+
+def bars(scene: WearScene, initial: tuple[FloatArray, FloatArray], found: WearRecord) -> ErrorBars:
+    """Of the loop on every second cell, with the reported sizes."""
+    from bem.accuracy import wear_bars
+
+    there = wearing.on_twice_the_cell(scene, initial, slice_of(scene)[0], wear_down, at_resolution)
+    reported = {f"{scene.sizes.report}_mean_{size}": f"reported_{size}" for size in pieces.QUANTITIES}
+    judged = wear_bars(vars(found), None if there is None else vars(there), reported)
+    return wearing.with_least_area(judged, found, scene.cylinder.hardness)
+
+
+def at_resolution(scene: WearScene, factor: float, across: float | None = None) -> WearScene:
+    """The scene with so many times the cells and depths, that slides as far in a cycle; `across` : times the cells
+    along y, where that is another number."""
+    nx, ny = scene.domain.cells
+    cells = {"domain.cells": (round(factor * nx), round((factor if across is None else across) * ny))}
+    return with_keys(scene, cells | wearing.resolution_keys(scene, factor))
+
+
+RESOLUTIONS = (of_loop(first_domain, lambda scene: scene.domain.cells, at_resolution),)
+"""What is refined where an accuracy is asked for."""

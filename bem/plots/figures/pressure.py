@@ -1,0 +1,64 @@
+"""Map of the contact pressure, which most kinds draw."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import numpy as np
+from matplotlib.figure import Figure
+from numpy.typing import NDArray
+
+from bem.plots.figures import FigureKind, two_dimensional
+from bem.plots.style import map_of, prefix, thinned
+
+_AT_ONE_PRESSURE = 0.1
+"""From this share of the contact on, that it is at one pressure is written over the map."""
+
+
+def _array(run: Any, name: str) -> Any:
+    return run.dataset[name].values
+
+
+def _pressure_map(run: Any, figure: Figure) -> None:
+    pressure = _array(run, "pressure")
+    shown = thinned(pressure)
+    axes = figure.add_subplot()
+    map_of(
+        figure, axes, _array(run, "x"), _array(run, "y"), np.where(shown > 0, shown, np.nan), "contact pressure", "Pa",
+        ends=(0.0, float(pressure.max())),
+    )  # fmt: skip
+    axes.set_title(_one_colour(pressure), loc="right")
+
+
+def _one_colour(pressure: NDArray[np.float64]) -> str:
+    """What a map says in its darkest colour alone; nothing where less than a tenth of what touches is at one pressure.
+
+    Only a cap, or full contact of smooth bodies, makes so many cells alike.
+    """
+    highest, touching = float(pressure.max()), int(np.count_nonzero(pressure > 0))
+    factor, unit = prefix([highest], "Pa")
+    share = float(np.count_nonzero(pressure >= highest * (1 - 1e-6))) / max(touching, 1)
+    if touching < 2 or share < _AT_ONE_PRESSURE:
+        return ""
+    part = "all" if share > 0.999 else f"{100 * share:.0f} %"
+    return f"{part} of the cells in contact are at one pressure, {highest * factor:.3g} {unit}"
+
+
+def in_contact(run: Any) -> bool:
+    """Return True if the bodies touch anywhere."""
+    return bool((_array(run, "pressure") > 0).any())
+
+
+def _map_in_contact(run: Any) -> bool:
+    return two_dimensional(run) and in_contact(run)
+
+
+FIGURES = (
+    FigureKind(
+        "pressure-map",
+        "Contact pressure; cells out of contact are left blank.",
+        ("x", "y", "pressure"),
+        _pressure_map,
+        applies=_map_in_contact,
+    ),
+)
