@@ -50,15 +50,23 @@ class CaseContext:
     state : what is in the file, of a run that goes on.
     watcher : told of progress and notes.
     epoch : clock time [s] at which the run would have begun had it not been interrupted.
+    kind : name of the scene's kind, with whose code a resumed run must have been begun.
     """
 
     def __init__(
-        self, case: Case, file: Path | None, state: Mapping[str, Any] | None, watcher: Watcher, epoch: float
+        self,
+        case: Case,
+        file: Path | None,
+        state: Mapping[str, Any] | None,
+        watcher: Watcher,
+        epoch: float,
+        kind: str = "",
     ) -> None:
         self._case = case
         self._file = file
         self._watcher = watcher
         self._epoch = epoch
+        self._kind = kind
         self._open: dict[str, float] = {}
         self.resumed = state is not None
         state = dict(state or {})
@@ -113,7 +121,8 @@ class CaseContext:
             seconds[stage] = seconds.get(stage, 0.0) + now - start
         wall_time = time.time() - self._epoch
         notes = [note.packed() for note in self.notes]
-        save_checkpoint(self._file, {**state, "_notes": notes, "_seconds": seconds, "_wall_time_s": wall_time})
+        about = {"_notes": notes, "_seconds": seconds, "_wall_time_s": wall_time}
+        save_checkpoint(self._file, {**state, **about}, self._kind)
 
     def saved(self) -> dict[str, Any] | None:
         """See `bem.scenes.Context`."""

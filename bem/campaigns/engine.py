@@ -69,11 +69,12 @@ class CaseJob:
     @one_blas_thread
     def compute(self, watcher: Watcher) -> Result:
         """Run the case, going on from its checkpoint; errors that a scene can cause come back as words."""
-        state = None if self.file is None else load_checkpoint(self.file)
-        context = CaseContext(self.case, self.file, state, watcher, self.epoch)
+        kind = self.case.scene.kind
+        state = None if self.file is None else load_checkpoint(self.file, kind)
+        context = CaseContext(self.case, self.file, state, watcher, self.epoch, kind)
         try:
             with interrupts_as_they_are(), collecting():
-                record = solve_case(get_kind(self.case.scene.kind), self.case.scene, context)
+                record = solve_case(get_kind(kind), self.case.scene, context)
         except ResultsError:
             raise  # no case can be kept on a disk that is full
         except (BemError, MemoryError) as error:
@@ -133,7 +134,7 @@ def compute(
     """
     board = Board(watcher or Silent(), campaign)
     files = [_file(folder, campaign, case) for case in campaign.cases]
-    states = [None if file is None else load_checkpoint(file) for file in files]
+    states = [None if file is None else load_checkpoint(file, campaign.kind.name) for file in files]
     epoch = time.time() - max((state["_wall_time_s"] for state in states if state is not None), default=0.0)
     results: dict[int, Result] = {}
     missing = []
@@ -156,7 +157,7 @@ def compute(
         if file is not None and len(files) > 1 and result.record is not None:
             notes = [note.packed() for note in result.notes]
             about = {"_notes": notes, "_seconds": result.seconds, "_wall_time_s": time.time() - epoch}
-            save_checkpoint(file, {_RECORD: result.record, **about})
+            save_checkpoint(file, {_RECORD: result.record, **about}, campaign.kind.name)
         if result.error and len(files) > 1:
             board.watching(index).note(f"failed: {result.error}")
         results[index] = result

@@ -2,13 +2,14 @@
 
 Layout: the line `bem checkpoint 1`, eight bytes little-endian length of the header, the header as JSON, the arrays'
 bytes one after the other, 32 bytes of SHA-256 over all before. In the header an array stands as `{"array": i}` and a
-dictionary as `{"table": {...}}`; it also says with which code the run was begun, since another one may hold its state
-otherwise, and ends in other bits in any case.
+dictionary as `{"table": {...}}`; it also has the digest of the code with which the run was begun, since other code may
+hold its state otherwise, and ends in other bits in any case.
 """
 
 from __future__ import annotations
 
 import hashlib
+import inspect
 import json
 import os
 import struct
@@ -23,29 +24,58 @@ from numpy.typing import NDArray
 import bem
 from bem.errors import ResultsError
 from bem.results.atomic import reason, replacing
+from bem.scenes.kind import KINDS, get_kind
 
 _MAGIC = b"bem checkpoint 1\n"
 _DIGEST = hashlib.sha256().digest_size
 
 
+_OUTSIDE_RUNS = ("__main__.py", "app", "benchmarks", "cli", "elements", "plots", "runs", "verification", "warm_up.py")
+"""Parts of the package that the run of a case does not execute: imports run downwards only."""
+
+
 @cache
-def code_digest() -> str:
-    """Of this package's sources: what a run that goes on must have been begun with."""
+def code_digest(kind: str) -> str:
+    """Digest of the code that a run of a kind executes: a resumed run must have been begun with the same code.
+
+    It covers the package below the kinds, and the kind's own modules without its figures; for a kind from outside the
+    package, the file with its `run`. Other kinds, pictures and the command line are left out.
+
+    Parameters
+    ----------
+    kind : name of the kind; empty for the code of no kind.
+    """
     home = Path(bem.__file__).parent
     digest = hashlib.sha256(bem.__version__.encode())
     for path in sorted(home.rglob("*.py")):
-        digest.update(path.relative_to(home).as_posix().encode())
-        digest.update(path.read_bytes())
+        name = path.relative_to(home)
+        if name.parts[0] not in (*_OUTSIDE_RUNS, KINDS.name):
+            _add_source(digest, path, name.as_posix())
+    own = KINDS / kind.replace("-", "_")
+    if kind and own.is_dir():
+        for path in sorted(own.rglob("*.py")):
+            if path.name != "figures.py":
+                _add_source(digest, path, path.relative_to(home).as_posix())
+    elif kind:
+        source = inspect.getsourcefile(get_kind(kind).run)
+        if source is not None:
+            _add_source(digest, Path(source), kind)
     return digest.hexdigest()[:16]
 
 
-def save_checkpoint(path: Path, state: Mapping[str, Any]) -> None:
+def _add_source(digest: Any, path: Path, name: str) -> None:
+    digest.update(name.encode())
+    digest.update(path.read_bytes())
+
+
+def save_checkpoint(path: Path, state: Mapping[str, Any], kind: str = "") -> None:
     """Replace the checkpoint by `state`, whole or not at all.
 
     Parameters
     ----------
     path : of the file.
     state : arrays of numbers, numbers, strings, booleans, None, and lists and dictionaries (with text keys) of them.
+    kind : name of the kind of the run, whose code must be the same when it is resumed.
 
     Raises
     ------
@@ -55,7 +85,7 @@ def save_checkpoint(path: Path, state: Mapping[str, Any]) -> None:
     arrays: list[NDArray[Any]] = []
     tree = _flatten(state, arrays)
     layout = [[array.dtype.str, list(array.shape)] for array in arrays]
-    header = json.dumps({"state": tree, "arrays": layout, "code": code_digest()}).encode()
+    header = json.dumps({"state": tree, "arrays": layout, "code": code_digest(kind)}).encode()
     with replacing(path) as temporary, open(temporary, "wb") as file:
         digest = hashlib.sha256()
         parts: list[Any] = [
@@ -70,16 +100,16 @@ def save_checkpoint(path: Path, state: Mapping[str, Any]) -> None:
         file.write(digest.digest())
 
 
-def load_checkpoint(path: Path) -> dict[str, Any] | None:
-    """The state in the file, or None where there is no file.
+def load_checkpoint(path: Path, kind: str = "") -> dict[str, Any] | None:
+    """The state in the file of a run of a kind, or None where there is no file.
 
     Raises
     ------
-    ResultsError : the file is damaged or cannot be read, or another version of this package wrote it.
+    ResultsError : the file is damaged or cannot be read, or other code wrote it.
     """
     try:
         with open(path, "rb") as file:
-            return _read(path, file)
+            return _read(path, file, kind)
     except FileNotFoundError:
         return None
     except ResultsError:
@@ -88,7 +118,7 @@ def load_checkpoint(path: Path) -> dict[str, Any] | None:
         raise ResultsError(f"{path}: the checkpoint cannot be read ({reason(error)})") from error
 
 
-def _read(path: Path, file: BinaryIO) -> dict[str, Any]:
+def _read(path: Path, file: BinaryIO, kind: str) -> dict[str, Any]:
     """The checksum first, then the parts: never more than the arrays in memory."""
     size = os.fstat(file.fileno()).st_size
     digest = hashlib.sha256()
@@ -105,7 +135,7 @@ def _read(path: Path, file: BinaryIO) -> dict[str, Any]:
     file.seek(len(_MAGIC))
     (length,) = struct.unpack("<Q", file.read(8))
     header = json.loads(file.read(length))
-    if header.get("code") != code_digest():
+    if header.get("code") != code_digest(kind):
         raise ResultsError(
             f"{path}: the run was begun with another version of bem and would not end as with either; begin it anew "
             "(--overwrite, or another --out), or go on with that version"

@@ -94,8 +94,8 @@ def killing(monkeypatch):
     """Counts written checkpoints under "written", and raises after the one whose number is under "last"."""
     counts, save = defaultdict(int), checkpoint.save_checkpoint
 
-    def counted(path, state):
-        save(path, state)
+    def counted(path, state, kind):
+        save(path, state, kind)
         counts["written"] += 1
         if counts["written"] == counts["last"]:
             raise Killed

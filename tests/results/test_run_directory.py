@@ -3,9 +3,13 @@
 import json
 import os
 import resource
+import runpy
+import shutil
 import subprocess
 import sys
 from contextlib import contextmanager
+from pathlib import Path
+from types import SimpleNamespace
 
 import numpy as np
 import pytest
@@ -486,7 +490,73 @@ def test_numbers_that_are_not_finite_are_null_in_a_summary(value):
 def test_a_checkpoint_of_other_code_is_not_gone_on_with(tmp_path, monkeypatch):
     path = tmp_path / "checkpoint.bin"
     with monkeypatch.context() as patch:
-        patch.setattr("bem.results.checkpoint.code_digest", lambda: "of before")
+        patch.setattr("bem.results.checkpoint.code_digest", lambda kind: "of before")
         save_checkpoint(path, {"cycle": 10})
     with pytest.raises(ResultsError, match=r"another version of bem.*--overwrite"):
         load_checkpoint(path)
+
+
+@pytest.fixture
+def package(tmp_path, monkeypatch):
+    """A copy of the package's kinds and of a few of its other files, of which `code_digest` takes digests."""
+    import bem
+    from bem.results import checkpoint
+
+    home = tmp_path / "bem"
+    ignored = shutil.ignore_patterns("__pycache__", "*.toml")
+    for part in ("kinds", "cli", "plots", "contact"):
+        shutil.copytree(Path(bem.__file__).parent / part, home / part, ignore=ignored)
+    monkeypatch.setattr(bem, "__file__", str(home / "__init__.py"))
+    monkeypatch.setattr(checkpoint, "KINDS", home / "kinds")
+    return home
+
+
+@pytest.mark.internal
+@pytest.mark.parametrize(
+    ("changed", "resumes"),
+    [
+        ("cli/run.py", True),
+        ("plots/style.py", True),
+        ("kinds/wear/run.py", True),
+        ("kinds/contact/figures.py", True),
+        ("kinds/contact/run.py", False),
+        ("kinds/contact/plan.py", False),
+        ("contact/pcg.py", False),
+    ],
+)
+def test_a_run_is_resumed_with_the_code_that_its_kind_runs(package, tmp_path, changed, resumes):
+    """A changed message of the command line or a picture made every checkpoint useless."""
+    from bem.results.checkpoint import code_digest
+
+    path = tmp_path / "checkpoint.bin"
+    code_digest.cache_clear()
+    save_checkpoint(path, {"cycle": 10}, "contact")
+    with open(package / changed, "a") as file:
+        file.write("# changed\n")
+    code_digest.cache_clear()
+    try:
+        if resumes:
+            assert load_checkpoint(path, "contact") == {"cycle": 10}
+        else:
+            with pytest.raises(ResultsError, match="another version of bem"):
+                load_checkpoint(path, "contact")
+    finally:
+        code_digest.cache_clear()
+
+
+@pytest.mark.internal
+def test_a_run_of_a_kind_from_outside_is_resumed_with_the_same_file(tmp_path, monkeypatch):
+    """A changed kind of the user went on with the state of the older one."""
+    from bem.results import checkpoint
+
+    source, path = tmp_path / "my_kind.py", tmp_path / "checkpoint.bin"
+    source.write_text("def run(scene, context):\n    return 1\n")
+    kind = SimpleNamespace(run=runpy.run_path(str(source))["run"])
+    monkeypatch.setattr(checkpoint, "get_kind", lambda name: kind)
+    checkpoint.code_digest.cache_clear()
+    save_checkpoint(path, {"cycle": 10}, "ball")
+    assert load_checkpoint(path, "ball") == {"cycle": 10}
+    source.write_text("def run(scene, context):\n    return 2\n")
+    checkpoint.code_digest.cache_clear()
+    with pytest.raises(ResultsError, match="another version of bem"):
+        load_checkpoint(path, "ball")
