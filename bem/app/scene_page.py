@@ -13,7 +13,7 @@ from bem.app.planning import ShownPlan, shown_plan
 from bem.app.workspace import Workspace
 from bem.errors import BemError
 from bem.scenes.form import form_of, library_scene, start_of
-from bem.scenes.kind import get_kind, kind_names
+from bem.scenes.kind import get_kind, kinds_by_task
 from bem.scenes.load import library
 
 _PAUSE = 0.4  # seconds without a change before a plan is made
@@ -45,11 +45,13 @@ def scenes_page(workspace: Workspace) -> None:
                     ui.label("None yet: begin one of a kind, or copy a built-in one.").classes("text-grey")
             with ui.column().classes("gap-1"):
                 ui.label("New, of a kind").classes("text-h6")
-                for name in kind_names():
-                    with ui.row().classes("items-center no-wrap"):
-                        button = ui.button(name, on_click=lambda _, n=name: begin(n, start_of(n)))
-                        button.props("dense outline no-caps").classes("q-px-sm").props["data-new"] = name
-                        ui.label(get_kind(name).title).classes("text-caption").style("max-width: 26em")
+                for task, kinds in kinds_by_task().items():
+                    ui.label(task).classes("text-subtitle2 text-grey-8")
+                    for name in kinds:
+                        with ui.row().classes("items-center no-wrap"):
+                            button = ui.button(name, on_click=lambda _, n=name: begin(n, start_of(n)))
+                            button.props("dense outline no-caps").classes("q-px-sm").props["data-new"] = name
+                            ui.label(get_kind(name).title).classes("text-caption").style("max-width: 26em")
             with ui.column().classes("gap-1"):
                 ui.label("A copy of a built-in scene").classes("text-h6")
                 names = {name: f"{name}: {table.get('description', '')[:70]}" for name, table in library().items()}

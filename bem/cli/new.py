@@ -111,9 +111,14 @@ def _list_all() -> None:
     """Show the kinds of scene and the machine elements, a line each."""
     from bem.cli._terminal import table
     from bem.elements.element import TITLES
-    from bem.scenes.kind import get_kind, kind_names
+    from bem.scenes.kind import get_kind, kinds_by_task
 
-    table(("kind", "what it computes"), [(name, get_kind(name).title) for name in kind_names()], title="kinds of scene")
+    rows = [
+        (task if name == names[0] else "", name, get_kind(name).title)
+        for task, names in kinds_by_task().items()
+        for name in names
+    ]
+    table(("task", "kind", "what it computes"), rows, title="kinds of scene")
     table(("element", "what it shows"), list(TITLES.items()), title="machine elements")
     print("next: bem new KIND writes a commented file to start from; `bem scenes` lists finished scenes")
 

@@ -33,6 +33,7 @@ def register(app: typer.Typer) -> None:
         """
         from bem.cli._terminal import table
         from bem.errors import InputError
+        from bem.scenes.kind import kind_names
         from bem.scenes.load import library, library_text
         from bem.scenes.validate import nearest
 
@@ -44,6 +45,9 @@ def register(app: typer.Typer) -> None:
             typer.echo(library_text(show), nl=False)
             return
         rows = [
-            (name, item["kind"], item.get("description", ""), item.get("redoes", "")) for name, item in known.items()
+            (name, kind, item.get("description", ""), item.get("redoes", ""))
+            for kind in kind_names()
+            for name, item in known.items()
+            if item["kind"] == kind
         ]
         table(("scene", "kind", "what it is", "redoes"), rows, wide_only=(1, 3))

@@ -142,13 +142,30 @@ def with_checksums(table: Any) -> Any:
     return table.model_copy(update=changed) if changed else table
 
 
+TASKS: dict[str, tuple[str, ...]] = {
+    "dry contact": ("contact", "asperities", "partial-slip", "rolling", "surface-temperature"),
+    "oil films (EHL)": ("traction", "film", "point-film", "point-film-time", "flow-factors"),
+    "mixed lubrication": ("friction",),
+    "wear and running-in": ("wear", "running-in", "running-in-life", "particles"),
+    "tribofilms": ("tribofilm",),
+}
+"""Kinds by task, as lists show them; a kind that is not named here stands under other kinds."""
+
 _registered: dict[str, Kind] = {}
 
 
 def kind_names() -> tuple[str, ...]:
-    """Names of all kinds, without loading those of the package."""
+    """Names of all kinds by task, without loading those of the package."""
+    return tuple(name for names in kinds_by_task().values() for name in names)
+
+
+def kinds_by_task() -> dict[str, tuple[str, ...]]:
+    """Names of all kinds by task, without loading those of the package; tasks without a kind are left out."""
     load_extensions()
-    return tuple(sorted({*_of_the_package(), *_registered}))
+    known = {*_of_the_package(), *_registered}
+    named = {name for names in TASKS.values() for name in names}
+    tasks = {task: tuple(name for name in names if name in known) for task, names in TASKS.items()}
+    return {task: names for task, names in {**tasks, "other kinds": tuple(sorted(known - named))}.items() if names}
 
 
 @cache

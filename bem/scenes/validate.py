@@ -81,7 +81,8 @@ def _message(mistake: Any, data: Any, model: type[BaseModel]) -> str:
         hint = nearest(last, names) or _elsewhere(last, parent, model)
         return f"{key}: unknown key{hint}; allowed {place}: {', '.join(names)}"
     if kind == "missing":
-        return f"{key}: missing{allowed or _choices(annotation)}"
+        meaning = _meaning(mistake["loc"], data, model)
+        return f"{key}: missing{f' ({meaning})' if meaning else ''}{allowed or _choices(annotation)}"
     if kind == "literal_error":
         either = f", or {dimension.allowed}" if dimension else ""
         return f"{where}: not allowed{nearest(value, literals(annotation))}{_choices(annotation)}{either}"
@@ -106,6 +107,13 @@ def _message(mistake: Any, data: Any, model: type[BaseModel]) -> str:
     if kind.startswith(("greater_than", "less_than")) and dimension and dimension.unit:
         text += f" {dimension.unit}"
     return f"{where}: {text}{allowed}"
+
+
+def _meaning(loc: Sequence[Any], data: Any, model: type[BaseModel]) -> str:
+    """Description of the key there, without its full stop; empty where the key has none."""
+    annotation = without_none(_locate(loc[:-1], data, model)[1])
+    field = fields_of_table(annotation).get(loc[-1])
+    return str(getattr(field, "description", None) or "").rstrip(".")
 
 
 def _elsewhere(word: str, parent: str, model: type[BaseModel]) -> str:

@@ -7,7 +7,9 @@ from pydantic import BaseModel
 
 from bem.laws import FAMILIES, laws_of
 from bem.scenes import get_kind, kind_names
+from bem.scenes.form import mistakes_of, start_of
 from bem.scenes.keys import LEVELS, key, level_of, reason_of
+from bem.scenes.kind import TASKS, kinds_by_task
 from bem.scenes.laws import LawTable, fields_of
 from bem.scenes.table import Table
 from bem.scenes.units import Dimension
@@ -93,3 +95,20 @@ def test_a_key_is_a_field_with_level_and_reason():
     assert Own.model_json_schema()["properties"]["steps"]["level"] == "expert"
     with pytest.raises(ValueError, match="greater than 0"):
         Own(load=-1.0)
+
+
+def test_a_message_on_a_missing_key_says_what_it_means():
+    table = start_of("contact")
+    table["lower"] = {"material": {"youngs_modulus": "200 GPa"}}
+    (message,) = mistakes_of(table)
+    assert message.startswith(
+        "lower.material.poissons_ratio: missing (Poisson's ratio, above -1 and below 0.5); allowed:"
+    )
+
+
+def test_kinds_are_listed_by_task_and_each_once():
+    tasks = kinds_by_task()
+    assert [name for names in tasks.values() for name in names] == list(kind_names())
+    assert len(set(kind_names())) == len(kind_names())
+    assert {name for names in TASKS.values() for name in names} <= set(kind_names())
+    assert next(iter(tasks.values()))[0] == "contact"
