@@ -142,8 +142,8 @@ def _running(found: Element) -> dict[str, list[float]]:
         if not all(map(math.isnan, row))
     ]
     head = (
-        *("", "where", "minimum film (solved)", "lambda ratio (solved)", "friction", "power", "oil", "hottest surface"),
-        *("wear 1 per pass", "wear 2 per pass"),
+        *("", "where", "minimum film thickness (solved)", "lambda ratio (solved)", "friction coefficient", "power"),
+        *("oil", "hottest surface", "wear 1 per pass", "wear 2 per pass"),
     )
     table(head, lines, title="as it runs", right=range(2, len(head)), leading=2)
     table(("", ""), summary(found, runs))
@@ -183,7 +183,7 @@ def _show(found: Element, chosen: ElementContact) -> None:
         number = f"{i + 1} <" if one is chosen else str(i + 1)
         where = one.name if found.found.along_unit == "rad" else degrees(one, found.found.along_unit)
         rows.append((number, f"{where}  {letters[i]}".rstrip(), *cells))
-    head = ["", "where", *(name for name, _, _ in shown), "mean speed", "slide-roll"]
+    head = ["", "where", *(name for name, _, _ in shown), "entrainment speed", "slide-roll"]
     head += [_BY_FORMULA[name] for name in _BY_FORMULA if name in columns]
     title = f"{found.model.name}: {found.model.element}"
     table(head, rows, title=title, right=range(2, len(head)), leading=2)
@@ -201,7 +201,7 @@ def _letters(found: Element) -> list[str]:
 
 
 _BY_FORMULA = {
-    "minimum_film [m]": "minimum film (formula)",
+    "minimum_film [m]": "minimum film thickness (formula)",
     "film_over_roughness": "lambda ratio (formula)",
 }
 """Heads of the columns that follow from a film formula; those of a solved film are another figure."""

@@ -63,10 +63,12 @@ _LABELS = {
     "upper_Sq_final": "Sq of the upper surface, final",
     "upper_worn_depth": "worn depth of the upper surface",
     "combined_Sq": "Sq of both surfaces",
-    "minimum_film": "minimum film (under the film's own load)",
-    "lambda_ratio": "lambda ratio (film under the whole load)",
-    "lambda_ratio_initial": "lambda ratio (film under the whole load), initial",
-    "lambda_ratio_mixed": "lambda ratio (film beside contact)",
+    "friction": "friction coefficient",
+    "contact_share": "asperity load share",
+    "minimum_film": "minimum film thickness (under the film's load)",
+    "lambda_ratio": "lambda ratio (under the whole load)",
+    "lambda_ratio_initial": "lambda ratio (under the whole load), initial",
+    "lambda_ratio_mixed": "lambda ratio (under the film's load)",
 }
 """Labels that say the region or the definition of a figure, by its name without the unit."""
 

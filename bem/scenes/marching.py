@@ -33,7 +33,7 @@ class MarchedRecord(Record):
     """A film in time: its minimum and its centre."""
 
     thinnest_film: Annotated[float, Figure("nm", "thinnest film of all times", headline=True)]
-    film_at_end: Annotated[float, Figure("nm", "minimum film at the end", headline=True)]
+    film_at_end: Annotated[float, Figure("nm", "minimum film thickness at the end", headline=True)]
     newton_steps: Annotated[int, Figure("", "Newton steps", unjudged=True)]
     time: Annotated[FloatArray, Series(("time",), "s", "time")]
     minimum_film: Annotated[FloatArray, Series(("time",), "m", "minimum film thickness")]

@@ -135,10 +135,10 @@ class Series:
     rows: bool = False
 
 
-MINIMUM_FILM = "minimum film under its part of the load, beside contact"
+MINIMUM_FILM = "minimum film thickness under the film's part of the load"
 """What the minimum film of mixed lubrication is; over Sq it is the ratio `LAMBDA_MIXED`, not `LAMBDA_WHOLE`."""
-LAMBDA_WHOLE = "lambda ratio: minimum film under the whole load, over Sq of both surfaces"
-LAMBDA_MIXED = "lambda ratio: minimum film under its part of the load, beside contact, over Sq of both surfaces"
+LAMBDA_WHOLE = "lambda ratio: minimum film thickness under the whole load over the combined roughness Sq"
+LAMBDA_MIXED = "lambda ratio of the film under its part of the load, over the combined roughness Sq"
 """The two lambda ratios. Where film and contact share the load, the film that carries its part alone is thicker than
 that of a smooth contact under the whole load; where the film carries all of it, the two are one."""
 

@@ -454,7 +454,7 @@ def test_curves_have_the_speed_as_a_dimension_and_overlay_by_the_swept_value(tmp
     figure = Figure()
     fill(figure, *drawn[0], ("speed_m_s", "friction", "minimum_film_nm"))
     labels = [axes.get_ylabel() for axes in figure.axes]
-    assert labels == ["friction", "minimum film (under the film's own load) (µm)"], "above 1000 nm"
+    assert labels == ["friction coefficient", "minimum film thickness (under the film's load) (µm)"], "above 1000 nm"
     for axes in figure.axes:
         assert len(axes.lines) == 2
         assert [line.get_label() for line in axes.lines] == ["oil.viscosity = 0.18 Pa*s", "oil.viscosity = 0.36 Pa*s"]

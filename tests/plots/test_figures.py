@@ -189,7 +189,7 @@ def test_prefixes(value, unit, expected):
         ("worn_depth_nm", 129100.0, ("worn depth of the contact region", "129.1 µm")),
         ("spacing_um", 2500.0, ("spacing", "2.5 mm")),
         ("yielded_volume_m3", 5.697e-16, ("yielded volume", "569.7 µm³")),
-        ("friction", [0.1, 0.2], ("friction", "0.1, 0.2")),
+        ("friction", [0.1, 0.2], ("friction coefficient", "0.1, 0.2")),
         ("speed_m_s", [0.001, 0.3], ("speed", "0.001, 0.3 m/s")),
         ("status", "converged", ("status", "converged")),
         ("residual", None, ("residual", "-")),

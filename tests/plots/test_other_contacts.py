@@ -119,7 +119,7 @@ def test_a_lone_deep_hole_leaves_the_scale_of_worn_heights_in_their_unit():
 
 def test_a_curve_at_one_speed_shows_its_error_bar():
     summary = {"friction": [0.06765], "friction_error": [0.00119], "film_load_N": [985.0], "film_load_N_error": [None]}
-    assert with_error("friction", summary) == ("friction", "0.06765 ± 0.0012")
+    assert with_error("friction", summary) == ("friction coefficient", "0.06765 ± 0.0012")
     assert with_error("film_load_N", summary) == ("film load", "985 N (no error bar)")
 
 

@@ -30,7 +30,7 @@ SUMMARY = {
 
 def test_a_row_for_each_speed_with_spread_and_unit():
     (table,) = figure_tables(SUMMARY, ["speed_m_s", "friction", "film_load_N", "contact_area_fraction"])
-    assert table.head == ("speed (m/s)", "friction", "film load (mN)", "contact area fraction (%)")
+    assert table.head == ("speed (m/s)", "friction coefficient", "film load (mN)", "contact area fraction (%)")
     assert table.rows[0] == ("0.01", "0.1 ± 0.01", "1", "10")
     assert table.rows[1] == ("0.1", "0.05", "2", "2")  # a spread of round-off is none
     assert table.rows[2][2] == "–"
@@ -51,7 +51,7 @@ def test_cases_are_told_apart_and_have_the_speed_beside_them():
         SUMMARY | {"friction": [0.11, 0.05, 0.02]}, ["curves", "largest_difference"]
     )
     assert (capped.title, other.title) == ("curves: 5 N, capped", "curves: 5 N, uncoupled elastic")
-    assert other.head == ("speed (m/s)", "friction")
+    assert other.head == ("speed (m/s)", "friction coefficient")
     assert other.rows[0] == ("0.01", "0.3")
     assert difference.head == ("load (N)", "model", "d (%)")  # no column for a variant without a name
     assert difference.rows == (("5", "capped", "3 ± 0.5"),)
@@ -73,7 +73,7 @@ def test_the_report_has_no_paragraph_of_numbers(tmp_path):
     (tmp_path / "scene.toml").write_text('kind = "friction"\n')
     run = SimpleNamespace(path=tmp_path, summary=json.loads(json.dumps(summary)), scene={}, dataset=None)
     page = write_report(run, [], ("speed_m_s", "friction")).read_text("utf-8")
-    assert "<th>speed (m/s)</th><th>friction</th>" in page
+    assert "<th>speed (m/s)</th><th>friction coefficient</th>" in page
     assert "0.01, 0.1" not in page
     assert "{&#34;" not in page  # no table of the summary as its source text
 
@@ -103,11 +103,11 @@ def test_notes_are_no_column_where_there_are_as_many_as_rows():
         "seconds_by_level": ["d", "e", "f"],
     }
     (table,) = figure_tables(texts | SUMMARY, ["speed_m_s", "friction"])
-    assert table.head == ("speed (m/s)", "friction")
+    assert table.head == ("speed (m/s)", "friction coefficient")
     (table,) = figure_tables(SUMMARY | texts, ["friction", "film_load_N"])
     assert table.head[0] == "speed (m/s)"
     (table,) = figure_tables({"seed": 1, "friction": [0.1, 0.2], "notes": ["x", "y"]}, ["friction"])
-    assert table.head == ("friction",)
+    assert table.head == ("friction coefficient",)
 
 
 def test_varied_keys_say_which_row_it_is_in_every_table():
@@ -128,7 +128,7 @@ def test_varied_keys_say_which_row_it_is_in_every_table():
 def test_a_figure_that_repeats_a_varied_key_is_not_shown_twice():
     summary = {"over": {"oil.temperature": "K"}, "oil.temperature": [293.15, 313.15], "temperature_C": [20.0, 40.0]}
     (table,) = figure_tables(summary | {"friction": [0.1, 0.2]}, ["temperature_C", "friction"])
-    assert table.head == ("oil.temperature (°C)", "friction")
+    assert table.head == ("oil.temperature (°C)", "friction coefficient")
 
 
 def test_varied_keys_are_named_in_the_titles_of_further_cases():
@@ -168,7 +168,13 @@ def test_points_of_a_sweep_are_rows_behind_the_swept_keys():
     names = ["speed_m_s", "friction", "Sq_nm", "no_such_figure"]
     summary = summary_of_points({"contact.load": "N"}, [(1.0,), (2.0,), (3.0,)], points, names)
     (table,) = figure_tables(summary, [name for name in summary if name != "over"])
-    assert table.head == ("contact.load (N)", "speed (m/s)", "result", "friction", "Sq of both surfaces (nm)")
+    assert table.head == (
+        "contact.load (N)",
+        "speed (m/s)",
+        "result",
+        "friction coefficient",
+        "Sq of both surfaces (nm)",
+    )
     assert table.rows[0] == ("1", "1", "converged", "0.1 ± 0.01", "5")
     assert table.rows[2] == ("2", "–", "failed", "–", "–")
     assert table.rows[4][2:] == ("stalled", "0.4 ± 0.02", "6")

@@ -87,10 +87,10 @@ def test_both_lambda_ratios_stand_under_their_own_keys(friction):
     assert "part of the load" in friction.variables["lambda_ratio_mixed"].description
     names = ["minimum_film_nm", "lambda_ratio", "lambda_ratio_mixed"]
     heads = [head for table in figure_tables(summary, names) for head in table.head]
-    assert any("minimum film (under the film's own load)" in head for head in heads)
+    assert any("minimum film thickness (under the film's load)" in head for head in heads)
     assert [head for head in heads if "lambda" in head] == [
-        "lambda ratio (film under the whole load)",
-        "lambda ratio (film beside contact)",
+        "lambda ratio (under the whole load)",
+        "lambda ratio (under the film's load)",
     ]
 
 

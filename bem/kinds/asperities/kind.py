@@ -12,7 +12,7 @@ from bem.scenes.kind import Kind
 
 KIND = Kind(
     name="asperities",
-    title="a regular array of spherical asperities against a flat: load per asperity over depth",
+    title="dry contact of an asperity array: load per asperity over interference, at several spacings",
     model=AsperitiesScene,
     record=AsperityRecord,
     plan=plan,

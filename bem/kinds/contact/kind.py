@@ -12,7 +12,7 @@ from bem.scenes.kind import Kind
 
 KIND = Kind(
     name="contact",
-    title="two rough, possibly coated bodies pressed together: pressure, contact area, approach, stresses below",
+    title="dry contact of rough, possibly coated bodies: pressure, real contact area, approach, stresses below",
     model=ContactScene,
     record=ContactRecord,
     plan=plan,

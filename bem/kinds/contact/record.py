@@ -28,8 +28,8 @@ class ContactRecord(GridRecord):
     contact_spots: Annotated[int, Figure("", "separate spots of contact", unjudged=True)]
     contact_perimeter: Annotated[float, Figure("m", "length of the edges of contact")]
     mean_contact_pressure: Annotated[float, Figure("Pa", "mean pressure over the real contact area", headline=True)]
-    max_pressure: Annotated[float, Figure("Pa", "highest pressure", headline=True)]
-    max_pressure_of_cells: Annotated[float, Figure("Pa", "highest pressure of a cell", unjudged=True)]
+    max_pressure: Annotated[float, Figure("Pa", "maximum pressure", headline=True)]
+    max_pressure_of_cells: Annotated[float, Figure("Pa", "maximum pressure of a cell", unjudged=True)]
     approach: Annotated[float, Figure("m", "approach from first touch", headline=True)]
     mean_gap: Annotated[float, Figure("m", "mean of the open gap")]
     residual: Annotated[float, Figure("", "relative residual", headline=True, unjudged=True)]
@@ -37,12 +37,12 @@ class ContactRecord(GridRecord):
     convolutions: Annotated[float, Figure("", "convolutions", unjudged=True)]
     lower_Sq: Annotated[float | None, Figure("m", "Sq of the lower surface", optional=True, unjudged=True)] = None
     upper_Sq: Annotated[float | None, Figure("m", "Sq of the upper surface", optional=True, unjudged=True)] = None
-    max_von_mises: Annotated[float | None, Figure("Pa", "highest von Mises stress", optional=True, headline=True)] = (
+    max_von_mises: Annotated[float | None, Figure("Pa", "maximum von Mises stress", optional=True, headline=True)] = (
         None
     )
-    max_von_mises_depth: Annotated[float | None, Figure("m", "depth of it", optional=True)] = None
+    max_von_mises_depth: Annotated[float | None, Figure("m", "depth of the maximum stress", optional=True)] = None
     max_von_mises_of_points: Annotated[
-        float | None, Figure("Pa", "highest von Mises stress of a point", optional=True, unjudged=True)
+        float | None, Figure("Pa", "maximum von Mises stress of a point", optional=True, unjudged=True)
     ] = None
     yielded_volume: Annotated[float | None, Figure("m3", "volume beyond the yield stress", optional=True)] = None
     counted_yielded_volume: Annotated[

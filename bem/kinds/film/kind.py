@@ -12,7 +12,7 @@ from bem.scenes.kind import Kind
 
 KIND = Kind(
     name="film",
-    title="film of a smooth line contact in time: start and stop, reciprocating, changing load",
+    title="EHL line contact in time: film thickness at start and stop, reciprocating motion, changing load",
     model=FilmScene,
     record=FilmTimeRecord,
     plan=plan,

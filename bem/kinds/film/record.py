@@ -18,7 +18,7 @@ class FilmTimeRecord(MarchedRecord):
 
     times_reported: Annotated[FloatArray, Figure("s", "time", ("reported",), name="time", unjudged=True)]
     minimum_film_reported: Annotated[
-        FloatArray, Figure("nm", "minimum film", ("reported",), name="minimum_film", no_bar=_BY_TIME)
+        FloatArray, Figure("nm", "minimum film thickness", ("reported",), name="minimum_film", no_bar=_BY_TIME)
     ]
     thinnest_film_time: Annotated[float, Figure("s", "when it is that thin", headline=True, no_bar=JUMPS)]
     largest_friction_force: Annotated[float, Figure("N", "largest friction force")]
@@ -32,5 +32,5 @@ class FilmTimeRecord(MarchedRecord):
     ]
     thickness: Annotated[FloatArray, Series(("time", "film_x"), "m", "film thickness")]
     film_pressure: Annotated[FloatArray, Series(("time", "film_x"), "Pa", "film pressure")]
-    meniscus: Annotated[FloatArray | None, Series(("time",), "m", "where the gap begins to be full")]
+    meniscus: Annotated[FloatArray | None, Series(("time",), "m", "position of the inlet meniscus")]
     film_fraction: Annotated[FloatArray | None, Series(("time", "film_x"), "1", "share of the gap filled with oil")]

@@ -11,7 +11,7 @@ from bem.scenes.kind import Kind
 
 KIND = Kind(
     name="flow-factors",
-    title="flow factors of rough surfaces over separation, as deformed in their contact",
+    title="flow factors of rough surfaces (Patir and Cheng) over separation, as deformed in contact",
     model=FlowFactorsScene,
     record=FlowRecord,
     plan=plan,

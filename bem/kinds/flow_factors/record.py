@@ -19,7 +19,7 @@ _factor = partial(Figure, "", dimensions=("asked",))
 class FlowRecord(Record):
     """Factors at every separation, in rising order."""
 
-    combined_Sq: Annotated[float, Figure("nm", "Sq of both surfaces together", headline=True, unjudged=True)]
+    combined_Sq: Annotated[float, Figure("nm", "combined roughness Sq of both surfaces", headline=True, unjudged=True)]
     separation: Annotated[FloatArray, Figure("nm", "separation of the mean planes", ("asked",), unjudged=True)]
     separation_over_Sq: Annotated[FloatArray, _factor("separation over Sq", headline=True, unjudged=True)]
     pressure_x: Annotated[FloatArray, _factor("pressure flow factor along x", headline=True)]

@@ -79,7 +79,7 @@ def _stribeck(run: Any, figure: Figure) -> None:
             for key, text, dots in (("boundary_part", "of it boundary", ":"), ("film_part", "of it film", "-.")):
                 part = _curves(run, key)[0][1].mean(axis=0)
                 axes.plot(speed, part, color="0.45", linestyle=dots, linewidth=1.1, label=text)
-    axes.set_ylabel("coefficient of friction")
+    axes.set_ylabel("friction coefficient")
     speed_axis(axes, speed)
     axes.legend(ncols=2 if many else 1)
 
@@ -96,7 +96,7 @@ def _sharing(run: Any, figure: Figure) -> None:
     film = _curves(run, "minimum_film")[0][1]
     factor, unit = prefix(film, "m")
     _band(lower, speed, film * factor, BLUE, "")
-    lower.set_ylabel(label("minimum film, own load", unit))
+    lower.set_ylabel(label("minimum film thickness", unit))
     speed_axis(lower, speed)
     _name_first_curve(run, figure)
 
@@ -228,7 +228,7 @@ def _has_differences(run: Any) -> bool:
 FIGURES = (
     FigureKind(
         "stribeck-curve",
-        "Coefficient of friction over speed, and the parts that boundary friction and the film have in the first "
+        "Friction coefficient over speed, and the parts that boundary friction and the film have in the first "
         "curve; bands span the repetitions; a curve that lies on another is dotted.",
         ("speed", "friction", "boundary_part", "film_part", "model"),
         _stribeck,

@@ -12,7 +12,7 @@ from bem.scenes.kind import Kind
 
 KIND = Kind(
     name="friction",
-    title="load sharing between oil film and rough contact over speed: the Stribeck curve",
+    title="mixed lubrication (Stribeck curve): friction coefficient and asperity load share over speed",
     model=FrictionScene,
     record=CurveRecord,
     plan=plan,

@@ -37,10 +37,12 @@ class CurveRecord(Record):
     """A Stribeck curve, and the fields that make pictures, at the speed where film and contact share most evenly."""
 
     speed: Annotated[FloatArray, _curve("m_s", "speed of the flat", headline=True, unjudged=True)]
-    friction: Annotated[FloatArray, _curve("", "coefficient of friction", headline=True)]
-    boundary_part: Annotated[FloatArray, _curve("", "boundary part of the friction", name="boundary_friction_part")]
-    film_part: Annotated[FloatArray, _curve("", "film part of the friction", name="film_friction_part")]
-    contact_load: Annotated[FloatArray, _curve("N", "load carried by contact", headline=True, part_of=_LOADS)]
+    friction: Annotated[FloatArray, _curve("", "friction coefficient", headline=True)]
+    boundary_part: Annotated[
+        FloatArray, _curve("", "boundary part of friction coefficient", name="boundary_friction_part")
+    ]
+    film_part: Annotated[FloatArray, _curve("", "film part of friction coefficient", name="film_friction_part")]
+    contact_load: Annotated[FloatArray, _curve("N", "load carried by asperities", headline=True, part_of=_LOADS)]
     film_load: Annotated[FloatArray, _curve("N", "load carried by the film", headline=True, part_of=_LOADS)]
     minimum_film: Annotated[FloatArray, _curve("nm", MINIMUM_FILM, headline=True)]
     lambda_ratio: Annotated[FloatArray, _curve("", LAMBDA_WHOLE, headline=True)]
@@ -49,20 +51,18 @@ class CurveRecord(Record):
     film_solves: Annotated[FloatArray, _curve("", "films solved", unjudged=True)]
     contact_solves: Annotated[FloatArray, _curve("", "rough contacts solved", unjudged=True)]
     oil_beside_contact: Annotated[
-        FloatArray, _curve("", "share of the patch's oil that lies beside Hertz' contact", no_bar=_OTHER)
+        FloatArray, _curve("", "fraction of the oil volume outside the Hertz contact", no_bar=_OTHER)
     ]
-    loaded_contact_load: Annotated[
-        FloatArray, _other_oil("N", "contact load with the oil counted where the film carries")
-    ]
-    loaded_friction: Annotated[FloatArray, _other_oil("", "friction with the oil counted where the film carries")]
-    film_reduction: Annotated[FloatArray | None, _supplied("", "central film over that of a flooded inlet")] = None
-    meniscus_position: Annotated[FloatArray | None, _supplied("um", "where the gap begins to be full")] = None
+    loaded_contact_load: Annotated[FloatArray, _other_oil("N", "asperity load with the loaded zone's oil volume")]
+    loaded_friction: Annotated[FloatArray, _other_oil("", "friction coefficient with the loaded zone's oil volume")]
+    film_reduction: Annotated[FloatArray | None, _supplied("", "central film thickness over the flooded one")] = None
+    meniscus_position: Annotated[FloatArray | None, _supplied("um", "position of the inlet meniscus")] = None
     oil_temperature: Annotated[
         FloatArray | None, _heated("oil in the contact, mean by pressure", no_bar=BAR_OF_HEAT)
     ] = None
     contact_temperature: Annotated[FloatArray | None, _heated("surfaces in contact, mean by pressure")] = None
     flash_temperature: Annotated[FloatArray | None, _heated("surfaces in contact, highest")] = None
-    rms_height: Annotated[float, Figure("nm", "rms height of both surfaces together", name="Sq", unjudged=True)]
+    rms_height: Annotated[float, Figure("nm", "combined roughness Sq of both surfaces", name="Sq", unjudged=True)]
     shown_speed: Annotated[FloatArray, _shown((), "m/s", "speed at which the fields are shown")]
     x: Annotated[FloatArray, _shown(("x",), "m", "x, along sliding")]
     y: Annotated[FloatArray, _shown(("y",), "m", "y")]

@@ -12,7 +12,7 @@ from bem.scenes.kind import Kind
 
 KIND = Kind(
     name="partial-slip",
-    title="pressed bodies pushed along, once or there and back: where they stick and slip, loop, energy of friction",
+    title="partial slip and fretting: stick and slip zones, hysteresis loop and friction energy under tangential load",
     model=PartialSlipScene,
     record=PartialSlipRecord,
     plan=plan,

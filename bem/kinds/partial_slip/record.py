@@ -35,9 +35,9 @@ class PartialSlipRecord(StickRecord):
     ] = None
     max_von_mises: Annotated[
         float | None,
-        Figure("Pa", "highest von Mises stress at the end", optional=True, headline=True),
+        Figure("Pa", "maximum von Mises stress at the end", optional=True, headline=True),
     ] = None
-    max_von_mises_depth: Annotated[float | None, Figure("m", "depth of it", optional=True)] = None
+    max_von_mises_depth: Annotated[float | None, Figure("m", "depth of the maximum stress", optional=True)] = None
     counted_stick_fraction: Annotated[float, Figure("", "cells that stick over cells in contact", unjudged=True)]
     moment: Annotated[
         float | None, Figure("Nm", "moment about the grid's centre at the end", optional=True, headline=True)

@@ -10,7 +10,7 @@ from bem.scenes.kind import Kind
 
 KIND = Kind(
     name="particles",
-    title="sizes of the wear particles in an AFM height map",
+    title="wear particle sizes from an AFM height map",
     model=ParticlesScene,
     record=ParticlesRecord,
     plan=plan,

@@ -12,7 +12,7 @@ from bem.scenes.kind import Kind
 
 KIND = Kind(
     name="point-film",
-    title="film of a ball or barrel on a flat: elastohydrodynamic point contact in steady motion",
+    title="EHL point contact (steady): film thickness, pressure and interferogram of a ball or barrel",
     model=PointFilmScene,
     record=PointFilmRecord,
     plan=plan,

@@ -19,24 +19,24 @@ _of_rough = partial(Figure, optional=True)
 class PointFilmRecord(Record):
     """One steady motion."""
 
-    central_thickness: Annotated[float, Figure("nm", "film at the centre", headline=True)]
-    minimum_thickness: Annotated[float, Figure("nm", "minimum film", headline=True)]
+    central_thickness: Annotated[float, Figure("nm", "central film thickness", headline=True)]
+    minimum_thickness: Annotated[float, Figure("nm", "minimum film thickness", headline=True)]
     central_pressure: Annotated[float, Figure("Pa", "pressure at the centre")]
-    maximum_pressure: Annotated[float, Figure("Pa", "highest pressure", headline=True, no_bar=_SPIKE)]
-    traction_coefficient: Annotated[float, Figure("", "friction force of sliding over load", headline=True)]
+    maximum_pressure: Annotated[float, Figure("Pa", "maximum pressure", headline=True, no_bar=_SPIKE)]
+    traction_coefficient: Annotated[float, Figure("", "friction coefficient of sliding", headline=True)]
     friction_power: Annotated[float, Figure("W", "power of sliding")]
     lambda_ratio: Annotated[float | None, Figure("", LAMBDA_WHOLE, optional=True, headline=True)] = None
-    film_reduction: Annotated[float | None, _of_supply("", "central film over that of a flooded inlet")] = None
+    film_reduction: Annotated[float | None, _of_supply("", "central film thickness over the flooded one")] = None
     oil_layer: Annotated[float | None, _of_supply("nm", "oil that goes through the middle, as a layer")] = None
     flooded_layer: Annotated[float | None, _of_supply("nm", "the same of a flooded contact")] = None
     meniscus_position: Annotated[
-        float | None, _of_supply("um", "where the gap begins to be full, along the entrainment")
+        float | None, _of_supply("um", "position of the inlet meniscus, along the entrainment")
     ] = None
-    contact_load_share: Annotated[float | None, _of_rough("", "load on the surfaces, over all", headline=True)] = None
+    contact_load_share: Annotated[float | None, _of_rough("", "asperity load share", headline=True)] = None
     contact_area_share: Annotated[float | None, _of_rough("", "area that touches, over Hertz'")] = None
     mean_thickness: Annotated[float | None, _of_rough("nm", "film, weighed by pressure")] = None
     film_over_rms: Annotated[float | None, _of_rough("", "smooth film by the formula, over rms", unjudged=True)] = None
-    oil_friction: Annotated[float | None, _of_rough("", "the oil's part of the friction", unjudged=True)] = None
+    oil_friction: Annotated[float | None, _of_rough("", "film part of the friction coefficient", unjudged=True)] = None
     oil_on_contact: Annotated[
         float | None, _of_rough("", "shear of the oil where surfaces touch, over load, in no sum", unjudged=True)
     ] = None

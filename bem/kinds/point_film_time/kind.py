@@ -11,7 +11,7 @@ from bem.scenes.kind import Kind
 
 KIND = Kind(
     name="point-film-time",
-    title="film of a ball or barrel in time: dents, waviness and roughness that pass through, start, stop, impact",
+    title="EHL point contact in time: dents, waviness and roughness that pass through, start, stop, impact",
     model=PointFilmTimeScene,
     record=PointFilmTimeRecord,
     plan=plan,

@@ -19,8 +19,8 @@ class PointFilmTimeRecord(MarchedRecord):
     """A film in time."""
 
     thinnest_film_time: Annotated[float, Figure("s", "when it is that thin", no_bar=JUMPS)]
-    central_film_at_end: Annotated[float, Figure("nm", "film at the centre at the end", headline=True)]
-    thickest_central_film: Annotated[float, Figure("nm", "thickest film at the centre", headline=True)]
+    central_film_at_end: Annotated[float, Figure("nm", "central film thickness at the end", headline=True)]
+    thickest_central_film: Annotated[float, Figure("nm", "largest central film thickness", headline=True)]
     highest_pressure: Annotated[float, Figure("Pa", "highest pressure of all times", headline=True, no_bar=_SPIKE)]
     amplitude_ratio: Annotated[
         float | None,

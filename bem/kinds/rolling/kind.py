@@ -12,8 +12,7 @@ from bem.scenes.kind import Kind
 
 KIND = Kind(
     name="rolling",
-    title="pressed bodies that roll over each other with creepage and spin: stick and slip, traction, "
-    "energy of friction",
+    title="rolling contact with creepage and spin: stick and slip zones, creep force and friction energy",
     model=RollingContactScene,
     record=RollingRecord,
     plan=plan,

@@ -23,10 +23,10 @@ class RollingRecord(StickRecord):
     stick_fraction: Annotated[float, Figure("", "share of the contact that sticks", headline=True)]
     friction_work: Annotated[float, Figure("N", "energy of friction over the distance rolled, a drag", headline=True)]
     resolved_work: Annotated[float, Figure("", "share of it that the map of cells shows", unjudged=True)]
-    max_von_mises: Annotated[float | None, Figure("Pa", "highest von Mises stress", optional=True, headline=True)] = (
+    max_von_mises: Annotated[float | None, Figure("Pa", "maximum von Mises stress", optional=True, headline=True)] = (
         None
     )
-    max_von_mises_depth: Annotated[float | None, Figure("m", "depth of it", optional=True)] = None
+    max_von_mises_depth: Annotated[float | None, Figure("m", "depth of the maximum stress", optional=True)] = None
     slip_residual: Annotated[float, Figure("", "relative residual of slip and stick", unjudged=True)]
     convolutions: Annotated[float, Figure("", "convolutions of the rolling", unjudged=True)]
     slip: Annotated[FloatArray, grid_map("1", "sliding over rolling velocity")]

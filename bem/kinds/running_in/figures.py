@@ -43,7 +43,7 @@ def _run_in_stribeck(run: Any, figure: Figure) -> None:
         axes.plot(speed, mean, how, color=colour, label=text, marker=marker, markersize=size, markerfacecolor="none")
         if marker:
             _fill(axes, speed, low, high, colour)
-    axes.set_ylabel("coefficient of friction")
+    axes.set_ylabel("friction coefficient")
     speed_axis(axes, speed)
     axes.legend()
 
@@ -89,7 +89,7 @@ def _over_hardness(run: Any, figure: Figure) -> None:
         axes.plot(each * 1e-9, mean, "o-", color=colour, markersize=4, label=text)
         _fill(axes, each * 1e-9, low, high, colour)
     axes.set_xlabel("hardness of the disk (GPa)")
-    axes.set_ylabel("coefficient of friction")
+    axes.set_ylabel("friction coefficient")
     axes.legend()
 
 
@@ -151,7 +151,7 @@ def _animate(run: Any, path: Path) -> None:
     right.plot(run.dataset["cycle"].values, friction, color="0.85")
     (line,) = right.plot([], [], color=BLUE)
     right.set_xlabel("cycle")
-    right.set_ylabel("coefficient of friction")
+    right.set_ylabel("friction coefficient")
     right.set_ylim(0)
     name_case(figure, case_shown(run.dataset, run.summary["kind"], ["pressure_frames"]))
 
@@ -181,17 +181,17 @@ FIGURES = (
     ),
     FigureKind(
         "friction-over-cycles",
-        "Coefficient of friction over the cycles.",
+        "Friction coefficient over the cycles.",
         ("cycle", "friction_over_cycles", "speed", "hardness"),
-        _cycles("friction_over_cycles", "coefficient of friction"),
+        _cycles("friction_over_cycles", "friction coefficient"),
         (6.2, 3.6),
         all_cases=True,
     ),
     FigureKind(
         "contact-share-over-cycles",
-        "Share of the load that the surfaces carry, over the cycles.",
+        "Asperity load share over the cycles.",
         ("cycle", "contact_share", "speed", "hardness"),
-        _cycles("contact_share", "share of the load on contact"),
+        _cycles("contact_share", "asperity load share"),
         (6.2, 3.6),
         lambda run: bool((run.dataset["contact_share"].values > 0).any()),
         all_cases=True,

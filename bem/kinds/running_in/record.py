@@ -41,21 +41,21 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
         *("lambda_ratio", "lambda_ratio_mixed"),
         *("minimum_film", "contact_area_fraction", "criterion_wear_rate", *TEMPERATURES),
     )
-    friction_initial: Annotated[float, Figure("", "friction in the first cycle", headline=True)]
-    friction_run_in: Annotated[float, Figure("", "friction, mean of the last cycles", headline=True)]
+    friction_initial: Annotated[float, Figure("", "friction coefficient in the first cycle", headline=True)]
+    friction_run_in: Annotated[float, Figure("", "friction coefficient, mean of the last cycles", headline=True)]
     particle_equivalent_radius: Annotated[
         float, Figure("nm", "equivalent radius of the particles, settled", headline=True, no_bar=_FOLLOWS_CELL)
     ]
     Sq_initial: Annotated[float, Figure("nm", "Sq in the contact region (Hertz' contact), unworn", headline=True)]
     Sq_final: Annotated[float, Figure("nm", "Sq in the contact region (Hertz' contact), run in", headline=True)]
-    contact_load: Annotated[float, Figure("N", "load carried by contact, run in", headline=True)]
+    contact_load: Annotated[float, Figure("N", "load carried by asperities, run in", headline=True)]
     film_load: Annotated[float, Figure("N", "load carried by the film, run in", headline=True)]
     lambda_ratio: Annotated[float, Figure("", f"{LAMBDA_WHOLE}, run in", headline=True)]
     lambda_ratio_mixed: Annotated[float, Figure("", f"{LAMBDA_MIXED}, run in")]
-    friction: Annotated[float, Figure("", "friction, mean of the last cycles")]
-    boundary_friction_part: Annotated[float, Figure("", "boundary part of the run-in friction")]
-    film_friction_part: Annotated[float, Figure("", "film part of the run-in friction")]
-    contact_load_initial: Annotated[float, Figure("N", "load carried by contact in the first cycle")]
+    friction: Annotated[float, Figure("", "friction coefficient, mean of the last cycles")]
+    boundary_friction_part: Annotated[float, Figure("", "boundary part of the run-in friction coefficient")]
+    film_friction_part: Annotated[float, Figure("", "film part of the run-in friction coefficient")]
+    contact_load_initial: Annotated[float, Figure("N", "load carried by asperities in the first cycle")]
     minimum_film: Annotated[float, Figure("nm", f"{MINIMUM_FILM}, run in")]
     contact_area_fraction: Annotated[float, Figure("", "real contact area over patch, run in")]
     worn_depth: Annotated[float, Figure("nm", "mean depth worn in the contact region (Hertz' contact)")]
@@ -84,10 +84,10 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
     scattering_mean_radius: Annotated[
         float, Figure("nm", "the same, z-average of light scattering (sum R^6 / sum R^5)", no_bar=pieces.FEW_LARGEST)
     ]
-    friction_over_cycles: Annotated[FloatArray, _over("1", "coefficient of friction")]
+    friction_over_cycles: Annotated[FloatArray, _over("1", "friction coefficient")]
     film_load_over_cycles: Annotated[FloatArray, _over("N", "load carried by the film")]
     minimum_film_over_cycles: Annotated[FloatArray, _over("m", MINIMUM_FILM)]
-    contact_share: Annotated[FloatArray, _over("1", "share of the load carried by contact")]
+    contact_share: Annotated[FloatArray, _over("1", "asperity load share")]
     rms_height_over_cycles: Annotated[FloatArray, _over("m", "Sq of the worn surface in the contact region")]
     volume_over_cycles: Annotated[FloatArray, _over("m^3", "volume worn per cycle, of all bodies that wear")]
     particles_over_cycles: Annotated[FloatArray, _over("1", "particles per cycle of one body")]

@@ -28,11 +28,11 @@ def _friction(run: Any, figure: Figure) -> None:
     cycle = _axis(run, axes)
     axes.plot(cycle, data["friction_over_cycles"].values, color=BLUE, label="friction")
     axes.plot(cycle, data["boundary_friction_over_cycles"].values, "--", color="0.45", label="of it boundary")
-    axes.set_ylabel("coefficient of friction")
+    axes.set_ylabel("friction coefficient")
     axes.set_ylim(0)
     other = axes.twinx()
     other.plot(cycle, data["contact_share"].values, ":", color=VERMILION, label="load on contact")
-    other.set_ylabel("share of the load on contact", color=VERMILION)
+    other.set_ylabel("asperity load share", color=VERMILION)
     other.set_ylim(0, 1)
     axes.legend(loc="lower left")
 
@@ -63,7 +63,7 @@ def _film(run: Any, figure: Figure) -> None:
     axes.set_ylim(0)
     other = axes.twinx()
     other.plot(cycle, data["lambda_over_cycles"].values, "--", color=VERMILION)
-    other.set_ylabel("lambda ratio, of the film\nunder the whole load", color=VERMILION)
+    other.set_ylabel("lambda ratio,\nunder the whole load", color=VERMILION)
     other.set_ylim(0)
     axes.legend(loc="center left")
 
@@ -107,7 +107,7 @@ _WIDE = (6.0, 3.6)
 FIGURES = (
     FigureKind(
         "friction-over-life",
-        "Friction and the share of the load on contact over the cycles.",
+        "Friction coefficient and asperity load share over the cycles.",
         ("cycle", "friction_over_cycles", "boundary_friction_over_cycles", "contact_share"),
         _friction,
         _WIDE,
@@ -121,7 +121,7 @@ FIGURES = (
     ),
     FigureKind(
         "film-over-life",
-        "Minimum oil film, tribofilm, and film over roughness over the cycles.",
+        "Minimum film thickness, tribofilm thickness and lambda ratio over the cycles.",
         ("cycle", "minimum_film_over_cycles", "lambda_over_cycles"),
         _film,
         _WIDE,

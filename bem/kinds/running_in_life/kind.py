@@ -11,8 +11,7 @@ from bem.scenes.kind import Kind
 
 KIND = Kind(
     name="running-in-life",
-    title="running-in over a life: wear and tribofilm over millions of cycles in mixed lubrication, "
-    "in jumps of known error",
+    title="running-in over a life: wear, tribofilm and micropitting over millions of cycles in mixed lubrication",
     model=RunningInLifeScene,
     record=RunningInLifeRecord,
     plan=plan,

@@ -23,8 +23,8 @@ _COUNTS = "pieces follow the mesh under most criteria; see kind wear"
 class RunningInLifeRecord(GridRecord):
     """A life: friction, roughness, film and wear from its first cycle to its last, and the jumps that led there."""
 
-    friction_initial: Annotated[float, Figure("", "friction of the unworn surfaces", headline=True)]
-    friction_final: Annotated[float, Figure("", "friction at the end", headline=True)]
+    friction_initial: Annotated[float, Figure("", "friction coefficient of the unworn surfaces", headline=True)]
+    friction_final: Annotated[float, Figure("", "friction coefficient at the end", headline=True)]
     lower_Sq_initial: Annotated[float, Figure("nm", "Sq of the whole lower surface, unworn", headline=True)]
     lower_Sq_final: Annotated[
         float, Figure("nm", "Sq of the whole lower surface at the end, its film on it", headline=True)
@@ -38,8 +38,8 @@ class RunningInLifeRecord(GridRecord):
     upper_worn_depth: Annotated[float, Figure("nm", "mean depth worn of the whole upper surface")]
     lambda_ratio_initial: Annotated[float, Figure("", f"{LAMBDA_WHOLE}, unworn")]
     lambda_ratio: Annotated[float, Figure("", f"{LAMBDA_WHOLE}, at the end", headline=True)]
-    contact_share_initial: Annotated[float, Figure("", "share of the load on contact, unworn")]
-    contact_share_final: Annotated[float, Figure("", "share of the load on contact, at the end")]
+    contact_share_initial: Annotated[float, Figure("", "asperity load share, unworn")]
+    contact_share_final: Annotated[float, Figure("", "asperity load share at the end")]
     contact_area_fraction: Annotated[float, Figure("", "real contact area over the patch, at the end")]
     minimum_film: Annotated[float, Figure("nm", f"{MINIMUM_FILM}, at the end")]
     wear_volume: Annotated[float, Figure("um3", "volume worn of both surfaces of the patch")]
@@ -70,9 +70,9 @@ class RunningInLifeRecord(GridRecord):
     jumps_rejected: Annotated[int, Figure("", "jumps made shorter", unjudged=True)]
     convolutions: Annotated[float, Figure("", "convolutions of all contacts", unjudged=True)]
     cycle: Annotated[FloatArray, _over("1", "cycle")]
-    friction_over_cycles: Annotated[FloatArray, _over("1", "coefficient of friction")]
-    boundary_friction_over_cycles: Annotated[FloatArray, _over("1", "boundary part of the friction")]
-    contact_share: Annotated[FloatArray, _over("1", "share of the load carried by contact")]
+    friction_over_cycles: Annotated[FloatArray, _over("1", "friction coefficient")]
+    boundary_friction_over_cycles: Annotated[FloatArray, _over("1", "boundary part of the friction coefficient")]
+    contact_share: Annotated[FloatArray, _over("1", "asperity load share")]
     minimum_film_over_cycles: Annotated[FloatArray, _over("m", MINIMUM_FILM)]
     lambda_over_cycles: Annotated[FloatArray, _over("1", LAMBDA_WHOLE)]
     lower_rms_over_cycles: Annotated[FloatArray, _over("m", "Sq of the lower surface, its film on it")]

@@ -12,7 +12,7 @@ from bem.scenes.kind import Kind
 
 KIND = Kind(
     name="surface-temperature",
-    title="heat of friction in a rough or smooth contact: surface temperature, its share between the bodies",
+    title="flash temperature of a sliding contact, rough or smooth: surface temperatures and heat partition",
     model=SurfaceTemperatureScene,
     record=SurfaceTemperatureRecord,
     plan=plan,

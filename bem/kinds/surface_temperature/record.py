@@ -14,13 +14,13 @@ class SurfaceTemperatureRecord(GridRecord):
     """Temperatures of a rubbing contact."""
 
     maximum_temperature: Annotated[
-        float, Figure("C", "highest surface temperature", headline=True, part_of=("maximum_rise",))
+        float, Figure("C", "maximum surface temperature", headline=True, part_of=("maximum_rise",))
     ]
     mean_temperature: Annotated[
         float, Figure("C", "mean temperature of the contact, by heat", headline=True, part_of=("maximum_rise",))
     ]
     maximum_rise: Annotated[float, Figure("K", "highest temperature over the hotter bulk", headline=True)]
-    share_of_lower: Annotated[float, Figure("", "share of the heat that enters the lower body", headline=True)]
+    share_of_lower: Annotated[float, Figure("", "fraction of the heat that enters the lower body", headline=True)]
     friction_power: Annotated[float, Figure("W", "heat made by friction")]
     load: Annotated[float, Figure("N", "load")]
     contact_area_fraction: Annotated[float, Figure("", "real contact area over that of the grid")]

@@ -273,7 +273,7 @@ def _lambda_beside(axes: Any, by_film: Any) -> None:
     if known.size:
         beside = axes.twinx()
         beside.set_ylim(0, axes.get_ylim()[1] * 1e-9 * float(known[0]))
-        beside.set_ylabel("lambda ratio,\nof the minimum", color=VERMILION)
+        beside.set_ylabel("lambda ratio", color=VERMILION)
 
 
 def _has_way(run: Any) -> bool:

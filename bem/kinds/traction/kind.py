@@ -12,7 +12,8 @@ from bem.scenes.kind import Kind
 
 KIND = Kind(
     name="traction",
-    title="traction of a smooth rolling and sliding line contact, with the heat in its film",
+    title="thermal traction (EHL line contact, steady): friction coefficient, film thickness and temperatures of a "
+    "roller",
     model=TractionScene,
     record=TractionRecord,
     plan=plan,

@@ -20,11 +20,11 @@ _of_supply, _hot = partial(Figure, optional=True), partial(Figure, "C", part_of=
 class TractionRecord(Record):
     """One steady motion; temperatures only with heat."""
 
-    traction_coefficient: Annotated[float, Figure("", "friction force over load", headline=True)]
-    sliding_traction: Annotated[float, Figure("", "its part from sliding")]
-    minimum_thickness: Annotated[float, Figure("nm", "minimum film", headline=True)]
-    central_thickness: Annotated[float, Figure("nm", "film at the centre", headline=True)]
-    maximum_pressure: Annotated[float, Figure("Pa", "highest pressure")]
+    traction_coefficient: Annotated[float, Figure("", "friction coefficient: friction force over load", headline=True)]
+    sliding_traction: Annotated[float, Figure("", "friction coefficient of sliding, without rolling")]
+    minimum_thickness: Annotated[float, Figure("nm", "minimum film thickness", headline=True)]
+    central_thickness: Annotated[float, Figure("nm", "central film thickness", headline=True)]
+    maximum_pressure: Annotated[float, Figure("Pa", "maximum pressure")]
     film_temperature: Annotated[float | None, _hot("oil in the contact, mean by pressure", headline=True)] = None
     film_rise: Annotated[float | None, Figure("K", "that over the cooler body's bulk")] = None
     highest_film_temperature: Annotated[
@@ -32,19 +32,19 @@ class TractionRecord(Record):
     ] = None
     lower_temperature: Annotated[float | None, _hot("highest temperature of the lower surface")] = None
     upper_temperature: Annotated[float | None, _hot("highest temperature of the upper surface")] = None
-    inlet_factor: Annotated[float | None, Figure("", "film over that without inlet heating", no_bar=_FORMULA)] = None
-    heat_factor: Annotated[float | None, Figure("", "central film over that without heat", optional=True)] = None
+    inlet_factor: Annotated[float | None, Figure("", "thermal reduction factor of the inlet", no_bar=_FORMULA)] = None
+    heat_factor: Annotated[float | None, Figure("", "central film over the isothermal one", optional=True)] = None
     hottest_oil: Annotated[float | None, Figure("C", "oil at its hottest", no_bar=_HOTTEST, optional=True)] = None
     friction_power: Annotated[float, Figure("W", "power of friction", headline=True)]
     hertz_pressure: Annotated[float, Figure("Pa", "highest pressure of the dry contact", unjudged=True)]
     lambda_ratio: Annotated[float | None, Figure("", LAMBDA_WHOLE, optional=True, headline=True)] = None
-    share_of_lower: Annotated[float | None, Figure("", "share of it that enters the lower body")] = None
-    share_of_upper: Annotated[float | None, Figure("", "share that enters the upper body")] = None
-    share_of_oil: Annotated[float | None, Figure("", "share that the oil carries on")] = None
-    film_reduction: Annotated[float | None, _of_supply("", "central film over that of a flooded inlet")] = None
+    share_of_lower: Annotated[float | None, Figure("", "heat partition to the lower body")] = None
+    share_of_upper: Annotated[float | None, Figure("", "heat partition to the upper body")] = None
+    share_of_oil: Annotated[float | None, Figure("", "heat partition to the oil")] = None
+    film_reduction: Annotated[float | None, _of_supply("", "central film thickness over the flooded one")] = None
     oil_layer: Annotated[float | None, _of_supply("nm", "oil that goes through, as a layer")] = None
     flooded_layer: Annotated[float | None, _of_supply("nm", "oil that a flooded contact would take")] = None
-    meniscus_position: Annotated[float | None, _of_supply("um", "where the gap begins to be full")] = None
+    meniscus_position: Annotated[float | None, _of_supply("um", "position of the inlet meniscus")] = None
     inlet: Annotated[float | None, _of_supply("", "filled inlet before Hertz' contact over its natural length")] = None
     energy_imbalance: Annotated[float | None, Figure("", "friction power less all of these", no_bar=_ALGEBRA)] = None
     newton_steps: Annotated[int, Figure("", "Newton steps of all films", unjudged=True)]

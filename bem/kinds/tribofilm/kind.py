@@ -13,7 +13,7 @@ from bem.scenes.kind import Kind
 
 KIND = Kind(
     name="tribofilm",
-    title="a tribofilm that grows under stress and heat, wears, and takes substrate with it",
+    title="tribofilm (such as ZDDP): growth under stress and temperature, wear of film and substrate",
     model=TribofilmScene,
     record=FilmRecord,
     plan=plan,

@@ -38,9 +38,9 @@ class FilmRecord(GridRecord):
         float | None, Figure("nm", "thickness at which growth and wear are equal", headline=True)
     ]
     flash_temperature: Annotated[float | None, _spots("highest temperature of spots in contact")]
-    contact_load: Annotated[float | None, _of_oil("N", "load carried by the surfaces", headline=True)]
-    oil_film_load: Annotated[float | None, _of_oil("N", "load carried by the oil film", headline=True)]
-    minimum_oil_film: Annotated[float | None, _of_oil("nm", "minimum oil film thickness")]
+    contact_load: Annotated[float | None, _of_oil("N", "load carried by asperities", headline=True)]
+    oil_film_load: Annotated[float | None, _of_oil("N", "load carried by the film", headline=True)]
+    minimum_oil_film: Annotated[float | None, _of_oil("nm", "minimum film thickness of the oil")]
     lambda_ratio: Annotated[float | None, _of_oil("", LAMBDA_WHOLE)]
     lambda_ratio_mixed: Annotated[float | None, _of_oil("", LAMBDA_MIXED)]
     contacts_solved: Annotated[int, Figure("", "contacts that were solved", headline=True, unjudged=True)]

@@ -15,7 +15,7 @@ from bem.scenes.kind import Kind
 
 KIND = Kind(
     name="wear",
-    title="wear particles and running-in of a cylinder on a flat in boundary lubrication",
+    title="wear in boundary lubrication: wear particles, wear volume and roughness of a cylinder on a flat over cycles",
     model=WearScene,
     record=WearRecord,
     plan=plan,

@@ -67,14 +67,14 @@ class WearRecord(pieces.MeanSizes, pieces.ParticleTable, wearing.WornRecord):
         float | None, Figure("", "particles per mm and N", optional=True, no_bar=pieces.FOLLOWS_CELL)
     ] = None
     third_body_friction: Annotated[
-        float | None, Figure("", "friction of surfaces and rolling particles", optional=True, no_bar=THIRD_BODIES)
+        float | None, Figure("", "friction coefficient with rolling particles", optional=True, no_bar=THIRD_BODIES)
     ] = None
     radius: Annotated[FloatArray, _over("m", "volume-mean equivalent radius of the particles")]
     particles: Annotated[FloatArray, _over("1", "particles per cycle of one body")]
     volume: Annotated[FloatArray, _over("m^3", "volume worn per cycle, of all bodies that wear")]
     contact_area: Annotated[FloatArray, _over("m^2", "contact area")]
     plastic_area: Annotated[FloatArray, _over("m^2", "area at the hardness")]
-    contact_load: Annotated[FloatArray, _over("N", "load carried by contact")]
+    contact_load: Annotated[FloatArray, _over("N", "load carried by asperities")]
     rms_height: Annotated[FloatArray, _over("m", "rms height Sq of the worn surface in the contact region")]
     depths_computed: Annotated[FloatArray, _over("1", "depths at which stress was computed")]
     convolutions: Annotated[FloatArray, _over("1", "convolutions of the contact solve")]

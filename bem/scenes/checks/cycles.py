@@ -37,7 +37,7 @@ _SERIES = {
     "rms_height_over_cycles": "Sq of the worn surface",
     "rms_height": "Sq of the worn surface",
     "friction_over_cycles": "friction",
-    "minimum_film_over_cycles": "minimum film",
+    "minimum_film_over_cycles": "minimum film thickness",
 }
 
 
