@@ -6,7 +6,7 @@ import io
 from collections.abc import Iterable
 from typing import TYPE_CHECKING, Any
 
-from bem.lubrication.point.waviness import amplitude_reduction
+from bem.lubrication.point.moving_surfaces import amplitude_reduction
 from reports.builder import picture, table, text
 from reports.experiments.kept import age, found
 

@@ -23,7 +23,7 @@ from bem.arguments import named
 from bem.errors import Status
 from bem.grid import FloatArray
 from bem.lubrication import Lubricant, PointFilmSolution, solve_point_film
-from bem.lubrication.point.kept import narrow_error, order_missed, rectangle_error
+from bem.lubrication.point.certificate import narrow_error, order_missed, rectangle_error
 from bem.lubrication.point.validity import inlet_shear
 from bem.lubrication.supply import Supply
 from bem.materials import Body
@@ -118,7 +118,7 @@ def point_bars(case: PointCase, film: PointFilmSolution) -> ErrorBars:
     films = ("central_thickness", "minimum_thickness")
     changed = max(abs(there[name] / figures[name] - 1) for name in films)
     assert film.state is not None
-    shear, begins = inlet_shear(film, film.state.setting), rectangle_error(film.state.setting)
+    shear, begins = inlet_shear(film, film.state.case), rectangle_error(film.state.case)
     slide = float(np.hypot(*np.subtract(*film.speeds)))
     beyond = {"traction_coefficient": shear / film.load, "friction_power": shear * slide}
     grid: dict[str, Any] = {}

@@ -25,8 +25,8 @@ from bem.accuracy.point import FEWEST
 from bem.arguments import named
 from bem.errors import Status
 from bem.lubrication import Lubricant, RoughPointFilm, solve_rough_point_film
-from bem.lubrication.point.linear import BoolArray
-from bem.lubrication.point.moving import Heights
+from bem.lubrication.point.linear_system import BoolArray
+from bem.lubrication.point.moving_surfaces import Heights
 from bem.materials import Body
 from bem.notes import Note
 from bem.notes.accuracy import BARS_PARTIAL, NoBar

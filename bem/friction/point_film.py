@@ -22,8 +22,8 @@ from bem.friction.smooth import PointContact
 from bem.grid import FloatArray
 from bem.lubrication import Lubricant, PointFilmSolution, solve_point_film
 from bem.lubrication.checks import THINNEST_FILM
-from bem.lubrication.point.scales import nijenbanning_film, point_scales
-from bem.lubrication.point.solve import MOES_LOADS
+from bem.lubrication.point.arguments import MOES_LOADS
+from bem.lubrication.point.similarity import nijenbanning_film, point_scales
 from bem.lubrication.point.validity import but_unknown
 from bem.lubrication.supply import OilLayer
 from bem.notes.friction import POINT_FILM_SCALED

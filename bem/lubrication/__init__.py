@@ -19,9 +19,9 @@ if TYPE_CHECKING:
     from bem.lubrication.lubricant import Lubricant
     from bem.lubrication.oils import Oil, find_oil
     from bem.lubrication.point.film import PointFilmSolution
-    from bem.lubrication.point.moving import Dent, MeasuredHeights, MovingSurface, Waves
+    from bem.lubrication.point.moving_surfaces import Dent, MeasuredHeights, MovingSurface, Waves
     from bem.lubrication.point.rough_film import RoughPointFilm, solve_rough_point_film
-    from bem.lubrication.point.solve import solve_point_film
+    from bem.lubrication.point.steady import solve_point_film
     from bem.lubrication.point.transient import march_point_film
     from bem.lubrication.results import FilmSolution
     from bem.lubrication.solve import solve_line_film
@@ -66,9 +66,9 @@ __getattr__ = loader(
         "lubricant": ["Lubricant"],
         "oils": ["Oil", "find_oil"],
         "point.film": ["PointFilmSolution"],
-        "point.moving": ["Dent", "MeasuredHeights", "MovingSurface", "Waves"],
+        "point.moving_surfaces": ["Dent", "MeasuredHeights", "MovingSurface", "Waves"],
         "point.rough_film": ["RoughPointFilm", "solve_rough_point_film"],
-        "point.solve": ["solve_point_film"],
+        "point.steady": ["solve_point_film"],
         "point.transient": ["march_point_film"],
         "results": ["FilmSolution"],
         "solve": ["solve_line_film"],

@@ -15,7 +15,7 @@ import numpy as np
 
 from bem import Body, Grid, Lubricant, Material
 from bem.friction.setup import MixedSetup
-from bem.lubrication.point.scales import nijenbanning_film, point_scales
+from bem.lubrication.point.similarity import nijenbanning_film, point_scales
 from bem.reference_solutions.hertz import ellipse_contact
 from bem.surfaces import generate_surface
 from reports.experiments.contact_error_bars import waves_through

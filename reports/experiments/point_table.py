@@ -15,8 +15,8 @@ from typing import Any
 import numpy as np
 
 from bem import PointFilmSolution
-from bem.lubrication.point.kept import KeptPoint
-from bem.lubrication.point.scales import hamrock_dowson_films, nijenbanning_film
+from bem.lubrication.point.certificate import SolvedPointFilm
+from bem.lubrication.point.similarity import hamrock_dowson_films, nijenbanning_film
 from reports.experiments.kept import keep, rounded
 from reports.experiments.point_films import ALPHA, MODULUS, film
 
@@ -36,7 +36,7 @@ def contact(load: float, oil: float, ratio: float) -> dict[str, Any]:
     of the last, and fits."""
     films = [film(load, oil, ratio, 0.0, cells) for cells in CELLS]
     last = films[-1]
-    unit = _kept(last).setting.scales.film
+    unit = _kept(last).case.scales.film
     row: dict[str, Any] = {
         "load": load,
         "oil": oil,
@@ -71,11 +71,11 @@ def _converged(values: Any) -> dict[str, Any]:
 
 
 def _fits(found: PointFilmSolution, load: float, oil: float, ratio: float, unit: float) -> dict[str, Any]:
-    setting = _kept(found).setting
+    case = _kept(found).case
     fits: dict[str, Any] = {"nijenbanning": nijenbanning_film(load, oil, ratio)}
     if oil > 0:
         total = found.speeds[0][0] + found.speeds[1][0]
-        radius = setting.scales.length**2 / setting.scales.film
+        radius = case.scales.length**2 / case.scales.film
         central, least = hamrock_dowson_films(
             found.load, (radius, radius / ratio), MODULUS, total, found.lubricant.viscosity, ALPHA
         )
@@ -83,7 +83,7 @@ def _fits(found: PointFilmSolution, load: float, oil: float, ratio: float, unit:
     return fits
 
 
-def _kept(found: PointFilmSolution) -> KeptPoint:
+def _kept(found: PointFilmSolution) -> SolvedPointFilm:
     assert found.state is not None
     return found.state
 

@@ -20,7 +20,7 @@ from bem import Lubricant
 from bem.accuracy.rough_point import RoughPointCase, rough_point_bars, rough_point_figures
 from bem.errors import Status
 from bem.grid import FloatArray
-from bem.lubrication.point.moving import Heights
+from bem.lubrication.point.moving_surfaces import Heights
 from reports.experiments.judging import Comparison, Experiment, main
 
 FINER, WAVES = 3, 64

@@ -20,7 +20,7 @@ import numpy as np
 from bem import Grid, solve_point_film
 from bem.accuracy.rough_point import RoughPointCase, rough_point_bars, rough_point_figures
 from bem.grid import FloatArray
-from bem.lubrication.point.moving import Heights
+from bem.lubrication.point.moving_surfaces import Heights
 from reports.experiments.kept import keep, result_of, rounded
 from reports.experiments.rough_films import (
     BALL_CELLS,

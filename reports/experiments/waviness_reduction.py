@@ -28,10 +28,10 @@ from bem import (
     march_point_film,
     solve_point_film,
 )
-from bem.lubrication.point.kept import KeptPoint, central_film
-from bem.lubrication.point.linear import Linear
-from bem.lubrication.point.newton import balance
-from bem.lubrication.point.waviness import amplitude_in_centre, amplitude_reduction
+from bem.lubrication.point.certificate import SolvedPointFilm, central_film
+from bem.lubrication.point.linear_system import NewtonSystem
+from bem.lubrication.point.moving_surfaces import amplitude_in_centre, amplitude_reduction
+from bem.lubrication.point.newton import residual_of
 from reports.experiments.kept import keep
 from reports.experiments.line_films import Line, bordered, line_film, line_matrices
 
@@ -106,24 +106,24 @@ def _symmetric(values: Any, shape: tuple[int, int]) -> Any:
     return (field[:, :, ny // 2 :] + field[:, :, ny // 2 - 1 :: -1]).reshape(len(field), -1)
 
 
-def point_response(kept: KeptPoint, wavelength: float, ratio: float = 0.0) -> float:
+def point_response(kept: SolvedPointFilm, wavelength: float, ratio: float = 0.0) -> float:
     """Amplitude in the centre over that of the body, of waves [unit of length] across the flow, in pure rolling; of
     bumps cos(k x) cos(ratio k y) where there is a ratio."""
     level, state = kept.level, kept.state
-    linear: Linear = balance(level, state, np.zeros(level.shape)).linear
+    system: NewtonSystem = residual_of(level, state, np.zeros(level.shape)).system
     shape, n = level.shape, level.shape[0] * level.shape[1]
     rows, by_film = np.zeros((n, n)), np.zeros((n, n))
-    places, values = linear.dense_rows(rows)
+    places, values = system.fill_dense_rows(rows)
     np.add.at(by_film, (np.arange(n)[:, None], places), values)
-    border = level.border.ravel()
+    border = level.boundary.ravel()
     inner = np.flatnonzero(~border)
     upper = np.flatnonzero(np.broadcast_to(np.arange(shape[1]) >= shape[1] // 2, shape).ravel())
-    deflection = level.dense_deflection
+    deflection = level.influence_matrix
     assert deflection is not None
     number = 2 * np.pi / wavelength
     stored_film, stored = np.zeros(n, dtype=complex), np.zeros(n, dtype=complex)
-    stored_film[inner] = 6j * number * (linear.stencil[8] * linear.stencil[9]).ravel()[inner]
-    stored[inner] = 6j * number * (linear.stencil[8] * linear.stencil[10]).ravel()[inner]
+    stored_film[inner] = 6j * number * (system.derivatives[8] * system.derivatives[9]).ravel()[inner]
+    stored[inner] = 6j * number * (system.derivatives[8] * system.derivatives[10]).ravel()[inner]
     rows, by_film = rows[upper], by_film[upper]
     folded = _symmetric(deflection, shape)
     matrix = (_symmetric(rows, shape) + by_film @ folded).astype(complex)
@@ -134,15 +134,15 @@ def point_response(kept: KeptPoint, wavelength: float, ratio: float = 0.0) -> fl
     right[border[upper]] = 0.0  # far pressure is that of smooth bodies
     squeezed = np.zeros(n, dtype=complex)
     squeezed[border] = -1j * number * -3 / sum(level.problem.curvatures) / state.film.ravel()[border] ** 2
-    squeezed[linear.far.ravel() <= 0] = 0.0
+    squeezed[system.far.ravel() <= 0] = 0.0
     whole, size = bordered(
         matrix,
         by_film.sum(axis=1) + stored_film[upper] + squeezed[upper],
-        linear.held.ravel()[upper],
-        2 * level.cell,
+        system.fixed.ravel()[upper],
+        2 * level.cell_area,
     )
-    whole[-1, -1] = linear.tail_slope / size[-1]
-    found = np.linalg.solve(whole, np.append(np.where(linear.held.ravel()[upper], 0, right), 0) / size)
+    whole[-1, -1] = system.load_slope / size[-1]
+    found = np.linalg.solve(whole, np.append(np.where(system.fixed.ravel()[upper], 0, right), 0) / size)
     film = (folded @ found[:-1] + found[-1] + wave).reshape(shape)
     return math.hypot(*(central_film(level, np.ascontiguousarray(part)) for part in (film.real, film.imag)))
 
@@ -202,7 +202,7 @@ def of_line(load: float, material: float, waves: tuple[float, ...]) -> list[dict
 def of_long_ellipse(load: float, material: float, waves: tuple[float, ...]) -> list[dict[str, Any]]:
     """Amplitudes in a long ellipse, and in the line contact of the load per length in its middle."""
     films = [solve_point_film(**point_arguments(load, material, LONG), shape=shape) for shape in SHAPES[:2]]
-    hertz = _kept(films[-1]).setting.hertz
+    hertz = _kept(films[-1]).case.hertz
     assert hertz is not None
     across = 0.5 * math.pi * hertz.maximum_pressure * hertz.semi_axes[0]
     lines = [moes_line(across, material, points) for points in POINTS]
@@ -219,8 +219,8 @@ def marched(load: float, material: float, share: float) -> dict[str, Any]:
     """The amplitude of a march in time, and what the linear system says on the same grid."""
     arguments = point_arguments(load, material)
     steady = solve_point_film(**arguments, shape=MARCH_SHAPE)
-    unit = _kept(steady).setting.scales.length
-    x0, x1, y0, y1 = (edge * unit for edge in _kept(steady).setting.problem.rectangle)
+    unit = _kept(steady).case.scales.length
+    x0, x1, y0, y1 = (edge * unit for edge in _kept(steady).case.problem.rectangle)
     half, speed = _half(steady) * unit, arguments["speeds"][0]
     wave, amplitude, begin = share * half, AMPLITUDE * steady.central_thickness, -1.5 * half
     far = 1.5 * half + 2.6 * wave
@@ -248,14 +248,14 @@ def marched(load: float, material: float, share: float) -> dict[str, Any]:
     }
 
 
-def _kept(film: PointFilmSolution) -> KeptPoint:
+def _kept(film: PointFilmSolution) -> SolvedPointFilm:
     assert film.state is not None
     return film.state
 
 
 def _half(film: PointFilmSolution) -> float:
     """Half-axis along the flow, in the unit of length."""
-    hertz = _kept(film).setting.hertz
+    hertz = _kept(film).case.hertz
     assert hertz is not None
     return hertz.semi_axes[0]
 

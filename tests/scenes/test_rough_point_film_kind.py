@@ -102,9 +102,9 @@ def test_what_bounds_the_figures_is_said(tmp_path):
 
 @pytest.mark.internal
 def test_a_film_that_is_not_found_is_not_converged_and_says_what_to_do(tmp_path, monkeypatch):
-    from bem.lubrication.point import newton, touching_start
+    from bem.lubrication.point import newton, start
 
-    for module, name in ((touching_start, "FIRST"), (touching_start, "STEPS"), (newton, "MOST")):
+    for module, name in ((start, "FIRST_STEPS"), (start, "CONTACT_STEPS"), (newton, "MOST_STEPS")):
         monkeypatch.setattr(module, name, 2)
     run = run_scene(scene(), tmp_path / "run", figures=False)
     assert run.summary["status"] == "stalled"

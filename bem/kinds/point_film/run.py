@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from bem.accuracy.point import PointCase
     from bem.accuracy.rough_point import RoughPointCase
     from bem.lubrication import PointFilmSolution, RoughPointFilm
-    from bem.lubrication.point.setting import Setting
+    from bem.lubrication.point.problem import ScaledCase
     from bem.reference_solutions.hertz import PointContact
 
 _SHOWN = np.linspace(-2.0, 1.5, 281)
@@ -47,7 +47,7 @@ def run(scene: PointFilmScene, context: Context) -> PointFilmRecord:
     figures: dict[str, Any] = point_figures(case, film)
     return PointFilmRecord(
         **figures,
-        **_given(case, film, film.state.setting),
+        **_given(case, film, film.state.case),
         maximum_pressure=film.maximum_pressure,
         residual=film.residual,
         mass_imbalance=film.mass_imbalance,
@@ -89,8 +89,8 @@ def _rough(scene: PointFilmScene, context: Context) -> PointFilmRecord:
     """The film of a rough body at rest, and what it bears itself."""
     from bem.accuracy.rough_point import RoughPointCase, narrow_notes, rough_point_bars, rough_point_figures
     from bem.lubrication import MeasuredHeights
-    from bem.lubrication.point.setting import setting_of
-    from bem.lubrication.point.solve import entrainment
+    from bem.lubrication.point.arguments import entrainment
+    from bem.lubrication.point.problem import scale_case
 
     assert scene.patch is not None
     assert scene.contact is not None
@@ -106,10 +106,10 @@ def _rough(scene: PointFilmScene, context: Context) -> PointFilmRecord:
     dry = _dry(case)
     with context.timer("film"):
         film = case.on(scene.film.cells)
-    setting = setting_of(
+    scaled = scale_case(
         case.load, case.radii, case.contact_modulus, entrainment(case.speeds), case.lubricant, None, case.bodies
     )
-    given = _given(case, film, setting)
+    given = _given(case, film, scaled)
     tell(context, [*film.notes, *rough_notes(scene, grid, dry.semi_axes, film), *narrow_notes(case, film)])
     if given["formula_central"] < case.least_film:
         context.note(LEAST_FILM_DECIDES())
@@ -145,7 +145,7 @@ def _dry(case: PointCase | RoughPointCase) -> PointContact:
 
 
 def _given(
-    case: PointCase | RoughPointCase, film: PointFilmSolution | RoughPointFilm, setting: Setting
+    case: PointCase | RoughPointCase, film: PointFilmSolution | RoughPointFilm, scaled: ScaledCase
 ) -> dict[str, Any]:
     """The dry contact, Moes' numbers and the sections through the middle."""
     a, b = _dry(case).semi_axes
@@ -164,7 +164,7 @@ def _given(
         "hertz_pressure": _dry(case).maximum_pressure,
         "half_axis_x": a,
         "half_axis_y": b,
-        "moes_load": setting.scales.load,
-        "moes_material": case.lubricant.pressure_viscosity * setting.scales.pressure,
-        "formula_central": setting.problem.typical_film * setting.scales.film,
+        "moes_load": scaled.scales.load,
+        "moes_material": case.lubricant.pressure_viscosity * scaled.scales.pressure,
+        "formula_central": scaled.problem.typical_film * scaled.scales.film,
     }

@@ -1,4 +1,4 @@
-"""The result of a point-contact film solve."""
+"""The result of a point film, steady or at a time."""
 
 from __future__ import annotations
 
@@ -7,6 +7,7 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bem.errors import Status
 from bem.grid import FloatArray
@@ -16,7 +17,9 @@ from bem.notes import Note
 from bem.representation import readable
 
 if TYPE_CHECKING:
-    from bem.lubrication.point.kept import KeptPoint
+    from bem.lubrication.point.certificate import SolvedPointFilm
+
+BoolArray = NDArray[np.bool_]
 
 
 @readable
@@ -27,40 +30,43 @@ class PointFilmSolution:
     Attributes
     ----------
     x, y : (nx,) and (ny,) centres of cells, ascending [m]; the origin is below the point of first contact.
-    pressure : (nx, ny) [Pa]; zero in the ruptured film.
+    pressure : (nx, ny) [Pa]; zero in the ruptured film. Of oil and contact together where surfaces touch.
     thickness : (nx, ny) [m].
     central_thickness : at the origin [m].
     minimum_thickness : smallest anywhere [m], of a paraboloid through the logarithms of the lowest cell and its
         neighbours.
-    central_thickness_error, minimum_thickness_error : estimates of their errors [m] by the cells, from a grid of half
-        as many, of the minimum also by how steep its constriction is on them, and by where the rectangle of the grid
-        ends; None where the coarser grid is too coarse or has no film.
-    load : what the pressure carries [N]: on the grid, and the far inlet around it.
+    central_thickness_error, minimum_thickness_error : estimates of their discretisation errors [m], from a grid of half
+        as many cells, of the minimum also by the steepness of its constriction, and of the error by the rectangle of
+        the grid; None where the coarser grid is too coarse or has no film.
+    load : carried by the pressure [N]: on the grid, and in the far inlet around it.
     inlet_load_fraction : share of `load` that the far inlet carries.
     shear_force : (2, 2) [N], forces of the oil on surface 1, then on surface 2, along x and y: integrals of the shear
-        stress on either in the full film of the grid. They add up to -integral h grad p: what is missing to equilibrium
-        is the pressure's on the slopes of the ball.
-    rolling_force : (2,) [N], -integral h/2 grad p: the part of both that is there without sliding.
+        stress on either in the full film of the grid. Their sum is -integral h grad p, which balances the pressure on
+        the slopes of the ball.
+    rolling_force : (2,) [N], -integral h/2 grad p: the part of both forces without sliding.
     iterations : Newton steps in all, coarser grids included.
     cycles : of multigrid.
     convolutions : applications of the elastic operator, weighed by cells over those of this grid.
-    residual : largest of what the result's own pressure leaves of the equations: flow out of a cell over that through
-        it, load, film against deflection.
-    mass_imbalance : largest difference in oil through lines across the flow, with what leaves through the sides, over
-        all that goes through.
-    status : outcome, from what is recomputed of the result.
+    residual : largest relative residual, recomputed from the pressure and H0: net flow out of a cell over the flow
+        through it, and load.
+    mass_imbalance : largest difference in flow through lines across the flow, side leakage included, over the
+        throughput.
+    status : outcome, by the recomputed residuals.
     speeds : ((u1x, u1y), (u2x, u2y)) [m/s].
     lubricant : as given.
     film_fraction : (nx, ny) share of the gap that is filled with oil, 1 in the full film; None with Swift and Stieber's
-        cavitation, which keeps no account of it.
-    time : [s] of a film in time (`march_point_film`), whose residual and mass_imbalance count what the film gains.
-    heights : (nx, ny) of both surfaces then, out of the bodies [m]; None of smooth ones.
+        cavitation.
+    time : [s] of a film in time (`march_point_film`), whose residual and mass_imbalance include storage.
+    heights : (nx, ny) of both surfaces at that time, out of the bodies [m]; None of smooth ones.
     temperature : (nx, ny), mean across the film [K].
-    mean_temperature, maximum_temperature : of it, by pressure, and the highest.
-    middle_stress : (2, nx, ny) in the middle of the film at it [Pa]; all None of films without heat.
-    starvation : what a supply makes of it, the meniscus along the entrainment; None of a flooded inlet.
+    mean_temperature, maximum_temperature : mean of the temperature weighted by pressure, and its maximum [K].
+    middle_stress : (2, nx, ny) shear stress in the middle of the film at this temperature [Pa]; like the temperatures
+        None of films without heat.
+    starvation : meniscus, oil layer and reduction of a starved film; None of a flooded inlet.
+    oil_pressure : (nx, ny) of the oil alone [Pa]; None of surfaces that cannot touch.
+    contact_load : carried by surfaces that touch [N]; None of surfaces that cannot touch.
     notes : where the model is outside its validity, a sentence each.
-    state : what a solver can start from.
+    state : the grid solution, for resampling and warm starts.
     """
 
     x: FloatArray
@@ -91,8 +97,10 @@ class PointFilmSolution:
     maximum_temperature: float | None = None
     middle_stress: FloatArray | None = None
     starvation: Starvation | None = None
+    oil_pressure: FloatArray | None = None
+    contact_load: float | None = None
     notes: tuple[Note, ...] = ()
-    state: KeptPoint | None = field(default=None, repr=False, compare=False)
+    state: SolvedPointFilm | None = field(default=None, repr=False, compare=False)
 
     @property
     def maximum_pressure(self) -> float:
@@ -101,25 +109,32 @@ class PointFilmSolution:
 
     @property
     def central_pressure(self) -> float:
-        """At the origin [Pa], from the four cells around it."""
+        """Pressure at the origin [Pa], from the four cells around it."""
         return float(np.interp(0.0, self.x, [np.interp(0.0, self.y, row) for row in self.pressure]))
 
     @property
+    def touching(self) -> BoolArray:
+        """Cells (nx, ny) where surfaces touch."""
+        if self.oil_pressure is None:
+            return np.zeros(self.pressure.shape, dtype=bool)
+        return self.pressure > self.oil_pressure
+
+    @property
     def friction(self) -> float:
-        """Size of the sliding part of the shear force over the load; not-a-number where nothing is carried."""
+        """Sliding part of the oil's shear force over the load; not-a-number without load."""
         sliding = 0.5 * (self.shear_force[0] - self.shear_force[1])
         return float(np.hypot(*sliding)) / self.load if self.load else math.nan
 
     def shear_stress(self) -> FloatArray:
-        """Shear stress (2, nx, ny) of the oil on surface 1 [Pa], along x and y, zero in the ruptured film.
+        """Return the shear stress (2, nx, ny) of the oil on surface 1 [Pa] along x and y, zero in the ruptured film.
 
-        tau - h/2 grad p with the middle's tau along the sliding: what the oil's shear law makes of mu (u2 - u1)/h. The
-        second part has no limit, whatever the law.
+        It is tau - h/2 grad p, with tau in the middle of the film along the sliding by the oil's shear law. The second
+        part has no limit, whatever the law. In contact it is zero.
         """
-        return self.sliding_stress() - self._driven()
+        return self.sliding_stress() - self._poiseuille_stress()
 
     def sliding_stress(self) -> FloatArray:
-        """The stress in the middle of the film (2, nx, ny) [Pa]."""
+        """Return the shear stress in the middle of the film (2, nx, ny) [Pa], zero in contact."""
         if self.middle_stress is not None:
             return self.middle_stress
         slide = np.subtract(self.speeds[1], self.speeds[0])
@@ -128,16 +143,22 @@ class PointFilmSolution:
             return np.zeros((2, *self.pressure.shape))
         newtonian = self.lubricant.viscosity_at(self.pressure) * speed / self.thickness
         stress = self.lubricant.shear_stress(newtonian, self.pressure)
-        return np.where(self.pressure > 0, stress, 0.0) * (slide / speed)[:, None, None]
+        return np.where(self._full, stress, 0.0) * (slide / speed)[:, None, None]
 
-    def _driven(self) -> FloatArray:
-        """h/2 grad p (2, nx, ny) [Pa] in the full film."""
-        gradient = np.array([np.gradient(self.pressure, at, axis=axis) for axis, at in enumerate((self.x, self.y))])
-        return np.where(self.pressure > 0, 0.5 * self.thickness * gradient, 0.0)
+    @property
+    def _full(self) -> BoolArray:
+        """Cells (nx, ny) where the oil carries pressure and surfaces do not touch."""
+        return (self.pressure > 0) & ~self.touching
+
+    def _poiseuille_stress(self) -> FloatArray:
+        """Return h/2 grad p (2, nx, ny) [Pa] in the full film."""
+        pressure = self.pressure if self.oil_pressure is None else self.oil_pressure
+        gradient = np.array([np.gradient(pressure, at, axis=axis) for axis, at in enumerate((self.x, self.y))])
+        return np.where(self._full, 0.5 * self.thickness * gradient, 0.0)
 
     def forces(self) -> tuple[FloatArray, FloatArray]:
-        """`shear_force` and `rolling_force` of these fields [N]."""
+        """Return `shear_force` and `rolling_force` of the fields [N]."""
         cell = (self.x[1] - self.x[0]) * (self.y[1] - self.y[0])
         sliding = self.sliding_stress().sum(axis=(1, 2)) * cell
-        rolling = -self._driven().sum(axis=(1, 2)) * cell
+        rolling = -self._poiseuille_stress().sum(axis=(1, 2)) * cell
         return np.stack([rolling + sliding, rolling - sliding]), rolling

@@ -1,11 +1,14 @@
-"""Starved films of a point contact: an even layer comes in, the gap is full where it and what flows back fill it.
+"""Starved films of a point contact: the gap is full where an even layer of oil and the backflow fill it.
 
-With the content m of cells that are not full (`supply_loops`) the balance of oil holds everywhere, at the meniscus as
-behind the contact (Jakobsson and Floberg 1957, Olsson 1965), and where the meniscus is comes out with the pressure.
-Films are found by Newton's method from the flooded one, on coarse grids first; at once, or over thicker layers. Light
-contacts whose flooded film is very many layers thick (M 0.2 to 2, a hundred layers and more, 48 cells a side) stall so:
-they are looked for on a grid as small as the layer's own film wants, from the dry contact.
-Verified in tests/lubrication/point/test_point_supply.py.
+With mass-conserving cavitation everywhere (`cavitation`) the position of the meniscus follows with the pressure:
+
+1. Solve the flooded film (`start.solve_nested`).
+2. Starting from it, solve with the layer on the coarser grid, then on the grid asked for.
+3. Where that fails: continuation in the logarithm of the layer, from the oil that goes through the flooded contact.
+4. Where that fails, too: a smaller rectangle, of the size that the layer's own film needs, from the dry contact. Light
+   contacts whose flooded film is a hundred layers thick and more (M 0.2 to 2, 48 cells a side) need it.
+
+Cost: twice to three times that of the flooded film. Verified in tests/lubrication/point/test_point_supply.py.
 """
 
 from __future__ import annotations
@@ -17,33 +20,39 @@ import numpy as np
 
 from bem.errors import InputError
 from bem.grid import FloatArray
-from bem.lubrication.point.cascade import ON_THE_WAY, Reached, interpolated, solved
-from bem.lubrication.point.kept import central_film
-from bem.lubrication.point.levels import Level
-from bem.lubrication.point.linear import flows
-from bem.lubrication.point.newton import Outcome, State, newton, partly_filled
-from bem.lubrication.point.setting import Operators, Setting, default_rectangle
+from bem.lubrication.point.certificate import central_film
+from bem.lubrication.point.grid import GridLevel
+from bem.lubrication.point.newton import NewtonOutcome, PointFilmState, fill_partially, newton
+from bem.lubrication.point.problem import Elasticity, ScaledCase, default_rectangle
+from bem.lubrication.point.start import (
+    COARSE_TOLERANCE,
+    NestedSolution,
+    add_effort,
+    continue_to_end,
+    interpolate,
+    solve_nested,
+)
 from bem.lubrication.supply import OilLayer, Starvation, Supply, checked_supply
 
-HALVINGS = 3
-"""Of the step in the logarithm of the layer, from the flooded film's own where nothing is found at once."""
-PER_CELL = 8
-"""Samples of a cell along a line."""
+LEAST_STEP = 1 / 8
+"""Smallest step of the continuation, over the way from the flooded film in the logarithm of the layer."""
+SAMPLES = 8
+"""Samples a cell along the line on which the meniscus is looked for."""
 
 
 def checked_layer(
     supply: object, flow_factors: object, entrainment: tuple[float, float] = (1.0, 0.0)
 ) -> OilLayer | None:
-    """The layer that reaches a point contact.
+    """Return the layer that reaches a point contact; None of a flooded one.
 
     Raises
     ------
     InputError : no supply, or one that point contacts do not have.
     """
-    found: Supply | None = checked_supply(supply)
-    if found is None:
+    checked: Supply | None = checked_supply(supply)
+    if checked is None:
         return None
-    if not isinstance(found, OilLayer):
+    if not isinstance(checked, OilLayer):
         raise InputError(
             "supply: an InletDistance is a line contact's; the meniscus of a point contact is curved and comes out of "
             "the solve: give an OilLayer"
@@ -52,122 +61,109 @@ def checked_layer(
         raise InputError('supply: not there with flow_factors for point contacts; leave one out, flow_factors="off"')
     if 0.0 not in entrainment:
         raise InputError("supply: entrainment at an angle has none yet; let both speeds point along x or along y")
-    return found
+    return checked
 
 
-def starved(
-    setting: Setting, flooded: Reached, layer: OilLayer, tolerance: float, most: int, *, free: bool = False
-) -> tuple[Setting, Reached]:
-    """From the flooded film to that with a layer; the flooded one where the layer is thicker than the gap somewhere on
-    the edge of the grid: oil beyond would be wanted, of which it knows nothing. free : whether the edges of the grid
-    may be others."""
-    wanted = layer.thickness / setting.scales.film
+def solve_starved(
+    case: ScaledCase, flooded: NestedSolution, layer: OilLayer, tolerance: float, most: int, *, free: bool = False
+) -> tuple[ScaledCase, NestedSolution]:
+    """Solve the film with a layer, starting from the flooded film.
+
+    Returns the flooded film where the layer is thicker than the gap somewhere on the inlet's outermost cells: the
+    rectangle does not hold the meniscus.
+
+    Parameters
+    ----------
+    case, flooded : the flooded case and its film.
+    layer : the supply.
+    tolerance, most : largest relative residual; Newton steps from one start on one grid.
+    free : whether the rectangle may be another one.
+    """
+    thickness = layer.thickness / case.scales.film
     level, state = flooded.level, flooded.outcome.state
-    inlet = level.far_source(state.datum) > 0
-    if not flooded.outcome.converged or wanted >= state.film[level.border & inlet].min():
-        return setting, flooded
-    problem = replace(setting.problem, layer=wanted)
-    own = Level(problem, level.shape)
-    coarse: tuple[Level, State] | None = None
-    steps, cycles, work = flooded.outcome.steps, flooded.outcome.cycles, flooded.convolutions
+    inlet = level.far_source(state.separation) > 0
+    if not flooded.outcome.converged or thickness >= state.film[level.boundary & inlet].min():
+        return case, flooded
+    problem = replace(case.problem, layer=thickness)
+    own = GridLevel(problem, level.shape)
+    coarse: tuple[GridLevel, PointFilmState] | None = None
+    spent, work = [flooded.outcome], flooded.convolutions
     if flooded.coarse is not None:
-        before = Level(problem, flooded.coarse[0].shape)
-        first = _lowered(before, flooded.coarse[1], wanted, ON_THE_WAY, most)
-        steps, cycles = steps + first.steps, cycles + first.cycles
+        before = GridLevel(problem, flooded.coarse[0].shape)
+        first = _continue_in_layer(before, flooded.coarse[1], thickness, COARSE_TOLERANCE, most)
+        spent.append(first)
         work += before.convolutions * np.prod(before.shape) / np.prod(own.shape)
         coarse = (before, first.state) if first.converged else None
-    outcome = None if coarse is None else newton(own, interpolated(own, *coarse), tolerance, most)
+    outcome = None if coarse is None else newton(own, interpolate(own, *coarse), tolerance, most)
     if outcome is None or not outcome.converged:
-        spent = (0, 0) if outcome is None else (outcome.steps, outcome.cycles)
-        outcome = _lowered(own, state, wanted, tolerance, most)
-        steps, cycles = steps + spent[0], cycles + spent[1]
+        spent += [] if outcome is None else [outcome]
+        outcome = _continue_in_layer(own, state, thickness, tolerance, most)
     work += own.convolutions
-    if not outcome.converged and free and setting.hertz is not None:
-        near = _as_small_as(setting, wanted)
-        again = solved(near.problem, level.shape, tolerance, most)
-        if again.outcome.converged:
-            return near, _with_effort(again, steps + outcome.steps, cycles + outcome.cycles, work)
-    return replace(setting, problem=problem), _with_effort(Reached(own, outcome, coarse, 0.0), steps, cycles, work)
+    if not outcome.converged and free and case.hertz is not None:
+        smaller = _on_smaller_rectangle(case, thickness)
+        nested = solve_nested(smaller.problem, level.shape, tolerance, most)
+        if nested.outcome.converged:
+            total = add_effort(nested.outcome, outcome, *spent)
+            return smaller, replace(nested, outcome=total, convolutions=work + nested.convolutions)
+    return replace(case, problem=problem), NestedSolution(own, add_effort(outcome, *spent), coarse, work)
 
 
-def _as_small_as(setting: Setting, layer: float) -> Setting:
-    """On a grid around the film that a layer makes, in films."""
-    problem = setting.problem
-    rectangle = default_rectangle(setting.hertz, setting.scales.ratio, layer, problem.drag)
-    assert isinstance(problem.operator, Operators)
+def _on_smaller_rectangle(case: ScaledCase, layer: float) -> ScaledCase:
+    """Return the case with a layer on the default rectangle of a film as thick as the layer."""
+    problem = case.problem
+    rectangle = default_rectangle(case.hertz, case.scales.ratio, layer, problem.entrainment)
+    assert isinstance(problem.operator, Elasticity)
     operator = replace(problem.operator, rectangle=rectangle)
-    return replace(
-        setting,
-        problem=replace(problem, rectangle=rectangle, operator=operator, typical_film=layer, layer=layer),
-    )
+    smaller = replace(problem, rectangle=rectangle, operator=operator, typical_film=layer, layer=layer)
+    return replace(case, problem=smaller)
 
 
-def _with_effort(reached: Reached, steps: int, cycles: int, work: float) -> Reached:
-    """With what was spent before."""
-    one = reached.outcome
-    outcome = replace(one, steps=steps + one.steps, cycles=cycles + one.cycles)
-    return replace(reached, outcome=outcome, convolutions=work + reached.convolutions)
+def _continue_in_layer(
+    level: GridLevel, flooded: PointFilmState, layer: float, tolerance: float, most: int
+) -> NewtonOutcome:
+    """Solve with a layer by continuation in its logarithm from the flooded film; the whole way first."""
+    problem = level.problem
+    first, last = math.log(max(throughput(level, flooded), layer)), math.log(layer)
+
+    def solve_at(t: float, state: PointFilmState | None) -> NewtonOutcome:
+        there = replace(problem, layer=layer if t >= 1.0 else math.exp(first + t * (last - first)))
+        return newton(GridLevel(there, level.shape), state or flooded, tolerance, most)
+
+    return continue_to_end(solve_at, 1.0, 1.0, LEAST_STEP, start=flooded)
 
 
-def _lowered(level: Level, flooded: State, wanted: float, tolerance: float, most: int) -> Outcome:
-    """From a flooded film to that with a layer: at once, or by halves of the way in its logarithm."""
-    problem, state = level.problem, flooded
-    last, step = math.log(max(through(level, flooded), wanted)), math.inf
-    steps = cycles = 0
-    for _ in range(4 * 2**HALVINGS):
-        at = max(math.log(wanted), last - step)
-        there = at == math.log(wanted)
-        trial = newton(Level(replace(problem, layer=math.exp(at)), level.shape), state, tolerance, most)
-        steps, cycles = steps + trial.steps, cycles + trial.cycles
-        if trial.converged and there:
-            break
-        if trial.converged:
-            state, last = trial.state, at
-            continue
-        step = 0.5 * (last - math.log(wanted) if math.isinf(step) else step)
-        if step * 2**HALVINGS < last - math.log(wanted) or step == 0:
-            break
-    return replace(trial, steps=steps, cycles=cycles)
-
-
-def through(level: Level, state: State) -> float:
-    """Oil that goes through the middle, as a layer in films."""
+def throughput(level: GridLevel, state: PointFilmState) -> float:
+    """Return the oil that goes through the centre, rho h, as a layer."""
     return central_film(level, level.problem.oil(state.pressure)[2] * state.film)
 
 
-def content(level: Level, pressure: FloatArray, film: FloatArray) -> FloatArray:
-    """Oil in the gap of a starved contact (nx, ny), as a layer in films."""
-    flow, stencil = flows(level, pressure, film)
-    return partly_filled(level, pressure, flow, stencil)[1]
-
-
-def starvation(setting: Setting, reached: Reached, flooded: Reached) -> Starvation:
-    """What the layer makes of the flooded film."""
+def starvation(case: ScaledCase, film: NestedSolution, flooded: NestedSolution) -> Starvation:
+    """Return meniscus, oil layer and reduction of a starved film against the flooded film."""
     if not flooded.outcome.converged:
         return Starvation(math.nan, math.nan, math.nan, math.nan)
-    unit, state = setting.scales.film, reached.outcome.state
-    other = flooded.outcome.state
+    unit, state, full = case.scales.film, film.outcome.state, flooded.outcome.state
     return Starvation(
-        meniscus_position=-math.inf if setting.problem.layer is None else -_filled_inlet(setting, reached),
-        layer=through(reached.level, state) * unit,
-        reduction=central_film(reached.level, state.film) / central_film(flooded.level, other.film),
-        flooded_layer=through(flooded.level, other) * unit,
+        meniscus_position=-math.inf if case.problem.layer is None else -_inlet_length(case, film),
+        layer=throughput(film.level, state) * unit,
+        reduction=central_film(film.level, state.film) / central_film(flooded.level, full.film),
+        flooded_layer=throughput(flooded.level, full) * unit,
     )
 
 
-def _filled_inlet(setting: Setting, reached: Reached) -> float:
-    """How far the gap is full upstream of the origin [m]; a cell that is full in part counts in part."""
-    level, state, problem = reached.level, reached.outcome.state, setting.problem
+def _inlet_length(case: ScaledCase, film: NestedSolution) -> float:
+    """Return the distance upstream of the origin over which the gap is full [m]; cells filled in part count in part."""
+    level, state, problem = film.level, film.outcome.state, case.problem
     assert problem.layer is not None
-    held, full = content(level, state.pressure, state.film), problem.oil(state.pressure)[2] * state.film
-    room = full - problem.layer
-    share = np.where(state.pressure > 0, 1.0, (held - problem.layer) / np.where(room > 0, room, np.inf))
+    oil_mass = problem.oil(state.pressure)[2] * state.film
+    content = fill_partially(level, state.pressure, *level.flux(state.pressure, state.film))[1]
+    room = oil_mass - problem.layer
+    filled: FloatArray = np.where(state.pressure > 0, 1.0, (content - problem.layer) / np.where(room > 0, room, np.inf))
     dx, dy = level.spacing
-    step, speed = min(dx, dy) / PER_CELL, math.hypot(*problem.drag)
-    s = step * (np.arange(PER_CELL * sum(level.shape)) + 0.5)
-    i = np.floor((-s * problem.drag[0] / speed - problem.rectangle[0]) / dx).astype(int)
-    j = np.floor((-s * problem.drag[1] / speed - problem.rectangle[2]) / dy).astype(int)
+    step, speed = min(dx, dy) / SAMPLES, math.hypot(*problem.entrainment)
+    s = step * (np.arange(SAMPLES * sum(level.shape)) + 0.5)
+    i = np.floor((-s * problem.entrainment[0] / speed - problem.rectangle[0]) / dx).astype(int)
+    j = np.floor((-s * problem.entrainment[1] / speed - problem.rectangle[2]) / dy).astype(int)
     inside = (i >= 0) & (j >= 0)
-    along = share[i[inside], j[inside]]
+    along = filled[i[inside], j[inside]]
     ends = np.flatnonzero(along < 1e-6)
-    return float(along[: ends[0] if ends.size else None].clip(0, 1).sum()) * step * setting.scales.length
+    return float(along[: ends[0] if ends.size else None].clip(0, 1).sum()) * step * case.scales.length

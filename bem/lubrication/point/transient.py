@@ -1,4 +1,4 @@
-"""Film of a point contact in time: load, speeds, radii and rough surfaces that move through it."""
+"""Film of a point contact in time, with varying load, speeds and radii, and rough surfaces that move through it."""
 
 from __future__ import annotations
 
@@ -14,11 +14,19 @@ from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.lubrication import time_stepping
 from bem.lubrication.lubricant import Lubricant
+from bem.lubrication.point.arguments import check_arguments, checked_edges, entrainment, finite_numbers, speed_vectors
 from bem.lubrication.point.film import PointFilmSolution
-from bem.lubrication.point.march import Moment, Operation, advance, film_start, gap_start, steady_start
-from bem.lubrication.point.march_setting import MarchCase, march_of
-from bem.lubrication.point.moving import MovingSurface, Roughness, Travel, heights_over
-from bem.lubrication.point.solve import checked, edges, entrainment, numbers, vectors
+from bem.lubrication.point.moving_surfaces import MovingSurface, Roughness, Travel, heights_at
+from bem.lubrication.point.time_step import (
+    MarchArguments,
+    Operation,
+    TransientState,
+    advance,
+    film_start,
+    gap_start,
+    march_of,
+    steady_start,
+)
 from bem.lubrication.time_stepping import (
     MarchState,
     Reached,
@@ -34,7 +42,9 @@ from bem.plausibility import body_arguments, lubricant_arguments, notes_on_argum
 from bem.threads import one_blas_thread
 
 SHAPE = (128, 128)
-PointState = MarchState[Moment, PointFilmSolution]
+"""Cells by default."""
+PointState = MarchState[TransientState, PointFilmSolution]
+"""State of a march, to go on from."""
 
 
 @one_blas_thread
@@ -117,43 +127,45 @@ def march_point_film(
         raise InputError(messages[:10])
     both = (bodies,) if isinstance(bodies, Body) else bodies
     thickness = initial_thickness if initial is None else initial.central_thickness
-    case = MarchCase(
+    arguments = MarchArguments(
         schedule, at_times, float(contact_modulus), lubricant, None if both is None else tuple(both), thickness
     )
     operation = Operation(load, speeds, at_times, float(mass), None)
-    march = march_of(case, operation, (int(cells[0]), int(cells[1])), tolerance, edges(extent))
-    heights = heights_over(roughness, Travel.over(schedule.times, lambda time: vectors(speeds(time))), *march.points)
+    march = march_of(arguments, operation, (int(cells[0]), int(cells[1])), tolerance, checked_edges(extent))
+    heights = heights_at(
+        roughness, Travel.over(schedule.times, lambda time: speed_vectors(speeds(time))), *march.points
+    )
     march = replace(march, operation=replace(operation, roughness=heights))
-    tell = callback or (lambda state: None)
+    report = callback or (lambda state: None)
     if state is None:
         at = float(schedule.times[0])
         if initial is not None:
-            moment, opening = film_start(march, at, initial)
+            film, solution = film_start(march, at, initial)
         elif initial_thickness is not None:
-            moment, opening = gap_start(march, at, initial_thickness, velocity)
+            film, solution = gap_start(march, at, initial_thickness, velocity)
         else:
-            moment, opening = steady_start(march, at)
-        if not moment.film.min() > 0:
+            film, solution = steady_start(march, at)
+        if not film.film.min() > 0:
             raise InputError(
                 "roughness: leaves no gap at the first time; begin with the surfaces outside of the contact (at, begin)"
             )
-        state = MarchState(None, Reached(at, moment), (opening,))
-        tell(state)
-    films = time_stepping.march(schedule.times, state, partial(advance, march), tell)
-    return with_argument_notes(films, _notes_on_arguments(case))
+        state = MarchState(None, Reached(at, film), (solution,))
+        report(state)
+    films = time_stepping.march(schedule.times, state, partial(advance, march), report)
+    return with_argument_notes(films, _notes_on_arguments(arguments))
 
 
-def _notes_on_arguments(case: MarchCase) -> tuple[Note, ...]:
+def _notes_on_arguments(march: MarchArguments) -> tuple[Note, ...]:
     """Notes on arguments of `march_point_film` outside their usual ranges at any of its times."""
-    schedule = case.schedule
-    pairs = [vectors(pair) for pair in schedule.speeds]
-    radii = [float(one) for time in schedule.times for one in case.radii(float(time))]
+    schedule = march.schedule
+    pairs = [speed_vectors(pair) for pair in schedule.speeds]
+    radii = [float(one) for time in schedule.times for one in march.radii(float(time))]
     arguments = {
         "load": ("load", tuple(schedule.loads)),
         "radii": ("radius", tuple(one for one in radii if math.isfinite(one))),
         "speeds": ("speed", tuple(speed for pair in pairs if pair is not None for both in pair for speed in both)),
     }
-    return notes_on_arguments(arguments | lubricant_arguments(case.lubricant) | body_arguments(case.bodies))
+    return notes_on_arguments(arguments | lubricant_arguments(march.lubricant) | body_arguments(march.bodies))
 
 
 def _constant(value: Any, time: float) -> Any:
@@ -165,8 +177,9 @@ def _listed(values: object) -> bool:
 
 
 def _flow(pair: Any) -> tuple[float, float]:
-    found = vectors(pair)
-    return (0.0, 0.0) if found is None else entrainment(found)
+    """Return the sum of two speeds [m/s]; zero if they are none."""
+    vectors = speed_vectors(pair)
+    return (0.0, 0.0) if vectors is None else entrainment(vectors)
 
 
 def _messages(
@@ -178,35 +191,36 @@ def _messages(
     tolerance: float,
     extent: Any,
 ) -> list[str]:
-    """What is wrong with what acts, bodies, oil and grid."""
+    """Return the mistakes in load, speeds, radii, oil and grid."""
     messages = load_messages(schedule, "N")
     messages += first_of(
         [
             f"speeds: {pair!r} at time {time:g} s must be a pair (u1, u2) of finite speeds along x, or of vectors "
             "((u1x, u1y), (u2x, u2y)) [m/s]"
             for time, pair in zip(schedule.times, schedule.speeds, strict=True)
-            if vectors(pair) is None
+            if speed_vectors(pair) is None
         ]
     )
     wrong = []
     for time in schedule.times:
         one = radii(float(time))
-        found = numbers(one, 2)
-        if found is None or not all(r > 0 for r in found):
+        pair = finite_numbers(one, 2)
+        if pair is None or not all(r > 0 for r in pair):
             wrong.append(f"radii: {one!r} at time {time:g} s must be two positive, finite radii (Rx, Ry) [m]")
     messages += first_of(wrong)
     try:
-        checked(1.0, (1.0, 1.0), contact_modulus, (1.0, 0.0), lubricant, shape, tolerance, extent)
+        check_arguments(1.0, (1.0, 1.0), contact_modulus, (1.0, 0.0), lubricant, shape, tolerance, extent)
     except InputError as error:
         messages += error.messages
     return messages
 
 
 def _ball_messages(mass: float, velocity: float, initial_thickness: float | None) -> list[str]:
+    """Return the mistakes in mass and velocity of the ball."""
     messages = []
-    if not (numbers((mass,), 1) and mass >= 0):
+    if not (finite_numbers((mass,), 1) and mass >= 0):
         messages.append(f"mass: {mass!r} must be finite and not negative [kg]")
-    if not numbers((velocity,), 1):
+    if not finite_numbers((velocity,), 1):
         messages.append(f"velocity: {velocity!r} must be finite [m/s]")
     elif velocity != 0 and initial_thickness is None:
         messages.append("velocity: give initial_thickness, too: a ball that moves begins with a gap")

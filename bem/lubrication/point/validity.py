@@ -1,4 +1,7 @@
-"""Where the model of a point film is outside its validity: the checks of line films that hold for any, and its own."""
+"""Notes on point films outside the validity of their model or of their grid.
+
+Checks of line films that hold for any film come from `bem.lubrication.checks`.
+"""
 
 from __future__ import annotations
 
@@ -13,12 +16,12 @@ from bem.errors import Status
 from bem.grid import FloatArray
 from bem.lubrication import checks
 from bem.lubrication.inlet_heating import inlet_heating_factor
-from bem.lubrication.point.cascade import COARSEST, shapes_up_to
-from bem.lubrication.point.far import far_shear
-from bem.lubrication.point.kept import rise_beside_lowest
-from bem.lubrication.point.levels import Level
-from bem.lubrication.point.scales import PointScales, point_scales
-from bem.lubrication.point.setting import Setting
+from bem.lubrication.point.certificate import constriction_steepness
+from bem.lubrication.point.far_field import far_shear
+from bem.lubrication.point.grid import GridLevel
+from bem.lubrication.point.problem import ScaledCase
+from bem.lubrication.point.similarity import PointScales, point_scales
+from bem.lubrication.point.start import COARSEST, grid_shapes
 from bem.notes import Note, without
 from bem.notes.checks import ROUGHNESS_UNRESOLVED
 from bem.notes.lubrication import (
@@ -35,30 +38,32 @@ if TYPE_CHECKING:
     from bem.lubrication.point.film import PointFilmSolution
 
 SHORTEST_INLET = 8.0
-"""Films to which the gap has opened where the grid begins, at least."""
+"""Smallest ratio of the film on the inlet edge of the grid to the central film."""
 STEEPEST = 1.5
-"""Film beside the lowest cell over that one's: from there on minima were off by 2 to 5 %, from 3.6 by 8 to 16 % (two
-barrels, 64 to 240 cells a side against 480)."""
+"""Largest steepness of the constriction (`certificate.constriction_steepness`): from there on minimum films have errors
+of 2 to 5 %, from 3.6 of 8 to 16 % (two barrels, 64 to 240 cells a side against 480)."""
 LONGEST_CELL, MORE_CELLS = 2.0, 1.5
-"""Length of cells along one axis over that along the other, from which a film that is not found is looked for on square
-ones, so many times as many along an axis: seven isoviscous contacts of Rx/Ry 9 to 17 and M 1700 to 7000 had none on 80
-x 80 cells four to six times as long along the flow, two of them none on 160 x 160 either; on square ones all had, two
-of them with 1.5 times as many only, the others with as many."""
+"""Elongation of cells from which square cells are advised for a film that is not found, and the factor on their number
+along an axis: seven isoviscous contacts of Rx/Ry 9 to 17 and M 1700 to 7000 have no film on 80 x 80 cells four to six
+times as long along the flow, two of them none on 160 x 160 either; with square cells all have a film, two of them with
+1.5 times as many cells only, the others with as many."""
 LARGEST_ERROR = 0.02
-"""Of a film, above which its error is said, and of friction, what the inlet may add."""
+"""Relative error of a film above which there is a note, and the ratio of the inlet's friction to the friction."""
 STEEL = 115e9
 """E* of two bodies of steel [Pa]."""
 RIGID_BOUND = 0.1
-"""Of a film's thickness, by which bodies may flatten to be taken as rigid."""
+"""Largest flattening of rigid bodies over the film, were they of steel."""
 FEWEST_ACROSS = 2.0
-"""Cells to the half of a contact and the film around it, below which figures follow the cells."""
+"""Smallest number of cells to half the contact and the film around it."""
 FEWEST_CELLS = 8.0
-"""To a wave of heights, below which films and shares of the load follow the cells."""
+"""Smallest number of cells a wavelength of the heights."""
 
 
 def coarse_heights(heights: FloatArray) -> tuple[Note, ...]:
-    """A note on heights (nx, ny) of any unit that change too much from cell to cell: their rms change over their rms is
-    that of waves of n cells, 2 sin(pi/n)."""
+    """Return a note on heights (nx, ny) of any unit that change too much from cell to cell.
+
+    Waves of n cells have an rms change from cell to cell of 2 sin(pi/n) times their rms.
+    """
     rms = float(np.std(heights))
     if not rms > 0:
         return ()
@@ -71,8 +76,15 @@ def coarse_heights(heights: FloatArray) -> tuple[Note, ...]:
 
 @dataclass(frozen=True)
 class PointCase(checks.Case):
-    """A point film for the checks of line films: fields (nx, ny), speeds of the same sum and difference along one axis,
-    `radius` along the flow; y beside the position [m]; `moes` of rigid bodies were they of steel, (M, L)."""
+    """A point film for the checks of line films: fields (nx, ny), speeds of the same sum and difference along one axis.
+
+    radius : along the flow [m].
+    cell : area of a cell [m^2].
+    hertz_ratio : Hertz' pressure over E*.
+    length : of Hertz' contact along the flow [m].
+    across : y [m], beside the position x.
+    moes : (M, L) of the bodies, were they of steel.
+    """
 
     cell: float = 0.0
     hertz_ratio: float = 0.0
@@ -81,12 +93,12 @@ class PointCase(checks.Case):
     moes: tuple[float, float] = (0.0, 0.0)
 
     def integral(self, values: FloatArray) -> float:
-        """Of values over the plane."""
+        """Return the integral of values (nx, ny) over the plane."""
         return float(values.sum()) * self.cell
 
 
 def inlet_heating(case: PointCase) -> Note | None:
-    """Shear in the inlet heats the oil; by the factor of line contacts, for a mineral oil."""
+    """Note inlet shear heating, by the factor of line contacts for a mineral oil."""
     heating = inlet_heating_factor(
         case.lubricant.viscosity, checks.OIL_SOFTENING, checks.OIL_CONDUCTIVITY, case.speeds, case.hertz_ratio
     )
@@ -96,8 +108,11 @@ def inlet_heating(case: PointCase) -> Note | None:
 
 
 def bodies_not_rigid(case: PointCase) -> Note | None:
-    """Bodies taken as rigid would flatten under this pressure, were they of steel: by the deflection of a half-space
-    where it is highest, integral p/(pi E* r), cells as points but for that one (Johnson 1985, eq. 3.19)."""
+    """Note rigid bodies that would flatten under this pressure, were they of steel.
+
+    By the deflection of a half-space under the highest pressure, integral p/(pi E* r) (Johnson 1985, eq. 3.19), with
+    point forces in other cells.
+    """
     if math.isfinite(case.contact_modulus) or case.not_found is not None or not case.pressure.any():
         return None
     i, j = np.unravel_index(int(case.pressure.argmax()), case.pressure.shape)
@@ -118,8 +133,10 @@ def bodies_not_rigid(case: PointCase) -> Note | None:
 
 
 def film_heating(case: PointCase) -> Note | None:
-    """Sliding heats film and surfaces: as `checks.film_heating`, with the mean over the loaded area and its length
-    along the flow."""
+    """Note heating of film and surfaces by sliding.
+
+    As `bem.lubrication.checks.film_heating`, with means over the loaded area and its length along the flow.
+    """
     loaded = case.pressure > 0.05 * case.pressure.max(initial=0.0)
     root = math.sqrt(abs(case.speeds[0])) + math.sqrt(abs(case.speeds[1]))
     slide = abs(case.speeds[0] - case.speeds[1])
@@ -146,13 +163,15 @@ CHECKS: list[Callable[[PointCase], Note | None]] = [
 ]
 
 
-def notes_on_point(film: PointFilmSolution, setting: Setting, level: Level, contact_modulus: float) -> tuple[Note, ...]:
+def notes_on_point(
+    film: PointFilmSolution, case: ScaledCase, level: GridLevel, contact_modulus: float
+) -> tuple[Note, ...]:
     """Return the notes on a film."""
-    (first, second), frame, scales = film.speeds, setting.frame, setting.scales
+    (first, second), axes, scales = film.speeds, case.axes, case.scales
     total = math.hypot(first[0] + second[0], first[1] + second[1])
     slide = math.hypot(first[0] - second[0], first[1] - second[1])
-    hertz = setting.hertz
-    case = PointCase(
+    hertz = case.hertz
+    physical = PointCase(
         position=film.x,
         pressure=film.pressure,
         thickness=film.thickness,
@@ -160,37 +179,38 @@ def notes_on_point(film: PointFilmSolution, setting: Setting, level: Level, cont
         lubricant=film.lubricant,
         radius=scales.length**2 / scales.film,
         contact_modulus=contact_modulus,
-        cell=level.cell * scales.length**2,
-        # of bodies as stiff as 1/2 in units of the pressure
+        cell=level.cell_area * scales.length**2,
         hertz_ratio=0.0 if hertz is None else hertz.maximum_pressure * scales.pressure / contact_modulus,
         length=0.0 if hertz is None else 2 * hertz.semi_axes[0] * scales.length,
         reduction=1.0 if film.starvation is None else film.starvation.reduction,
         across=film.y,
-        moes=_moes_of_steel(film, setting.scales),
-        not_found=None if film.status is Status.CONVERGED else _not_found(film, setting),
+        moes=_moes_of_steel(film, case.scales),
+        not_found=None if film.status is Status.CONVERGED else _not_found(film, case),
     )
-    notes = film.lubricant.notes + tuple(note for check in CHECKS if (note := check(case)) is not None)
-    return notes + _on_grid(film, frame.inner(film.thickness), setting, level)
+    notes = film.lubricant.notes + tuple(note for check in CHECKS if (note := check(physical)) is not None)
+    return notes + _on_grid(film, axes.to_flow(film.thickness), case, level)
 
 
 def but_unknown(notes: Iterable[Note]) -> tuple[Note, ...]:
-    """Return the notes without those on an unknown error, for results with error bars from other grids."""
+    """Return the notes without those on an unknown error, for results with error bars of their own."""
     return without(notes, FILM_ERROR_UNKNOWN)
 
 
-def inlet_shear(film: PointFilmSolution, setting: Setting) -> float:
-    """Sliding force that would be added by oil in the inlet up to twice the distance [N]: Couette flow of h = r^2 g/2,
-    mu |u2 - u1| integral dx dy/h, which grows with the logarithm of the distance."""
-    scales, problem = setting.scales, setting.problem
+def inlet_shear(film: PointFilmSolution, case: ScaledCase) -> float:
+    """Return the sliding force of the oil in an inlet up to twice the distance of the grid's edges [N].
+
+    Couette flow of h = r^2 g/2, mu |u2 - u1| integral dx dy/h, which grows with the logarithm of the distance.
+    """
+    scales, problem = case.scales, case.problem
     if problem.layer is not None:  # the inlet is as full as it is
         return 0.0
     slide = math.hypot(*np.subtract(*film.speeds))
     radius = scales.length**2 / scales.film
-    return film.lubricant.viscosity * slide * radius * far_shear(problem.drag, problem.curvatures) * math.log(2)
+    return film.lubricant.viscosity * slide * radius * far_shear(problem.entrainment, problem.curvatures) * math.log(2)
 
 
 def _moes_of_steel(film: PointFilmSolution, scales: PointScales) -> tuple[float, float]:
-    """Moes' M and L were the bodies of steel."""
+    """Return Moes' M and L, were the bodies of steel."""
     radius = scales.length**2 / scales.film
     speed = (scales.film / radius) ** 2
     own = scales.pressure / speed**0.25
@@ -198,10 +218,10 @@ def _moes_of_steel(film: PointFilmSolution, scales: PointScales) -> tuple[float,
     return steel.load, float(film.lubricant.log_viscosity_ratio(np.zeros(1))[1][0]) * steel.pressure
 
 
-def _not_found(film: PointFilmSolution, setting: Setting) -> Note:
+def _not_found(film: PointFilmSolution, case: ScaledCase) -> Note:
     """Return why no film was found, and what to do."""
-    hertz = 0.0 if setting.hertz is None else setting.hertz.maximum_pressure * setting.scales.pressure
-    return checks.why_not_found(film.lubricant, math.inf if setting.scales.rigid else hertz, _other_cells(film))
+    hertz = 0.0 if case.hertz is None else case.hertz.maximum_pressure * case.scales.pressure
+    return checks.why_not_found(film.lubricant, math.inf if case.scales.rigid else hertz, _other_cells(film))
 
 
 def _other_cells(film: PointFilmSolution) -> Note:
@@ -220,39 +240,42 @@ def _other_cells(film: PointFilmSolution) -> Note:
     )
 
 
-def _unresolved(film: PointFilmSolution, setting: Setting, level: Level) -> list[Note]:
-    """Of a contact smaller than the cells, as of a ball that falls from far above onto a grid that holds its first
-    film. Rigid bodies have the film alone: the gap is twice its lowest sqrt(2 R h) from the centre."""
-    scales, frame = setting.scales, setting.frame
+def _unresolved(film: PointFilmSolution, case: ScaledCase, level: GridLevel) -> list[Note]:
+    """Return a note on a contact smaller than the cells.
+
+    A ball that falls from far above onto a grid that holds its first film may have one. Of rigid bodies the film counts
+    alone: sqrt(2 R h) from the centre the gap is twice the lowest.
+    """
+    scales, axes = case.scales, case.axes
     if not film.central_thickness > 0:
         return []
     lowest = film.central_thickness / scales.film
-    contact = (0.0, 0.0) if setting.hertz is None else setting.hertz.semi_axes
+    contact = (0.0, 0.0) if case.hertz is None else case.hertz.semi_axes
     rooms = [
         half + math.sqrt(2 * lowest / curvature)
-        for half, curvature in zip(contact, setting.problem.curvatures, strict=True)
+        for half, curvature in zip(contact, case.problem.curvatures, strict=True)
     ]
     few = min(room / step for room, step in zip(rooms, level.spacing, strict=True))
     if few >= FEWEST_ACROSS:
         return []
-    length = " x ".join(f"{step * scales.length:.2g}" for step in frame.pair(level.spacing))
-    size = " x ".join(f"{room * scales.length:.2g}" for room in frame.pair(rooms))
+    length = " x ".join(f"{step * scales.length:.2g}" for step in axes.exchange(level.spacing))
+    size = " x ".join(f"{room * scales.length:.2g}" for room in axes.exchange(rooms))
     return [FILM_CELLS_FEW(cell=length, size=size, reason="contact")]
 
 
-def _on_grid(film: PointFilmSolution, thickness: FloatArray, setting: Setting, level: Level) -> tuple[Note, ...]:
-    """Return the notes on what the grid does to a film."""
+def _on_grid(film: PointFilmSolution, thickness: FloatArray, case: ScaledCase, level: GridLevel) -> tuple[Note, ...]:
+    """Return the notes on errors by the grid."""
     notes = []
     begins = float(thickness[0].min())
-    if setting.problem.drag[1] > 0.1:
+    if case.problem.entrainment[1] > 0.1:
         begins = min(begins, float(thickness[:, 0].min()))
-    entrained = any(setting.problem.drag)
+    entrained = any(case.problem.entrainment)
     if entrained and begins < SHORTEST_INLET * film.central_thickness:
         notes.append(INLET_TOO_SHORT(limit=SHORTEST_INLET))
-    notes += _unresolved(film, setting, level)
-    if film.status is Status.CONVERGED and rise_beside_lowest(thickness) > STEEPEST:
+    notes += _unresolved(film, case, level)
+    if film.status is Status.CONVERGED and constriction_steepness(thickness) > STEEPEST:
         notes.append(FILM_CELLS_FEW(limit=STEEPEST, reason="constriction"))
-    added = inlet_shear(film, setting)
+    added = inlet_shear(film, case)
     if added > LARGEST_ERROR * film.friction * film.load:
         notes.append(INLET_FRICTION(added=added / film.load, friction=float(film.friction)))
     errors = (
@@ -262,7 +285,7 @@ def _on_grid(film: PointFilmSolution, thickness: FloatArray, setting: Setting, l
     if any(error is not None and error > LARGEST_ERROR * value for error, value in errors):
         notes.append(FILM_CELLS_FEW(limit=LARGEST_ERROR, reason="error"))
     unknown = film.time is None and film.status is Status.CONVERGED and errors[0][0] is None
-    if unknown and len(shapes_up_to(level.shape)) > 1:
+    if unknown and len(grid_shapes(level.shape)) > 1:
         notes.append(FILM_ERROR_UNKNOWN(reason="no-film"))
     elif unknown:
         nx, ny = (max(n, 2 * COARSEST) for n in film.pressure.shape)

@@ -6,9 +6,8 @@ import numpy as np
 import pytest
 
 from bem import Dent, InputError, Lubricant, MeasuredHeights, MovingSurface, Status, Waves, march_point_film
-from bem.lubrication.point.moving import Travel
+from bem.lubrication.point.moving_surfaces import Travel, amplitude_in_centre, amplitude_reduction
 from bem.lubrication.point.validity import coarse_heights
-from bem.lubrication.point.waviness import amplitude_in_centre, amplitude_reduction
 from bem.notes import has_code
 from bem.notes.checks import ROUGHNESS_UNRESOLVED
 from bem.notes.lubrication import FILM_CELLS_FEW, FIRST_FILM
@@ -375,11 +374,11 @@ def test_a_lightly_loaded_ball_that_lifts_goes_on():
 
 @pytest.mark.internal
 def test_from_a_steady_film_that_is_not_found_it_does_not_go_on(monkeypatch):
-    from bem.lubrication.point import march as stepping
+    from bem.lubrication.point import time_step
 
-    solved = stepping.solved
+    solved = time_step.solve_nested
     monkeypatch.setattr(
-        stepping, "solved", lambda problem, cells, tolerance, most: solved(problem, cells, tolerance, 2)
+        time_step, "solve_nested", lambda problem, cells, tolerance, most: solved(problem, cells, tolerance, 2)
     )
     films = march([0, 1e-4, 2e-4])
     assert [film.status for film in films] == [Status.STALLED]

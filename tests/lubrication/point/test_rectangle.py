@@ -6,7 +6,7 @@ import pytest
 
 from bem import Lubricant, solve_point_film
 from bem.errors import Status
-from bem.lubrication.point.kept import rectangle_error
+from bem.lubrication.point.certificate import rectangle_error
 
 pytestmark = pytest.mark.internal
 
@@ -46,14 +46,14 @@ def test_errors_cover_what_a_far_larger_rectangle_changes(ratio, degrees, load, 
         film = solve_point_film(**own, **scaled(film, factor))
     wide = solve_point_film(**own, **scaled(film, 2.5 / factor))
     assert film.status is wide.status is Status.CONVERGED
-    allowed = rectangle_error(film.state.setting)
+    allowed = rectangle_error(film.state.case)
     assert abs(wide.central_thickness / film.central_thickness - 1) < allowed
     assert abs(wide.minimum_thickness / film.minimum_thickness - 1) < allowed
 
 
 def test_the_errors_of_a_film_have_it_beside_those_of_the_cells():
     film = solve_point_film(**case(1.0, 0, 20.0), shape=(128, 128))
-    allowed = rectangle_error(film.state.setting)
+    allowed = rectangle_error(film.state.case)
     assert film.central_thickness_error > allowed * film.central_thickness
     assert film.minimum_thickness_error > allowed * film.minimum_thickness
 
@@ -62,4 +62,4 @@ def test_a_rectangle_that_ends_sooner_has_a_larger_error():
     own = case(1.0, 0, 20.0)
     film = solve_point_film(**own, shape=(CELLS, CELLS))
     near = solve_point_film(**own, **scaled(film, 0.75))
-    assert rectangle_error(near.state.setting) > 3 * rectangle_error(film.state.setting)
+    assert rectangle_error(near.state.case) > 3 * rectangle_error(film.state.case)

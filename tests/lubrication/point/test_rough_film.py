@@ -16,7 +16,7 @@ from bem import (
     solve_point_film,
     solve_rough_point_film,
 )
-from bem.lubrication.point import newton, touching_newton, touching_start
+from bem.lubrication.point import newton, start
 from bem.notes import has_code
 from bem.notes.lubrication import FILM_NOT_FOUND, OIL_CREATED
 
@@ -183,7 +183,7 @@ def test_films_among_steep_bumps_at_creeping_speeds_are_found_by_way_of_oil_from
     assert film.residual < 1e-8
     assert 0.01 < film.contact_share < 0.99
     # the likeliest start, from which Newton's method goes round in circles, is not the only one that was tried
-    assert film.iterations > touching_start.FIRST
+    assert film.iterations > start.FIRST_STEPS
 
 
 @pytest.mark.internal
@@ -194,9 +194,9 @@ def test_a_film_is_found_by_steps_beyond_those_asked_for_while_errors_fall(monke
     assert film.status.value == "converged"
     assert 0.9 < film.contact_share < 0.999
     # from the first start
-    assert touching_start.FIRST < film.iterations <= newton.MOST
-    monkeypatch.setattr(touching_newton, "PATIENCE", 0)
-    assert solve_rough_point_film(**given, errors=False).iterations > newton.MOST
+    assert start.FIRST_STEPS < film.iterations <= newton.MOST_STEPS
+    monkeypatch.setattr(newton, "CONTACT_PATIENCE", 0)
+    assert solve_rough_point_film(**given, errors=False).iterations > newton.MOST_STEPS
 
 
 def test_starts_that_were_not_tried_lead_to_films_that_no_other_way_does():

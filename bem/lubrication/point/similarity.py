@@ -1,4 +1,6 @@
-"""Moes' similarity variables of the point contact, and films by published fits of them: starts and figures, no results.
+"""Moes' similarity variables of the point contact, and published fits of its film thickness.
+
+The fits serve as starts of Newton's method and for comparison; no result is taken from them.
 
 With U = mu (u1 + u2) / (E' Rx), E' = 2 E*: lengths along the surfaces in Rx U^(1/4), films in Rx U^(1/2), pressures in
 E' U^(1/4). The problem is then
@@ -14,13 +16,18 @@ import math
 from dataclasses import dataclass
 
 RIGID_LOAD = 1.0
-"""M by which rigid bodies are scaled."""
+"""M of rigid bodies, which fixes their unit of pressure."""
 
 
 @dataclass(frozen=True)
 class PointScales:
-    """Units of length along the surfaces [m], film [m] and pressure [Pa]; the load M; lambda = Rx/Ry; whether the
-    bodies are rigid."""
+    """Units of the similarity variables, and the numbers of the problem.
+
+    length, film, pressure : units of length along the surfaces [m], of films [m] and of pressures [Pa].
+    load : Moes' M.
+    ratio : lambda = Rx/Ry.
+    rigid : whether the bodies are rigid.
+    """
 
     length: float
     film: float
@@ -33,7 +40,18 @@ class PointScales:
 def point_scales(
     load: float, radii: tuple[float, float], contact_modulus: float, entrainment: float, viscosity: float
 ) -> PointScales:
-    """Units of a case; `entrainment` is |u1 + u2| [m/s]. A rigid pair gets the E* for which M is `RIGID_LOAD`."""
+    """Return the units of a case.
+
+    A rigid pair has the E* for which M is `RIGID_LOAD`.
+
+    Parameters
+    ----------
+    load : [N].
+    radii : (Rx, Ry) [m].
+    contact_modulus : E* [Pa].
+    entrainment : |u1 + u2| [m/s].
+    viscosity : [Pa s].
+    """
     radius = radii[0]
     drive = viscosity * entrainment / radius
     if math.isinf(contact_modulus):
@@ -53,7 +71,7 @@ def point_scales(
 
 
 def nijenbanning_film(load: float, material: float, ratio: float) -> float:
-    """Central film over its unit of loads M, material numbers L and ratios lambda = Rx/Ry, entrainment along x.
+    """Return the central film over its unit for a load M, material number L and ratio lambda = Rx/Ry, flow along x.
 
     Nijenbanning, Venner and Moes, Wear 176 (1994) 217.
     """
@@ -71,19 +89,20 @@ def nijenbanning_film(load: float, material: float, ratio: float) -> float:
 
 
 def rigid_film(load: float, material: float, ratio: float) -> float:
-    """The same of rigid bodies, isoviscous and piezoviscous."""
+    """Return the central film over its unit of rigid bodies, isoviscous and piezoviscous, by the same fit."""
     stiff = 1.29 * (1 + 0.691 * ratio) ** (-2 / 3) * material ** (2 / 3)
     return (_rigid_isoviscous(load, ratio) ** 3 + stiff**3) ** (1 / 3)
 
 
 def _rigid_isoviscous(load: float, ratio: float) -> float:
+    """Return the rigid-isoviscous asymptote of the central film over its unit."""
     return 145 * (1 + 0.796 * ratio ** (14 / 15)) ** (-15 / 7) / ratio / load**2
 
 
 def hamrock_dowson_films(
     load: float, radii: tuple[float, float], contact_modulus: float, entrainment: float, viscosity: float, alpha: float
 ) -> tuple[float, float]:
-    """Central and minimum film [m] of stiff bodies and piezoviscous oils, entrainment |u1 + u2| [m/s] along x.
+    """Return central and minimum film [m] of stiff bodies and piezoviscous oils, entrainment |u1 + u2| [m/s] along x.
 
     Hamrock and Dowson, J. Lubr. Technol. 99 (1977) 264, with k = 1.03 (Ry/Rx)^0.64.
     """
