@@ -31,7 +31,7 @@ Variations of it:
     method with a third active set. In contact the oil's pressure is eliminated by a sparse factorisation. 10 to 60
     steps of 10 to 20 cycles.
 12. In time (`transient`, `time_step`): BDF2 with steps that are halved on failure (`bem.lubrication.time_stepping`);
-    surfaces move with their bodies (`moving_surfaces`). One solve a step, on one grid.
+    surfaces move with their bodies (`moving_surfaces`) and may touch, as in 11. One solve a step, on one grid.
 
 Terms: P, q whole pressure and pressure of the oil; H0 rigid-body separation; ruptured: without pressure of the oil;
 flow axes: `problem.FlowAxes`; state: `newton.PointFilmState`, the unknowns on a grid, from which any solve may start.

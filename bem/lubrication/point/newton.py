@@ -60,6 +60,8 @@ CONTACT_HISTORY = 4
 CONTACT_FORCING = 1e-2
 """`LARGEST_FORCING` with contact: of 11 hard random balls with mass-conserving cavitation 6 have a film with 0.1, 6
 with this and 5 with 1e-3, not the same ones."""
+CONTACT_TOLERANCE = 0.2
+"""Tolerance of a solve with contact over that of the certificate, which counts errors of films in the balances, too."""
 CONTACT_PATIENCE = 8
 """Steps in which the residual must reach a new minimum for a solve with contact and mass-conserving cavitation to go on
 beyond the number of steps asked for: of 21 films of random balls that need it (40 to 56 cells a side) 7 are lost

@@ -27,7 +27,7 @@ from bem.lubrication.point.certificate import Certificate, certify, swift_stiebe
 from bem.lubrication.point.grid import GridLevel
 from bem.lubrication.point.linear_system import BoolArray
 from bem.lubrication.point.moving_surfaces import Heights
-from bem.lubrication.point.newton import NewtonOutcome, PointFilmState
+from bem.lubrication.point.newton import CONTACT_TOLERANCE, NewtonOutcome, PointFilmState
 from bem.lubrication.point.problem import Rectangle, ScaledCase, default_rectangle, scale_case
 from bem.lubrication.point.start import solve_with_contact
 from bem.lubrication.point.validity import coarse_heights
@@ -42,8 +42,6 @@ SHAPE = (128, 128)
 """Cells by default."""
 LEAST_FILM = 1e-9
 """Film at which surfaces touch by default [m]: a few molecules, below which oil is no continuum."""
-NEWTON_TOLERANCE = 0.2
-"""Tolerance of Newton's method over that of the certificate, which counts errors of films in the balances, too."""
 LARGEST_CREATED_OIL = 0.01
 """Created oil over the throughput above which there is a note."""
 
@@ -254,7 +252,7 @@ def _solve_on(case: ScaledCase, shape: tuple[int, int], request: _Request) -> Ro
         least_film=request.least_film / case.scales.film,
     )
     level = GridLevel(problem, shape)
-    return _result(case, level, solve_with_contact(level, NEWTON_TOLERANCE * request.tolerance), request)
+    return _result(case, level, solve_with_contact(level, CONTACT_TOLERANCE * request.tolerance), request)
 
 
 def _result(case: ScaledCase, level: GridLevel, outcome: NewtonOutcome, request: _Request) -> RoughPointFilm:

@@ -164,6 +164,8 @@ def point_film_solution(case: ScaledCase, nested: NestedSolution, request: FilmR
     has_residual = bool(np.isfinite(proof.mass))
     film = proof.film if has_residual else state.film
     central, minimum = central_film(level, film), minimum_film(film)
+    if case.problem.least_film is not None and proof.contact.any():
+        minimum = max(minimum, case.problem.least_film)  # films in contact are no paraboloid
     errors: tuple[float | None, float | None] = (None, None)
     if nested.coarse is not None and converged:
         coarse_level, coarse = nested.coarse

@@ -4,6 +4,7 @@
 2. The first film is the steady one of smooth bodies, one that is given, or that of undeformed bodies with a gap.
 3. A step adds d(rho h)/dT and the ball's inertia, by BDF2 (`time_stepping`), to the equations of `newton`. It starts
    from the film before, at rest and then with the velocity before.
+4. With a least film surfaces touch from the first step on; the first film is without contact.
 
 Cost: a step is one solve of 3 to 6 Newton steps on one grid.
 """
@@ -27,7 +28,13 @@ from bem.lubrication.point.film import PointFilmSolution
 from bem.lubrication.point.grid import GridLevel
 from bem.lubrication.point.linear_system import BoolArray
 from bem.lubrication.point.moving_surfaces import Roughness, bilinear
-from bem.lubrication.point.newton import LEAST_FILM_RATIO, NewtonOutcome, PointFilmState, newton
+from bem.lubrication.point.newton import (
+    CONTACT_TOLERANCE,
+    LEAST_FILM_RATIO,
+    NewtonOutcome,
+    PointFilmState,
+    newton,
+)
 from bem.lubrication.point.problem import (
     Elasticity,
     FlowAxes,
@@ -414,10 +421,11 @@ def _step(march: PointMarch, at: Reached[TransientState], time: float) -> tuple[
     heights = march.heights(time)
     case = march.scaled_case(time, time_terms, heights)
     level = GridLevel(case.problem, march.cells(axes))
+    tolerance = march.tolerance * (1.0 if march.least_film is None else CONTACT_TOLERANCE)
     # at rest, then as fast as before: where bodies part, far pressures vanish at once, too far from rest for Newton
     for velocity in (0.0, at.film.velocity):
         start = _start_of_step(level, axes, at.film, at.film.separation + velocity * change.step)
-        outcome = newton(level, start, march.tolerance, MOST_STEPS)
+        outcome = newton(level, start, tolerance, MOST_STEPS)
         if outcome.converged:
             break
     film = _transient_state(march, axes, outcome.state, leading * outcome.state.separation + separation_history)

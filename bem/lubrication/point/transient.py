@@ -10,6 +10,7 @@ from typing import Any
 
 import numpy as np
 
+from bem.arguments import is_positive
 from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.lubrication import time_stepping
@@ -65,6 +66,7 @@ def march_point_film(
     velocity: float = 0.0,
     initial: PointFilmSolution | None = None,
     initial_thickness: float | None = None,
+    least_film: float | None = None,
     state: PointState | None = None,
     callback: Callable[[PointState], None] | None = None,
 ) -> list[PointFilmSolution]:
@@ -91,6 +93,9 @@ def march_point_film(
     velocity : at which the ball leaves the flat at first [m/s], negative: falls, with `initial_thickness`.
     initial : film at the first time. Without it the steady film of smooth bodies of the first time, or
     initial_thickness : the first film is that of undeformed bodies with this gap [m] at the origin, full of oil.
+    least_film : film at which surfaces touch [m]: from the first step on they share the pressure with the oil as in
+        `solve_rough_point_film` with Swift-Stieber cavitation, and `oil_pressure`, `contact_load` and `touching` of the
+        results have it. Bodies are elastic then. None: surfaces never touch; a film that would vanish has no solution.
     state : of a march with the same arguments, to go on from to the same bits.
     callback : called with the state after the first film and after every step.
 
@@ -117,6 +122,7 @@ def march_point_film(
     cells = SHAPE if shape is None else shape
     messages = _messages(schedule, at_times, contact_modulus, lubricant, cells, tolerance, extent)
     messages += start_messages(initial, initial_thickness) + _ball_messages(mass, velocity, initial_thickness)
+    messages += _contact_messages(least_film, contact_modulus)
     steady = initial is None and initial_thickness is None
     if not messages and steady and not any(_flow(schedule.speeds[0])):
         messages.append(
@@ -131,7 +137,7 @@ def march_point_film(
         schedule, at_times, float(contact_modulus), lubricant, None if both is None else tuple(both), thickness
     )
     operation = Operation(load, speeds, at_times, float(mass), None)
-    march = march_of(arguments, operation, (int(cells[0]), int(cells[1])), tolerance, checked_edges(extent))
+    march = march_of(arguments, operation, (int(cells[0]), int(cells[1])), tolerance, checked_edges(extent), least_film)
     heights = heights_at(
         roughness, Travel.over(schedule.times, lambda time: speed_vectors(speeds(time))), *march.points
     )
@@ -212,6 +218,16 @@ def _messages(
         check_arguments(1.0, (1.0, 1.0), contact_modulus, (1.0, 0.0), lubricant, shape, tolerance, extent)
     except InputError as error:
         messages += error.messages
+    return messages
+
+
+def _contact_messages(least_film: float | None, contact_modulus: float) -> list[str]:
+    """Return the mistakes in the film at which surfaces touch."""
+    messages = []
+    if least_film is not None and not is_positive(least_film):
+        messages.append(f"least_film: {least_film!r} must be positive and finite [m]")
+    if least_film is not None and math.isinf(contact_modulus):
+        messages.append("least_film: bodies that touch must be elastic; give a finite contact_modulus [Pa]")
     return messages
 
 
