@@ -17,10 +17,10 @@ import numpy as np
 from bem.grid import FloatArray
 from bem.lubrication import FilmSolution, Lubricant, solve_line_film
 from bem.lubrication.line.deflection import LineOperator
-from bem.lubrication.line.newton import State, newton
-from bem.lubrication.line.scales import scaled_problem
-from bem.lubrication.line.state import KeptSteady
-from bem.lubrication.line.steady import lowest_film
+from bem.lubrication.line.newton import LineState, newton
+from bem.lubrication.line.problem import scaled_problem
+from bem.lubrication.line.state import FilmState
+from bem.lubrication.line.steady import parabolic_minimum
 from bem.numerics.monotone import MonotoneCubic
 from bem.reference_solutions.line_film import dowson_higginson_minimum, moes_central
 
@@ -75,19 +75,19 @@ def similarity_case(load: float, piezo: float) -> tuple[dict[str, object], float
 def nested_films(film: FilmSolution, levels: int) -> list[tuple[float, float]]:
     """(minimum, central) film in Moes' unit on the film's mesh and on it split again and again."""
     kept = film.state
-    assert isinstance(kept, KeptSteady)
+    assert isinstance(kept, FilmState)
     problem = scaled_problem(kept.scales, kept.load, film.lubricant)
     state = kept.state
     found = [_measures(state)]
     for _ in range(levels):
         half = np.arange(2 * len(state.offset) - 1) / 2
         nodes: FloatArray = MonotoneCubic(np.arange(len(state.offset), dtype=float), state.offset)(half)
-        start = State(
+        start = LineState(
             nodes,
             LineOperator.of(nodes),
             np.interp(nodes, state.offset, state.pressure),
             np.exp(np.interp(nodes, state.offset, np.log(state.film))),
-            state.datum,
+            state.rigid_separation,
             state.exit,
         )
         state = newton(problem, start, 1e-9).state
@@ -95,8 +95,8 @@ def nested_films(film: FilmSolution, levels: int) -> list[tuple[float, float]]:
     return found
 
 
-def _measures(state: State) -> tuple[float, float]:
-    return lowest_film(state.position, state.film), float(MonotoneCubic(state.position, state.film)(0.0))
+def _measures(state: LineState) -> tuple[float, float]:
+    return parabolic_minimum(state.position, state.film), float(MonotoneCubic(state.position, state.film)(0.0))
 
 
 def film_row(load: float, piezo: float) -> Row:

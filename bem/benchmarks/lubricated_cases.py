@@ -51,16 +51,16 @@ def line_film(points: float, dense: bool = False) -> Timed:
 
 def _work(film: FilmSolution, dense: bool) -> dict[str, float]:
     """Millions of multiplications for Newton's equations on the last mesh, and megabytes of their weights."""
-    from bem.lubrication.line.elimination import BORDER
-    from bem.lubrication.line.state import KeptSteady
+    from bem.lubrication.line.linear import BORDER
+    from bem.lubrication.line.state import FilmState
 
-    assert isinstance(film.state, KeptSteady)
+    assert isinstance(film.state, FilmState)
     operator = film.state.state.operator
     nodes = len(operator.nodes)
     if dense or not operator.hierarchical:
         return {"megaflop": (nodes**3 / 3 + 4 * nodes**2) / 1e6, "weights_MB": 8e-6 * nodes**2}
     leaves, size = 2**operator.depth, operator.leaf
-    ranks = [level.short + 1 for level in operator.levels]
+    ranks = [level.coarse_rank + 1 for level in operator.levels]
     columns = BORDER + sum(ranks)
     work = leaves * (size**3 / 3 + size**2 * (columns + 3))
     for level, rank in zip(reversed(operator.levels), reversed(ranks), strict=True):

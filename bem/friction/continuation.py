@@ -16,7 +16,7 @@ from bem.friction.film import PatchFilm
 from bem.friction.setup import MixedSetup
 from bem.friction.solution import MixedSolution
 from bem.lubrication import FilmSolution
-from bem.lubrication.line.state import without_equations
+from bem.lubrication.line.state import without_factors
 
 LARGEST_START = 0.999
 """Largest fraction of the load with which a first film is solved."""
@@ -58,7 +58,7 @@ def start_for_next_speed(
     solution = whole.solution
     if not isinstance(solution, FilmSolution):
         return start
-    film = dataclasses.replace(whole, solution=without_equations(solution))
+    film = dataclasses.replace(whole, solution=without_factors(solution))
     return dataclasses.replace(start, whole_film=film)
 
 

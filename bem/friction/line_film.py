@@ -1,7 +1,7 @@
 """Film model of a line contact: every film is solved when the balance requests it, on a coarse or on the wanted mesh.
 
-Films come from `bem.lubrication.line.steady.line_film`, with heat from `bem.lubrication.thermal.model`. Warm starts:
-the film of the nearest load of the same balance, or a film of a similar case. Verified in
+Films come from `bem.lubrication.solve.solve_case`. Warm starts: the film of the nearest load of the same balance, or a
+film of a similar case. Verified in
 tests/friction/test_balance.py and test_continuation.py.
 """
 
@@ -20,11 +20,9 @@ from bem.grid import FloatArray
 from bem.lubrication import FilmSolution, PointFilmSolution
 from bem.lubrication.checks import THINNEST_FILM
 from bem.lubrication.line.case import MOES_LOADS, LineCase, load_range
-from bem.lubrication.line.interpolation import on_mesh_of
-from bem.lubrication.line.scales import line_scales
-from bem.lubrication.line.state import without_equations
-from bem.lubrication.line.steady import line_film
-from bem.lubrication.thermal.model import film_with_heat
+from bem.lubrication.line.problem import line_scales
+from bem.lubrication.line.state import interpolate_to_mesh, without_factors
+from bem.lubrication.solve import solve_case
 
 BALANCE_POINTS = 400
 """Nodes of the coarse mesh, on which the balance is first looked for."""
@@ -81,10 +79,8 @@ def solved_line_film(
         initial=initial,
         flow_factors=contact.flow_factors,
     )
-    if heat is None:
-        return line_film(replace(case, tolerance=tolerance), position=position, supply=contact.supply)
-    unheated = {"position": position is not None, "supply": contact.supply is not None and heat.model == "full"}
-    return film_with_heat(case, heat, contact.supply, unheated)
+    case = case if heat is not None else replace(case, tolerance=tolerance)
+    return solve_case(case, heat, position=position, supply=contact.supply)
 
 
 @dataclass(frozen=True, eq=False)
@@ -142,7 +138,7 @@ class SolvedLineFilm:
             and on_known_mesh is not None
             and len(on_known_mesh.position) == points != len(initial.position)
         ):
-            initial = on_mesh_of(initial, on_known_mesh)
+            initial = interpolate_to_mesh(initial, on_known_mesh)
         film = solved_line_film(self.contact, self.speeds, load, points, initial=initial, tolerance=tolerance)
         return self.sampled(film, load)
 
@@ -156,7 +152,7 @@ class SolvedLineFilm:
 
         The factorised equations are dropped, because the entries of a table are too far apart to start from them.
         """
-        return without_equations(solved_line_film(self.contact, self.speeds, load, self.points, initial=initial))
+        return without_factors(solved_line_film(self.contact, self.speeds, load, self.points, initial=initial))
 
     def solved(self, load: float) -> FilmSolution:
         """Solve the film under a load [N] on the wanted mesh."""

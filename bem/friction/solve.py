@@ -31,7 +31,7 @@ from bem.friction.solution import MixedSolution
 from bem.grid import FloatArray, Grid
 from bem.lubrication import FilmSolution, Lubricant, PointFilmSolution
 from bem.lubrication.flow_factors import WallFactors
-from bem.lubrication.line.state import without_equations
+from bem.lubrication.line.state import without_factors
 from bem.lubrication.supply import Supply
 from bem.materials import Body
 from bem.notes import Note
@@ -341,7 +341,7 @@ def _returned_film(film: SolvedFilms, shared: SharedLoad) -> FilmSolution | Poin
         assert isinstance(film, SolvedLineFilm)
         negligible = balance.regime is Regime.BOUNDARY
         solution = film.resampled(balance.film, setup.film_position, negligible=negligible)
-    return without_equations(solution) if isinstance(solution, FilmSolution) else solution
+    return without_factors(solution) if isinstance(solution, FilmSolution) else solution
 
 
 def _film_on_patch(film: PatchFilm, setup: MixedSetup) -> PatchFilm:

@@ -1,4 +1,4 @@
-"""What happens to the oil where the film ruptures."""
+"""Models of cavitation: what happens to the oil where the film ruptures."""
 
 from __future__ import annotations
 
@@ -13,10 +13,11 @@ class Cavitation(Enum):
     Attributes
     ----------
     SWIFT_STIEBER : Reynolds' equation or no pressure, a complementarity (Swift 1932, Stieber 1933). Oil behind the
-        rupture is forgotten: a film that forms again is supplied with as much as it can take.
+        rupture is not tracked: a film that forms again has as much oil as it can take.
     MASS_CONSERVING : Jakobsson and Floberg (1957), Olsson (1965), in the form of Elrod and Adams (1974): where there is
-        no pressure, a fraction of the gap is filled and carried along, nowhere is oil made or lost. Rupture is Swift
-        and Stieber's; a film forms again where the fraction reaches one, with a step in pressure gradient.
+        no pressure, a fraction of the gap is filled and carried along; mass is conserved everywhere. The rupture is
+        that of Swift and Stieber. A film forms again where the fraction reaches one, with a step in the pressure
+        gradient.
     """
 
     SWIFT_STIEBER = "swift_stieber"
@@ -24,7 +25,7 @@ class Cavitation(Enum):
 
 
 def cavitation_of(value: object) -> Cavitation:
-    """The model, or the one of that name.
+    """Return the model, or the model of that name.
 
     Raises
     ------

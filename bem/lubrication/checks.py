@@ -1,6 +1,6 @@
-"""Where a film's model is outside its validity: one list of small checks, each of which returns a note or None.
+"""Checks of the validity of a film's model: each is a small function that returns a note or None.
 
-To add one, write a function of a `Case`, enter it in `CHECKS` and its kind of note in `bem.notes.lubrication`.
+To add a check, write a function of a `Case`, enter it in `CHECKS`, and its note in `bem.notes.lubrication`.
 """
 
 from __future__ import annotations
@@ -36,41 +36,44 @@ LARGEST_SHEAR_COEFFICIENT = 0.12
 LARGEST_AMBIENT_STRENGTH = 5e6
 """Largest shear strength at ambient pressure that was measured [Pa]; Hoglund and Jacobson (1986)."""
 LOAD_AT_THE_LIMIT = 0.1
-"""Share of the load over the places where the limit holds, from which it is the limit that sets the friction."""
+"""Share of the load over places at the limiting stress, above which the limit decides the friction."""
 NEAR_THE_LIMIT = 0.89
 """Stress over limit from which a law that joins its limit smoothly is at it: its own stress is beyond the limit."""
 SHARP_SPIKE = 0.7
-"""A spike whose neighbouring node has less than this of its pressure is not resolved: on finer meshes its height then
-changed by 2 % to 30 %, and by less than 1 % where the neighbour had more."""
+"""Pressure of the node next to a spike over the pressure of the spike, below which the spike is not resolved: its
+height then changes by 2 % to 30 % on finer meshes."""
 LEAST_INLET_FACTOR = 0.9
+"""Film with inlet heating over the film without, below which the heating is noted."""
 LARGEST_HEATING = 10.0
-"""[K]: a mineral oil then has lost a third of its viscosity."""
+"""Temperature rise [K] above which heating by sliding is noted: a mineral oil then has lost a third of its
+viscosity."""
 LARGEST_MATERIAL = 200.0
-"""Moes' L up to which a film is looked for: eight times that of the stiffest oils under hard bodies at speed."""
+"""Largest Moes number L that is accepted: eight times that of the stiffest oils between hard bodies at speed."""
 GLASS = 1e12
-"""[Pa s]: viscosity at which a liquid is said to be a glass (Angell, Science 267 (1995) 1924)."""
+"""Viscosity of a glass [Pa s]; C. A. Angell, *Science* 267 (1995) 1924."""
 LARGEST_FILM = 0.02
-"""Film over radius up to which the model holds: 15 films of gap, where the pressure begins, are reached at 0.77 of the
-radius there."""
+"""Film over radius up to which the model holds: the gap where pressure begins, 15 films, is then 0.77 of the radius
+upstream."""
 THINNEST_FILM = 2e-9
-"""[m]: four or five molecules; oil is layered below about 5 nm, Chan and Horn, J. Chem. Phys. 83 (1985) 5311."""
+"""Film [m] of four or five molecules; oil is layered below about 5 nm, D. Y. C. Chan and R. G. Horn, *J. Chem. Phys.*
+83 (1985) 5311."""
 OIL_CONDUCTIVITY = 0.13
-"""Of mineral oil [W/(m K)]."""
+"""Thermal conductivity of mineral oil [W/(m K)]."""
 OIL_SOFTENING = 0.04
 """-d ln(viscosity)/dT of mineral oil [1/K]."""
 STEEL_EFFUSIVITY = 1.3e4
-"""sqrt(conductivity x density x heat capacity) of bearing steel [W s^0.5/(m^2 K)]: 46 W/(m K), 7850 kg/m^3,
-470 J/(kg K)."""
+"""Thermal effusivity sqrt(k rho c) of bearing steel [W s^0.5/(m^2 K)], with 46 W/(m K), 7850 kg/m^3 and 470 J/(kg
+K)."""
 
 
 @dataclass(frozen=True)
 class Case:
-    """A film on the mesh that it was solved on.
+    """A film on its own mesh, as the checks need it.
 
     position, pressure, thickness : (n,) [m], [Pa], [m]. speeds : of flat and cylinder [m/s]. lubricant : the oil.
-    radius : [m]. contact_modulus : [Pa], infinite for rigid bodies. reduction : by a supply, of the film.
-    hot_stress : of a film with heat, mu (u1 - u2)/h at its temperatures (n,) [Pa]. not_found : of the last iterate of a
-    film that was not found, the note that says why; None of a film that was found.
+    radius : [m]. contact_modulus : [Pa], infinite for rigid bodies. reduction : of the film by its supply.
+    hot_stress : mu (u1 - u2)/h at the temperatures of a film with heat (n,) [Pa]; None without heat.
+    not_found : note with the reason why the film was not found; None of a film that was found.
     """
 
     position: FloatArray
@@ -95,13 +98,13 @@ class Case:
 
     @cached_property
     def sliding_stress(self) -> FloatArray:
-        """The same, as the oil carries it [Pa]."""
+        """Stress of the shear law at `newtonian_stress` [Pa]."""
         if self.hot_stress is not None:
             return self.newtonian_stress
         return self.lubricant.shear_stress(self.newtonian_stress, self.pressure)
 
     def integral(self, values: FloatArray) -> float:
-        """Of values at the nodes over x."""
+        """Return the integral over x of values at the nodes."""
         return float(np.trapezoid(values, self.position))
 
 
@@ -111,7 +114,8 @@ def film_not_found(case: Case) -> Note | None:
 
 
 def why_not_found(oil: Lubricant, hertz: float, otherwise: Note) -> Note:
-    """Return why no film was found, by oil and Hertz' pressure [Pa], infinite for rigid bodies; else `otherwise`."""
+    """Return the reason why no film was found, by oil and Hertz pressure [Pa], infinite for rigid bodies; else
+    `otherwise`."""
     if math.isinf(hertz) and oil.log_viscosity_ratio(np.zeros(1))[1][0] > 0:
         return FILM_NOT_FOUND(reason="rigid-spike")
     if math.isfinite(hertz) and oil.viscosity_at(np.array([hertz]))[0] > GLASS:
@@ -120,7 +124,7 @@ def why_not_found(oil: Lubricant, hertz: float, otherwise: Note) -> Note:
 
 
 def why_no_line_film(oil: Lubricant, load: float, radius: float, contact_modulus: float) -> Note:
-    """Return why no line film was found, its load per unit length [N/m], radius [m] and modulus [Pa]."""
+    """Return the reason why no line film was found: load per unit length [N/m], radius [m], modulus [Pa]."""
     hertz = math.inf
     if math.isfinite(contact_modulus):
         hertz = contact_modulus * hertz_over_modulus(load, radius, contact_modulus)
@@ -128,7 +132,7 @@ def why_no_line_film(oil: Lubricant, load: float, radius: float, contact_modulus
 
 
 def shear_beyond_measurements(case: Case) -> Note | None:
-    """The shear stress is larger than any oil was seen to carry."""
+    """Return a note if the shear stress exceeds every measured strength."""
     if (case.sliding_stress <= LARGEST_AMBIENT_STRENGTH + LARGEST_SHEAR_COEFFICIENT * case.pressure).all():
         return None
     return SHEAR_BEYOND_MEASURED(
@@ -137,7 +141,7 @@ def shear_beyond_measurements(case: Case) -> Note | None:
 
 
 def shear_at_the_limit(case: Case) -> Note | None:
-    """The friction is the limit's."""
+    """Return a note if the limiting stress decides the friction."""
     if case.lubricant.shear_law.softens:
         cut = case.sliding_stress > NEAR_THE_LIMIT * case.lubricant.limiting_stress(case.pressure)
     else:
@@ -154,7 +158,8 @@ def shear_at_the_limit(case: Case) -> Note | None:
 
 
 def film_slips(case: Case) -> Note | None:
-    """Where the oil slips is not known, and the film depends on it."""
+    """Return a note if the oil slips at the limiting stress, where the film depends on the unknown place of the
+    slip."""
     if not case.lubricant.shears_film or abs(case.speeds[0] - case.speeds[1]) <= abs(sum(case.speeds)) / 2:
         return None
     if shear_at_the_limit(case) is None:
@@ -163,13 +168,16 @@ def film_slips(case: Case) -> Note | None:
 
 
 def _load_share(case: Case, where: NDArray[np.bool_]) -> float:
-    """Share of the load over the places (as the pressure) where something holds."""
+    """Return the share of the load over marked places, shaped like the pressure."""
     return float(case.integral(np.where(where, case.pressure, 0.0)) / max(case.integral(case.pressure), 1e-300))
 
 
 def viscosity_beyond_range(case: Case) -> Note | None:
-    """The viscosity law is used at pressures that it was not made for: of elastic bodies under a share of the load that
-    is more than a spike's, which holds up to 5 % of it at many times Hertz' pressure, as high as the mesh makes it."""
+    """Return a note if the viscosity law is used beyond its pressures.
+
+    Between elastic bodies this counts above 10 % of the load; a spike holds up to 5 % of it at many times the Hertz
+    pressure, as high as the mesh makes it.
+    """
     oil, largest = case.lubricant, case.lubricant.viscosity_law.largest_pressure
     beyond = case.pressure > largest
     spike = math.isfinite(case.contact_modulus) and _load_share(case, beyond) < LOAD_AT_THE_LIMIT
@@ -186,7 +194,7 @@ def _glass(oil: Lubricant) -> Note:
 
 
 def check_oil(lubricant: Lubricant, unit: float) -> None:
-    """Refuse an oil that no pressure lets flow, with Moes' unit of pressure [Pa].
+    """Refuse an oil that hardly flows under pressure. unit : Moes' unit of pressure [Pa].
 
     Raises
     ------
@@ -202,7 +210,7 @@ def check_oil(lubricant: Lubricant, unit: float) -> None:
 
 
 def spike_unresolved(case: Case) -> Note | None:
-    """The height of the pressure spike is the mesh's."""
+    """Return a note if the mesh decides the height of the pressure spike."""
     p = case.pressure
     inner = p[1:-1]
     peaks = (inner > p[:-2]) & (inner >= p[2:]) & (inner > 0.2 * p.max(initial=0.0))
@@ -249,14 +257,15 @@ def film_heating(case: Case) -> Note | None:
 
 
 def molecular_film(case: Case) -> Note | None:
-    """The film is a few molecules thick."""
+    """Return a note if the film is a few molecules thick."""
     if case.thickness.min() >= THINNEST_FILM:
         return None
     return FILM_MOLECULAR(limit=THINNEST_FILM)
 
 
 def film_thick_for_radius(case: Case) -> Note | None:
-    """The film is too thick for a parabola and for Reynolds' equation: slopes in the inlet are near one."""
+    """Return a note if the film is too thick for a parabola and for Reynolds' equation: slopes in the inlet approach
+    one."""
     if case.not_found is not None or not case.thickness.min() > LARGEST_FILM * case.radius:
         return None
     return FILM_THICK(limit=LARGEST_FILM)

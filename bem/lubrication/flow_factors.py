@@ -1,11 +1,14 @@
-"""Flow between rough walls in Reynolds' equation of line and point contacts: Patir and Cheng's factors in its units.
+"""Flow factors of rough walls in Reynolds' equation (Patir and Cheng), for line and point contacts, in units of its
+solvers.
 
     q = -phi_x h^3/(12 mu) dp/dx + (u1 + u2)/2 (h + k s phi_s),    k = (u1 - u2)/(u1 + u2) x share,
 
-for roughness on wall 1 (share 1), wall 2 (-1) or both ((s1^2 - s2^2)/s^2): J. Lubr. Technol. 101 (1979) 220. What makes
-pressure is the change of h + k s phi_s: where phi_s falls as h grows, roughness on the faster wall thins the film. In
-the plane phi_y has its part in what the pressure drives along y; both walls move along x.
-Knows curves and numbers; `bem.flow` makes them. Verified in tests/lubrication/test_rough_walls.py and
+for roughness on wall 1 (share 1), wall 2 (-1) or both ((s1^2 - s2^2)/s^2): N. Patir and H. S. Cheng, *J. Lubr.
+Technol.* 100 (1978) 12 and 101 (1979) 220. Pressure follows from the change of h + k s phi_s: where phi_s falls as h
+grows, roughness on the faster wall thins the film. In the plane phi_y is the factor of the Poiseuille flow along y;
+both walls move along x.
+
+Knows curves and numbers; `bem.flow` computes tables. Verified in tests/lubrication/test_rough_walls.py and
 tests/lubrication/point/test_rough_point.py.
 """
 
@@ -25,21 +28,21 @@ from bem.notes.lubrication import FACTORS_EXTRAPOLATED
 
 Curve = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
 LEAST_FACTOR = 1e-4
-"""Pressure flow factors are kept from below at this: where contact bars all flow the film is what is dragged along, and
-Newton's equations still have a pressure in them."""
+"""Lower bound of pressure flow factors: where contact bars all flow the film is carried by Couette flow, and Newton's
+equations still contain the pressure."""
 
 
 @runtime_checkable
 class WallFactors(Protocol):
-    """What a table of flow factors must offer: `bem.FlowFactors` does. Curves give a factor and its slope [1/m]."""
+    """Interface of a table of flow factors; `bem.FlowFactors` has it. Curves return a factor and its slope [1/m]."""
 
     @property
     def separations(self) -> FloatArray:
-        """Where the table has values, rising [m]."""
+        """Separations of the table, ascending [m]."""
 
     @property
     def rms_height(self) -> float:
-        """s [m]."""
+        """Rms height s of both walls together [m]."""
 
     @property
     def wall_share(self) -> float:
@@ -56,7 +59,7 @@ class WallFactors(Protocol):
 
 @runtime_checkable
 class PlaneWallFactors(WallFactors, Protocol):
-    """What it must offer for films in the plane besides."""
+    """Interface of a table for films in the plane."""
 
     @property
     def pressure_y_curve(self) -> Curve:
@@ -65,7 +68,10 @@ class PlaneWallFactors(WallFactors, Protocol):
 
 @dataclass(frozen=True)
 class RoughWalls:
-    """Factors of films in the unit `film` [m]; `drag` is k s in that unit."""
+    """Flow factors along x, of films in units.
+
+    film : unit of films [m]. drag : k s in that unit.
+    """
 
     pressure_curve: Curve
     shear_curve: Curve
@@ -74,18 +80,18 @@ class RoughWalls:
 
     @classmethod
     def of(cls, factors: WallFactors, film: float, speeds: Sequence[float]) -> RoughWalls:
-        """In the unit of films `film` [m], for speeds (u1, u2)."""
+        """Return the factors for films in the unit `film` [m] and speeds (u1, u2)."""
         sliding = (speeds[0] - speeds[1]) / (speeds[0] + speeds[1])
         drag = sliding * factors.wall_share * factors.rms_height / film
         return cls(factors.pressure_x_curve, factors.shear_x_curve, film, float(drag))
 
-    def cube(self, thickness: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """phi_x h^3 and half its derivative."""
+    def poiseuille_cube(self, thickness: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return phi_x h^3 and half its derivative."""
         value, slope = _bounded(self.pressure_curve, thickness, self.film)
         return value * thickness**3, 0.5 * (3 * value * thickness**2 + slope * thickness**3)
 
-    def dragged(self, thickness: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """h + k s phi_s and its derivative."""
+    def couette_film(self, thickness: FloatArray) -> tuple[FloatArray, FloatArray]:
+        """Return h + k s phi_s and its derivative."""
         if self.drag == 0:
             return thickness, np.ones_like(thickness)
         value, slope = self.shear_curve(thickness * self.film)
@@ -94,21 +100,22 @@ class RoughWalls:
 
 @dataclass(frozen=True)
 class PlaneWalls:
-    """Factors of films in the plane: what goes along x, and the curve of what pressure drives along y."""
+    """Flow factors of films in the plane: along x, and the curve of phi_y."""
 
     along: RoughWalls
     across_curve: Curve
 
     def on(self, thickness: FloatArray) -> FloatArray:
-        """Of films (nx, ny) in their unit (6, nx, ny): phi_x, phi_y and h + k s phi_s, each with its derivative."""
+        """Return phi_x, phi_y and h + k s phi_s with their derivatives, (6, nx, ny), for films (nx, ny) in their
+        unit."""
         along = _bounded(self.along.pressure_curve, thickness, self.along.film)
         across = _bounded(self.across_curve, thickness, self.along.film)
-        return np.stack([*along, *across, *self.along.dragged(thickness)])
+        return np.stack([*along, *across, *self.along.couette_film(thickness)])
 
 
 def plane_walls_of(factors: WallFactors | str, film: float, speeds: Sequence[Sequence[float]]) -> PlaneWalls | None:
-    """The walls of a film in the plane in the unit `film` [m], for speeds ((u1x, u1y), (u2x, u2y)); None where factors
-    are "off".
+    """Return the flow factors of a film in the plane, in the unit `film` [m], for speeds ((u1x, u1y), (u2x, u2y)); None
+    for "off".
 
     Raises
     ------
@@ -125,14 +132,14 @@ def plane_walls_of(factors: WallFactors | str, film: float, speeds: Sequence[Seq
 
 
 def _bounded(curve: Curve, thickness: FloatArray, film: float) -> tuple[FloatArray, FloatArray]:
-    """A pressure flow factor, kept from below, and its derivative with the film in its unit [m]."""
+    """Return a pressure flow factor, bounded from below, and its derivative with the film in its unit [m]."""
     value, slope = curve(thickness * film)
     low = value < LEAST_FACTOR
     return np.where(low, LEAST_FACTOR, value), np.where(low, 0.0, slope * film)
 
 
 def walls_of(factors: WallFactors | str, film: float, speeds: Sequence[float]) -> RoughWalls | None:
-    """The walls of a film in the unit `film` [m]; None where factors are "off".
+    """Return the flow factors of a line film in the unit `film` [m]; None for "off".
 
     Raises
     ------
@@ -146,7 +153,7 @@ def walls_of(factors: WallFactors | str, film: float, speeds: Sequence[float]) -
 
 
 def notes_on_factors(factors: WallFactors | str, thinnest: float) -> tuple[Note, ...]:
-    """Return a note where a film needs factors that its table does not hold; `thinnest` : its thinnest place [m]."""
+    """Return a note where the film is thinner than the table of its flow factors; `thinnest` is its minimum [m]."""
     if isinstance(factors, str):
         return ()
     if float(factors.pressure_x_curve(np.array([thinnest]))[0][0]) <= LEAST_FACTOR:

@@ -1,4 +1,4 @@
-"""The result of a line-contact film solve, and what follows from it: shear stress and friction."""
+"""Result of a line-contact film: pressure, thickness, forces, and shear stress derived from them."""
 
 from __future__ import annotations
 
@@ -17,11 +17,11 @@ from bem.numerics.monotone import MonotoneCubic
 from bem.representation import readable
 
 
-class KeptFilm(Protocol):
-    """A film as its solver left it: it may be looked at anywhere, and the solver that made it may start from it."""
+class SampledState(Protocol):
+    """State that a solver leaves in a result, for resampling and warm starts."""
 
     def sample(self, position: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Pressure [Pa] and thickness [m] at any positions [m]."""
+        """Return pressure [Pa] and thickness [m] at any positions [m]."""
 
 
 @readable
@@ -91,16 +91,17 @@ class FilmSolution:
     maximum_temperature: float | None = None
     sliding_stress: FloatArray | None = None
     heat: HeatedFilm | None = field(default=None, repr=False, compare=False)
-    state: KeptFilm | None = field(default=None, repr=False, compare=False)
+    state: SampledState | None = field(default=None, repr=False, compare=False)
 
     def shear_stress(self, position: FloatArray | None = None) -> FloatArray:
-        """Shear stress tau + (h/2) dp/dx on the flat in the full film [Pa], zero in the cavitated exit.
+        """Return the shear stress tau + (h/2) dp/dx on the flat in the full film [Pa], zero in the cavitated exit.
 
-        tau is the stress in the middle of the film: what the oil's shear law makes of mu (u1 - u2)/h, or of the whole
-        profile where the oil's `film_rheology` is "shear_law". The second part follows from equilibrium of the oil
-        across the film whatever its shear law, so it stays; of an oil with "newtonian" film it has no limit, and next
-        to a wall the sum may exceed that of tau by it. It acts along -x. At the solution's own positions, or
-        interpolated linearly at others [m]. Of a film with heat it is that at the oil's temperatures.
+        tau is the stress in the middle of the film: the shear law at mu (u1 - u2)/h, or the stress of the whole profile
+        where the oil's `film_rheology` is "shear_law"; with heat it is that at the temperatures of the oil. The second
+        part follows from equilibrium across the film whatever the shear law, so it has no limit: next to a wall the
+        stress of an oil with "newtonian" film may exceed the limit of tau by it. The stress acts along -x.
+
+        position : [m], at which to interpolate linearly; the positions of the solution by default.
         """
         difference = self.speeds[0] - self.speeds[1]
         full = self.pressure > 0
@@ -115,7 +116,7 @@ class FilmSolution:
         return stress if position is None else np.interp(position, self.position, stress, left=0.0, right=0.0)
 
     def at(self, position: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Pressure [Pa] and thickness [m] at positions [m]: anywhere for a steady film, else within its mesh.
+        """Return pressure [Pa] and thickness [m] at positions [m]: anywhere for a steady film, else within its mesh.
 
         Raises
         ------

@@ -108,7 +108,7 @@ def _slipping(law: Sheared, slip: FloatArray, half: FloatArray, limit: FloatArra
 
 
 @dataclass(frozen=True)
-class Driven:
+class EquivalentGradient:
     """The pressure gradient that would drive as much of a Newtonian oil, on cells (n,), with its derivatives: with the
     true gradient, the film, the mean fluidity and the pressure."""
 
@@ -119,10 +119,10 @@ class Driven:
     by_pressure: FloatArray
 
 
-def newtonian(gradient: FloatArray) -> Driven:
+def newtonian(gradient: FloatArray) -> EquivalentGradient:
     """Of a Newtonian oil."""
     none = np.zeros_like(gradient)
-    return Driven(gradient, np.ones_like(gradient), none, none, none)
+    return EquivalentGradient(gradient, np.ones_like(gradient), none, none, none)
 
 
 @dataclass(frozen=True)
@@ -142,7 +142,9 @@ class ShearFlow:
         """With thinning as at a share of all stresses; the smaller, the more Newtonian."""
         return replace(self, sliding=share * self.sliding, half_stress=share * self.half_stress)
 
-    def driven(self, gradient: FloatArray, film: FloatArray, fluidity: FloatArray, pressure: FloatArray) -> Driven:
+    def equivalent_gradient(
+        self, gradient: FloatArray, film: FloatArray, fluidity: FloatArray, pressure: FloatArray
+    ) -> EquivalentGradient:
         """What pressure drives through cells of these gradients, films, mean fluidities and pressures."""
         fluidity = np.maximum(fluidity, LEAST_FLUIDITY)  # beyond it products would leave floating point
         unit = self.half_stress * film
@@ -151,7 +153,7 @@ class ShearFlow:
         found = shear_profile(self.law, newtonian, unit * gradient, limit)
         value = found.moment / unit
         by_sliding = found.by_newtonian * newtonian / unit
-        return Driven(
+        return EquivalentGradient(
             gradient=value,
             by_gradient=found.by_half,
             by_film=(found.by_half * gradient - by_sliding - value) / film,

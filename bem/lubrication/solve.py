@@ -1,20 +1,28 @@
-"""Steady film of a line contact, without heat or with it: the public function, which chooses the solver."""
+"""Public function of steady line films, and the one place that chooses between no heat, lumped and full heat.
+
+1. `solve_line_film` checks the arguments and adds notes on unusual values.
+2. `solve_case` solves the film: without heat `line.steady.line_film`; with heat `thermal.lumped` or `thermal.full`,
+   which are imported only then, and which refuse what they do not solve.
+
+Verified in tests/lubrication/test_line_film_steady.py, test_thermal_film.py and test_full_thermal.py.
+"""
 
 from __future__ import annotations
 
 from collections.abc import Sequence
 from dataclasses import replace
 
+from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.lubrication.cavitation import Cavitation, cavitation_of
 from bem.lubrication.flow_factors import WallFactors
 from bem.lubrication.line.case import LineCase
-from bem.lubrication.line.state import without_equations
+from bem.lubrication.line.state import without_factors
 from bem.lubrication.line.steady import line_film
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.results import FilmSolution
 from bem.lubrication.supply import Supply, checked_supply
-from bem.lubrication.thermal.model import FilmHeat, film_with_heat
+from bem.lubrication.thermal.model import HEAT, FilmHeat
 from bem.materials import Body
 from bem.notes import Note
 from bem.plausibility import body_arguments, lubricant_arguments, notes_on_arguments
@@ -94,20 +102,57 @@ def solve_line_film(
         load, radius, contact_modulus, speeds, lubricant, points, tolerance, initial, max_iterations, flow_factors
     )
     said = _notes_on_arguments(case, bodies, bulk)
-    if thermal == "off":
-        film = without_equations(line_film(case, position=position, cavitation=cavitation, supply=supply))
-        return replace(film, notes=said + film.notes)
-    case.scaled(position)
-    own = {"position": position is not None, "supply": supply is not None and thermal == "full"}
-    own["mass-conserving cavitation"] = cavitation is not Cavitation.SWIFT_STIEBER
-    film = film_with_heat(case, FilmHeat(thermal, bodies or (), bulk=bulk), supply, own)
+    heat = None if thermal == "off" else FilmHeat(thermal, bodies or (), bulk=bulk)
+    film = without_factors(solve_case(case, heat, position=position, cavitation=cavitation, supply=supply))
     return replace(film, notes=said + film.notes)
+
+
+def solve_case(
+    case: LineCase,
+    heat: FilmHeat | None = None,
+    *,
+    position: FloatArray | None = None,
+    cavitation: Cavitation = Cavitation.SWIFT_STIEBER,
+    supply: Supply | None = None,
+) -> FilmSolution:
+    """Solve the steady film of a case, with the model of heat that is asked for.
+
+    Without heat the result keeps its factored equations, for the next similar film.
+
+    Raises
+    ------
+    InputError : as `solve_line_film`; with heat, an unknown model, no bodies, or options that heat excludes.
+    """
+    if heat is None:
+        return line_film(case, position=position, cavitation=cavitation, supply=supply)
+    case.scaled(position)
+    unheated = {
+        "position": position is not None,
+        "supply": supply is not None and heat.model == "full",
+        "mass-conserving cavitation": cavitation is not Cavitation.SWIFT_STIEBER,
+    }
+    messages = []
+    if heat.model not in HEAT:
+        allowed = ", ".join(f'"{name}"' for name in ("off", *HEAT))
+        messages.append(f"solve_line_film: thermal {heat.model!r} is not there; allowed: {allowed}")
+    if not heat.bodies:
+        messages.append("solve_line_film: with heat, bodies (flat, cylinder) with heat constants must be given")
+    messages += [f"solve_line_film: {name} cannot be given with heat" for name, given in unheated.items() if given]
+    if messages:
+        raise InputError(messages)
+    from bem.lubrication.thermal import full, lumped
+
+    if heat.model == "full":
+        sizes = round(heat.mesh * full.COLUMNS), round(heat.mesh * full.LAYERS)
+        return full.full_thermal_film(case, heat.bodies, heat.bulk, *sizes).as_film()
+    cells = round(heat.mesh * lumped.CELLS)
+    return lumped.thermal_film(case, heat.bodies, heat.bulk, cells, supply).as_film()
 
 
 def _notes_on_arguments(
     case: LineCase, bodies: Sequence[Body] | None, bulk: Sequence[float] | None
 ) -> tuple[Note, ...]:
-    """Notes on arguments outside their usual ranges; InputError of those that are none."""
+    """Return notes on arguments outside their usual ranges; raise InputError for invalid arguments."""
     case.scaled()
     arguments = {
         "load": ("load per unit length", case.load),

@@ -1,7 +1,7 @@
-"""How much oil reaches a contact, and what is said of a film that gets less than it would take.
+"""Supplies of oil to a contact, and the starvation that they cause.
 
-Supplies are small frozen dataclasses given to `solve_line_film` and `solve_point_film`; the solvers are in
-`line.starved` and `point.starved`. Verified in tests/lubrication/test_supply.py and point/test_point_supply.py.
+Supplies are small frozen dataclasses given to `solve_line_film` and `solve_point_film`; the solvers are `line.starved`
+and `point.starved`. Verified in tests/lubrication/test_supply.py and point/test_point_supply.py.
 """
 
 from __future__ import annotations
@@ -15,9 +15,12 @@ from bem.errors import InputError
 
 @dataclass(frozen=True)
 class OilLayer:
-    """Oil that the surfaces bring along: `thickness` [m] of both layers together, as if all of it moved at the mean
-    speed: (u1 h1 + u2 h2) / ((u1 + u2)/2). All of it goes through a line contact, or as much as a flooded one takes;
-    of a point contact some goes around."""
+    """A layer of oil on the surfaces.
+
+    thickness : of both layers together [m], as if all oil moved at the mean speed: (u1 h1 + u2 h2) / ((u1 + u2)/2).
+
+    All of it passes through a line contact, or as much as a flooded contact takes; some flows around a point contact.
+    """
 
     thickness: float
 
@@ -27,7 +30,7 @@ class OilLayer:
 
 @dataclass(frozen=True)
 class InletDistance:
-    """Where the gap begins to be full: a meniscus at `distance` [m] upstream of the axis, beyond Hertz' contact."""
+    """A meniscus at `distance` [m] upstream of the axis, beyond the Hertz contact, where the gap begins to be full."""
 
     distance: float
 
@@ -40,12 +43,15 @@ Supply = OilLayer | InletDistance
 
 @dataclass(frozen=True)
 class Starvation:
-    """What a supply makes of a film.
+    """Effect of a supply on a film.
 
-    meniscus_position : where the gap begins to be full [m]; infinite, upstream, of a flooded contact. layer : oil that
-    goes through, as `OilLayer.thickness` [m]. reduction : central thickness over that of the flooded contact.
-    flooded_layer : what a flooded contact would take [m]. Of a point contact the first is on the line through its
-    middle, negative along the entrainment, and both layers are what goes through the middle.
+    meniscus_position : where the gap begins to be full [m]; infinite, upstream, of a flooded contact.
+    layer : oil that passes, as `OilLayer.thickness` [m].
+    reduction : central thickness over that of the flooded contact.
+    flooded_layer : oil that a flooded contact would take [m].
+
+    In a point contact the first is on the line through the centre, negative along the entrainment, and both layers are
+    those that pass through the centre.
     """
 
     meniscus_position: float
@@ -60,7 +66,7 @@ class Starvation:
 
 
 def checked_supply(supply: object) -> Supply | None:
-    """The supply; a number is the thickness of a layer [m].
+    """Return the supply; a number is the thickness of a layer [m].
 
     Raises
     ------
@@ -76,7 +82,7 @@ def checked_supply(supply: object) -> Supply | None:
 
 
 def inside_hertz(supply: InletDistance, half_width: float) -> str:
-    """What to say of a meniscus that Hertz' half-width [m] reaches."""
+    """Return the message about a meniscus inside the Hertz half-width [m]."""
     return (
         f"supply: a meniscus {supply.distance!r} m before the axis is inside Hertz' contact; allowed: more than its "
         f"half-width {half_width:.4g} m"

@@ -1,4 +1,12 @@
-"""Steps in time of any film: BDF2 weights, steps that are halved where they do not converge, what is asked for."""
+"""Time stepping of any film: BDF2 with adaptive halving, the loop over the output times, and checks of the schedule.
+
+1. `march` goes from each output time to the next and reports its state, from which it can be resumed.
+2. `advance` takes one step; a step that does not converge is split into two halves, recursively.
+3. `Derivative` has the coefficients of the backward differentiation formula of second order for unequal steps (first
+   order for the first step), L-stable.
+
+Verified in tests/lubrication/test_line_film_transient.py and point/test_point_march.py.
+"""
 
 from __future__ import annotations
 
@@ -14,17 +22,18 @@ from bem.errors import InputError, Status
 from bem.grid import FloatArray
 
 MAX_HALVINGS = 8
+"""Largest number of times that a step is halved."""
 
 Film = TypeVar("Film")
 Speeds = Sequence[float] | Sequence[Sequence[float]]
 
 
 class Solved(Protocol):
-    """What is said of a film at a time."""
+    """Result of a film at a time."""
 
     @property
     def status(self) -> Status:
-        """Return True if it was found."""
+        """Outcome of the step."""
 
     @property
     def iterations(self) -> int:
@@ -36,7 +45,7 @@ Solution = TypeVar("Solution", bound=Solved)
 
 @dataclass(frozen=True)
 class Reached(Generic[Film]):
-    """A time [s] and the film there; the time and film a step earlier, None at the start."""
+    """A time [s] and the film there, with the time and film of the step before; None at the start."""
 
     time: float
     film: Film
@@ -45,7 +54,7 @@ class Reached(Generic[Film]):
 
 @dataclass(frozen=True)
 class Derivative:
-    """The derivative at the end of a step, leading * value + history(values before)."""
+    """Time derivative at the end of a step: leading * value + history(earlier values)."""
 
     leading: float
     step: float
@@ -54,7 +63,7 @@ class Derivative:
 
     @staticmethod
     def at(reached: Reached[Any], time: float, clock: float) -> Derivative:
-        """To a time, with the unit of time [s]: of second order (BDF2) but for the first step."""
+        """Return the coefficients for a step to a time, in units of `clock` [s]."""
         step = (time - reached.time) / clock
         if reached.earlier is None:
             return Derivative(1 / step, step, -1.0, 0.0)
@@ -62,7 +71,7 @@ class Derivative:
         return Derivative((1 + 2 * ratio) / (1 + ratio) / step, step, -(1 + ratio), ratio**2 / (1 + ratio))
 
     def history(self, reached: Reached[Film], value: Callable[[Film], Any]) -> Any:
-        """What the film reached and the one before it add."""
+        """Return the contribution of the earlier values."""
         if reached.earlier is None:
             return self.now * value(reached.film) / self.step
         return (self.now * value(reached.film) + self.before * value(reached.earlier[1])) / self.step
@@ -74,7 +83,8 @@ Step = Callable[[Reached[Film], float], tuple[Film, Solution]]
 def advance(
     step: Step[Film, Solution], at: Reached[Film], time: float, depth: int = 0
 ) -> tuple[Reached[Film], Solution]:
-    """One step to a time, or as many halves as it takes; where that is not enough, the solution is not converged."""
+    """Take one step to a time, or as many halves as it needs; where that is not enough, the solution has another
+    status."""
     film, solution = step(at, time)
     if solution.status is Status.CONVERGED or depth == MAX_HALVINGS:
         return Reached(time, film, (at.time, at.film)), solution
@@ -88,8 +98,11 @@ def advance(
 
 @dataclass(frozen=True, eq=False)
 class MarchState(Generic[Film, Solution]):
-    """All that the next step needs: where the march is, the films so far, and the steady film that it set out from
-    where it looked for one."""
+    """State from which a march goes on.
+
+    steady : steady film that the march began with; None where the first film was given.
+    reached : time and film so far. solutions : results at the output times so far.
+    """
 
     steady: Solution | None
     reached: Reached[Film]
@@ -102,7 +115,8 @@ def march(
     to: Callable[[Reached[Film], float], tuple[Reached[Film], Solution]],
     tell: Callable[[MarchState[Film, Solution]], None],
 ) -> list[Solution]:
-    """From a state to the last of all times, or to the first that is not converged; told of every step."""
+    """March from a state to the last output time, or to the first result that did not converge; `tell` gets every
+    state."""
     for time in times[len(state.solutions) :]:
         if state.solutions[-1].status is not Status.CONVERGED:
             break
@@ -114,7 +128,7 @@ def march(
 
 @dataclass(frozen=True)
 class Schedule:
-    """The times asked for (n,) [s], with the loads and the speeds of both surfaces [m/s] at them."""
+    """Output times (n,) [s], with the loads and the speeds of both surfaces [m/s] at them."""
 
     times: FloatArray
     loads: list[float]
@@ -122,7 +136,12 @@ class Schedule:
 
 
 def schedule_of(times: FloatArray, load: Callable[[float], float], speeds: Callable[[float], Any]) -> Schedule:
-    """What acts at each of the times; refuses times that do not ascend and what is no function."""
+    """Return loads and speeds at the output times.
+
+    Raises
+    ------
+    InputError : times that do not ascend, or a load or speeds that are no functions.
+    """
     steps = np.asarray(times, dtype=np.float64)
     if steps.ndim != 1 or len(steps) < 2 or not np.isfinite(steps).all() or not (np.diff(steps) > 0).all():
         raise InputError("times: must be at least two finite, ascending times [s]")
@@ -132,7 +151,7 @@ def schedule_of(times: FloatArray, load: Callable[[float], float], speeds: Calla
 
 
 def load_messages(schedule: Schedule, unit: str) -> list[str]:
-    """What is wrong with loads."""
+    """Return messages about invalid loads."""
     return first_of(
         [
             f"load: {w!r} at time {t:g} s must be positive and finite [{unit}]"
@@ -143,13 +162,13 @@ def load_messages(schedule: Schedule, unit: str) -> list[str]:
 
 
 def first_of(messages: Sequence[str]) -> list[str]:
-    """One message for one mistake that is there at several times: that of the first."""
+    """Return the first of several equal mistakes, with the number of the others."""
     more = f" (and at {len(messages) - 1} more of the times)" if len(messages) > 1 else ""
     return [one + more for one in messages[:1]]
 
 
 def start_messages(initial: object, initial_thickness: float | None) -> list[str]:
-    """What is wrong with the film to start from."""
+    """Return messages about the first film."""
     messages = []
     if initial is not None and initial_thickness is not None:
         messages.append("initial, initial_thickness: give one of them")

@@ -15,7 +15,7 @@ import numpy as np
 
 from bem import Lubricant, solve_line_film
 from bem.grid import FloatArray
-from bem.lubrication.line.scales import Scales, line_scales, scaled_problem
+from bem.lubrication.line.problem import Scales, line_scales, scaled_problem
 
 STEPS, SHORTEST, SETTLED, BALANCED = 60, 1e-4, 1e-9, 1e-7
 """Newton steps, the least part of one that is taken, the change of pressures that ends them, and what they may leave of

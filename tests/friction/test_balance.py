@@ -385,10 +385,10 @@ def test_steep_balances_take_few_evaluations():
 def test_what_lies_on_the_way_is_solved_no_better_than_the_balance_needs(monkeypatch):
     """Coarse films and contacts under them: fewer Newton steps and convolutions, and the same point."""
     spent = {"steps": 0.0, "convolutions": 0.0}
-    solve_film, press = film_model.line_film, rough_model.solve_contact
+    solve_film, press = film_model.solve_case, rough_model.solve_contact
 
-    def counted_film(case, **asked):
-        film = solve_film(case, **asked)
+    def counted_film(case, heat, **asked):
+        film = solve_film(case, heat, **asked)
         spent["steps"] += film.iterations
         return film
 
@@ -397,7 +397,7 @@ def test_what_lies_on_the_way_is_solved_no_better_than_the_balance_needs(monkeyp
         spent["convolutions"] += contact.convolutions
         return contact
 
-    monkeypatch.setattr(film_model, "line_film", counted_film)
+    monkeypatch.setattr(film_model, "solve_case", counted_film)
     monkeypatch.setattr(rough_model, "solve_contact", counted_contact)
     case = CASE | {"film_points": 800, "contact_tolerance": 1e-8, "tolerance": 1e-6}
     found = []

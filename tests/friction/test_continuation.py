@@ -16,8 +16,7 @@ from bem.friction.setup import MixedSetup
 from bem.lubrication.line import deflection as line_kernel
 from bem.lubrication.line import linear as line_linear
 from bem.lubrication.line.case import LineCase
-from bem.lubrication.line.interpolation import on_mesh_of
-from bem.lubrication.line.state import without_equations
+from bem.lubrication.line.state import interpolate_to_mesh, without_factors
 from bem.lubrication.line.steady import line_film
 
 OIL = Lubricant(0.36, pressure_viscosity=25e-9)
@@ -99,34 +98,34 @@ def test_a_curve_in_full_film_makes_weights_twice(monkeypatch):
 
 
 @pytest.mark.internal
-def test_a_film_next_to_one_is_found_without_taking_equations_apart(monkeypatch):
+def test_a_film_next_to_another_is_found_by_chord_steps_alone(monkeypatch):
     near = line_film(LineCase(**FILM, speeds=(0.05, 0.0)))
     taken = []
-    usual = line_linear.eliminate
-    monkeypatch.setattr(line_linear, "eliminate", lambda *given: (taken.append(1), usual(*given))[1])
+    usual = line_linear.factorise
+    monkeypatch.setattr(line_linear, "factorise", lambda *given: (taken.append(1), usual(*given))[1])
     changed = FILM | {"load": 300.3}
     film = solve_line_film(**changed, speeds=(0.05, 0.0), initial=near)
     assert not taken
     assert film.status is Status.CONVERGED
     assert film.residual <= 1e-8
-    bare = solve_line_film(**changed, speeds=(0.05, 0.0), initial=without_equations(near))
+    bare = solve_line_film(**changed, speeds=(0.05, 0.0), initial=without_factors(near))
     assert taken
     np.testing.assert_allclose(film.thickness, bare.thickness, rtol=1e-7)  # residuals of 1e-8 of the film
     np.testing.assert_allclose(film.pressure, bare.pressure, atol=1e-6 * bare.pressure.max())
 
 
-def test_equations_are_not_kept_with_a_curve(curve):
+def test_a_curve_keeps_no_factored_equations(curve):
     for point in curve:
-        assert point.film.state.state.linear is None
-        assert point.film.state.flooded.linear is None
-        assert point.continuation.whole_film.solution.state.state.linear is None
+        assert point.film.state.state.factored is None
+        assert point.film.state.flooded.factored is None
+        assert point.continuation.whole_film.solution.state.state.factored is None
 
 
 @pytest.mark.internal
 def test_a_film_on_the_mesh_of_another_is_itself():
     coarse = solve_line_film(**FILM, speeds=(0.05, 0.0), points=400)
     other = solve_line_film(**FILM, speeds=(0.08, 0.0), points=1500)
-    start = on_mesh_of(coarse, other)
+    start = interpolate_to_mesh(coarse, other)
     state, mesh = start.state.state, other.state.state
     assert state.operator.nodes is mesh.operator.nodes  # its weights are known
     inside = (state.position > 2 * coarse.state.state.position[0] / 3) & (state.position < 0)
@@ -136,7 +135,7 @@ def test_a_film_on_the_mesh_of_another_is_itself():
     found = solve_line_film(**FILM, speeds=(0.05, 0.0), points=1500, initial=start)
     own = solve_line_film(**FILM, speeds=(0.05, 0.0), points=1500)
     assert found.minimum_thickness == pytest.approx(own.minimum_thickness, rel=2e-4)
-    assert on_mesh_of(coarse, dataclasses.replace(other, state=None)) is coarse
+    assert interpolate_to_mesh(coarse, dataclasses.replace(other, state=None)) is coarse
 
 
 @pytest.mark.internal
@@ -182,8 +181,8 @@ def test_equations_are_not_kept_in_a_table():
     table = FilmTable(films_of(setup, (0.02, 0.0)), load=setup.load)
     for index in range(3):
         assert table.entry(index).status is Status.CONVERGED
-        assert table.entry(index).state.state.linear is None
-        assert table.entry(index).state.flooded.linear is None
+        assert table.entry(index).state.state.factored is None
+        assert table.entry(index).state.flooded.factored is None
 
 
 @pytest.mark.parametrize("speeds", [SPEEDS[3::-1], [0.02, 0.5, 0.003], [0.02, 0.02], [1e-6, 0.05]])

@@ -13,7 +13,8 @@ from bem.errors import InputError, Status
 from bem.heat.bodies import Conductor
 from bem.lubrication import Lubricant, solve_full_thermal_line_film, solve_line_film, solve_thermal_line_film
 from bem.lubrication.density import DowsonHigginson
-from bem.lubrication.line.temperatures import middles
+from bem.lubrication.inlet_heating import inlet_heating_factor
+from bem.lubrication.line.state import layer_centres
 from bem.lubrication.shear import Newtonian
 from bem.lubrication.thermal import coupling
 from bem.lubrication.thermal.columns import Strip
@@ -88,7 +89,7 @@ def test_layers_are_dowsons_integrals():
     dragged = 1 - slide * centre
     missed = []
     for layers in (16, 32):
-        found = HotFilm.of(hot, profile(middles(layers))[None], cold, slide, 1.0)
+        found = HotFilm.of(hot, profile(layer_centres(layers))[None], cold, slide, 1.0)
         missed.append(
             [np.exp(-found.log_viscosity(pressure)[0][0]) / driven - 1, found.drag(pressure)[0][0] / dragged - 1]
         )
@@ -145,7 +146,7 @@ def test_even_heat_makes_a_parabola():
     """q h/(8 k) in the middle between cold walls, exactly: both differences and wall flux are exact for parabolas."""
     place, heat = duct(8, 11), 1e8
     found = temperature_field(place, constant(8, 11, heat * place.width[0]), np.full((8, 13), 333.15))
-    s = middles(11)
+    s = layer_centres(11)
     expected = heat * 1e-6 / (8 * 0.13) * (1 - s**2)
     np.testing.assert_allclose(found.oil - 333.15, np.tile(expected, (8, 1)), rtol=1e-6)
     np.testing.assert_allclose(place.into_walls(found.temperature), heat * place.width[0] / 2, rtol=1e-9)
@@ -232,7 +233,7 @@ def test_the_field_is_that_of_a_march_along_the_film(slide, hertz, laws):
     gradient = np.gradient(pressure, x)
     lubricant, hot = found.film.lubricant, Oil.of(found.film.lubricant)
     start = int(np.searchsorted(found.position, -1.0e-4))
-    cells, s = 48, middles(48)
+    cells, s = 48, layer_centres(48)
     first = np.interp(s, 2 * found.height - 1, found.temperature[start])
     u1, u2 = found.film.speeds
 
@@ -456,6 +457,18 @@ def test_lumped_holds_where_heat_is_mild():
     assert lumped.shear_force == pytest.approx(whole.shear_force, rel=0.03)
     rise = whole.mean_film_temperature - 333.15
     assert lumped.mean_film_temperature - 333.15 == pytest.approx(rise, rel=0.2)
+
+
+@pytest.mark.parametrize("mean", [5.0, 20.0])
+def test_inlet_heating_factor_is_near_full_heat_in_pure_rolling(mean):
+    """A fit of others, not checked against its paper: 3 % below full heat at L = 0.17 and at 2.7."""
+    found = film(mean, 0.0)
+    cold = found.film.lubricant
+    hertz_ratio = 0.8e9 / MODULUS
+    constants = cold.viscosity, cold.temperature_viscosity, cold.thermal_conductivity
+    heating = inlet_heating_factor(*constants, found.film.speeds, hertz_ratio)
+    assert heating.factor < 0.95
+    assert heating.factor == pytest.approx(found.central_thickness / found.isothermal.central_thickness, abs=0.04)
 
 
 def test_friction_falls_at_high_sliding():

@@ -10,7 +10,7 @@ from scipy.optimize import brentq
 from test_full_thermal import duct, flat
 
 from bem.lubrication import Lubricant
-from bem.lubrication.line.temperatures import middles
+from bem.lubrication.line.state import layer_centres
 from bem.lubrication.shear import Carreau, Eyring, Newtonian
 from bem.lubrication.shear_profile import shear_profile
 from bem.lubrication.thermal.field import temperature_field
@@ -34,7 +34,7 @@ def fluidity(s):
 
 def layered(law, layers, newtonian, half):
     """Stress in the middle and driven flow over the Newtonian one's half stress."""
-    s = middles(layers)
+    s = layer_centres(layers)
     sums = sums_of(np.array([[fluidity(v) for v in s]]), np.ones((1, layers)))
     section = Section.of(law, sums, np.array([half]))
     mean = float(sums.mean[0])
@@ -71,7 +71,7 @@ def test_layers_against_quadrature(name, newtonian, half):
 def test_newtonian_layers_are_dowsons():
     """To rounding: mean and first moment of a stress that the law leaves alone."""
     layers = 9
-    sums = sums_of(np.array([[fluidity(v) for v in middles(layers)]]), np.linspace(1.0, 0.9, layers)[None])
+    sums = sums_of(np.array([[fluidity(v) for v in layer_centres(layers)]]), np.linspace(1.0, 0.9, layers)[None])
     section = Section.of(Newtonian(), sums, np.array([-1.0]))
     middle = section.middle_stress(np.array([3e6]), np.array([2e6]))
     found = section.moments(middle, np.array([2e6]))

@@ -9,8 +9,8 @@ from scipy.optimize import brentq
 
 from bem import InputError, Lubricant, Status, march_line_film, solve_line_film
 from bem.lubrication import Cavitation
-from bem.lubrication.line.reynolds import Problem
-from bem.lubrication.line.time_step import Film, mesh_of, step_of, time_step
+from bem.lubrication.line.problem import Problem
+from bem.lubrication.line.time_step import TransientState, build_step, mesh_from_nodes, time_step
 
 OIL = {"radius": 2e-3, "contact_modulus": 115.5e9, "lubricant": Lubricant(0.36, pressure_viscosity=25e-9)}
 LOAD = 5.5 / 6e-3
@@ -25,11 +25,11 @@ def slider(film, cells, cavitation, entrainment=1.0):
     x = np.linspace(0, 1, cells + 1)
     if entrainment < 0:
         film = film[::-1]
-    mesh = mesh_of(x, film, np.zeros((cells + 1, cells + 1)))
+    mesh = mesh_from_nodes(x, film, np.zeros((cells + 1, cells + 1)))
     ones = np.ones(cells + 1)
-    start = Film(0 * ones, film, 0.0, film, ones.astype(bool), ones)
+    start = TransientState(0 * ones, film, 0.0, film, ones.astype(bool), ones)
     problem = Problem(math.inf, constant(0.0, 0.0), constant(1.0, 0.0))
-    return mesh, time_step(step_of(problem, mesh, entrainment, 0.0, 0 * x, cavitation), start, 1e-11, 200)
+    return mesh, time_step(build_step(problem, mesh, entrainment, 0.0, 0 * x, cavitation), start, 1e-11, 200)
 
 
 def two_waves(x):

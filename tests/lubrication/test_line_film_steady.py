@@ -20,7 +20,7 @@ from bem.lubrication.line import steady
 from bem.lubrication.line.case import LineCase
 from bem.lubrication.line.friction import rolling_upstream
 from bem.lubrication.line.newton import newton
-from bem.lubrication.line.steady import lowest_film
+from bem.lubrication.line.steady import parabolic_minimum
 from bem.notes.lubrication import FILM_NOT_FOUND
 from bem.reference_solutions import line_film
 from bem.reference_solutions.line_film import MartinFilm, dowson_higginson_minimum, moes_central
@@ -209,9 +209,9 @@ def test_reynolds_and_elasticity_hold_by_plain_quadrature():
     deflection = -2 / (np.pi * THESIS["contact_modulus"]) * (log @ line)
     expected = targets**2 / (2 * THESIS["radius"]) + deflection
     actual = np.interp(targets, x, h)
-    datum = actual - expected
+    rigid_separation = actual - expected
     # the undetermined datum is the only difference
-    np.testing.assert_allclose(datum, datum.mean(), rtol=0, atol=2e-3 * film.minimum_thickness)
+    np.testing.assert_allclose(rigid_separation, rigid_separation.mean(), rtol=0, atol=2e-3 * film.minimum_thickness)
 
 
 def test_both_bodies_feel_the_same_force():
@@ -333,8 +333,8 @@ def test_results_carry_no_equations_and_who_goes_on_at_once_keeps_them():
     """Megabytes that only a start next to a film needs; the film is the same to the last bit."""
     case = THESIS | {"speeds": (0.003, 0.0), "points": 1000}
     result, working = solve_line_film(**case), steady.line_film(LineCase(**case))
-    assert working.state.state.linear is not None
-    assert result.state.state.linear is result.state.flooded.linear is None
+    assert working.state.state.factored is not None
+    assert result.state.state.factored is result.state.flooded.factored is None
     assert len(pickle.dumps(result)) < 0.7 * len(pickle.dumps(working))
     np.testing.assert_array_equal(result.pressure, working.pressure)
     near = THESIS | {"speeds": (0.00301, 0.0), "points": 1000}
@@ -422,9 +422,9 @@ def test_a_sharp_spike_that_moves_costs_few_steps(monkeypatch, load, piezo):
 @pytest.mark.internal
 def test_no_minimum_film_is_below_zero():
     x = np.array([0.0, 1.0, 2.0])
-    assert lowest_film(x, (x - 1.2) ** 2 + 0.1) == pytest.approx(0.1, rel=1e-12)  # a parabola; rounding
+    assert parabolic_minimum(x, (x - 1.2) ** 2 + 0.1) == pytest.approx(0.1, rel=1e-12)  # a parabola; rounding
     # a film that stalled, as one at M 9999 on 100 points: its parabola is at -0.11, whose logarithm ended a case
-    assert lowest_film(x, np.array([1.0, 0.01, 0.02])) == 0.01
+    assert parabolic_minimum(x, np.array([1.0, 0.01, 0.02])) == 0.01
 
 
 def test_requested_positions():
@@ -561,8 +561,8 @@ def test_pressure_upstream_of_a_mesh_alone_makes_none():
     state = solve_line_film(**THESIS, speeds=(0.1, 0.0), points=400).state.state
     pressure = np.where(state.offset < 0.5 * state.offset[0], 1.0, 0.0)
     bad = replace(state, exit=0.01 * state.exit, film=1e-4 * state.film, pressure=pressure)
-    assert line_newton.is_start(state)
-    assert not line_newton.is_start(bad)
+    assert line_newton.is_usable_start(state)
+    assert not line_newton.is_usable_start(bad)
 
 
 @pytest.mark.parametrize("speeds", [(1.0, 0.9), (-1.0, -0.9)])

@@ -12,8 +12,7 @@ import bem.lubrication.line.newton as line_newton
 from bem import solve_line_film
 from bem.benchmarks.line_film import similarity_case
 from bem.lubrication.line.deflection import LineOperator, logarithmic_integral, logarithmic_weights
-from bem.lubrication.line.elimination import eliminate
-from bem.lubrication.line.equations import by_film
+from bem.lubrication.line.linear import factorise, film_terms
 
 
 def graded(cells):
@@ -71,7 +70,7 @@ def test_hierarchical_product_is_the_dense_one(cells):
     # the cross approximation's tolerance is 1e-11 of a block
     np.testing.assert_allclose(operator @ pressure, dense, rtol=0, atol=1e-10 * np.abs(dense).max())
     stretched = LineOperator.of(3.7 * graded(cells))
-    np.testing.assert_allclose(operator.stretched(3.7) @ pressure, stretched @ pressure, rtol=1e-9)
+    np.testing.assert_allclose(operator.rescale(3.7) @ pressure, stretched @ pressure, rtol=1e-9)
 
 
 @pytest.mark.internal
@@ -106,19 +105,19 @@ def test_any_allowed_number_of_points_gives_the_film():
 )
 def test_hierarchical_newton_steps_are_the_dense_ones(monkeypatch, load, piezo, density, rough, allowed):
     compared = []
-    plain = line_newton.solve
+    plain = line_newton.solve_newton_step
 
     def both(operator, equations):
         if operator.hierarchical:
             right = equations.right.copy()
-            right[:-1] += by_film(equations, equations.mismatch)
-            one = eliminate(operator, equations).solve(right)
-            other = line_linear._dense(operator, equations, right)
+            right[:-1] += film_terms(equations, equations.mismatch)
+            one = factorise(operator, equations).solve(right)
+            other = line_linear._solve_dense(operator, equations, right)
             compared.append(float(np.abs(one - other).max() / np.abs(other).max()))
         return plain(operator, equations)
 
-    monkeypatch.setattr(line_newton, "solve", both)
-    monkeypatch.setattr(line_kernel, "ROUGH_TOLERANCE", rough)
+    monkeypatch.setattr(line_newton, "solve_newton_step", both)
+    monkeypatch.setattr(line_kernel, "NEWTON_CROSS_TOLERANCE", rough)
     case, _ = similarity_case(load, piezo)
     oil = dataclasses.replace(case["lubricant"])
     oil = type(oil)(oil.viscosity, pressure_viscosity=oil.pressure_viscosity, density_law=density)
@@ -133,24 +132,24 @@ def test_dense_equations_stand_in_where_the_hierarchical_ones_fail(monkeypatch):
     case, _ = similarity_case(3, 2)
     monkeypatch.setattr(line_newton, "CHORDS", -1)  # of hierarchical equations alone
     right = solve_line_film(**case, points=401)
-    monkeypatch.setattr(line_linear.Elimination, "solve", lambda elimination, right: np.zeros_like(right))
+    monkeypatch.setattr(line_linear.BorderedFactors, "solve", lambda factors, right: np.zeros_like(right))
     film = solve_line_film(**case, points=401)
     assert film.iterations == right.iterations
     assert film.minimum_thickness == pytest.approx(right.minimum_thickness, rel=1e-9)  # rounding, conditioned
 
 
 @pytest.mark.internal
-def test_last_steps_take_the_equations_of_the_one_before(monkeypatch):
-    """The same film, the last steps to it without taking the equations apart."""
+def test_last_steps_are_chord_steps(monkeypatch):
+    """The same film; its last steps take the factored equations of an earlier step."""
     case, _ = similarity_case(10, 5)
     taken = []
-    plain = line_linear.eliminate
+    plain = line_linear.factorise
 
     def counted(operator, equations):
         taken.append(len(operator.nodes))
         return plain(operator, equations)
 
-    monkeypatch.setattr(line_linear, "eliminate", counted)
+    monkeypatch.setattr(line_linear, "factorise", counted)
 
     def films():
         first = solve_line_film(**case, points=2000)

@@ -70,7 +70,7 @@ def test_derivatives(table):
     walls = RoughWalls.of(table, 1e-8, (1.0, 0.2))
     h = np.array([3.0, 7.7, 21.0, 44.0, 130.0])
     step = 1e-5
-    for function, share in ((walls.cube, 2.0), (walls.dragged, 1.0)):
+    for function, share in ((walls.poiseuille_cube, 2.0), (walls.couette_film, 1.0)):
         difference = (function(h + step)[0] - function(h - step)[0]) / (2 * step)
         assert share * function(h)[1] == pytest.approx(difference, rel=1e-6)
 

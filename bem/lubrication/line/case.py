@@ -1,4 +1,4 @@
-"""What is asked of a steady line film: the case, its checks, and the loads for which a film is looked for."""
+"""Arguments of a steady line film, their checks, and the range of loads with a film."""
 
 from __future__ import annotations
 
@@ -13,19 +13,18 @@ from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.lubrication.checks import check_oil
 from bem.lubrication.flow_factors import WallFactors, walls_of
-from bem.lubrication.line.reynolds import Problem
-from bem.lubrication.line.scales import Scales, line_scales, scaled_problem
+from bem.lubrication.line.problem import Problem, Scales, line_scales, scaled_problem
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.results import FilmSolution
 
 MOES_LOADS = (1e-5, 3e5)
-"""Loads M for which a film is looked for. Up to the last films of L = 0 to 10 converge and are independent of the mesh
-within 0.05 % (`tests/lubrication/test_line_film_steady.py`)."""
+"""Smallest and largest load M that is accepted. Films converge there for L from 0 to 10, independent of the mesh within
+0.05 % (tests/lubrication/test_line_film_steady.py)."""
 
 
 @dataclass(frozen=True)
 class LineCase:
-    """A film that is asked for, with what it is solved from and how well; all as of `solve_line_film`."""
+    """Arguments of a steady line film; all fields as of `bem.lubrication.solve_line_film`."""
 
     load: float
     radius: float
@@ -39,11 +38,13 @@ class LineCase:
     flow_factors: WallFactors | str = "off"
 
     def scaled(self, position: FloatArray | None = None) -> tuple[Scales, bool]:
-        """Moes' units, and whether the entrainment is along -x.
+        """Check the arguments; return Moes' units, and True if the entrainment is along -x.
+
+        position : abscissae at which the film is to be returned [m], checked too.
 
         Raises
         ------
-        InputError : with a message for each mistake, those of the `position` to return a film at too.
+        InputError : with one message per mistake.
         """
         messages = []
         for name, value, unit in (("load", self.load, "N/m"), ("radius", self.radius, "m")):
@@ -86,14 +87,14 @@ class LineCase:
         return scales, entrainment < 0
 
     def problem(self, scales: Scales) -> Problem:
-        """What is solved in Moes' units, between the walls of the flow factors."""
+        """Return the similarity problem with the flow factors of the case."""
         walls = walls_of(self.flow_factors, scales.film, self.speeds)
         sliding = float(self.speeds[0]) - float(self.speeds[1])
         return scaled_problem(scales, scales.load, self.lubricant, walls, sliding)
 
 
 def check_entrainment(speeds: Sequence[float]) -> float:
-    """The sum of a pair of speeds [m/s].
+    """Return the sum of a pair of speeds [m/s].
 
     Raises
     ------
@@ -114,9 +115,9 @@ def check_entrainment(speeds: Sequence[float]) -> float:
 def load_range(
     radius: float, contact_modulus: float, speeds: Sequence[float], lubricant: Lubricant
 ) -> tuple[float, float]:
-    """Smallest and largest load per unit length [N/m] for which `solve_line_film` looks for a film.
+    """Return the smallest and the largest load per unit length [N/m] that `solve_line_film` accepts.
 
-    Below the smallest the same film is that of rigid bodies (contact_modulus = math.inf), for which any load will do.
+    A smaller load has the film of rigid bodies (contact_modulus = math.inf), for which any load is accepted.
     """
     if math.isinf(contact_modulus):
         return 0.0, math.inf
@@ -126,7 +127,7 @@ def load_range(
 
 
 def check_speeds(speeds: Sequence[float]) -> list[str]:
-    """Messages about a pair of speeds."""
+    """Return messages about a pair of speeds."""
     try:
         first, second = speeds
         if math.isfinite(first) and math.isfinite(second):

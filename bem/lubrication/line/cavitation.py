@@ -1,7 +1,7 @@
-"""The two models of a ruptured film, as what one time step asks of them.
+"""The two models of a ruptured film, as complementarity problems of one time step.
 
-Pressure is complementary to the void that opens (Swift and Stieber), or to the empty fraction of the gap, which is
-carried along (Jakobsson, Floberg, Olsson).
+Swift and Stieber: the pressure is complementary to the void that opens. Mass-conserving (Jakobsson and Floberg 1957,
+Olsson 1965): the pressure is complementary to the empty fraction of the gap, which is carried along.
 """
 
 from __future__ import annotations
@@ -21,124 +21,134 @@ Indices = NDArray[np.intp]
 
 @dataclass(frozen=True)
 class Iterate:
-    """Pressure, film, datum and filled fraction of the gap at the nodes."""
+    """Iterate of a time step: pressure, film and filled fraction of the gap at the nodes (n+1,), and H0."""
 
     pressure: FloatArray
     film: FloatArray
-    datum: float
+    rigid_separation: float
     fraction: FloatArray
 
 
-class Rupture(Protocol):
-    """What a model of the ruptured film decides. `scaled` is the excess of the volumes' balances by their own scale,
-    `share` the pressure over its largest, `full` which nodes carry pressure."""
+class CavitationModel(Protocol):
+    """Decisions that differ between the models.
 
-    def start(self, fraction: FloatArray) -> FloatArray:
-        """The filled fraction to begin with, of that at the last time; a copy."""
+    Common arguments: `scaled` is the excess of the balances over their scale, `relative_pressure` the pressure over its
+    maximum, `full` the active set of nodes with pressure.
+    """
 
-    def measure(self, film: FloatArray) -> FloatArray:
-        """The film that a volume's balance is measured by."""
+    def initial_fraction(self, fraction: FloatArray) -> FloatArray:
+        """Return the filled fraction at the start of a step, from that at the last time; a copy."""
 
-    def carrying(self, share: FloatArray, fraction: FloatArray, scaled: FloatArray) -> Nodes:
-        """Nodes that should carry pressure."""
+    def reference_film(self, film: FloatArray) -> FloatArray:
+        """Return the film by which the balance of a volume is divided."""
 
-    def violations(self, share: FloatArray, fraction: FloatArray, scaled: FloatArray, full: Nodes) -> list[float]:
-        """By how much balance and complementarity are missed."""
+    def active_set(self, relative_pressure: FloatArray, fraction: FloatArray, scaled: FloatArray) -> Nodes:
+        """Return the nodes that should carry pressure."""
 
-    def balanced(self, full: Nodes) -> Indices:
-        """Nodes whose volumes balance."""
+    def violations(
+        self, relative_pressure: FloatArray, fraction: FloatArray, scaled: FloatArray, full: Nodes
+    ) -> list[float]:
+        """Return the violations of balance and complementarity."""
 
-    def empty(self, full: Nodes) -> Indices:
-        """Nodes whose fraction is unknown."""
+    def balanced_nodes(self, full: Nodes) -> Indices:
+        """Return the nodes whose volumes balance."""
 
-    def filling(self, fraction: FloatArray, full: Nodes) -> FloatArray:
-        """What nodes that enter the film are filled by."""
+    def partly_filled_nodes(self, full: Nodes) -> Indices:
+        """Return the nodes whose filled fraction is unknown."""
 
-    def leave(self, at: Iterate, density: FloatArray, mass: FloatArray, ends: tuple[int, int]) -> None:
-        """Fill the outlet, the first of two nodes at the end, as the one before it; in place."""
+    def fraction_change(self, fraction: FloatArray, full: Nodes) -> FloatArray:
+        """Return the change of the fraction at nodes that enter the full film."""
+
+    def fill_outlet(self, at: Iterate, density: FloatArray, mass: FloatArray, ends: tuple[int, int]) -> None:
+        """Fill the outlet, the first of the two nodes `ends`, like the node before it, in place."""
 
 
 class SwiftStieber:
-    """Reynolds' equation or no pressure; what is behind the rupture is forgotten."""
+    """Reynolds' equation or no pressure; oil behind the rupture is not tracked."""
 
-    def start(self, fraction: FloatArray) -> FloatArray:
-        """Full."""
+    def initial_fraction(self, fraction: FloatArray) -> FloatArray:
+        """Return full nodes."""
         return np.ones_like(fraction)
 
-    def measure(self, film: FloatArray) -> FloatArray:
-        """Its own."""
+    def reference_film(self, film: FloatArray) -> FloatArray:
+        """Return the film itself."""
         return film
 
-    def carrying(self, share: FloatArray, fraction: FloatArray, scaled: FloatArray) -> Nodes:
-        """A node carries pressure unless that vanishes and a void opens; both measured by their own scale."""
-        return np.asarray(share > scaled)
+    def active_set(self, relative_pressure: FloatArray, fraction: FloatArray, scaled: FloatArray) -> Nodes:
+        """Return the nodes with pressure, unless it vanishes and a void opens, both relative to their scales."""
+        return np.asarray(relative_pressure > scaled)
 
-    def violations(self, share: FloatArray, fraction: FloatArray, scaled: FloatArray, full: Nodes) -> list[float]:
-        """Balance where there is pressure, voids that shrink where there is none."""
+    def violations(
+        self, relative_pressure: FloatArray, fraction: FloatArray, scaled: FloatArray, full: Nodes
+    ) -> list[float]:
+        """Return the violation of the balance at nodes with pressure, and of shrinking voids at the others."""
         return [
             float(np.max(np.abs(scaled[full]), initial=0.0)),
             -float(np.where(full, 0.0, scaled)[1:-1].min(initial=0.0)),
         ]
 
-    def balanced(self, full: Nodes) -> Indices:
-        """Those with pressure."""
+    def balanced_nodes(self, full: Nodes) -> Indices:
+        """Return the nodes with pressure."""
         return np.flatnonzero(full)
 
-    def empty(self, full: Nodes) -> Indices:
-        """None."""
+    def partly_filled_nodes(self, full: Nodes) -> Indices:
+        """Return no nodes."""
         return np.arange(0)
 
-    def filling(self, fraction: FloatArray, full: Nodes) -> FloatArray:
-        """Nothing."""
+    def fraction_change(self, fraction: FloatArray, full: Nodes) -> FloatArray:
+        """Return zero."""
         return np.zeros(len(full))
 
-    def leave(self, at: Iterate, density: FloatArray, mass: FloatArray, ends: tuple[int, int]) -> None:
-        """Nothing is kept behind the film."""
+    def fill_outlet(self, at: Iterate, density: FloatArray, mass: FloatArray, ends: tuple[int, int]) -> None:
+        """Leave the outlet as it is."""
 
 
 class MassConserving:
     """A balance at every node; pressure or an empty fraction."""
 
-    def start(self, fraction: FloatArray) -> FloatArray:
-        """That of the last time."""
+    def initial_fraction(self, fraction: FloatArray) -> FloatArray:
+        """Return the fraction at the last time."""
         return fraction.copy()
 
-    def measure(self, film: FloatArray) -> FloatArray:
-        """What is carried through a ruptured gap is as thin as the exit, however wide the gap."""
+    def reference_film(self, film: FloatArray) -> FloatArray:
+        """Return the film, limited to ten times its minimum: the flow through a ruptured gap is as thin as the exit,
+        however wide the gap."""
         return np.minimum(film, 10 * film.min())
 
-    def carrying(self, share: FloatArray, fraction: FloatArray, scaled: FloatArray) -> Nodes:
-        """A node carries pressure unless that vanishes and the gap empties."""
-        return np.asarray(share > 1 - fraction)
+    def active_set(self, relative_pressure: FloatArray, fraction: FloatArray, scaled: FloatArray) -> Nodes:
+        """Return the nodes with pressure, unless it vanishes and the gap empties."""
+        return np.asarray(relative_pressure > 1 - fraction)
 
-    def violations(self, share: FloatArray, fraction: FloatArray, scaled: FloatArray, full: Nodes) -> list[float]:
-        """Balance everywhere, fractions above one, and the complementarity."""
+    def violations(
+        self, relative_pressure: FloatArray, fraction: FloatArray, scaled: FloatArray, full: Nodes
+    ) -> list[float]:
+        """Return the violations of the balance, of fractions up to one, and of the complementarity."""
         return [
             float(np.max(np.abs(scaled[1:-1]))),
             float(np.max(fraction[1:-1])) - 1,
-            float(np.max(np.abs(np.where(full, 1 - fraction, share))[1:-1])),
+            float(np.max(np.abs(np.where(full, 1 - fraction, relative_pressure))[1:-1])),
         ]
 
-    def balanced(self, full: Nodes) -> Indices:
-        """All but the ends."""
+    def balanced_nodes(self, full: Nodes) -> Indices:
+        """Return all nodes but the ends."""
         return np.arange(1, len(full) - 1)
 
-    def empty(self, full: Nodes) -> Indices:
-        """All but the ends that carry no pressure."""
-        return self.balanced(full)[~full[1:-1]]
+    def partly_filled_nodes(self, full: Nodes) -> Indices:
+        """Return the nodes without pressure, but not the ends."""
+        return self.balanced_nodes(full)[~full[1:-1]]
 
-    def filling(self, fraction: FloatArray, full: Nodes) -> FloatArray:
-        """All that is missing."""
+    def fraction_change(self, fraction: FloatArray, full: Nodes) -> FloatArray:
+        """Return the empty fraction of the nodes of the full film."""
         return np.where(full, 1 - fraction, 0.0)
 
-    def leave(self, at: Iterate, density: FloatArray, mass: FloatArray, ends: tuple[int, int]) -> None:
-        """What flows out is what came."""
+    def fill_outlet(self, at: Iterate, density: FloatArray, mass: FloatArray, ends: tuple[int, int]) -> None:
+        """Let the outlet carry the mass that arrives."""
         outlet, last = ends
         at.fraction[outlet] = min(mass[last] / (density[outlet] * at.film[outlet]), 1.0)
         mass[outlet] = at.fraction[outlet] * density[outlet] * at.film[outlet]
 
 
-RUPTURES: dict[Cavitation, Rupture] = {
+CAVITATION_MODELS: dict[Cavitation, CavitationModel] = {
     Cavitation.SWIFT_STIEBER: SwiftStieber(),
     Cavitation.MASS_CONSERVING: MassConserving(),
 }

@@ -1,4 +1,5 @@
-"""Friction force of a line-contact film."""
+"""Friction force of a steady line film: Couette and rolling part, the inlet upstream of the mesh and the streamers
+behind the exit."""
 
 from __future__ import annotations
 
@@ -11,38 +12,41 @@ import numpy as np
 from bem.grid import FloatArray
 from bem.lubrication.line.deflection import logarithmic_integral
 from bem.lubrication.line.linear import DEFLECTION
-from bem.lubrication.line.newton import State
-from bem.lubrication.line.scales import Scales
+from bem.lubrication.line.newton import LineState
+from bem.lubrication.line.problem import Scales
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.shear_profile import middle_stress
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(64)
 
 
-def upstream_of_mesh(state: State) -> tuple[float, float]:
-    """Integrals of 1/H and 1/H^2 upstream of the mesh, where H = X^2/2 + c with c small against X^2/2; upstream of a
-    meniscus the gap is not full, and they are zero."""
+def upstream_of_mesh(state: LineState) -> tuple[float, float]:
+    """Return the integrals of 1/H and 1/H^2 upstream of the mesh, where H = X^2/2 + c with small c; zero upstream of a
+    meniscus."""
     start = abs(float(state.position[0]))
     offset = float(state.film[0]) - 0.5 * start**2
     return state.far_field * 2 / start * (1 - 2 * offset / start**2 / 3), state.far_field * 4 / (3 * start**3)
 
 
 def rolling_part(thickness: FloatArray, pressure: FloatArray) -> float:
-    """Integral of h/2 dp/dx [N/m] of films (n,) [m] and pressures (n,) [Pa] on nodes, by trapezoids."""
+    """Return the integral of h/2 dp/dx [N/m] by the trapezoidal rule, of films (n,) [m] and pressures (n,) [Pa]."""
     return 0.25 * float(np.sum((thickness[1:] + thickness[:-1]) * np.diff(pressure)))
 
 
-def rolling_upstream(state: State) -> float:
-    """The same upstream of the mesh, where h^3/(12 mu) dp/dx is half (u1 + u2)(h - h_e), in units of pressure x film;
-    zero upstream of a meniscus."""
+def rolling_upstream(state: LineState) -> float:
+    """Return the integral of h/2 dp/dx upstream of the mesh, in units of pressure times film; zero upstream of a
+    meniscus.
+
+    There h^3/(12 mu) dp/dx = (u1 + u2)/2 (h - h_e).
+    """
     tail_1, tail_2 = upstream_of_mesh(state)
     return 3 * (tail_1 - float(state.film[-1]) * tail_2)
 
 
 @dataclass(frozen=True)
 class Friction:
-    """Forces per length of a film with positive entrainment [N/m]: in the full film, its rolling part, and with the
-    striated exit."""
+    """Forces per unit length of a film with positive entrainment [N/m]: in the full film, its rolling part, and with
+    the streamers behind the exit."""
 
     full: float
     rolling: float
@@ -50,13 +54,13 @@ class Friction:
 
 
 def friction_forces(
-    state: State,
+    state: LineState,
     scales: Scales,
     speeds: Sequence[float],
     reversed_: bool,
     lubricant: Lubricant,
 ) -> Friction:
-    """Of a steady film."""
+    """Return the friction forces of a steady film."""
     x, film = state.position, state.film
     pressure = np.maximum(state.pressure, 0.0)
     difference = (speeds[0] - speeds[1]) * (-1.0 if reversed_ else 1.0)
@@ -77,7 +81,7 @@ def friction_forces(
     near, far = 1e-6 * max(state.exit, math.sqrt(2 * film[-1])), 0.5 * span * (_NODES + 1)
     reach = np.concatenate([[0.0], near * np.exp(far)])
     behind = (
-        state.datum
+        state.rigid_separation
         + 0.5 * (state.exit + reach) ** 2
         - DEFLECTION * logarithmic_integral(reach, state.offset, state.pressure)
     )

@@ -1,4 +1,4 @@
-"""Steps in time of a line-contact film: the first film, one step to the next time, and what is said of it."""
+"""Time steps of a line-contact film: the first film, the step to the next time, and the result at a time."""
 
 from __future__ import annotations
 
@@ -15,10 +15,9 @@ from bem.lubrication.cavitation import Cavitation
 from bem.lubrication.checks import Case, notes_on, why_no_line_film
 from bem.lubrication.line.cavitation import Nodes
 from bem.lubrication.line.friction import rolling_part
-from bem.lubrication.line.reynolds import Problem
-from bem.lubrication.line.scales import Scales
-from bem.lubrication.line.steady import lowest_film
-from bem.lubrication.line.time_step import Film, FixedMesh, StepOutcome, elastic_film, step_of, time_step
+from bem.lubrication.line.problem import Problem, Scales
+from bem.lubrication.line.steady import parabolic_minimum
+from bem.lubrication.line.time_step import FixedMesh, StepOutcome, TransientState, build_step, elastic_film, time_step
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.results import FilmSolution
 from bem.lubrication.shear_profile import middle_stress
@@ -26,13 +25,13 @@ from bem.lubrication.time_stepping import Derivative, Reached
 from bem.notes.lubrication import FIRST_FILM
 
 SETTLING = (0.3, 0.03, 1e-3)
-"""Times that a first film is given to settle on the march's mesh where its steady film is not found, in the time that
-the oil takes through half the contact."""
+"""Lengths of implicit steps towards the first film, where its steady film is not found directly, in units of the time
+that the oil takes through half the contact."""
 
 
 @dataclass(frozen=True)
 class Contact:
-    """What is lubricated: radius [m], contact modulus [Pa], oil."""
+    """Radius [m], contact modulus [Pa] and oil."""
 
     radius: float
     contact_modulus: float
@@ -41,7 +40,7 @@ class Contact:
 
 @dataclass(frozen=True)
 class Operation:
-    """What acts, as functions of time [s]: load per unit length [N/m], speeds of flat and cylinder [m/s]."""
+    """Load per unit length [N/m] and speeds of flat and cylinder [m/s] as functions of time [s]."""
 
     load: Callable[[float], float]
     speeds: Callable[[float], Sequence[float]]
@@ -49,8 +48,8 @@ class Operation:
 
 @dataclass(frozen=True)
 class Scaling:
-    """Moes' units for a load [N/m] and an entrainment speed [m/s], and the problem in them at that load, sliding at
-    1 m/s."""
+    """Moes' units for a reference load [N/m] and entrainment speed [m/s], and the similarity problem at that load,
+    sliding at 1 m/s."""
 
     scales: Scales
     load: float
@@ -59,13 +58,16 @@ class Scaling:
 
     @property
     def clock(self) -> float:
-        """Unit of time [s]: of the oil through a unit of length."""
+        """Unit of time [s]: that of the oil through a unit of length."""
         return 2 * self.scales.length / self.speed
 
 
 @dataclass(frozen=True)
 class March:
-    """What stays the same during a march. tolerance : of a step. layer : of oil that comes [m], infinite: flooded."""
+    """Quantities that stay constant during a march.
+
+    tolerance : of a step. layer : thickness of the oil that arrives [m]; infinite for a flooded inlet.
+    """
 
     contact: Contact
     operation: Operation
@@ -76,7 +78,7 @@ class March:
     layer: float = math.inf
 
     def problem_at(self, time: float) -> Problem:
-        """The problem at the load and the sliding of a time."""
+        """Return the similarity problem at the load and the sliding speed of a time."""
         scaling = self.scaling
         shear = scaling.problem.shear
         if shear is not None:
@@ -85,24 +87,25 @@ class March:
         load = scaling.scales.load * self.operation.load(time) / scaling.load
         return replace(scaling.problem, load=load, shear=shear)
 
-    def step(self, time: float, film: Film, leading: float, history: FloatArray) -> StepOutcome:
-        """The film at a time where d(rho H)/dt is `leading * rho H + history`, from a film near it."""
+    def step(self, time: float, film: TransientState, leading: float, history: FloatArray) -> StepOutcome:
+        """Take a step to a time, where d(rho H)/dt is leading * rho H + history, from a state near it."""
         first, second = self.operation.speeds(time)
         entrainment = (first + second) / self.scaling.speed
-        step = step_of(self.problem_at(time), self.mesh, entrainment, leading, history, self.cavitation)
+        step = build_step(self.problem_at(time), self.mesh, entrainment, leading, history, self.cavitation)
         return time_step(step, film, self.tolerance, layer=self.layer / self.scaling.scales.film)
 
 
-def film_of_gap(march: March, thickness: float) -> Film:
-    """The film of undeformed bodies with a gap [m] at x = 0, full of oil."""
+def state_of_gap(march: March, thickness: float) -> TransientState:
+    """Return the state of undeformed bodies with a gap [m] at x = 0, full of oil."""
     x = march.mesh.position
-    pressure, datum = np.zeros_like(x), thickness / march.scaling.scales.film
-    film = elastic_film(march.mesh, pressure, datum)
-    return _filled(march, pressure, film, datum, np.ones(len(x), dtype=bool), np.ones_like(x))
+    pressure, rigid_separation = np.zeros_like(x), thickness / march.scaling.scales.film
+    film = elastic_film(march.mesh, pressure, rigid_separation)
+    return _build_state(march, pressure, film, rigid_separation, np.ones(len(x), dtype=bool), np.ones_like(x))
 
 
-def film_of_solution(march: March, initial: FilmSolution) -> Film:
-    """A solution on the march's mesh: its pressure as it is, the datum that brings the film nearest to its own."""
+def state_from_solution(march: March, initial: FilmSolution) -> TransientState:
+    """Return the state of a solution on the mesh of the march: its pressure, and the H0 that brings the film nearest to
+    its own."""
     x, scales = march.mesh.position, march.scaling.scales
     own = initial.position / scales.length
     pressure = np.interp(x, own, initial.pressure / scales.pressure, left=0.0, right=0.0)
@@ -111,27 +114,28 @@ def film_of_solution(march: March, initial: FilmSolution) -> Film:
     film = elastic_film(march.mesh, pressure, 0.0)
     inside = (x > own[0]) & (x < own[-1]) & (pressure > 0.02 * pressure.max())
     known = np.interp(x[inside], own, initial.thickness / scales.film)
-    datum = float(np.mean(known - film[inside]))
-    film = film + datum
+    rigid_separation = float(np.mean(known - film[inside]))
+    film = film + rigid_separation
     if film.min() <= 0:
-        datum += 0.5 * initial.minimum_thickness / scales.film - float(film.min())
-        film = elastic_film(march.mesh, pressure, datum)
+        rigid_separation += 0.5 * initial.minimum_thickness / scales.film - float(film.min())
+        film = elastic_film(march.mesh, pressure, rigid_separation)
     fraction = np.ones_like(x)
     if march.cavitation is Cavitation.MASS_CONSERVING:
         fraction = _fraction_of(march, initial, film)
-    return _filled(march, pressure, film, datum, pressure > 0, fraction)
+    return _build_state(march, pressure, film, rigid_separation, pressure > 0, fraction)
 
 
-def _filled(
-    march: March, pressure: FloatArray, film: FloatArray, datum: float, full: Nodes, fraction: FloatArray
-) -> Film:
+def _build_state(
+    march: March, pressure: FloatArray, film: FloatArray, rigid_separation: float, full: Nodes, fraction: FloatArray
+) -> TransientState:
+    """Return the state with the mass of its film."""
     density = march.scaling.problem.density(pressure)[0]
-    return Film(pressure, film, datum, fraction * density * film, full, fraction)
+    return TransientState(pressure, film, rigid_separation, fraction * density * film, full, fraction)
 
 
 def _fraction_of(march: March, initial: FilmSolution, film: FloatArray) -> FloatArray:
-    """Filled fraction of the gap at the start: behind the exit of a steady film, what flows through it, and as much in
-    front of the meniscus of a starved one."""
+    """Return the filled fraction of a first film: behind the exit, and before a meniscus, the flow through the exit
+    over the gap."""
     x, length = march.mesh.position, march.scaling.scales.length
     if initial.film_fraction is not None and initial.time is not None:
         return np.interp(x, initial.position / length, initial.film_fraction)
@@ -143,9 +147,9 @@ def _fraction_of(march: March, initial: FilmSolution, film: FloatArray) -> Float
     return np.where(behind, np.minimum(np.interp(exit_, x, film) / film, 1.0), 1.0)
 
 
-def given_start(march: March, film: Film, time: float) -> tuple[Reached[Film], FilmSolution]:
-    """The march from a film as it is, and by how much it misses the load."""
-    solution = solution_at(march, film, time)
+def start_from_state(march: March, film: TransientState, time: float) -> tuple[Reached[TransientState], FilmSolution]:
+    """Return the start of a march from a given film, with a note on the load that it misses."""
+    solution = build_solution_at(march, film, time)
     missed = solution.load / march.operation.load(time) - 1
     if solution.load > 0 and abs(missed) > march.tolerance:
         note = FIRST_FILM(origin="the one given", missed=100 * missed, reason="load")
@@ -153,8 +157,8 @@ def given_start(march: March, film: Film, time: float) -> tuple[Reached[Film], F
     return Reached(time, film), solution
 
 
-def steady_start(march: March, film: Film, time: float) -> tuple[Reached[Film], FilmSolution]:
-    """The march from the steady film on its own mesh, looked for near a film."""
+def start_from_steady(march: March, film: TransientState, time: float) -> tuple[Reached[TransientState], FilmSolution]:
+    """Return the start of a march from the steady film on its mesh, searched for near a state."""
     still = np.zeros_like(film.mass)
     # steady; too far off for Newton, a little later, where load and flow are in balance at any rate
     for settling in (math.inf, *SETTLING):
@@ -162,38 +166,40 @@ def steady_start(march: March, film: Film, time: float) -> tuple[Reached[Film], 
         if outcome.converged:
             break
     kept = outcome.film if outcome.converged else film
-    return Reached(time, kept), solution_at(march, kept, time, outcome)
+    return Reached(time, kept), build_solution_at(march, kept, time, outcome)
 
 
-def advance(march: March, at: Reached[Film], time: float) -> tuple[Reached[Film], FilmSolution]:
-    """One step to a time, or halves of it."""
+def advance(march: March, at: Reached[TransientState], time: float) -> tuple[Reached[TransientState], FilmSolution]:
+    """Take one step to a time, or as many halves as it needs."""
 
-    def step(at: Reached[Film], time: float) -> tuple[Film, FilmSolution]:
+    def step(at: Reached[TransientState], time: float) -> tuple[TransientState, FilmSolution]:
         change = Derivative.at(at, time, march.scaling.clock)
         outcome = march.step(time, at.film, change.leading, change.history(at, lambda film: film.mass))
-        return outcome.film, solution_at(march, outcome.film, time, outcome)
+        return outcome.film, build_solution_at(march, outcome.film, time, outcome)
 
     return time_stepping.advance(step, at, time)
 
 
-def solution_at(march: March, film: Film, time: float, outcome: StepOutcome | None = None) -> FilmSolution:
-    """What is said of a film at a time; without an outcome it was not solved for."""
+def build_solution_at(
+    march: March, film: TransientState, time: float, outcome: StepOutcome | None = None
+) -> FilmSolution:
+    """Return the result of a state at a time; without an outcome it was not solved for."""
     scales, contact = march.scaling.scales, march.contact
     x = march.mesh.position * scales.length
     pressure, thickness = film.pressure * scales.pressure, film.film * scales.film
     first, second = (float(u) for u in march.operation.speeds(time))
     oil, radius, modulus = contact.lubricant, contact.radius, contact.contact_modulus
-    found = outcome is None or outcome.converged
-    why = None if found else why_no_line_film(oil, march.operation.load(time), radius, modulus)
+    converged = outcome is None or outcome.converged
+    why = None if converged else why_no_line_film(oil, march.operation.load(time), radius, modulus)
     case = Case(x, pressure, thickness, (first, second), oil, radius, modulus, not_found=why)
     upstream = 1 if first + second >= 0 else -2
-    force, rolling = _full_force(case, flooded=math.isinf(march.layer) or bool(film.full[upstream]))
-    exit_, streamers = _ruptured(march, film, case)
+    force, rolling = _friction_force(case, flooded=math.isinf(march.layer) or bool(film.full[upstream]))
+    exit_, streamers = _exit_and_streamers(march, film, case)
     return FilmSolution(
         position=x,
         pressure=pressure,
         thickness=thickness,
-        minimum_thickness=lowest_film(march.mesh.position, film.film) * scales.film,
+        minimum_thickness=parabolic_minimum(march.mesh.position, film.film) * scales.film,
         central_thickness=float(np.interp(0.0, x, thickness)),
         load=_integral(x, pressure),
         shear_force=force,
@@ -203,7 +209,7 @@ def solution_at(march: March, film: Film, time: float, outcome: StepOutcome | No
         inlet_load_fraction=0.0,
         iterations=outcome.iterations if outcome else 0,
         residual=outcome.residual if outcome else 0.0,
-        status=Status.CONVERGED if found else Status.STALLED,
+        status=Status.CONVERGED if converged else Status.STALLED,
         speeds=(first, second),
         lubricant=contact.lubricant,
         time=time,
@@ -214,12 +220,13 @@ def solution_at(march: March, film: Film, time: float, outcome: StepOutcome | No
 
 
 def _integral(x: FloatArray, values: FloatArray) -> float:
+    """Return the trapezoidal integral."""
     return float(np.sum(0.5 * np.diff(x) * (values[1:] + values[:-1])))
 
 
-def _full_force(case: Case, *, flooded: bool) -> tuple[float, float]:
-    """Friction force on the flat in the full film, along -x [N/m], and its rolling part, half of h dp/dx; a flooded one
-    reaches far upstream of the mesh."""
+def _friction_force(case: Case, *, flooded: bool) -> tuple[float, float]:
+    """Return the friction force on the flat in the full film, along -x [N/m], and its rolling part, half of h dp/dx; a
+    flooded film reaches far upstream of the mesh."""
     x, lubricant, (first, second) = case.position, case.lubricant, case.speeds
     newtonian = lubricant.viscosity_at(case.pressure) * (first - second) / case.thickness
     gradient = np.gradient(case.pressure, x)
@@ -231,9 +238,11 @@ def _full_force(case: Case, *, flooded: bool) -> tuple[float, float]:
     return _integral(x, stress) + tail * (first - second) + rolling, rolling
 
 
-def _ruptured(march: March, film: Film, case: Case) -> tuple[float, float]:
-    """Where the film ruptures [m], and the force of the streamers behind it [N/m], which cover h_rupture / h of the
-    surface, or the fraction of the gap that is filled."""
+def _exit_and_streamers(march: March, film: TransientState, case: Case) -> tuple[float, float]:
+    """Return the place where the film ruptures [m], and the force of the streamers behind it [N/m].
+
+    Streamers cover h_rupture / h of the surface, or the filled fraction of the gap.
+    """
     x, thickness, (first, second) = case.position, case.thickness, case.speeds
     full = film.pressure > 0
     ends = np.flatnonzero(full)

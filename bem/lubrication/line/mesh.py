@@ -1,4 +1,9 @@
-"""Graded meshes that follow the film: fine at the inlet sweep, the constriction, the spike and the exit."""
+"""Graded meshes that follow the film: fine at the inlet sweep, the constriction, the spike and the exit.
+
+1. `cell_densities` measures how fine the mesh should be on each cell of an existing film.
+2. `cell_sizes` turns that into cell widths for a given number of cells, with bounded growth.
+3. `redistribute` places the new nodes by equidistribution.
+"""
 
 from __future__ import annotations
 
@@ -9,20 +14,21 @@ from bem.grid import FloatArray
 from bem.numerics.monotone import MonotoneCubic
 
 FAR_INLET = 50.0
-"""Where the mesh starts: this many times the larger of the exit's abscissa and sqrt(2 R h_min) upstream."""
+"""Distance of the first node, in units of the larger of the exit's abscissa and sqrt(2 R h_min)."""
 GROWTH = 0.14
-"""Largest change of cell width per distance: keeps the upwind extrapolation of second order."""
+"""Largest change of the cell width per distance; keeps the upwind extrapolation of second order."""
 
 
 def trapezoidal_weights(nodes: FloatArray) -> FloatArray:
-    """Weights (n+1,) of the integral of what is linear between ascending nodes (n+1,)."""
+    """Return the weights (n+1,) of the trapezoidal rule on ascending nodes (n+1,)."""
     width = np.diff(nodes)
     return 0.5 * (np.append(width, 0.0) + np.append(0.0, width))
 
 
 def upwind_extrapolation(width: FloatArray) -> FloatArray:
-    """How much of the difference between the two nodes upstream reaches from the nearer one to the middle of a cell
-    (n,), where the flow runs with the numbering; nothing in the first cell, which has but one."""
+    """Return the extrapolation factors (n,) of the Couette flow in the cells: times the difference between the two
+    nodes upstream, added to the nearer node, gives the value at the middle of the cell. The first cell has one node
+    upstream and factor zero."""
     out = np.zeros(len(width))
     out[1:] = 0.5 * width[1:] / width[:-1]
     return out
@@ -31,7 +37,10 @@ def upwind_extrapolation(width: FloatArray) -> FloatArray:
 def cell_densities(
     offset: FloatArray, pressure: FloatArray, film: FloatArray, fluidity: FloatArray, exit_position: float
 ) -> tuple[FloatArray, FloatArray]:
-    """How densely nodes are wanted on each cell, up to a factor: for all that is smooth, and for the spike."""
+    """Return the node densities (n,) for the smooth part of a film and for its spike, up to one factor.
+
+    offset : (n+1,) nodes from the exit. pressure, film, fluidity : (n+1,) at the nodes. exit_position : X_e.
+    """
     width = np.diff(offset)
     middle = np.abs(exit_position + 0.5 * (offset[1:] + offset[:-1]))
     highest = pressure.max()
@@ -47,7 +56,7 @@ def cell_densities(
 
 
 def cell_sizes(offset: FloatArray, smooth: FloatArray, spike: FloatArray, cells: int, smallest: float) -> FloatArray:
-    """Wanted cell width at each cell so that `cells` fill the mesh; the spike alone asks for none below `smallest`."""
+    """Return cell widths (n,) with which `cells` cells fill the mesh; the spike asks for none below `smallest`."""
     width = np.diff(offset)
     reach = GROWTH * 0.5 * (width[1:] + width[:-1])
     factor = float(np.sum((smooth + spike) * width)) / cells
@@ -63,21 +72,21 @@ def cell_sizes(offset: FloatArray, smooth: FloatArray, spike: FloatArray, cells:
 
 @compiled
 def _limit_growth(size: FloatArray, reach: FloatArray) -> None:
-    """No cell is wider than its neighbours' by more than `reach`."""
+    """Limit the width of each cell to that of its neighbours plus `reach`, in place."""
     for i in range(1, len(size)):
         size[i] = min(size[i], size[i - 1] + reach[i - 1])
     for i in range(len(size) - 2, -1, -1):
         size[i] = min(size[i], size[i + 1] + reach[i])
 
 
-def redistribute(offset: FloatArray, size: FloatArray, cells: int, kept: int | None) -> FloatArray:
-    """Ascending offsets of `cells + 1` nodes with cells of the wanted sizes; node `kept` stays where it is."""
+def redistribute(offset: FloatArray, size: FloatArray, cells: int, fixed: int | None) -> FloatArray:
+    """Return ascending offsets (cells + 1,) with the given cell sizes; the node numbered `fixed` stays in place."""
     count = np.concatenate([[0.0], np.cumsum(np.diff(offset) / size)])
     wanted = np.linspace(0.0, count[-1], cells + 1)
-    if kept is not None:
-        before = int(np.clip(round(count[kept] / count[-1] * cells), 1, cells - 1))
+    if fixed is not None:
+        before = int(np.clip(round(count[fixed] / count[-1] * cells), 1, cells - 1))
         wanted = np.concatenate(
-            [np.linspace(0.0, count[kept], before + 1), np.linspace(count[kept], count[-1], cells - before + 1)[1:]]
+            [np.linspace(0.0, count[fixed], before + 1), np.linspace(count[fixed], count[-1], cells - before + 1)[1:]]
         )
     nodes = MonotoneCubic(count, offset)(wanted)
     nodes[0], nodes[-1] = offset[0], offset[-1]

@@ -1,18 +1,19 @@
 """Newton's method for the steady line contact, in similarity variables and on a mesh tied to the free exit.
 
-With U = mu (u1 + u2) / (E' R) and E' = 2 E* (Moes), lengths along the film are in R U^(1/4), films in R U^(1/2)
-and pressures in E' U^(1/4). The problem is then
-
     rho H^3/m P' = 6 (rho H - H_e),    H = H0 + X^2/2 - 4/pi integral P ln|X - X'| dX',    integral P dX = M
 
-with P = P' = 0 at the exit X_e, where H = H_e, and P -> 8/|X|^3 far upstream. The unknowns are the pressures at
-the nodes X_e + s_i (s fixed, s = 0 at the exit), H0 and X_e: the free boundary is a number, so the discrete problem
-is smooth and of second order. Couette flow is extrapolated from the two nodes upstream, which keeps the pressure
-from oscillating where the oil is too viscous to flow under it.
+with P = P' = 0 at the exit X_e, where H = H_e, and P -> 8/|X|^3 far upstream. The unknowns are the pressures at the
+nodes X_e + s_i (s fixed, s = 0 at the exit), H0 and X_e: the free boundary is a number, so the discrete problem is
+smooth and of second order (K. H. Okamura 1982; L. G. Houpert and B. J. Hamrock, *J. Tribol.* 108 (1986) 411).
 
-The elastic equation is linear. A start whose film and pressure do not belong together (interpolated, scaled) is
-therefore taken as it is, the mismatch carried along and reduced with each step: mobilities are evaluated on
-reasonable films from the first step on. That, more than anything, makes the iteration robust.
+1. The elastic equation is linear. A start whose film and pressure do not belong together (interpolated, scaled) is
+   therefore taken as it is; the *mismatch* between film and pressure is carried along and reduced with each step.
+   Mobilities are evaluated on reasonable films from the first step on, which makes the iteration robust.
+2. A step is shortened until films stay positive and the sum of squares of residuals and mismatch falls.
+3. On fine meshes the spike is solved by itself before a step is judged (`spike`).
+4. Where one or two chord steps are expected to reach the tolerance, they are tried first; each costs a tenth of a step.
+
+`remesh` moves a film to a mesh made for it.
 """
 
 from __future__ import annotations
@@ -23,8 +24,7 @@ import numpy as np
 
 from bem.grid import FloatArray
 from bem.lubrication.line.deflection import DEFLECTION, LineOperator
-from bem.lubrication.line.equations import Equations
-from bem.lubrication.line.linear import Change, Linear, again, solve
+from bem.lubrication.line.linear import FactoredEquations, NewtonEquations, NewtonStep, chord_step, solve_newton_step
 from bem.lubrication.line.mesh import (
     FAR_INLET,
     cell_densities,
@@ -33,72 +33,93 @@ from bem.lubrication.line.mesh import (
     trapezoidal_weights,
     upwind_extrapolation,
 )
-from bem.lubrication.line.reynolds import Flow, Parts, Problem, eased, longest_step
+from bem.lubrication.line.problem import Problem
+from bem.lubrication.line.reynolds import Flow, FluxTerms, longest_step
+from bem.lubrication.line.spike import solve_spike
 from bem.numerics.monotone import MonotoneCubic
 
 SHARP_FROM = 1500
-"""Cells from which a spike is solved for by itself first: a step of them all costs more than ten of those."""
+"""Cells from which the spike is solved by itself: a step on all cells costs more than ten local ones."""
 SHORTEST_STEP = 1e-3
+"""Shortest length of a Newton step."""
 CHORDS = 2
-"""Steps with the equations of an earlier one that together cost less than half a step with equations of their own."""
+"""Chord steps that together cost less than half a Newton step."""
 CHORD_RATE, LEAST_RATE = 3e-3, 0.1
-"""By how much such a step reduces the errors at most, the equations being solved roughly, and must at least."""
+"""Best contraction of the residual that a chord step is expected to give, as its factors are approximate. `LEAST_RATE`:
+largest contraction factor with which a chord step is accepted."""
 
 
 MAX_IMBALANCE = 5.0
-"""Of the cells of a mesh that was made for another state."""
+"""Cell width over the wanted one, above which a mesh made for another state is replaced."""
 FEWEST_NODES = 8
-"""Of a state that a mesh is made from."""
+"""Fewest nodes of a state from which a mesh is made."""
 
 
 @dataclass(frozen=True)
-class State:
-    """Node offsets from the exit (n+1,), their elastic operator, pressure, film, datum H0 and exit X_e.
+class LineState:
+    """Film and pressure on a mesh tied to the exit.
 
-    The datum is that of the kernel ln|x - x'|, whatever the operator's unit. far_field : 1 where the gap is full from
-    far upstream of the nodes on, 0 where it begins to be full at the first of them, a meniscus. linear : equations of
-    the last Newton step, for chords from this state to others next to it; None of a state that was not solved for.
+    offset : (n+1,) nodes from the exit, ascending, the last one 0.
+    operator : elastic deflection on the mesh.
+    pressure, film : (n+1,).
+    rigid_separation : H0 for the kernel ln|x - x'|, whatever the unit of the operator.
+    exit : X_e.
+    far_field : 1 where the gap is full from far upstream of the nodes on; 0 where it is full from the first node on, a
+        meniscus.
+    factored : equations of the last Newton step, for chord steps from this state; None of a state that was not solved
+        for.
     """
 
     offset: FloatArray
     operator: LineOperator
     pressure: FloatArray
     film: FloatArray
-    datum: float
+    rigid_separation: float
     exit: float
     far_field: float = 1.0
-    linear: Linear | None = field(default=None, repr=False, compare=False)
+    factored: FactoredEquations | None = field(default=None, repr=False, compare=False)
 
     @property
     def position(self) -> FloatArray:
-        """Abscissae of the nodes."""
+        """Abscissae of the nodes (n+1,)."""
         return self.exit + self.offset
 
 
 @dataclass(frozen=True)
 class Outcome:
-    """State, Newton steps taken (chords as well), residual, and whether the tolerance was met."""
+    """Result of Newton's method.
 
-    state: State
+    iterations : Newton steps, chord steps included.
+    residual : largest residual or mismatch, relative to the local film and the load.
+    converged : whether the tolerance was met.
+    """
+
+    state: LineState
     iterations: int
     residual: float
     converged: bool
 
 
 def inlet_pressure(position: float) -> tuple[float, float]:
-    """Pressure far upstream, 8/|X|^3, and its derivative with X."""
+    """Return the pressure far upstream, 8/|X|^3, and its derivative with X."""
     return 8 / abs(position) ** 3, 24 / position**4
 
 
 def inlet_load(position: float) -> tuple[float, float]:
-    """Load upstream of X, 4/X^2, and its derivative with X."""
+    """Return the load upstream of X, 4/X^2, and its derivative with X."""
     return 4 / position**2, 8 / abs(position) ** 3
 
 
 @dataclass(frozen=True)
 class Discretisation:
-    """What stays the same during an iteration: the flow through the cells and the film (n+1,) it is measured by, that
-    of the start; offsets of the nodes (n+1,) with their trapezoidal weights, and the elastic operator."""
+    """Quantities that stay constant during the iteration.
+
+    flow : through the cells.
+    scale : (n+1,) film of the start, by which residuals are divided.
+    offset, quadrature : (n+1,) nodes from the exit and their trapezoidal weights.
+    operator : elastic deflection.
+    far_field : as of `LineState`.
+    """
 
     flow: Flow
     scale: FloatArray
@@ -108,69 +129,76 @@ class Discretisation:
     far_field: float
 
     def inlet_pressure(self, position: float) -> tuple[float, float]:
-        """At the first node, and its derivative with X."""
+        """Return the pressure at the first node and its derivative with X."""
         value, slope = inlet_pressure(position)
         return self.far_field * value, self.far_field * slope
 
     def inlet_load(self, position: float) -> tuple[float, float]:
-        """Upstream of the first node, and its derivative with X."""
+        """Return the load upstream of the first node and its derivative with X."""
         value, slope = inlet_load(position)
         return self.far_field * value, self.far_field * slope
 
     @property
     def problem(self) -> Problem:
-        """What is solved."""
+        """Similarity problem that is solved."""
         return self.flow.problem
 
 
 @dataclass(frozen=True)
 class Iterate:
-    """Pressure and film at the nodes, datum and exit, by how much the film is not that of the pressure, and the errors
-    of the equations: of the flow through each cell, and of the load."""
+    """Iterate of Newton's method.
+
+    pressure, film : (n+1,).
+    rigid_separation : H0 for the kernel of the operator. exit : X_e.
+    mismatch : (n+1,) film less the film of the pressure.
+    error : (n+1,) residuals of the flow through the cells and of the load.
+    parts : terms of the flow for its derivatives.
+    """
 
     pressure: FloatArray
     film: FloatArray
-    datum: float
+    rigid_separation: float
     exit: float
     mismatch: FloatArray
     error: FloatArray
-    parts: Parts
+    parts: FluxTerms
 
 
 @np.errstate(over="ignore", invalid="ignore")  # of iterates that are refused
-def newton(problem: Problem, start: State, tolerance: float, max_iterations: int = 40) -> Outcome:
-    """Solve from `start`, whose film (positive) and pressure need not belong together.
+def newton(problem: Problem, start: LineState, tolerance: float, max_iterations: int = 40) -> Outcome:
+    """Solve from a start, whose film (positive) and pressure need not belong together.
 
-    A step with the equations of the one before reduces the errors by as much again as that did: where one or two of
-    them are enough, they are tried first, each for a tenth of the work (chords); so with those that the start was found
-    by, if there are any.
+    tolerance : largest residual, relative to the local film and to the load. Factors that the start brings along are
+        used for chord steps.
     """
-    mesh, at = _begun(problem, start)
+    mesh, at = _initial_iterate(problem, start)
     iterations = 0
-    linear = None if start.linear is None or start.linear.cells != len(start.offset) - 1 else start.linear
+    factored = None if start.factored is None or start.factored.cells != len(start.offset) - 1 else start.factored
     before = largest = np.inf
     while True:
-        before, largest = largest, _largest(mesh, at)
+        before, largest = largest, _largest_error(mesh, at)
         converged = iterations > 0 and largest <= tolerance
         if converged or iterations == max_iterations or not np.isfinite(largest):
             break
         following = None
         rate = max(largest / before, CHORD_RATE)
-        if linear is not None and largest * rate**CHORDS <= tolerance:
-            following = _chord(mesh, at, linear, max(tolerance, LEAST_RATE * largest))
+        if factored is not None and largest * rate**CHORDS <= tolerance:
+            following = _chord_iterate(mesh, at, factored, max(tolerance, LEAST_RATE * largest))
         if following is None:
-            following, linear = _improved(mesh, at)
+            following, factored = _newton_step(mesh, at)
         if following is None:
             break
         at = following
         iterations += 1
-    datum = at.datum + DEFLECTION * mesh.operator.log_unit * float(mesh.quadrature @ at.pressure)
-    state = State(mesh.offset, mesh.operator, at.pressure, at.film, datum, at.exit, mesh.far_field, linear)
+    rigid_separation = at.rigid_separation + DEFLECTION * mesh.operator.log_unit * float(mesh.quadrature @ at.pressure)
+    state = LineState(
+        mesh.offset, mesh.operator, at.pressure, at.film, rigid_separation, at.exit, mesh.far_field, factored
+    )
     return Outcome(state, iterations, largest, converged)
 
 
-def _begun(problem: Problem, start: State) -> tuple[Discretisation, Iterate]:
-    """The start with the pressures its ends must have; what its film misses is the first mismatch."""
+def _initial_iterate(problem: Problem, start: LineState) -> tuple[Discretisation, Iterate]:
+    """Return the discretisation and the first iterate: end pressures set, the rest of the film as mismatch."""
     offset, width = start.offset, np.diff(start.offset)
     pressure, film = start.pressure.copy(), start.film
     pressure[-1] = 0.0
@@ -183,66 +211,65 @@ def _begun(problem: Problem, start: State) -> tuple[Discretisation, Iterate]:
     return mesh, Iterate(pressure, film, float(missed[-1]), start.exit, missed - missed[-1], error, parts)
 
 
-def _errors(mesh: Discretisation, pressure: FloatArray, film: FloatArray, exit_: float) -> tuple[FloatArray, Parts]:
-    """Of the flow through the cells (n,) and of the load, and what the derivatives share with them."""
+def _errors(mesh: Discretisation, pressure: FloatArray, film: FloatArray, exit_: float) -> tuple[FloatArray, FluxTerms]:
+    """Return the residuals of the flow through the cells and of the load (n+1,), and the terms for derivatives."""
     through, parts = mesh.flow.residual(pressure, film, float(film[-1]))
     load = mesh.quadrature @ pressure + mesh.inlet_load(exit_ + mesh.offset[0])[0]
     return np.append(through, 1 - load / mesh.problem.load), parts
 
 
 def _relative_mismatch(mesh: Discretisation, at: Iterate) -> FloatArray:
-    """The mismatch over the film that the flow is measured by."""
+    """Return the mismatch over the film of the start (n+1,)."""
     return at.mismatch / mesh.scale
 
 
-def _largest(mesh: Discretisation, at: Iterate) -> float:
-    """The largest error or mismatch."""
+def _largest_error(mesh: Discretisation, at: Iterate) -> float:
+    """Return the largest residual or relative mismatch."""
     return max(float(np.abs(at.error).max()), float(np.abs(_relative_mismatch(mesh, at)).max()))
 
 
-def _size(mesh: Discretisation, at: Iterate) -> float:
-    """What a step must reduce: squares of the errors and of the mismatch."""
+def _merit(mesh: Discretisation, at: Iterate) -> float:
+    """Return the merit function of the line search: sum of squares of residuals and relative mismatch."""
     relative = _relative_mismatch(mesh, at)
     return float(at.error @ at.error + relative @ relative)
 
 
-def _improved(mesh: Discretisation, at: Iterate) -> tuple[Iterate | None, Linear | None]:
-    """A Newton step, as long as films stay positive and the errors become smaller, None where there is none; and the
-    equations it was taken from."""
-    change, linear = solve(mesh.operator, _equations(mesh, at))
+def _newton_step(mesh: Discretisation, at: Iterate) -> tuple[Iterate | None, FactoredEquations | None]:
+    """Take a damped Newton step; return the iterate, None where the search fails, and the factored equations."""
+    change, factored = solve_newton_step(mesh.operator, _equations(mesh, at))
     film_change = change.film - at.mismatch
     if not (np.isfinite(film_change).all() and np.isfinite(change.pressure).all()):
         return None, None
-    size = _size(mesh, at)
+    size = _merit(mesh, at)
     length = longest_step(at.film, film_change, 0.9)
     easing = len(mesh.flow.width) >= SHARP_FROM
     while length > SHORTEST_STEP:
-        trial = _moved(mesh, at, change, length)
+        trial = _step_along(mesh, at, change, length)
         if trial is not None:
             if easing:
-                trial, easing = _spike_eased(mesh, trial)
-            if _size(mesh, trial) < (1 - 0.05 * length) ** 2 * size:
-                return trial, linear
+                trial, easing = _with_spike_solved(mesh, trial)
+            if _merit(mesh, trial) < (1 - 0.05 * length) ** 2 * size:
+                return trial, factored
         length *= 0.5
     return None, None
 
 
-def _chord(mesh: Discretisation, at: Iterate, linear: Linear, allowed: float) -> Iterate | None:
-    """A whole step by the equations of an earlier iterate; None where it leaves larger errors than allowed."""
-    trial = _moved(mesh, at, again(linear, at.error, at.mismatch), 1.0)
-    return None if trial is None or not _largest(mesh, trial) <= allowed else trial
+def _chord_iterate(mesh: Discretisation, at: Iterate, factored: FactoredEquations, allowed: float) -> Iterate | None:
+    """Take a whole chord step; return None where it leaves larger residuals than allowed."""
+    trial = _step_along(mesh, at, chord_step(factored, at.error, at.mismatch), 1.0)
+    return None if trial is None or not _largest_error(mesh, trial) <= allowed else trial
 
 
-def _equations(mesh: Discretisation, at: Iterate) -> Equations:
-    """Those of the Newton step in (P_1 .. P_{n-1}, H0, X_e)."""
+def _equations(mesh: Discretisation, at: Iterate) -> NewtonEquations:
+    """Return the equations of the Newton step in (P_1 .. P_{n-1}, H0, X_e)."""
     load, inlet = mesh.problem.load, at.exit + mesh.offset[0]
     inlet_slope, load_slope = mesh.inlet_pressure(inlet)[1], mesh.inlet_load(inlet)[1]
     before, here, after, low, diagonal, high = mesh.flow.derivatives(at.parts)
-    return Equations(
+    return NewtonEquations(
         before=before,
         here=here,
         after=after,
-        exit=at.parts.dragged_slope[-1] / mesh.flow.scale,
+        exit=at.parts.couette_slope[-1] / mesh.flow.scale,
         low=low,
         diagonal=diagonal,
         high=high,
@@ -256,47 +283,46 @@ def _equations(mesh: Discretisation, at: Iterate) -> Equations:
     )
 
 
-def _moved(mesh: Discretisation, at: Iterate, change: Change, length: float) -> Iterate | None:
-    """The iterate a step of that length away; None where its inlet or a film is not one."""
-    exit_, datum = at.exit + length * change.exit, at.datum + length * change.datum
+def _step_along(mesh: Discretisation, at: Iterate, change: NewtonStep, length: float) -> Iterate | None:
+    """Return the iterate a step of the given length away; None where its inlet or a film is not valid."""
+    exit_, rigid_separation = at.exit + length * change.exit, at.rigid_separation + length * change.rigid_separation
     inlet = exit_ + mesh.offset[0]
     if not inlet < 0:
         return None
     pressure = at.pressure.copy()
     pressure[1:-1] += length * change.pressure
     pressure[0] = mesh.inlet_pressure(inlet)[0]
-    return _iterate(mesh, pressure, datum, exit_, (1 - length) * at.mismatch)
+    return _iterate(mesh, pressure, rigid_separation, exit_, (1 - length) * at.mismatch)
 
 
 def _iterate(
-    mesh: Discretisation, pressure: FloatArray, datum: float, exit_: float, mismatch: FloatArray
+    mesh: Discretisation, pressure: FloatArray, rigid_separation: float, exit_: float, mismatch: FloatArray
 ) -> Iterate | None:
-    """The iterate of these; None where a film is not positive."""
-    film = datum + 0.5 * (exit_ + mesh.offset) ** 2 - DEFLECTION * (mesh.operator @ pressure) + mismatch
+    """Return the iterate of given unknowns; None where a film is not positive."""
+    film = rigid_separation + 0.5 * (exit_ + mesh.offset) ** 2 - DEFLECTION * (mesh.operator @ pressure) + mismatch
     if not film.min() > 0:
         return None
     error, parts = _errors(mesh, pressure, film, exit_)
-    return Iterate(pressure, film, datum, exit_, mismatch, error, parts)
+    return Iterate(pressure, film, rigid_separation, exit_, mismatch, error, parts)
 
 
-def _spike_eased(mesh: Discretisation, at: Iterate) -> tuple[Iterate, bool]:
-    """The iterate with the flow around its spike put right where that makes the errors smaller, and whether it is
-    worth while to try that again."""
-    pressure = eased(mesh.flow, mesh.operator, at.pressure, at.film, at.error[:-1])
+def _with_spike_solved(mesh: Discretisation, at: Iterate) -> tuple[Iterate, bool]:
+    """Return the iterate with the spike solved where that lowers the merit function, and False if it did not."""
+    pressure = solve_spike(mesh.flow, mesh.operator, at.pressure, at.film, at.error[:-1])
     if pressure is None:
         return at, True
-    better = _iterate(mesh, pressure, at.datum, at.exit, at.mismatch)
-    if better is None or not _size(mesh, better) < _size(mesh, at):
+    better = _iterate(mesh, pressure, at.rigid_separation, at.exit, at.mismatch)
+    if better is None or not _merit(mesh, better) < _merit(mesh, at):
         return at, False
     return better, True
 
 
-def remesh(problem: Problem, state: State, cells: int, smallest: float | None) -> State:
-    """The state on a mesh made for it; film and pressure are interpolated and need not belong together.
+def remesh(problem: Problem, state: LineState, cells: int, smallest: float | None) -> LineState:
+    """Return the state on a mesh of `cells` cells made for it; film and pressure are interpolated.
 
-    The spike draws nodes down to cells of `smallest`, a share of the exit's abscissa; None leaves it alone.
+    smallest : smallest cell at the spike over the exit's abscissa; None does not resolve the spike.
     """
-    state = _with_inlet(state)
+    state = _with_full_inlet(state)
     smooth, spike = densities(problem, state)
     top = int(np.clip(np.argmin(np.diff(state.pressure) / np.diff(state.offset)), 1, len(state.offset) - 2))
     if smallest is None:
@@ -313,37 +339,36 @@ def remesh(problem: Problem, state: State, cells: int, smallest: float | None) -
     nodes = redistribute(state.offset, size, cells, top)
     pressure = np.maximum(MonotoneCubic(state.offset, state.pressure)(nodes), 0.0)
     film = np.exp(MonotoneCubic(state.offset, np.log(state.film))(nodes))
-    return State(nodes, LineOperator.of(nodes), pressure, film, state.datum, state.exit, state.far_field)
+    return LineState(nodes, LineOperator.of(nodes), pressure, film, state.rigid_separation, state.exit, state.far_field)
 
 
-def carried(problem: Problem, state: State, mesh: State) -> State | None:
-    """The state on the mesh of another, stretched to its exit, whose weights are known; None where that is not a mesh
-    for it."""
+def interpolate_state(problem: Problem, state: LineState, mesh: LineState) -> LineState | None:
+    """Return the state on the mesh of another, stretched to its exit, with the known operator; None where the mesh does
+    not suit."""
     factor = state.exit / mesh.exit
-    nodes, state = mesh.offset * factor, _with_inlet(state)
+    nodes, state = mesh.offset * factor, _with_full_inlet(state)
     inside = np.clip(nodes, state.offset[0], 0.0)
     pressure = np.maximum(MonotoneCubic(state.offset, state.pressure)(inside), 0.0)
     film = np.exp(MonotoneCubic(state.offset, np.log(state.film))(inside))
-    operator = mesh.operator.stretched(factor)
-    there = State(nodes, operator, pressure, film, state.datum, state.exit, state.far_field)
+    operator = mesh.operator.rescale(factor)
+    there = LineState(nodes, operator, pressure, film, state.rigid_separation, state.exit, state.far_field)
     return there if mesh_imbalance(problem, there) <= MAX_IMBALANCE else None
 
 
-def is_start(state: State) -> bool:
-    """Return True if a mesh can be made for a state: what did not converge may be anything, down to no pressure at
-    all."""
-    arrays = (state.pressure, state.film, np.array([state.exit, state.datum]))
+def is_usable_start(state: LineState) -> bool:
+    """Return True if a mesh can be made for a state. A state that did not converge may lack any pressure."""
+    arrays = (state.pressure, state.film, np.array([state.exit, state.rigid_separation]))
     if not all(np.isfinite(array).all() for array in arrays):
         return False
     if state.film.min() <= 0:
         return False
-    kept = _with_inlet(state)
+    kept = _with_full_inlet(state)
     return bool(kept.offset.size >= FEWEST_NODES and kept.pressure.max() > 0)
 
 
-def _with_inlet(state: State) -> State:
-    """The state cut, or continued by the far field, to where the mesh should start; without its weights. A meniscus
-    stays where it is."""
+def _with_full_inlet(state: LineState) -> LineState:
+    """Return the state cut, or continued by the far field, to the first node of a mesh; a meniscus stays in place. The
+    operator is that of the old nodes."""
     if state.far_field == 0:
         return state
     reach = -FAR_INLET * max(state.exit, np.sqrt(2 * state.film.min()))
@@ -361,50 +386,50 @@ def _with_inlet(state: State) -> State:
     return replace(state, offset=offset, pressure=pressure, film=film)
 
 
-def densities(problem: Problem, state: State) -> tuple[FloatArray, FloatArray]:
-    """Wanted densities of nodes on the cells of a state: smooth part, and the spike's."""
+def densities(problem: Problem, state: LineState) -> tuple[FloatArray, FloatArray]:
+    """Return the wanted node densities (n,) on the cells of a state: smooth part, and spike."""
     positive = np.maximum(state.pressure, 0.0)
     fluidity = np.exp(-problem.log_viscosity(positive)[0])
     return cell_densities(state.offset, positive, state.film, fluidity, state.exit)
 
 
-def mesh_imbalance(problem: Problem, state: State) -> float:
-    """Largest cell over the one wanted there for all that is smooth (about 1: ideal)."""
+def mesh_imbalance(problem: Problem, state: LineState) -> float:
+    """Return the largest cell over the wanted one, by the smooth part of the film (about 1: ideal)."""
     smooth, _ = densities(problem, state)
     width = np.diff(state.offset)
     return float(np.max(smooth * width) / np.mean(smooth * width))
 
 
-def spike_cell(problem: Problem, state: State, cells: int) -> float:
-    """The cell width, as a share of the exit's abscissa, that the spike would ask for at most."""
+def spike_cell(problem: Problem, state: LineState, cells: int) -> float:
+    """Return the smallest cell that the spike asks for on `cells` cells, over the exit's abscissa."""
     smooth, spike = densities(problem, state)
     total = np.sum((smooth + spike) * np.diff(state.offset)) / cells
     return float(np.min(total / spike.max()) / state.exit)
 
 
-def spike_cells_to_exit(state: State) -> float:
-    """Distance from the steepest fall of pressure to the exit, in cells as wide as those at the fall."""
+def spike_cells_to_exit(state: LineState) -> float:
+    """Return the distance from the steepest fall of pressure to the exit, in cells of the width at the fall."""
     width = np.diff(state.offset)
     steepest = int(np.argmin(np.diff(state.pressure) / width))
     return float(-state.offset[steepest] / width[steepest])
 
 
-def stretched(state: State, factor: float, pressure_factor: float, film_factor: float) -> State:
-    """The state with lengths, pressures and films multiplied; not its datum."""
-    return State(
+def rescale(state: LineState, factor: float, pressure_factor: float, film_factor: float) -> LineState:
+    """Return the state with lengths, pressures and films multiplied; its rigid-body separation is left as it is."""
+    return LineState(
         state.offset * factor,
-        state.operator.stretched(factor),
+        state.operator.rescale(factor),
         state.pressure * pressure_factor,
         state.film * film_factor,
-        state.datum,
+        state.rigid_separation,
         state.exit * factor,
         state.far_field,
-        state.linear,
+        state.factored,
     )
 
 
-def martin_start(load: float, cells: int) -> State:
-    """Martin's rigid, isoviscous film for a small load M, on a mesh made for it."""
+def martin_start(load: float, cells: int) -> LineState:
+    """Return Martin's rigid isoviscous film for a small load M, on a mesh made for it."""
     lowest = 2.4475 / load
     scale = np.sqrt(2 * lowest)
     near = np.linspace(0.0, 3.0, cells // 2 + 1)
@@ -417,4 +442,4 @@ def martin_start(load: float, cells: int) -> State:
     pressure = np.concatenate([[0.0], np.cumsum(0.5 * (gradient[1:] + gradient[:-1]) * np.diff(offset))])
     pressure = np.maximum(pressure + inlet_pressure(exit_ + offset[0])[0], 0.0)
     pressure[-1] = 0.0
-    return State(offset, LineOperator.of(offset), pressure, film, lowest, exit_)
+    return LineState(offset, LineOperator.of(offset), pressure, film, lowest, exit_)

@@ -17,9 +17,9 @@ import numpy as np
 from bem.grid import FloatArray
 from bem.lubrication.cavitation import Cavitation
 from bem.lubrication.line.case import LineCase, check_entrainment
-from bem.lubrication.line.march import Contact, March, Operation, Scaling, film_of_solution, solution_at
-from bem.lubrication.line.scales import line_scales, scaled_problem
-from bem.lubrication.line.time_step import Film, StepOutcome, elastic_film, fixed_mesh, step_of, time_step
+from bem.lubrication.line.march import Contact, March, Operation, Scaling, build_solution_at, state_from_solution
+from bem.lubrication.line.problem import line_scales, scaled_problem
+from bem.lubrication.line.time_step import StepOutcome, TransientState, build_step, elastic_film, fixed_mesh, time_step
 from bem.lubrication.results import FilmSolution
 from bem.threads import one_blas_thread
 
@@ -50,12 +50,12 @@ FLOOR = 0.05
 class ShapedStart:
     """A film to start others from, on the same mesh.
 
-    pressure : at the nodes, in similarity variables. datum : of the film, the same. profile : of the film at the nodes
-    [m].
+    pressure : (n+1,) at the nodes, in similarity variables. rigid_separation : H0, the same.
+    profile : (n+1,) of the film at the nodes [m].
     """
 
     pressure: FloatArray
-    datum: float
+    rigid_separation: float
     profile: FloatArray
 
 
@@ -99,8 +99,8 @@ class ShapedContact:
         operation = Operation(lambda time: load, lambda time: speeds)
         contact = Contact(radius, modulus, oil)
         march = March(contact, operation, scaling, mesh, TOLERANCE, Cavitation.SWIFT_STIEBER)
-        first = film_of_solution(march, film)
-        return cls(march, ShapedStart(first.pressure, first.datum, np.zeros_like(first.pressure)))
+        first = state_from_solution(march, film)
+        return cls(march, ShapedStart(first.pressure, first.rigid_separation, np.zeros_like(first.pressure)))
 
     @property
     def position(self) -> FloatArray:
@@ -115,17 +115,17 @@ class ShapedContact:
         while True:
             target = profile if done + part >= 1 else start.profile + (done + part) * (profile - start.profile)
             march = self._march(target)
-            first = _film_of_start(march, at)
-            outcome = _solved(march, first, 0.0)
+            first = _initial_state(march, at)
+            outcome = _solve_step(march, first, 0.0)
             solves += 1
             least = part < 2 * LEAST_PART or np.array_equal(profile, start.profile)
             if not outcome.converged and least:
-                outcome = _settled(march, first)
+                outcome = _solve_pseudo_transient(march, first)
                 solves += len(TIME_STEPS) + 1
             if outcome.converged:
-                at, done = ShapedStart(outcome.film.pressure, outcome.film.datum, target), done + part
+                at, done = ShapedStart(outcome.film.pressure, outcome.film.rigid_separation, target), done + part
                 if done >= 1:
-                    return ShapedOutcome(solution_at(march, outcome.film, 0.0, outcome), at, solves)
+                    return ShapedOutcome(build_solution_at(march, outcome.film, 0.0, outcome), at, solves)
                 part = min(2 * part, 1 - done)
             elif least:
                 return None
@@ -139,43 +139,46 @@ class ShapedContact:
         profile, pressure = (np.interp(x, other.position, values) for values in (start.profile, start.pressure))
         pressure *= there.pressure / scales.pressure * self.march.scaling.load / other.march.scaling.load
         pressure[0] = pressure[-1] = 0.0
-        other_film = elastic_film(other._march(start.profile).mesh, start.pressure, start.datum) * there.film
+        other_film = elastic_film(other._march(start.profile).mesh, start.pressure, start.rigid_separation) * there.film
         film = elastic_film(self._march(profile).mesh, pressure, 0.0)
         loaded = pressure > LOADED * pressure.max()
         known = np.interp(x[loaded], other.position, other_film) / scales.film
         return ShapedStart(pressure, float(np.mean(known - film[loaded])), profile)
 
     def _march(self, profile: FloatArray) -> March:
+        """Return the march with the profile added to the shape of the mesh."""
         mesh = self.march.mesh
         shape = mesh.shape + profile / self.march.scaling.scales.film
         return replace(self.march, mesh=replace(mesh, shape=shape))
 
 
-def _solved(march: March, film: Film, leading: float) -> StepOutcome:
-    """Return the film after one implicit step of length 1/leading from a film; 0: the steady one."""
+def _solve_step(march: March, film: TransientState, leading: float) -> StepOutcome:
+    """Return the film after one implicit step of length 1/leading from a state; leading 0: the steady film."""
     first, second = march.operation.speeds(0.0)
     entrainment = (first + second) / march.scaling.speed
-    step = step_of(march.problem_at(0.0), march.mesh, entrainment, leading, -leading * film.mass, march.cavitation)
+    step = build_step(march.problem_at(0.0), march.mesh, entrainment, leading, -leading * film.mass, march.cavitation)
     return time_step(step, film, march.tolerance, NEWTON_STEPS)
 
 
-def _settled(march: March, film: Film) -> StepOutcome:
+def _solve_pseudo_transient(march: March, film: TransientState) -> StepOutcome:
     """Return the steady film that implicit steps of growing length lead to."""
     for length in TIME_STEPS:
-        outcome = _solved(march, film, 1 / length)
+        outcome = _solve_step(march, film, 1 / length)
         if not outcome.converged:
             return outcome
         film = outcome.film
-    return _solved(march, film, 0.0)
+    return _solve_step(march, film, 0.0)
 
 
-def _film_of_start(march: March, start: ShapedStart) -> Film:
-    """Return the film of a start's pressure; the datum is raised where the profile leaves no gap."""
-    film = elastic_film(march.mesh, start.pressure, start.datum)
-    datum = start.datum
+def _initial_state(march: March, start: ShapedStart) -> TransientState:
+    """Return the state of a start's pressure; H0 is raised where the profile leaves no gap."""
+    film = elastic_film(march.mesh, start.pressure, start.rigid_separation)
+    rigid_separation = start.rigid_separation
     least = FLOOR * float(np.median(film[start.pressure > 0])) if (start.pressure > 0).any() else FLOOR
     if film.min() < least:
-        datum += least - float(film.min())
-        film = elastic_film(march.mesh, start.pressure, datum)
+        rigid_separation += least - float(film.min())
+        film = elastic_film(march.mesh, start.pressure, rigid_separation)
     density = march.scaling.problem.density(start.pressure)[0]
-    return Film(start.pressure, film, datum, density * film, start.pressure > 0, np.ones_like(film))
+    return TransientState(
+        start.pressure, film, rigid_separation, density * film, start.pressure > 0, np.ones_like(film)
+    )

@@ -1,9 +1,15 @@
-"""Starved films of a line contact: the inlet drawn in until the meniscus, or the oil that goes through, is as wanted.
+"""Starved films of a line contact: an inlet shortened to a meniscus, whose place meets the condition of the supply.
 
-Where the gap begins to be full the pressure is that of the surroundings. Oil that came in a layer fills it there, with
-a step in the pressure's gradient (Jakobsson and Floberg, Olsson), and what comes in goes out: the layer is as thick as
-the film at the exit. So a meniscus at any place is a film, and supplies are found among those by a secant: coarse ones
-by continuation from the flooded film, then on the wanted mesh.
+Where the gap begins to be full the pressure is ambient. Oil that arrived in a layer fills it there, with a step in the
+pressure gradient (Jakobsson and Floberg, Olsson). Mass is conserved: the layer is as thick as the film at the exit. So
+a meniscus at any place defines a film, and the supply is met by a search over its place:
+
+1. If the flooded film takes no more oil than there is, the flooded film is the answer.
+2. From a starved film of a similar case: secants on its own mesh (`MeniscusSearch.meet_condition`).
+3. Nearly flooded: the mesh of the flooded film without its first nodes, bisection over the nodes and regula falsi with
+   the Illinois modification between two of them, because meshes differ by more than the lack of oil.
+4. Otherwise: coarse films by continuation from the flooded inlet inwards until the condition is bracketed, then secants
+   on the final mesh, which is stretched a little.
 """
 
 from __future__ import annotations
@@ -14,134 +20,145 @@ from typing import Protocol
 
 import numpy as np
 
-from bem.lubrication.line.continuation import COARSE_TOLERANCE, MIDDLE, from_neighbour, refined, smallest_cell
+from bem.lubrication.line.continuation import (
+    COARSE_TOLERANCE,
+    MEDIUM_CELLS,
+    Neighbour,
+    refine_mesh,
+    smallest_cell,
+    solve_from_neighbour,
+)
 from bem.lubrication.line.deflection import LineOperator
-from bem.lubrication.line.newton import Outcome, State, newton, remesh, stretched
-from bem.lubrication.line.reynolds import Problem
+from bem.lubrication.line.newton import LineState, Outcome, newton, remesh, rescale
+from bem.lubrication.line.problem import Problem
 
 FIRST_STEP = 1.0
-"""In the logarithm of how far the meniscus is beyond Hertz' contact, on the way in."""
+"""First step of the continuation, in the logarithm of the distance of the meniscus from the Hertz contact."""
 LEAST_STEP = 0.02
-MOST = 80
-"""Coarse films on the way."""
+"""Shortest step of the continuation."""
+MOST_TRIALS = 80
+"""Largest number of coarse films."""
 SECANTS = 16
-LONGEST = 0.3
-"""Step of these, in that logarithm."""
+"""Largest number of secant steps."""
+LONGEST_STEP = 0.3
+"""Longest secant step, in that logarithm."""
 CALM = 1.2
-"""Widths of Hertz' contact before the exit from which a mesh may be stretched for itself."""
-NEAR = 0.01
-"""What coarse films are to miss the supply by at most."""
+"""Distance before the exit, in widths of the Hertz contact, upstream of which a mesh is stretched alone."""
+COARSE_ERROR = 0.01
+"""Largest deviation from the condition that ends the coarse search."""
 NEARLY_FLOODED = 0.95
-"""Of the flooded flow, from which the flooded film's own mesh is kept: other meshes differ by more than what lacks."""
+"""Share of the flooded flow above which the mesh of the flooded film stays."""
 LEAST_BRACKET = 0.5
-"""Of the flooded flow, below which its mesh says nothing any more."""
-_LEAST = 1e-9
+"""Share of the flooded flow below which the search on that mesh gives up."""
+_SMALLEST_REST = 1e-9
 
 
-def through(problem: Problem, state: State) -> float:
-    """Oil that goes through, in Moes' units of the film."""
-    return float(problem.dragged(state.film[-1:])[0][0])
+def mass_flow(problem: Problem, state: LineState) -> float:
+    """Return the mass flow through the contact, in Moes' units of the film."""
+    return float(problem.couette_film(state.film[-1:])[0][0])
 
 
-class Wanted(Protocol):
-    """A supply that films are measured by, over the flooded film on a mesh like their own."""
+class SupplyCondition(Protocol):
+    """Condition of a supply, relative to the flooded film on a similar mesh."""
 
-    def missed(self, state: State, flooded: State) -> float:
-        """By how much a film has too much inlet."""
+    def excess(self, state: LineState, flooded: LineState) -> float:
+        """Return by how much a film has too much inlet; zero where the condition is met."""
 
-    def error(self, state: State, flooded: State) -> float:
-        """How far it is from what is wanted, relative to that."""
+    def error(self, state: LineState, flooded: LineState) -> float:
+        """Return the relative deviation from the condition."""
 
 
 @dataclass(frozen=True)
-class WantedLayer:
-    """A share of the flooded flow that is to go through, missed in ln(it / what lacks), which knows both ends."""
+class LayerCondition:
+    """A share of the flooded flow that is to pass; excess in the log odds of the share, which resolve both ends."""
 
     problem: Problem
     share: float
 
-    def missed(self, state: State, flooded: State) -> float:
-        """As `Wanted`."""
+    def excess(self, state: LineState, flooded: LineState) -> float:
+        """Return the log odds of the flow less those wanted."""
         return _odds(self._share(state, flooded)) - _odds(self.share)
 
-    def error(self, state: State, flooded: State) -> float:
-        """As `Wanted`."""
+    def error(self, state: LineState, flooded: LineState) -> float:
+        """Return the relative deviation of the flow."""
         return abs(self._share(state, flooded) / self.share - 1)
 
-    def _share(self, state: State, flooded: State) -> float:
-        return through(self.problem, state) / through(self.problem, flooded)
+    def _share(self, state: LineState, flooded: LineState) -> float:
+        """Return the flow over the flooded flow."""
+        return mass_flow(self.problem, state) / mass_flow(self.problem, flooded)
 
 
 @dataclass(frozen=True)
-class WantedDistance:
-    """A meniscus at a distance, in Moes' units, missed in logarithms."""
+class MeniscusCondition:
+    """A meniscus at a distance from the axis, in Moes' units; excess in logarithms."""
 
     distance: float
 
-    def missed(self, state: State, flooded: State) -> float:
-        """As `Wanted`."""
+    def excess(self, state: LineState, flooded: LineState) -> float:
+        """Return ln of the distance over that wanted."""
         return math.log(max(-state.position[0], 1e-300) / self.distance)
 
-    def error(self, state: State, flooded: State) -> float:
-        """As `Wanted`."""
-        return abs(self.missed(state, flooded))
+    def error(self, state: LineState, flooded: LineState) -> float:
+        """Return the absolute logarithmic deviation."""
+        return abs(self.excess(state, flooded))
 
 
 def _odds(share: float) -> float:
-    return math.log(share / max(1 - share, _LEAST))
+    """Return the log odds of a share."""
+    return math.log(share / max(1 - share, _SMALLEST_REST))
 
 
-@dataclass(frozen=True)
-class Neighbour:
-    """A starved film of another case, at a load M, its unit of pressure over the problem's."""
-
-    state: State
-    load: float
-    unit: float
-
-
-def starved(
+def solve_starved(
     problem: Problem,
     flooded: Outcome,
-    wanted: Wanted,
+    condition: SupplyCondition,
     cells: int,
     tolerance: float,
     limit: int,
     near: Neighbour | None = None,
 ) -> Outcome:
-    """From the flooded film of a problem, or from one nearby, to the one that misses nothing; the flooded one where oil
-    beyond its mesh would be wanted, of which it hardly knows."""
+    """Solve for the film that meets the condition of a supply.
+
+    flooded : film with flooded inlet. near : starved film of a similar case. cells : of the final mesh. limit : Newton
+        steps of one film.
+
+    Returns the flooded film where the oil would suffice beyond its mesh, where the difference is below its own far
+    field.
+    """
     if not flooded.converged:
         return flooded
     far = newton(problem, replace(flooded.state, far_field=0.0), tolerance, limit)
     spent = flooded.iterations + far.iterations
-    if far.converged and wanted.missed(far.state, flooded.state) <= 0:
+    if far.converged and condition.excess(far.state, flooded.state) <= 0:
         return replace(flooded, iterations=spent)
-    search = _Search(problem, flooded.state, wanted, min(cells, MIDDLE), limit)
+    search = MeniscusSearch(problem, flooded.state, condition, min(cells, MEDIUM_CELLS), limit)
     if near is not None:
-        start = from_neighbour(problem, near.state, near.load, near.unit, cells, tolerance, limit)
+        start = solve_from_neighbour(problem, near, cells, tolerance, limit)
         if start.converged and search.share(start.state) < NEARLY_FLOODED:
-            start = search.met(start, 1.0, tolerance)
+            start = search.meet_condition(start, 1.0, tolerance)
             if start.converged:
                 return replace(start, iterations=spent + start.iterations)
         spent += start.iterations
-    own = search.on_own_mesh(tolerance)
+    own = search.search_on_flooded_mesh(tolerance)
     if own is not None:
-        return search.judged(replace(own, iterations=spent + search.spent), tolerance)
-    found, last, slope = search.coarse()
+        return search.with_condition_error(replace(own, iterations=spent + search.spent), tolerance)
+    found, last, slope = search.search_coarse()
     if not found:
         return replace(last, iterations=spent + search.spent, converged=False)
-    fine = refined(problem, last.state, search.cells, cells, tolerance, limit)
-    return search.met(replace(fine, iterations=spent + search.spent + fine.iterations), slope, tolerance)
+    fine = refine_mesh(problem, last.state, search.cells, cells, tolerance, limit)
+    return search.meet_condition(replace(fine, iterations=spent + search.spent + fine.iterations), slope, tolerance)
 
 
 @dataclass
-class _Search:
-    """For a film that misses nothing; `cells` of the coarse ones, `spent` Newton steps."""
+class MeniscusSearch:
+    """Search for the place of the meniscus.
+
+    cells : of the coarse films. spent : Newton steps so far.
+    """
 
     problem: Problem
-    flooded: State
-    wanted: Wanted
+    flooded: LineState
+    condition: SupplyCondition
     cells: int
     limit: int
     spent: int = 0
@@ -150,49 +167,48 @@ class _Search:
         self.hertz = 2 * math.sqrt(8 * self.problem.load / math.pi)
         self.reference = self.flooded
 
-    def on_own_mesh(self, tolerance: float) -> Outcome | None:
-        """The film on the nodes of the flooded one without the first of them, whose next one is where the meniscus is;
-        None where so much lacks that another mesh does."""
+    def search_on_flooded_mesh(self, tolerance: float) -> Outcome | None:
+        """Return the film on the nodes of the flooded film without the first of them; None where so much oil lacks that
+        another mesh does."""
         places = np.log(np.maximum(-self.flooded.offset - self.hertz, 1e-300))
         first, last = 0, 0
         while True:
             last = max(int(np.searchsorted(-places, FIRST_STEP - places[last])), last + 1)
-            trial = self._shortened(-self.flooded.offset[last], tolerance)
+            trial = self._on_flooded_nodes(-self.flooded.offset[last], tolerance)
             if not trial.converged or self.share(trial.state) < LEAST_BRACKET:
                 return None
-            if self.wanted.missed(trial.state, self.flooded) <= 0:
+            if self.condition.excess(trial.state, self.flooded) <= 0:
                 break
             if self.share(trial.state) < NEARLY_FLOODED:
                 return None
             first = last
         while last - first > 1:
             middle = (first + last) // 2
-            trial = self._shortened(-self.flooded.offset[middle], tolerance)
+            trial = self._on_flooded_nodes(-self.flooded.offset[middle], tolerance)
             if not trial.converged:
                 return None
-            first, last = (first, middle) if self.wanted.missed(trial.state, self.flooded) <= 0 else (middle, last)
+            first, last = (first, middle) if self.condition.excess(trial.state, self.flooded) <= 0 else (middle, last)
         return self._between(first, last, tolerance)
 
     def _between(self, first: int, last: int, tolerance: float) -> Outcome | None:
-        """The film with its meniscus between two nodes next to one another, or a little before them."""
+        """Return the film with its meniscus between two neighbouring nodes, or a little upstream of them."""
         lengths = -self.flooded.offset[[first, last]]
         low, high = lengths[1], lengths[0]
         for _ in range(SECANTS):
-            trial = self._shortened(high, tolerance, last + 1)
+            trial = self._on_flooded_nodes(high, tolerance, last + 1)
             if not trial.converged:
                 return None
-            if self.wanted.missed(trial.state, self.flooded) > 0:
+            if self.condition.excess(trial.state, self.flooded) > 0:
                 break
             low, high = high, high + (lengths[0] - lengths[1])
-        values = [
-            self.wanted.missed(self._shortened(at, tolerance, last + 1).state, self.flooded) for at in (low, high)
-        ]
+        trials = [self._on_flooded_nodes(at, tolerance, last + 1) for at in (low, high)]
+        values = [self.condition.excess(trial.state, self.flooded) for trial in trials]
         side = 0
         for _ in range(4 * SECANTS):  # regula falsi, the value that stays halved
             at = low + (high - low) * values[0] / (values[0] - values[1])
-            trial = self._shortened(at, tolerance, last + 1)
-            miss = self.wanted.missed(trial.state, self.flooded)
-            if not trial.converged or self.wanted.error(trial.state, self.flooded) <= tolerance:
+            trial = self._on_flooded_nodes(at, tolerance, last + 1)
+            miss = self.condition.excess(trial.state, self.flooded)
+            if not trial.converged or self.condition.error(trial.state, self.flooded) <= tolerance:
                 break
             if miss > 0:
                 high, values = at, [values[0] / 2 if side > 0 else values[0], miss]
@@ -201,12 +217,12 @@ class _Search:
             side = 1 if miss > 0 else -1
         return trial
 
-    def share(self, state: State) -> float:
-        """Of the flooded flow."""
-        return through(self.problem, state) / through(self.problem, self.flooded)
+    def share(self, state: LineState) -> float:
+        """Return the flow over the flooded flow."""
+        return mass_flow(self.problem, state) / mass_flow(self.problem, self.flooded)
 
-    def _shortened(self, length: float, tolerance: float, rest: int | None = None) -> Outcome:
-        """The film with its meniscus a length before the exit, on the flooded one's nodes from `rest` on (the next)."""
+    def _on_flooded_nodes(self, length: float, tolerance: float, rest: int | None = None) -> Outcome:
+        """Solve with the meniscus `length` before the exit, on the nodes of the flooded film from number `rest` on."""
         flooded = self.flooded
         rest = int(np.searchsorted(flooded.offset, -length * (1 - 1e-12), side="right")) if rest is None else rest
         nodes = np.append(-length, flooded.offset[rest:])
@@ -217,27 +233,28 @@ class _Search:
         self.spent += trial.iterations
         return trial
 
-    def _take_reference(self) -> None:
-        """The flooded film on a coarse mesh."""
+    def _solve_reference(self) -> None:
+        """Solve the flooded film on a coarse mesh."""
         if len(self.flooded.offset) != self.cells + 1:
-            coarse = remesh(self.problem, self.flooded, self.cells, smallest_cell(self.problem.load))
-            outcome = newton(self.problem, coarse, COARSE_TOLERANCE, self.limit)
+            start = remesh(self.problem, self.flooded, self.cells, smallest_cell(self.problem.load))
+            outcome = newton(self.problem, start, COARSE_TOLERANCE, self.limit)
             self.spent += outcome.iterations
             self.reference = outcome.state if outcome.converged else self.flooded
 
-    def place(self, state: State) -> float:
-        """Logarithm of how far the meniscus is beyond Hertz' contact."""
+    def log_distance(self, state: LineState) -> float:
+        """Return ln of the distance of the meniscus from the Hertz contact."""
         return math.log(-state.offset[0] - self.hertz)
 
-    def coarse(self) -> tuple[bool, Outcome, float]:
-        """Return True if there is one, the last film, and the slope of what is missed with its place."""
-        self._take_reference()
+    def search_coarse(self) -> tuple[bool, Outcome, float]:
+        """Return whether the coarse search succeeded, its last film, and the slope of the excess with the log
+        distance."""
+        self._solve_reference()
         last = Outcome(replace(self.reference, far_field=0.0), 0, 0.0, True)
-        place, step, slope = self.place(last.state), FIRST_STEP, 1.0
+        log_distance, step, slope = self.log_distance(last.state), FIRST_STEP, 1.0
         above: tuple[float, float] | None = None
         below: tuple[float, float] | None = None
-        for _ in range(MOST):
-            shorter = _cut(self.problem, last.state, self.hertz + math.exp(place - step), self.cells)
+        for _ in range(MOST_TRIALS):
+            shorter = _cut(self.problem, last.state, self.hertz + math.exp(log_distance - step), self.cells)
             trial = newton(self.problem, shorter, COARSE_TOLERANCE, self.limit)
             self.spent += trial.iterations
             if not trial.converged:
@@ -245,57 +262,57 @@ class _Search:
                 if abs(step) < LEAST_STEP:
                     return False, trial, slope
                 continue
-            last, place, miss = trial, place - step, self.wanted.missed(trial.state, self.reference)
-            if abs(miss) <= NEAR:
+            last, log_distance, miss = trial, log_distance - step, self.condition.excess(trial.state, self.reference)
+            if abs(miss) <= COARSE_ERROR:
                 return True, last, slope
-            above, below = ((place, miss), below) if miss > 0 else (above, (place, miss))
+            above, below = ((log_distance, miss), below) if miss > 0 else (above, (log_distance, miss))
             if below is None:
                 step = min(1.5 * step, FIRST_STEP)
                 continue
             if above is None:  # the first step was too long, and what coarse meshes miss beyond is not known
                 return True, last, slope
             slope = (above[1] - below[1]) / (above[0] - below[0])
-            step = place - min(max(place - miss / slope, below[0]), above[0])
+            step = log_distance - min(max(log_distance - miss / slope, below[0]), above[0])
             if abs(step) < 1e-6:
                 return True, last, slope
         return False, last, slope
 
-    def met(self, fine: Outcome, slope: float, tolerance: float) -> Outcome:
-        """The supply met on the wanted mesh, which is stretched a little: secant."""
+    def meet_condition(self, fine: Outcome, slope: float, tolerance: float) -> Outcome:
+        """Meet the condition on the final mesh by secants; the mesh is stretched a little."""
         before: tuple[float, float] | None = None
         for _ in range(SECANTS):
             if not fine.converged:
                 break
-            miss, place = self.wanted.missed(fine.state, self.flooded), self.place(fine.state)
-            if self.wanted.error(fine.state, self.flooded) <= tolerance:
+            miss, log_distance = self.condition.excess(fine.state, self.flooded), self.log_distance(fine.state)
+            if self.condition.error(fine.state, self.flooded) <= tolerance:
                 break
-            if before is not None and (miss - before[1]) * (place - before[0]) > 0:
-                slope = (miss - before[1]) / (place - before[0])
-            before, change = (place, miss), min(max(-miss / slope, -LONGEST), LONGEST)
-            fine = self._moved(fine, place + change, tolerance)
-        return self.judged(fine, tolerance)
+            if before is not None and (miss - before[1]) * (log_distance - before[0]) > 0:
+                slope = (miss - before[1]) / (log_distance - before[0])
+            before, change = (log_distance, miss), min(max(-miss / slope, -LONGEST_STEP), LONGEST_STEP)
+            fine = self._at_meniscus(fine, log_distance + change, tolerance)
+        return self.with_condition_error(fine, tolerance)
 
-    def judged(self, fine: Outcome, tolerance: float) -> Outcome:
-        """Converged only where it misses nothing, too."""
-        miss = self.wanted.error(fine.state, self.flooded)
+    def with_condition_error(self, fine: Outcome, tolerance: float) -> Outcome:
+        """Return the outcome with the deviation from the condition in its residual and convergence."""
+        miss = self.condition.error(fine.state, self.flooded)
         return replace(fine, residual=max(fine.residual, miss), converged=fine.converged and miss <= tolerance)
 
-    def _moved(self, fine: Outcome, place: float, tolerance: float) -> Outcome:
-        """The film with its meniscus elsewhere."""
-        length, before = self.hertz + math.exp(place), -fine.state.offset[0]
-        held = CALM * max(self.hertz, 2 * fine.state.exit)
-        if min(length, before) > 2 * held:  # what is sharp stays on its nodes
+    def _at_meniscus(self, fine: Outcome, log_distance: float, tolerance: float) -> Outcome:
+        """Solve with the meniscus at another log distance."""
+        length, before = self.hertz + math.exp(log_distance), -fine.state.offset[0]
+        fixed = CALM * max(self.hertz, 2 * fine.state.exit)
+        if min(length, before) > 2 * fixed:  # what is sharp stays on its nodes
             nodes = fine.state.offset
-            nodes = np.where(nodes < -held, -held + (nodes + held) * (length - held) / (before - held), nodes)
+            nodes = np.where(nodes < -fixed, -fixed + (nodes + fixed) * (length - fixed) / (before - fixed), nodes)
             state = replace(fine.state, offset=nodes, operator=LineOperator.of(nodes))
         else:
-            state = replace(stretched(fine.state, length / before, 1.0, 1.0), exit=fine.state.exit)
+            state = replace(rescale(fine.state, length / before, 1.0, 1.0), exit=fine.state.exit)
         outcome = newton(self.problem, state, tolerance, self.limit)
         return replace(outcome, iterations=outcome.iterations + fine.iterations)
 
 
-def _cut(problem: Problem, state: State, length: float, cells: int) -> State:
-    """The state with its meniscus a length before the exit, on a mesh made for it."""
+def _cut(problem: Problem, state: LineState, length: float, cells: int) -> LineState:
+    """Return the state with its meniscus `length` before the exit, on a mesh made for it."""
     offset = state.offset
     if length < -offset[0]:
         first = int(np.searchsorted(offset, -length, side="right"))

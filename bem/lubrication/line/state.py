@@ -1,8 +1,8 @@
-"""What a steady line film leaves behind its figures: to be looked at anywhere, and for others to start from.
+"""Warm starts of line films: converged states for resampling and as starts of similar cases.
 
-Equations of the last Newton step are megabytes, and of use only to a start next to it: who solves many films in a row
-keeps them from one to the next (`steady.line_film`), results are handed out without. Knows the discrete film.
-Verified in tests/lubrication/test_line_film_steady.py and tests/friction/test_continuation.py.
+The factors of the last Newton step take megabytes and help only the next similar film. A caller that solves many films
+in a row keeps them (`steady.line_film`); results for users are returned without. Verified in
+tests/lubrication/test_line_film_steady.py and tests/friction/test_continuation.py.
 """
 
 from __future__ import annotations
@@ -10,53 +10,111 @@ from __future__ import annotations
 from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
 from bem.grid import FloatArray
+from bem.lubrication.line.continuation import MEDIUM_CELLS, SPIKE_CELLS, Neighbour
 from bem.lubrication.line.deflection import DEFLECTION, logarithmic_integral
-from bem.lubrication.line.newton import State
-from bem.lubrication.line.scales import Scales
-from bem.lubrication.line.temperatures import KeptHeat
+from bem.lubrication.line.newton import LineState, interpolate_state, is_usable_start, spike_cell
+from bem.lubrication.line.problem import Scales, scaled_problem
 from bem.lubrication.results import FilmSolution
 from bem.numerics.monotone import MonotoneCubic
 from bem.threads import one_blas_thread
 
 
 @dataclass(frozen=True)
-class KeptSteady:
-    """What a warm start and a look at other positions need; `flooded`: without a supply, `sketch`: of `coarse`,
-    `heat`: what full heat starts from."""
+class ThermalState:
+    """Temperatures of a film with full heat, as a start for similar cases.
 
-    state: State
-    flooded: State
+    Places are distances from the exit over the exit's abscissa, temperatures are rises over the supplied oil [K].
+
+    isothermal : film without heat.
+    nodes : (n,) places of the mesh.
+    layers : (n, K + 1) rises at the nodes in K layers and, last, the thinning
+        (`thermal.coupling.ThermalProblem.layered`).
+    columns : (m,) places of the centres of the columns.
+    rise : (m, K + 2) rises in the columns, both walls included.
+    edge : (m+1,) nodes at which columns begin and end.
+    asked : number of columns that was asked for.
+    """
+
+    isothermal: FilmSolution
+    nodes: FloatArray
+    layers: FloatArray
+    columns: FloatArray
+    rise: FloatArray
+    edge: NDArray[np.intp]
+    asked: int
+
+    def edges_of(self, nodes: FloatArray, columns: int) -> NDArray[np.intp] | None:
+        """Return the nodes at which columns begin and end on the same mesh; None on another."""
+        same = columns == self.asked and len(nodes) == len(self.nodes)
+        return self.edge if same and np.allclose(nodes, self.nodes, rtol=1e-9) else None
+
+    def at_nodes(self, nodes: FloatArray, layers: int, supply: float) -> FloatArray:
+        """Return temperatures [K] and thinning (n, layers + 1) at other places, for oil supplied at temperature
+        `supply` [K]."""
+        rise = _resampled(self.layers[:, :-1], layer_centres(self.layers.shape[1] - 1), layer_centres(layers))
+        return interpolate_columns(self.nodes, np.column_stack([supply + rise, self.layers[:, -1]]), nodes)
+
+    def in_columns(self, columns: FloatArray, layers: int, supply: float) -> FloatArray:
+        """Return the temperatures of columns (m, layers + 2) [K], for oil supplied at temperature `supply` [K]."""
+        heights = [np.concatenate([[-1.0], layer_centres(count), [1.0]]) for count in (self.rise.shape[1] - 2, layers)]
+        return supply + interpolate_columns(self.columns, _resampled(self.rise, *heights), columns)
+
+
+@dataclass(frozen=True)
+class FilmState:
+    """Converged state of a steady line film, for resampling and warm starts.
+
+    state : film and pressure on the mesh, with the oil that is supplied.
+    flooded : the same with a flooded inlet.
+    load : M. scales : Moes' units.
+    reversed : whether the entrainment is along -x.
+    coarse : whether it is a film on `continuation.COARSE_CELLS` cells.
+    heat : temperatures of full heat; None without.
+    """
+
+    state: LineState
+    flooded: LineState
     load: float
     scales: Scales
     reversed: bool
-    sketch: bool = False
-    heat: KeptHeat | None = None
+    coarse: bool = False
+    heat: ThermalState | None = None
+
+    def neighbour(self, scales: Scales) -> Neighbour:
+        """Return the film under its own supply as a start for a case with other units."""
+        return Neighbour(self.state, self.load, self.scales.pressure / scales.pressure)
+
+    def flooded_neighbour(self, scales: Scales) -> Neighbour:
+        """Return the flooded film as a start for a case with other units."""
+        return Neighbour(self.flooded, self.load, self.scales.pressure / scales.pressure, self.coarse)
 
     @one_blas_thread
     def sample(self, position: FloatArray) -> tuple[FloatArray, FloatArray]:
-        """Pressure [Pa] and thickness [m] at any positions [m]: interpolated on the mesh, by the kernel off it."""
+        """Return pressure [Pa] and thickness [m] at any positions [m]: interpolated on the mesh, by the kernel beyond
+        it."""
         position = np.asarray(position, dtype=np.float64)
         at = -position if self.reversed else position
         order = np.argsort(at, kind="stable")
         pressure, film = np.empty(len(at)), np.empty(len(at))
-        pressure[order], film[order] = sampled_state(at[order], self.state, self.scales)
+        pressure[order], film[order] = sample_state(at[order], self.state, self.scales)
         return pressure, film
 
 
-def without_equations(film: FilmSolution) -> FilmSolution:
-    """The film without what only starts next to it need: megabytes."""
+def without_factors(film: FilmSolution) -> FilmSolution:
+    """Return the film without the factored Newton equations."""
     kept = film.state
-    if not isinstance(kept, KeptSteady):
+    if not isinstance(kept, FilmState):
         return film
-    state = replace(kept.state, linear=None)
-    flooded = state if kept.flooded is kept.state else replace(kept.flooded, linear=None)
+    state = replace(kept.state, factored=None)
+    flooded = state if kept.flooded is kept.state else replace(kept.flooded, factored=None)
     return replace(film, state=replace(kept, state=state, flooded=flooded))
 
 
-def sampled_state(at: FloatArray, state: State, scales: Scales) -> tuple[FloatArray, FloatArray]:
-    """Pressure and thickness at ascending positions [m] for positive entrainment."""
+def sample_state(at: FloatArray, state: LineState, scales: Scales) -> tuple[FloatArray, FloatArray]:
+    """Return pressure [Pa] and thickness [m] of a state with positive entrainment at ascending positions [m]."""
     x = state.position
     target = at / scales.length
     inside = (target >= x[0]) & (target <= x[-1])
@@ -70,5 +128,41 @@ def sampled_state(at: FloatArray, state: State, scales: Scales) -> tuple[FloatAr
     if not inside.all():
         out = target[~inside]
         deflection = DEFLECTION * logarithmic_integral(out - state.exit, state.offset, state.pressure)
-        film[~inside] = state.datum + 0.5 * out**2 - deflection
+        film[~inside] = state.rigid_separation + 0.5 * out**2 - deflection
     return pressure * scales.pressure, film * scales.film
+
+
+def interpolate_to_mesh(film: FilmSolution, other: FilmSolution) -> FilmSolution:
+    """Return a film as a start on the mesh of another film, whose operator is known.
+
+    The film itself is returned where that mesh does not suit, where a sharp spike would move on it, or where oil is
+    lacking.
+    """
+    kept, there = film.state, other.state
+    if not isinstance(kept, FilmState) or not isinstance(there, FilmState):
+        return film
+    if min(kept.state.far_field, there.state.far_field) == 0 or not (
+        is_usable_start(kept.state) and is_usable_start(there.state)
+    ):
+        return film
+    scales, speeds = kept.scales, film.speeds
+    problem = scaled_problem(scales, kept.load, film.lubricant, None, speeds[0] - speeds[1])
+    if spike_cell(problem, kept.state, MEDIUM_CELLS) < SPIKE_CELLS[0]:
+        return film
+    state = interpolate_state(problem, kept.state, there.state)
+    return film if state is None else replace(film, state=replace(kept, state=state, flooded=state, coarse=False))
+
+
+def layer_centres(layers: int) -> FloatArray:
+    """Return s at the centres of the layers (K,), from -1 at the lower wall to 1 at the upper wall."""
+    return np.asarray((2 * np.arange(layers) + 1) / layers - 1)
+
+
+def interpolate_columns(old: FloatArray, values: FloatArray, new: FloatArray) -> FloatArray:
+    """Return values (n, K) at old places, interpolated linearly to new places (m, K)."""
+    return np.stack([np.interp(new, old, column) for column in values.T], axis=1)
+
+
+def _resampled(values: FloatArray, old: FloatArray, new: FloatArray) -> FloatArray:
+    """Return values (n, K) at old heights, interpolated linearly to new heights."""
+    return values if len(old) == len(new) else interpolate_columns(old, values.T, new).T

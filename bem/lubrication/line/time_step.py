@@ -1,19 +1,19 @@
 """One implicit time step of the line-contact film on a fixed mesh, with cavitation as a complementarity.
 
-In similarity variables (see `newton`), with time in units of 2 length / reference speed and s the entrainment
-speed over that reference:
+In similarity variables (`problem`), with time in units of 2 length / reference speed and s the entrainment speed over
+that reference:
 
-    d/dX (s rho H - rho H^3/(6 m) P') + d/dT (rho H) >= 0,   P >= 0,   one of them zero at every node,
+    d/dX (s rho H - rho H^3/(6 m) P') + d/dT (rho H) >= 0,   P >= 0,   one of them zero at every node.
 
-finite volumes around the nodes, Couette flow extrapolated from the two nodes upstream. Every full-film volume is
-balanced exactly by construction; at cavitated nodes the excess is the void that opens.
-
-With mass-conserving cavitation H becomes theta H in both flow and storage, theta <= 1 the fraction of the gap that is
-filled, the balance is an equation at every node, and P >= 0 is complementary to 1 - theta >= 0 instead: an active set
-says which of P and theta is unknown at a node, and changes with every Newton step. A face carries the theta of the
-node upstream on the film extrapolated to it: of second order in the full film, without oscillations behind it, and the
-same formula whoever is full, so that the discrete problem has one solution. What differs between the two models is in
-`cavitation`.
+1. Finite volumes around the nodes; Couette flow extrapolated from the two nodes upstream of a face. Every full-film
+   volume is balanced exactly by construction; at cavitated nodes the excess is the void that opens.
+2. With mass-conserving cavitation H becomes theta H in flow and storage, theta <= 1 the filled fraction of the gap. The
+   balance is then an equation at every node, and P >= 0 is complementary to 1 - theta >= 0. A face carries the theta of
+   the node upstream on the film extrapolated to it: of second order in the full film, without oscillations behind it,
+   and the same formula in both zones, so that the discrete problem has one solution.
+3. An active set says whether P or theta is unknown at a node, and changes with every Newton step (`cavitation` has what
+   differs between the models).
+4. The film is eliminated: one dense system for pressures, fractions and H0, solved by LU.
 """
 
 from __future__ import annotations
@@ -26,17 +26,24 @@ from scipy.linalg import lu_factor, lu_solve
 from bem.compiled import compiled
 from bem.grid import FloatArray
 from bem.lubrication.cavitation import Cavitation
-from bem.lubrication.line.cavitation import RUPTURES, Indices, Iterate, Nodes, Rupture
+from bem.lubrication.line.cavitation import CAVITATION_MODELS, CavitationModel, Indices, Iterate, Nodes
 from bem.lubrication.line.deflection import DEFLECTION, logarithmic_weights
 from bem.lubrication.line.mesh import trapezoidal_weights, upwind_extrapolation
-from bem.lubrication.line.reynolds import Problem, longest_step, mean_fluidity
-from bem.lubrication.shear_profile import Driven, newtonian
+from bem.lubrication.line.problem import Problem
+from bem.lubrication.line.reynolds import longest_step, mean_fluidity
+from bem.lubrication.shear_profile import EquivalentGradient, newtonian
 
 
 @dataclass(frozen=True)
 class FixedMesh:
-    """Nodes (n+1,), film of undeformed bodies, kernel weights, volumes, quadrature; cells (n,), and on their faces how
-    much of the difference between the two nodes upstream extrapolates the nearer one, for either direction."""
+    """Fixed mesh of n cells.
+
+    position, shape : (n+1,) nodes, and film of the undeformed bodies.
+    weights : (n+1, n+1) of the deflection.
+    volume, quadrature : (n+1,) lengths of the volumes, and trapezoidal weights.
+    spacing : (n,) cells.
+    ahead, behind : (n,) upwind extrapolation factors on the faces for entrainment along +x and -x.
+    """
 
     position: FloatArray
     shape: FloatArray
@@ -49,12 +56,16 @@ class FixedMesh:
 
 
 @dataclass(frozen=True)
-class Film:
-    """Pressure and film at the nodes, datum, the mass rho H theta, which nodes carry pressure, and theta."""
+class TransientState:
+    """State of the film at a time.
+
+    pressure, film : (n+1,). rigid_separation : H0. mass : (n+1,) rho H theta.
+    full : (n+1,) nodes that carry pressure. fraction : (n+1,) theta.
+    """
 
     pressure: FloatArray
     film: FloatArray
-    datum: float
+    rigid_separation: float
     mass: FloatArray
     full: Nodes
     fraction: FloatArray
@@ -62,9 +73,10 @@ class Film:
 
 @dataclass(frozen=True)
 class StepOutcome:
-    """State after the step, Newton steps, residual, whether converged, and the volume balance."""
+    """State after the step, Newton steps, largest residual, whether it converged, and the relative imbalance of all
+    volumes."""
 
-    film: Film
+    film: TransientState
     iterations: int
     residual: float
     converged: bool
@@ -72,7 +84,7 @@ class StepOutcome:
 
 
 def fixed_mesh(half_width: float, far: float, cells: int) -> FixedMesh:
-    """Symmetric mesh: uniform within `half_width`, growing geometrically to `far` on both sides."""
+    """Return a symmetric mesh: uniform within `half_width`, growing geometrically to `far` on both sides."""
     half = cells // 2
     inner = max(int(0.72 * half), 4)
     width = half_width / inner
@@ -87,11 +99,11 @@ def fixed_mesh(half_width: float, far: float, cells: int) -> FixedMesh:
         [np.arange(inner + 1) * width, half_width + width * np.cumsum(ratio ** np.arange(1, outer + 1))]
     )
     position = np.concatenate([-right[:0:-1], right])
-    return mesh_of(position, 0.5 * position**2, logarithmic_weights(position, position))
+    return mesh_from_nodes(position, 0.5 * position**2, logarithmic_weights(position, position))
 
 
-def mesh_of(position: FloatArray, shape: FloatArray, weights: FloatArray) -> FixedMesh:
-    """The mesh with given nodes, film of undeformed bodies and kernel weights."""
+def mesh_from_nodes(position: FloatArray, shape: FloatArray, weights: FloatArray) -> FixedMesh:
+    """Return the mesh of given nodes, film of the undeformed bodies and deflection weights."""
     spacing, quadrature = np.diff(position), trapezoidal_weights(position)
     return FixedMesh(
         position=position,
@@ -105,18 +117,18 @@ def mesh_of(position: FloatArray, shape: FloatArray, weights: FloatArray) -> Fix
     )
 
 
-def elastic_film(mesh: FixedMesh, pressure: FloatArray, datum: float) -> FloatArray:
-    """Film of a pressure and a datum."""
-    film: FloatArray = datum + mesh.shape - DEFLECTION * (mesh.weights @ pressure)
+def elastic_film(mesh: FixedMesh, pressure: FloatArray, rigid_separation: float) -> FloatArray:
+    """Return the film (n+1,) of a pressure (n+1,) and H0."""
+    film: FloatArray = rigid_separation + mesh.shape - DEFLECTION * (mesh.weights @ pressure)
     return film
 
 
 @dataclass(frozen=True)
 class Step:
-    """What stays the same during a time step.
+    """Quantities that stay constant during a time step.
 
-    The time derivative is `leading * rho H + history`. upstream, farther : the node upstream of every face, and the one
-    upstream of that; extrapolation : how much of their difference is added on the face.
+    entrainment : over the reference speed. leading, history : the time derivative is leading * rho H + history.
+    upstream, farther : (n,) the two nodes upstream of every face. extrapolation : (n,) factors of their difference.
     """
 
     problem: Problem
@@ -124,45 +136,51 @@ class Step:
     entrainment: float
     leading: float
     history: FloatArray
-    rupture: Rupture
+    cavitation: CavitationModel
     upstream: Indices
     farther: Indices
     extrapolation: FloatArray
 
     @property
     def loaded(self) -> bool:
-        """Return True if the load is given; else the datum stays as it is."""
+        """Return True if the load is given; otherwise H0 is."""
         return bool(np.isfinite(self.problem.load))
 
 
 @dataclass(frozen=True)
-class Balance:
-    """The balances at an iterate. On nodes: density and slopes, mass, mass of a full gap (held), excess of each volume,
-    row (its scale), scaled (their ratio). On faces: the rest. highest : of the pressure."""
+class VolumeBalance:
+    """Terms of the balances at an iterate.
+
+    On nodes (n+1,): density, its slope, slope of ln viscosity, mass, mass of a full gap, excess of each volume, its
+    scale, and their ratio.
+    On faces (n,): film, density, fluidity and its derivatives, equivalent gradient, H^3/6, speed of the Couette flow
+    times theta, mass on the face, flux.
+    load_error : relative error of the load. largest_pressure : of the iterate.
+    """
 
     density: FloatArray
     density_slope: FloatArray
     slope: FloatArray
     thickness: FloatArray
     mean_density: FloatArray
-    fluid: FloatArray
+    fluidity: FloatArray
     left: FloatArray
     right: FloatArray
-    driven: Driven
-    cubed: FloatArray
+    equivalent: EquivalentGradient
+    poiseuille_cube: FloatArray
     mass: FloatArray
-    held: FloatArray
-    carried: FloatArray
-    faced: FloatArray
+    full_mass: FloatArray
+    face_speed: FloatArray
+    face_mass: FloatArray
     flux: FloatArray
     excess: FloatArray
-    row: FloatArray
+    scale: FloatArray
     scaled: FloatArray
     load_error: float
-    highest: float
+    largest_pressure: float
 
 
-def step_of(
+def build_step(
     problem: Problem,
     mesh: FixedMesh,
     entrainment: float,
@@ -170,27 +188,28 @@ def step_of(
     history: FloatArray,
     cavitation: Cavitation = Cavitation.SWIFT_STIEBER,
 ) -> Step:
-    """A step under what acts, in which the time derivative is `leading * rho H + history`."""
+    """Return the step in which the time derivative is leading * rho H + history."""
     extrapolation = mesh.ahead if entrainment >= 0 else mesh.behind
     upstream = _upstream_nodes(mesh, entrainment)
-    return Step(problem, mesh, entrainment, leading, history, RUPTURES[cavitation], *upstream, extrapolation)
+    return Step(problem, mesh, entrainment, leading, history, CAVITATION_MODELS[cavitation], *upstream, extrapolation)
 
 
 def time_step(
-    step: Step, start: Film, tolerance: float, max_iterations: int = 30, layer: float = np.inf
+    step: Step, start: TransientState, tolerance: float, max_iterations: int = 30, layer: float = np.inf
 ) -> StepOutcome:
-    """Solve for pressure and datum such that flow, the time derivative and load agree.
+    """Solve for pressure, fraction and H0 such that flow, time derivative and load agree.
 
-    An infinite load keeps the datum as it is: a gap of given shape. The upstream end is filled by a layer, or full.
+    layer : film of the oil that arrives upstream; infinite for a full gap. An infinite load of the problem fixes H0: a
+        gap of given shape.
     """
-    fraction = step.rupture.start(start.fraction)
+    fraction = step.cavitation.initial_fraction(start.fraction)
     inlet = 0 if step.entrainment >= 0 else -1
     fraction[inlet] = min(layer / start.film[inlet], 1.0)  # the gap is so wide there that it does not change
-    at = Iterate(start.pressure.copy(), start.film.copy(), start.datum, fraction)
+    at = Iterate(start.pressure.copy(), start.film.copy(), start.rigid_separation, fraction)
     full = start.full.copy()
     full[0] = full[-1] = False
     converged, residual, iterations = False, np.inf, 0
-    seen: list[bytes] = []
+    earlier_sets: list[bytes] = []
     while True:
         balance = balance_of(step, at)
         if iterations:
@@ -199,7 +218,7 @@ def time_step(
         if converged or iterations == max_iterations or not np.isfinite(balance.scaled).all():
             break
         if iterations:
-            full = _carrying(step, at, balance, full, seen, settle=iterations > 8)
+            full = _next_active_set(step, at, balance, full, earlier_sets, settle=iterations > 8)
         full[np.flatnonzero(full)[0] if full.any() else len(full) // 2] = True
         changed = _newton(step, at, balance, full)
         if changed is None:
@@ -209,137 +228,151 @@ def time_step(
     return _outcome(step, at, balance, full, iterations, residual, converged)
 
 
-def balance_of(step: Step, at: Iterate) -> Balance:
-    """Flow through the faces and what it leaves in the volumes."""
+def balance_of(step: Step, at: Iterate) -> VolumeBalance:
+    """Return flux and balances at an iterate."""
     mesh, positive = step.mesh, np.maximum(at.pressure, 0.0)
     log_viscosity, slope = step.problem.log_viscosity(positive)
     density, density_slope = step.problem.density(positive)
     thickness = 0.5 * (at.film[1:] + at.film[:-1])
     mean_density = 0.5 * (density[1:] + density[:-1])
-    fluid, left, right = mean_fluidity(log_viscosity)
+    fluidity, left, right = mean_fluidity(log_viscosity)
     gradient = np.diff(at.pressure) / mesh.spacing
-    cubed = thickness**3 / 6
+    poiseuille_cube = thickness**3 / 6
     mass = at.fraction * density * at.film
-    carried = step.entrainment * at.fraction[step.upstream]
-    held = density * at.film
-    faced = held[step.upstream] + step.extrapolation * (held[step.upstream] - held[step.farther])
-    driven = newtonian(gradient)
+    face_speed = step.entrainment * at.fraction[step.upstream]
+    full_mass = density * at.film
+    face_mass = full_mass[step.upstream] + step.extrapolation * (full_mass[step.upstream] - full_mass[step.farther])
+    equivalent = newtonian(gradient)
     if step.problem.shear is not None:
-        driven = step.problem.shear.driven(gradient, thickness, fluid, 0.5 * (positive[1:] + positive[:-1]))
-    flux = carried * faced - cubed * mean_density * fluid * driven.gradient
+        equivalent = step.problem.shear.equivalent_gradient(
+            gradient, thickness, fluidity, 0.5 * (positive[1:] + positive[:-1])
+        )
+    flux = face_speed * face_mass - poiseuille_cube * mean_density * fluidity * equivalent.gradient
     excess = np.diff(flux, prepend=0.0, append=0.0) + mesh.volume * (step.leading * mass + step.history)
     # one flux to measure by: what is entrained or squeezed through the contact
-    row = (mesh.volume * step.leading + abs(step.entrainment)) * step.rupture.measure(at.film)
-    return Balance(
+    scale = (mesh.volume * step.leading + abs(step.entrainment)) * step.cavitation.reference_film(at.film)
+    return VolumeBalance(
         density=density,
         density_slope=density_slope,
         slope=slope,
         thickness=thickness,
         mean_density=mean_density,
-        fluid=fluid,
+        fluidity=fluidity,
         left=left,
         right=right,
-        driven=driven,
-        cubed=cubed,
+        equivalent=equivalent,
+        poiseuille_cube=poiseuille_cube,
         mass=mass,
-        held=held,
-        carried=carried,
-        faced=faced,
+        full_mass=full_mass,
+        face_speed=face_speed,
+        face_mass=face_mass,
         flux=flux,
         excess=excess,
-        row=row,
-        scaled=excess / row,
+        scale=scale,
+        scaled=excess / scale,
         load_error=float(1 - (mesh.quadrature @ at.pressure) / step.problem.load) if step.loaded else 0.0,
-        highest=max(float(at.pressure.max()), 1e-300),
+        largest_pressure=max(float(at.pressure.max()), 1e-300),
     )
 
 
-def _residual(step: Step, at: Iterate, balance: Balance, full: Nodes) -> float:
-    """The worst of load, negative pressure, balance and complementarity."""
-    worst = [abs(balance.load_error), max(-float(at.pressure.min()) / balance.highest, 0.0)]
-    share = at.pressure / balance.highest
-    return max(worst + step.rupture.violations(share, at.fraction, balance.scaled, full))
+def _residual(step: Step, at: Iterate, balance: VolumeBalance, full: Nodes) -> float:
+    """Return the largest violation of load, positive pressure, balance and complementarity."""
+    worst = [abs(balance.load_error), max(-float(at.pressure.min()) / balance.largest_pressure, 0.0)]
+    share = at.pressure / balance.largest_pressure
+    return max(worst + step.cavitation.violations(share, at.fraction, balance.scaled, full))
 
 
-def _carrying(step: Step, at: Iterate, balance: Balance, full: Nodes, seen: list[bytes], *, settle: bool) -> Nodes:
-    """The nodes that carry pressure next; `seen` are those of earlier iterates, and gets these."""
-    found = step.rupture.carrying(at.pressure / balance.highest, at.fraction, balance.scaled)
+def _next_active_set(
+    step: Step, at: Iterate, balance: VolumeBalance, full: Nodes, earlier_sets: list[bytes], *, settle: bool
+) -> Nodes:
+    """Return the next active set; `earlier_sets` collects all sets so far."""
+    found = step.cavitation.active_set(at.pressure / balance.largest_pressure, at.fraction, balance.scaled)
     found[0] = found[-1] = False
     key = found.tobytes()
-    if key in seen and not np.array_equal(found, full) and settle:
+    if key in earlier_sets and not np.array_equal(found, full) and settle:
         # the exit hops between two nodes: take the smaller film and let Newton settle
         found &= full
-    seen.append(key)
+    earlier_sets.append(key)
     return found
 
 
-def _derivatives(step: Step, at: Iterate, balance: Balance) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Of the scaled excess with film, pressure and fraction, as bands of five nodes."""
+def _derivatives(step: Step, at: Iterate, balance: VolumeBalance) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return the derivatives of the scaled excess with film, pressure and fraction, as bands (5, n+1)."""
     b, volume = balance, step.mesh.volume
-    driven = b.driven
-    through_film = 0.5 * b.thickness**2 * b.mean_density * b.fluid * driven.gradient
-    steep = b.cubed * driven.gradient * b.mean_density
-    mobility = b.cubed * b.mean_density * b.fluid / step.mesh.spacing
-    dense = 0.5 * b.cubed * b.fluid * driven.gradient
+    equivalent = b.equivalent
+    through_film = 0.5 * b.thickness**2 * b.mean_density * b.fluidity * equivalent.gradient
+    steep = b.poiseuille_cube * equivalent.gradient * b.mean_density
+    mobility = b.poiseuille_cube * b.mean_density * b.fluidity / step.mesh.spacing
+    dense = 0.5 * b.poiseuille_cube * b.fluidity * equivalent.gradient
     if step.problem.shear is not None:
-        through_film = through_film + b.cubed * b.mean_density * b.fluid * driven.by_film
-        steep = steep + b.cubed * b.mean_density * b.fluid * driven.by_fluidity
-        mobility = mobility * driven.by_gradient
+        through_film = through_film + b.poiseuille_cube * b.mean_density * b.fluidity * equivalent.by_film
+        steep = steep + b.poiseuille_cube * b.mean_density * b.fluidity * equivalent.by_fluidity
+        mobility = mobility * equivalent.by_gradient
     stored = at.film * b.density_slope
-    faces = _upwind(b.carried, b.density, step.extrapolation, step.entrainment)
+    faces = _couette_coefficients(b.face_speed, b.density, step.extrapolation, step.entrainment)
     faces[1:3] -= 0.5 * through_film
-    by_film = _bands(faces, volume * step.leading * at.fraction * b.density / b.row, b.row)
-    faces = _upwind(b.carried, stored, step.extrapolation, step.entrainment)
+    by_film = _bands(faces, volume * step.leading * at.fraction * b.density / b.scale, b.scale)
+    faces = _couette_coefficients(b.face_speed, stored, step.extrapolation, step.entrainment)
     faces[1] += mobility - steep * b.left * b.slope[:-1] - dense * b.density_slope[:-1]
     faces[2] -= mobility + steep * b.right * b.slope[1:] + dense * b.density_slope[1:]
     if step.problem.shear is not None:
-        faces[1:3] -= 0.5 * b.cubed * b.mean_density * b.fluid * driven.by_pressure
-    by_pressure = _bands(faces, volume * step.leading * at.fraction * stored / b.row, b.row)
+        faces[1:3] -= 0.5 * b.poiseuille_cube * b.mean_density * b.fluidity * equivalent.by_pressure
+    by_pressure = _bands(faces, volume * step.leading * at.fraction * stored / b.scale, b.scale)
     faces = np.zeros_like(faces)
-    faces[1 if step.entrainment >= 0 else 2] = step.entrainment * b.faced
-    by_fraction = _bands(faces, volume * step.leading * b.held / b.row, b.row)
+    faces[1 if step.entrainment >= 0 else 2] = step.entrainment * b.face_mass
+    by_fraction = _bands(faces, volume * step.leading * b.full_mass / b.scale, b.scale)
     return by_film, by_pressure, by_fraction
 
 
-def _newton(step: Step, at: Iterate, balance: Balance, full: Nodes) -> Iterate | None:
-    """One step of Newton's method for the pressures of full nodes, the fractions of empty ones and the datum; as long
-    as the film stays positive. None where the equations have no solution."""
-    mesh, highest = step.mesh, balance.highest
+def _newton(step: Step, at: Iterate, balance: VolumeBalance, full: Nodes) -> Iterate | None:
+    """Take a Newton step for the pressures of full nodes, the fractions of the others and H0, shortened to positive
+    films; None where the equations have no solution."""
+    mesh, largest_pressure = step.mesh, balance.largest_pressure
     by_film, by_pressure, by_fraction = _derivatives(step, at, balance)
-    index, rows_at, empty = np.flatnonzero(full), step.rupture.balanced(full), step.rupture.empty(full)
-    size, unknown = len(rows_at), len(index)
+    index, balanced, empty = (
+        np.flatnonzero(full),
+        step.cavitation.balanced_nodes(full),
+        step.cavitation.partly_filled_nodes(full),
+    )
+    size, unknown = len(balanced), len(index)
     matrix = np.zeros((size + 1, size + 1))
     place = np.full(len(full), -1)
     place[index] = np.arange(unknown)
     place[empty] = unknown + np.arange(len(empty))
-    elastic = -DEFLECTION * highest
-    _assemble(matrix, rows_at, index, place, elastic * by_film, mesh.weights, highest * by_pressure, by_fraction)
+    elastic = -DEFLECTION * largest_pressure
+    _assemble(
+        matrix, balanced, index, place, elastic * by_film, mesh.weights, largest_pressure * by_pressure, by_fraction
+    )
     unit = float(at.film.min())
-    matrix[:-1, -1] = by_film.sum(axis=0)[rows_at] * unit
+    matrix[:-1, -1] = by_film.sum(axis=0)[balanced] * unit
     # nodes that leave the film drop their pressure in the same step, those that enter it are filled
     dropped = np.where(full, 0.0, -at.pressure)
-    filled = step.rupture.filling(at.fraction, full)
-    known = -balance.scaled - _applied(by_film, -DEFLECTION * (mesh.weights @ dropped)) - _applied(by_pressure, dropped)
-    known -= _applied(by_fraction, filled)
+    filled = step.cavitation.fraction_change(at.fraction, full)
+    known = (
+        -balance.scaled
+        - _apply_bands(by_film, -DEFLECTION * (mesh.weights @ dropped))
+        - _apply_bands(by_pressure, dropped)
+    )
+    known -= _apply_bands(by_fraction, filled)
     missing: float = 0.0
     if step.loaded:
-        matrix[-1, :unknown] = mesh.quadrature[index] * highest / step.problem.load
+        matrix[-1, :unknown] = mesh.quadrature[index] * largest_pressure / step.problem.load
         missing = balance.load_error - float(mesh.quadrature @ dropped) / step.problem.load
     else:
         matrix[-1, -1] = 1.0
-    right_side = np.append(known[rows_at], missing)
+    right_side = np.append(known[balanced], missing)
     change = lu_solve(lu_factor(matrix, overwrite_a=True, check_finite=False), right_side, check_finite=False)
     if not np.isfinite(change).all():
         return None
-    dropped[index] = change[:unknown] * highest
+    dropped[index] = change[:unknown] * largest_pressure
     filled[empty] = change[unknown:-1]
-    datum = change[-1] * unit
-    thicker: FloatArray = datum - DEFLECTION * (mesh.weights @ dropped)
+    rigid_separation = change[-1] * unit
+    thicker: FloatArray = rigid_separation - DEFLECTION * (mesh.weights @ dropped)
     length = longest_step(at.film, thicker, 0.8)
     return Iterate(
         pressure=at.pressure + length * dropped,
         film=at.film + length * thicker,
-        datum=at.datum + length * datum,
+        rigid_separation=at.rigid_separation + length * rigid_separation,
         fraction=at.fraction + length * filled,
     )
 
@@ -347,53 +380,55 @@ def _newton(step: Step, at: Iterate, balance: Balance, full: Nodes) -> Iterate |
 def _outcome(
     step: Step,
     at: Iterate,
-    balance: Balance,
+    balance: VolumeBalance,
     full: Nodes,
     iterations: int,
     residual: float,
     converged: bool,
 ) -> StepOutcome:
-    """The film after the step, and how well all volumes together balance."""
+    """Return the outcome of the step, with the imbalance of all volumes together."""
     moved = float(np.abs(balance.flux).max())
     moved += float(np.abs(step.mesh.volume * (step.leading * balance.mass + step.history))[full].sum())
-    imbalance = abs(float(balance.excess[step.rupture.balanced(full)].sum())) / max(moved, 1e-300)
-    step.rupture.leave(at, balance.density, balance.mass, (-1, -2) if step.entrainment >= 0 else (0, 1))
-    film = Film(np.maximum(at.pressure, 0.0), at.film, at.datum, balance.mass, full, at.fraction)
+    imbalance = abs(float(balance.excess[step.cavitation.balanced_nodes(full)].sum())) / max(moved, 1e-300)
+    step.cavitation.fill_outlet(at, balance.density, balance.mass, (-1, -2) if step.entrainment >= 0 else (0, 1))
+    film = TransientState(np.maximum(at.pressure, 0.0), at.film, at.rigid_separation, balance.mass, full, at.fraction)
     return StepOutcome(film, iterations, residual, converged, imbalance)
 
 
 def _upstream_nodes(mesh: FixedMesh, entrainment: float) -> tuple[Indices, Indices]:
-    """The node upstream of every face, and the one upstream of that (at the ends the same)."""
+    """Return the node upstream of every face and the next one upstream (the same node at the ends)."""
     faces = np.arange(len(mesh.spacing))
     if entrainment >= 0:
         return faces, np.maximum(faces - 1, 0)
     return faces + 1, np.minimum(faces + 2, len(faces))
 
 
-def _upwind(carried: FloatArray, values: FloatArray, extrapolation: FloatArray, entrainment: float) -> FloatArray:
-    """Coefficients (4, n) of face k's Couette flow in the unknowns at nodes k - 1 .. k + 2."""
-    out = np.zeros((4, len(carried)))
+def _couette_coefficients(
+    face_speed: FloatArray, values: FloatArray, extrapolation: FloatArray, entrainment: float
+) -> FloatArray:
+    """Return the coefficients (4, n) of the Couette flow through face k in the unknowns at nodes k - 1 .. k + 2."""
+    out = np.zeros((4, len(face_speed)))
     if entrainment >= 0:
-        out[1] = carried * (1 + extrapolation) * values[:-1]
-        out[0, 1:] = -carried[1:] * extrapolation[1:] * values[:-2]
+        out[1] = face_speed * (1 + extrapolation) * values[:-1]
+        out[0, 1:] = -face_speed[1:] * extrapolation[1:] * values[:-2]
     else:
-        out[2] = carried * (1 + extrapolation) * values[1:]
-        out[3, :-1] = -carried[:-1] * extrapolation[:-1] * values[2:]
+        out[2] = face_speed * (1 + extrapolation) * values[1:]
+        out[3, :-1] = -face_speed[:-1] * extrapolation[:-1] * values[2:]
     return out
 
 
-def _bands(faces: FloatArray, diagonal: FloatArray, row: FloatArray) -> FloatArray:
-    """Coefficients (5, n+1) of volume i's balance over `row` in the unknowns at nodes i - 2 .. i + 2."""
+def _bands(faces: FloatArray, diagonal: FloatArray, scale: FloatArray) -> FloatArray:
+    """Return the coefficients (5, n+1) of the scaled balance of volume i in the unknowns at nodes i - 2 .. i + 2."""
     out = np.zeros((5, len(diagonal)))
     out[1:, :-1] += faces
     out[:-1, 1:] -= faces
-    out /= row
+    out /= scale
     out[2] += diagonal
     return out
 
 
-def _applied(bands: FloatArray, values: FloatArray) -> FloatArray:
-    """Bands times values at the nodes."""
+def _apply_bands(bands: FloatArray, values: FloatArray) -> FloatArray:
+    """Return the product of bands (5, n+1) with values at the nodes."""
     nodes = len(values)
     padded = np.zeros(nodes + 4)
     padded[2:-2] = values
@@ -414,7 +449,7 @@ def _assemble(
     by_pressure: FloatArray,
     by_fraction: FloatArray,
 ) -> None:
-    """Fill in the rows of the balances: through the film that follows pressures at `columns`, and directly."""
+    """Fill in the rows of the balances: terms by way of the film under pressures at `columns`, and direct terms."""
     nodes, pressures = len(place), len(columns)
     for a in range(len(rows)):
         i = rows[a]

@@ -22,15 +22,15 @@ from bem.lubrication.line.march import (
     Operation,
     Scaling,
     advance,
-    film_of_gap,
-    film_of_solution,
-    given_start,
-    steady_start,
+    start_from_state,
+    start_from_steady,
+    state_from_solution,
+    state_of_gap,
 )
-from bem.lubrication.line.scales import line_scales, scaled_problem
-from bem.lubrication.line.state import without_equations
+from bem.lubrication.line.problem import line_scales, scaled_problem
+from bem.lubrication.line.state import without_factors
 from bem.lubrication.line.steady import line_film
-from bem.lubrication.line.time_step import Film, FixedMesh, fixed_mesh
+from bem.lubrication.line.time_step import FixedMesh, TransientState, fixed_mesh
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.results import FilmSolution
 from bem.lubrication.supply import OilLayer, checked_supply
@@ -39,12 +39,13 @@ from bem.plausibility import lubricant_arguments, notes_on_arguments, with_argum
 from bem.threads import one_blas_thread
 
 FAR = 50.0
+"""Half-length of the mesh, in half-widths of the pressure."""
 BARELY_FLOODED = 0.99
-"""Of the oil that a flooded film takes, with which a march begins where more than that comes: what is too much has no
-place in a steady film."""
+"""Share of the flooded oil layer with which a march begins where more oil arrives: a steady film has no place for the
+excess."""
 
 
-LineState = MarchState[Film, FilmSolution]
+LineMarchState = MarchState[TransientState, FilmSolution]
 
 
 @one_blas_thread
@@ -62,8 +63,8 @@ def march_line_film(
     initial_thickness: float | None = None,
     cavitation: Cavitation | str = Cavitation.SWIFT_STIEBER,
     supply: OilLayer | float | None = None,
-    state: LineState | None = None,
-    callback: Callable[[LineState], None] | None = None,
+    state: LineMarchState | None = None,
+    callback: Callable[[LineMarchState], None] | None = None,
 ) -> list[FilmSolution]:
     """Film of a line contact at each of `times`, of second order in the time step (BDF2, L-stable).
 
@@ -120,16 +121,16 @@ def march_line_film(
     tell = callback or (lambda state: None)
     if state is None:
         if initial is not None:
-            film = film_of_solution(march, initial)
+            film = state_from_solution(march, initial)
         else:
             assert initial_thickness is not None
-            film = film_of_gap(march, initial_thickness)
+            film = state_of_gap(march, initial_thickness)
         at = float(schedule.times[0])
         if steady and initial is not None and initial.starvation is not None:
             brought = min(march.layer, initial.starvation.layer)
-            reached, opening = steady_start(replace(march, layer=brought), film, at)
+            reached, opening = start_from_steady(replace(march, layer=brought), film, at)
         else:
-            reached, opening = (steady_start if steady else given_start)(march, film, at)
+            reached, opening = (start_from_steady if steady else start_from_state)(march, film, at)
         state = MarchState(initial if steady else None, reached, (opening,))
         tell(state)
     films = time_stepping.march(schedule.times, state, partial(advance, march), tell)
@@ -142,7 +143,7 @@ def march_line_film(
 
 
 def _messages(schedule: Schedule, contact: Contact, points: int) -> list[str]:
-    """What is wrong with loads, speeds, bodies, oil and number of points."""
+    """Return messages about loads, speeds, bodies, oil and number of points."""
     messages = load_messages(schedule, "N/m")
     pairs = zip(schedule.times, schedule.speeds, strict=True)
     messages += first_of([f"{m} at time {t:g} s" for t, pair in pairs for m in check_speeds(pair)])
@@ -157,7 +158,7 @@ def _messages(schedule: Schedule, contact: Contact, points: int) -> list[str]:
 
 
 def _layer(supply: object, cavitation: Cavitation) -> OilLayer | None:
-    """The layer of oil that comes; None where the inlet is flooded."""
+    """Return the layer of oil that arrives; None for a flooded inlet."""
     found = checked_supply(supply)
     if found is None:
         return None
@@ -169,7 +170,7 @@ def _layer(supply: object, cavitation: Cavitation) -> OilLayer | None:
 
 
 def _steady_film(schedule: Schedule, contact: Contact, points: int, layer: OilLayer | None) -> FilmSolution:
-    """That of the first time."""
+    """Return the steady film of the first time."""
     pair = schedule.speeds[0]
     if sum(pair) == 0:
         raise InputError(
@@ -184,17 +185,17 @@ def _steady_film(schedule: Schedule, contact: Contact, points: int, layer: OilLa
         lubricant=contact.lubricant,
         points=min(points, 800),
     )
-    film = without_equations(line_film(case, supply=layer))
+    film = without_factors(line_film(case, supply=layer))
     if film.starvation is None or not film.starvation.flooded:
         return film
     barely = OilLayer(BARELY_FLOODED * film.starvation.flooded_layer)
-    return without_equations(line_film(replace(case, initial=film), supply=barely))
+    return without_factors(line_film(replace(case, initial=film), supply=barely))
 
 
 def _discretised(
     schedule: Schedule, contact: Contact, points: int, initial: FilmSolution | None, initial_thickness: float | None
 ) -> tuple[Scaling, FixedMesh]:
-    """Units of the highest load and entrainment, and a mesh as wide as the widest film asks for."""
+    """Return units of the highest load and entrainment, and a mesh as wide as the widest film needs."""
     thickness = initial_thickness
     if thickness is None:
         thickness = initial.central_thickness if initial is not None else 0.0
@@ -212,7 +213,7 @@ def _discretised(
 
 
 def _reference_speed(schedule: Schedule, contact: Contact, thickness: float) -> float:
-    """The speed that makes the similarity film of order one: the entrainment, or that of a film as thick."""
+    """Return the speed that makes the similarity film of order one: the entrainment, or that of a film as thick."""
     entrainment = max(abs(float(sum(pair))) for pair in schedule.speeds)
     if entrainment > 0:
         return entrainment

@@ -7,7 +7,7 @@ import numpy as np
 from bem.grid import FloatArray
 from bem.lubrication.checks import Case, notes_on, why_no_line_film
 from bem.lubrication.inlet_heating import InletHeating
-from bem.lubrication.line.state import KeptSteady
+from bem.lubrication.line.state import FilmState
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.oils.oil import EXTRAPOLATED, HOTTEST, Oil
 from bem.lubrication.oils.over_temperature import CELSIUS
@@ -36,7 +36,7 @@ def notes_of_film(
     """Those of the film, of the oil as it is, but for what they say of heat; stress : Newtonian at the nodes (n,) [Pa],
     that of the oil at its own temperature where it is not given; found : whether there is a film without heat."""
     kept = film.state
-    assert isinstance(kept, KeptSteady)
+    assert isinstance(kept, FilmState)
     load = kept.load * kept.scales.pressure * kept.scales.length
     case = Case(
         position=kept.state.position * kept.scales.length,

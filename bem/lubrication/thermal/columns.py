@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from bem.grid import FloatArray
 from bem.lubrication.line.friction import rolling_upstream, upstream_of_mesh
-from bem.lubrication.line.state import KeptSteady
+from bem.lubrication.line.state import FilmState
 from bem.lubrication.results import FilmSolution
 
 
@@ -49,7 +49,7 @@ def strip_of(
 ) -> Strip:
     """Of a steady film; reversible : share of the pressure's work that does not become heat."""
     kept = film.state
-    assert isinstance(kept, KeptSteady)
+    assert isinstance(kept, FilmState)
     state, scales = kept.state, kept.scales
     x, thickness = state.position * scales.length, state.film * scales.film
     pressure = np.maximum(state.pressure, 0.0) * scales.pressure

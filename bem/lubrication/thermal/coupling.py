@@ -12,10 +12,10 @@ import numpy as np
 
 from bem.grid import FloatArray
 from bem.heat.bodies import Conductor
-from bem.lubrication.line.continuation import MAX_IMBALANCE, neighbour, smallest_cell
-from bem.lubrication.line.newton import Outcome, State, mesh_imbalance, newton, remesh, spike_cell
-from bem.lubrication.line.reynolds import Problem
-from bem.lubrication.line.temperatures import KeptHeat, moved
+from bem.lubrication.line.continuation import MAX_IMBALANCE, Neighbour, smallest_cell, start_from_neighbour
+from bem.lubrication.line.newton import LineState, Outcome, mesh_imbalance, newton, remesh, spike_cell
+from bem.lubrication.line.problem import Problem
+from bem.lubrication.line.state import ThermalState, interpolate_columns
 from bem.lubrication.results import FilmSolution
 from bem.lubrication.thermal.columns import Strip, cell_edges, strip_of
 from bem.lubrication.thermal.cross_film import Given
@@ -122,14 +122,14 @@ class Heated:
     steps: int = 0
     rounds: int = 0
 
-    def kept(self, isothermal: FilmSolution, columns: int) -> KeptHeat:
+    def kept(self, isothermal: FilmSolution, columns: int) -> ThermalState:
         """For the next one to start from."""
         supply, exit_, state = self.duct.supply, abs(self.film.exit_position), self.outcome.state
         layers = self.found.copy()
         layers[:, :-1] -= supply
         middles = self.duct.middles / exit_ - 1
         nodes = state.offset / state.exit
-        return KeptHeat(isothermal, nodes, layers, middles, self.field.rise, self.made.edge, columns)
+        return ThermalState(isothermal, nodes, layers, middles, self.field.rise, self.made.edge, columns)
 
     def met(self, tolerance: float) -> bool:
         """Return True if Reynolds' equation holds at the temperatures, and they at the film."""
@@ -137,13 +137,11 @@ class Heated:
 
 
 @dataclass(frozen=True)
-class Neighbour:
-    """A film with heat of another case: its state, load M, its unit of pressure over the problem's, and its heat."""
+class HotNeighbour:
+    """Film of another case with its temperatures."""
 
-    state: State
-    load: float
-    unit: float
-    heat: KeptHeat
+    film: Neighbour
+    heat: ThermalState
 
 
 @dataclass(frozen=True)
@@ -160,7 +158,7 @@ class Tried:
         return cls(found if found.met(tolerance) else None, found.steps, found.rounds)
 
 
-def coupled(coupling: Coupling, start: Outcome, near: Neighbour | None = None) -> Heated:
+def coupled(coupling: Coupling, start: Outcome, near: HotNeighbour | None = None) -> Heated:
     """From a film without heat and, where that will do, a neighbour with its own; else on few cells at first, where
     film and heat find each other."""
     tried = Tried() if near is None else _from_neighbour(coupling, start.state, near)
@@ -177,10 +175,10 @@ def coupled(coupling: Coupling, start: Outcome, near: Neighbour | None = None) -
     return _rounds(coupling, replace(at, steps=steps, rounds=rounds + at.rounds))
 
 
-def _from_neighbour(coupling: Coupling, start: State, near: Neighbour) -> Tried:
+def _from_neighbour(coupling: Coupling, start: LineState, near: HotNeighbour) -> Tried:
     """With its heat on the film's own cells, where that is nearly met, else on few of them first."""
     cells = len(start.offset) - 1
-    state = neighbour(coupling.problem, near.state, near.load, near.unit, cells)
+    state = start_from_neighbour(coupling.problem, near.film, cells)
     at = _given(coupling, near, start if state is None else state, SKETCHED if cells > SKETCH else math.inf)
     if at is not None:
         return Tried.of(_rounds(coupling, at), coupling.tolerance)
@@ -194,7 +192,7 @@ def _from_neighbour(coupling: Coupling, start: State, near: Neighbour) -> Tried:
     return Tried.of(_rounds(coupling, at), coupling.tolerance)
 
 
-def _given(coupling: Coupling, near: Neighbour, state: State, most: float) -> Heated | None:
+def _given(coupling: Coupling, near: HotNeighbour, state: LineState, most: float) -> Heated | None:
     """A film that begins as a state does, with the heat of a neighbour; None where that is not found, or leaves a
     residual of more than the most."""
     layers = near.heat.at_nodes(state.offset / state.exit, coupling.layers, coupling.supply)
@@ -208,7 +206,7 @@ def _given(coupling: Coupling, near: Neighbour, state: State, most: float) -> He
     return replace(_heated(coupling, outcome, layers, near.heat, left), steps=outcome.iterations, rounds=1)
 
 
-def _sketch_of(coupling: Coupling, state: State) -> State:
+def _sketch_of(coupling: Coupling, state: LineState) -> LineState:
     return remesh(coupling.problem, state, SKETCH, smallest_cell(coupling.problem.load))
 
 
@@ -232,7 +230,7 @@ def _cold(coupling: Coupling, start: Outcome) -> Heated:
 def _on_cells(coupling: Coupling, sketch: Heated, cells: int) -> Heated | None:
     """On so many cells from fewer, with the steps that took; None where Reynolds' equation is not followed there."""
     state = remesh(coupling.problem, sketch.outcome.state, cells, smallest_cell(coupling.problem.load))
-    there = moved(sketch.outcome.state.offset, sketch.found, state.offset)
+    there = interpolate_columns(sketch.outcome.state.offset, sketch.found, state.offset)
     fine = newton(coupling.hot(there), state, COARSE, coupling.limit)
     if not fine.converged:
         return None
@@ -259,7 +257,7 @@ def _rounds(coupling: Coupling, at: Heated, tolerance: float = 0.0) -> Heated:
             state = remesh(
                 coupling.problem, outcome.state, len(outcome.state.offset) - 1, smallest_cell(coupling.problem.load)
             )
-            there = moved(outcome.state.offset, kept, state.offset)
+            there = interpolate_columns(outcome.state.offset, kept, state.offset)
             again = newton(coupling.hot(there), state, goal, coupling.limit)
             steps += again.iterations
             if again.converged:
@@ -275,7 +273,7 @@ def _rounds(coupling: Coupling, at: Heated, tolerance: float = 0.0) -> Heated:
 
 
 def _heated(
-    coupling: Coupling, outcome: Outcome, given: FloatArray, near: Heated | KeptHeat | None, residual: float
+    coupling: Coupling, outcome: Outcome, given: FloatArray, near: Heated | ThermalState | None, residual: float
 ) -> Heated:
     """The heat of a film that was solved for as it was given, see `Heated`, to a share of the residual before; from
     that of the round before, or of another case."""
@@ -283,13 +281,13 @@ def _heated(
     before = near if isinstance(near, Heated) else None
     kept = before is not None and before.outcome.state.offset is outcome.state.offset
     places = before.made.edge if before is not None and kept else None
-    if isinstance(near, KeptHeat):
+    if isinstance(near, ThermalState):
         places = near.edges_of(outcome.state.offset / outcome.state.exit, coupling.columns)
 
     def edges(x: FloatArray, pressure: FloatArray) -> FloatArray:
         return cell_edges(x, pressure, coupling.columns) if places is None else x[places]
 
-    strip = strip_of(film, edges, coupling.oil.kept_work)
+    strip = strip_of(film, edges, coupling.oil.unheated_work)
     layered, pressure = coupling.layered(given), np.maximum(outcome.state.pressure, 0.0)
     solved_with = Given(layered.log_viscosity(pressure)[0], layered.centre(pressure))
     duct = coupling.duct(strip, None if before is None else before.duct)
@@ -297,8 +295,8 @@ def _heated(
     warm = before is not None and before.field.residual <= LOST
     guess = np.full((duct.columns, coupling.layers + 2), duct.supply)
     if before is not None and warm:
-        guess = moved(before.duct.middles, before.field.temperature, duct.middles)
-    elif isinstance(near, KeptHeat):
+        guess = interpolate_columns(before.duct.middles, before.field.temperature, duct.middles)
+    elif isinstance(near, ThermalState):
         warm = True
         guess = near.in_columns(duct.middles / abs(film.exit_position) - 1, coupling.layers, duct.supply)
     wanted = max(TOLERANCE, min(EXACTNESS * residual, COARSE))
@@ -342,7 +340,7 @@ class History:
         return found - sum(weight * step for weight, step in zip(weights, steps, strict=True))
 
 
-def _is_misplaced(problem: Problem, state: State, residual: float) -> bool:
+def _is_misplaced(problem: Problem, state: LineState, residual: float) -> bool:
     """Return True if a mesh is too coarse somewhere for the film, or a spike of pressure not where its cells are
     fine."""
     if mesh_imbalance(problem, state) > MAX_IMBALANCE:

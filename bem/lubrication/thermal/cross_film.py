@@ -18,7 +18,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.grid import FloatArray
-from bem.lubrication.line.temperatures import middles
+from bem.lubrication.line.state import layer_centres
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.shear_profile import Profile, shear_profile, smooth_middle
 from bem.lubrication.thermal.columns import Strip
@@ -86,7 +86,7 @@ class Across:
         rates[:, np.arange(layers), np.arange(layers)] += -strip.sliding * gained + pushed * lever * softer
         speed = np.cumsum(rates, axis=1) - 0.5 * rates
         flux = (strip.thickness[nodes] / layers)[:, None, None] * self.dense[nodes][:, :, None] * speed
-        bow = 1 - middles(layers) ** 2
+        bow = 1 - layer_centres(layers) ** 2
         return np.asarray(flux - flux.sum(axis=1, keepdims=True) * (bow / bow.sum())[:, None])
 
 
@@ -106,7 +106,7 @@ def across(oil: Oil, strip: Strip, temperature: FloatArray, given: Given) -> Acr
     stays would drive more and more through oil that it heats.
     """
     lubricant, layers = oil.lubricant, temperature.shape[1]
-    s, weight = middles(layers), 1 / layers
+    s, weight = layer_centres(layers), 1 / layers
     cold = lubricant.log_viscosity_ratio(strip.pressure)[0][:, None]
     times, plus, times_slope, plus_slope = oil.viscosity.line(temperature)
     logarithm = np.minimum(times * cold + plus, LARGEST_LOGARITHM)
@@ -266,7 +266,7 @@ def _flux(strip: Strip, found: Sums, rates: FloatArray, inner: FloatArray, throu
     # of the speed in the middle of a layer, less the bow within it
     speed = strip.speeds[0] + np.cumsum(rates, axis=1) - 0.5 * rates - inner / (2 / layers)
     flux = (strip.thickness / layers)[:, None] * found.density * speed
-    bow = 1 - middles(layers) ** 2
+    bow = 1 - layer_centres(layers) ** 2
     density = strip.density
     missing = through / density - flux.sum(axis=1)
     return (flux + missing[:, None] * bow / bow.sum()) * density[:, None]

@@ -21,14 +21,13 @@ from bem.grid import FloatArray
 from bem.lubrication.flow_factors import WallFactors, notes_on_factors
 from bem.lubrication.line.case import LineCase
 from bem.lubrication.line.newton import Outcome
-from bem.lubrication.line.state import KeptSteady, without_equations
-from bem.lubrication.line.steady import line_film, solution_of
-from bem.lubrication.line.temperatures import middles
+from bem.lubrication.line.state import FilmState, layer_centres, without_factors
+from bem.lubrication.line.steady import build_solution, line_film
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.results import FilmSolution, HeatedFilm
 from bem.lubrication.thermal.bodies import moving_bodies
 from bem.lubrication.thermal.checks import notes_of_film, notes_of_heat
-from bem.lubrication.thermal.coupling import Coupling, Heated, Neighbour, coupled
+from bem.lubrication.thermal.coupling import Coupling, Heated, HotNeighbour, coupled
 from bem.lubrication.thermal.field import LEAST_RISE, carried
 from bem.lubrication.thermal.layers import Oil, expansion_of
 from bem.materials import Body
@@ -178,10 +177,10 @@ def full_thermal_film(
     name = "solve_full_thermal_line_film"
     conductors = moving_bodies(name, lubricant, bodies, case.speeds, bulk, case.radius)
     before = None if case.initial is None else case.initial.state
-    heat = before.heat if isinstance(before, KeptSteady) else None
+    heat = before.heat if isinstance(before, FilmState) else None
     cold = line_film(case if heat is None else replace(case, initial=heat.isothermal))
     kept = cold.state
-    assert isinstance(kept, KeptSteady)
+    assert isinstance(kept, FilmState)
     first, second = float(case.speeds[0]), float(case.speeds[1])
     coupling = Coupling(
         problem=case.problem(kept.scales),
@@ -189,7 +188,7 @@ def full_thermal_film(
         bodies=conductors,
         slide=(second - first) / (first + second),
         unit=kept.scales.pressure,
-        film_of=lambda outcome: solution_of(outcome, outcome, case, units),
+        film_of=lambda outcome: build_solution(outcome, outcome, case, units),
         columns=columns,
         layers=layers,
         tolerance=tolerance,
@@ -197,13 +196,13 @@ def full_thermal_film(
     )
     start = Outcome(kept.state, cold.iterations, cold.residual, cold.status is Status.CONVERGED)
     near = None
-    if heat is not None and isinstance(before, KeptSteady):
-        near = Neighbour(before.state, before.load, before.scales.pressure / kept.scales.pressure, heat)
+    if heat is not None and isinstance(before, FilmState):
+        near = HotNeighbour(before.neighbour(kept.scales), heat)
     found = coupled(coupling, start, near)
     if found.met(tolerance):
         film = found.film
-        assert isinstance(film.state, KeptSteady)
-        film = replace(film, state=replace(film.state, heat=found.kept(without_equations(cold), columns)))
+        assert isinstance(film.state, FilmState)
+        film = replace(film, state=replace(film.state, heat=found.kept(without_factors(cold), columns)))
         found = replace(found, film=film)
     thermal = _result(found, cold, tolerance, kept.reversed)
     stress = found.made.across(found.field.oil).newtonian
@@ -238,11 +237,11 @@ def _result(found: Heated, cold: FilmSolution, tolerance: float, reversed_: bool
     if expansion_of(lubricant) is None:
         notes += (OIL_DATA_SHORT(reason="expansion"),)
     return FullThermalFilm(
-        film=without_equations(film),
-        isothermal=without_equations(cold),
+        film=without_factors(film),
+        isothermal=without_factors(cold),
         position=sign * duct.middles[order],
         width=width[order],
-        height=0.5 * (1 + middles(duct.layers)),
+        height=0.5 * (1 + layer_centres(duct.layers)),
         temperature=oil[order],
         surface_temperatures=surfaces[:, order],
         sliding_stress=-sign * stress[order],

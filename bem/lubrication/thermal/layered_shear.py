@@ -19,7 +19,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from bem.grid import FloatArray
-from bem.lubrication.line.temperatures import middles
+from bem.lubrication.line.state import layer_centres
 from bem.lubrication.shear import Moments, ShearLaw
 from bem.lubrication.thermal.layers import Sums
 
@@ -48,7 +48,7 @@ class Section:
         return cls(
             law,
             np.repeat((sums.fluidity / sums.mean[:, None])[:, :, None], 2, axis=2),
-            turned * (middles(layers)[:, None] + apart),
+            turned * (layer_centres(layers)[:, None] + apart),
             turned * 3 * (sums.mean / sums.driven)[:, None, None] * off,
         )
 

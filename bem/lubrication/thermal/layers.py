@@ -20,7 +20,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from bem.grid import FloatArray
-from bem.lubrication.line.temperatures import middles
+from bem.lubrication.line.state import layer_centres
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.thermal.hot_viscosity import LARGEST_LOGARITHM, HotViscosity
 
@@ -62,7 +62,7 @@ class Oil:
         """Integral of that from no pressure on [Pa/K]: across a spike of a few nodes no sum over them has it."""
         return np.asarray(self.expansion * EXPANSION_PRESSURE * np.log1p(pressure / EXPANSION_PRESSURE))
 
-    def kept_work(self, pressure: FloatArray) -> FloatArray:
+    def unheated_work(self, pressure: FloatArray) -> FloatArray:
         """Share of the pressure's work that does not become heat: 1 - alpha T at the lubricant's own temperature."""
         return 1 - self.viscosity.reference * self.expands(pressure)
 
@@ -101,7 +101,7 @@ def mass_of(density: FloatArray) -> FloatArray:
 def sums_of(fluidity: FloatArray, density: FloatArray) -> Sums:
     """Of fluidities and densities (n, K)."""
     layers = fluidity.shape[1]
-    s, weight = middles(layers), 1 / layers
+    s, weight = layer_centres(layers), 1 / layers
     mass = mass_of(density)
     mean, by_place, by_mass = fluidity.mean(axis=1), fluidity @ s * weight, (fluidity * mass).mean(axis=1)
     # within a layer the stress goes on being linear: s^2 is larger on average than in the middle
@@ -181,7 +181,7 @@ class HotFilm:
         found, layers = at.sums, at.sums.fluidity.shape[1]
         # what Phi changes by with the fluidity of a layer, and with the densities
         one, other = (found.by_place / found.mean)[:, None], (found.by_mass / found.mean)[:, None]
-        lever = middles(layers) - one
+        lever = layer_centres(layers) - one
         share = (found.mass - other) * lever + found.density / (3 * layers**2)
         stiffer = mass_of(at.stiff) * lever + at.stiff / (3 * layers**2)
         slope = 3 * (found.fluidity * (share * at.steep - stiffer)).mean(axis=1) / found.driven

@@ -27,10 +27,9 @@ from bem.heat.bodies import Conductor
 from bem.lubrication.flow_factors import WallFactors, notes_on_factors
 from bem.lubrication.inlet_heating import InletHeating, hertz_over_modulus, inlet_heating_factor
 from bem.lubrication.line.case import LineCase, load_range
-from bem.lubrication.line.coarse import sketch_line_film
-from bem.lubrication.line.scales import line_scales
-from bem.lubrication.line.state import KeptSteady, without_equations
-from bem.lubrication.line.steady import line_film
+from bem.lubrication.line.problem import line_scales
+from bem.lubrication.line.state import FilmState, without_factors
+from bem.lubrication.line.steady import line_film, solve_coarse_film
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.results import FilmSolution, HeatedFilm
 from bem.lubrication.shear_profile import middle_stress
@@ -68,7 +67,7 @@ class ThermalFilm(HeatedFilm):
     Attributes
     ----------
     film : solution of the film, of the oil as thin as inlet heating makes it; its own shear force is isothermal.
-    isothermal : the film without heat, a sketch (`bem.lubrication.line.coarse`).
+    isothermal : the film without heat, a sketch (`bem.lubrication.line.steady`).
     position : (m,) middles of cells [m].
     width : (m,) of them [m].
     film_temperature : (m,) mean across the film [K].
@@ -249,7 +248,7 @@ class _Thinned:
 def _thinned(case: LineCase, inlet: InletHeating) -> _Thinned:
     """How thin the oil must be is found of sketches, where there are; only the last film is on all points."""
     initial = case.initial
-    found = _search(sketch_line_film, replace(case, initial=_sketch_start(initial)), inlet)
+    found = _search(solve_coarse_film, replace(case, initial=_sketch_start(initial)), inlet)
     if math.isinf(found.missed):
         spent, found = found.steps, _search(line_film, case, inlet)
         found.steps += spent
@@ -264,7 +263,7 @@ def _is_near(film: FilmSolution, other: FilmSolution) -> bool:
     """Return True if films are so nearly of one case that one on all points is a better start than a sketch of the
     case."""
     one, there = film.state, other.state
-    if not (isinstance(one, KeptSteady) and isinstance(there, KeptSteady)):
+    if not (isinstance(one, FilmState) and isinstance(there, FilmState)):
         return False
     ratios = (one.load / there.load, one.scales.pressure / there.scales.pressure)
     return max(abs(math.log(ratio)) for ratio in ratios) < NEAR
@@ -392,7 +391,7 @@ def _result(
     power = strip.sliding * couette + sum(film.speeds) * film.rolling_force
     imbalance = abs(power - float(into.sum()) - carried) / max(abs(power), 1e-300)
     kept = film.state
-    assert isinstance(kept, KeptSteady)
+    assert isinstance(kept, FilmState)
     sign = -1.0 if kept.reversed else 1.0
     right = found.residual <= 1e-6 and thinned.missed <= FACTOR_TOLERANCE
     status = film.status if film.status is not Status.CONVERGED or right else Status.STALLED
@@ -402,8 +401,8 @@ def _result(
     hottest = known * max(float(found.oil.max()), float(found.surfaces.max()))
     couette, power = known * couette, known * power
     return ThermalFilm(
-        film=without_equations(film),
-        isothermal=without_equations(thinned.films[0]),
+        film=without_factors(film),
+        isothermal=without_factors(thinned.films[0]),
         position=sign * (0.5 * (strip.edges[1:] + strip.edges[:-1]))[order],
         width=width[order],
         film_temperature=known * found.oil[order],
