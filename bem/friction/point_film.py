@@ -33,7 +33,7 @@ from bem.reference_solutions.hertz import ellipse_contact
 
 if TYPE_CHECKING:
     from bem.lubrication.inlet_heating import InletHeating
-    from bem.lubrication.thermal.lumped_point import Thinning
+    from bem.lubrication.thermal.lumped_point import OilThinning
 
 BALANCE_CELLS = 64
 """Cells along an axis of the coarse grid, on which the balance is first looked for."""
@@ -75,7 +75,7 @@ class SolvedPointFilm:
     x: FloatArray
     y: FloatArray
     cells: int
-    thinnings: dict[int, Thinning] = field(default_factory=dict)
+    thinnings: dict[int, OilThinning] = field(default_factory=dict)
 
     step = 0.25
     growth = 1 / 3
@@ -144,7 +144,7 @@ def point_film(
     speeds: Sequence[float],
     load: float,
     cells: int,
-    thinnings: dict[int, Thinning] | None = None,
+    thinnings: dict[int, OilThinning] | None = None,
 ) -> PointFilmSolution:
     """Return the film under a load [N], with its heat if the contact has a heat model.
 
@@ -153,7 +153,10 @@ def point_film(
     """
     if contact.heat is None:
         return cold_film(contact, speeds, load, cells)
-    from bem.lubrication.thermal.lumped_point import thinning, with_heat  # heat's modules only where there is heat
+    from bem.lubrication.thermal.lumped_point import (  # heat's modules only where there is heat
+        add_heat,
+        find_oil_thinning,
+    )
 
     known = {} if thinnings is None else thinnings
     place = round(math.log(load) / math.log(THINNED))
@@ -166,10 +169,12 @@ def point_film(
             film = cold_film(flooded, speeds, at, min(cells, BALANCE_CELLS))
             return film.central_thickness if film.status is Status.CONVERGED else math.nan
 
-        known[place] = thinning(oil, _inlet(contact, speeds, at), central, _fitted_exponent(contact, speeds, at))
+        known[place] = find_oil_thinning(
+            oil, _inlet(contact, speeds, at), central, _fitted_exponent(contact, speeds, at)
+        )
     film = cold_film(_of_oil(contact, known[place].oil(oil, inlet)), speeds, load, cells)
     dry = ellipse_contact(radii=contact.radii, contact_modulus=contact.film_modulus(load), load=load)
-    return with_heat(film, oil, contact.heat.bodies, dry.semi_axes, inlet, known[place].missed)
+    return add_heat(film, oil, contact.heat.bodies, dry.semi_axes, inlet, known[place].deviation)
 
 
 def _of_oil(contact: PointContact, lubricant: Lubricant) -> PointContact:

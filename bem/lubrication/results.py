@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from dataclasses import dataclass, field
+import math
+from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Protocol
 
 import numpy as np
@@ -139,19 +140,54 @@ class FilmSolution:
 
 @dataclass(frozen=True)
 class HeatedFilm:
-    """A film, that without heat, and the middles (m,) and widths (m,) of the cells along it that have temperatures
-    [m]. `film_temperature` : (m,) mean across the film [K], of the model."""
+    """A film with the heat that is generated in it; what lumped and full heat have in common.
+
+    Places and heat are along +x, on m cells along the film. Where `status` is not `converged`, all temperatures, heat
+    flows, stresses and friction are NaN.
+
+    Attributes
+    ----------
+    film : solution of the film, with the isothermal friction of its oil.
+    isothermal : film without heat; of lumped heat a coarse one.
+    position : (m,) centres of the cells [m].
+    width : (m,) of the cells [m].
+    surface_temperatures : (2, m) of flat and cylinder [K].
+    sliding_stress : in the middle of the film [Pa], signed like the force.
+    heat_made : (m,) generated in the film [W/m^2].
+    heat_into : (2, m) into flat and cylinder [W/m^2].
+    shear_force : as of `FilmSolution`, at these temperatures [N/m].
+    sliding_force : its part from sliding [N/m].
+    friction_power, power_into, power_carried : per unit length [W/m]: of the friction; (2,) into flat and cylinder;
+        carried out by the oil.
+    energy_imbalance : friction power that is not found in bodies and oil, relative.
+    iterations : Newton steps of all films.
+    status : of film and temperatures.
+    notes : on the validity of the model.
+    """
 
     film: FilmSolution
     isothermal: FilmSolution
     position: FloatArray
     width: FloatArray
+    surface_temperatures: FloatArray
+    sliding_stress: FloatArray
+    heat_made: FloatArray
+    heat_into: FloatArray
+    shear_force: float
+    sliding_force: float
+    friction_power: float
+    power_into: tuple[float, float]
+    power_carried: float
+    energy_imbalance: float
+    iterations: int
+    status: Status
+    notes: tuple[Note, ...]
 
-    if TYPE_CHECKING:  # one model keeps it, the other averages its field
+    if TYPE_CHECKING:  # a field of lumped heat, a mean over the layers of full heat
 
         @property
         def film_temperature(self) -> FloatArray:
-            """Mean across the film (m,) [K]."""
+            """Mean temperature across the film (m,) [K]."""
 
     @property
     def minimum_thickness(self) -> float:
@@ -165,11 +201,36 @@ class HeatedFilm:
 
     @property
     def mean_film_temperature(self) -> float:
-        """Mean along the film by pressure [K], that of the contact."""
+        """Mean temperature of the oil in the contact [K], weighted by pressure."""
         weights = np.interp(self.position, self.film.position, self.film.pressure) * self.width
         return float((weights * self.film_temperature).sum() / weights.sum())
 
     @property
     def highest_film_temperature(self) -> float:
-        """Mean across the film, where it is highest [K]."""
+        """Highest mean temperature across the film [K]."""
         return float(self.film_temperature.max())
+
+    @property
+    def highest_oil_temperature(self) -> float:
+        """Highest temperature of the oil that the model resolves [K]."""
+        return self.highest_film_temperature
+
+    @property
+    def stress_at_nodes(self) -> FloatArray:
+        """`sliding_stress` at the positions of the film (n,) [Pa]."""
+        return np.interp(self.film.position, self.position, self.sliding_stress)
+
+    def as_film(self) -> FilmSolution:
+        """Return the film with its friction and temperatures, as `solve_line_film` does."""
+        return replace(
+            self.film,
+            shear_force=self.shear_force,
+            striated_shear_force=math.nan,
+            sliding_stress=self.stress_at_nodes,
+            mean_temperature=self.mean_film_temperature,
+            maximum_temperature=self.highest_oil_temperature,
+            iterations=self.iterations,
+            status=self.status,
+            notes=self.notes,
+            heat=self,
+        )

@@ -10,7 +10,7 @@ Woodbury's formula: for z_1 = R_2' x_2 and z_2 = R_1' x_1,
     x_c = y_c - Y_c z_c,    y = solution of the clusters alone,    Y_c = (cluster c)^-1 L_c,
 
 and the z of a pair solve a dense system of 2 r equations (S. Ambikasaran and E. Darve, J. Sci. Comput. 57 (2013) 477).
-Verified in tests/lubrication/test_line_operator.py.
+Verified in tests/numerics/test_hodlr.py and tests/lubrication/test_line_operator.py.
 """
 
 from __future__ import annotations

@@ -17,11 +17,17 @@ from bem.lubrication.inlet_heating import inlet_heating_factor
 from bem.lubrication.line.state import layer_centres
 from bem.lubrication.shear import Newtonian
 from bem.lubrication.thermal import coupling
-from bem.lubrication.thermal.columns import Strip
-from bem.lubrication.thermal.cross_film import Given
-from bem.lubrication.thermal.field import Duct, Sources, carried, temperature_field, warming_of
-from bem.lubrication.thermal.heat_source import Made
-from bem.lubrication.thermal.layers import HotFilm, Oil
+from bem.lubrication.thermal.columns import FilmColumns
+from bem.lubrication.thermal.cross_film import FlowResistance
+from bem.lubrication.thermal.field import (
+    EnergyGeometry,
+    HeatLinearisation,
+    heat_carried,
+    surface_responses,
+    temperature_field,
+)
+from bem.lubrication.thermal.heat_source import HeatSource
+from bem.lubrication.thermal.layers import HeatedOil, LayeredFilm
 from bem.materials import CATALOGUE, Body, Material
 from bem.notes import has_code
 from bem.notes.lubrication import HEAT_NOT_FOUND, OIL_DATA_SHORT
@@ -54,7 +60,7 @@ def film(mean, slide, hertz=0.8e9, lubricant=None, solve=solve_full_thermal_line
 
 def unit_oil(lubricant):
     """An oil without expansion, its cold viscosity over pressure [Pa]."""
-    hot = Oil.of(lubricant)
+    hot = HeatedOil.of(lubricant)
     return replace(hot, expansion=0.0), lubricant.log_viscosity_ratio
 
 
@@ -64,10 +70,10 @@ def test_of_one_temperature_nothing_changes():
     hot, cold = unit_oil(oil())
     pressure = np.array([0.0, 2e8, 1e9])
     for layers in (6, 17):
-        own = HotFilm.of(hot, np.full((3, layers), 333.15), cold, 0.7, 1.0)
+        own = LayeredFilm.of(hot, np.full((3, layers), 333.15), cold, 0.7, 1.0)
         np.testing.assert_allclose(own.log_viscosity(pressure), cold(pressure), rtol=1e-12, atol=1e-13)
         np.testing.assert_allclose(own.drag(pressure)[0], 1.0, rtol=1e-12)
-        warm = HotFilm.of(hot, np.full((3, layers), 363.15), cold, 0.7, 1.0)
+        warm = LayeredFilm.of(hot, np.full((3, layers), 363.15), cold, 0.7, 1.0)
         expected = np.log(hot.viscosity(pressure, np.full(3, 363.15))[0] / hot.lubricant.viscosity)
         np.testing.assert_allclose(warm.log_viscosity(pressure)[0], expected, rtol=1e-12)
 
@@ -89,7 +95,7 @@ def test_layers_are_dowsons_integrals():
     dragged = 1 - slide * centre
     missed = []
     for layers in (16, 32):
-        found = HotFilm.of(hot, profile(layer_centres(layers))[None], cold, slide, 1.0)
+        found = LayeredFilm.of(hot, profile(layer_centres(layers))[None], cold, slide, 1.0)
         missed.append(
             [np.exp(-found.log_viscosity(pressure)[0][0]) / driven - 1, found.drag(pressure)[0][0] / dragged - 1]
         )
@@ -102,18 +108,18 @@ def test_layers_are_dowsons_integrals():
 def test_slopes_of_layers_are_differences():
     """With pressure, at temperatures that stay: of the drag it is that of the densities, too, which had been those of
     the round before. In any unit of pressure."""
-    hot, pressure, unit = Oil.of(oil()), np.array([1e8, 8e8]), 1e7
+    hot, pressure, unit = HeatedOil.of(oil()), np.array([1e8, 8e8]), 1e7
 
     def cold(p):
         logarithm, slope = unit_oil(oil())[1](p * unit)
         return logarithm, slope * unit
 
     uneven = 333.15 + 25 * np.linspace(0, 1, 12)[None] ** 2 * np.ones((2, 1))
-    found, at, step = HotFilm.of(hot, uneven, cold, 0.9, unit), pressure / unit, 1e-3
+    found, at, step = LayeredFilm.of(hot, uneven, cold, 0.9, unit), pressure / unit, 1e-3
     for values in (found.log_viscosity, found.drag, found.log_sliding_viscosity):
         slope = (values(at + step)[0] - values(at - step)[0]) / (2 * step)
         np.testing.assert_allclose(values(at)[1], slope, rtol=1e-6)
-    still = HotFilm.of(replace(hot, expansion=0.0), uneven, cold, 0.9, unit)
+    still = LayeredFilm.of(replace(hot, expansion=0.0), uneven, cold, 0.9, unit)
     assert (found.drag(at)[1] > 1.05 * still.drag(at)[1]).all()
 
 
@@ -124,13 +130,13 @@ def duct(columns, layers, length=1e-4, thickness=1e-6, capacity=0.0, supply=333.
     edges = np.linspace(0.0, length, columns + 1)
     bodies = (COLD, COLD)
     slender = np.diff(edges) / thickness
-    return Duct(edges, slender, 0.13, capacity, supply, bodies, layers, warming_of(edges, bodies))
+    return EnergyGeometry(edges, slender, 0.13, capacity, supply, bodies, layers, surface_responses(edges, bodies))
 
 
 def constant(columns, layers, made=0.0, flux=0.0):
     """Heat and flow that no temperature changes."""
     none = np.zeros((3, columns, layers, layers))
-    return lambda t: Sources(
+    return lambda t: HeatLinearisation(
         np.full((columns + 1, layers), flux / layers),
         np.zeros((columns + 1, layers, layers)),
         np.full((columns, layers), made / layers),
@@ -149,7 +155,7 @@ def test_even_heat_makes_a_parabola():
     s = layer_centres(11)
     expected = heat * 1e-6 / (8 * 0.13) * (1 - s**2)
     np.testing.assert_allclose(found.oil - 333.15, np.tile(expected, (8, 1)), rtol=1e-6)
-    np.testing.assert_allclose(place.into_walls(found.temperature), heat * place.width[0] / 2, rtol=1e-9)
+    np.testing.assert_allclose(place.wall_heat(found.temperature), heat * place.width[0] / 2, rtol=1e-9)
 
 
 @pytest.mark.internal
@@ -165,8 +171,8 @@ def test_entry_of_hot_oil_between_cold_walls():
         found = temperature_field(
             place, constant(columns, layers, flux=speed * 1e-6), np.full((columns, layers + 2), 433.15)
         )
-        into = place.into_walls(found.temperature).sum()
-        assert into + carried(place, found.flux, found.rise[:, 1:-1]) == pytest.approx(0.0, abs=1e-9 * into)
+        into = place.wall_heat(found.temperature).sum()
+        assert into + heat_carried(place, found.flux, found.rise[:, 1:-1]) == pytest.approx(0.0, abs=1e-9 * into)
         missed.append(into / (capacity * speed * 1e-6 * 100 * lost) - 1)
     assert abs(missed[2]) < 3e-4
     # the flux at the entry has no limit: not quite second order
@@ -180,12 +186,12 @@ def flat(lubricant, sliding, columns, layers, nodes=61):
     none = np.zeros(nodes)
     edges = x[:: (nodes - 1) // columns]
     cell = np.searchsorted(edges, 0.5 * (x[1:] + x[:-1])) - 1
-    strip = Strip(
+    strip = FilmColumns(
         x=x, pressure=none, thickness=np.full(nodes, 1e-6), gradient=none, cell=cell, edges=edges,
-        pushed=np.zeros(columns), work=np.zeros(columns), upstream=0.0,
+        pressure_power=np.zeros(columns), pressure_work=np.zeros(columns), inlet_shear=0.0,
         speeds=(sliding, 0.0), sliding=sliding, density=np.ones(nodes),
     )  # fmt: skip
-    return Made.of(Oil.of(lubricant), strip, Given(none, none))
+    return HeatSource.of(HeatedOil.of(lubricant), strip, FlowResistance(none, none))
 
 
 @pytest.mark.internal
@@ -206,7 +212,7 @@ def test_couette_flow_of_an_oil_that_its_own_heat_thins(nahme):
         place = duct(6, layers)
         made = flat(thin, sliding, 6, layers)
         found = temperature_field(place, made, np.full((6, layers + 2), 333.15))
-        stress = -made.across(found.oil).stress[30] / (viscosity * sliding / 1e-6)
+        stress = -made.cross_film_flow(found.oil).middle_stress[30] / (viscosity * sliding / 1e-6)
         expected = math.asinh(root) / (root * math.sqrt(1 + root**2))
         missed.append(
             [stress / expected - 1, softening * (found.oil[3, layers // 2] - 333.15) / math.log1p(root**2) - 1]
@@ -231,7 +237,7 @@ def test_the_field_is_that_of_a_march_along_the_film(slide, hertz, laws):
     x, thickness = state.position * scales.length, state.film * scales.film
     pressure = np.maximum(state.pressure, 0) * scales.pressure
     gradient = np.gradient(pressure, x)
-    lubricant, hot = found.film.lubricant, Oil.of(found.film.lubricant)
+    lubricant, hot = found.film.lubricant, HeatedOil.of(found.film.lubricant)
     start = int(np.searchsorted(found.position, -1.0e-4))
     cells, s = 48, layer_centres(48)
     first = np.interp(s, 2 * found.height - 1, found.temperature[start])
@@ -259,7 +265,7 @@ def test_the_field_is_that_of_a_march_along_the_film(slide, hertz, laws):
             * hot.density(np.array([p]), temperature[None])[0]
         )
         compressed = (
-            hot.expands(np.array([p]))[0]
+            hot.expansivity(np.array([p]))[0]
             * temperature
             * hot.density(np.array([p]), temperature[None])[0]
             * speed
@@ -330,10 +336,10 @@ def test_oil_that_warms_by_hundreds_of_kelvins_is_found(mean, slide, hertz, lubr
 
 def test_what_compression_heats_is_the_integral_over_the_pressure():
     """Of the expansion at each pressure, by quadrature; a sum over the nodes of a spike has half as much again."""
-    hot = Oil.of(oil())
+    hot = HeatedOil.of(oil())
     for pressure in (1e7, 1e9, 9e9):
-        integral = quad(lambda p: float(hot.expands(np.array([p]))[0]), 0.0, pressure, epsrel=1e-10)[0]
-        assert hot.expanded(np.array([pressure]))[0] == pytest.approx(integral, rel=1e-9)
+        integral = quad(lambda p: float(hot.expansivity(np.array([p]))[0]), 0.0, pressure, epsrel=1e-10)[0]
+        assert hot.expansion_integral(np.array([pressure]))[0] == pytest.approx(integral, rel=1e-9)
 
 
 @pytest.mark.internal
@@ -341,7 +347,7 @@ def test_oil_colder_than_its_supply_behind_the_spike_is_cooled_by_its_expansion(
     """In pure rolling: less than the adiabatic drop, expansion T dp/(rho c), and not at all without expansion."""
     expanding = film(2.0, 0.0, hertz=1.1e9)
     lubricant = expanding.film.lubricant
-    adiabatic = Oil.of(lubricant).expanded(np.array([expanding.film.pressure.max()]))[0] * 333.15
+    adiabatic = HeatedOil.of(lubricant).expansion_integral(np.array([expanding.film.pressure.max()]))[0] * 333.15
     adiabatic /= lubricant.density * lubricant.heat_capacity
     coldest = int(expanding.film_temperature.argmin())
     assert 0.1 < 333.15 - expanding.film_temperature[coldest] < adiabatic
@@ -379,7 +385,7 @@ def test_the_same_oil_flows_through_every_section(rheology):
     state, scales = found.film.state.state, found.film.state.scales
     x, h = state.position * scales.length, state.film * scales.film
     pressure = np.maximum(state.pressure, 0) * scales.pressure
-    hot, (u1, u2) = Oil.of(found.film.lubricant), found.film.speeds
+    hot, (u1, u2) = HeatedOil.of(found.film.lubricant), found.film.speeds
     flows = []
     for at in (-2.0e-4, -1.5e-4, -1.2e-4, -0.5e-4, 0.3e-4):
         i = int(np.argmin(np.abs(x - at)))
@@ -584,7 +590,7 @@ def test_fine_meshes_begin_where_coarse_ones_ended(monkeypatch):
 
     def counted(problem, state, tolerance, limit):
         outcome = newton(problem, state, tolerance, limit)
-        fine.extend([outcome.iterations] if len(state.offset) > coupling.SKETCH + 1 else [])
+        fine.extend([outcome.iterations] if len(state.offset) > coupling.COARSE_CELLS + 1 else [])
         return outcome
 
     monkeypatch.setattr(coupling, "newton", counted)

@@ -14,8 +14,8 @@ from bem.lubrication.line.state import layer_centres
 from bem.lubrication.shear import Carreau, Eyring, Newtonian
 from bem.lubrication.shear_profile import shear_profile
 from bem.lubrication.thermal.field import temperature_field
-from bem.lubrication.thermal.layered_shear import Section
-from bem.lubrication.thermal.layers import sums_of
+from bem.lubrication.thermal.layered_shear import LayeredShear
+from bem.lubrication.thermal.layers import cross_film_integrals
 
 pytestmark = pytest.mark.internal
 
@@ -35,11 +35,11 @@ def fluidity(s):
 def layered(law, layers, newtonian, half):
     """Stress in the middle and driven flow over the Newtonian one's half stress."""
     s = layer_centres(layers)
-    sums = sums_of(np.array([[fluidity(v) for v in s]]), np.ones((1, layers)))
-    section = Section.of(law, sums, np.array([half]))
+    sums = cross_film_integrals(np.array([[fluidity(v) for v in s]]), np.ones((1, layers)))
+    section = LayeredShear.of(law, sums, np.array([half]))
     mean = float(sums.mean[0])
     found = shear_profile(section, np.array([newtonian / mean]), np.array([half]), math.inf)
-    return float(found.middle[0]), float(found.moment[0] * sums.driven[0])
+    return float(found.middle[0]), float(found.moment[0] * sums.poiseuille[0])
 
 
 @pytest.mark.parametrize("name", LAWS)
@@ -71,8 +71,10 @@ def test_layers_against_quadrature(name, newtonian, half):
 def test_newtonian_layers_are_dowsons():
     """To rounding: mean and first moment of a stress that the law leaves alone."""
     layers = 9
-    sums = sums_of(np.array([[fluidity(v) for v in layer_centres(layers)]]), np.linspace(1.0, 0.9, layers)[None])
-    section = Section.of(Newtonian(), sums, np.array([-1.0]))
+    sums = cross_film_integrals(
+        np.array([[fluidity(v) for v in layer_centres(layers)]]), np.linspace(1.0, 0.9, layers)[None]
+    )
+    section = LayeredShear.of(Newtonian(), sums, np.array([-1.0]))
     middle = section.middle_stress(np.array([3e6]), np.array([2e6]))
     found = section.moments(middle, np.array([2e6]))
     assert found.mean[0] == pytest.approx(3e6, rel=1e-12)
@@ -85,11 +87,11 @@ def test_newtonian_layers_are_dowsons():
 def test_layers_of_one_temperature_are_the_uniform_profile(name):
     """With limit and slip, too; two points a layer against the closed form or twenty over the film."""
     law, layers = LAWS[name], 16
-    sums = sums_of(np.ones((3, layers)), np.ones((3, layers)))
+    sums = cross_film_integrals(np.ones((3, layers)), np.ones((3, layers)))
     newtonian, half = np.array([1e6, 2e7, 5e8]), np.array([3e6, -2e6, 1e6])
     for limit in (math.inf, np.array([2e7, 2e7, 2e7])):
         plain = shear_profile(law, newtonian, half, limit)
-        found = shear_profile(Section.of(law, sums, half), newtonian, half, limit)
+        found = shear_profile(LayeredShear.of(law, sums, half), newtonian, half, limit)
         for one in ("middle", "moment", "slip"):
             # fourth order in a sixteenth of the film, first where a power law has an edge at no stress
             rtol = 5e-3 if name == "power" else 1e-4
@@ -124,5 +126,5 @@ def test_couette_flow_of_a_thinning_oil_that_its_own_heat_thins(law, rate):
     made = flat(oil, sliding, 6, layers)
     found = temperature_field(duct(6, layers), made, np.full((6, layers + 2), 333.15))
     # second order in a 63rd of the film
-    assert -made.across(found.oil).stress[30] == pytest.approx(stress(root)[0], rel=3e-3)
+    assert -made.cross_film_flow(found.oil).middle_stress[30] == pytest.approx(stress(root)[0], rel=3e-3)
     assert softening * (found.oil[3, layers // 2] - 333.15) == pytest.approx(math.log1p(root**2), rel=3e-3)

@@ -24,7 +24,7 @@ from bem.friction.smooth import PointContact
 from bem.lubrication.inlet_heating import InletHeating
 from bem.lubrication.thermal import lumped_point
 from bem.lubrication.thermal.bodies import moving_bodies
-from bem.lubrication.thermal.lumped_point import point_heat, thinning
+from bem.lubrication.thermal.lumped_point import find_oil_thinning, point_heat
 from bem.lubrication.thermal.model import FilmHeat
 from bem.notes import has_code
 from bem.notes.lubrication import HEAT_LEFT_OUT, HEAT_NOT_FOUND, LUMPED_HEAT_LIMIT
@@ -136,15 +136,15 @@ def test_slow_films_have_no_heat():
 def test_thinned_oil_by_a_power_law():
     """Of films that go with the power 0.6 of the viscosity; where there is none, it is said."""
     inlet = InletHeating(0.7, 0.1, False)
-    found = thinning(OIL, inlet, lambda one: one.viscosity**0.6, 0.7)
+    found = find_oil_thinning(OIL, inlet, lambda one: one.viscosity**0.6, 0.7)
     oil = found.oil(OIL, inlet)
     assert found.exponent == pytest.approx(0.6)
     assert (oil.viscosity / OIL.viscosity) ** 0.6 == pytest.approx(0.7)
-    assert found.missed < 5e-3
+    assert found.deviation < 5e-3
     # it is as much stiffer under pressure as it was
     pressure = np.array([1e9])
     assert oil.log_viscosity_ratio(pressure)[0] == OIL.log_viscosity_ratio(pressure)[0]
-    assert thinning(OIL, inlet, lambda _: math.nan, 0.7).missed == math.inf
+    assert find_oil_thinning(OIL, inlet, lambda _: math.nan, 0.7).deviation == math.inf
 
 
 GRID = Grid((48, 48), (6.5e-6, 6.5e-6))

@@ -28,6 +28,7 @@ from bem.lubrication.line.newton import (
     spike_cells_to_exit,
 )
 from bem.lubrication.line.problem import Problem
+from bem.numerics.continuation import FactorRule, continue_by_factors
 
 ATTEMPTS = ((160, 4.0), (240, 2.0), (200, 1.5))
 """Coarse cells and first factor of the load, tried in turn until the continuation succeeds."""
@@ -52,8 +53,11 @@ START_LOAD = 0.3
 """Load M of Martin's film."""
 LEAST_SHARE = 1e-3
 """Share of all stresses with which continuation in shear thinning begins."""
-FIRST_FACTOR = 4.0
-"""First factor of the continuation in shear thinning."""
+FIRST_FACTOR, SMALLEST_THINNING_FACTOR = 4.0, 1.02
+"""First factor of the continuation in shear thinning, and the factor at which it gives up."""
+SMALLEST_LOAD_FACTOR, LARGEST_LOAD_FACTOR, EASY_STEPS = 1.002, 10.0, 10
+"""Factor of the load at which the continuation gives up, its largest factor, and the number of Newton steps below which
+the factor grows."""
 
 
 def smallest_cell(load: float) -> float:
@@ -141,26 +145,23 @@ def typical_half_width(load: float) -> float:
 
 def continue_in_thinning(problem: Problem, cells: int, tolerance: float, limit: int) -> Outcome:
     """Solve by continuation in the stresses, from the film of a Newtonian oil."""
-    assert problem.shear is not None
+    shear = problem.shear
+    assert shear is not None
     coarse = min(cells, MEDIUM_CELLS)
-    last = solve_from_martin(replace(problem, shear=None), coarse, COARSE_TOLERANCE, limit)
-    spent, share, factor = last.iterations, LEAST_SHARE, FIRST_FACTOR
-    while last.converged and factor > 1.02:
-        target = min(share * factor, 1.0)
-        at = replace(problem, shear=problem.shear.of_share(target))
-        start = last.state
+    newtonian = solve_from_martin(replace(problem, shear=None), coarse, COARSE_TOLERANCE, limit)
+
+    def solve(last: Outcome, share: float, target: float) -> Outcome:
+        at, start = replace(problem, shear=shear.of_share(target)), last.state
         if mesh_imbalance(at, start) > MAX_IMBALANCE:
             start = remesh(at, start, coarse, None)
-        trial = newton(at, start, COARSE_TOLERANCE, limit)
-        spent += trial.iterations
-        if not trial.converged:
-            factor = math.sqrt(factor)
-            continue
-        last, share, factor = trial, target, factor * 1.5
-        if share == 1.0:
-            last = refine_mesh(problem, last.state, coarse, cells, tolerance, limit)
-            return replace(last, iterations=spent + last.iterations)
-    return replace(last, iterations=spent, residual=max(last.residual, 1 - share), converged=False)
+        return newton(at, start, COARSE_TOLERANCE, limit)
+
+    found = continue_by_factors(solve, newtonian, LEAST_SHARE, 1.0, FactorRule(FIRST_FACTOR, SMALLEST_THINNING_FACTOR))
+    if found.value < 1.0:
+        residual = max(found.last.residual, 1 - found.value)
+        return replace(found.last, iterations=found.iterations, residual=residual, converged=False)
+    final = refine_mesh(problem, found.last.state, coarse, cells, tolerance, limit)
+    return replace(final, iterations=found.iterations + final.iterations)
 
 
 def solve_from_martin(problem: Problem, cells: int, tolerance: float, limit: int) -> Outcome:
@@ -183,28 +184,23 @@ def continue_in_load(problem: Problem, coarse: int, first_step: float, limit: in
     """Solve on a coarse mesh that does not resolve the spike, by continuation in the load from Martin's film.
 
     first_step : first factor of the load. Where the load is not reached, the residual is at least the missing share of
-        it.
+    it.
     """
-    load, step = min(problem.load, START_LOAD), first_step
-    last = newton(replace(problem, load=load), martin_start(load, coarse), COARSE_TOLERANCE, limit)
-    spent = last.iterations
-    while last.converged and load < problem.load and step > 1.002:
-        target = min(problem.load, load * step)
-        factor, film_factor = _scaling(load, target)
-        at = replace(problem, load=load)
-        start = last.state
+
+    def solve(last: Outcome, load: float, target: float) -> Outcome:
+        at, start = replace(problem, load=load), last.state
         if mesh_imbalance(at, start) > MAX_IMBALANCE:
             start = remesh(at, start, coarse, None)
-        start = rescale(start, factor, target / load / factor, film_factor)
-        trial = newton(replace(problem, load=target), start, COARSE_TOLERANCE, limit)
-        spent += trial.iterations
-        if trial.converged:
-            step = min(step * 1.5, 10.0) if trial.iterations < 10 else step
-            last, load = trial, target
-        else:
-            step = math.sqrt(step)
-    left = abs(1 - load / problem.load)
-    return replace(last, iterations=spent, residual=max(last.residual, left), converged=last.converged and left == 0)
+        start = Neighbour(start, load, 1.0).scaled_to(replace(problem, load=target))
+        return newton(replace(problem, load=target), start, COARSE_TOLERANCE, limit)
+
+    load = min(problem.load, START_LOAD)
+    martin = newton(replace(problem, load=load), martin_start(load, coarse), COARSE_TOLERANCE, limit)
+    rule = FactorRule(first_step, SMALLEST_LOAD_FACTOR, LARGEST_LOAD_FACTOR, EASY_STEPS)
+    found = continue_by_factors(solve, martin, load, problem.load, rule)
+    last, left = found.last, abs(1 - found.value / problem.load)
+    converged = last.converged and left == 0
+    return replace(last, iterations=found.iterations, residual=max(last.residual, left), converged=converged)
 
 
 def solve_coarse(problem: Problem, near: Neighbour | None, limit: int) -> Outcome:

@@ -1,4 +1,4 @@
-"""What a film with heat is between: two moving half-spaces, and what must be known of them and of the oil."""
+"""Bodies of a film with heat, as two moving half-spaces."""
 
 from __future__ import annotations
 
@@ -22,13 +22,15 @@ def moving_bodies(
     bulk: Sequence[float] | None,
     radius: float,
 ) -> tuple[Conductor, Conductor]:
-    """Both bodies as half-spaces that move along the entrainment, a body at rest as one that moves so slowly that it is
-    cool at the radius.
+    """Return both bodies as half-spaces that move along the entrainment.
+
+    A body at rest is taken as so slow that it is cool at a distance of the radius. `owner` is the function named in
+    messages.
 
     Raises
     ------
-    InputError : a lubricant without temperature and heat constants, bodies without theirs, a temperature above 300
-        degrees Celsius; `owner` is who says so.
+    InputError : a lubricant without temperature or heat constants, bodies without theirs, a temperature above 300
+        degrees Celsius.
     """
     needed = ("temperature", "density", "heat_capacity", "thermal_conductivity", "temperature_viscosity")
     missing = [key for key in needed if getattr(lubricant, key, None) is None]

@@ -1,4 +1,4 @@
-"""Notes on where models of films with heat end."""
+"""Notes on the limits of films with heat."""
 
 from __future__ import annotations
 
@@ -16,12 +16,11 @@ from bem.notes import Note, without
 from bem.notes.lubrication import HEAT_LEFT_OUT, LUMPED_HEAT_LIMIT, OIL_DATA_SHORT, OIL_TOO_HOT
 
 LARGEST_LOADING = 0.05
-"""Thermal loading of the inlet up to which film and friction were within 5 % of full heat's at slide-to-roll ratios
-up to 0.5, at 0.004 and 0.02; at 0.24 friction was up to 27 %, at 1.4 up to 58 % off:
-reports/experiments/lumped_heat.py."""
+"""Thermal loading of the inlet up to which lumped heat is accurate: film and friction within 5 % of full heat up to a
+slide-to-roll ratio of 0.5 (`reports/experiments/lumped_heat.py`)."""
 LARGEST_SLIDE, LARGEST_RISE = 1.0, 5.0
-"""Slide-to-roll ratio above which, with a rise of the oil's mean temperature [K] of more than that, films were up to
-2.8 times as thick as full heat's: the same experiment; at a ratio of 1 up to 1.17 times, and that at 3 GPa."""
+"""Slide-to-roll ratio, and rise of the mean temperature of the oil [K], above which lumped films are too thick: up to
+2.8 times at a ratio of 2, up to 1.17 times at 1 (the same experiment)."""
 
 
 def notes_of_film(
@@ -33,8 +32,11 @@ def notes_of_film(
     *,
     found: bool,
 ) -> tuple[Note, ...]:
-    """Those of the film, of the oil as it is, but for what they say of heat; stress : Newtonian at the nodes (n,) [Pa],
-    that of the oil at its own temperature where it is not given; found : whether there is a film without heat."""
+    """Return the notes on a film of the oil as supplied, without those that its heat makes obsolete.
+
+    stress : Newtonian at the nodes (n,) [Pa]; that of the oil at its own temperature by default. found : whether there
+        is a film without heat.
+    """
     kept = film.state
     assert isinstance(kept, FilmState)
     load = kept.load * kept.scales.pressure * kept.scales.length
@@ -63,7 +65,7 @@ def notes_of_heat(lubricant: Lubricant, hottest: float) -> tuple[Note, ...]:
 
 
 def _hot_oil(oil: Oil, hottest: float) -> list[Note]:
-    """Return a note where the oil's properties are not known at its highest temperature [K]."""
+    """Return a note where the properties of the oil are unknown at its highest temperature [K]."""
     if oil.boiling_point is not None and hottest > oil.boiling_point:
         return [OIL_TOO_HOT(oil=oil.name, reason="boils")]
     if hottest > oil.viscosity.highest + EXTRAPOLATED:
@@ -74,7 +76,8 @@ def _hot_oil(oil: Oil, hottest: float) -> list[Note]:
 
 
 def heat_limits(inlet: InletHeating, speeds: tuple[float, float], rise: float) -> tuple[Note, ...]:
-    """Of inlet heating, speeds of both walls [m/s] and the rise of the oil's mean temperature [K]."""
+    """Return notes on the limits of lumped heat, from inlet heating, speeds of both walls [m/s] and rise of the mean
+    temperature of the oil [K]."""
     first, second = speeds
     slides = abs(first - second) > LARGEST_SLIDE * 0.5 * abs(first + second) and rise > LARGEST_RISE
     notes = []

@@ -1,11 +1,11 @@
-"""Thermal film of a line contact, with the temperature across it: energy and Reynolds' equation, each in the other.
+"""Full heat of a line film: energy and Reynolds' equation along and across the film, coupled.
 
-The oil's temperature along and across the film follows from conduction, convection, compression and dissipation
-(`field`, `made`), that of the surfaces from the heat that enters them; viscosity and density across the film at those
-temperatures change what flows (`layers`), and with it pressure and thickness; where the film follows its shear law,
-that acts in every layer (`section`). `coupled` goes from one to the other until both hold. Nothing is fitted.
-Conductivity and heat capacity of the oil are those without pressure and at its own temperature; beyond the exit nothing
-is followed. Verified in tests/lubrication/test_full_thermal.py and test_layers_sheared.py.
+The temperature along and across the film follows from conduction, convection, compression and dissipation (`field`,
+`heat_source`), that of the surfaces from the heat that enters them. Viscosity and density at those temperatures change
+the flow (`layers`), and with it pressure and thickness; where the film follows its shear law, it acts in every layer
+(`layered_shear`). `coupling` iterates until both hold. Nothing is fitted. Conductivity and heat capacity of the oil are
+those without pressure at the temperature of the supply; the model ends at the exit. Verified in
+tests/lubrication/test_full_thermal.py and test_layers_sheared.py.
 """
 
 from __future__ import annotations
@@ -27,9 +27,9 @@ from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.results import FilmSolution, HeatedFilm
 from bem.lubrication.thermal.bodies import moving_bodies
 from bem.lubrication.thermal.checks import notes_of_film, notes_of_heat
-from bem.lubrication.thermal.coupling import Coupling, Heated, HotNeighbour, coupled
-from bem.lubrication.thermal.field import LEAST_RISE, carried
-from bem.lubrication.thermal.layers import Oil, expansion_of
+from bem.lubrication.thermal.coupling import Coupling, HotNeighbour, ThermalIterate, solve_coupled
+from bem.lubrication.thermal.field import LEAST_RISE, heat_carried
+from bem.lubrication.thermal.layers import HeatedOil, expansion_of
 from bem.materials import Body
 from bem.notes import Note
 from bem.notes.lubrication import HEAT_NOT_FOUND, OIL_DATA_SHORT
@@ -39,83 +39,50 @@ from bem.threads import one_blas_thread
 COLUMNS = 160
 LAYERS = 16
 ENERGY_TOLERANCE = 1e-6
-"""Of the power of the friction that is not found again in the bodies and the oil, and of surfaces that are not as warm
-as their heat makes them, over the largest rise."""
+"""Largest relative friction power that is missing in bodies and oil, and largest deviation of the surfaces from the
+temperatures of their heat, over the largest rise."""
 
 
 @readable
 @dataclass(frozen=True)
 class FullThermalFilm(HeatedFilm):
-    """A film with its temperatures along and across, and the heat that is made in it; along the entrainment where
-    positions are.
+    """A film with full heat: temperatures in columns along and layers across it.
+
+    `sliding_stress` is (n,) at the positions of the film. `heat_made` includes the heat of compression.
 
     Attributes
     ----------
-    film : solution of the film at these temperatures; its own shear force is that of the oil at its own temperature.
-    isothermal : the film without heat.
-    position : (m,) middles of columns [m].
-    width : (m,) of them [m].
-    height : (K,) of the layers' middles over the film's thickness, from the flat (0) to the cylinder (1).
+    height : (K,) centres of the layers over the film's thickness, from the flat (0) to the cylinder (1).
     temperature : (m, K) of the oil [K].
-    surface_temperatures : (2, m) of flat and cylinder [K].
-    sliding_stress : in the middle of the film at its positions [Pa], signed like the force.
-    heat_made : (m,) [W/m^2], that of compression included.
-    heat_into : (2, m) into flat and cylinder [W/m^2].
-    shear_force : as of `FilmSolution`, at these temperatures [N/m].
-    sliding_force : its part from sliding [N/m].
-    friction_power, power_into, power_carried : per unit length [W/m]: of the friction; (2,) into flat and cylinder;
-        carried on by the oil.
-    energy_imbalance : of the three, relative to the friction, each from the result itself.
     residual : of Reynolds' equation at these temperatures, relative to the film.
-    surface_residual : by how much the
-        surfaces are not as warm as the heat into them makes them, over the largest rise.
-    rounds : temperature fields solved for.
-    iterations : Newton steps of all films.
-    status : of film and temperatures;
-        where it is not converged all temperatures,
-        heat flows, stresses and friction are NaN.
-    notes : sentences.
+    surface_residual : deviation of the surfaces from the temperatures of the heat into them, over the largest rise.
+    rounds : number of temperature fields solved.
     """
 
     height: FloatArray
     temperature: FloatArray
-    surface_temperatures: FloatArray
-    sliding_stress: FloatArray
-    heat_made: FloatArray
-    heat_into: FloatArray
-    shear_force: float
-    sliding_force: float
-    friction_power: float
-    power_into: tuple[float, float]
-    power_carried: float
-    energy_imbalance: float
     residual: float
     surface_residual: float
     rounds: int
-    iterations: int
-    status: Status
-    notes: tuple[Note, ...]
 
     @property
     def film_temperature(self) -> FloatArray:
-        """Mean across the film (m,) [K]."""
+        """Mean temperature across the film (m,) [K]."""
         return np.asarray(self.temperature.mean(axis=1))
 
+    @property
+    def highest_oil_temperature(self) -> float:
+        """Highest temperature of the oil [K]."""
+        return float(self.temperature.max())
+
+    @property
+    def stress_at_nodes(self) -> FloatArray:
+        """`sliding_stress` (n,) [Pa]."""
+        return self.sliding_stress
+
     def as_film(self) -> FilmSolution:
-        """The film with its friction and temperatures, as `solve_line_film` gives it."""
-        return replace(
-            self.film,
-            shear_force=self.shear_force,
-            striated_shear_force=math.nan,
-            sliding_stress=self.sliding_stress,
-            mean_temperature=self.mean_film_temperature,
-            maximum_temperature=float(self.temperature.max()),
-            iterations=self.iterations,
-            residual=self.residual,
-            status=self.status,
-            notes=self.notes,
-            heat=self,
-        )
+        """Return the film with its friction and temperatures, as `solve_line_film` does."""
+        return replace(super().as_film(), residual=self.residual)
 
 
 def solve_full_thermal_line_film(
@@ -168,7 +135,7 @@ def solve_full_thermal_line_film(
 def full_thermal_film(
     case: LineCase, bodies: Sequence[Body], bulk: Sequence[float] | None, columns: int, layers: int
 ) -> FullThermalFilm:
-    """As `solve_full_thermal_line_film`."""
+    """Solve as `solve_full_thermal_line_film`."""
     for name, value, most in (("columns", columns, 2000), ("layers", layers, 200)):
         if not (isinstance(value, int) and 6 <= value <= most):
             raise InputError(f"solve_full_thermal_line_film: {name} {value!r} must be an integer from 6 to {most}")
@@ -184,7 +151,7 @@ def full_thermal_film(
     first, second = float(case.speeds[0]), float(case.speeds[1])
     coupling = Coupling(
         problem=case.problem(kept.scales),
-        oil=Oil.of(lubricant),
+        oil=HeatedOil.of(lubricant),
         bodies=conductors,
         slide=(second - first) / (first + second),
         unit=kept.scales.pressure,
@@ -198,39 +165,40 @@ def full_thermal_film(
     near = None
     if heat is not None and isinstance(before, FilmState):
         near = HotNeighbour(before.neighbour(kept.scales), heat)
-    found = coupled(coupling, start, near)
+    found = solve_coupled(coupling, start, near)
     if found.met(tolerance):
         film = found.film
         assert isinstance(film.state, FilmState)
-        film = replace(film, state=replace(film.state, heat=found.kept(without_factors(cold), columns)))
+        film = replace(film, state=replace(film.state, heat=found.state_for(without_factors(cold), columns)))
         found = replace(found, film=film)
     thermal = _result(found, cold, tolerance, kept.reversed)
-    stress = found.made.across(found.field.oil).newtonian
+    stress = found.source.cross_film_flow(found.field.oil).newtonian_stress
     notes = notes_of_film(found.film, lubricant, case.radius, case.contact_modulus, stress, found=start.converged)
     notes += notes_on_factors(case.flow_factors, found.film.minimum_thickness)
     return replace(thermal, notes=notes + thermal.notes)
 
 
-def _result(found: Heated, cold: FilmSolution, tolerance: float, reversed_: bool) -> FullThermalFilm:
-    """All figures anew from the film and the temperatures."""
-    film, strip, duct, field = found.film, found.strip, found.duct, found.field
-    lubricant, oil, width = film.lubricant, found.field.oil, found.duct.width
-    sources = found.made(oil)
-    stress = found.made.across(oil).stress
-    couette = found.made.couette(stress)
-    into = duct.into_walls(field.rise)
+def _result(found: ThermalIterate, cold: FilmSolution, tolerance: float, reversed_: bool) -> FullThermalFilm:
+    """Return the result, all figures recomputed from film and temperatures, with signs along +x, and NaN where it did
+    not converge."""
+    film, film_columns, geometry, field = found.film, found.film_columns, found.geometry, found.field
+    lubricant, oil, width = film.lubricant, found.field.oil, found.geometry.width
+    sources = found.source(oil)
+    stress = found.source.cross_film_flow(oil).middle_stress
+    couette = found.source.sliding_force(stress)
+    into = geometry.wall_heat(field.rise)
     surfaces = field.temperature[:, [0, -1]].T
     rise = max(float(np.ptp(field.rise)), LEAST_RISE)
-    missed = float(np.abs(duct.surfaces(into) - surfaces).max()) / rise
-    taken = carried(duct, sources.flux, field.rise[:, 1:-1])
-    power = strip.sliding * couette + sum(film.speeds) * film.rolling_force
+    missed = float(np.abs(geometry.surface_temperatures(into) - surfaces).max()) / rise
+    taken = heat_carried(geometry, sources.flux, field.rise[:, 1:-1])
+    power = film_columns.sliding * couette + sum(film.speeds) * film.rolling_force
     imbalance = abs(power - float(into.sum()) - taken) / max(abs(power), 1e-300)
     right = max(imbalance, missed) <= ENERGY_TOLERANCE and found.residual <= tolerance
     order = slice(None, None, -1) if reversed_ else slice(None)
     sign = -1.0 if reversed_ else 1.0
     # a field that is not found may hold any number (6e29 K was seen): none of it is shown, nor what follows from it
     known = 1.0 if right else math.nan
-    made = known * sources.made.sum(axis=1)
+    made = known * sources.heat.sum(axis=1)
     oil, surfaces, stress, into = known * oil, known * surfaces, known * stress, known * into
     couette, taken, power = known * couette, known * taken, known * power
     notes = notes_of_heat(lubricant, known * float(field.temperature.max()))
@@ -239,9 +207,9 @@ def _result(found: Heated, cold: FilmSolution, tolerance: float, reversed_: bool
     return FullThermalFilm(
         film=without_factors(film),
         isothermal=without_factors(cold),
-        position=sign * duct.middles[order],
+        position=sign * geometry.centres[order],
         width=width[order],
-        height=0.5 * (1 + layer_centres(duct.layers)),
+        height=0.5 * (1 + layer_centres(geometry.layers)),
         temperature=oil[order],
         surface_temperatures=surfaces[:, order],
         sliding_stress=-sign * stress[order],

@@ -1,14 +1,16 @@
-"""Thermal film of a line contact, lumped: inlet shear heating thins the film, sliding heats the oil in it.
+"""Lumped heat of a line film: inlet shear heating thins the film, sliding heats the oil in it.
 
-The film is that of an oil as much thinner as `inlet` says that shear in the inlet makes the film; what sliding makes of
-temperature and friction then follows from `energy`, one mean temperature across the film at each place, with viscosity
-over pressure and temperature (`hot_viscosity`). Heat is made by the stresses that the film has at its temperature:
+1. `_solve_thinned` finds the oil whose isothermal film is thinned by the factor of inlet heating, on coarse films, and
+   solves that film on all points.
+2. `_with_temperatures` solves the energy balance along it (`lumped_energy`), with viscosity over pressure and
+   temperature (`hot_viscosity`). The heat generated is
 
-    made = tau_m (u1 - u2) + dp/dx (h (u1 + u2)/2 - q),
+       tau_m (u1 - u2) + dp/dx (h (u1 + u2)/2 - q),
 
-the integral of which is the power of the friction. What the heat inside the contact does to the film's thickness is not
-in it, and the oil's conductivity and heat capacity are those without pressure. Verified in
-tests/lubrication/test_thermal_film.py.
+   whose integral is the friction power.
+
+Heat inside the contact does not act on the thickness; conductivity and heat capacity of the oil are those without
+pressure. Verified in tests/lubrication/test_thermal_film.py.
 """
 
 from __future__ import annotations
@@ -17,7 +19,6 @@ import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 from functools import partial
-from typing import ClassVar
 
 import numpy as np
 
@@ -36,10 +37,10 @@ from bem.lubrication.shear_profile import middle_stress
 from bem.lubrication.supply import Supply
 from bem.lubrication.thermal.bodies import moving_bodies
 from bem.lubrication.thermal.checks import heat_limits, notes_of_film, notes_of_heat
-from bem.lubrication.thermal.columns import Strip, cell_edges, derivative_of, strip_of, summed
+from bem.lubrication.thermal.columns import FilmColumns, cell_edges, cell_slopes, film_columns_of, sum_in_cells
 from bem.lubrication.thermal.hot_viscosity import HotViscosity
+from bem.lubrication.thermal.inlet_thinning import FACTOR_TOLERANCE, find_thinning, thinned_oil
 from bem.lubrication.thermal.lumped_energy import Channel, Temperatures, film_temperatures
-from bem.lubrication.viscosity import ViscosityLaw
 from bem.materials import Body
 from bem.notes import Note
 from bem.notes.lubrication import HEAT_NOT_FOUND
@@ -47,97 +48,39 @@ from bem.reference_solutions.line_film import moes_central
 from bem.threads import one_blas_thread
 
 _TYPICAL, _SLIGHTEST, _ROUNDS = 0.7, -1e-3, 3
-"""Exponent that the fitted one is found from, the least ln of a share that it is looked up for, and how often."""
-FACTOR_TOLERANCE = 5e-3
-"""Of the film that inlet heating leaves; the factor itself is good to some 0.05."""
+"""First exponent of the film in the viscosity; smallest ln of a viscosity ratio at which Moes' fit is evaluated;
+evaluations of the fit."""
 CELLS = 200
-"""Along the film."""
+"""Cells along the film."""
 MOST_FILMS = 6
+"""Largest number of films of the search, the isothermal one included."""
 NEAR = 1e-3
-"""Of load and pressure in Moes' units, from which a sharp spike has left its fine cells: from its own sketch a film
-then takes half the steps."""
+"""Logarithmic difference of load and pressure unit, in Moes' units, up to which a film on all points is a better start
+than a coarse film of the case."""
 LARGEST_STRESS = 1e12
-"""On the way to the temperatures [Pa]: cold oil that has no limit would carry more than can be computed with."""
+"""Bound of stresses during the iteration [Pa]: cold oil without a limit would exceed floating point."""
 
 
 @dataclass(frozen=True)
 class ThermalFilm(HeatedFilm):
-    """A film with the heat that is made in it, along the entrainment where positions are.
+    """A film with lumped heat: one mean temperature across the film in each cell along it.
+
+    `film` is the film of the oil thinned by inlet heating. `sliding_stress` is (m,) in the cells.
 
     Attributes
     ----------
-    film : solution of the film, of the oil as thin as inlet heating makes it; its own shear force is isothermal.
-    isothermal : the film without heat, a sketch (`bem.lubrication.line.steady`).
-    position : (m,) middles of cells [m].
-    width : (m,) of them [m].
     film_temperature : (m,) mean across the film [K].
-    surface_temperatures : (2, m) of flat and cylinder [K].
-    sliding_stress : (m,) of the oil in the middle of the film [Pa], signed like the force.
-    heat_made : (m,) [W/m^2].
-    heat_into : (2, m) into flat and cylinder [W/m^2].
-    shear_force : as of `FilmSolution`, at these temperatures [N/m].
-    sliding_force : its part from sliding [N/m].
-    friction_power, power_into, power_carried : per unit length [W/m]: of the friction; (2,) into flat and cylinder;
-        carried on by the oil.
-    energy_imbalance : of the three, relative to the friction.
     inlet : factor of inlet heating.
-    inlet_missed : by how much the film misses it, relative, of sketches.
-    inlet_viscosity : at ambient pressure that leaves such a film [Pa s].
-    films : solved.
-    iterations : Newton steps of all films.
-    notes : sentences.
-    status : of film and temperatures. Where it is not converged, temperatures, heat flows, stresses and friction are
-        NaN: what was not found may be -3865 K.
+    inlet_missed : deviation of the film from that factor, relative, of coarse films.
+    inlet_viscosity : at ambient pressure, of the thinned oil [Pa s].
+    films : number of films solved.
     """
 
     film_temperature: FloatArray
-    surface_temperatures: FloatArray
-    sliding_stress: FloatArray
-    heat_made: FloatArray
-    heat_into: FloatArray
-    shear_force: float
-    sliding_force: float
-    friction_power: float
-    power_into: tuple[float, float]
-    power_carried: float
-    energy_imbalance: float
     inlet: InletHeating
     inlet_missed: float
     inlet_viscosity: float
     films: int
-    iterations: int
-    status: Status
-    notes: tuple[Note, ...]
-
-    def as_film(self) -> FilmSolution:
-        """The film with its friction and temperatures, as `solve_line_film` gives it."""
-        return replace(
-            self.film,
-            shear_force=self.shear_force,
-            striated_shear_force=math.nan,
-            sliding_stress=np.interp(self.film.position, self.position, self.sliding_stress),
-            mean_temperature=self.mean_film_temperature,
-            maximum_temperature=self.highest_film_temperature,
-            iterations=self.iterations,
-            status=self.status,
-            notes=self.notes,
-            heat=self,
-        )
-
-
-@dataclass(frozen=True)
-class ThinnedLaw(ViscosityLaw):
-    """A law over pressure of an oil as it is, for one whose viscosity at ambient pressure is a share of it."""
-
-    name: ClassVar[str] = "thinned"
-    law: ViscosityLaw
-    share: float
-
-    def log_viscosity_ratio(
-        self, pressure: FloatArray, viscosity: float, pressure_viscosity: float
-    ) -> tuple[FloatArray, FloatArray]:
-        """That of the oil as it is."""
-        return self.law.log_viscosity_ratio(pressure, viscosity / self.share, pressure_viscosity)
 
 
 def solve_thermal_line_film(
@@ -198,7 +141,7 @@ def thermal_film(
     cells: int,
     supply: Supply | float | None,
 ) -> ThermalFilm:
-    """As `solve_thermal_line_film`."""
+    """Solve as `solve_thermal_line_film`."""
     if not (isinstance(cells, int) and 20 <= cells <= 2000):
         raise InputError(f"solve_thermal_line_film: cells {cells!r} must be an integer from 20 to 2000")
     case.scaled()
@@ -213,10 +156,10 @@ def thermal_film(
         (float(speeds[0]), float(speeds[1])),
         hertz_over_modulus(case.load, case.radius, case.contact_modulus),
     )
-    thinned = _thinned(case, inlet)
+    thinned = _solve_thinned(case, inlet)
     if supply is not None:
         thinned.starve(case, supply)
-    thermal = _heated(thinned, lubricant, conductors, cells)
+    thermal = _with_temperatures(thinned, lubricant, conductors, cells)
     found = thermal.film.status is Status.CONVERGED
     notes = notes_of_film(thermal.film, lubricant, case.radius, case.contact_modulus, found=found)
     notes += notes_on_factors(case.flow_factors, thermal.minimum_thickness)
@@ -224,44 +167,46 @@ def thermal_film(
 
 
 @dataclass
-class _Thinned:
-    """Films of ever thinner oils, the first of them isothermal; the last one is as thin as inlet heating leaves it but
-    for `missed`, relative, which is infinite where one did not converge."""
+class _ThinnedFilms:
+    """Films of ever thinner oils, the first of them isothermal, the last one thinned by inlet heating.
+
+    deviation : of the last film from the wanted film, relative; infinite where a film did not converge.
+    steps : Newton steps of all films.
+    """
 
     inlet: InletHeating
     films: list[FilmSolution] = field(default_factory=list)
-    missed: float = math.inf
+    deviation: float = math.inf
     steps: int = 0
 
     def add(self, film: FilmSolution) -> None:
-        """One more."""
+        """Append a film."""
         self.films.append(film)
         self.steps += film.iterations
 
     def starve(self, case: LineCase, supply: Supply | float) -> None:
-        """The last one once more, with its supply."""
+        """Append the film of the thinned oil with its supply."""
         hot = self.films[-1]
         start = hot if case.initial is None or case.initial.starvation is None else case.initial
         self.add(line_film(replace(case, lubricant=hot.lubricant, initial=start), supply=supply))
 
 
-def _thinned(case: LineCase, inlet: InletHeating) -> _Thinned:
-    """How thin the oil must be is found of sketches, where there are; only the last film is on all points."""
+def _solve_thinned(case: LineCase, inlet: InletHeating) -> _ThinnedFilms:
+    """Solve for the film that inlet heating leaves: the viscosity from coarse films, then the film on all points."""
     initial = case.initial
-    found = _search(solve_coarse_film, replace(case, initial=_sketch_start(initial)), inlet)
-    if math.isinf(found.missed):
+    found = _search(solve_coarse_film, replace(case, initial=_coarse_start(initial)), inlet)
+    if math.isinf(found.deviation):
         spent, found = found.steps, _search(line_film, case, inlet)
         found.steps += spent
         return found
-    sketch = found.films[-1]
-    start = initial if initial is not None and _is_near(initial, sketch) else sketch
-    found.add(line_film(replace(case, lubricant=sketch.lubricant, initial=start)))
+    coarse = found.films[-1]
+    start = initial if initial is not None and _is_near(initial, coarse) else coarse
+    found.add(line_film(replace(case, lubricant=coarse.lubricant, initial=start)))
     return found
 
 
 def _is_near(film: FilmSolution, other: FilmSolution) -> bool:
-    """Return True if films are so nearly of one case that one on all points is a better start than a sketch of the
-    case."""
+    """Return True if two films are so nearly of one case that the film on all points is the better start."""
     one, there = film.state, other.state
     if not (isinstance(one, FilmState) and isinstance(there, FilmState)):
         return False
@@ -269,36 +214,39 @@ def _is_near(film: FilmSolution, other: FilmSolution) -> bool:
     return max(abs(math.log(ratio)) for ratio in ratios) < NEAR
 
 
-def _search(solve: Callable[[LineCase], FilmSolution], case: LineCase, inlet: InletHeating) -> _Thinned:
-    """All on one mesh, with the exponent of the film in the viscosity between the last two films, of a fit at first."""
-    found = _Thinned(inlet)
+def _search(solve: Callable[[LineCase], FilmSolution], case: LineCase, inlet: InletHeating) -> _ThinnedFilms:
+    """Return the films of a search for the viscosity that inlet heating leaves, all on one kind of mesh."""
+    found = _ThinnedFilms(inlet)
     found.add(solve(case))
-    isothermal, wanted, ratio, last = found.films[0], math.log(inlet.factor), 0.0, (0.0, 0.0)
-    exponent = _fitted_exponent(case, wanted)
-    while found.films[-1].status is Status.CONVERGED:
-        reached = math.log(found.films[-1].central_thickness / isothermal.central_thickness)
-        found.missed = abs(math.expm1(reached - wanted))
-        if found.missed <= FACTOR_TOLERANCE or len(found.films) == MOST_FILMS:
-            return found
-        if reached != last[1] and ratio != last[0]:
-            exponent = (reached - last[1]) / (ratio - last[0])
-        last = ratio, reached
-        ratio += (wanted - reached) / exponent
-        thinner = thinned_oil(case.lubricant, math.exp(ratio))
+    isothermal, wanted = found.films[0], math.log(inlet.factor)
+    if isothermal.status is not Status.CONVERGED:
+        return found
+    found.deviation = abs(math.expm1(-wanted))
+    if found.deviation <= FACTOR_TOLERANCE:
+        return found
+
+    def log_film(log_viscosity: float) -> float:
+        thinner = thinned_oil(case.lubricant, math.exp(log_viscosity))
         _check_load(case, thinner, inlet)
         found.add(solve(replace(case, lubricant=thinner, initial=found.films[-1])))
-    found.missed = math.inf
+        film = found.films[-1]
+        converged = film.status is Status.CONVERGED
+        return math.log(film.central_thickness / isothermal.central_thickness) if converged else math.nan
+
+    exponent = _fitted_exponent(case, wanted)
+    found.deviation = find_thinning(log_film, wanted, exponent, MOST_FILMS - 1, FACTOR_TOLERANCE).deviation
     return found
 
 
-def _sketch_start(initial: FilmSolution | None) -> FilmSolution | None:
-    """Of a film with lumped heat: its own sketch without heat."""
+def _coarse_start(initial: FilmSolution | None) -> FilmSolution | None:
+    """Return the start of the coarse films: of a film with lumped heat, its coarse film without heat."""
     heat = None if initial is None else initial.heat
     return heat.isothermal if isinstance(heat, ThermalFilm) else initial
 
 
 def _fitted_exponent(case: LineCase, wanted: float) -> float:
-    """Of the film in the viscosity, down to a film whose ln is `wanted` less; of Moes' fit (`moes_central`)."""
+    """Return the exponent of the film in the viscosity by Moes' fit (`moes_central`), down to a film whose ln is
+    `wanted` less."""
     entrainment = abs(sum(case.speeds))
     scales = line_scales(case.load, case.radius, case.contact_modulus, entrainment, case.lubricant.viscosity)
     piezo = case.lubricant.pressure_viscosity * scales.pressure
@@ -315,14 +263,8 @@ def _fitted_exponent(case: LineCase, wanted: float) -> float:
     return exponent
 
 
-def thinned_oil(lubricant: Lubricant, share: float) -> Lubricant:
-    """The oil with a share of its viscosity at every pressure."""
-    law = ThinnedLaw(lubricant.viscosity_law, share)
-    return replace(lubricant, viscosity=lubricant.viscosity * share, viscosity_law=law)
-
-
 def _check_load(case: LineCase, thinner: Lubricant, inlet: InletHeating) -> None:
-    """Refuse a load that the oil as thin as inlet heating makes it cannot carry."""
+    """Refuse a load that the thinned oil cannot carry."""
     highest = load_range(case.radius, case.contact_modulus, case.speeds, thinner)[1]
     if case.load > highest:
         raise InputError(
@@ -332,68 +274,78 @@ def _check_load(case: LineCase, thinner: Lubricant, inlet: InletHeating) -> None
         )
 
 
-def _heated(thinned: _Thinned, lubricant: Lubricant, bodies: tuple[Conductor, Conductor], cells: int) -> ThermalFilm:
-    """Temperatures and friction of the last film."""
+def _with_temperatures(
+    thinned: _ThinnedFilms, lubricant: Lubricant, bodies: tuple[Conductor, Conductor], cells: int
+) -> ThermalFilm:
+    """Solve for the temperatures of the last film and return the result."""
     film = thinned.films[-1]
-    strip, viscosity = strip_of(film, partial(cell_edges, cells=cells)), HotViscosity.of(lubricant)
-    middle, width = 0.5 * (strip.edges[1:] + strip.edges[:-1]), np.diff(strip.edges)
-    pieces = np.diff(strip.x)
+    film_columns, viscosity = film_columns_of(film, partial(cell_edges, cells=cells)), HotViscosity.of(lubricant)
+    middle, width = 0.5 * (film_columns.edges[1:] + film_columns.edges[:-1]), np.diff(film_columns.edges)
+    pieces = np.diff(film_columns.x)
 
     def stresses(temperature: FloatArray) -> tuple[FloatArray, FloatArray]:
-        at = np.interp(strip.x, middle, temperature)
-        value, slope = viscosity(strip.pressure, at)
-        rate, extra = strip.sliding / strip.thickness, 1e-4
+        at = np.interp(film_columns.x, middle, temperature)
+        value, slope = viscosity(film_columns.pressure, at)
+        rate, extra = film_columns.sliding / film_columns.thickness, 1e-4
         stress, warmer = (
-            middle_stress(lubricant, mu * rate, strip.pressure, strip.thickness, strip.gradient, warm)
+            middle_stress(
+                lubricant, mu * rate, film_columns.pressure, film_columns.thickness, film_columns.gradient, warm
+            )
             for mu, warm in ((value, at), (value + extra * slope, at + extra))
         )
         slopes = np.where(np.abs(stress) < LARGEST_STRESS, (warmer - stress) / extra, 0.0)
         return np.clip(stress, -LARGEST_STRESS, LARGEST_STRESS), slopes
 
-    ambient = lubricant.viscosity * strip.sliding * strip.upstream
-    rolling = strip.pushed - strip.flow * strip.work
+    ambient = lubricant.viscosity * film_columns.sliding * film_columns.inlet_shear
+    rolling = film_columns.pressure_power - film_columns.flow * film_columns.pressure_work
 
     by_width = np.stack([np.append(0.0, 1 / width[:-1]), 1 / width, np.append(1 / width[1:], 0.0)])
 
     def heat(temperature: FloatArray) -> tuple[FloatArray, FloatArray]:
         stress, slope = stresses(temperature)
-        made = summed(strip.cell, 0.5 * pieces * (stress[1:] + stress[:-1]), len(width))
-        made[0] += ambient
-        derivative = derivative_of(strip, middle, 0.5 * pieces * slope[:-1], 0.5 * pieces * slope[1:])
-        return (strip.sliding * made + rolling) / width, strip.sliding * derivative * by_width
+        generated = sum_in_cells(film_columns.cell, 0.5 * pieces * (stress[1:] + stress[:-1]), len(width))
+        generated[0] += ambient
+        derivative = cell_slopes(film_columns, middle, 0.5 * pieces * slope[:-1], 0.5 * pieces * slope[1:])
+        return (film_columns.sliding * generated + rolling) / width, film_columns.sliding * derivative * by_width
 
     density, capacity = lubricant.density or 0.0, lubricant.heat_capacity or 0.0
-    flow = 0.5 * abs(sum(film.speeds)) * float(strip.thickness[-1])
+    flow = 0.5 * abs(sum(film.speeds)) * float(film_columns.thickness[-1])
     supply = float(lubricant.temperature or 0.0)
-    thickness = summed(strip.cell, 0.5 * pieces * (strip.thickness[1:] + strip.thickness[:-1]), len(width)) / width
+    thickness = (
+        sum_in_cells(
+            film_columns.cell, 0.5 * pieces * (film_columns.thickness[1:] + film_columns.thickness[:-1]), len(width)
+        )
+        / width
+    )
     channel = Channel(
-        strip.edges, thickness, lubricant.thermal_conductivity or 0.0, density * capacity * flow, supply, bodies
+        film_columns.edges, thickness, lubricant.thermal_conductivity or 0.0, density * capacity * flow, supply, bodies
     )
     found = film_temperatures(channel, heat)
     stress = stresses(found.oil)[0]
-    along = summed(strip.cell, 0.5 * pieces * (stress[1:] + stress[:-1]), len(width))
-    return _result(thinned, lubricant, strip, channel, found, along / width, float(along.sum()) + ambient)
+    along = sum_in_cells(film_columns.cell, 0.5 * pieces * (stress[1:] + stress[:-1]), len(width))
+    return _result(thinned, lubricant, film_columns, channel, found, along / width, float(along.sum()) + ambient)
 
 
 def _result(
-    thinned: _Thinned,
+    thinned: _ThinnedFilms,
     lubricant: Lubricant,
-    strip: Strip,
+    film_columns: FilmColumns,
     channel: Channel,
     found: Temperatures,
     stress: FloatArray,
     couette: float,
 ) -> ThermalFilm:
+    """Return the result with signs along +x, and NaN where it did not converge."""
     film, inlet = thinned.films[-1], thinned.inlet
-    width = np.diff(strip.edges)
+    width = np.diff(film_columns.edges)
     into = found.into @ width
     carried = channel.capacity_flow * float(found.oil[-1] - channel.supply)
-    power = strip.sliding * couette + sum(film.speeds) * film.rolling_force
+    power = film_columns.sliding * couette + sum(film.speeds) * film.rolling_force
     imbalance = abs(power - float(into.sum()) - carried) / max(abs(power), 1e-300)
     kept = film.state
     assert isinstance(kept, FilmState)
     sign = -1.0 if kept.reversed else 1.0
-    right = found.residual <= 1e-6 and thinned.missed <= FACTOR_TOLERANCE
+    right = found.residual <= 1e-6 and thinned.deviation <= FACTOR_TOLERANCE
     status = film.status if film.status is not Status.CONVERGED or right else Status.STALLED
     order = slice(None, None, -1) if kept.reversed else slice(None)
     lost: tuple[Note, ...]
@@ -403,12 +355,12 @@ def _result(
     return ThermalFilm(
         film=without_factors(film),
         isothermal=without_factors(thinned.films[0]),
-        position=sign * (0.5 * (strip.edges[1:] + strip.edges[:-1]))[order],
+        position=sign * (0.5 * (film_columns.edges[1:] + film_columns.edges[:-1]))[order],
         width=width[order],
         film_temperature=known * found.oil[order],
         surface_temperatures=known * found.surfaces[:, order],
         sliding_stress=known * sign * stress[order],
-        heat_made=known * found.made[order],
+        heat_made=known * found.heat[order],
         heat_into=known * found.into[:, order],
         shear_force=sign * couette + film.rolling_force,
         sliding_force=sign * couette,
@@ -417,7 +369,7 @@ def _result(
         power_carried=known * carried,
         energy_imbalance=imbalance,
         inlet=inlet,
-        inlet_missed=thinned.missed,
+        inlet_missed=thinned.deviation,
         inlet_viscosity=film.lubricant.viscosity,
         films=len(thinned.films),
         iterations=thinned.steps,
@@ -427,6 +379,6 @@ def _result(
 
 
 def _limits(found: ThermalFilm, lubricant: Lubricant) -> tuple[Note, ...]:
-    """Return notes where lumped heat was seen to be inaccurate."""
+    """Return notes where lumped heat is inaccurate."""
     rise = found.mean_film_temperature - float(lubricant.temperature or 0.0)
     return heat_limits(found.inlet, found.film.speeds, rise)

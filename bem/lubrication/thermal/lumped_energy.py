@@ -1,14 +1,13 @@
-"""Mean temperature of the oil along a line film, and of the surfaces, from the heat made in it.
+"""Energy balance of lumped heat: mean temperature of the oil along a film, and of the surfaces.
 
-On cells along the film, heat q1 and q2 goes into both bodies, which are moving half-spaces
-(`bem.heat.operators`), the rest of what is made is carried on by the oil. Heat made evenly across the film makes a
-parabola between the walls:
+On cells along the film, heat q1 and q2 enters both bodies, which are moving half-spaces (`bem.heat.operators`); the oil
+carries the rest of the generated heat. Even generation makes a parabola between the walls:
 
-    made = q1 + q2 + C dT/dx,    T = (T1 + T2)/2 + (q1 + q2) h/(12 k),    q1 - q2 = 2 k (T2 - T1)/h,
+    generated = q1 + q2 + C dT/dx,    T = (T1 + T2)/2 + (q1 + q2) h/(12 k),    q1 - q2 = 2 k (T2 - T1)/h,
 
-with Ti = bulk + Ki qi and C = rho c times the flow. Linear in the heat made, which falls with temperature through the
-viscosity: Newton's method on the temperatures of the cells. Energy closes by construction, to rounding. Verified in
-tests/lubrication/test_thermal_film.py.
+with Ti = bulk + Ki qi and C = rho c times the flow. Linear in the generated heat, which falls with temperature through
+the viscosity: Newton's method on the temperatures of the cells, with limited steps. Energy closes by construction, to
+rounding. Verified in tests/lubrication/test_thermal_film.py.
 """
 
 from __future__ import annotations
@@ -25,17 +24,18 @@ from bem.heat.line_contact import band_temperatures
 
 MAX_STEPS = 200
 LONGEST_STEP = 40.0
-"""Of a temperature in one step of Newton's method [K]."""
+"""Longest change of a temperature in one step [K]."""
 SHORTEST_STEP = 0.5
 TOLERANCE = 1e-9
 
 
 @dataclass(frozen=True)
 class Channel:
-    """The film as heat sees it, on m cells along the entrainment.
+    """The film for the energy balance, on m cells along the entrainment.
 
-    edges : (m+1,) ascending [m]. thickness : (m,) [m]. conductivity : of the oil [W/(m K)]. capacity_flow : C, density
-    x heat capacity x flow per length [W/(m K)]. supply : temperature of the oil that comes [K]. bodies : lower, upper.
+    edges : (m+1,) ascending [m]. thickness : (m,) [m]. conductivity : of the oil [W/(m K)].
+    capacity_flow : C, density times heat capacity times flow per length [W/(m K)].
+    supply : temperature of the supplied oil [K]. bodies : lower, upper.
     """
 
     edges: FloatArray
@@ -48,25 +48,30 @@ class Channel:
 
 @dataclass(frozen=True)
 class Temperatures:
-    """On the cells: of oil and both surfaces [K], heat into both bodies [W/m^2] (2, m) and made [W/m^2]; steps of
-    Newton's method, and by how much its temperatures miss those of their own heat, over the largest rise."""
+    """Result on the cells.
+
+    oil, surfaces : (m,), (2, m) [K]. into : (2, m) heat into both bodies [W/m^2]. heat : (m,) generated [W/m^2].
+    steps : of Newton's method. residual : deviation from the temperatures of the own heat, over the largest rise.
+    """
 
     oil: FloatArray
     surfaces: FloatArray
     into: FloatArray
-    made: FloatArray
+    heat: FloatArray
     steps: int
     residual: float
 
 
 Heat = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
-"""Heat made in the cells (m,) [W/m^2] at their temperatures (m,) [K], and derivatives (3, m): by the temperature of a
-cell, of the heat in the one before, in itself and in the one behind."""
+"""Function of temperatures (m,) [K] that returns the generated heat (m,) [W/m^2] and its derivatives (3, m): with the
+temperature of a cell, of the heat in the cell before, in itself and in the cell behind."""
 
 
 def film_temperatures(channel: Channel, heat: Heat, kernels: Sequence[FloatArray] | None = None) -> Temperatures:
-    """Temperatures at which the heat made goes where it can; `kernels` are `band_temperatures` of both bodies on the
-    edges, where they are known."""
+    """Solve for the temperatures.
+
+    kernels : `band_temperatures` of both bodies on the edges; computed by default.
+    """
     if kernels is None:
         kernels = [band_temperatures(channel.edges, body) for body in channel.bodies]
     into, oil = _responses(channel, kernels)
@@ -75,8 +80,8 @@ def film_temperatures(channel: Channel, heat: Heat, kernels: Sequence[FloatArray
     temperature = base.copy()
     residual, last, longest, steps = np.inf, np.inf, LONGEST_STEP, 0
     while True:
-        made, slope = heat(temperature)
-        missed = temperature - base - response @ made
+        generated, slope = heat(temperature)
+        missed = temperature - base - response @ generated
         rise = max(float(np.ptp(temperature)), float(np.abs(temperature - base).max()), 1e-3)
         residual = float(np.abs(missed).max()) / rise
         if residual <= TOLERANCE or steps == MAX_STEPS or not np.isfinite(residual):
@@ -87,14 +92,14 @@ def film_temperatures(channel: Channel, heat: Heat, kernels: Sequence[FloatArray
         last = residual
         temperature = temperature + np.clip(change, -longest, longest)
         steps += 1
-    fluxes = (resting + into[:, 1:] @ made).reshape(2, -1)
+    fluxes = (resting + into[:, 1:] @ generated).reshape(2, -1)
     bulk = np.array([[body.bulk] for body in channel.bodies])
     surfaces = bulk + np.stack([kernel @ flux for kernel, flux in zip(kernels, fluxes, strict=True)])
-    return Temperatures(temperature, surfaces, fluxes, made, steps, residual)
+    return Temperatures(temperature, surfaces, fluxes, generated, steps, residual)
 
 
 def _difference(response: FloatArray, slope: FloatArray) -> FloatArray:
-    """1 - response x slope (m, m), of a slope as of `Heat`."""
+    """Return 1 - response x slope (m, m), for a slope as of `Heat`."""
     out = -response * slope[1]
     out[:, 1:] -= response[:, :-1] * slope[0, 1:]
     out[:, :-1] -= response[:, 1:] * slope[2, :-1]
@@ -103,8 +108,11 @@ def _difference(response: FloatArray, slope: FloatArray) -> FloatArray:
 
 
 def _responses(channel: Channel, kernels: Sequence[FloatArray]) -> tuple[FloatArray, FloatArray]:
-    """Fluxes into the bodies (2m, 1 + m) and temperatures of the oil (m, 1 + m): without heat, and per unit of heat
-    made in each cell; the kernels are the temperatures of both surfaces per flux in each cell (m, m)."""
+    """Return fluxes into the bodies (2m, 1 + m) and temperatures of the oil (m, 1 + m): without heat, and per unit of
+    heat in each cell.
+
+    kernels : temperatures of both surfaces per flux in each cell (m, m).
+    """
     cells, width = len(channel.thickness), np.diff(channel.edges)
     one, (lower, upper) = np.eye(cells), kernels
     first, second = (body.bulk for body in channel.bodies)

@@ -1,10 +1,10 @@
-"""Lumped heat of a point film: an oil as thin as inlet heating leaves it, and temperatures along its lines of flow.
+"""Lumped heat of a point film: the oil thinned by inlet heating, and temperatures along lines of cells.
 
 As of line contacts (`lumped`), line by line: on each line of cells along x heat goes across the film into two moving
-half-spaces, as of bands that reach far along y, or is carried on by the oil (`energy`). What flows or is conducted from
-line to line is left out, which is said; a body that hardly moves is cool at the half-axis across. Heat is made by
-sliding at the stress that the oil has at its temperature, and by the pressure's flow, h^3/(12 mu) |grad p|^2. A long
-ellipse is the line contact. Knows solved films; verified in tests/lubrication/test_thermal_point.py.
+half-spaces, as of bands that reach far along y, or is carried by the oil (`lumped_energy`). Flow and conduction between
+the lines are left out, with a note; a body that hardly moves is cool at the half-axis across. Sources are sliding at
+the stress of the hot oil, and the Poiseuille flow, h^3/(12 mu) |grad p|^2. A long ellipse is the line contact. Verified
+in tests/lubrication/test_thermal_point.py.
 """
 
 from __future__ import annotations
@@ -25,32 +25,33 @@ from bem.lubrication.point.film import PointFilmSolution
 from bem.lubrication.thermal.bodies import moving_bodies
 from bem.lubrication.thermal.checks import LARGEST_RISE, heat_limits, notes_of_heat
 from bem.lubrication.thermal.hot_viscosity import HotViscosity
-from bem.lubrication.thermal.lumped import FACTOR_TOLERANCE, MOST_FILMS, thinned_oil
+from bem.lubrication.thermal.inlet_thinning import FACTOR_TOLERANCE, find_thinning, thinned_oil
 from bem.lubrication.thermal.lumped_energy import Channel, film_temperatures
 from bem.materials import Body
 from bem.notes import without
 from bem.notes.lubrication import HEAT_LEFT_OUT, HEAT_NOT_FOUND, LUMPED_HEAT_LIMIT
 
+MOST_FILMS = 6
+"""Largest number of thinned films."""
 LEAST_PRESSURE = 1e-3
-"""Of the largest, on a line of cells that has temperatures."""
+"""Pressure over its maximum, above which a line of cells gets temperatures."""
 _WARMER = 1e-3
 """Step [K] of the derivative of stresses with temperature."""
 RESIDUAL = 1e-6
-"""Of temperatures, as of line films."""
+"""Largest residual of temperatures."""
 LARGEST_SPREAD = 0.5
-"""How far heat spreads in a body while it crosses the contact, over the half-axis across, up to which surfaces were
-within 10 % as warm as `surface_temperature` has them under the same heat: 5 % too warm at 0.3, 12 % at 0.54, 22 % at
-0.76 (balls), 18 % at 0.68, 42 % at 1.2 and 66 % at 1.4 (Rx/Ry 10); bodies at rest 10 % too cool to 21 % too warm."""
+"""Spread of heat in a body while it crosses the contact, over the half-axis across, up to which the surfaces are within
+10 % of those with conduction across; 5 % too warm at 0.3, 22 % at 0.76 (balls), 42 % at 1.2."""
 
 
 @dataclass(frozen=True)
 class PointHeat:
-    """Of a film on its cells.
+    """Heat of a film on its cells.
 
-    temperature : (nx, ny), mean across the film [K].
+    temperature : (nx, ny) mean across the film [K].
     surfaces, fluxes : (2, nx, ny) of flat and ball [K], and into them [W/m^2].
     stress : (nx, ny) in the middle of the film [Pa], along the slide of the ball over the flat.
-    power, into, carried : of lines with temperatures: made, (2,) into both bodies, carried on by the oil [W].
+    power, into, carried : generated, (2,) into both bodies, carried out by the oil [W], of lines with temperatures.
     residual : of the temperatures, largest of all lines.
     """
 
@@ -65,49 +66,51 @@ class PointHeat:
 
 
 @dataclass(frozen=True)
-class Thinning:
-    """Films of a contact go with this power of the viscosity, down to those that inlet heating leaves, but for
-    `missed`, relative; infinite where there was no film."""
+class OilThinning:
+    """Dependence of the central film on the viscosity, down to the film that inlet heating leaves.
+
+    exponent : films go with this power of the viscosity.
+    deviation : of the thinned film from the wanted film, relative; infinite where there was no film.
+    """
 
     exponent: float
-    missed: float
+    deviation: float
 
     def oil(self, lubricant: Lubricant, inlet: InletHeating) -> Lubricant:
-        """Whose film is as much thinner as inlet heating says."""
+        """Return the oil whose film is thinned by the factor of inlet heating."""
         return thinned_oil(lubricant, inlet.factor ** (1 / self.exponent))
 
 
-def thinning(
+def find_oil_thinning(
     lubricant: Lubricant, inlet: InletHeating, central: Callable[[Lubricant], float], exponent: float
-) -> Thinning:
-    """From the central films of ever better thinned oils.
+) -> OilThinning:
+    """Find how films depend on the viscosity, from the central films of ever thinner oils.
 
-    central : film of an oil [m], not a number where there is none. exponent : of films in the viscosity, at first.
+    central : returns the central film of an oil [m], NaN where there is none. exponent : of films in the viscosity, to
+    begin with.
     """
     wanted, cold = math.log(inlet.factor), central(lubricant)
-    for _ in range(MOST_FILMS):
-        found = Thinning(exponent, math.inf)
-        reached = math.log(central(found.oil(lubricant, inlet)) / cold)
-        missed = abs(math.expm1(reached - wanted))
-        if not math.isfinite(missed):
-            return found
-        found = Thinning(exponent, missed)
-        if missed <= FACTOR_TOLERANCE or reached == 0:
-            return found
-        exponent *= reached / wanted
-    return found
+
+    def log_film(log_viscosity: float) -> float:
+        return math.log(central(thinned_oil(lubricant, math.exp(log_viscosity))) / cold)
+
+    found = find_thinning(log_film, wanted, exponent, MOST_FILMS, FACTOR_TOLERANCE)
+    return OilThinning(wanted / found.log_viscosity if found.log_viscosity else exponent, found.deviation)
 
 
-def with_heat(
+def add_heat(
     film: PointFilmSolution,
     lubricant: Lubricant,
     bodies: Sequence[Body],
     half_axes: tuple[float, float],
     inlet: InletHeating,
-    missed: float,
+    deviation: float,
 ) -> PointFilmSolution:
-    """A film of an oil thinned by inlet heating, its speeds along x, with the stresses, forces and temperatures of the
-    oil as it is; `half_axes` : of the contact, along and across the flow [m]."""
+    """Return a film of the thinned oil with stresses, forces and temperatures of the oil as supplied.
+
+    film : with speeds along x. half_axes : of the contact, along and across the flow [m]. deviation : of the film from
+        the factor of inlet heating, relative.
+    """
     first, second = film.speeds[0][0], film.speeds[1][0]
     conductors = moving_bodies("thermal", lubricant, bodies, (first, second), None, half_axes[1])
     heat = point_heat(film, lubricant, conductors)
@@ -118,7 +121,7 @@ def with_heat(
     mean = float((weights * heat.temperature).sum())
     rise = mean - float(lubricant.temperature or 0.0)
     notes = without(film.notes, HEAT_LEFT_OUT)
-    right = heat.residual <= RESIDUAL and missed <= FACTOR_TOLERANCE
+    right = heat.residual <= RESIDUAL and deviation <= FACTOR_TOLERANCE
     status = film.status if film.status is not Status.CONVERGED or right else Status.STALLED
     known = 1.0 if status is Status.CONVERGED else math.nan  # as of a line
     made = replace(
@@ -145,22 +148,24 @@ def with_heat(
 
 
 def _spread(bodies: tuple[Conductor, Conductor], half_axes: tuple[float, float]) -> float:
-    """How far heat spreads in bodies while they cross the contact, over the half-axis across; 0 of those that are taken
-    as cool there."""
+    """Return the spread of heat in the bodies while they cross the contact, over the half-axis across; 0 of bodies
+    taken as cool there."""
     along, across = half_axes
     moving = [body for body in bodies if abs(body.peclet_per_length) * across > 1 + 1e-9]
     return max((math.sqrt(along / abs(body.peclet_per_length)) / across for body in moving), default=0.0)
 
 
 def point_heat(film: PointFilmSolution, lubricant: Lubricant, bodies: tuple[Conductor, Conductor]) -> PointHeat:
-    """Temperatures on lines of cells along x."""
+    """Solve for the temperatures on lines of cells along x."""
     reverse = film.speeds[0][0] + film.speeds[1][0] < 0
     steps = slice(None, None, -1 if reverse else 1)
     x = -film.x[::-1] if reverse else film.x
     pressure, thickness = film.pressure[steps], film.thickness[steps]
     gradient = np.gradient(pressure, x, film.y)
-    driven = thickness**3 / (12 * film.lubricant.viscosity_at(pressure)) * (gradient[0] ** 2 + gradient[1] ** 2)
-    driven = np.where(pressure > 0, driven, 0.0)
+    poiseuille_heat = (
+        thickness**3 / (12 * film.lubricant.viscosity_at(pressure)) * (gradient[0] ** 2 + gradient[1] ** 2)
+    )
+    poiseuille_heat = np.where(pressure > 0, poiseuille_heat, 0.0)
     density = film.lubricant.density_ratio(pressure)[0]
     slide, mean = film.speeds[1][0] - film.speeds[0][0], 0.5 * abs(film.speeds[0][0] + film.speeds[1][0])
     viscosity, supply = HotViscosity.of(lubricant), float(lubricant.temperature or 0.0)
@@ -187,7 +192,7 @@ def point_heat(film: PointFilmSolution, lubricant: Lubricant, bodies: tuple[Cond
         def heat(at: FloatArray, j: int = j) -> tuple[FloatArray, FloatArray]:
             value, slope = stresses(j, at), np.zeros((3, at.size))
             slope[1] = abs(slide) * (stresses(j, at + _WARMER) - value) / _WARMER
-            return abs(slide) * value + driven[:, j], slope
+            return abs(slide) * value + poiseuille_heat[:, j], slope
 
         channel = Channel(
             edges, thickness[:, j], lubricant.thermal_conductivity or 0.0, capacity * flow, supply, bodies
@@ -197,7 +202,7 @@ def point_heat(film: PointFilmSolution, lubricant: Lubricant, bodies: tuple[Cond
         fluxes[:, :, j] = found.into
         into += found.into.sum(axis=1) * width
         carried += channel.capacity_flow * float(found.oil[-1] - supply)
-        power += float(found.made.sum()) * width
+        power += float(found.heat.sum()) * width
         residual = max(residual, found.residual)
     line = float(film.y[1] - film.y[0])
     return PointHeat(
