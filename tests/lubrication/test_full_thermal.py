@@ -433,7 +433,9 @@ def test_second_order_in_columns_and_layers(monkeypatch):
     """Film, heat carried and mean temperature between bodies that stay cool, on one film mesh: what a halving
     changes is a quarter of what the one before did; the film hardly knows the columns. Columns of evenly many nodes."""
     steel = STEEL.material
-    monkeypatch.setattr(coupling, "SKETCH", 1000)  # films that begin on fewer cells have meshes that differ a little
+    monkeypatch.setattr(
+        coupling, "COARSE_CELLS", 1000
+    )  # films that begin on fewer cells have meshes that differ a little
     cool = Body(
         Material("cool", youngs_modulus=steel.youngs_modulus, poissons_ratio=steel.poissons_ratio,
                  thermal_conductivity=1e9, density=7850.0, heat_capacity=470.0)
@@ -596,7 +598,7 @@ def test_fine_meshes_begin_where_coarse_ones_ended(monkeypatch):
     monkeypatch.setattr(coupling, "newton", counted)
     nested = film(3.0, 0.2, points=2001)
     steps = sum(fine)
-    monkeypatch.setattr(coupling, "SKETCH", 2000)
+    monkeypatch.setattr(coupling, "COARSE_CELLS", 2000)
     fine.clear()
     alone = film(3.0, 0.2, points=2001)
     assert nested.status is alone.status is Status.CONVERGED

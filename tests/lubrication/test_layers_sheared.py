@@ -80,7 +80,7 @@ def test_newtonian_layers_are_dowsons():
     assert found.mean[0] == pytest.approx(3e6, rel=1e-12)
     assert found.first[0] == pytest.approx(2e6, rel=1e-12)
     # turned round, the centre of the fluidity is on the other side
-    assert middle[0] == pytest.approx(3e6 + 2e6 * sums.by_place[0] / sums.mean[0], rel=1e-12)
+    assert middle[0] == pytest.approx(3e6 + 2e6 * sums.by_height[0] / sums.mean[0], rel=1e-12)
 
 
 @pytest.mark.parametrize("name", LAWS)

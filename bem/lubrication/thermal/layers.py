@@ -133,7 +133,7 @@ class LayeredFilm:
     viscosity follow its pressure.
 
     cold : ln of the viscosity ratio at the temperature of the supply, over scaled pressure, in a unit [Pa].
-    temperature : (n, K) [K]. times, plus : (n, K), see `HotViscosity.log_line`. slide : (u2 - u1)/(u1 + u2).
+    temperature : (n, K) [K]. factor, offset : (n, K), see `HotViscosity.log_line`. slide : (u2 - u1)/(u1 + u2).
     thinning : (n,) see `line.problem.Layered`, at the temperatures and film with which it was computed.
     """
 
@@ -217,5 +217,5 @@ class LayeredFilm:
 
     def cut(self, nodes: slice) -> LayeredFilm:
         """Return the layers at some of the nodes."""
-        parts = {name: getattr(self, name)[nodes] for name in ("temperature", "times", "plus", "thinning")}
+        parts = {name: getattr(self, name)[nodes] for name in ("temperature", "factor", "offset", "thinning")}
         return replace(self, **parts)
