@@ -221,10 +221,10 @@ def spike_unresolved(case: Case) -> Note | None:
 
 
 def inlet_heating(case: Case) -> Note | None:
-    """Shear in the inlet heats the oil, and the film is thinner for it.
+    """Return a note if shear in the inlet heats the oil and thins the film.
 
-    By the factor of `bem.lubrication.inlet_heating`, for a mineral oil. A film that is starved by more than that is
-    as thick as the oil that comes, hot or not.
+    By the factor of `bem.lubrication.inlet_heating`, for a mineral oil. A film that is starved by more than that factor
+    is as thick as the oil that arrives, hot or not.
     """
     load = max(case.integral(case.pressure), 0.0)
     hertz = hertz_over_modulus(load, case.radius, case.contact_modulus)
@@ -235,11 +235,11 @@ def inlet_heating(case: Case) -> Note | None:
 
 
 def film_heating(case: Case) -> Note | None:
-    """Sliding heats film and surfaces, and the oil in the contact is not at the temperature given.
+    """Return a note if sliding heats film and surfaces.
 
-    Two estimates added: q/8 h/k across the film, for heat q made evenly and led away through both surfaces (Crook,
-    Phil. Trans. A 254 (1961) 237), and 2 q sqrt(l/pi) / (e (sqrt(u1) + sqrt(u2))) at the end of the heated length l of
-    two surfaces of effusivity e and equal temperature (Jaeger 1942), with the mean of q over the loaded length.
+    Two estimates are added: q/8 h/k across the film, for even heat q that leaves through both surfaces (A. W. Crook,
+    *Phil. Trans. A* 254 (1961) 237), and 2 q sqrt(l/pi) / (e (sqrt(u1) + sqrt(u2))) at the end of the heated length l
+    of two surfaces of effusivity e and equal temperature (Jaeger 1942), with the mean of q over the loaded length.
     """
     loaded = case.pressure > 0.05 * case.pressure.max(initial=0.0)
     if not loaded.any() or case.pressure.max() == 0:

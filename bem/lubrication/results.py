@@ -37,34 +37,32 @@ class FilmSolution:
     thickness : (n,) [m].
     minimum_thickness : [m].
     central_thickness : thickness at x = 0 [m].
-    load : per unit length [N/m], what the pressure carries (the flooded inlet upstream of the mesh included).
-    shear_force : friction force per unit length [N/m], integral of `shear_stress` over the full film: what the
-        cylinder feels along +x and, by equilibrium, the flat along -x. Its sliding part has the sign of u1 - u2. Its
-        rolling part, integral h/2 dp/dx = -1/(2R) integral p x, has that of u1 + u2 and is the larger one near pure
-        rolling, in rigid films far beyond: a cylinder a little faster than the flat still finds the flat dragged back.
-        The full film ends where the pressure does (Swift-Stieber exit); `striated_shear_force` adds the streamers
-        behind it.
+    load : of the pressure per unit length [N/m] (the flooded inlet upstream of the mesh included).
+    shear_force : friction force per unit length [N/m], integral of `shear_stress` over the full film: on the cylinder
+        along +x and, by equilibrium, on the flat along -x. Its sliding part has the sign of u1 - u2. Its rolling part,
+        integral h/2 dp/dx = -1/(2R) integral p x, has the sign of u1 + u2 and is the larger part near pure rolling, in
+        rigid films far beyond. The full film ends where the pressure does (Swift-Stieber exit); `striated_shear_force`
+        adds the streamers behind it.
     rolling_force : its rolling part [N/m], upstream of the positions included, with the sign of u1 + u2.
-    striated_shear_force : the same with the oil behind the exit, which covers the fraction h_exit/h of the surface;
-        NaN with heat, which is not followed beyond the exit.
+    striated_shear_force : shear force with the oil behind the exit, which covers the fraction h_exit/h of the surface;
+        NaN with heat, which ends at the exit.
     exit_position : where the film ruptures [m].
     inlet_load_fraction : share of the load that lies upstream of the first position.
-    iterations : Newton steps in all, continuation and those with the equations of an earlier step included.
+    iterations : Newton steps in total, continuation and chord steps included.
     residual : largest residual of the equations, relative to the local film.
     status : outcome.
     speeds, lubricant : as given.
     time : [s]; None for a steady film.
     film_fraction : (n,) share of the gap that is filled with oil; 1 in the full film. None with Swift and Stieber's
-        cavitation, which keeps no account of it.
+        cavitation.
     volume_imbalance : relative error of the volume balance of a time step; None for a steady film.
-    mean_temperature : of the oil [K], mean across the film, weighted by pressure.
-    maximum_temperature : its highest, of
-        the mean across the film where only that is known ("lumped"). None where heat was not solved for.
-    sliding_stress : (n,) in the middle of the film [Pa], at the oil's temperatures; None where heat was not solved for.
-    starvation : what a supply of oil made of a steady film; None where none was given: flooded.
-    heat : the same film with all that is known of its heat, a `ThermalFilm` or a `FullThermalFilm`; None without heat.
-    state : the discrete solution as its solver left it, to start the next one from; None where none is kept.
-    notes : where the model is outside its validity, a sentence each (`bem.lubrication.checks`).
+    mean_temperature : of the oil [K], mean across the film, weighted by pressure; None without heat.
+    maximum_temperature : of the oil [K], with lumped heat of the mean across the film; None without heat.
+    sliding_stress : (n,) in the middle of the film at the temperatures of the oil [Pa]; None without heat.
+    starvation : effect of a supply of oil on a steady film; None without a supply: flooded.
+    heat : film with its heat, a `ThermalFilm` or a `FullThermalFilm`; None without heat.
+    state : discrete solution, for resampling and as a start of similar films; None in time.
+    notes : on the validity of the model (`bem.lubrication.checks`).
     """
 
     position: FloatArray

@@ -1,19 +1,20 @@
 """Shear and flow of a generalised Newtonian oil across a film.
 
-The oil between two walls is in equilibrium, so that the shear stress is linear across it whatever its law:
-tau = tau_m + z dp/dx, |z| < h/2. With the Newtonian stress X(tau) that belongs to it (du/dz = X/mu), the sliding speed
-fixes the stress in the middle and the flow follows,
+The oil between two walls is in equilibrium, so that the shear stress is linear across it whatever its law: tau = tau_m
++ z dp/dx, |z| < h/2. With the Newtonian stress X(tau) that belongs to it (du/dz = X/mu), the sliding speed fixes the
+stress in the middle, and the flow follows,
 
     integral X dz = mu (u2 - u1),    q = h (u1 + u2)/2 - 1/mu integral z X dz,
 
-so that pressure drives S h^3/(12 mu) dp/dx with S >= 1: Conry, Wang and Cusano, J. Tribol. 109 (1987) 648, for Eyring's
-law in closed form; Dowson (1962), Peiran and Shizhu, J. Tribol. 112 (1990) 1, for any.
+so that the Poiseuille flow is S h^3/(12 mu) dp/dx with S >= 1: T. F. Conry, S. Wang and C. Cusano, *J. Tribol.* 109
+(1987) 648, for Eyring's law in closed form; D. Dowson (1962), Y. Peiran and W. Shizhu, *J. Tribol.* 112 (1990) 1, for
+any law.
 
-No stress in the film is beyond the limit tau_L. Where sliding asks for more the oil slips at the limit, at the wall
-where the stress is largest (Jacobson and Hamrock, J. Tribol. 106 (1984) 275): tau_m = tau_L - h/2 |dp/dx|. There the
-film goes with the other wall, and without a pressure gradient the flow would be any between the two walls'. An oil is
-nowhere equally strong all the way across: slip is shared between both walls until their stresses differ by much more
-than `SPREAD` tau_L. Verified in tests/lubrication/test_shear_profile.py.
+No stress in the film exceeds the limit tau_L. Where sliding would exceed it the oil slips at the limit, at the wall
+where the stress is largest (B. O. Jacobson and B. J. Hamrock, *J. Tribol.* 106 (1984) 275): tau_m = tau_L - h/2
+|dp/dx|. There the film moves with the other wall, and without a pressure gradient the flow would be undetermined
+between the two walls. An oil is nowhere equally strong all the way across: slip is shared between both walls until
+their stresses differ by much more than `SPREAD` tau_L. Verified in tests/lubrication/test_shear_profile.py.
 """
 
 from __future__ import annotations
@@ -29,22 +30,24 @@ from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.shear import Moments, ShearLaw
 
 SPREAD = 0.2
-"""Half difference of the stresses at the walls over the limit, from which slip is mostly at one of them: limiting
-stresses measured on one oil scatter by as much. Films depend on it where all of the contact slips and the slide-to-roll
-ratio is near 2: half of it then thins them by a fifth, twice of it makes them a tenth thicker; at ratios below 1 by 3 %
-at most."""
+"""Half difference of the wall stresses over the limit, from which slip is mostly at one wall: measured limits of one
+oil scatter by as much. Films depend on it where all of the contact slips at a slide-to-roll ratio near 2 (half of it
+thins them by a fifth, twice of it thickens them by a tenth), and by 3 % at most below a ratio of 1."""
 STIFFNESS = 100.0
-"""Where pressure alone would shear the oil beyond the limit: flow beyond it, over that of an oil without a limit."""
+"""Slope of the flow beyond the limit, over that of an oil without a limit, where the pressure gradient alone exceeds
+the limit."""
 LEAST_FLUIDITY = 1e-120
+"""Lower bound of the fluidity, so that products stay in floating point."""
 _STEP = 1e5
+"""Step of the pressure [Pa] for the slope of the limit."""
 
 
 @dataclass(frozen=True)
 class Profile:
-    """Across a film, all (n,).
+    """Stress and flow across a film, (n,) each.
 
-    middle : |tau_m| [Pa]. moment : S h/2 dp/dx [Pa], with derivatives. slip : of the Newtonian stress, the share that
-    is slip [Pa].
+    middle : |tau_m| [Pa]. moment : S h/2 dp/dx [Pa]. by_newtonian, by_half, by_limit : derivatives of the moment.
+    slip : part of the Newtonian stress that is slip [Pa].
     """
 
     middle: FloatArray
@@ -56,17 +59,18 @@ class Profile:
 
 
 class Sheared(Protocol):
-    """What a profile is made of: the law of a uniform oil, or of layers that differ; as of `ShearLaw`."""
+    """Oil across a film: the law of a uniform oil, or of layers that differ; as of `ShearLaw`."""
 
     def moments(self, middle: FloatArray, half: FloatArray) -> Moments:
-        """Of the Newtonian stress across the film."""
+        """Return the moments of the Newtonian stress across the film."""
 
     def middle_stress(self, newtonian: FloatArray, half: FloatArray) -> FloatArray:
-        """At a Newtonian stress of the sliding, before any limit."""
+        """Return the stress in the middle at a Newtonian stress of the sliding, without a limit."""
 
 
 def shear_profile(law: Sheared, newtonian: FloatArray, half: FloatArray, limit: FloatArray | float) -> Profile:
-    """The profile at Newtonian stresses of the sliding, mu |u1 - u2|/h, at h/2 dp/dx and at limits, (n,) each [Pa]."""
+    """Return the profile at Newtonian stresses of the sliding, mu |u1 - u2|/h, at h/2 dp/dx and at limits, (n,) each
+    [Pa]."""
     size, sign = np.abs(half), np.sign(half)
     with np.errstate(over="ignore", invalid="ignore"):
         if not np.isfinite(limit).all():
@@ -86,14 +90,14 @@ def shear_profile(law: Sheared, newtonian: FloatArray, half: FloatArray, limit: 
 
 
 def _held(law: Sheared, middle: FloatArray, half: FloatArray) -> tuple[FloatArray, ...]:
-    """Moment and derivatives with Newtonian stress, half stress and limit where nothing slips."""
+    """Return the moment and its derivatives with Newtonian stress, half stress and limit, where nothing slips."""
     m = law.moments(middle, half)
     ratio = m.mean_by_half / m.mean_by_middle
     return m.first, 3 * ratio, m.first_by_half - 3 * ratio * m.mean_by_half, np.zeros_like(half)
 
 
 def _slipping(law: Sheared, slip: FloatArray, half: FloatArray, limit: FloatArray) -> tuple[FloatArray, ...]:
-    """The same where the oil slips at the limit."""
+    """Return the moment and the same derivatives where the oil slips at the limit."""
     over = half > limit
     m = law.moments(np.maximum(limit - half, 0.0), np.minimum(half, limit))
     share = half / (SPREAD * limit)
@@ -109,8 +113,8 @@ def _slipping(law: Sheared, slip: FloatArray, half: FloatArray, limit: FloatArra
 
 @dataclass(frozen=True)
 class EquivalentGradient:
-    """The pressure gradient that would drive as much of a Newtonian oil, on cells (n,), with its derivatives: with the
-    true gradient, the film, the mean fluidity and the pressure."""
+    """Pressure gradient that would cause the same Poiseuille flow of a Newtonian oil, on cells (n,), and its
+    derivatives with the true gradient, the film, the mean fluidity and the pressure."""
 
     gradient: FloatArray
     by_gradient: FloatArray
@@ -120,7 +124,7 @@ class EquivalentGradient:
 
 
 def newtonian(gradient: FloatArray) -> EquivalentGradient:
-    """Of a Newtonian oil."""
+    """Return the gradient itself: a Newtonian oil."""
     none = np.zeros_like(gradient)
     return EquivalentGradient(gradient, np.ones_like(gradient), none, none, none)
 
@@ -130,7 +134,8 @@ class ShearFlow:
     """A shear law in similarity units.
 
     sliding : mu0 |u1 - u2| over the unit of films [Pa]. half_stress : h/2 dp/dx [Pa] of a film and a gradient of one
-    unit. limit : limiting shear stress [Pa] and its slope at pressures in their unit.
+        unit.
+    limit : returns the limiting shear stress [Pa] and its slope, at pressures in their unit.
     """
 
     law: ShearLaw
@@ -139,13 +144,14 @@ class ShearFlow:
     limit: Callable[[FloatArray], tuple[FloatArray | float, FloatArray | float]]
 
     def of_share(self, share: float) -> ShearFlow:
-        """With thinning as at a share of all stresses; the smaller, the more Newtonian."""
+        """Return the law at a share of all stresses: the smaller, the more Newtonian."""
         return replace(self, sliding=share * self.sliding, half_stress=share * self.half_stress)
 
     def equivalent_gradient(
         self, gradient: FloatArray, film: FloatArray, fluidity: FloatArray, pressure: FloatArray
     ) -> EquivalentGradient:
-        """What pressure drives through cells of these gradients, films, mean fluidities and pressures."""
+        """Return the equivalent gradient of cells with these gradients, films, mean fluidities and pressures, (n,)
+        each."""
         fluidity = np.maximum(fluidity, LEAST_FLUIDITY)  # beyond it products would leave floating point
         unit = self.half_stress * film
         newtonian = self.sliding / (fluidity * film)
@@ -163,7 +169,8 @@ class ShearFlow:
 
 
 def shear_flow(lubricant: Lubricant, sliding: float, film: float, pressure: float, length: float) -> ShearFlow:
-    """Of an oil between walls that slide at |u1 - u2| [m/s], in units of film [m], pressure [Pa] and length [m]."""
+    """Return the shear law of an oil in units of film [m], pressure [Pa] and length [m]; sliding : u1 - u2 of the walls
+    [m/s]."""
     law = lubricant.shear_law
 
     def limit(scaled: FloatArray) -> tuple[FloatArray | float, FloatArray | float]:
@@ -183,9 +190,11 @@ def middle_stress(
     gradient: FloatArray,
     temperature: FloatArray | None = None,
 ) -> FloatArray:
-    """Shear stress in the middle of films [Pa] at Newtonian stresses mu (u1 - u2)/h and pressures [Pa], films [m] and
-    pressure gradients [Pa/m]: the law's at the sliding alone, or that of the profile where the oil's film follows it.
-    `temperature` : of the films [K], by default the oil's own.
+    """Return the shear stress in the middle of films [Pa]: the law at the sliding alone, or the profile where the oil's
+    film follows its law.
+
+    newtonian : mu (u1 - u2)/h [Pa]. pressure, film, gradient : [Pa], [m], [Pa/m].
+    temperature : of the films [K], by default the oil's own.
     """
     if not lubricant.shears_film:
         return lubricant.shear_stress(newtonian, pressure, temperature)

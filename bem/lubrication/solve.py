@@ -47,7 +47,7 @@ def solve_line_film(
     bodies: Sequence[Body] | None = None,
     bulk: Sequence[float] | None = None,
 ) -> FilmSolution:
-    """Steady film between a cylinder and a flat: Reynolds' equation with cavitation and elastic deflection.
+    """Solve the steady film between a cylinder and a flat: Reynolds' equation, cavitation and elastic deflection.
 
     Solves d/dx[rho h^3/(12 mu) dp/dx] = (u1 + u2)/2 d(rho h)/dx with p = dp/dx = 0 at the free exit (Swift-Stieber),
     h = h0 + x^2/2R - 2/(pi E*) integral p ln|x - x'| dx' and integral p dx = load, flooded from far upstream.
@@ -60,21 +60,20 @@ def solve_line_film(
     speeds : (u1, u2) of the flat (below) and the cylinder (above) [m/s]; their sum, positive or negative, must not
         be zero.
     lubricant : the oil.
-    points : nodes of the graded mesh that the equations are solved on.
+    points : nodes of the graded mesh.
     tolerance : largest residual, relative to the local film (and to the load).
     position : ascending abscissae [m] at which to return pressure and thickness; the mesh itself by default.
-    initial : an earlier solution of a similar case: its film and mesh are the start, and with full heat its
-        temperatures.
+    initial : solution of a similar case, a warm start: film and mesh, with full heat temperatures too.
     max_iterations : Newton steps of one solve.
-    cavitation : a `Cavitation` or its name; `Cavitation.MASS_CONSERVING` also says how full the gap is behind the
-        exit, `film_fraction`. Pressure and thickness are the same as with SWIFT_STIEBER: with a flooded inlet both
-        rupture where p = dp/dx = 0, and behind a cylinder the gap only opens, so no film forms again.
-        In time (`march_line_film`) the two differ.
+    cavitation : a `Cavitation` or its name; `Cavitation.MASS_CONSERVING` also returns the filled fraction of the gap
+        behind the exit, `film_fraction`. Pressure and thickness are the same as with SWIFT_STIEBER: with a flooded
+        inlet both rupture where p = dp/dx = 0, and behind a cylinder the gap only opens, so no film forms again. In
+        time (`march_line_film`) the two differ.
     flow_factors : "off", or a table of `bem.flow_factors`: pressure flow is then phi_x times, Couette flow h + k s
-        phi_s (`bem.lubrication.flow_factors`). Shear stress and what is behind the exit stay those of smooth walls.
+        phi_s (`bem.lubrication.flow_factors`). Shear stress and streamers behind the exit are those of smooth walls.
     supply : oil that reaches the contact, an `OilLayer` or an `InletDistance` (`bem.lubrication.supply`), or the
-        thickness of a layer [m]; None is flooded. `FilmSolution.starvation` has the meniscus, the oil that goes
-        through, and how much thinner the film is than flooded. Upstream of the meniscus there is no pressure and no
+        thickness of a layer [m]; None is flooded. `FilmSolution.starvation` has the meniscus, the oil that
+        passes, and the reduction of the film. Upstream of the meniscus there is no pressure and no
         friction.
     thermal : "off"; "lumped": inlet shear heating and the oil's mean temperature, see `solve_thermal_line_film`; or
         "full": the temperature along and across the film, see `solve_full_thermal_line_film`. Friction and temperatures

@@ -66,7 +66,7 @@ def march_line_film(
     state: LineMarchState | None = None,
     callback: Callable[[LineMarchState], None] | None = None,
 ) -> list[FilmSolution]:
-    """Film of a line contact at each of `times`, of second order in the time step (BDF2, L-stable).
+    """Solve the film of a line contact at each of `times`, of second order in the time step (BDF2, L-stable).
 
     One step is taken from each time to the next; a step that does not converge is halved. The load is balanced at
     every time (no inertia). Cavitation is a complementarity at both ends, of one of two kinds.
@@ -79,24 +79,23 @@ def march_line_film(
     radius, contact_modulus, lubricant : as for `solve_line_film`.
     points : nodes of the fixed, symmetric mesh (made odd).
     tolerance : largest residual of a step, relative to the local film, and to the load.
-    initial : film at the first time. Without it the steady film of the first time, or
-    initial_thickness : the first film is that of undeformed bodies with this gap [m] at x = 0, full of oil, the load
-        not yet felt.
-    cavitation : `Cavitation.SWIFT_STIEBER`, or MASS_CONSERVING: oil behind a rupture is carried along and counts where
-        the film forms again, as after a reversal; `film_fraction` of the solutions says how much there is. The mesh's
-        upstream end is flooded, or has the layer of `supply`; downstream of it comes what comes.
-    supply : thickness [m] of the layer of oil that comes, as an `OilLayer` or a number, for mass-conserving cavitation;
-        None is flooded. The meniscus moves. A layer thicker than the first steady film takes begins with a meniscus
-        as far out as leaves `BARELY_FLOODED` of that film, and fills the inlet from there.
-    state : of a march with the same arguments, to go on from to the same bits.
+    initial : film at the first time; by default the steady film of the first time.
+    initial_thickness : in place of `initial`, the first film is that of undeformed bodies with this gap [m] at x = 0,
+        full of oil, without pressure.
+    cavitation : `Cavitation.SWIFT_STIEBER`, or MASS_CONSERVING: oil behind a rupture is carried along and refills the
+        film where it forms again, as after a reversal; `film_fraction` of the solutions is its amount. The upstream
+        end of the mesh is flooded, or has the layer of `supply`.
+    supply : thickness [m] of the layer of oil that arrives, as an `OilLayer` or a number, for mass-conserving
+        cavitation; None is flooded. The meniscus moves. A layer thicker than the first steady film takes begins with
+        the meniscus of `BARELY_FLOODED` of the flooded oil, and fills the inlet from there.
+    state : of a march with the same arguments, from which it is resumed to the same bits.
     callback : called with the state after the first film and after every step.
 
     Returns
     -------
     A FilmSolution per time, with `time` and `volume_imbalance` (relative to the flow and squeeze of the step). A steady
-    first film is solved on the march's own mesh; one that is given is taken as it is, and `notes` say by how much it
-    misses the load there.
-    If a step fails in spite of halving, the last solution has another status and the list ends there.
+    first film is solved on the mesh of the march; a given film is used as it is, with a note on the load that it
+    misses. If a step fails in spite of halving, the last solution has another status and the list ends there.
 
     Raises
     ------

@@ -42,9 +42,11 @@ SETTLED_RESIDUAL = 0.3
 MISPLACED_RATIO = 3.0
 """Cell at the spike over the wanted one, above which a new mesh is made."""
 MOST_MESHES = 3
+"""Largest number of new meshes."""
 ANDERSON_DEPTH = 6
 """Rounds that the mixing uses."""
 LEAST_MIXING = 0.25
+"""Smallest share of the mixing."""
 FALLING_RATIO, PATIENCE = 0.7, 6
 """Residual over the least so far that counts as a decrease; rounds without a decrease before the mixing is halved."""
 EXACTNESS = 0.03

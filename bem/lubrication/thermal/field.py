@@ -30,6 +30,7 @@ from bem.heat.line_contact import band_temperatures
 from bem.numerics.gmres import gmres
 
 MAX_STEPS = 200
+"""Largest number of Newton steps."""
 WILD_STEP = 150.0
 """Change of a temperature [K] above which a step is discarded and repeated with full damping."""
 NEAR = 1e-2

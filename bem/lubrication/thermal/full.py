@@ -37,7 +37,9 @@ from bem.representation import readable
 from bem.threads import one_blas_thread
 
 COLUMNS = 160
+"""Columns along the film, at most."""
 LAYERS = 16
+"""Layers across the film."""
 ENERGY_TOLERANCE = 1e-6
 """Largest relative friction power that is missing in bodies and oil, and largest deviation of the surfaces from the
 temperatures of their heat, over the largest rise."""
@@ -102,13 +104,13 @@ def solve_full_thermal_line_film(
     columns: int = COLUMNS,
     layers: int = LAYERS,
 ) -> FullThermalFilm:
-    """Steady thermal film between a cylinder and a flat, with its temperature along and across.
+    """Solve the steady film between a cylinder and a flat with full heat: temperatures along and across it.
 
     Parameters
     ----------
     load, radius, contact_modulus, speeds, lubricant, bodies, bulk : as of `solve_thermal_line_film`.
     points, initial, tolerance, max_iterations, flow_factors : as of `solve_line_film`.
-    columns, layers : along and across the film, at most, where temperatures are found.
+    columns, layers : of the temperatures along and across the film, at most.
 
     Returns
     -------

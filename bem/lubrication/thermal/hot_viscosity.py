@@ -30,6 +30,7 @@ LEAST_SPAN = 0.2
 """ln(mu/mu_r) below which the oil is so thin that only the factor exp(-beta (T - T0)) is used."""
 _STEP = 5.0
 LARGEST_LOGARITHM = 600.0
+"""Bound of ln(mu/mu0), so that viscosities stay in floating point."""
 
 
 @dataclass(frozen=True)

@@ -100,19 +100,19 @@ def solve_thermal_line_film(
     cells: int = CELLS,
     supply: Supply | float | None = None,
 ) -> ThermalFilm:
-    """Steady thermal film between a cylinder and a flat, lumped over the film's thickness.
+    """Solve the steady film between a cylinder and a flat with lumped heat: one temperature across the film.
 
     Parameters
     ----------
     load, radius, contact_modulus, speeds, lubricant : as of `solve_line_film`. The lubricant has a temperature, that of
         the oil supplied, and its heat constants, as those of the catalogue have.
-    bodies : flat and cylinder, whose materials have `thermal_conductivity`, `density` and `heat_capacity`. One at rest
-        is taken as cool at a distance of the radius.
+    bodies : flat and cylinder, whose materials have `thermal_conductivity`, `density` and `heat_capacity`. A body at
+        rest is taken as cool at a distance of the radius.
     bulk : temperatures of both far from the contact [K]; the oil's by default.
     points, initial, tolerance, max_iterations, flow_factors : as of `solve_line_film`.
     cells : along the film, where temperatures are found.
     supply : as of `solve_line_film`: inlet heating thins what a flooded contact would take, of which the supply lets as
-        much through as there is; the oil is as warm as the bodies' oil where the gap begins to be full.
+        much through as there is; the oil has the temperature of the supply where the gap begins to be full.
 
     Returns
     -------

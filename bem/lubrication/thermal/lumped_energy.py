@@ -23,10 +23,13 @@ from bem.heat.bodies import Conductor
 from bem.heat.line_contact import band_temperatures
 
 MAX_STEPS = 200
+"""Largest number of Newton steps."""
 LONGEST_STEP = 40.0
 """Longest change of a temperature in one step [K]."""
 SHORTEST_STEP = 0.5
+"""Bound of that change after residuals that grew [K]."""
 TOLERANCE = 1e-9
+"""Tolerance of the temperatures, over the largest rise."""
 
 
 @dataclass(frozen=True)
