@@ -165,8 +165,8 @@ def start_from_steady(march: March, film: TransientState, time: float) -> tuple[
         outcome = march.step(time, film, 1 / settling, still - film.mass / settling)
         if outcome.converged:
             break
-    kept = outcome.film if outcome.converged else film
-    return Reached(time, kept), build_solution_at(march, kept, time, outcome)
+    first = outcome.film if outcome.converged else film
+    return Reached(time, first), build_solution_at(march, first, time, outcome)
 
 
 def advance(march: March, at: Reached[TransientState], time: float) -> tuple[Reached[TransientState], FilmSolution]:

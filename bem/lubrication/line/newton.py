@@ -362,8 +362,8 @@ def is_usable_start(state: LineState) -> bool:
         return False
     if state.film.min() <= 0:
         return False
-    kept = _with_full_inlet(state)
-    return bool(kept.offset.size >= FEWEST_NODES and kept.pressure.max() > 0)
+    extended = _with_full_inlet(state)
+    return bool(extended.offset.size >= FEWEST_NODES and extended.pressure.max() > 0)
 
 
 def _with_full_inlet(state: LineState) -> LineState:

@@ -105,12 +105,12 @@ class FilmState:
 
 def without_factors(film: FilmSolution) -> FilmSolution:
     """Return the film without the factored Newton equations."""
-    kept = film.state
-    if not isinstance(kept, FilmState):
+    own = film.state
+    if not isinstance(own, FilmState):
         return film
-    state = replace(kept.state, factored=None)
-    flooded = state if kept.flooded is kept.state else replace(kept.flooded, factored=None)
-    return replace(film, state=replace(kept, state=state, flooded=flooded))
+    state = replace(own.state, factored=None)
+    flooded = state if own.flooded is own.state else replace(own.flooded, factored=None)
+    return replace(film, state=replace(own, state=state, flooded=flooded))
 
 
 def sample_state(at: FloatArray, state: LineState, scales: Scales) -> tuple[FloatArray, FloatArray]:
@@ -138,19 +138,19 @@ def interpolate_to_mesh(film: FilmSolution, other: FilmSolution) -> FilmSolution
     The film itself is returned where that mesh does not suit, where a sharp spike would move on it, or where oil is
     lacking.
     """
-    kept, there = film.state, other.state
-    if not isinstance(kept, FilmState) or not isinstance(there, FilmState):
+    own, known = film.state, other.state
+    if not isinstance(own, FilmState) or not isinstance(known, FilmState):
         return film
-    if min(kept.state.far_field, there.state.far_field) == 0 or not (
-        is_usable_start(kept.state) and is_usable_start(there.state)
+    if min(own.state.far_field, known.state.far_field) == 0 or not (
+        is_usable_start(own.state) and is_usable_start(known.state)
     ):
         return film
-    scales, speeds = kept.scales, film.speeds
-    problem = scaled_problem(scales, kept.load, film.lubricant, None, speeds[0] - speeds[1])
-    if spike_cell(problem, kept.state, MEDIUM_CELLS) < SPIKE_CELLS[0]:
+    scales, speeds = own.scales, film.speeds
+    problem = scaled_problem(scales, own.load, film.lubricant, None, speeds[0] - speeds[1])
+    if spike_cell(problem, own.state, MEDIUM_CELLS) < SPIKE_CELLS[0]:
         return film
-    state = interpolate_state(problem, kept.state, there.state)
-    return film if state is None else replace(film, state=replace(kept, state=state, flooded=state, coarse=False))
+    state = interpolate_state(problem, own.state, known.state)
+    return film if state is None else replace(film, state=replace(own, state=state, flooded=state, coarse=False))
 
 
 def layer_centres(layers: int) -> FloatArray:

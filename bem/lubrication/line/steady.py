@@ -89,9 +89,9 @@ def solve_coarse_film(case: LineCase) -> FilmSolution:
     """
     units = case.scaled()
     problem = case.problem(units[0])
-    kept = None if case.initial is None else case.initial.state
-    usable = isinstance(kept, FilmState) and is_usable_start(kept.flooded)
-    near = kept.flooded_neighbour(units[0]) if isinstance(kept, FilmState) and usable else None
+    initial_state = None if case.initial is None else case.initial.state
+    usable = isinstance(initial_state, FilmState) and is_usable_start(initial_state.flooded)
+    near = initial_state.flooded_neighbour(units[0]) if isinstance(initial_state, FilmState) and usable else None
     outcome = solve_coarse(problem, near, case.max_iterations)
     film = build_solution(outcome, outcome, case, units)
     assert isinstance(film.state, FilmState)
@@ -111,10 +111,10 @@ def _with_fraction(film: FilmSolution, outcome: Outcome, scales: Scales, reverse
 def _flooded(problem: Problem, scales: Scales, case: LineCase) -> Outcome:
     """Solve the flooded film: from the film of another case if there is one, else or on failure from scratch."""
     cells, tolerance, limit = case.points - 1, case.tolerance, case.max_iterations
-    kept = None if case.initial is None else case.initial.state
+    initial_state = None if case.initial is None else case.initial.state
     spent = 0
-    if isinstance(kept, FilmState) and is_usable_start(kept.flooded):
-        outcome = solve_from_neighbour(problem, kept.flooded_neighbour(scales), cells, tolerance, limit)
+    if isinstance(initial_state, FilmState) and is_usable_start(initial_state.flooded):
+        outcome = solve_from_neighbour(problem, initial_state.flooded_neighbour(scales), cells, tolerance, limit)
         if outcome.converged:
             return outcome
         spent = outcome.iterations
@@ -127,10 +127,14 @@ def _flooded(problem: Problem, scales: Scales, case: LineCase) -> Outcome:
 
 def _starved_neighbour(initial: FilmSolution | None, scales: Scales) -> Neighbour | None:
     """Return the starved film of another case as a start; None if there is none."""
-    kept = None if initial is None else initial.state
-    if not isinstance(kept, FilmState) or kept.state.far_field == 1 or not is_usable_start(kept.state):
+    initial_state = None if initial is None else initial.state
+    if (
+        not isinstance(initial_state, FilmState)
+        or initial_state.state.far_field == 1
+        or not is_usable_start(initial_state.state)
+    ):
         return None
-    return kept.neighbour(scales)
+    return initial_state.neighbour(scales)
 
 
 def _supply_condition(supply: Supply, problem: Problem, flooded: LineState, scales: Scales) -> SupplyCondition | None:

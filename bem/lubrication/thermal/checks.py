@@ -37,13 +37,13 @@ def notes_of_film(
     stress : Newtonian at the nodes (n,) [Pa]; that of the oil at its own temperature by default. found : whether there
         is a film without heat.
     """
-    kept = film.state
-    assert isinstance(kept, FilmState)
-    load = kept.load * kept.scales.pressure * kept.scales.length
+    state = film.state
+    assert isinstance(state, FilmState)
+    load = state.load * state.scales.pressure * state.scales.length
     case = Case(
-        position=kept.state.position * kept.scales.length,
-        pressure=np.maximum(kept.state.pressure, 0.0) * kept.scales.pressure,
-        thickness=kept.state.film * kept.scales.film,
+        position=state.state.position * state.scales.length,
+        pressure=np.maximum(state.state.pressure, 0.0) * state.scales.pressure,
+        thickness=state.state.film * state.scales.film,
         speeds=film.speeds,
         lubricant=lubricant,
         radius=radius,

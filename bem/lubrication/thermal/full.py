@@ -145,35 +145,35 @@ def full_thermal_film(
     lubricant, tolerance = case.lubricant, case.tolerance
     name = "solve_full_thermal_line_film"
     conductors = moving_bodies(name, lubricant, bodies, case.speeds, bulk, case.radius)
-    before = None if case.initial is None else case.initial.state
-    heat = before.heat if isinstance(before, FilmState) else None
+    initial_state = None if case.initial is None else case.initial.state
+    heat = initial_state.heat if isinstance(initial_state, FilmState) else None
     cold = line_film(case if heat is None else replace(case, initial=heat.isothermal))
-    kept = cold.state
-    assert isinstance(kept, FilmState)
+    cold_state = cold.state
+    assert isinstance(cold_state, FilmState)
     first, second = float(case.speeds[0]), float(case.speeds[1])
     coupling = Coupling(
-        problem=case.problem(kept.scales),
+        problem=case.problem(cold_state.scales),
         oil=HeatedOil.of(lubricant),
         bodies=conductors,
         slide=(second - first) / (first + second),
-        unit=kept.scales.pressure,
+        unit=cold_state.scales.pressure,
         film_of=lambda outcome: build_solution(outcome, outcome, case, units),
         columns=columns,
         layers=layers,
         tolerance=tolerance,
         limit=case.max_iterations,
     )
-    start = Outcome(kept.state, cold.iterations, cold.residual, cold.status is Status.CONVERGED)
+    start = Outcome(cold_state.state, cold.iterations, cold.residual, cold.status is Status.CONVERGED)
     near = None
-    if heat is not None and isinstance(before, FilmState):
-        near = HotNeighbour(before.neighbour(kept.scales), heat)
+    if heat is not None and isinstance(initial_state, FilmState):
+        near = HotNeighbour(initial_state.neighbour(cold_state.scales), heat)
     found = solve_coupled(coupling, start, near)
     if found.met(tolerance):
         film = found.film
         assert isinstance(film.state, FilmState)
         film = replace(film, state=replace(film.state, heat=found.state_for(without_factors(cold), columns)))
         found = replace(found, film=film)
-    thermal = _result(found, cold, tolerance, kept.reversed)
+    thermal = _result(found, cold, tolerance, cold_state.reversed)
     stress = found.source.cross_film_flow(found.field.oil).newtonian_stress
     notes = notes_of_film(found.film, lubricant, case.radius, case.contact_modulus, stress, found=start.converged)
     notes += notes_on_factors(case.flow_factors, found.film.minimum_thickness)
@@ -191,19 +191,19 @@ def _result(found: ThermalIterate, cold: FilmSolution, tolerance: float, reverse
     into = geometry.wall_heat(field.rise)
     surfaces = field.temperature[:, [0, -1]].T
     rise = max(float(np.ptp(field.rise)), LEAST_RISE)
-    missed = float(np.abs(geometry.surface_temperatures(into) - surfaces).max()) / rise
-    taken = heat_carried(geometry, sources.flux, field.rise[:, 1:-1])
+    surface_residual = float(np.abs(geometry.surface_temperatures(into) - surfaces).max()) / rise
+    carried_out = heat_carried(geometry, sources.flux, field.rise[:, 1:-1])
     power = film_columns.sliding * couette + sum(film.speeds) * film.rolling_force
-    imbalance = abs(power - float(into.sum()) - taken) / max(abs(power), 1e-300)
-    right = max(imbalance, missed) <= ENERGY_TOLERANCE and found.residual <= tolerance
+    imbalance = abs(power - float(into.sum()) - carried_out) / max(abs(power), 1e-300)
+    converged = max(imbalance, surface_residual) <= ENERGY_TOLERANCE and found.residual <= tolerance
     order = slice(None, None, -1) if reversed_ else slice(None)
     sign = -1.0 if reversed_ else 1.0
-    # a field that is not found may hold any number (6e29 K was seen): none of it is shown, nor what follows from it
-    known = 1.0 if right else math.nan
-    made = known * sources.heat.sum(axis=1)
-    oil, surfaces, stress, into = known * oil, known * surfaces, known * stress, known * into
-    couette, taken, power = known * couette, known * taken, known * power
-    notes = notes_of_heat(lubricant, known * float(field.temperature.max()))
+    # temperatures that did not converge may be arbitrary: they and all that follows from them are NaN
+    mask = 1.0 if converged else math.nan
+    made = mask * sources.heat.sum(axis=1)
+    oil, surfaces, stress, into = mask * oil, mask * surfaces, mask * stress, mask * into
+    couette, carried_out, power = mask * couette, mask * carried_out, mask * power
+    notes = notes_of_heat(lubricant, mask * float(field.temperature.max()))
     if expansion_of(lubricant) is None:
         notes += (OIL_DATA_SHORT(reason="expansion"),)
     return FullThermalFilm(
@@ -221,14 +221,14 @@ def _result(found: ThermalIterate, cold: FilmSolution, tolerance: float, reverse
         sliding_force=sign * couette,
         friction_power=power,
         power_into=(float(into[0].sum()), float(into[1].sum())),
-        power_carried=taken,
+        power_carried=carried_out,
         energy_imbalance=imbalance,
         residual=found.residual,
-        surface_residual=missed,
+        surface_residual=surface_residual,
         rounds=found.rounds,
         iterations=found.steps,
-        status=Status.CONVERGED if right else Status.STALLED,
-        notes=notes if right else (*notes, _not_followed(lubricant)),
+        status=Status.CONVERGED if converged else Status.STALLED,
+        notes=notes if converged else (*notes, _not_followed(lubricant)),
     )
 
 

@@ -342,31 +342,31 @@ def _result(
     carried = channel.capacity_flow * float(found.oil[-1] - channel.supply)
     power = film_columns.sliding * couette + sum(film.speeds) * film.rolling_force
     imbalance = abs(power - float(into.sum()) - carried) / max(abs(power), 1e-300)
-    kept = film.state
-    assert isinstance(kept, FilmState)
-    sign = -1.0 if kept.reversed else 1.0
-    right = found.residual <= 1e-6 and thinned.deviation <= FACTOR_TOLERANCE
-    status = film.status if film.status is not Status.CONVERGED or right else Status.STALLED
-    order = slice(None, None, -1) if kept.reversed else slice(None)
+    state = film.state
+    assert isinstance(state, FilmState)
+    sign = -1.0 if state.reversed else 1.0
+    converged = found.residual <= 1e-6 and thinned.deviation <= FACTOR_TOLERANCE
+    status = film.status if film.status is not Status.CONVERGED or converged else Status.STALLED
+    order = slice(None, None, -1) if state.reversed else slice(None)
     lost: tuple[Note, ...]
-    known, lost = (1.0, ()) if status is Status.CONVERGED else (math.nan, (HEAT_NOT_FOUND(reason="lumped"),))
-    hottest = known * max(float(found.oil.max()), float(found.surfaces.max()))
-    couette, power = known * couette, known * power
+    mask, lost = (1.0, ()) if status is Status.CONVERGED else (math.nan, (HEAT_NOT_FOUND(reason="lumped"),))
+    hottest = mask * max(float(found.oil.max()), float(found.surfaces.max()))
+    couette, power = mask * couette, mask * power
     return ThermalFilm(
         film=without_factors(film),
         isothermal=without_factors(thinned.films[0]),
         position=sign * (0.5 * (film_columns.edges[1:] + film_columns.edges[:-1]))[order],
         width=width[order],
-        film_temperature=known * found.oil[order],
-        surface_temperatures=known * found.surfaces[:, order],
-        sliding_stress=known * sign * stress[order],
-        heat_made=known * found.heat[order],
-        heat_into=known * found.into[:, order],
+        film_temperature=mask * found.oil[order],
+        surface_temperatures=mask * found.surfaces[:, order],
+        sliding_stress=mask * sign * stress[order],
+        heat_made=mask * found.heat[order],
+        heat_into=mask * found.into[:, order],
         shear_force=sign * couette + film.rolling_force,
         sliding_force=sign * couette,
         friction_power=power,
-        power_into=(known * float(into[0]), known * float(into[1])),
-        power_carried=known * carried,
+        power_into=(mask * float(into[0]), mask * float(into[1])),
+        power_carried=mask * carried,
         energy_imbalance=imbalance,
         inlet=inlet,
         inlet_missed=thinned.deviation,
