@@ -60,11 +60,11 @@ def solve_point_film(
     flow_factors: WallFactors | str = "off",
     supply: Supply | float | None = None,
 ) -> PointFilmSolution:
-    """Steady film between an ellipsoid and a flat: Reynolds' equation with rupture and elastic deflection.
+    """Solve the steady film between an ellipsoid and a flat: Reynolds' equation, cavitation, elastic deflection.
 
     Solves div[rho h^3/(12 mu) grad p] = (u1 + u2)/2 grad(rho h) with p = 0 and grad p = 0 where the film ruptures
     (Swift-Stieber), h = h0 + x^2/2Rx + y^2/2Ry + 1/(pi E*) integral p/|x - x'| and integral p = load, flooded from far
-    upstream: on the outermost cells pressure is that of the gap of rigid paraboloids, which goes on outside the grid.
+    upstream: outermost cells have the far pressure of rigid paraboloids, whose load outside the grid counts.
 
     Parameters
     ----------
@@ -84,15 +84,15 @@ def solve_point_film(
     max_iterations : Newton steps from one start on one grid; up to four starts are tried.
     flow_factors : "off", or a table of `bem.flow_factors`: pressure flow phi_x h^3 along x and phi_y h^3 along y, and
         shear flow (u1 - u2)/2 s phi_s along x, along which both walls must move then. Far away they count as smooth.
-    supply : oil that reaches the contact, an `OilLayer` or the thickness of one [m], as thick everywhere; None is
-        flooded. `PointFilmSolution.starvation` has where the gap begins to be full and by how much the film is thinner.
-        Oil is kept account of everywhere then, with either cavitation. A layer as thick as the gap on the edge of the
-        grid in the inlet floods the contact.
+    supply : oil that reaches the contact, an `OilLayer` or the thickness of one [m], equally thick everywhere; None is
+        flooded. `PointFilmSolution.starvation` has the meniscus and the reduction of the film. Cavitation conserves
+        mass then, whatever `cavitation` is. A layer as thick as the gap on the inlet edge of the grid floods the
+        contact.
 
     Returns
     -------
-    PointFilmSolution. `status` is `converged` only where what is recomputed from the result meets the tolerance, else
-    `stalled` with the last iterate.
+    PointFilmSolution. `status` is `converged` only where the residuals recomputed from the result meet the tolerance,
+    else `stalled` with the last iterate.
 
     Raises
     ------

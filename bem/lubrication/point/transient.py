@@ -70,15 +70,15 @@ def march_point_film(
     state: PointState | None = None,
     callback: Callable[[PointState], None] | None = None,
 ) -> list[PointFilmSolution]:
-    """Film of a ball or ellipsoid on a flat at each of `times`, of second order in time (BDF2, L-stable) and space.
+    """Solve the film of a ball or ellipsoid on a flat at each of `times`, of second order in time (BDF2) and space.
 
-    Adds d(rho h)/dt to the equations of `solve_point_film`, with rupture as there (Swift-Stieber: oil behind it is
-    forgotten). One step is taken from each time to the next; a step that does not converge is halved.
+    Adds d(rho h)/dt to the equations of `solve_point_film`, with Swift and Stieber's cavitation, which keeps no account
+    of the oil behind the rupture. One step leads from each time to the next; a step that does not converge is halved.
 
     Parameters
     ----------
-    times : (n,) ascending [s], n >= 2. Where surfaces move, steps of a cell or less see all of what moves; a wave needs
-        20 steps over its length to lose 5 % of its amplitude to them as it goes that far, 32 to lose 1 %.
+    times : (n,) ascending [s], n >= 2. Where surfaces move, steps of a cell or less resolve them fully; a wave loses
+        5 % of its amplitude over its own length with 20 steps, 1 % with 32.
     load : function of time: load [N], positive.
     speeds : function of time: (u1, u2) of flat and ball along x [m/s], or two vectors; their sum may vanish and change
         its sign.
@@ -88,22 +88,24 @@ def march_point_film(
         a function of time to the heights (nx, ny) [m] of both surfaces on the grid (give `extent`, too).
     shape : (nx, ny) cells; 128 x 128 by default.
     tolerance : largest relative residual of a step, see `PointFilmSolution.residual`.
-    extent : (x0, x1, y0, y1), edges of the grid [m]; by default what the films of all times need by themselves.
-    mass : of the ball [kg], which the difference of film and load accelerates; 0: the load is balanced at every time.
-    velocity : at which the ball leaves the flat at first [m/s], negative: falls, with `initial_thickness`.
-    initial : film at the first time. Without it the steady film of smooth bodies of the first time, or
-    initial_thickness : the first film is that of undeformed bodies with this gap [m] at the origin, full of oil.
+    extent : (x0, x1, y0, y1), edges of the grid [m]; by default around the default grids of the films of all times.
+    mass : of the ball [kg], accelerated by the film's load less `load`; 0: the load is balanced at every time.
+    velocity : of the ball away from the flat at first [m/s], negative of one that falls; with `initial_thickness`.
+    initial : film at the first time; the whole pressure of a film with contact counts as the oil's. Without `initial`
+        and `initial_thickness` the first film is the steady one of smooth bodies.
+    initial_thickness : gap [m] at the origin of undeformed bodies, full of oil, as the first film.
     least_film : film at which surfaces touch [m]: from the first step on they share the pressure with the oil as in
-        `solve_rough_point_film` with Swift-Stieber cavitation, and `oil_pressure`, `contact_load` and `touching` of the
-        results have it. Bodies are elastic then. None: surfaces never touch; a film that would vanish has no solution.
+        `solve_rough_point_film` with Swift-Stieber cavitation; `oil_pressure`, `contact_load` and `touching` of the
+        results say where and how much. Bodies must be elastic. None: surfaces never touch, and a film that would
+        vanish has no solution.
     state : of a march with the same arguments, to go on from to the same bits.
     callback : called with the state after the first film and after every step.
 
     Returns
     -------
-    A PointFilmSolution per time, with `time` and `heights`; residual and mass_imbalance are recomputed from pressures
-    and count what the film gains. A first film that is given is taken as it is; `notes` say by how much it misses the
-    load. If a step fails in spite of halving, the last solution has another status and the list ends there.
+    A PointFilmSolution per time, with `time` and `heights`; residual and mass_imbalance are recomputed from the
+    pressures and include storage. A first film that is given is taken as it is; its `notes` have its error of load.
+    If a step fails in spite of halving, the last solution has another status and the list ends there.
 
     Raises
     ------
@@ -112,10 +114,10 @@ def march_point_film(
 
     Notes
     -----
-    At the edges the pressure is that of rigid paraboloids of the time's entrainment and approach (`far`); surfaces and
-    their squeeze are smooth beyond. A rough surface at rest under a smooth one that moves has a steady film: steps in
-    time far longer than the oil's way through the contact (ten thousand times) lead to it at once, from one height of
-    the surface to the next (`reports/experiments/rough_films.py`).
+    At the edges the pressure is the far pressure of the time's entrainment and approach (`far_field`); surfaces are
+    smooth beyond. A rough surface at rest under a smooth one that moves has a steady film: time steps ten thousand
+    times as long as the passage of the oil lead to it at once, from one height of the surface to the next
+    (`reports/experiments/rough_films.py`).
     """
     schedule = schedule_of(times, load, speeds)
     at_times = radii if callable(radii) else partial(_constant, tuple(radii) if _listed(radii) else radii)
@@ -175,10 +177,12 @@ def _notes_on_arguments(march: MarchArguments) -> tuple[Note, ...]:
 
 
 def _constant(value: Any, time: float) -> Any:
+    """Return a value at any time."""
     return value
 
 
 def _listed(values: object) -> bool:
+    """Return True if values are a sequence."""
     return isinstance(values, Sequence | np.ndarray)
 
 

@@ -273,7 +273,8 @@ def _on_grid(film: PointFilmSolution, thickness: FloatArray, case: ScaledCase, l
     if entrained and begins < SHORTEST_INLET * film.central_thickness:
         notes.append(INLET_TOO_SHORT(limit=SHORTEST_INLET))
     notes += _unresolved(film, case, level)
-    if film.status is Status.CONVERGED and constriction_steepness(thickness) > STEEPEST:
+    narrow = constriction_steepness(thickness) > STEEPEST and not film.touching.any()  # in contact the minimum is known
+    if film.status is Status.CONVERGED and narrow:
         notes.append(FILM_CELLS_FEW(limit=STEEPEST, reason="constriction"))
     added = inlet_shear(film, case)
     if added > LARGEST_ERROR * film.friction * film.load:

@@ -4,6 +4,8 @@ import numpy as np
 import pytest
 
 from bem import InputError, Lubricant, MovingSurface, Waves, march_point_film, solve_rough_point_film
+from bem.notes import has_code
+from bem.notes.lubrication import FILM_CELLS_FEW
 
 MODULUS = 1.15e11
 OIL = Lubricant(0.03, pressure_viscosity=18e-9)
@@ -80,6 +82,7 @@ def test_ridges_that_move_through_the_contact_touch_and_share_the_load():
     assert last.thickness.min() > 0.999 * LEAST
     assert (last.oil_pressure[~last.touching] == last.pressure[~last.touching]).all()
     assert (last.sliding_stress()[:, last.touching] == 0).all()
+    assert not has_code(last.notes, FILM_CELLS_FEW, reason="constriction")  # the minimum is the least film
     assert max(film.mass_imbalance for film in films[1:]) < 1e-6
     resumed = march(times, (speed, speed), roughness=ridges, least_film=LEAST, state=states[14])
     np.testing.assert_array_equal(resumed[-1].oil_pressure, last.oil_pressure)
