@@ -24,6 +24,7 @@ from bem.scenes.keys import LEVELS, Level, level_of, reason_of
 from bem.scenes.kind import get_kind
 from bem.scenes.laws import LawKey, LawOrNumber, fields_of
 from bem.scenes.load import dumped, library, plain_value, read_table, scene_from_table
+from bem.scenes.starts import start_scene
 from bem.scenes.units import Dimension
 from bem.scenes.validate import fields_of_table, is_law, literals, members_of, unwrap, without_none
 
@@ -119,8 +120,6 @@ def _without(table: FormTable, names: Collection[str]) -> FormTable:
 
 def start_of(kind: str) -> dict[str, Any]:
     """A table to start a form of the kind from, with values for the keys that every user sets."""
-    from bem.scenes.template import start_scene
-
     return {key: value for key, value in start_scene(kind).items() if key not in ("description", "redoes")}
 
 

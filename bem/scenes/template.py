@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-import json
 import re
 import textwrap
-import tomllib
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
-from importlib import resources
 from typing import Any
 
 from bem.errors import InputError
@@ -16,6 +13,7 @@ from bem.scenes.form import Entry, FormTable, keys_of_kind
 from bem.scenes.keys import LEVELS
 from bem.scenes.kind import get_kind, kind_names
 from bem.scenes.load import dumped, library, library_text
+from bem.scenes.starts import start_scene
 from bem.scenes.validate import nearest, show
 
 _MOST_CHOICES = 12
@@ -129,37 +127,11 @@ def scene_template(kind: str, *, everything: bool = False) -> str:
     return "\n".join(lines).rstrip() + "\n"
 
 
-def start_scene(kind: str) -> dict[str, Any]:
-    """Values of a first scene of a kind, for keys that every user sets; of a kind without one, its shortest built-in
-    scene.
-
-    Raises
-    ------
-    InputError : there is neither.
-    """
-    file = resources.files("bem.scenes") / "starts" / f"{kind}.toml"
-    return tomllib.loads(file.read_text("utf-8")) if file.is_file() else shortest_scene(kind)[1]
-
-
 def without_description(text: str) -> str:
     """The TOML text of an example with its description as a comment: what is made of it is another case."""
     return re.sub(
         r'^(description = ".*")$', r"# \1  # of the example; write your own", text, count=1, flags=re.MULTILINE
     )
-
-
-def shortest_scene(kind: str) -> tuple[str, dict[str, Any]]:
-    """The shortest built-in scene of the kind that needs no file of the user."""
-    scenes = {
-        name: data
-        for name, data in library().items()
-        if data["kind"] == kind and '"path"' not in json.dumps(data, default=str)
-    }
-    if not scenes:
-        raise InputError(f'KIND "{kind}": has no built-in scene to start from; allowed: a kind that `bem scenes` lists')
-    plain = {name: data for name, data in scenes.items() if "variants" not in data} or scenes
-    name = min(plain, key=lambda item: len(json.dumps(plain[item], default=str)))
-    return name, plain[name]
 
 
 class _Writer:
