@@ -105,7 +105,7 @@ class FormView:
         with ui.element("div").classes("w-full").style(_GRID):
             for entry in plain:
                 self._leaf(entry)
-        for entry in entries:
+        for entry in sorted(entries, key=lambda entry: not entry.required):
             if entry.tables:
                 self._inner(entry, top)
 
@@ -148,7 +148,7 @@ class FormView:
     def _inner(self, entry: Entry, top: bool) -> None:
         """Tables that may stand at a key: which one, and its keys."""
         value = self._value(entry.key)
-        is_open = (top or entry.typed) and (value is not None or entry.required)
+        is_open = (top or entry.typed or entry.level == LEVELS[0]) and (value is not None or entry.required)
         heading = entry.name + (" *" if entry.required else "")
         outer = ui.expansion(heading, value=is_open).classes("w-full").props("dense header-class=text-bold")
         outer.style("border-left: 3px solid #bcd4de; background: white")

@@ -70,8 +70,8 @@ class ScenePage:
         self._round = 0
         self._view: FormView | None = None
         with page(name):
-            with ui.row().classes("w-full no-wrap items-start gap-6"):
-                with ui.column().style("flex: 3; min-width: 0"):
+            with ui.row().classes("w-full items-start gap-6"):  # side by side where there is room for both
+                with ui.column().style("flex: 3 1 420px; min-width: 0"):
                     with ui.tabs().props("dense no-caps align=left") as tabs:
                         form, text = ui.tab("form"), ui.tab("TOML")
                     with ui.tab_panels(tabs, value=form).classes("w-full"):
@@ -79,7 +79,7 @@ class ScenePage:
                         with ui.tab_panel(text).classes("q-pa-sm"):
                             self._editor = ui.codemirror("", line_wrapping=True).style("height: 70vh")
                             ui.button("take over", on_click=self._take_text).props("no-caps")
-                with ui.column().style("flex: 2; min-width: 320px; position: sticky; top: 60px").classes("gap-1"):
+                with ui.column().style("flex: 2 1 320px; min-width: 0; position: sticky; top: 60px").classes("gap-1"):
                     with ui.row().classes("items-center"):
                         self._start = ui.button("run", icon="play_arrow", on_click=self._run).props("no-caps")
                         self._start.props["data-action"] = "run"
