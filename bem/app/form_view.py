@@ -10,7 +10,7 @@ from nicegui import ui
 
 from bem.app.layout import say
 from bem.errors import BemError
-from bem.scenes.form import Entry, FormTable, text_of, with_kind, with_value
+from bem.scenes.form import Entry, FormTable, table_at, text_of, with_kind, with_value
 from bem.scenes.keys import LEVELS
 from bem.scenes.paths import parse_key, value_at
 
@@ -178,7 +178,7 @@ class FormView:
                 ui.label("not set; what is filled in here sets it").classes("text-caption text-grey")
             self._entries(entry.tables[0].entries)
             return
-        chosen = _member_of(entry, value)
+        chosen = table_at(entry, value)
         options = [*([] if entry.required else [_UNSET]), *([_VALUE] if entry.typed else [])]
         options += [one.kind for one in entry.tables]
 
@@ -196,7 +196,8 @@ class FormView:
 
         shown = chosen.kind if chosen else _VALUE if entry.typed and value is not None else None
         picker = ui.select(options, label="which", value=shown if shown in options else None)
-        picker.on_value_change(lambda e: choose(str(e.value))).props("dense outlined options-dense").classes("w-64")
+        picker.on_value_change(lambda e: choose(str(e.value))).props("dense outlined options-dense")
+        picker.classes("w-full").style("max-width: 16rem")
         picker.props["data-key"] = f"{entry.key}.kind"
         if chosen is not None:
             self._about(chosen)
@@ -236,11 +237,3 @@ def _names(entries: Sequence[Entry]) -> str:
     """Names of the first keys of a fold."""
     names = [entry.name for entry in entries]
     return ", ".join(names[:5]) + (f" and {len(names) - 5} more" if len(names) > 5 else "")
-
-
-def _member_of(entry: Entry, value: Any) -> FormTable | None:
-    """The table that stands at an entry, by its kind; the default's where nothing does."""
-    kind = value.get("kind") if isinstance(value, Mapping) else value
-    if value is None and '"kind" = "' in entry.default:
-        kind = entry.default.split('"kind" = "')[1].split('"')[0]
-    return next((one for one in entry.tables if one.kind == kind), None)

@@ -168,6 +168,17 @@ def with_kind(table: Mapping[str, Any], entry: Entry, kind: str) -> dict[str, An
     return changed
 
 
+def table_at(entry: Entry, value: Any) -> FormTable | None:
+    """The table of an entry that a value is of: by its `kind` or name, without one the first that has all its keys; of
+    no value that of the default."""
+    if isinstance(value, Mapping) and "kind" not in value:
+        return next((one for one in entry.tables if {item.last for item in one.entries} >= set(value)), None)
+    kind = value.get("kind") if isinstance(value, Mapping) else value
+    if value is None and '"kind" = "' in entry.default:
+        kind = entry.default.split('"kind" = "')[1].split('"')[0]
+    return next((one for one in entry.tables if one.kind == kind), None)
+
+
 def text_of(value: Any) -> str:
     """A plain value as it would be typed."""
     return "" if value is None else value if isinstance(value, str) else dumped(value)

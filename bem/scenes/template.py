@@ -9,7 +9,7 @@ from dataclasses import replace
 from typing import Any
 
 from bem.errors import InputError
-from bem.scenes.form import Entry, FormTable, keys_of_kind
+from bem.scenes.form import Entry, FormTable, keys_of_kind, table_at
 from bem.scenes.keys import LEVELS
 from bem.scenes.kind import get_kind, kind_names
 from bem.scenes.load import dumped, library, library_text
@@ -239,8 +239,7 @@ def _beside(table: FormTable, entry: Entry) -> bool:
 
 def _member(entry: Entry, value: Mapping[str, Any]) -> FormTable:
     """The table that a value is of."""
-    kind = value.get("kind", "generated" if "process" in value else None)
-    return next((one for one in entry.tables if one.kind == kind), entry.tables[0])
+    return table_at(entry, value) or entry.tables[0]
 
 
 def _meaning(entry: Entry, *, short: bool = False, above: str = "basic") -> str:

@@ -4,7 +4,7 @@ import pytest
 
 from bem import InputError, load_scene
 from bem.scenes import kind_names
-from bem.scenes.form import form_of, mistakes_of, start_of, text_of, with_kind, with_value
+from bem.scenes.form import form_of, mistakes_of, start_of, table_at, text_of, with_kind, with_value
 from bem.scenes.kind import get_kind
 
 pytestmark = pytest.mark.internal
@@ -99,6 +99,16 @@ def test_another_table_keeps_what_both_have():
     measured = with_kind(generated, one, "measured")
     assert measured["lower"]["surface"] == {"kind": "measured", "rms_height": "50 nm"}
     assert with_kind(measured, one, "smooth")["lower"]["surface"] == {"kind": "smooth"}
+
+
+def test_a_value_tells_which_table_it_is_of():
+    surface = entry(form_of("contact"), "lower.surface")
+    assert table_at(surface, {"kind": "measured", "path": "a.sur"}).kind == "measured"
+    assert table_at(surface, {"process": "ground", "rms_height": "0.2 um"}).kind == "generated"
+    assert table_at(surface, {"path": "a.sur"}).kind == "measured"
+    assert table_at(surface, "smooth").kind == "smooth"
+    assert table_at(surface, None).kind == "smooth"
+    assert table_at(surface, {"kind": "rough"}) is None
 
 
 def test_text_is_what_would_be_typed():
