@@ -160,7 +160,7 @@ def summary(element: Element, solved: Sequence[Running]) -> tuple[tuple[str, str
         hottest = max(hot, key=lambda one: one.surface or 0.0)
         rows.append(("hottest surface", f"{(hottest.surface or 0.0) - 273.15:.4g} degC at {hottest.contact.name}"))
     thinnest = min(runs, key=lambda one: one.minimum_film)
-    rows.append(("thinnest film", f"{1e9 * thinnest.minimum_film:.4g} nm at {thinnest.contact.name}"))
+    rows.append(("minimum film thickness", f"{1e9 * thinnest.minimum_film:.4g} nm at {thinnest.contact.name}"))
     thin = [one for one in runs if one.film_ratio is not None and one.film_ratio < 1]
     if thin:
         rows.append(

@@ -64,6 +64,8 @@ _LABELS = {
     "upper_worn_depth": "worn depth of the upper surface",
     "combined_Sq": "Sq of both surfaces",
     "friction": "friction coefficient",
+    "traction_coefficient": "friction coefficient",
+    "sliding_traction": "sliding friction coefficient",
     "contact_share": "asperity load share",
     "minimum_film": "minimum film thickness (under the film's load)",
     "lambda_ratio": "lambda ratio (under the whole load)",

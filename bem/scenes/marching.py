@@ -32,7 +32,7 @@ JUMPS = "a film is often nearly as thin at several times, and other steps may pi
 class MarchedRecord(Record):
     """A film in time: its minimum and its centre."""
 
-    thinnest_film: Annotated[float, Figure("nm", "thinnest film of all times", headline=True)]
+    thinnest_film: Annotated[float, Figure("nm", "minimum film thickness of all times", headline=True)]
     film_at_end: Annotated[float, Figure("nm", "minimum film thickness at the end", headline=True)]
     newton_steps: Annotated[int, Figure("", "Newton steps", unjudged=True)]
     time: Annotated[FloatArray, Series(("time",), "s", "time")]

@@ -120,7 +120,7 @@ def test_what_did_not_converge_is_no_figure(gears):
     assert "count none" in said["friction power"]
     assert float(said["friction power"].split(" W")[0]) < 1e5
     assert "safety 1e" not in said["micropitting"]
-    assert said["thinnest film"] == dict(summary(element, runs[1:]))["thinnest film"]
+    assert said["minimum film thickness"] == dict(summary(element, runs[1:]))["minimum film thickness"]
     assert np.isnan(columns(element, (lost, *runs[1:]))["friction_power [W]"][0])
     assert notes((lost,)) == ()
     assert dict(summary(element, (lost,))) == {"not converged": f"1 of 1 films, the first at {lost.contact.name}"}

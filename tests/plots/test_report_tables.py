@@ -112,12 +112,12 @@ def test_notes_are_no_column_where_there_are_as_many_as_rows():
 
 def test_varied_keys_say_which_row_it_is_in_every_table():
     (table,) = figure_tables(OVER, ["sliding_traction", "film_nm"])
-    assert table.head == ("oil.temperature (°C)", "contact.behaviour", "sliding traction", "film (nm)")
+    assert table.head == ("oil.temperature (°C)", "contact.behaviour", "sliding friction coefficient", "film (nm)")
     assert table.leading == 2
     assert [row[:2] for row in table.rows] == [(t, b) for t in ("20", "40") for b in ("elastic", "capped")]
     old = {key: value for key, value in OVER.items() if key != "over"}  # a run of before units were stored
     (table,) = figure_tables(old, ["sliding_traction"])
-    assert table.head == ("oil.temperature", "contact.behaviour", "sliding traction")
+    assert table.head == ("oil.temperature", "contact.behaviour", "sliding friction coefficient")
     assert len(figure_tables(OVER, ["sliding_traction", "film_nm"], columns=3)) == 2
     (table,) = figure_tables(
         dict(reversed(OVER.items())), ["film_nm"]

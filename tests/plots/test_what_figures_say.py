@@ -300,7 +300,7 @@ def test_the_way_of_a_gear_has_its_loads_pressures_and_sliding_speed():
     np.testing.assert_allclose(sliding, 1000 * np.asarray(run.scene["along"]["position"]))
     np.testing.assert_allclose(by_name["load (N)"].lines[0].get_ydata(), 100.0 + np.arange(11))
     assert by_name["Hertz pressure (GPa)"].lines[0].get_ydata()[0] == pytest.approx(1.0)
-    marks = [line.get_xdata()[0] for line in by_name["film (nm)"].lines if line.get_linestyle() == ":"]
+    marks = [line.get_xdata()[0] for line in by_name["film thickness (nm)"].lines if line.get_linestyle() == ":"]
     assert marks == pytest.approx([0.0])  # pure rolling
 
 

@@ -29,12 +29,12 @@ def _over_time(run: Any, figure: Figure) -> None:
     factor, unit = prefix(data["central_film"].values, "m")
     panels[1].plot(time, data["central_film"].values * factor, color=BLUE, label="central")
     panels[1].plot(time, data["minimum_film"].values * factor, color=VERMILION, linestyle="--", label="minimum")
-    panels[1].set_ylabel(label("film", unit))
+    panels[1].set_ylabel(label("film thickness", unit))
     panels[1].set_ylim(0)
     panels[1].legend()
     if sliding:
         panels[2].plot(time, friction, color=BLACK)
-        panels[2].set_ylabel("friction")
+        panels[2].set_ylabel("friction\ncoefficient")
     panels[-1].set_xlabel(label("time", t_unit))
 
 

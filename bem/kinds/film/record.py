@@ -27,9 +27,7 @@ class FilmTimeRecord(MarchedRecord):
     ]
     film_x: Annotated[FloatArray, Series(("film_x",), "m", "x, along sliding")]
     speed: Annotated[FloatArray, Series(("time",), "m/s", "speed of the flat")]
-    friction: Annotated[
-        FloatArray, Series(("time",), "1", "coefficient of friction, positive along +x on the cylinder")
-    ]
+    friction: Annotated[FloatArray, Series(("time",), "1", "friction coefficient, positive along +x on the cylinder")]
     thickness: Annotated[FloatArray, Series(("time", "film_x"), "m", "film thickness")]
     film_pressure: Annotated[FloatArray, Series(("time", "film_x"), "Pa", "film pressure")]
     meniscus: Annotated[FloatArray | None, Series(("time",), "m", "position of the inlet meniscus")]

@@ -238,7 +238,7 @@ FIGURES = (
     ),
     FigureKind(
         "load-sharing",
-        "Load on film and contact, and the smallest film, over speed (first curve).",
+        "Load on film and asperities, and minimum film thickness, over speed (first curve).",
         ("speed", "contact_load", "film_load", "minimum_film", "model"),
         _sharing,
         (5.0, 4.6),

@@ -38,7 +38,7 @@ class PointFilmTimeRecord(MarchedRecord):
     mass_imbalance: Annotated[float, Figure("", "oil that appears or goes in a step, over what moves", unjudged=True)]
     load_missed: Annotated[float, Figure("", "largest share by which the load is missed", unjudged=True)]
     speed: Annotated[FloatArray, Series(("time",), "m/s", "mean speed along x")]
-    friction: Annotated[FloatArray, Series(("time",), "1", "sliding force over load")]
+    friction: Annotated[FloatArray, Series(("time",), "1", "friction coefficient of sliding")]
     film_x: Annotated[FloatArray, Series(("film_x",), "m", "x through the middle")]
     film_y: Annotated[FloatArray, Series(("film_y",), "m", "y")]
     thickness: Annotated[FloatArray, Series(("time", "film_x"), "m", "film thickness along x through the middle")]

@@ -31,7 +31,7 @@ def _curve(run: Any, figure: Figure) -> None:
     hot = "film_temperature" in data.variables
     panels = figure.subplots(2 if hot else 1, 1, sharex=True, squeeze=False)[:, 0]
     lines_over(panels[0], data, "traction_coefficient", ratio)
-    panels[0].set_ylabel("traction coefficient")
+    panels[0].set_ylabel("friction coefficient")
     if (data["traction_coefficient"].values >= 0).all():
         panels[0].set_ylim(0)
     if hot:
@@ -136,7 +136,7 @@ def _starvation(run: Any, figure: Figure) -> None:
     upper.set_xlim(*_around(inlet))
     upper.set_ylim(0, 1.05)
     upper.set_xlabel("filled inlet over its natural length")
-    upper.set_ylabel("film over the flooded one")
+    upper.set_ylabel("film thickness over the flooded one")
     upper.legend()
     layer = data["oil_layer"].values.ravel() * 1e9
     for name, colour in (("central", BLUE), ("minimum", VERMILION)):
@@ -145,7 +145,7 @@ def _starvation(run: Any, figure: Figure) -> None:
     lower.set_xlim(0)
     lower.set_ylim(0)
     lower.set_xlabel("oil that goes through, as a layer (nm)")
-    lower.set_ylabel("film (nm)")
+    lower.set_ylabel("film thickness (nm)")
     lower.legend()
 
 
@@ -157,10 +157,10 @@ def _along(run: Any, figure: Figure) -> None:
     dots: dict[str, Any] = {"markersize": 3, "color": BLACK}
     for name, colour in (("central", BLUE), ("minimum", VERMILION)):
         film.plot(place, _row(data, f"{name}_thickness") * 1e9, "o-", markersize=3, color=colour, label=name)
-    film.set_ylabel("film (nm)")
+    film.set_ylabel("film\nthickness (nm)")
     film.legend()
     friction.plot(place, np.abs(_row(data, "traction_coefficient")), "o-", **dots)
-    friction.set_ylabel("friction,\nmagnitude")
+    friction.set_ylabel("friction\ncoefficient,\nmagnitude")
     power.plot(place, _row(data, "friction_power"), "o-", **dots)
     power.set_ylabel("friction\npower (W)")
     pressed = others[-1]
@@ -191,7 +191,7 @@ def _along(run: Any, figure: Figure) -> None:
             others[0].plot(place, _row(data, name) - _CELSIUS, "o-", markersize=3, color=colour, label=words)
         others[0].set_ylabel("temperature\n(°C)")
         others[0].legend()
-    pressed.set_xlabel("place along the way (mm)")
+    pressed.set_xlabel("position along the path (mm)")
     others_of = (_first_of(data, axis) for axis in axes_of(data) if axis != "position")
     name_case(figure, ", ".join(filter(None, others_of)))
 
