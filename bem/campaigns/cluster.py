@@ -10,7 +10,7 @@ from bem.campaigns.context import Silent
 from bem.errors import InputError, ResultsError
 
 if TYPE_CHECKING:
-    from bem.campaigns.jobs import Sent
+    from bem.campaigns.job import Sent
 
 _ANSWER_WITHIN = "10s"
 """Time that a scheduler has to answer."""

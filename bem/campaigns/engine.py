@@ -48,7 +48,7 @@ class Result:
 
 @dataclass(frozen=True)
 class CaseJob:
-    """A case to be computed anywhere, see `bem.campaigns.jobs.Job`.
+    """A case to be computed anywhere, see `bem.campaigns.job.Job`.
 
     Attributes
     ----------

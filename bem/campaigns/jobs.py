@@ -6,20 +6,21 @@ Everything that computes many things comes through here: the cases of a scene (`
 
 from __future__ import annotations
 
-import importlib
 import math
 from collections.abc import Callable, Generator, Sequence
 from contextlib import nullcontext
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Protocol
+from typing import Any
 
+from bem.campaigns.cluster import compute_on_cluster
 from bem.campaigns.context import Watcher
-from bem.campaigns.disk import marked, sees
+from bem.campaigns.disk import marked
+from bem.campaigns.job import Job, Sent
 from bem.campaigns.local import compute_locally
 from bem.errors import BemError
 from bem.laws import modules_of_laws
-from bem.scenes.planner import Plan, available_memory, machine_rate
+from bem.scenes.planner import available_memory, machine_rate
 from bem.surfaces.formats import modules_of_formats
 from bem.threads import cores, get_threads, set_threads
 
@@ -27,27 +28,6 @@ _WORTH_A_PROCESS = 4.0
 """Seconds of work that pay for starting a process, which takes two."""
 _ALIKE = 0.75
 """Jobs are alike where the shortest is this part of the longest, by their plans."""
-
-
-class Job(Protocol):
-    """Work that can be sent to another process; `compute` gives what can be sent back."""
-
-    @property
-    def index(self) -> int:
-        """Which job this is."""
-
-    @property
-    def plan(self) -> Plan | None:
-        """What it takes; None is next to nothing."""
-
-    def compute(self, watcher: Watcher) -> Any:
-        """Do it."""
-
-    def elsewhere(self) -> Job:
-        """The same job for a process that does not see this disk."""
-
-    def lost(self, why: str) -> Any:
-        """What stands in the place of its result when its process died again and again."""
 
 
 @dataclass(frozen=True)
@@ -68,34 +48,6 @@ class Staff:
     folder: Path | None = None
 
 
-@dataclass(frozen=True)
-class Sent:
-    """A job on its way: `modules` are imported first, `token` is the secret of `folder` (see `disk`), "" if seen."""
-
-    job: Job
-    threads: int
-    modules: tuple[str, ...]
-    folder: Path | None = None
-    token: str = ""
-
-    @property
-    def index(self) -> int:
-        """See `Job`."""
-        return self.job.index
-
-    def compute(self, watcher: Watcher) -> Any:
-        """See `Job`."""
-        for name in self.modules:
-            importlib.import_module(name)
-        set_threads(self.threads)
-        here = not self.token or (self.folder is not None and sees(self.folder, self.token))
-        return (self.job if here else self.job.elsewhere()).compute(watcher)
-
-    def lost(self, why: str) -> Any:
-        """See `Job`."""
-        return self.job.lost(why)
-
-
 def hand_out(
     jobs: Sequence[Job], staff: Staff, watching: Callable[[int], Watcher], note: Callable[[str], None]
 ) -> Generator[tuple[int, Any], None, None]:
@@ -113,8 +65,6 @@ def hand_out(
     seconds = _seconds(jobs, threads)
     longest_first = sorted(jobs, key=lambda job: -seconds[job.index])  # so that no long one is left for the end
     if staff.scheduler is not None and jobs:
-        from bem.campaigns.cluster import compute_on_cluster
-
         with nullcontext("none") if staff.folder is None else marked(staff.folder) as token:
             sent = [Sent(job, threads, modules, staff.folder, token) for job in longest_first]
             yield from compute_on_cluster(sent, staff.scheduler)

@@ -23,7 +23,7 @@ from bem.campaigns.context import Watcher
 from bem.extensions import load_extensions
 
 if TYPE_CHECKING:
-    from bem.campaigns.jobs import Sent
+    from bem.campaigns.job import Sent
 
 ATTEMPTS = 3
 """How often a job may take its process down (memory, a crash) before it is given up."""

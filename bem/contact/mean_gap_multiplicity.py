@@ -10,6 +10,7 @@ then has two solutions. Contacts under loads around the solution are computed on
 from __future__ import annotations
 
 import math
+from collections.abc import Callable
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import TYPE_CHECKING
@@ -27,6 +28,8 @@ if TYPE_CHECKING:
     from bem.convolution import DisplacementOperator
 
 FloatArray = NDArray[np.float64]
+Solve = Callable[..., "ContactSolution"]
+"""Arguments and result of `bem.solve_contact`."""
 
 _MOST_CELLS = 48
 """Cells along an axis of the coarse grid."""
@@ -53,7 +56,12 @@ class Trial:
 
 
 def note_on_several_answers(
-    gap: FloatArray, operator: DisplacementOperator, found: ContactSolution, mean_gap: float, hardness: float | None
+    gap: FloatArray,
+    operator: DisplacementOperator,
+    found: ContactSolution,
+    mean_gap: float,
+    hardness: float | None,
+    solve: Solve,
 ) -> tuple[Note, ...]:
     """Return a note if contacts under other loads have the prescribed mean gap as well.
 
@@ -64,10 +72,11 @@ def note_on_several_answers(
     found : the converged contact of the prescribed mean gap.
     mean_gap : the prescribed one [m].
     hardness : cap on the pressure [Pa], None if elastic.
+    solve : `bem.solve_contact`, which calls this function.
     """
     if all(operator.grid.periodic) or not _may_stand_off(operator):
         return ()
-    trials = _trials(gap, operator, found, mean_gap, hardness)
+    trials = _trials(gap, operator, found, mean_gap, hardness, solve)
     others = _brackets(trials, found.load, mean_gap)
     if not others:
         return ()
@@ -85,11 +94,14 @@ def _may_stand_off(operator: DisplacementOperator) -> bool:
 
 
 def _trials(
-    gap: FloatArray, operator: DisplacementOperator, found: ContactSolution, mean_gap: float, hardness: float | None
+    gap: FloatArray,
+    operator: DisplacementOperator,
+    found: ContactSolution,
+    mean_gap: float,
+    hardness: float | None,
+    solve: Solve,
 ) -> list[Trial]:
     """Return contacts on a coarse grid under rising loads, starting without load."""
-    from bem.contact.solve import solve_contact
-
     while max(operator.grid.shape) > _MOST_CELLS and (coarser := operator.coarsened()) is not None:
         if coarser.grid.cells == operator.grid.cells:
             break
@@ -108,7 +120,7 @@ def _trials(
         if tried >= most:
             break
         try:
-            contact = solve_contact(coarse, operator, load=tried, hardness=hardness, tolerance=_TOLERANCE)
+            contact = solve(coarse, operator, load=tried, hardness=hardness, tolerance=_TOLERANCE)
         except InputError:  # a load beyond what the solver takes
             break
         trials.append(Trial(tried, float(np.maximum(contact.gap, 0.0).mean())))

@@ -118,7 +118,7 @@ def solve_contact(
     )
     notes = _notes_on_arguments(operator, load, hardness)
     if mean_gap is not None and solution.status is Status.CONVERGED:
-        several = note_on_several_answers(request.gap, operator, solution, mean_gap, hardness)
+        several = note_on_several_answers(request.gap, operator, solution, mean_gap, hardness, solve_contact)
         return replace(solution, notes=notes + solution.notes + several) if notes + several else solution
     return replace(solution, notes=notes + solution.notes) if notes else solution
 

@@ -24,7 +24,7 @@ from bem.scenes.planner import Plan
 
 @dataclass(frozen=True)
 class Point:
-    """A point to be computed anywhere, see `bem.campaigns.jobs.Job`.
+    """A point to be computed anywhere, see `bem.campaigns.job.Job`.
 
     Attributes
     ----------

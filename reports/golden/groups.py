@@ -6,13 +6,15 @@ import tempfile
 from collections.abc import Callable
 from pathlib import Path
 
-from reports.golden import contacts, films, loops, points, scenes, surfaces
+from reports.golden import contacts, films, heat, loops, points, scenes, surfaces, tribofilms
 from reports.golden.record import Case, Record, Trial
 
 GROUPS: dict[str, Callable[[], dict[str, Case]]] = {
     "surfaces": surfaces.cases,
     "contacts": contacts.cases,
     "films": films.cases,
+    "heat": heat.cases,
+    "tribofilms": tribofilms.cases,
     "points": points.cases,
     "loops": loops.cases,
     "scenes": scenes.cases,

@@ -80,7 +80,7 @@ def nudged(scene: dict[str, Any], trial: Trial) -> dict[str, Any]:
 def _nudge(table: Any, factor: float) -> None:
     places = table.items() if isinstance(table, dict) else enumerate(table) if isinstance(table, list) else ()
     for key, value in list(places):
-        if key in _NUDGED and isinstance(value, str | list):
+        if key in _NUDGED and isinstance(value, str | float | list):
             several = isinstance(value, list)
             changed = [_times(one, factor) for one in (value if several else [value])]
             table[key] = changed if several else changed[0]
@@ -89,6 +89,8 @@ def _nudge(table: Any, factor: float) -> None:
 
 
 def _times(quantity: Any, factor: float) -> Any:
+    if isinstance(quantity, float):
+        return quantity * factor
     if not isinstance(quantity, str):
         return quantity
     number, _, unit = quantity.partition(" ")
