@@ -1,10 +1,11 @@
 """Compute rows of stored results anew and compare each figure within its bar.
 
-    python -m reports.reproduce [NAME ...] [--sample N] [--seed S] [--minutes M]
+    python -m reports.reproduce [NAME ...] [--sample N] [--seed S] [--minutes M] [--jobs J] [--no-record]
 
 Rows are drawn from the seed: N of every result, results in random order, rows that were outside their bars first. A row
-that is longer than what is left of the processor time waits for another seed. The verdicts are stored in
-`reports/results/reproduced.json`, which the pages show. The exit code is 1 where a row is outside its bars.
+that is longer than what is left of the processor time waits for another seed. J rows are computed at a time, each in a
+process of its own. The verdicts are stored in `reports/results/reproduced.json`, which the pages show, unless
+`--no-record` is given. The exit code is 1 where a row is outside its bars.
 """
 
 from __future__ import annotations
@@ -12,10 +13,12 @@ from __future__ import annotations
 import argparse
 import contextlib
 import io
+import multiprocessing
 import random
 import resource
 import sys
 from collections.abc import Iterator, Mapping, Sequence
+from concurrent.futures import FIRST_COMPLETED, Future, ProcessPoolExecutor, wait
 
 from reports import reproduced
 from reports.reproducible import RESULTS, Row
@@ -45,30 +48,55 @@ def processor_time() -> float:
     return sum(one.ru_utime + one.ru_stime for one in used)
 
 
-def reproduce(names: Sequence[str], *, sample: int, seed: int, minutes: float) -> dict[str, dict[str, str]]:
-    """Compute rows until the processor time is used; print and record a verdict for each row.
+def judge(row: Row) -> tuple[str, float]:
+    """Compute a row; return the verdict and the processor time [s]. An exception is the verdict of its row."""
+    began = processor_time()
+    try:
+        with contextlib.redirect_stdout(io.StringIO()):
+            verdict = row.verdict()
+    except Exception as error:
+        verdict = f"{type(error).__name__}: {error}"
+    return verdict, processor_time() - began
+
+
+_DRAWN: list[tuple[str, Row]] = []
+"""Rows of this call, which forked processes know by their place: a row is no message."""
+
+
+def _judge_drawn(place: int) -> tuple[str, float]:
+    return judge(_DRAWN[place][1])
+
+
+def reproduce(
+    names: Sequence[str], *, sample: int, seed: int, minutes: float, jobs: int = 1, record: bool = True
+) -> dict[str, dict[str, str]]:
+    """Compute rows until the processor time is used; print a verdict for each row, and record it.
 
     Returns
     -------
     verdicts : by result and row; "in" or the figure outside its bar.
     """
-    end = processor_time() + 60 * minutes
-    verdicts: dict[str, dict[str, str]] = {}
-    skipped = 0
     results = {name: RESULTS[name].rows() for name in names}
-    for name, row in drawn(results, sample, seed):
-        began = processor_time()
-        if row.seconds > end - began:
-            skipped += 1
-            continue
-        try:
-            with contextlib.redirect_stdout(io.StringIO()):
-                verdict = row.verdict()
-        except Exception as error:
-            verdict = f"{type(error).__name__}: {error}"
-        verdicts.setdefault(name, {})[row.label] = verdict
-        print(f"{name:26} {row.label:46} {processor_time() - began:6.1f} s  {verdict}", flush=True)
-        reproduced.add(name, verdicts[name], len(results[name]))
+    _DRAWN[:] = drawn(results, sample, seed)
+    waiting, left, skipped = list(range(len(_DRAWN))), 60 * minutes, 0
+    verdicts: dict[str, dict[str, str]] = {}
+    running: dict[Future[tuple[str, float]], int] = {}
+    with ProcessPoolExecutor(jobs, multiprocessing.get_context("fork")) as pool:
+        while waiting or running:
+            while waiting and len(running) < jobs:
+                place = waiting.pop(0)
+                if _DRAWN[place][1].seconds > left - sum(_DRAWN[other][1].seconds for other in running.values()):
+                    skipped += 1
+                    continue
+                running[pool.submit(_judge_drawn, place)] = place
+            for done in wait(running, return_when=FIRST_COMPLETED).done:
+                name, row = _DRAWN[running.pop(done)]
+                verdict, seconds = done.result()
+                left -= seconds
+                verdicts.setdefault(name, {})[row.label] = verdict
+                print(f"{name:26} {row.label:46} {seconds:6.1f} s  {verdict}", flush=True)
+                if record:
+                    reproduced.add(name, verdicts[name], len(results[name]))
     if skipped:
         print(f"{skipped} rows are longer than the processor time that was left")
     return verdicts
@@ -83,12 +111,15 @@ def main() -> None:
     parser.add_argument("--sample", type=int, default=1, help="rows of every result (default 1)")
     parser.add_argument("--seed", type=int, default=1, help="of the draw (default 1)")
     parser.add_argument("--minutes", type=float, default=10.0, help="processor time (default 10)")
+    parser.add_argument("--jobs", type=int, default=1, help="rows at a time (default 1)")
+    parser.add_argument("--no-record", dest="record", action="store_false", help="leave stored verdicts as they are")
     options = parser.parse_args()
     unknown = [name for name in options.names if name not in RESULTS]
     if unknown:
         parser.error(f"no result {', '.join(unknown)}; there are {', '.join(RESULTS)}")
     names = options.names or list(RESULTS)
-    verdicts = reproduce(names, sample=options.sample, seed=options.seed, minutes=options.minutes)
+    given = {key: getattr(options, key) for key in ("sample", "seed", "minutes", "jobs", "record")}
+    verdicts = reproduce(names, **given)
     rows = [verdict for own in verdicts.values() for verdict in own.values()]
     wrong = sum(verdict != reproduced.INSIDE for verdict in rows)
     print(f"{len(rows)} rows of {len(verdicts)} results: {len(rows) - wrong} within their bars, {wrong} outside")

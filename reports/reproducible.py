@@ -33,6 +33,10 @@ JUDGEMENTS = (
 """Modules of experiments that judge error bars."""
 ROUNDING = 1e-6
 """Relative difference allowed where a figure is prescribed or has no error: solvers' tolerances are smaller."""
+RUN_FLOOR = 1e-3
+"""Least relative difference allowed of a figure of a run: the tolerance of load balances and contact tables."""
+LOOPS = 3
+"""Bar of a wear loop over the largest change by rounding that was measured of the figure."""
 RESIDUAL = 1e-4
 """Relative error bar below which a bar is of the residual, which varies from run to run, and not of the grid."""
 SECONDS = {
@@ -282,7 +286,7 @@ def _separation_datum(module: Any, stored: Any) -> Rows:
 def _piece_shapes(module: Any, stored: Any) -> Rows:
     for row in stored:
         compute = partial(module.row, row["load_N"], row["connectivity"])
-        allowed = within(relative=1e-3, pieces=(0.0, 1e-3 * row["pieces"]))
+        allowed = within(relative=_loop_bar("number_mean"), pieces=(_loop_bar("particles_per_cycle"), 0.0))
         yield f"{row['load_N']:g} N, {row['connectivity']} neighbours", _again(row, compute, allowed)
 
 
@@ -474,33 +478,60 @@ def _run_row(job: Any) -> Row | None:
     """
     from bem.runs import plan_scene
     from bem.scenes.planner import machine_rate
+    from reports.experiments.wear_rounding import first_repetition_only
     from reports.validation_renewal import lacks_files
 
     if lacks_files(job) or not job.target.exists():
         return None
     stored = json.loads(job.target.read_text("utf-8"))
-    several = stored.get("repetitions", 1) > 1
-    settings = (*job.settings, "repetitions=1") if several else job.settings
+    settings = first_repetition_only(job.settings, stored)
     seconds = plan_scene(job.scene, settings)[1].seconds(machine_rate())
     return Row(job.name, partial(_run_figures, job.scene, settings, stored), seconds)
 
 
-def _run_figures(scene: str, settings: Sequence[str], stored: Mapping[str, Any]) -> Iterator[Figure]:
+def _summary(scene: str, settings: Sequence[str]) -> Mapping[str, Any]:
     from bem.runs import run_scene
 
     with tempfile.TemporaryDirectory() as folder:
-        found = run_scene(scene, Path(folder) / "run", settings=settings, figures=False).summary
+        return run_scene(scene, Path(folder) / "run", settings=settings, figures=False, workers=1).summary
+
+
+def _run_figures(scene: str, settings: Sequence[str], stored: Mapping[str, Any]) -> Iterator[Figure]:
+    found = _summary(scene, settings)
     yield "status", stored["status"], found["status"], 0.0
     for name in (key.removesuffix("_error") for key in stored if key.endswith("_error")):
         if name not in stored or name not in found:
             continue
         values = first_repetition(stored, name)
         scatter, error = stored.get(f"{name}_spread"), stored[f"{name}_error"]
+        floor = max(RUN_FLOOR, LOOPS * _loop_changes().get((stored["kind"], name), 0.0))
         for place, (one, now) in enumerate(zip(_listed(values), _listed(found[name]), strict=False)):
             parts = [part[place] if isinstance(part, list) else part for part in (scatter, error)]
             bar = max([part for part in parts if part is not None], default=0.0)
             if one is not None:
-                yield f"{name}[{place}]", one, now, max(bar, 1e-3 * abs(one))
+                yield f"{name}[{place}]", one, now, max(bar, floor * abs(one))
+
+
+@cache
+def _loop_changes() -> dict[tuple[str, str], float]:
+    """Return the largest relative change of a figure of wear loops by rounding, by kind and figure."""
+    from reports.experiments import wear_rounding
+
+    return wear_rounding.largest(kept.found("wear_rounding"))
+
+
+def _loop_bar(figures: str) -> float:
+    """Return the relative bar of wear figures whose names begin so."""
+    return LOOPS * max(
+        change for (kind, name), change in _loop_changes().items() if kind == "wear" and name.startswith(figures)
+    )
+
+
+def _wear_rounding(module: Any, stored: Any) -> Rows:
+    largest = module.largest(stored)
+    for row in stored:
+        bars = {name: (0.0, max(RUN_FLOOR, LOOPS * largest[row["kind"], name])) for name in row["changes"]}
+        yield row["run"], _again(row, partial(module.row, row["run"]), within(**bars))
 
 
 def _listed(value: Any) -> list[Any]:
@@ -544,7 +575,7 @@ RESULTS: dict[str, Result] = {
         experiment("long_ellipse", _long_ellipse, 10, "the film's own error bar"),
         experiment("lumped_heat", _lumped_heat, 6, "1e-4 of a film or a friction, ten times Newton's tolerance"),
         experiment("patch_length", _patch_length, 6, _MIXED),
-        experiment("piece_shapes", _piece_shapes, 15, "1e-3, the digits that are stored"),
+        experiment("piece_shapes", _piece_shapes, 15, "three times what rounding moves wear loops by"),
         experiment("point_films", _point_films, 4, "status and grid equal, pressure within 1 % of so few cells"),
         experiment("point_table", _point_table, 40, "the film's own error bar on the finest grid"),
         experiment("preconditioned_spectrum", _preconditioned_spectrum, 5, "2 %, what one cell at the edge changes"),
@@ -560,7 +591,12 @@ RESULTS: dict[str, Result] = {
         experiment("waviness_reduction", _waviness_reduction, 60, "2e-3, the difference between grids"),
         experiment("wear_lengths", _wear_lengths, 20, "the scatter over the three pairs of surfaces"),
         Result("line_film", _line_film, "1e-4 of a film, of which five digits are stored; orders within 0.05"),
-        Result("validation", validation_rows, "scatter over repetitions or error bar, at least 0.1 %"),
+        experiment("wear_rounding", _wear_rounding, 40, "three times the largest change over all runs, or 0.1 %"),
+        Result(
+            "validation",
+            validation_rows,
+            "scatter over repetitions or error bar, at least 0.1 % and three times what rounding moves wear loops by",
+        ),
     )
 }
 """Every result that can be computed anew, by name."""

@@ -6,7 +6,9 @@ import sys
 import pytest
 
 from reports import reproduce, reproduced, reproducible
-from reports.experiments import film_error_bars, kept
+from reports.experiments import film_error_bars, kept, wear_rounding
+from reports.golden import scenes
+from reports.golden.record import Trial
 from reports.reproducible import RESULTS, Result, Row, compared, first_repetition, within
 
 
@@ -89,6 +91,42 @@ def test_the_first_repetition_is_found_whatever_the_order_of_axes():
     assert first_repetition({"kind": "wear", "a": 1.5}, "a") == 1.5
 
 
+def test_the_bar_of_a_wear_loop_holds_what_rounding_moves_and_a_film_has_none_of_it(monkeypatch):
+    moved = [{"run": "a", "kind": "wear", "changes": {"radius": 0.01}}, {"run": "b", "kind": "wear", "changes": {}}]
+    monkeypatch.setattr(kept, "found", lambda name: moved)
+    reproducible._loop_changes.cache_clear()
+    stored = {"status": "converged", "radius": 100.0, "radius_error": 0.2, "other": 100.0, "other_error": None}
+
+    def outside(kind, **figures):
+        monkeypatch.setattr(reproducible, "_summary", lambda scene, settings: stored | figures)
+        compared = reproducible._run_figures("scene", (), stored | {"kind": kind})
+        return [name for name, *_ in filter(lambda figure: not reproducible.inside(figure), compared)]
+
+    try:
+        assert outside("wear", radius=102.9, other=100.09) == []
+        assert outside("wear", radius=103.1, other=100.11) == ["radius[0]", "other[0]"]
+        assert outside("film", radius=100.19) == []
+        assert outside("film", radius=100.21) == ["radius[0]"]
+    finally:
+        reproducible._loop_changes.cache_clear()
+
+
+def test_changes_by_rounding_are_the_largest_of_cases_and_runs():
+    base = {"radius": [100.0, 50.0, 0.0, None], "radius_error": None, "count": 4.0, "film_error": 1.0, "seed": 1}
+    found = wear_rounding.changes(base, base | {"radius": [101.0, 49.0, 1.0, None], "count": 5.0, "seed": 2})
+    assert found == pytest.approx({"radius": 0.02}, rel=1e-12)
+    rows = [
+        {"kind": kind, "changes": {"radius": change}} for kind, change in (("wear", 0.1), ("wear", 0.3), ("life", 1))
+    ]
+    assert wear_rounding.largest(rows) == {("wear", "radius"): 0.3, ("life", "radius"): 1}
+
+
+def test_a_nudge_reaches_the_loads_and_heights_of_a_run_and_nothing_else():
+    table = {"load": 2.0, "loads": [3.0], "seed": 4, "lower": {"rms_height": 1e-7, "hurst": 0.8}, "oil": "1 Pa*s"}
+    nudged = scenes.nudged(table, Trial(nudge=0.5))
+    assert nudged == table | {"load": 3.0, "loads": [4.5], "lower": {"rms_height": 1.5e-7, "hurst": 0.8}}
+
+
 def fake(name, found, seconds=0.0):
     """A result of rows whose stored value is 1."""
     rows = [
@@ -114,12 +152,34 @@ def test_the_command_prints_records_and_fails_where_a_row_is_outside(monkeypatch
     assert "processor times" in reproduced.words("shared_work")
 
 
+def test_verdicts_without_a_record_leave_it_as_it_is(monkeypatch):
+    monkeypatch.setattr(reproduce, "RESULTS", {"bad": fake("bad", {"one": 2.0})})
+    monkeypatch.setattr(sys, "argv", ["reproduce", "--no-record"])
+    with pytest.raises(SystemExit) as end:
+        reproduce.main()
+    assert end.value.code == 1
+    assert reproduced.read() == {}
+
+
 def test_an_error_of_a_row_is_a_row_outside(monkeypatch):
     def broken():
         raise ValueError("no")
 
     monkeypatch.setattr(reproduce, "RESULTS", {"bad": Result("bad", lambda: [Row("one", broken, 0.0)], "")})
     assert reproduce.reproduce(["bad"], sample=1, seed=1, minutes=1) == {"bad": {"one": "ValueError: no"}}
+
+
+def test_two_rows_at_a_time_have_the_verdicts_of_one(monkeypatch):
+    def killed():
+        raise ValueError("no")
+
+    found = {str(number): 1.0 + 0.04 * number for number in range(5)}
+    rows = [*fake("many", found).rows(), Row("wrong", killed, 0.0)]
+    monkeypatch.setattr(reproduce, "RESULTS", {"many": Result("many", lambda: rows, "")})
+    one, two = (reproduce.reproduce(["many"], sample=6, seed=1, minutes=1, jobs=jobs)["many"] for jobs in (1, 2))
+    assert one == two
+    assert {label for label, verdict in two.items() if verdict == "in"} == {"0", "1", "2"}
+    assert two["wrong"] == "ValueError: no"
 
 
 def test_a_row_longer_than_the_time_left_waits(monkeypatch, capsys):
