@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 from bem.elements.contact import ElementContact
 from bem.elements.element import Element
@@ -18,6 +19,9 @@ from bem.notes import Note
 from bem.notes.merge import merge
 from bem.particles import particle_number
 from bem.scenes.load import load_scene
+
+if TYPE_CHECKING:
+    from bem.lubrication import FilmSolution, Lubricant
 
 _ROLLS = "none by sliding: both surfaces roll at one speed"
 POINTS = 500
@@ -32,6 +36,7 @@ class Running:
     friction : force over load. power : of friction [W].
     oil : mean temperature in the contact [K]. surface : the hotter surface at its hottest, flash included [K].
     notes : what the film says of its own limits.
+    scatter : of the friction to smaller and larger values from the oil's constants; None but with shear_law "base_oil".
     """
 
     contact: ElementContact
@@ -43,6 +48,7 @@ class Running:
     oil: float | None
     surface: float | None
     notes: tuple[Note, ...] = ()
+    scatter: tuple[float, float] | None = None
 
     @property
     def converged(self) -> bool:
@@ -77,7 +83,19 @@ def run_contact(element: Element, contact: ElementContact) -> Running:
         figures.get("film_temperature"),
         hottest,
         tuple(found.notes),
+        _scatter(found, scene.oil.build()),
     )
+
+
+def _scatter(film: FilmSolution, oil: Lubricant) -> tuple[float, float] | None:
+    """Scatter of the film's friction from the oil's constants, down and up; None where none is known."""
+    from bem.lubrication.oil_scatter import oil_scatter
+    from bem.lubrication.shear import BaseOilShear
+
+    if film.status is not Status.CONVERGED or not isinstance(oil.shear_law, BaseOilShear):
+        return None
+    found = oil_scatter(film, oil)
+    return found.down, found.up
 
 
 def wear_per_pass(element: Element, contact: ElementContact) -> tuple[float | None, float | None]:
@@ -152,7 +170,8 @@ def summary(element: Element, solved: Sequence[Running]) -> tuple[tuple[str, str
     rows = [
         (
             "friction power",
-            f"{power:.4g} W: mean of one contact{_of(runs, places)} x {found.at_once:.4g} contacts at once",
+            f"{power:.4g} W{_scatter_of_power(runs, places, found.at_once)}: mean of one contact{_of(runs, places)} x "
+            f"{found.at_once:.4g} contacts at once",
         )
     ]
     hot = [one for one in runs if one.surface is not None]
@@ -174,6 +193,15 @@ def summary(element: Element, solved: Sequence[Running]) -> tuple[tuple[str, str
     rows.append(("wear by hour", _wear(element)))
     rows.append(("particles by hour", _particles(element)))
     return (*rows, *missed[:1])
+
+
+def _scatter_of_power(runs: Sequence[Running], places: int, at_once: float) -> str:
+    """Scatter of the power from the oil's constants, which are those of one oil at all places; nothing without one."""
+    if any(one.scatter is None for one in runs):
+        return ""
+    slid = [one.contact.load * abs(one.contact.speeds[0] - one.contact.speeds[1]) / places * at_once for one in runs]
+    down, up = (sum(s * one.scatter[k] for s, one in zip(slid, runs, strict=True) if one.scatter) for k in (0, 1))
+    return f" (-{down:.2g}, +{up:.2g} W by the oil's constants)"
 
 
 def _of(runs: Sequence[Running], places: int) -> str:

@@ -226,3 +226,19 @@ def test_the_command_shows_and_writes_them(tmp_path):
     both = bem("--cases", "c.csv", "--running")
     assert both.returncode == 2
     assert "goes with --table alone" in both.stderr
+
+
+@pytest.mark.internal
+def test_friction_power_has_the_scatter_of_the_base_oil(gears):
+    """With the law of base oils at every place; no other law has one."""
+    assert all(one.scatter is None for one in gears[1])
+    oil = element_template("gear-pair").split("[oil]")[1]
+    element = element_of("gear-pair", points=5, oil=tomllib.loads(oil) | {"shear_law": "base_oil"})
+    runs = run_all(element)
+    sliding = [one for one in runs if abs(one.contact.slide_roll_ratio) > 1e-9]
+    assert all(0.05 < value / abs(one.friction) < 0.6 for one in sliding for value in one.scatter)
+    slid = [one.contact.load * abs(one.contact.speeds[0] - one.contact.speeds[1]) for one in runs]
+    share = element.found.at_once / len(runs)
+    down, up = (share * sum(s * one.scatter[k] for s, one in zip(slid, runs, strict=True)) for k in (0, 1))
+    power = dict(summary(element, runs))["friction power"]
+    assert f" W (-{down:.2g}, +{up:.2g} W by the oil's constants): mean" in power

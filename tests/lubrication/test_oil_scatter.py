@@ -54,10 +54,8 @@ def test_with_heat_it_bounds_the_change_of_films_solved_anew(thermal):
 
 
 def test_of_a_film_at_its_limit_the_coefficient_is_the_scatter():
-    """Without Eyring's stress in the way, mu = (Lambda + tau_a / mean pressure) exp(-k (T - 40 degC)).
-
-    The inlet, some 5 %, is not at the limit.
-    """
+    """Without Eyring's stress in the way, mu is (Lambda + tau_a / mean pressure) exp(-k (T - 40 degC)), but for the
+    inlet, some 5 %, which is not at the limit."""
     own = {
         name: replace(constant, low=constant.value, high=constant.value)
         for name, constant in rheology_of("mineral").constants().items()
