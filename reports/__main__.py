@@ -13,7 +13,7 @@ from pathlib import Path
 
 from reports.builder import HERE, write_site
 
-REPORTS = ("verification", "performance", "validation")
+REPORTS = ("verification", "performance", "validation", "friction")
 NEEDED = "needed"
 GALLERY = "gallery"  # runs every built-in scene: only when it is named
 

@@ -30,7 +30,7 @@ if TYPE_CHECKING:
 
 HERE = Path(__file__).resolve().parent
 
-ORDER = ("verification", "performance", "validation", "gallery")
+ORDER = ("verification", "performance", "validation", "friction", "gallery")
 """Of the pages in the index."""
 
 COLOURS = ("#0072B2", "#D55E00", "#009E73", "#CC79A7", "#E69F00", "#56B4E9", "#000000")

@@ -336,6 +336,25 @@ def _lumped_heat(module: Any, stored: Any) -> Rows:
         )
 
 
+def _friction_measured(module: Any, stored: Any) -> Rows:
+    allowed = within(relative=2e-3, numerical=(1.0, 1e-4), temperature=(1e-3, 0.05))
+    for row in stored["discs"]:
+        given = (row["oil"], row["speed"], row["slip"], row["inlet"])
+        yield "disc {}, {:g} m/s, {:g}, {:g}".format(*given), _again(row, partial(module.disc, *given), allowed)
+    for base, row in stored["base_oils"].items():
+        yield f"base {base}", _again(row, partial(module.base_oil, base), allowed)
+    for row in stored["measured_viscosity"]:
+        given = (row["oil"], row["slip"])
+        label = "measured viscosity {}, {:g}".format(*given)
+        yield label, _again(row, partial(module.measured_viscosity, *given), allowed)
+    for row in stored["pressure_coefficient"]:
+        given = (row["base"], row["alpha"])
+        label = "alpha {}, {:.3g}".format(*given)
+        yield label, _again(row, partial(module.pressure_coefficient, *given), allowed)
+    for base, row in stored["gears"]["film"].items():
+        yield f"gears {base}", _again(row, partial(module.film_loss, base), allowed)
+
+
 def _point_films(module: Any, stored: Any) -> Rows:
     names = ("cells", "status", "maximum_pressure_GPa")
     for number, row in enumerate(stored["contacts"]):
@@ -567,6 +586,7 @@ RESULTS: dict[str, Result] = {
         experiment("contact_area", _contact_area, 60, "area within 1e-4, its errors within 1e-3"),
         experiment("contact_convolutions", _contact_convolutions, 10, _COUNTS),
         experiment("film_regimes", _film_regimes, 1, "the difference to half the points"),
+        experiment("friction_measured", _friction_measured, 5, "2e-3, ten times what half the points change"),
         experiment(
             "independent_figures", _independent_figures, 20, "the difference to half the points; area within 1e-4"
         ),

@@ -1,0 +1,318 @@
+"""The page "Friction against measurements": measured, ours, both uncertainties, inside or not, with sources.
+
+Ours are stored in `reports/results/friction_measured.json` (`reports.experiments.friction_measured`); the measurements
+stand here, each with how it was read. No constant of an oil is fitted to them.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from typing import TYPE_CHECKING, Any
+
+from bem.lubrication.oils.catalogue import bases
+from bem.lubrication.oils.rheology import rheology_of
+from reports.builder import COLOURS, Page, Section, figure, table, text
+from reports.experiments.kept import age, found
+from reports.prose import prose
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+NAME = "friction_measured"
+HEADERS = ("what", "measured", "ours", "oil", "numerical", "inside", "middle", "source", "remark")
+FORMULA_ERROR = 0.005
+"""Within which the formula of Arana et al. (2019) has the coefficients that Mann measured, as they say."""
+AT_LIMIT = 0.89
+"""Mean shear stress over limit from which a contact counts as at its limit."""
+MOST = math.inf
+"""Upper end of what is only known to be larger than something."""
+BASE_NAMES = {"mineral": "mineral oil", "pao": "PAO", "ester": "ester", "pag": "polyglycol"}
+
+
+@dataclass(frozen=True)
+class Row:
+    """A measurement and what is computed for it.
+
+    group : its table. what : quantity and conditions. low, high : interval of the measurement, its uncertainty in it.
+    ours : computed. down, up : its scatter from the oil's constants. numerical : of its numerical error. source : key
+    of the sources in `reports/prose/friction.toml`. remark : conditions that were assumed, or why it is missed.
+    """
+
+    group: str
+    what: str
+    low: float
+    high: float
+    ours: float
+    down: float
+    up: float
+    numerical: float
+    source: str
+    remark: str = ""
+
+    @property
+    def inside(self) -> bool:
+        """Return True if the interval of the measurement and that of the computed value overlap."""
+        return self.ours - self.down - self.numerical <= self.high and self.ours + self.up + self.numerical >= self.low
+
+    @property
+    def middle_inside(self) -> bool:
+        """Return True if the computed value itself is within the interval of the measurement."""
+        return self.low <= self.ours <= self.high
+
+
+def rows(stored: Mapping[str, Any]) -> list[Row]:
+    """All measurements, from a stored result of the experiment."""
+    return [*_gear_rows(stored), *_disc_rows(stored["discs"]), *_base_rows(stored["base_oils"]), *_trend_rows(stored)]
+
+
+def _ratio(one: Mapping[str, float], other: Mapping[str, float]) -> tuple[float, float, float, float]:
+    """Ratio of two coefficients with scatter down and up, of independent oils, and numerical error."""
+    ratio = one["coefficient"] / other["coefficient"]
+    down = ratio * math.hypot(one["down"] / one["coefficient"], other["up"] / other["coefficient"])
+    up = ratio * math.hypot(one["up"] / one["coefficient"], other["down"] / other["coefficient"])
+    numerical = ratio * math.hypot(
+        one.get("numerical", 0.0) / one["coefficient"], other.get("numerical", 0.0) / other["coefficient"]
+    )
+    return ratio, down, up, numerical
+
+
+def _gear_rows(stored: Mapping[str, Any]) -> Iterator[Row]:
+    """The FZG-C gear pair, film and asperities sharing the load; then Schlenk's formula, by power."""
+    group, words = "gears", prose("friction")["remarks"]
+    mixed, film = stored["gears"]["mixed"], stored["gears"]["film"]
+    one = mixed["mineral"]
+    yield Row(
+        group,
+        "mean coefficient, mineral oil",
+        0.040,
+        0.050,
+        one["coefficient"],
+        one["down"],
+        one["up"],
+        one["numerical"],
+        "doleschel",
+        words["gear_mineral"],
+    )
+    for base in ("pag", "ester"):
+        ratio = _ratio(mixed[base], one)
+        yield Row(group, f"{BASE_NAMES[base]} over mineral oil", 0.6, 1.0, *ratio, "doleschel", words["gear_ratio"])
+    slid = film["mineral"]["sliding_power"]
+    schlenk = {"mineral": 425.0, "pao": 340.0, "ester": 340.0, "pag": 313.0}
+    for base, power in schlenk.items():
+        own = mixed[base]
+        values = (slid * own[key] for key in ("coefficient", "down", "up", "numerical"))
+        yield Row(
+            group, f"power loss, {BASE_NAMES[base]} (W)", 0.8 * power, 1.2 * power, *values, "schlenk", words["schlenk"]
+        )
+
+
+def _disc_rows(stored: list[dict[str, Any]]) -> Iterator[Row]:
+    """Mann's discs."""
+    words = prose("friction")["remarks"]
+    for row in stored:
+        measured = row["formula"]
+        what = f"{row['oil']}, {row['speed']:g} m/s, slide/roll {row['slip']:g}, {row['inlet']:g} degC"
+        yield Row(
+            "discs",
+            what,
+            measured - FORMULA_ERROR,
+            measured + FORMULA_ERROR,
+            row["coefficient"],
+            row["down"],
+            row["up"],
+            row["numerical"],
+            "mann",
+            words["mann_temperature"] if row["inlet"] != 60 else words.get(row["oil"], ""),
+        )
+
+
+def _base_rows(stored: Mapping[str, Any]) -> Iterator[Row]:
+    """Bases of oil beside mineral oil in twin discs, film alone."""
+    group, words, mineral = "bases", prose("friction")["remarks"], stored["mineral"]
+    for base, low, high, source in (
+        ("pag", 0.2, 1.0, "doleschel"),
+        ("ester", 0.3, 1.0, "doleschel"),
+        ("pao", 0.0, 1.0, "doleschel"),
+        ("naphthenic", 1.0, MOST, "rounds"),
+        ("traction", 1.0, MOST, "santotrac"),
+    ):
+        name = BASE_NAMES.get(base, f"{base} fluid" if base == "traction" else f"{base} oil")
+        remark = words.get(base, words["disc_conditions"])
+        yield Row(group, f"{name} over mineral oil", low, high, *_ratio(stored[base], mineral), source, remark)
+    water = stored["water-glycol"]
+    values = (water[key] for key in ("coefficient", "down", "up", "numerical"))
+    yield Row(group, "coefficient, fluid with water", 0.0, 0.01, *values, "yilmaz", words["water"])
+    least = min(stored[base]["coefficient"] for base in ("mineral", "naphthenic", "pao", "ester"))
+    ratio = stored["pag"]["coefficient"] / least
+    scatter = ratio * stored["pag"]["up"] / stored["pag"]["coefficient"]
+    yield Row(group, "polyglycol over the lowest other oil", 0.0, 1.0, ratio, scatter, scatter, 0.0, "rounds")
+    limits = {base: rheology_of(base).limiting_shear_coefficient for base in ("ester", "pao")}
+    own = {
+        base: {"coefficient": one.value, "down": one.scatter[0], "up": one.scatter[1]} for base, one in limits.items()
+    }
+    yield Row(
+        group, "limit of an ester over that of a PAO, 40 degC", 1.0, MOST, *_ratio(own["ester"], own["pao"]), "order"
+    )
+
+
+def _trend_rows(stored: Mapping[str, Any]) -> Iterator[Row]:
+    """Statements of which the sense is measured."""
+    words, trends = prose("friction")["remarks"], stored["trends"]
+    for base, low, high in (("pag", AT_LIMIT, 1.0), ("mineral", 0.0, AT_LIMIT), ("pao", 0.0, AT_LIMIT)):
+        share = trends["at_limit"][base]
+        what = f"stress over limit, {BASE_NAMES[base]}"
+        yield Row("trends", what, low, high, share, 0.0, 0.0, 0.01, "vengudusamy", words["at_limit"])
+    pressure, speed = trends["traction_pressure"], trends["traction_speed"]
+    rise, fall = pressure["2"] / pressure["1"], speed["50"] / speed["5"]
+    yield Row("trends", "peak traction at 2 GPa over that at 1 GPa", 1.0, MOST, rise, 0.0, 0.0, 0.01, "santotrac")
+    yield Row("trends", "peak traction at 50 m/s over that at 5 m/s", 0.0, 1.0, fall, 0.0, 0.0, 0.01, "santotrac")
+
+
+def verdict(measured: list[Row]) -> str:
+    """The head of the page: how many measurements, from how many sources, and the shares inside."""
+    inside, middle = (sum(getattr(row, name) for row in measured) for name in ("inside", "middle_inside"))
+    sources, fitted = len({row.source for row in measured}), sum(row.source == "mann" for row in measured)
+    return (
+        f"{len(measured)} measured values from {sources} sources, {fitted} of them through a formula that describes "
+        f"the measurement: {inside} ({inside / len(measured):.0%}) are inside both uncertainties, {middle} "
+        f"({middle / len(measured):.0%}) have our value inside the measurement's alone. No constant is fitted to them."
+    )
+
+
+def build() -> Page:
+    """The page, from the stored result."""
+    stored, words = found(NAME), prose("friction")
+    measured = rows(stored)
+    sections = [Section("How to read this", "".join(text(one) for one in words["reading"]))]
+    for group, title in words["groups"].items():
+        own = [row for row in measured if row.group == group]
+        inside = sum(row.inside for row in own)
+        body = text(words["introductions"][group]) + text(f"{inside} of {len(own)} are inside both uncertainties.")
+        if group == "discs":
+            body += figure(_drawing(own), "Computed over measured coefficients; bars: scatter of the oil, and 0.005.")
+        sections.append(Section(title, body + table(HEADERS, map(_cells, own))))
+    sections += [_missed(stored), _ball(stored), _constants(), _sources()]
+    return Page("friction", "Friction against measurements", verdict(measured), sections)
+
+
+def _cells(row: Row) -> tuple[Any, ...]:
+    """A row of the tables."""
+    high = "" if math.isinf(row.high) else f" to {row.high:.3g}"
+    measured = f"{'above ' if math.isinf(row.high) else ''}{row.low:.3g}{high}"
+    oil = f"-{row.down:.2g} +{row.up:.2g}" if row.down or row.up else "-"
+    numerical = f"{row.numerical:.1g}" if row.numerical else "-"
+    source = prose("friction")["sources"][row.source]["short"]
+    verdicts = ("yes" if row.inside else "no", "yes" if row.middle_inside else "no")
+    return row.what, measured, f"{row.ours:.3g}", oil, numerical, *verdicts, source, row.remark
+
+
+def _drawing(own: list[Row]) -> Figure:
+    """Computed over measured coefficients of the discs."""
+    import matplotlib.pyplot as plt
+
+    drawing, axes = plt.subplots(figsize=(5, 4.5))
+    for colour, oil in zip(COLOURS, ("N100", "M100", "PAO100"), strict=False):
+        rows_of = [row for row in own if row.what.startswith(oil)]
+        x = [0.5 * (row.low + row.high) for row in rows_of]
+        y, down, up = ([getattr(row, name) for row in rows_of] for name in ("ours", "down", "up"))
+        axes.errorbar(
+            x, y, yerr=[down, up], xerr=FORMULA_ERROR, fmt="o", ms=3, lw=0.6, color=colour, label=oil, alpha=0.8
+        )
+    axes.plot([0, 0.06], [0, 0.06], color="0.5", lw=0.8)
+    axes.set_xlabel("measured coefficient of friction")
+    axes.set_ylabel("computed")
+    axes.legend()
+    return drawing
+
+
+def _missed(stored: Mapping[str, Any]) -> Section:
+    """Experiments on why rows are missed."""
+    words = prose("friction")["experiments"]
+    rough = stored["gears"]["roughness"]
+    heights = list(next(iter(rough.values())))
+    mineral = rough["mineral"]
+    ratios = [
+        (BASE_NAMES[base], *(f"{one[rms]:.4f} ({one[rms] / mineral[rms]:.2f})" for rms in heights))
+        for base, one in rough.items()
+    ]
+    film = stored["gears"]["film"]
+    alone = [
+        (BASE_NAMES[base], f"{one['power']:.0f}", f"{one['coefficient']:.4f}", f"-{one['down']:.2g} +{one['up']:.2g}",
+         f"{one['coefficient'] / film['mineral']['coefficient']:.2f}")
+        for base, one in film.items()
+    ]  # fmt: skip
+    formula = {(row["oil"], row["slip"]): row for row in stored["discs"] if row["speed"] == 4 and row["inlet"] == 60}
+    viscosity = [
+        (row["oil"], f"{row['slip']:g}", *map(_number, (one["formula"], one["coefficient"], row["coefficient"])))
+        for row in stored["measured_viscosity"]
+        for one in [formula[row["oil"], row["slip"]]]
+    ]
+    mineral_disc = stored["base_oils"]["mineral"]["coefficient"]
+    alpha = [
+        (BASE_NAMES[row["base"]], f"{1e9 * row['alpha']:.1f}", _number(row["coefficient"]),
+         f"{row['coefficient'] / mineral_disc:.2f}")
+        for row in stored["pressure_coefficient"]
+    ]  # fmt: skip
+    heat = [
+        (row["oil"], f"{row['speed']:g}", f"{row['slip']:g}", *(_number(row[key]) for key in ("off", "lumped", "full")))
+        for row in stored["full_heat"]
+    ]
+    return Section(
+        "What is missed, and why",
+        text(words["roughness"])
+        + table(("oil", *(f"Sq {rms} nm" for rms in heights)), ratios)
+        + text(words["film"])
+        + table(("oil", "film alone (W)", "coefficient", "oil", "over mineral oil"), alone)
+        + text(words["viscosity"])
+        + table(("oil", "slide/roll", "measured", "ours", "ours, viscosity as measured"), viscosity)
+        + text(words["alpha"])
+        + table(("oil", "1/GPa at 60 degC", "friction", "over mineral oil"), alpha)
+        + text(words["heat"])
+        + table(("oil", "speed (m/s)", "slide/roll", "no heat", "lumped", "full"), heat),
+    )
+
+
+def _number(value: Any) -> str:
+    return f"{value:.4f}" if isinstance(value, float) else str(value)
+
+
+def _ball(stored: Mapping[str, Any]) -> Section:
+    """The built-in Stribeck curve."""
+    curve = [
+        (*(f"{row[name]:.3g}" for name in ("speed", "lambda", "touching", "friction")), row["status"])
+        for row in stored["ball"]
+    ]
+    return Section(
+        "A ball's Stribeck curve",
+        text(prose("friction")["ball"])
+        + table(("disc (m/s)", "lambda ratio", "asperity load share", "friction", "status"), curve),
+    )
+
+
+def _constants() -> Section:
+    """The constants of the base oils."""
+    shown = [
+        (base, name.replace("_", " "), f"{one.value:.3g}", f"{one.low:.3g} to {one.high:.3g}", one.source)
+        for base in bases()
+        for name, one in rheology_of(base).constants().items()
+        if base == "mineral" or name in ("shear_stress_limit", "limiting_shear_coefficient")
+    ]
+    return Section(
+        "Constants of the base oils",
+        text(prose("friction")["constants"])
+        + table(("base", "constant", "value", "range", "source"), shown)
+        + age(NAME),
+    )
+
+
+def _sources() -> Section:
+    """Where the measurements are from, and how they were read."""
+    return Section(
+        "Sources",
+        table(
+            ("short", "source", "how it was read"),
+            [(one["short"], one["source"], one["read"]) for one in prose("friction")["sources"].values()],
+        ),
+    )
