@@ -73,11 +73,13 @@ report: setup
 docs: setup setup-docs
 	rm -rf reports/site
 	$(BIN)/python -m sphinx -q -W --keep-going -b html -d reports/site/.doctrees reports/docs reports/site
+	$(BIN)/python -m reports validation performance --out reports/site/reports >/dev/null
 	@echo reports/site/index.html
 
-# Run the worked examples of the documentation again and store their numbers and pictures; one only: make examples TASK=stribeck-curve
+# Run what the documentation shows again and store its numbers and pictures. One worked example only: make examples TASK=stribeck-curve
 examples: setup
 	$(BIN)/python -m reports.docs.tasks $(TASK)
+	$(if $(TASK),,$(BIN)/python -m reports.docs.kind_pictures)
 
 # Run the notebooks in place and store what their cells show.
 notebooks: setup

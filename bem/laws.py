@@ -2,7 +2,8 @@
 
 A law is a frozen dataclass that derives from its family's class (`bem.lubrication.viscosity.ViscosityLaw` and its like,
 see `FAMILIES`): a `name`, its parameters as fields made by `parameter`, its formula as the method that the family asks
-for. `register` enters it. Constructors, scenes, schema, messages and the guide take names and parameters from here.
+for. `register` enters it. Constructors, scenes, schema, messages and documentation take names and parameters from
+here.
 
 Laws from outside the package are registered as all extensions are, see `bem.extensions`.
 """
@@ -108,7 +109,7 @@ def parameter(
 
     Parameters
     ----------
-    meaning : in words, for the guide and for messages.
+    meaning : in words, for the documentation and for messages.
     unit : SI unit, "" for none; scenes take any unit of the same dimension.
     default : value where none is given; without it the parameter is required. None: the law finds the value elsewhere.
     above, at_least, below, at_most : bounds.

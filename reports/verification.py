@@ -18,7 +18,7 @@ from bem.stress import set_stress_memory
 from bem.verification import registry, stored
 from bem.verification.rows import DISPLACEMENT_LIMIT, STRESS_LIMIT, Curve, Gate, Row, judge
 from fem_reference import results as fem_results
-from reports import caught, line_film, point_film, rolling_waves, rough_films, sketches, touching_films
+from reports import caught, line_film, point_film, rolling_waves, rough_films, sketches, touching_films, wear_lengths
 from reports.builder import COLOURS, Page, Section, picture, table, text
 from reports.prose import prose
 
@@ -54,6 +54,7 @@ def build() -> Page:
     sections.append(Section("Point-contact film", point_film.body()))
     sections.append(Section("Waves that roll through a film", rolling_waves.body()))
     sections.append(Section("Films with roughness in them, load sharing", rough_films.body() + touching_films.body()))
+    sections += wear_lengths.tables()
     sections.append(Section("Elastic-plastic indentation (reported, not gated)", _plasticity()))
     sections.append(Section("What the tests catch", caught.body(caught.outcomes())))
     versions = next((c.document["versions"] for c in stored.cases()), {})

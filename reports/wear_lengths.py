@@ -55,19 +55,24 @@ def change(criterion: str, name: str) -> float:
     return sum(fine[seed] - coarse[seed] for seed in both) / sum(fine[seed] for seed in both)
 
 
-def chapter() -> list[Section]:
-    """Convergence, what matters and what does not, and the verdict."""
+def verdicts() -> Section:
+    """Return what converges and what does not, with the radii over the cell."""
+    words = prose("wear_lengths")
+    return Section(
+        "What decides the size of a particle",
+        "".join(text(item) for item in words["lead"])
+        + figure(_drawing(), words["caption"])
+        + table(("criterion", "verdict"), [(words["names"][name], words["verdicts"][name]) for name in criteria()])
+        + "".join(text(item) for item in words["end"])
+        + paragraph(RESULT.stem),
+    )
+
+
+def tables() -> list[Section]:
+    """Return all sizes over meshes, depths, loads, roughness and materials."""
     words = prose("wear_lengths")
     return [
-        Section(
-            "What decides the size of a particle",
-            "".join(text(item) for item in words["lead"])
-            + figure(_drawing(), words["caption"])
-            + table(("criterion", "verdict"), [(words["names"][name], words["verdicts"][name]) for name in criteria()])
-            + "".join(text(item) for item in words["end"])
-            + paragraph(RESULT.stem),
-        ),
-        Section("Over meshes", text(words["meshes"]) + _table(["cells"] * 4, _MESHES, words), level=3),
+        Section("Particle sizes of wear criteria", text(words["meshes"]) + _table(["cells"] * 4, _MESHES, words)),
         Section("Over depths", text(words["depths"]) + _table(["depths"] * 4, _DEPTHS, words), level=3),
         *(
             Section(f"Over {words['groups'][group]}", _table([group] * 3, values, words), level=3)

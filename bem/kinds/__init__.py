@@ -7,10 +7,10 @@ context, and no other kind. Loops over loads, variants, repetitions and whatever
 statistics, dataset and summary are the business of `bem.campaigns`, which reads them from `axes` and from the record
 (`bem.scenes.records`).
 
-How to write one, in the package or in a file of your own that ends in `bem.register(KIND)`, is in the guide
-(reports/prose/kinds.toml), part by part; tests/extension/test_kinds_and_readers_from_outside.py holds a whole one,
-small. Tables of several kinds stand in `bem.scenes.tables`, `bem.scenes.common`, `wearing` and `lubrication`; grids,
-bodies and heights in `bem.scenes.build`; steps of plans in `bem.scenes.plans`; the class `Kind` in `bem.scenes.kind`.
+How to write one, in the package or in a file of your own that ends in `bem.register(KIND)`, is in the documentation
+(reports/docs/develop/extending.md), part by part, with a small one as a whole. Tables of several kinds stand in
+`bem.scenes.tables`, `bem.scenes.common`, `wearing` and `lubrication`; grids, bodies and heights in `bem.scenes.build`;
+steps of plans in `bem.scenes.plans`; the class `Kind` in `bem.scenes.kind`.
 
 Verified in tests/scenes (each kind), tests/gallery (every built-in scene), tests/campaigns (cases, resuming).
 """

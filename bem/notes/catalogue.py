@@ -6,7 +6,7 @@ from bem.notes import accuracy, checks, contact, elements, friction, general, he
 from bem.notes.note import NoteKind, defined_kinds
 
 PARTS = (general, contact, heat, lubrication, friction, wear, scenes, checks, accuracy, elements)
-"""Modules of kinds, in the order of the guide."""
+"""Modules of kinds, in the order of the documentation."""
 
 
 def known_kinds() -> Mapping[str, NoteKind]:

@@ -106,7 +106,7 @@ class NoteKind:
 
     @property
     def anchor(self) -> str:
-        """Anchor of the kind in the guide's list of notes."""
+        """Anchor of the kind in the documentation's list of notes."""
         return f"note-{self.code}"
 
     def __call__(self, where: str = "", /, level: Level | None = None, **values: Any) -> Note:

@@ -1,7 +1,7 @@
 """Keys of scenes: a pydantic field with its meaning, its level and the reason of its default.
 
-The dimension of a key is in its type (`bem.scenes.units`). Template, schema, form, guide and messages read all of it
-from the field. Verified in tests/scenes/test_keys.py.
+The dimension of a key is in its type (`bem.scenes.units`). Template, schema, form, documentation and messages read all
+of it from the field. Verified in tests/scenes/test_keys.py.
 """
 
 from __future__ import annotations

@@ -55,7 +55,7 @@ class Figure:
     name : in the summary, where it is not that of the field (with the unit behind it).
     headline : whether it is shown first, on the terminal and in the report.
     no_bar : why it never has an error bar, in words, as one that follows the mesh; its error is then null everywhere,
-        and the run and the guide say why.
+        and the run and the documentation say why.
     unjudged : no error bar is made of it, and no accuracy can be asked of it: a count, what whole cells or the solvers
         tell of themselves, what is given.
     part_of : fields whose sum it is a part of, and against which an accuracy that is asked for counts; itself if none.

@@ -47,6 +47,7 @@ html_theme = "pydata_sphinx_theme"
 html_show_sourcelink = False
 html_copy_source = False
 html_show_sphinx = False
+html_use_index = False
 html_static_path = ["_static"]
 html_css_files = ["bem.css"]
 html_theme_options = {

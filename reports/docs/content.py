@@ -9,6 +9,8 @@ from typing import Any
 from bem.laws import FAMILIES, laws_of
 from bem.notes import Level, NoteKind
 from bem.notes.catalogue import PARTS
+from bem.plots.report import spelled
+from bem.plots.tables import name_and_unit
 from bem.scenes import get_kind
 from bem.scenes.records import Figure, described
 from bem.surfaces.processes import PROCESSES
@@ -16,8 +18,23 @@ from bem.verification import registry
 from reports import error_bars, validation
 from reports.docs import keys
 from reports.docs.tasks import stored
+from reports.prose import prose
 
 _LEVELS = {Level.OUTSIDE_MODEL: "outside the model", Level.CAUTION: "caution", Level.INFO: "remark"}
+
+_TITLES = {
+    "general": "Values and side tasks",
+    "contact": "Contact and partial slip",
+    "heat": "Surface temperatures",
+    "lubrication": "Oils and films",
+    "friction": "Mixed lubrication",
+    "wear": "Wear and tribofilms",
+    "scenes": "Scenes",
+    "checks": "Checks before and after a run",
+    "accuracy": "Error bars and accuracy",
+    "elements": "Machine elements",
+}
+"""Headings of the modules of notes."""
 
 
 def escaped(words: str) -> str:
@@ -103,8 +120,8 @@ def results(kind: str) -> str:
     for name, item in described(get_kind(kind).record).items():
         if isinstance(item, Figure):
             bar = "no: " + escaped(item.no_bar) if item.no_bar else "" if item.unjudged else "yes"
-            rows.append((code(item.key(name)), escaped(item.text), "yes" if item.headline else "", bar))
-    return markdown_table(("in summary.json", "meaning", "shown first", "error bar"), rows)
+            rows.append((code(item.key(name)), escaped(item.text), bar))
+    return markdown_table(("in summary.json", "meaning", "error bar"), rows)
 
 
 def laws() -> str:
@@ -127,15 +144,14 @@ def notes() -> str:
     """Return all notes on results, each with the anchor `note-CODE`."""
     parts = []
     for part in PARTS:
-        title = (part.__doc__ or part.__name__).strip().split("\n")[0].rstrip(".")
-        parts.append(f"## {escaped(title)}\n")
+        parts.append(f"## {_TITLES.get(part.__name__.rpartition('.')[2], part.__name__)}\n")
         for kind in vars(part).values():
             if isinstance(kind, NoteKind):
-                said = " / ".join(f"{one.sentence} {one.action}".strip() for one in kind.reasons.values())
-                words = " ".join(text for text in (said or kind.sentence, kind.action) if text)
+                actions = [kind.action, *(one.action for one in kind.reasons.values())]
+                words = " ".join(dict.fromkeys(text for text in actions if text)) or kind.sentence
                 parts.append(
                     f"({kind.anchor})=\n{code(kind.code)} ({_LEVELS[kind.level]}): "
-                    f"**{escaped(blank(kind.headline))}.** {escaped(blank(words))}\n"
+                    f"**{escaped(blank(kind.headline)).rstrip('.')}.** {escaped(blank(words))}\n"
                 )
     return "\n".join(parts)
 
@@ -147,11 +163,8 @@ def blank(template: str) -> str:
 
 def processes() -> str:
     """Return the surfaces by manufacturing process."""
-    rows = [
-        (code(name), escaped(one.title), *(escaped(words) for words in one.shown()[:2]), escaped(one.source))
-        for name, one in PROCESSES.items()
-    ]
-    return markdown_table(("process", "meaning", "Sq", "usual range", "source"), rows)
+    rows = [(code(name), escaped(one.title), *map(escaped, one.shown()[:2])) for name, one in PROCESSES.items()]
+    return markdown_table(("process", "meaning", "Sq", "usual range"), rows)
 
 
 def gates() -> str:
@@ -159,7 +172,11 @@ def gates() -> str:
     families: dict[str, list[str]] = {}
     for gate in registry.gates():
         families.setdefault(gate.family, []).append(gate.name)
-    rows = [(escaped(family), str(len(names)), ", ".join(map(code, names))) for family, names in families.items()]
+    titles = {family: words["title"] for family, words in prose("verification")["families"].items()}
+    rows = [
+        (escaped(titles.get(family, family)), str(len(names)), ", ".join(map(code, names)))
+        for family, names in families.items()
+    ]
     return markdown_table(("subject", "gates", "names"), rows)
 
 
@@ -213,17 +230,35 @@ def commands() -> str:
 
 
 def task_numbers(name: str, part: str = "numbers") -> str:
-    """Return the numbers of an example's stored run, with their error bars."""
+    """Return the numbers of an example's stored run with their error bars, a row for each result or for each case."""
     found = stored(name)
     errors = found["errors"] if part == "numbers" else {}
-    rows = [(code(key), shown(value), shown(errors.get(key))) for key, value in found[part].items()]
-    return markdown_table(("result", "value", "error bar"), rows)
+    values = found[part]
+    if not all(isinstance(value, list) for value in values.values()):
+        rows = [(code(key), spelled(key, value)[1], _error(key, errors.get(key))) for key, value in values.items()]
+        return markdown_table(("result", "value", "error bar"), rows)
+    columns = [
+        [_with_error(value, error) for value, error in zip(value, errors.get(key) or [None] * len(value), strict=True)]
+        for key, value in values.items()
+    ]
+    return markdown_table([_head(key) for key in values], zip(*columns, strict=True))
 
 
-def shown(value: Any) -> str:
-    """Return a number or a list of numbers to four digits."""
-    if value is None:
-        return ""
-    if isinstance(value, list):
-        return ", ".join(shown(item) or "-" for item in value)
-    return f"{value:.4g}" if isinstance(value, int | float) and not isinstance(value, bool) else escaped(str(value))
+def _head(key: str) -> str:
+    """Return a key of a summary as words that a column head can wrap, with the unit."""
+    text, unit = name_and_unit(key)
+    return escaped(
+        f"{text.rpartition('.')[2].replace('_', ' ')} [{unit}]" if unit else text.rpartition(".")[2].replace("_", " ")
+    )
+
+
+def _error(key: str, error: float | None) -> str:
+    """Return an error in the unit that suits it; empty if there is none."""
+    return "" if error is None else spelled(key, float(f"{error:.2g}"))[1]
+
+
+def _with_error(value: Any, error: float | None) -> str:
+    """Return a number to four digits, with its error."""
+    if not isinstance(value, int | float):
+        return escaped(str(value))
+    return f"{value:.4g}" + ("" if error is None else f" ± {error:.1g}")

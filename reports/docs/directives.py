@@ -34,8 +34,8 @@ MARKDOWN: dict[str, Callable[..., str]] = {
 }
 """Functions of the words behind the directive that return Markdown."""
 
-CHAPTERS: dict[str, Callable[[], Any]] = {
-    "wear-lengths": wear_lengths.chapter,
+CHAPTERS: dict[str, Callable[[], Section]] = {
+    "wear-lengths": wear_lengths.verdicts,
     "lumped-heat": lumped_heat.chapter,
 }
 """Chapters of the reports, filled from stored experiments."""
@@ -64,22 +64,16 @@ class TaskFile(SphinxDirective):
 
 
 class Chapter(SphinxDirective):
-    """A chapter of the reports as sections of the page."""
+    """The text, tables and pictures of a chapter of the reports, below a heading of the page."""
 
     required_arguments = 1
 
     def run(self) -> list[nodes.Node]:
-        """Return the sections."""
-        found = CHAPTERS[self.arguments[0]]()
-        return [self.section(one) for one in ([found] if isinstance(found, Section) else found)]
-
-    def section(self, chapter: Section) -> nodes.section:
-        """Return a heading of the page with the chapter's HTML below it."""
-        section = nodes.section(ids=[f"{self.arguments[0]}-{chapter.anchor}"], names=[chapter.title.lower()])
-        section += nodes.title(chapter.title, chapter.title)
-        body = re.sub(r'<div class="wide">', '<div class="pst-scrollable-table-container">', chapter.body)
-        section += nodes.raw("", body.replace("<table>", '<table class="table">'), format="html")
-        return section
+        """Return the chapter's HTML."""
+        body = CHAPTERS[self.arguments[0]]().body.replace(
+            '<div class="wide">', '<div class="pst-scrollable-table-container">'
+        )
+        return [nodes.raw("", body.replace("<table>", '<table class="table">'), format="html")]
 
 
 class Api(SphinxDirective):
@@ -133,9 +127,18 @@ def arrange_docstring(app: Sphinx, what: str, name: str, item: Any, options: Any
     lines[:] = docstring_lines(lines)
 
 
+def hide_signature(
+    app: Sphinx, what: str, name: str, item: Any, options: Any, signature: str | None, returned: str | None
+) -> tuple[str, None] | None:
+    """Hide the arguments of classes that list their attributes: results, which solvers make."""
+    del app, name, options, signature, returned
+    return ("", None) if what == "class" and "Attributes\n" in (item.__doc__ or "") else None
+
+
 def setup(app: Sphinx) -> dict[str, bool]:
     """Enter the directives."""
     app.connect("autodoc-process-docstring", arrange_docstring, priority=100)
+    app.connect("autodoc-process-signature", hide_signature)
     for name in MARKDOWN:
         app.add_directive(name, Markdown)
     app.add_directive("task-file", TaskFile)

@@ -12,10 +12,12 @@ from dataclasses import dataclass
 from functools import cache
 from typing import Any
 
+from pydantic.fields import FieldInfo
+
 from bem.laws import Law, laws_of
 from bem.scenes import get_kind, kind_names, library
 from bem.scenes.form import about_field, default_text
-from bem.scenes.keys import level_of, reason_of
+from bem.scenes.keys import LEVELS, Level, level_of, reason_of
 from bem.scenes.laws import LawKey
 from bem.scenes.validate import fields_of_table, literals, unwrap, without_none
 
@@ -33,7 +35,7 @@ class Key:
     meaning : one sentence.
     allowed : unit or choices.
     default : as it would be typed; "required", or empty for a table.
-    level : "basic", "advanced" or "expert".
+    level : who sets the key.
     tables : models of the tables that may stand at the key.
     """
 
@@ -41,21 +43,20 @@ class Key:
     meaning: str
     allowed: str
     default: str
-    level: str
+    level: Level
     tables: tuple[Any, ...]
 
 
 def keys_of_table(model: Any, name: str = "") -> list[Key]:
-    """Return the keys of a table that stands at the key `name`; of a kind's scene without those of every scene."""
+    """Return the keys of a table, basic ones first; of a kind's scene (no `name`) without those of every scene."""
     found = []
     for key, field in fields_of_table(model).items():
         if not name and (key == "kind" or key in _TOP):
             continue
         inner = tables_at(field)
         default = "" if inner else default_text(field).replace("(not set)", "").replace("...", "required")
-        meaning = meaning_of(field)
-        found.append(Key(key, meaning, about_field(field), default, level_of(field), inner))
-    return found
+        found.append(Key(key, meaning_of(field), allowed_at(field), default, level_of(field), inner))
+    return sorted(found, key=lambda key: LEVELS.index(key.level))
 
 
 def scene_keys() -> list[Key]:
@@ -65,14 +66,20 @@ def scene_keys() -> list[Key]:
     for key, field in model.model_fields.items():
         if key in _TOP:
             default = default_text(field).replace("(not set)", "")
-            found[key] = Key(key, meaning_of(field), about_field(field), default, level_of(field), ())
+            found[key] = Key(key, meaning_of(field), allowed_at(field), default, level_of(field), ())
     return list(found.values())
 
 
-def meaning_of(field: Any) -> str:
-    """Return the meaning of a key, and the reason of its default where it has one."""
-    meaning, reason = field.description or "", reason_of(field)
-    return f"{meaning} Default: {reason}." if reason else meaning
+def allowed_at(field: FieldInfo) -> str:
+    """Return unit or choices of a key, a quantity as "length [m]"."""
+    words = re.sub(r'^an? (.+?) such as ".+?", or a number in ([^,]+)', r"\1 [\2]", about_field(field))
+    return words.replace('a number such as 0.3 or "10 %"', "number or %")
+
+
+def meaning_of(field: FieldInfo) -> str:
+    """Return the description of a key, with the reason of its default."""
+    reason = reason_of(field)
+    return f"{field.description or ''} Default: {reason}." if reason else field.description or ""
 
 
 def tables_at(field: Any) -> tuple[Any, ...]:

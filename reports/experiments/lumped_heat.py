@@ -3,7 +3,7 @@
     python -m reports.experiments.lumped_heat
 
 Some six minutes. ISO VG 68 at 60 degrees Celsius between steel bodies of 10 mm, Eyring's law; speed and load follow
-from L and M. The result is stored in `reports/results/lumped_heat.json`, which the guide shows.
+from L and M. The result is stored in `reports/results/lumped_heat.json`, which the documentation shows.
 """
 
 from __future__ import annotations

@@ -23,7 +23,7 @@ from bem.scenes.load import load_scene
 from bem.scenes.ranges import parse_axes
 from bem.surfaces import formats
 from reports import error_bars
-from reports.docs import content, keys, tasks
+from reports.docs import content, keys, kind_pictures, tasks
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "reports" / "docs"
@@ -177,11 +177,22 @@ def test_the_example_of_a_law_in_a_scene_is_one():
 
 
 @pytest.mark.parametrize("kind", kind_names())
-def test_every_key_of_a_kind_has_a_meaning(kind):
-    found = {"": get_kind(kind).model} | {name: model for model, name in keys.tables_of(kind).items()}
-    for name, model in found.items():
+def test_every_key_of_a_kind_is_shown_with_its_meaning_in_one_place(kind):
+    page, shared = content.kind_keys(kind), content.shared_tables()
+    own = [get_kind(kind).model, *keys.own_tables(kind)]
+    for model, name in [(get_kind(kind).model, ""), *keys.tables_of(kind).items()]:
         for key in keys.keys_of_table(model, name):
-            assert key.meaning or key.name == "kind", f"{kind}: {name}.{key.name}"
+            row = f"| `{key.name}` | {content.escaped(key.meaning)} |"
+            assert key.meaning, f"{kind}: {name}.{key.name}"
+            assert row in (page if model in own else shared), f"{kind}: {name}.{key.name}"
+
+
+def test_quantities_are_shown_with_their_unit():
+    oil = next(model for model, name in keys.tables_of("friction").items() if name == "oil")
+    found = {key.name: key.allowed for key in keys.keys_of_table(oil, "oil")}
+    assert found["viscosity"] == "dynamic viscosity [Pa*s]"
+    assert found["temperature"] == "temperature [K]"
+    assert found["viscosity_law"].startswith("one of ") or "law" in found["viscosity_law"]
 
 
 def test_every_kind_has_a_page_with_its_keys_and_results():
@@ -189,6 +200,33 @@ def test_every_kind_has_a_page_with_its_keys_and_results():
     for kind in kind_names():
         page = PAGES[Path("kinds") / f"{kind}.md"]
         assert all(f"```{{{name}}} {kind}\n" in page for name in ("kind-keys", "results", "built-in-scenes"))
+
+
+def test_every_kind_has_a_picture():
+    for kind in kind_names():
+        (name,) = re.findall(r"```{figure} (\S+)", PAGES[Path("kinds") / f"{kind}.md"])
+        assert (DOCS / "kinds" / name).is_file(), kind
+    for scene, figure in kind_pictures.PICTURES.values():
+        assert figure in get_kind(library()[scene]["kind"]).figures
+
+
+def test_keys_that_pages_name_exist():
+    known, tables = set(), set()
+    for kind in kind_names():
+        for model, name in [(get_kind(kind).model, ""), *keys.tables_of(kind).items()]:
+            tables.add(name)
+            for key in keys.keys_of_table(model, name):
+                known.add(f"{name}.{key.name}")
+                known |= {f"{key.name}.{one}" for law in filter(keys.is_law, key.tables) for one in law.parameters()}
+    seen = 0
+    for page, text in PAGES.items():
+        for name in re.findall(r"`(?:--set ['\"]?)?([a-z_]+\.[a-z_]+)(?:\.\w+)?(?: ?=[^`]*)?`", text):
+            if name.partition(".")[0] in tables:
+                assert name in known, f"{page}: {name}"
+                seen += 1
+        for name in re.findall(r"`\[([a-z_]+)\]`", text):
+            assert name in tables | {"over"}, f"{page}: [{name}]"
+    assert seen > 10
 
 
 def test_every_public_name_is_on_one_page_of_the_api():

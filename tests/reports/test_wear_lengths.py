@@ -15,8 +15,8 @@ def test_a_change_over_meshes_is_of_the_seeds_that_both_have(monkeypatch):
     assert wear_lengths.by_seed("any", "cells", "25 nm", "size") == {1: 4.0}
 
 
-def test_the_chapter_is_drawn():
-    first, *others = wear_lengths.chapter()
-    assert "data:image/png" in first.body
-    assert len(others) == 6
-    assert all("fatigue" in section.body for section in others)
+def test_verdicts_are_drawn_and_tables_have_every_group():
+    assert "data:image/png" in wear_lengths.verdicts().body
+    tables = wear_lengths.tables()
+    assert len(tables) == 2 + len(wear_lengths._BESIDE)
+    assert all("fatigue" in section.body for section in tables)

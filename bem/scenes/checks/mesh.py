@@ -221,7 +221,7 @@ def depths_coarser_than_cells(facts: Facts) -> Iterator[Note]:
 
 @scene_check
 def few_cells_per_length_of_the_criterion(facts: Facts) -> Iterator[Note]:
-    """Below three cells sizes follow the mesh under any criterion (the guide's chapter on wear criteria)."""
+    """Below three cells sizes follow the mesh under any criterion (the documentation on wear criteria)."""
     for case in facts.cases:
         law = None if case.wear is None else case.wear.criterion
         if law is None or case.grid is None:

@@ -12,6 +12,7 @@ from bem.plots.figures import FigureKind
 from bem.scenes import Kind
 from bem.scenes.axes import listed
 from bem.scenes.common import BodyScene, Force, PositiveLength, SceneModel
+from bem.scenes.keys import key
 from bem.scenes.planner import Plan, Step
 from bem.scenes.records import Figure, Record, Series
 
@@ -20,9 +21,9 @@ class BallScene(SceneModel):
     """A rigid ball on a flat."""
 
     kind: Literal["ball"] = "ball"
-    lower: BodyScene
-    radius: PositiveLength
-    loads: Annotated[list[Annotated[Force, Field(gt=0)]], Field(min_length=1)]
+    lower: BodyScene = key("The flat.", "basic")
+    radius: PositiveLength = key("Radius of the ball.", "basic")
+    loads: list[Annotated[Force, Field(gt=0)]] = key("Normal loads, one result for each.", "basic", min_length=1)
 
 
 @dataclass(frozen=True, eq=False)
