@@ -84,7 +84,7 @@ examples: setup
 # Run the notebooks in place and store what their cells show.
 notebooks: setup
 	VIRTUAL_ENV=.venv $(BIN)/uv run --no-project --active --with nbconvert --with ipykernel jupyter nbconvert \
-		--to notebook --execute --inplace --ExecutePreprocessor.record_timing=False reports/notebooks/*.ipynb
+		--to notebook --execute --inplace --ExecutePreprocessor.record_timing=False reports/docs/notebooks/*.ipynb
 
 # Runs what the validation report lacks: not stored, of another scene text, or failed to reproduce. About an hour; goes on where
 # it was interrupted.

@@ -135,7 +135,8 @@ def laws() -> str:
                 default = "" if key in law.required() else f", default {law.__dataclass_fields__[key].default}"
                 unit = f" [{item.unit}]" if item.unit else ""
                 words.append(f"{code(key)}{escaped(unit)}: {escaped(item.meaning)}{escaped(default)}")
-            rows.append((code(name), escaped(" ".join((law.__doc__ or "").split())), "; ".join(words)))
+            about = re.sub(r"\*([A-Z][^*]+)\*", r"\1", " ".join((law.__doc__ or "").split()))
+            rows.append((code(name), escaped(about), "; ".join(words)))
         parts.append(f"## `{family}`\n\n" + markdown_table(("name", "law", "parameters"), rows))
     return "\n\n".join(parts)
 

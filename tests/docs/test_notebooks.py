@@ -7,7 +7,7 @@ import matplotlib
 import pytest
 
 ROOT = Path(__file__).resolve().parents[2]
-NOTEBOOKS = sorted((ROOT / "reports" / "notebooks").glob("*.ipynb"))
+NOTEBOOKS = sorted((ROOT / "reports" / "docs" / "notebooks").glob("*.ipynb"))
 
 
 def code_cells(path):
