@@ -12,7 +12,7 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from bem.lubrication.oils.catalogue import bases
-from bem.lubrication.oils.rheology import rheology_of
+from bem.lubrication.rheology import rheology_of
 from reports.builder import COLOURS, Page, Section, figure, table, text
 from reports.experiments.kept import age, found
 from reports.prose import prose

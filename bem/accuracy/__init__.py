@@ -1,14 +1,28 @@
-"""How wrong a figure is: error bars from coarser solutions of the same problem.
+"""How wrong a figure is: error bars by Richardson extrapolation from coarser solutions of the same problem.
 
-A bar is an estimate, no bound that is proved: the difference to a coarser solution, divided by what the figure's order
-of convergence makes of it where the coarser grid resolves the surface, the difference itself where it does not, times a
-safety factor; and what the solver's residual may add. Factors are set so that bars cover nine errors in ten of random
-contacts (`reports/experiments/contact_error_bars.py`). A figure that does not converge has no bar, and a note says why.
-Names are loaded when first used: the bars of a contact cost no film.
+1. A solved problem is solved once more on a coarser mesh: every second cell, depth or pixel, half of the points or of
+   the time steps; or on twice as many points where half are too few.
+2. A figure of order p differs from its limit by |f_h - f_2h| / (2^p - 1), Richardson's estimate; a difference to
+   another ratio of meshes is first converted to that of a factor of two.
+3. The order is assumed, not observed: differences of rough contacts scatter too much for an observed order, which
+   needs a third mesh. Films whose difference is large are the exception: more of it counts.
+4. Instead of 1 / (2^p - 1) the difference therefore has a factor with a safety margin, chosen by experiment for each
+   figure, and a larger one where the coarser grid does not resolve the surface.
+5. A difference may pass zero where the error does not: floors remain, each a factor on an indicator of the mesh, such
+   as the fraction of a contact within a cell of its edge or the relative change of the film.
+6. Errors that both meshes share do not show in differences (peaks between cells, lost curvature, counts of cells):
+   they are estimated from the finer solution alone, or from theory, and added.
+7. The residual of the solvers adds a floor of noise, ten times its relative size unless the problem says better.
+8. Parts of different origins are added, since all may have one sign. Figures with a prescribed sum share the largest
+   error, figures in proportion the relative one, and a sum is no better known than its parts.
+9. A figure without a limit (a pressure spike, a sharp edge), or without a coarser solution, has no bar, and a note
+   says why. Errors of the model, the measured surface and the material's constants are not covered.
+10. A bar is an estimate and no proved bound: the numbers of each table were chosen on random cases and are judged on
+    others, stored in reports/results, so that nine errors in ten lie within their bars.
 
-Knows what solvers of every room give, and solves the same again, coarser; no scene, no file. Verified in
-tests/accuracy: factors against finer solutions, notes where there is no bar; coverage on fresh seeds in
-reports/experiments, one script a kind of figure.
+`richardson` is the engine and the form of a table, `coarsened` solves contacts on coarser grids, `bars` holds the
+result; each other module has the table of a kind and the errors that differences miss. Names are loaded when first
+used: the bars of a contact cost no film. Knows what solvers of every room give; no scene, no file.
 """
 
 from __future__ import annotations
@@ -20,16 +34,8 @@ from bem.startup.lazy import loader
 if TYPE_CHECKING:
     from bem.accuracy.asperities import asperity_bars
     from bem.accuracy.bars import ErrorBars
-    from bem.accuracy.contact import (
-        Coarser,
-        ContactCase,
-        coarser_before,
-        contact_bars,
-        counted_figures,
-        figures_of,
-        solve_coarser,
-        surface_is_resolved,
-    )
+    from bem.accuracy.coarsened import Coarser, ContactCase, coarser_before, solve_coarser, surface_is_resolved
+    from bem.accuracy.contact import contact_bars, counted_figures, figures_of
     from bem.accuracy.film import FilmCase, OtherFilm, film_bars, film_figures, solve_coarser_film
     from bem.accuracy.flow import flow_bars
     from bem.accuracy.march import MarchCase, march_bars, march_figures
@@ -86,16 +92,8 @@ __getattr__ = loader(
     {
         "asperities": ["asperity_bars"],
         "bars": ["ErrorBars"],
-        "contact": [
-            "Coarser",
-            "ContactCase",
-            "coarser_before",
-            "contact_bars",
-            "counted_figures",
-            "figures_of",
-            "solve_coarser",
-            "surface_is_resolved",
-        ],
+        "coarsened": ["Coarser", "ContactCase", "coarser_before", "solve_coarser", "surface_is_resolved"],
+        "contact": ["contact_bars", "counted_figures", "figures_of"],
         "film": ["FilmCase", "OtherFilm", "film_bars", "film_figures", "solve_coarser_film"],
         "flow": ["flow_bars"],
         "march": ["MarchCase", "march_bars", "march_figures"],

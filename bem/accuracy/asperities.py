@@ -1,36 +1,41 @@
-"""Error bars of loads per asperity of an array: the same array on a grid of twice the cell.
+"""Error bars of the loads per asperity of an array: the array on the grid of twice the cell.
 
 A contact a few cells wide gains and loses cells one by one, so that differences scatter about their order and may pass
-zero: the bar is the difference times a factor, and a share of the load that falls with the square of the cells in the
-contact's radius. Factors are set by `reports/experiments/asperity_error_bars.py`: an estimate, no proved bound.
+zero: a floor holds a fraction of the load that falls with the square of the cells in Hertz' radius.
+
+Verified in tests/accuracy/test_asperity_bars.py; judged by the experiment that `RULES` names.
 """
 
 from __future__ import annotations
 
-import numpy as np
-
 from bem.accuracy.bars import GRID, RESIDUAL, ErrorBars
+from bem.accuracy.richardson import Table, residual_errors, rows
 from bem.friction.asperity_array import ArrayLoads
 
-_DIFFERENCE, _SHARE = 0.8, 0.15
-"""On the difference to twice the cell, and on the load over the square of the cells in Hertz' radius."""
+RULES = Table(
+    "asperities_error_bars",
+    rows("mean_plane from_flat", 0.8, "Second order, of contacts of few cells: 2.4 times Richardson.", cells=0.15),
+)
+"""Factors on the difference, and on the load over the square of the cells in Hertz' radius (cells)."""
 _TOLERANCE = 1e-6
-"""What contacts and the interpolation between their loads may add, relative."""
+"""Relative error of the contacts' tolerance and of the interpolation between their loads."""
 
 
 def asperity_bars(found: ArrayLoads, coarser: ArrayLoads, radius: float, cell: float) -> ErrorBars:
-    """Errors of `mean_plane` and `from_flat` at each depth, (n,) [N].
+    """Return the errors of `mean_plane` and `from_flat` at each depth, (n,) [N].
 
     Parameters
     ----------
-    found, coarser : on the grid, and on that of twice the cell.
+    found, coarser : loads on the grid, and on that of twice the cell.
     radius : of the spheres [m].
     cell : of the grid [m].
     """
-    at_edge = cell**2 / (radius * found.depth)
-    grid, residual = {}, {}
-    for name in ("mean_plane", "from_flat"):
-        loads, there = getattr(found, name), getattr(coarser, name)
-        grid[name] = _DIFFERENCE * np.abs(loads - there) + _SHARE * at_edge * np.abs(loads)
-        residual[name] = _TOLERANCE * np.abs(loads)
-    return ErrorBars.together({GRID: grid, RESIDUAL: residual})
+    loads, there = ({name: getattr(one, name) for name in RULES} for one in (found, coarser))
+    in_radius = cell**2 / (radius * found.depth)
+    cells = {name: in_radius * abs(load) for name, load in loads.items()}
+    return ErrorBars.together(
+        {
+            GRID: RULES.errors(loads, there, {"cells": cells}),
+            RESIDUAL: residual_errors(_TOLERANCE, loads, factor=1.0),
+        }
+    )

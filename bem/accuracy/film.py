@@ -1,23 +1,26 @@
 """Error bars of a steady line film: the same film on a mesh of half the points.
 
-The bar is an estimate by Richardson: thicknesses converge with order two in the points (a quarter to a third of the
-difference to half of them is left), times a safety factor; other figures take more of it, and a share of what the film
-changes by, since their differences may pass zero. Where half the points are too few for a film, twice as many are taken
-instead. A pressure spike that no mesh resolves has no limit and its height no bar.
+Thicknesses are of second order in the points; other figures take more of the difference, and a fraction of the change
+of the film, since their differences may pass zero. Where half the points are too few for a film, twice as many are
+taken. A pressure spike that no mesh resolves has no limit and its height no bar.
 
-The inlet adds nothing that counts: meshes begin 50 lengths upstream of the contact and the far field carries what lies
-before them; beginning 200 upstream changes thicknesses by 1e-5 and friction by 1e-4 at most.
+The inlet adds nothing: meshes begin 50 half-widths upstream of the contact and the far field carries what lies before
+them; beginning at 200 changes thicknesses by 1e-5 and friction by 1e-4 at most.
+
+Verified in tests/accuracy/test_film_bars.py; judged by the experiment that `FILM_RULES` names.
 """
 
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
 
 import numpy as np
 
-from bem.accuracy.bars import POINTS, RESIDUAL, TWICE, ErrorBars
+from bem.accuracy.bars import POINTS, RESIDUAL, ErrorBars
+from bem.accuracy.coarsened import other_points
+from bem.accuracy.richardson import Table, relative, residual_errors, rows, to_half
 from bem.arguments import named
 from bem.errors import Status
 from bem.lubrication import FilmSolution, Lubricant, solve_line_film
@@ -26,48 +29,39 @@ from bem.notes.accuracy import NoBar
 
 FEWEST = 100
 """Points below which no film is solved."""
-
-
-@dataclass(frozen=True)
-class FilmRule:
-    """How differences to half the points become a bar.
-
-    factor : on the difference; 1/3 is that of order two, which thicknesses have closely.
-    film : on the relative change of the film, times the figure: what stays where a difference happens to pass zero.
-    peak : on how far the highest pressure may lie above the highest node.
-    rolling : on the relative change of the film, times the rolling force: shear holds that as one of two shares, whose
-        changes were up to forty times their sum's.
-    """
-
-    factor: float
-    film: float
-    peak: float = 0.0
-    rolling: float = 0.0
-
-
-_FRICTION = FilmRule(0.8, 0.004, rolling=0.3)
-FILM_RULES: dict[str, FilmRule] = {
-    "central_thickness": FilmRule(0.6, 0.02),
-    "minimum_thickness": FilmRule(0.6, 0.02),
-    "load": FilmRule(0.6, 0.0),
-    "shear_force": _FRICTION,
-    "striated_shear_force": _FRICTION,
-    "rolling_force": FilmRule(0.8, 0.4),
-    "maximum_pressure": FilmRule(1.0, 0.02, peak=1.0),
-}
-"""Figures of a film that have bars; set by `reports/experiments/film_error_bars.py` with seeds that it does not store.
-"""
+FILM_RULES = Table(
+    "film_error_bars",
+    rows("central_thickness minimum_thickness", 0.6, "Second order: 1.8 times Richardson.", film=0.02),
+    rows("load", 0.6, "As thicknesses; the load is prescribed, and its residual counts besides."),
+    rows(
+        "shear_force striated_shear_force",
+        0.8,
+        "The sliding and the rolling part cancel in differences: their changes were up to forty times that of the sum.",
+        film=0.004,
+        rolling=0.3,
+    ),
+    rows(
+        "rolling_force", 0.8, "An integral of p dh/dx, whose two halves nearly cancel: it follows the film.", film=0.4
+    ),
+    rows(
+        "maximum_pressure",
+        1.0,
+        "First order: the spike is a kink in the mesh. Its top lies above the highest node.",
+        order=1,
+        film=0.02,
+        peak=1.0,
+    ),
+)
+"""Factors on the difference, and floors on the relative change of the film times the figure (film) and times the
+rolling force (rolling), and on the rise of the peak above the highest node (peak)."""
 _SHARP, _SPIKE = 0.02, 0.5
-"""Pressure falls by more than this share from the highest node where that is a spike; of the fall, how much higher its
-top may be: 0.2 to 0.6 in those that half the points did not tell."""
-_ALGEBRAIC = 10.0
-"""Relative change of a figure over the residual of the equations, relative to the film."""
+"""Fall of the pressure from the highest node, relative, from which on it is a spike; and part of the fall by which the
+top of a spike may be higher: 0.2 to 0.6 where half the points did not show it."""
 
 
 @dataclass(frozen=True)
 class FilmCase:
-    """A steady film that was solved, and the arguments of `bem.solve_line_film` that it was solved with; the solution
-    is on its own mesh of so many points."""
+    """A solved steady film on its own mesh of so many points, and the arguments of `bem.solve_line_film`."""
 
     solution: FilmSolution
     load: float
@@ -78,27 +72,27 @@ class FilmCase:
     points: int
 
     def on(self, points: int) -> FilmSolution:
-        """The same film on a mesh of other points."""
+        """Solve the film on a mesh of other points."""
         asked = named(self, "load radius contact_modulus speeds lubricant")
         return solve_line_film(**asked, points=points, initial=self.solution)
 
 
 @dataclass(frozen=True)
 class OtherFilm:
-    """The film on another mesh, and how many times as many points it has: 1/2 or so, or 2."""
+    """The film on another mesh of `ratio` times as many points: about 1/2, or 2."""
 
     solution: FilmSolution
     ratio: float
 
 
 def solve_coarser_film(case: FilmCase) -> OtherFilm:
-    """The film on half the points, from itself; on twice as many where half of them are too few."""
-    points = case.points // 2 if case.points >= 2 * FEWEST else 2 * case.points
+    """Solve the film on half the points, from itself; on twice as many where half are too few."""
+    points = other_points(case.points, FEWEST)
     return OtherFilm(case.on(points), points / case.points)
 
 
 def film_figures(solution: FilmSolution) -> dict[str, float]:
-    """Headline figures of a steady film on its own mesh, per unit length, SI units."""
+    """Return the headline figures of a steady film on its own mesh, per unit length, SI units."""
     return {
         "central_thickness": solution.central_thickness,
         "minimum_thickness": solution.minimum_thickness,
@@ -111,30 +105,34 @@ def film_figures(solution: FilmSolution) -> dict[str, float]:
 
 
 def film_bars(case: FilmCase, other: OtherFilm) -> ErrorBars:
-    """Bars of the figures of a film."""
+    """Return the error bars of the figures of a film."""
     found = film_figures(case.solution)
     if other.solution.status is not Status.CONVERGED:
         return ErrorBars.unknown(found, NoBar.COARSER_UNSOLVED)
     there = film_figures(other.solution)
-    # what the difference would be to half the points, by order two
-    halved = TWICE if other.ratio > 1 else 3 / (1 / other.ratio**2 - 1)
-    changed = max(_relative(found[name], there[name]) for name in ("central_thickness", "minimum_thickness"))
-    rise = _above_highest_node(case.solution)
-    points, residual = {}, {}
-    for name, rule in FILM_RULES.items():
-        figure = abs(found[name])
-        follows = rule.film * figure + rule.rolling * abs(found["rolling_force"])
-        discretisation = halved * (rule.factor * abs(found[name] - there[name]) + changed * follows)
-        points[name] = discretisation + rule.peak * rise
-        residual[name] = _ALGEBRAIC * case.solution.residual * figure
+    changed = to_half(other.ratio) * film_change(found, there)
+    rolling = changed * abs(found["rolling_force"])
+    indicators = {
+        "film": relative(changed, found),
+        "rolling": {"shear_force": rolling, "striated_shear_force": rolling},
+        "peak": {"maximum_pressure": _above_highest_node(case.solution)},
+    }
+    residual = residual_errors(case.solution.residual, found)
     residual["load"] += abs(case.solution.load - case.load)
+    points = FILM_RULES.errors(found, there, indicators, ratio=other.ratio)
     bars = ErrorBars.together({POINTS: points, RESIDUAL: residual})
     no_limit = spike_is_unresolved(case) or spike_is_unresolved(replace(case, solution=other.solution))
     return bars.without("maximum_pressure", NoBar.SPIKE) if no_limit else bars
 
 
+def film_change(found: Mapping[str, float], there: Mapping[str, float]) -> float:
+    """Return the larger relative change of the central and the minimum thickness."""
+    names = ("central_thickness", "minimum_thickness")
+    return max(abs(found[name] - there[name]) / abs(found[name]) if found[name] else math.inf for name in names)
+
+
 def spike_is_unresolved(case: FilmCase) -> bool:
-    """Return True if the height of the film's pressure spike is the mesh's."""
+    """Return True if the mesh decides the height of the film's pressure spike."""
     solution = case.solution
     first, second = case.speeds
     there = Case(
@@ -149,13 +147,11 @@ def spike_is_unresolved(case: FilmCase) -> bool:
     return spike_unresolved(there) is not None
 
 
-def _relative(one: float, other: float) -> float:
-    return abs(one - other) / abs(one) if one else math.inf
-
-
 def _above_highest_node(solution: FilmSolution) -> float:
-    """How far the highest pressure may lie above the highest node [Pa]: as a parabola through it and its neighbours
-    does, and half-way again as far as it falls to the lower of them where that is a spike, to which no parabola fits.
+    """Return how far the highest pressure may lie above the highest node [Pa].
+
+    It is the rise of a parabola through this node and its neighbours; half of the fall to the lower of them where that
+    is a spike, to which no parabola fits.
     """
     x, pressure = solution.position, solution.pressure
     i = int(np.clip(pressure.argmax(), 1, len(x) - 2))

@@ -1,10 +1,11 @@
-"""Error bars of load sharing: the balance found again with a coarser contact, and with a coarser film as well.
+"""Error bars of load sharing: the balance with a coarser contact, and with a coarser film as well.
 
-Film and contact act on one another through the balance, so that neither's own error says much about friction: the
-balance is solved anew on the grid of twice the cell (what changes is the contact's part), and there once more with the
-film on half the points, columns and layers (the film's part); both begin from the solution and cost about a third of it
-together. A third part is the balance's own tolerance. Each part is an estimate: the difference, times the factor that
-the order of convergence and experiment give (`reports/experiments/mixed_error_bars.py`); the bar is their sum.
+Film and contact act on one another through the balance, so that neither's own error says much about friction. The
+balance is solved on the grid of twice the cell (the difference is the contact's part), and there once more with the
+film on half the points, columns and layers (the film's part); both start from the solution and cost about a third of
+it. A third part is the balance's own tolerance. The bar is their sum.
+
+Verified in tests/accuracy/test_mixed_bars.py; judged by the experiments that the tables name.
 """
 
 from __future__ import annotations
@@ -15,66 +16,84 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bem.accuracy.bars import GRID, POINTS, ErrorBars, Rule
-from bem.accuracy.contact import SPOT, surface_is_resolved
+from bem.accuracy.bars import GRID, POINTS, ErrorBars
+from bem.accuracy.coarsened import SPOT, half_grid, other_points, surface_is_resolved
 from bem.accuracy.film import FEWEST
-from bem.accuracy.traction import DIFFERENCE, FILM_SHARE
+from bem.accuracy.richardson import Regime, Table, at, cover_parts, follow, relative, rows, share_error, to_half
 from bem.contact.nested_iteration import sample
 from bem.errors import Status
 from bem.friction import MixedSolution
-from bem.friction.balance import BalanceStart, Regime
+from bem.friction.balance import BalanceStart
+from bem.friction.balance import Regime as LubricationRegime
 from bem.friction.forces import lambda_ratio, oil_temperature
 from bem.friction.load_sharing import LoadSharing
 from bem.friction.models import films_of
 from bem.friction.setup import FEWEST_CELLS, MixedSetup
-from bem.grid import FloatArray, Grid
+from bem.grid import FloatArray
 from bem.notes.accuracy import NoBar
 
 BALANCE = "balance"
-"""The origin of what the imbalance of loads and the contact's tolerance leave."""
+"""Origin of the errors that the imbalance of loads and the contact's tolerance leave."""
 ORIGINS = (GRID, POINTS, BALANCE)
 _FEWEST_CELLS = 16
-_LOADS = Rule(0.67, 0.67, edge=0.005, rough_edge=0.005)
-"""At the edge as the load of a contact at a given gap (`bem.accuracy.contact`), as the balance asks for it: with
-less, loads fell short in surfaces of 4 to 8 cells to a wave whose difference passed zero."""
-RULES: dict[str, Rule] = {
-    "friction": Rule(0.8, 0.8, edge=0.003, rough_edge=0.001),
-    "boundary_part": _LOADS,
-    "film_part": Rule(0.8, 0.8, edge=0.004, rough_edge=0.005),
-    "contact_load": _LOADS,
-    "film_load": Rule(1.0, 0.8, edge=0.001, rough_edge=0.0005),
-    "minimum_film": Rule(0.5, 0.4, edge=0.0005),
-    "lambda_ratio": Rule(1.0, 1.0),
-    "contact_area_fraction": Rule(0.67, 0.67, edge=0.006, rough_edge=0.05),
-    "contact_temperature": Rule(1.0, 1.0, edge=0.005, rough_edge=0.005),
-    "flash_temperature": Rule(1.0, 1.0, edge=0.01, rough_edge=0.01),
-}
-"""Of the difference between the grids; set by `reports/experiments/mixed_error_bars.py` with seeds that it does not
-store. Edges of areas whose spots are not resolved count squared: errors of contacts of one to five cells were 4 to
-0.3 times the area."""
+"""Cells along the longer axis below which the grid of twice the cell has no contact to compare with."""
 TEMPERATURES = ("contact_temperature", "flash_temperature")
-"""Of a contact whose heat was asked for and that slides: they count from the oil's."""
+"""Temperatures of a sliding contact whose heat was asked for; they count from the oil's."""
 _PARTS = ("boundary_part", "film_part")
-"""Of friction: load that passes from film to contact takes from one what it adds to the other, so that differences of
+"""Parts of friction. Load that passes from film to contact adds to one what it takes from the other: differences of
 either were up to nine times that of their sum, where their errors were of one sign."""
-_LOAD_SHARES = ("contact_load", "film_load")
-OF_FILM = ("friction", "film_part", "minimum_film", "lambda_ratio")
-"""What follows the film: with full heat by a share of its change, and more of the difference, as of kind traction."""
+_LOADS = ("contact_load", "film_load")
+"""Loads whose sum is prescribed."""
+
+RULES = Table(
+    "mixed_error_bars mixed_ball_error_bars heated_mixed_error_bars",
+    rows("friction", 0.8, "Second order: 2.4 times Richardson, of a sum whose parts scatter.", edge=(0.003, 0.001)),
+    rows(
+        "boundary_part contact_load",
+        0.67,
+        "Second order: twice Richardson. The floor is that of the load of a contact at a given gap, for which the "
+        "balance asks: differences of surfaces of 4 to 8 cells to a wave may pass zero.",
+        edge=0.005,
+    ),
+    rows("film_part", 0.8, "As friction, whose other part it is.", edge=(0.004, 0.005)),
+    rows("film_load", (1.0, 0.8), "The load less that of the contact.", edge=(0.001, 0.0005)),
+    rows("minimum_film", (0.5, 0.4), "It follows the film's load weakly.", edge=(0.0005, 0.0)),
+    rows("lambda_ratio", 1.0, "The roughness on every second cell is another sample: first order.", order=1),
+    rows(
+        "contact_area_fraction",
+        0.67,
+        "Second order where spots are resolved. Elsewhere the edge counts squared: errors of contacts of one to five "
+        "cells were 4 to 0.3 times the area.",
+        edge=(0.006, 0.05),
+    ),
+    rows("contact_temperature", 1.0, "First order: heat enters through whole cells.", order=1, edge=0.005),
+    rows("flash_temperature", 1.0, "First order: the hottest place is that of a cell.", order=1, edge=0.01),
+)
+"""Contact's part. Factors on the difference, and a floor on the figure's fraction within a cell of the edge (edge)."""
+FILM_RULES = Table(
+    "mixed_error_bars mixed_ball_error_bars",
+    rows(" ".join(RULES), 0.6, "Second order: 1.8 times Richardson, as thicknesses of line films."),
+    rows("film_part", 0.6, "Differences of the shear and of the rolling force may cancel.", film=0.12),
+)
+"""Film's part. Factors on the difference to half the points of the film, and a floor on the relative change of the
+minimum film times the figure (film)."""
+HOT_FILM_RULES = Table(
+    "hot_mixed_error_bars heated_mixed_error_bars",
+    FILM_RULES,
+    rows("friction minimum_film lambda_ratio", 0.6, "They follow the film, whose heat is of first order.", film=1.0),
+    rows("film_part", 0.6, "As friction; differences of the shear and of the rolling force may cancel.", film=1.4),
+)
+"""Film's part of a line contact with heat."""
 _SUMMITS = 2.2
-"""On that for uncoupled summits, whose radii are second differences between cells."""
-_FILM, _FILM_TWICE = 0.6, 1.5
-"""Of the difference to half the points of the film, and to twice as many."""
-_FILM_SHARE = 0.2
-"""Of the relative change of the minimum film, times the oil's friction: what stays where that of the shear and that of
-the rolling force cancel (see `bem.accuracy.film`)."""
+"""Factor on the contact's part for uncoupled summits, whose radii are second differences between cells."""
 _CONTINUING = 1.5
-"""On what the difference says of films that go on from solved ones; 1.0 was just enough for the friction of a ball at
-6.8 times the load that its film is solved under, 1.0 to 1.6 in ten random ones (at 1.2 to 10 times)."""
+"""Factor on the extrapolated difference of films that go on from solved ones: 1.0 was just enough for the friction of a
+ball at 6.8 times the load that its film is solved under, 1.0 to 1.6 in ten random ones (at 1.2 to 10 times)."""
 
 
 @dataclass(frozen=True, eq=False)
 class MixedCase:
-    """Load sharing that was solved: set-up, heights (nx, ny) [m] and solution."""
+    """Solved load sharing: set-up, heights (nx, ny) [m] and solution."""
 
     setup: MixedSetup
     height: FloatArray
@@ -83,8 +102,8 @@ class MixedCase:
 
 @dataclass(frozen=True)
 class Shares:
-    """Figures of load sharing by their names, whether it converged, and the largest load up to which its films are
-    solved [N]: beyond it they go on from there (`point_film.thin_film`)."""
+    """Figures of load sharing by their names, its status, and the largest load [N] under which its films are solved:
+    beyond it they are extrapolated in load (`point_film.thin_film`)."""
 
     figures: dict[str, float]
     status: Status
@@ -93,8 +112,8 @@ class Shares:
 
 @dataclass(frozen=True)
 class CoarserShares:
-    """The figures with the coarser contact, and with the other film as well, which has `ratio` times the points; or why
-    there are none."""
+    """Figures with the coarser contact, and with a film of `ratio` times the points as well; or the reason why there
+    are none."""
 
     contact: Shares | None
     both: Shares | None
@@ -103,7 +122,7 @@ class CoarserShares:
 
 
 def mixed_figures(solution: MixedSolution) -> dict[str, float]:
-    """Figures of load sharing that have bars; temperatures [K] where there are any."""
+    """Return the figures of load sharing that have error bars; temperatures [K] where there are any."""
     hot = {name: getattr(solution, name) for name in TEMPERATURES if getattr(solution, name) is not None}
     area = 0.0 if solution.contact is None else solution.contact.contact_area / solution.grid.area
     return {
@@ -120,7 +139,7 @@ def mixed_figures(solution: MixedSolution) -> dict[str, float]:
 
 
 def solve_coarser_mixed(case: MixedCase) -> CoarserShares:
-    """The balance again on the grid of twice the cell, with the film on as many points and on half of them (on twice as
+    """Solve the balance on the grid of twice the cell, with the film on as many points and on half of them (on twice as
     many where half are too few)."""
     grid = case.setup.grid
     if case.setup.repeated_cell:
@@ -128,8 +147,7 @@ def solve_coarser_mixed(case: MixedCase) -> CoarserShares:
     if max(grid.shape) < _FEWEST_CELLS:
         return CoarserShares(None, None, why=NoBar.TOO_SMALL)
     points = case.setup.film_resolution
-    fewest = FEWEST if case.setup.radii is None else FEWEST_CELLS
-    other = points // 2 if points >= 2 * fewest else 2 * points
+    other = other_points(points, FEWEST if case.setup.radii is None else FEWEST_CELLS)
     contact = _shares(case, points)
     both = _shares(case, other, heat_mesh=0.5)
     if {contact.status, both.status} != {Status.CONVERGED}:
@@ -138,101 +156,94 @@ def solve_coarser_mixed(case: MixedCase) -> CoarserShares:
 
 
 def mixed_bars(case: MixedCase, coarser: CoarserShares) -> ErrorBars:
-    """Bars of the figures of load sharing, their parts by origin."""
+    """Return the error bars of the figures of load sharing, and their parts by origin."""
     if coarser.contact is None or coarser.both is None:
         return ErrorBars.unknown(mixed_figures(case.solution), coarser.why)
-    found, cool = mixed_figures(case.solution), oil_temperature(case.setup)
-    found |= {name: found[name] - cool for name in TEMPERATURES if name in found}
-    one, two = coarser.contact.figures, coarser.both.figures
+    found, oil = mixed_figures(case.solution), oil_temperature(case.setup)
+    found |= {name: found[name] - oil for name in TEMPERATURES if name in found}
     resolved, uncoupled = surface_is_resolved(case.height, case.setup.grid), case.setup.contact_model == "uncoupled"
     if uncoupled and not resolved and not case.solution.full_film:
         return ErrorBars.unknown(found, NoBar.OTHER_SUMMITS)
-    summits = _SUMMITS if uncoupled else 1.0
-    share = _share_at_edge(case.solution)
-    resolved = resolved and share < 4 / SPOT
-    edge = _at_edge(case.solution, found, share, resolved=resolved)
-    halved = _FILM_TWICE if coarser.ratio > 1 else _FILM * 3 / (1 / coarser.ratio**2 - 1)
-    halved = max(halved, _of_continuing(found["film_load"], coarser.contact.solved_load, coarser.both.solved_load))
     parts = {
-        GRID: {n: summits * RULES[n].bar(found[n] - one[n], edge[n], resolved=resolved) for n in found},
-        POINTS: {n: halved * abs(one[n] - two[n]) for n in found},
+        GRID: _contact_part(case, found, coarser.contact, resolved=resolved),
+        POINTS: _film_part(case, found, coarser.contact, coarser.both, coarser.ratio),
         BALANCE: _balance_part(case.solution, case.setup, found),
     }
-    hot_line = case.setup.thermal != "off" and case.setup.radii is None
-    if hot_line:
-        halved = max(halved, DIFFERENCE)
-    thinner = abs(one["minimum_film"] - two["minimum_film"]) / max(found["minimum_film"], two["minimum_film"])
-    parts[POINTS]["film_part"] += halved * _FILM_SHARE * thinner * abs(found["film_part"])
-    if hot_line:
-        for name in OF_FILM:
-            parts[POINTS][name] += FILM_SHARE * thinner * abs(found[name])
-    # film and contact sum to the load, so that one is as wrong as the other; boundary friction goes with the latter
     for part in parts.values():
-        part |= dict.fromkeys(_LOAD_SHARES, max(part[name] for name in _LOAD_SHARES))
-    if found["contact_load"] > 0:
-        of_contact = parts[GRID]["contact_load"] / found["contact_load"]
-        parts[GRID]["boundary_part"] = max(parts[GRID]["boundary_part"], of_contact * abs(found["boundary_part"]))
+        share_error(part, _LOADS)
+    follow(parts[GRID], "boundary_part", "contact_load", found)
     for part in (parts[GRID], parts[POINTS]):
-        part["friction"] = max(part["friction"], *(part[name] for name in _PARTS))
-        # heat is friction's, and temperatures are linear in it
-        missed = part["friction"] / abs(found["friction"]) if found["friction"] else 0.0
+        cover_parts(part, "friction", _PARTS)
+        # temperatures are linear in the heat of friction
         for name in TEMPERATURES:
             if name in found:
-                part[name] = max(part[name], missed * found[name])
+                follow(part, name, "friction", found)
     bars = ErrorBars.together(parts)
     if case.setup.load > coarser.contact.solved_load:
         bars = bars.without("lambda_ratio", NoBar.SCALED_FILM)
-    if case.solution.regime is Regime.BOUNDARY:
+    if case.solution.regime is LubricationRegime.BOUNDARY:
         return bars.without("minimum_film", NoBar.LEAST_FILM)
     continued = found["film_load"] > coarser.contact.solved_load
     return bars.without("minimum_film", NoBar.SCALED_FILM) if continued else bars
 
 
-def _of_continuing(load: float, solved: float, other: float) -> float:
-    """On the difference between films that go on to a load [N] from solved ones under two others: the error grows with
-    the logarithm of how far they go on, or faster, and of that the difference is a part."""
+def _contact_part(case: MixedCase, found: dict[str, float], there: Shares, *, resolved: bool) -> dict[str, float]:
+    """Return the errors of the contact's cells."""
+    fraction = _edge_fraction(case.solution)
+    regime = Regime.RESOLVED if resolved and fraction < 4 / SPOT else Regime.UNRESOLVED
+    edge = relative(fraction, found)
+    # no more load can pass between film and contact than the lighter of them carries
+    passed = min(case.solution.contact_load, case.solution.film_load)
+    for names, carried in (
+        (("friction", "boundary_part", "contact_load"), case.solution.contact_load),
+        (("film_load",), case.solution.film_load),
+    ):
+        for name in names:
+            edge[name] *= passed / carried if carried > 0 else 0.0
+    if regime is Regime.UNRESOLVED:
+        edge["contact_area_fraction"] *= fraction
+    summits = _SUMMITS if case.setup.contact_model == "uncoupled" else 1.0
+    return relative(summits, RULES.errors(found, there.figures, {"edge": edge}, regime=regime))
+
+
+def _film_part(case: MixedCase, found: dict[str, float], one: Shares, other: Shares, ratio: float) -> dict[str, float]:
+    """Return the errors of the film's points, from balances on the same cells with films of 1 and `ratio` times the
+    points."""
+    hot_line = case.setup.thermal != "off" and case.setup.radii is None
+    rules = HOT_FILM_RULES if hot_line else FILM_RULES
+    loads = found["film_load"], one.solved_load, other.solved_load
+    scale = max(to_half(ratio), _extrapolated_difference(*loads) / at(rules["film_load"].factor, Regime.RESOLVED))
+    films = [shares.figures["minimum_film"] for shares in (one, other)]
+    changed = scale * abs(films[0] - films[1]) / max(found["minimum_film"], films[1])
+    nearer = {name: value + scale * (other.figures[name] - value) for name, value in one.figures.items()}
+    own = {name: one.figures[name] for name in found}
+    return rules.errors(own, nearer, {"film": relative(changed, found)})
+
+
+def _extrapolated_difference(load: float, solved: float, other: float) -> float:
+    """Return the factor on the difference between films extrapolated to a load [N] from two largest solved loads; 0 for
+    a solved film.
+
+    The error grows with the logarithm of the ratio of the loads, or faster, and the difference is a part of it.
+    """
     beyond = math.log(max(load / solved, 1.0))
     return _CONTINUING * beyond / abs(beyond - math.log(max(load / other, 1.0))) if beyond > 0 else 0.0
 
 
-def _share_at_edge(solution: MixedSolution) -> float:
-    """Share of the contact area within a cell of its edge, 4 cells over the mean spot's width; 0 where there is none,
-    and for closed forms."""
+def _edge_fraction(solution: MixedSolution) -> float:
+    """Return the fraction of the contact area within a cell of its edge; 0 without contact and for closed forms."""
     contact = solution.contact
     area, perimeter = getattr(contact, "contact_area", 0.0), getattr(contact, "contact_perimeter", 0.0)
     return perimeter * math.sqrt(solution.grid.cell_area) / area if area > 0 and perimeter > 0 else 0.0
 
 
-def _at_edge(solution: MixedSolution, found: dict[str, float], share: float, *, resolved: bool) -> dict[str, float]:
-    """What of the figures lies within a cell of the contact's edge. Of loads no more than the other of film and contact
-    has: that much can pass between them."""
-    if not share > 0:
-        return dict.fromkeys(found, 0.0)
-    passed = min(solution.contact_load, solution.film_load)
-    of_contact = passed / solution.contact_load if solution.contact_load > 0 else 0.0
-    of_film = passed / solution.film_load if solution.film_load > 0 else 0.0
-    parts = {"friction": of_contact, "boundary_part": of_contact, "contact_load": of_contact, "film_load": of_film}
-    if not resolved:
-        parts["contact_area_fraction"] = share
-    return {name: share * parts.get(name, 1.0) * value for name, value in found.items()}
-
-
-def half_grid(grid: Grid) -> Grid:
-    """Every second cell of a grid along either axis, twice as wide (an odd number of periodic cells: a little less)."""
-    shape, spacing = [], []
-    for n, d, periodic in zip(grid.shape, grid.spacing, grid.periodic, strict=True):
-        few = (n + 1) // 2
-        shape.append(few)
-        spacing.append(n * d / few if periodic else 2 * d if n > 1 else d)
-    return Grid((shape[0], shape[1]), (spacing[0], spacing[1]), periodic=grid.periodic)
-
-
 def _shares(case: MixedCase, points: int, heat_mesh: float = 1.0) -> Shares:
-    """The balance on the grid of twice the cell with a film of other points, and times the columns and layers of full
-    heat.
+    """Solve the balance on the grid of twice the cell, with a film of other points.
 
-    Cells lie where every second of the finer ones does: on a free axis of an even number they are not centred, and the
-    film is looked at where they are.
+    Cells lie where every second one of the finer grid does: on a free axis of an even number of cells they are not
+    centred, and the film is evaluated at their places.
+
+    heat_mesh : factor on the columns and layers of full heat.
     """
     grid = half_grid(case.setup.grid)
     old, solution = case.setup.grid, case.solution
@@ -267,13 +278,16 @@ def _shares(case: MixedCase, points: int, heat_mesh: float = 1.0) -> Shares:
 
 
 def _balance_part(solution: MixedSolution, setup: MixedSetup, found: dict[str, float]) -> dict[str, float]:
-    """What the balance's imbalances and the contact's tolerance may hide: the film load is off by that of the oil over
-    the slope of the balance, the contact's load by as much and the imbalance, all else in proportion."""
+    """Return the errors that the imbalances and the contact's tolerance leave.
+
+    The film load is wrong by the imbalance of the oil over the slope of the balance, the contact load by as much and
+    the imbalance of loads, all else in proportion.
+    """
     if solution.full_film:
         return dict.fromkeys(found, 0.0)
     missing = abs(solution.imbalance) + setup.contact_tolerance + abs(solution.oil_imbalance)
     film = missing * solution.film_load / max(solution.balance_slope, 0.1)
-    if solution.regime is Regime.BOUNDARY:  # anything from nothing to this
+    if solution.regime is LubricationRegime.BOUNDARY:  # the film carries anything up to this
         film = solution.film_load
     contact = missing * solution.load + film
     of_contact = contact / solution.contact_load if solution.contact_load > 0 else math.inf

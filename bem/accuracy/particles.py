@@ -1,14 +1,16 @@
 """Error bars of particles in a height map: the map at every second pixel, and how few particles there are.
 
 Every second pixel along both axes makes four maps, each as if scanned with twice the pixel; the largest difference to
-them, times a factor, is what pixels leave: sides of particles are whole pixels, so that it is of first order. The
-scatter is that of the sample: the standard error of a weighted mean, and of a count that of Poisson's distribution
-(particles land on a plate independently of one another), so that it says how far another map of the same plate may be.
-What one large particle decides, as means weighted with the volume, a sample tells little of by itself: most have too
-few large ones. Where logarithms of sizes are as skewed as normal ones may be, these figures have the scatter of those
-of log-normal sizes, which sizes from breaking tend to (Kolmogorov, Dokl. Akad. Nauk SSSR 31 (1941) 99), from what
-chance leaves of mean and variance of the logarithms; where large sizes are more frequent, the larger of both. Set by
-`reports/experiments/particle_error_bars.py`: an estimate, no proved bound.
+them is the error of the pixels. The scatter is that of the sample: the standard error of a weighted mean, and of a
+count that of Poisson's distribution, since particles land on a plate independently of one another. It says how far
+another map of the same plate may be.
+
+Most samples have too few large particles for means weighted with the volume to know their own scatter. Where logarithms
+of sizes are no more skewed than normal ones may be, these figures have the scatter of log-normal sizes, which breaking
+tends to (Kolmogorov, Dokl. Akad. Nauk SSSR 31 (1941) 99), from the errors of mean and variance of the logarithms; where
+large sizes are more frequent, the larger of both.
+
+Verified in tests/accuracy/test_bars_of_kinds.py; judged by the experiment that `RULES` names.
 """
 
 from __future__ import annotations
@@ -22,30 +24,40 @@ import numpy as np
 from scipy import stats
 
 from bem.accuracy.bars import GRID, ErrorBars
+from bem.accuracy.richardson import Table, rows
 from bem.grid import FloatArray
 from bem.notes.accuracy import BARS_PARTIAL, NoBar, no_error_bar
 from bem.particles import particle_statistics, particles_from_height_map
 from bem.particles.particle import Particle
 
 SAMPLE = "sample"
+"""Origin of the errors that the number of particles leaves."""
 WEIGHTS = ("number", "area", "volume")
 """Weights of which a map has the mean radius with an error bar, and the standard deviation. The mean by light
 scattering has no bar: of five hundred log-normal particles about three carry a mean weighted with R^5."""
-_GRID = 1.0
-"""On the largest difference: what first order leaves."""
+RULES = Table(
+    "particle_error_bars",
+    rows(
+        "count number_mean_radius number_std_radius area_mean_radius volume_mean_radius length width thickness volume",
+        1.0,
+        "First order: sides of particles are whole pixels. The largest of four differences counts.",
+        order=1,
+    ),
+)
+"""Factors on the largest difference to the four maps of twice the pixel."""
 _LEVEL = 0.96
-"""Of Student's distribution, with as many degrees of freedom as particles count: nine in ten errors within it, and
-what weights that hang on the sizes themselves leave out."""
+"""Level of Student's distribution with as many degrees of freedom as particles count: nine errors in ten, and the part
+that weights leave out which depend on the sizes themselves."""
 _SKEWED, _JUDGED = 1.5, 8
-"""Logarithms of sizes pass as normal where their skewness is within so many times the root of 6 / count (its standard
-error), and with so many of them: fewer do not say. Of samples of log-normal sizes 92 to 95 % were covered then, where
-these were 86 to 90 %; of gamma's, Weibull's and uniform ones as many as before or more."""
+"""Skewness of logarithms over its standard error, the root of 6 / count, up to which they pass as normal; and particles
+below which that is not judged. Of log-normal samples 92 to 95 % were covered then, 86 to 90 % without; of gamma's,
+Weibull's and uniform ones as many or more."""
 _MOST = 3.0
-"""Times its figure: a bar beyond says only that the sample does not tell."""
+"""Largest error bar over its figure; a larger one says only that the sample does not know the figure."""
 
 
 def map_figures(found: Sequence[Particle]) -> dict[str, float]:
-    """Headline figures of the particles of a map, SI units."""
+    """Return the headline figures of the particles of a map, SI units."""
     figures: dict[str, float] = {"count": len(found)}
     for weight in WEIGHTS:
         statistics = particle_statistics(found, weight=weight)
@@ -61,31 +73,27 @@ def map_figures(found: Sequence[Particle]) -> dict[str, float]:
 def particle_bars(
     found: Sequence[Particle], heights: FloatArray, spacing: tuple[float, float], choices: Mapping[str, Any]
 ) -> ErrorBars:
-    """Bars of `map_figures`.
+    """Return the error bars of `map_figures`.
 
     Parameters
     ----------
-    found : in the map.
-    heights, spacing : (nx, ny) [m] and [m].
-    choices : what else
-        `bem.particles.particles_from_height_map` was given.
+    found : particles in the map.
+    heights, spacing : heights of the map (nx, ny) [m], and its pixels [m].
+    choices : further arguments of `bem.particles.particles_from_height_map`.
     """
     figures = map_figures(found)
     if len(found) < 2:
         return ErrorBars.unknown(figures, NoBar.FEW_PARTICLES)
-    # as large a piece has a quarter of the pixels
+    # a particle as large has a quarter of the pixels
     fewest = max(1, round(choices.get("smallest_columns", 1) / 4))
     coarse = {**choices, "smallest_columns": fewest}
     twice = (2 * spacing[0], 2 * spacing[1])
-    pixels = dict.fromkeys(figures, 0.0)
-    for i in (0, 1):
-        for j in (0, 1):
-            there = map_figures(particles_from_height_map(heights[i::2, j::2], twice, **coarse))
-            for name, value in figures.items():
-                pixels[name] = max(pixels[name], _GRID * abs(value - there[name]))
+    maps = [heights[i::2, j::2] for i in (0, 1) for j in (0, 1)]
+    errors = [RULES.errors(figures, map_figures(particles_from_height_map(each, twice, **coarse))) for each in maps]
+    pixels = {name: max(each[name] for each in errors) for name in RULES}
     scatter = _scatter(found, figures)
     larger = _Logarithms.of(np.array([p.equivalent_radius for p in found])).large_ones_are_frequent
-    parts = {GRID: {name: pixels[name] for name in scatter}, SAMPLE: scatter}
+    parts = {GRID: pixels, SAMPLE: scatter}
     bars = ErrorBars.together(parts, (BARS_PARTIAL(reason="large-particles"),) if larger else ())
     beyond = [name for name, bar in bars.values.items() if bar > _MOST * abs(figures[name])]
     if not beyond:
@@ -96,15 +104,16 @@ def particle_bars(
 
 
 def _scatter(found: Sequence[Particle], figures: Mapping[str, float]) -> dict[str, float]:
+    """Return the errors of the sample."""
     radius = np.array([p.equivalent_radius for p in found])
     area = np.array([p.length * p.width for p in found])
     volume = np.array([p.volume for p in found])
     logarithms = _Logarithms.of(radius)
-    # the upper end of Garwood's interval of Poisson's mean (Biometrika 28 (1936) 437), which is the farther one
+    # the upper end of Garwood's interval of Poisson's mean (Biometrika 28 (1936) 437), which is the wider side
     scatter = {"count": float(stats.chi2.ppf(_LEVEL, 2 * len(found) + 2)) / 2 - len(found)}
     mean, std = figures["number_mean_radius"], figures["number_std_radius"]
     scatter["number_mean_radius"] = _scattered(radius, np.ones_like(radius), mean) + _of_skewness(radius)
-    # by the variance, whose root it is
+    # the standard deviation by the variance
     squares = _scattered((radius - mean) ** 2, np.ones_like(radius), std**2)
     by_itself = squares / (2 * std) if std > 0 else 0.0
     scatter["number_std_radius"] = logarithms.chosen(by_itself, std * logarithms.of_deviation())
@@ -116,14 +125,14 @@ def _scatter(found: Sequence[Particle], figures: Mapping[str, float]) -> dict[st
     for name in ("length", "width", "thickness", "volume"):
         values = np.array([getattr(p, name) for p in found])
         scatter[name] = _scattered(values, np.ones_like(values), figures[name]) + _of_skewness(values)
-    # and that of r^3 exp(3 m + 9/2 v)
+    # the mean of r^3 is exp(3 m + 9/2 v)
     scatter["volume"] = logarithms.chosen(scatter["volume"], figures["volume"] * logarithms.of_mean(3.0, 4.5))
     return scatter
 
 
 @dataclass(frozen=True)
 class _Logarithms:
-    """Of sizes: how many, their variance, skewness; and what chance leaves of them at the level."""
+    """Logarithms of sizes: count, variance and skewness, and the errors of these at the level."""
 
     count: int
     variance: float
@@ -139,38 +148,38 @@ class _Logarithms:
 
     @property
     def skewed(self) -> float:
-        """The skewness over its standard error."""
+        """Return the skewness over its standard error."""
         return self.skewness / math.sqrt(6 / self.count)
 
     @property
     def large_ones_are_frequent(self) -> bool:
-        """More so than log-normal sizes have them."""
+        """Return True if large sizes are more frequent than log-normal ones."""
         return self.count >= _JUDGED and self.skewed > _SKEWED
 
     def chosen(self, by_itself: float, of_logarithms: float) -> float:
-        """Which of two scatters a figure has: that of its sample by itself, or of log-normal sizes."""
+        """Return the scatter of a figure from two: that of its sample by itself, and that of log-normal sizes."""
         if self.count < _JUDGED or self.variance == 0 or self.skewed < -_SKEWED:
             return by_itself
         return max(by_itself, of_logarithms) if self.large_ones_are_frequent else of_logarithms
 
     @property
     def mean_scatter(self) -> float:
-        """How far the mean may lie: Student's."""
+        """Return the error of the mean, by Student's distribution."""
         return float(stats.t.ppf(_LEVEL, self.count - 1)) * math.sqrt(self.variance / self.count)
 
     @property
     def largest_variance(self) -> float:
-        """The variance may be: by the chi-square distribution."""
+        """Return the largest variance, by the chi-square distribution."""
         return self.variance * (self.count - 1) / float(stats.chi2.ppf(1 - _LEVEL, self.count - 1))
 
     def of_mean(self, mean: float, variance: float) -> float:
-        """Relative scatter of exp(mean m + variance v); m and v of a normal sample are independent."""
+        """Return the relative scatter of exp(mean m + variance v); m and v of a normal sample are independent."""
         if self.count < _JUDGED:
             return math.inf
         return math.expm1(math.hypot(mean * self.mean_scatter, variance * (self.largest_variance - self.variance)))
 
     def of_deviation(self) -> float:
-        """That of the standard deviation of sizes, their mean times the root of exp(v) - 1."""
+        """Return the relative scatter of the standard deviation of sizes, their mean times the root of exp(v) - 1."""
         if self.count < _JUDGED or self.variance == 0:
             return math.inf
         wider = math.sqrt(math.expm1(self.largest_variance) / math.expm1(self.variance)) - 1
@@ -178,9 +187,12 @@ class _Logarithms:
 
 
 def _of_skewness(values: FloatArray) -> float:
-    """How much farther a mean may lie where few values are large: (1 + 2 z^2) / 6 times the third moment over the
-    second and the count, z of the normal distribution (Johnson, J. Am. Stat. Assoc. 73 (1978) 536): volumes, cubes of
-    sizes, are skewed, and samples that lack a large one have too small a scatter as well."""
+    """Return how much farther the mean may lie where few values are large.
+
+    It is (1 + 2 z^2) / 6 times the third moment over the second and the count, z of the normal distribution (Johnson,
+    J. Am. Stat. Assoc. 73 (1978) 536). Volumes are skewed, and samples that lack a large one scatter too little as
+    well.
+    """
     about = values - values.mean()
     variance = float((about**2).mean())
     z = float(stats.norm.ppf(_LEVEL))
@@ -188,9 +200,12 @@ def _of_skewness(values: FloatArray) -> float:
 
 
 def _scattered(values: FloatArray, weights: FloatArray, mean: float) -> float:
-    """How far a weighted mean may be: its standard error, the root of the sum of u^2 = w^2 (x - mean)^2 over the sum of
-    w, times Student's quantile for as many degrees of freedom as that has, (sum u^2)^2 / sum u^4 less 1 (Satterthwaite,
-    Biometrics Bulletin 2 (1946) 110): few where a large particle or two decide the mean."""
+    """Return the error of a weighted mean.
+
+    It is the standard error, the root of the sum of u^2 = w^2 (x - mean)^2 over the sum of w, times Student's quantile
+    for (sum u^2)^2 / sum u^4 less 1 degrees of freedom (Satterthwaite, Biometrics Bulletin 2 (1946) 110): few where a
+    large particle or two decide the mean.
+    """
     squares = (weights * (values - mean)) ** 2
     if not squares.any():
         return 0.0

@@ -1,24 +1,25 @@
 """Error bars of a point film: the same film on a grid of half as many cells.
 
-The bar is an estimate by Richardson, as that of line films (`bem.accuracy.film`): films are of second order in the
-cells, which leaves a third of the difference, times a safety factor; other figures take more of it, and a share of what
-the film changes by, since their differences may pass zero. The highest pressure has none: the spike before the outlet
-is narrower than the cells; nor has the central one where the spike lies there.
+Films are of second order in the cells; other figures take more of the difference, and a fraction of the change of the
+film. The highest pressure has no bar, since the spike before the outlet is narrower than the cells, nor has the central
+one where the spike lies there. Films that change by a fifth or more are not of second order yet: more of the difference
+counts, up to 1.8 times (`order_missed`).
 
-Where the grid begins changes films, too: bars are widened by `rectangle_error`, as the errors of the film itself are;
-friction by the shear of oil as far again (`inlet_shear`), which counts where loads are light. Films that change by a
-fifth or more are not of second order yet, and more of the difference counts, up to 1.8 times.
+The place where the grid begins changes films, too: by `rectangle_error`, and friction by the shear of oil as far again
+(`inlet_shear`), which counts at light loads.
+
+Verified in tests/accuracy/test_point_spike.py; judged by the experiment that `POINT_RULES` names.
 """
 
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Any
 
 import numpy as np
 
-from bem.accuracy.bars import GRID, INLET, RESIDUAL, TWICE, ErrorBars
-from bem.accuracy.film import FilmRule
+from bem.accuracy.bars import GRID, INLET, RESIDUAL, ErrorBars
+from bem.accuracy.film import film_change
+from bem.accuracy.richardson import Table, relative, residual_errors, rows, to_half
 from bem.arguments import named
 from bem.errors import Status
 from bem.grid import FloatArray
@@ -32,26 +33,34 @@ from bem.plausibility import without_argument_notes
 
 FEWEST = 32
 """Cells along an axis below which no film is solved."""
-POINT_RULES = {
-    "central_thickness": FilmRule(0.6, 0.05),
-    "minimum_thickness": FilmRule(0.6, 0.3),
-    "central_pressure": FilmRule(0.8, 0.05),
-    "traction_coefficient": FilmRule(0.8, 0.3),
-    "friction_power": FilmRule(0.8, 0.3),
-    "lambda_ratio": FilmRule(0.6, 0.3),
-    "film_reduction": FilmRule(0.8, 0.3),
-    "oil_layer": FilmRule(0.6, 0.05),
-    "flooded_layer": FilmRule(0.6, 0.05),
-    "meniscus_position": FilmRule(0.8, 0.3),
-}
-_LEAST = ("minimum_thickness", "lambda_ratio")
-"""In a constriction, which may be narrower than cells: differences then show no order, and how steep it is tells."""
-_ALGEBRAIC = 10.0
-"""Relative change of a figure over the residual of the equations."""
+POINT_RULES = Table(
+    "point_error_bars",
+    rows(
+        "central_thickness central_pressure oil_layer flooded_layer",
+        0.6,
+        "Second order: 1.8 times Richardson.",
+        film=0.05,
+    ),
+    rows(
+        "minimum_thickness lambda_ratio traction_coefficient friction_power",
+        0.6,
+        "Second order, but differences may pass zero: the constriction may be narrower than cells (at least "
+        "`narrow_error` then), and friction follows the film.",
+        film=0.3,
+    ),
+    rows(
+        "film_reduction meniscus_position",
+        0.8,
+        "A ratio of two films, and a place on whole cells; not judged by a stored experiment.",
+        film=0.3,
+    ),
+)
+"""Factors on the difference, and a floor on the relative change of the film times the figure (film)."""
+_IN_CONSTRICTION = ("minimum_thickness", "lambda_ratio")
 _STEEP, _HIGH = 0.5, 0.5
-"""The spike is at the centre where pressure falls by that share to one of the cells around it, and is more than that
-share of the highest: of 30 random films three, whose central pressures were 44 to 120 % off; steep ones below were not
-(by 7 % at most, within their bars)."""
+"""The spike is at the centre where pressure falls by the first fraction to a neighbouring cell and is more than the
+second of the highest pressure: 3 of 30 random films, whose central pressures were 44 to 120 % off. Films below had at
+most 7 %."""
 
 
 @dataclass(frozen=True)
@@ -69,14 +78,14 @@ class PointCase:
     supply: Supply | None = None
 
     def on(self, cells: tuple[int, int]) -> PointFilmSolution:
-        """The film on so many cells."""
+        """Solve the film on so many cells."""
         asked = named(self, "load radii contact_modulus speeds lubricant bodies supply")
         film = solve_point_film(**asked, shape=cells, cavitation="mass_conserving")
         return replace(film, notes=without_argument_notes(film.notes))
 
 
 def point_figures(case: PointCase, film: PointFilmSolution) -> dict[str, float]:
-    """Headline figures, SI units."""
+    """Return the headline figures, SI units."""
     slide = np.subtract(*film.speeds)
     sliding = 0.5 * (film.shear_force[1] - film.shear_force[0])
     figures = {
@@ -106,33 +115,30 @@ def spike_at_centre(x: FloatArray, y: FloatArray, pressure: FloatArray) -> bool:
 
 
 def point_bars(case: PointCase, film: PointFilmSolution) -> ErrorBars:
-    """Bars of the figures of a solution."""
+    """Return the error bars of the figures of a solution."""
     figures = point_figures(case, film)
-    halved = all(n >= 2 * FEWEST for n in case.cells)
     nx, ny = case.cells
+    halved = min(nx, ny) >= 2 * FEWEST
     other = case.on((nx // 2, ny // 2) if halved else (2 * nx, 2 * ny))
     if other.status is not Status.CONVERGED:
         return ErrorBars.unknown(figures, NoBar.COARSER_UNSOLVED)
-    there = figures | point_figures(case, other)  # nearly flooded, one grid may have no meniscus
-    share = 1.0 if halved else TWICE
-    films = ("central_thickness", "minimum_thickness")
-    changed = max(abs(there[name] / figures[name] - 1) for name in films)
+    there = figures | point_figures(case, other)  # a nearly flooded film may have a meniscus on one grid alone
+    ratio = 0.5 if halved else 2.0
+    # films that change much are not of second order yet
+    beyond = {
+        name: value + order_missed(abs(value - there[name]), value) * (there[name] - value)
+        for name, value in figures.items()
+    }
+    changed = to_half(ratio) * film_change(figures, there)
+    grid = POINT_RULES.errors(figures, beyond, {"film": relative(changed, figures)}, ratio=ratio)
+    for name in _IN_CONSTRICTION:
+        if name in grid:
+            grid[name] = max(grid[name], narrow_error(film.thickness) * figures[name])
     assert film.state is not None
-    shear, begins = inlet_shear(film, film.state.case), rectangle_error(film.state.case)
-    slide = float(np.hypot(*np.subtract(*film.speeds)))
-    beyond = {"traction_coefficient": shear / film.load, "friction_power": shear * slide}
-    grid: dict[str, Any] = {}
-    inlet: dict[str, Any] = {}
-    residual: dict[str, Any] = {}
-    for name, value in figures.items():
-        rule = POINT_RULES[name]
-        difference = abs(value - there[name])
-        factor = rule.factor * order_missed(difference, value)
-        grid[name] = share * (factor * difference + rule.film * changed * abs(value))
-        if name in _LEAST:
-            grid[name] = max(grid[name], narrow_error(film.thickness) * value)
-        inlet[name] = begins * abs(value) + beyond.get(name, 0.0)
-        residual[name] = _ALGEBRAIC * film.residual * abs(value)
-    bars = ErrorBars.together({GRID: grid, INLET: inlet, RESIDUAL: residual})
+    inlet = relative(rectangle_error(film.state.case), figures)
+    shear = inlet_shear(film, film.state.case)
+    inlet["traction_coefficient"] += shear / film.load
+    inlet["friction_power"] += shear * float(np.hypot(*np.subtract(*film.speeds)))
+    bars = ErrorBars.together({GRID: grid, INLET: inlet, RESIDUAL: residual_errors(film.residual, figures)})
     spiked = spike_at_centre(film.x, film.y, film.pressure)
     return bars.without("central_pressure", NoBar.SPIKE_AT_CENTRE) if spiked else bars

@@ -1,8 +1,9 @@
-"""Error bars of surface temperatures under a rubbing contact: contact and heat again on the grid of twice the cell.
+"""Error bars of surface temperatures under a rubbing contact: contact and heat on the grid of twice the cell.
 
-Contact area and mean pressure have the bars of a contact (`bem.accuracy.contact`), on its coarser solution: there the
-heat's temperature is found as well, and its difference, times a factor, is the bar. The highest temperature has by how
-much a parabola rises above the hottest cell besides. An estimate and no proved bound.
+Contact area and mean pressure have the bars of a contact, on its coarser solution: the heat of that gives the coarser
+temperatures. The highest temperature has besides the rise of a paraboloid above the hottest cell.
+
+Verified in tests/accuracy/test_bars_of_kinds.py; judged by the experiment that `RULES` names.
 """
 
 from __future__ import annotations
@@ -12,8 +13,10 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from bem.accuracy.bars import GRID, RESIDUAL, ErrorBars, Rule
-from bem.accuracy.contact import ContactCase, contact_bars, is_resolved, rise, share_at_edge, solve_coarser
+from bem.accuracy.bars import GRID, RESIDUAL, ErrorBars
+from bem.accuracy.coarsened import ContactCase, edge_fraction, regime_of, solve_coarser
+from bem.accuracy.contact import contact_bars, peak_rise
+from bem.accuracy.richardson import Table, follow, relative, residual_errors, rows
 from bem.contact import ContactSolution, solve_contact
 from bem.convolution import displacement_operator
 from bem.errors import Status
@@ -22,24 +25,30 @@ from bem.heat import TemperatureSolution, flash_temperature
 from bem.materials import Body
 from bem.notes.accuracy import NoBar
 
-_TEMPERATURE = Rule(0.7, 1.0, edge=0.005, rough_edge=0.01)
-RULES: dict[str, Rule] = {
-    "maximum_temperature": _TEMPERATURE,
-    "mean_temperature": Rule(0.7, 1.0, edge=0.002, rough_edge=0.005),
-    "maximum_rise": _TEMPERATURE,
-    "share_of_lower": Rule(1.0, 1.0, edge=0.005, rough_edge=0.01),
-}
-"""On the difference to twice the cell; set by `reports/experiments/rubbing_error_bars.py`."""
+RULES = Table(
+    "rubbing_error_bars",
+    rows(
+        "maximum_temperature maximum_rise",
+        (0.7, 1.0),
+        "Second order; twice to three times Richardson, for heat follows the pressure of every spot. Hottest cells "
+        "have the rise of a paraboloid, twice that on an unresolved surface.",
+        edge=(0.005, 0.01),
+        peak=(1.0, 2.0),
+    ),
+    rows("mean_temperature", (0.7, 1.0), "As the highest; a mean scatters less.", edge=(0.002, 0.005)),
+    rows("share_of_lower", 1.0, "A ratio of two heats, whose errors differ.", edge=(0.005, 0.01)),
+)
+"""Factors on the difference, and floors: rise over the bulk times the fraction of the contact within a cell of its edge
+(edge), rise of the paraboloid through the hottest cells (peak)."""
 _OF_CONTACT = {name: name for name in ("contact_area_fraction", "mean_contact_pressure", "load")}
-_RESIDUAL = 10.0
-"""Relative change of a rise over the residuals."""
 
 
 @dataclass(frozen=True)
 class RubbingCase:
-    """What rubs: one body or two, their speeds [m/s] and bulk temperatures [K], and what presses them together.
+    """Rubbing bodies (one or two), their speeds [m/s] and bulk temperatures [K], and what presses them together.
 
-    asked : of `bem.solve_contact`: load or gap, cap, accuracy; means over the grid hold on any grid of its area.
+    asked : arguments of `bem.solve_contact`: load or gap, cap, accuracy; means over the grid hold on any grid of its
+        area.
     """
 
     bodies: Body | tuple[Body, Body]
@@ -49,16 +58,16 @@ class RubbingCase:
     asked: Mapping[str, Any]
 
     def contact(self, grid: Grid, gap: FloatArray) -> ContactSolution:
-        """The contact under an undeformed gap (nx, ny) [m]."""
+        """Solve the contact under an undeformed gap (nx, ny) [m]."""
         return solve_contact(gap, displacement_operator(grid, self.bodies, friction=self.friction), **self.asked)
 
     def temperature(self, grid: Grid, contact: ContactSolution) -> TemperatureSolution:
-        """The steady temperature that its friction makes."""
+        """Solve the steady temperature of the frictional heat."""
         pressure, friction = contact.pressure, self.friction
         return flash_temperature(pressure, grid, self.bodies, friction=friction, speeds=self.speeds, bulk=self.bulk)
 
     def figures(self, grid: Grid, contact: ContactSolution, found: TemperatureSolution) -> dict[str, float]:
-        """Headline figures, SI units: temperatures, the share of the lower body, heat, area and mean pressure."""
+        """Return the headline figures, SI units."""
         return {
             "maximum_temperature": found.maximum,
             "mean_temperature": found.mean,
@@ -73,7 +82,7 @@ class RubbingCase:
 def rubbing_bars(
     case: RubbingCase, grid: Grid, gap: FloatArray, solved: tuple[ContactSolution, TemperatureSolution]
 ) -> ErrorBars:
-    """Bars of the figures of a contact and its temperature on a grid, under an undeformed gap (nx, ny) [m]."""
+    """Return the error bars of a contact and its temperature on a grid, under an undeformed gap (nx, ny) [m]."""
     contact, found = solved
     asked: dict[str, Any] = {name: case.asked.get(name) for name in ("load", "approach", "mean_gap", "hardness")}
     operator = displacement_operator(grid, case.bodies, friction=case.friction)
@@ -86,21 +95,21 @@ def rubbing_bars(
     there = case.temperature(coarser.grid, coarser.solution)
     if there.status is not Status.CONVERGED:
         return ErrorBars.unknown(figures, NoBar.COARSER_UNSOLVED)
-    heat = case.figures(coarser.grid, coarser.solution, there)
-    resolved, edge = is_resolved(pressed), share_at_edge(pressed)
-    # temperatures count from the bulk that is nearest to them
-    size = {"maximum_temperature": figures["maximum_rise"], "mean_temperature": found.mean - min(case.bulk)}
-    cells = {
-        name: rule.bar(figures[name] - heat[name], edge * size.get(name, figures[name]), resolved=resolved)
-        for name, rule in RULES.items()
-    }
-    between = (1.0 if resolved else 2.0) * rise(found.temperature, grid)
-    for name in ("maximum_temperature", "maximum_rise"):
-        cells[name] += between
-    relative = _RESIDUAL * max(contact.residual, found.residual)
-    residual = {name: relative * abs(size.get(name, figures[name])) for name in RULES}
+    # temperatures count from the nearest bulk temperature
+    rises = {"maximum_temperature": figures["maximum_rise"], "mean_temperature": found.mean - min(case.bulk)}
+    sizes = {name: rises.get(name, figures[name]) for name in RULES}
+    peak = peak_rise(found.temperature, grid)
+    cells = RULES.errors(
+        figures,
+        case.figures(coarser.grid, coarser.solution, there),
+        {"edge": relative(edge_fraction(pressed), sizes), "peak": dict.fromkeys(sizes, peak)},
+        regime=regime_of(pressed),
+    )
+    parts = {GRID: cells, RESIDUAL: residual_errors(max(contact.residual, found.residual), sizes)}
     # the heat is friction times the load, whatever the cells
-    load = {name: part.get("load", 0.0) for name, part in bars.parts.items()}
-    for part, origin in ((cells, GRID), (residual, RESIDUAL)):
-        part["friction_power"] = figures["friction_power"] * load[origin] / max(contact.load, 1e-300)
-    return ErrorBars.together({GRID: cells, RESIDUAL: residual}) | bars.renamed(_OF_CONTACT)
+    load = {"friction_power": figures["friction_power"], "load": contact.load}
+    for origin, part in parts.items():
+        errors = {"friction_power": 0.0, "load": bars.parts[origin].get("load", 0.0)}
+        follow(errors, "friction_power", "load", load)
+        part["friction_power"] = errors["friction_power"]
+    return ErrorBars.together(parts) | bars.renamed(_OF_CONTACT)

@@ -1,9 +1,9 @@
-"""Where a surface is sharp: at a step, a ridge or a tip that touches, pressure has no limit, whatever the cell.
+"""Sharp surfaces: where a step, a ridge or a tip touches, the pressure has no limit, whatever the cell.
 
-Johnson, *Contact Mechanics* (1985), section 2.8 and 5.1-5.2: under a punch the pressure goes like the inverse root of
-the distance from its edge, under a wedge or a cone like its logarithm. Two grids do not show it: what the logarithm
-adds from one to the next is a few per cent. Heights do: of a smooth surface second differences change from cell to
-cell, of a sharp one they stand alone. Knows no contact but its pressure. Verified in tests/accuracy/test_sharp.py.
+Under a punch the pressure goes like the inverse root of the distance from its edge, under a wedge or a cone like its
+logarithm (Johnson, *Contact Mechanics* (1985), sections 2.8 and 5.1-5.2). Two grids do not show it: the logarithm adds
+a few per cent from one to the next. Heights do: second differences of a smooth surface change from cell to cell, those
+of a sharp one stand alone. Knows of a contact its pressure alone. Verified in tests/accuracy/test_sharp.py.
 """
 
 from __future__ import annotations
@@ -18,28 +18,30 @@ from bem.grid import FloatArray, Grid
 from bem.numerics.blocks import around, row_blocks
 
 _STEP, _STEPS = 5.0, 0.25
-"""An edge is sharp where the undeformed gap changes by so many times what it does on both sides; a contact has sharp
-edges where that holds for this share of all edges (by chance on a surface of white noise: 0.05)."""
+"""Change of the undeformed gap over those on both sides, from which on an edge is sharp; and part of all edges of a
+contact that are sharp in a sharp contact: on white noise 0.05 are, by chance."""
 _ALONE, _UNUSUAL = 5.0, 8.0
-"""A kink is where a second difference is so many times those two cells away on both sides, and so many times what three
-cells in four of the grid are below: the largest of 20 surfaces of 64 x 64 cells with waves of four and more was 7."""
+"""Second difference over those two cells away on both sides, and over that which three cells in four of the grid are
+below, from which on it is a kink: the largest of 20 surfaces of 64 x 64 cells with waves of four cells and more was
+7."""
 _UNUSUAL_TIP = 4.5
-"""The same where second differences along both axes stand alone in one cell: under a tip. A cone's fall like the
-inverse distance, so that few cells have few that are small: of 300 cones with their tip anywhere in the middle the
-least was 4.9, 6.4 and 9.6 times them on 12, 16 and 24 cells a side; of 1200 surfaces of 12 to 32 cells with waves of
-two and more the largest was 3.4, of 60 of 64 cells 3.5."""
+"""The same where second differences along both axes stand alone in one cell: a tip. A cone's fall like the inverse
+distance, so that few of them are small: the least of 300 cones with their tip anywhere in the middle was 4.9, 6.4 and
+9.6 on 12, 16 and 24 cells a side; the largest of 1200 surfaces of 12 to 32 cells with waves of two cells and more was
+3.4, of 60 surfaces of 64 cells 3.5."""
 _FINER = 4.0
-"""Kinks count whose pressure may pass the highest one's on cells so many times finer, which bars are judged by."""
+"""Refinement on which the pressure of a kink may pass the highest one, for the kink to count: that by which error bars
+are judged."""
 _ROUND_OFF = 1e-9
-"""Of the gap's range: below it second differences say nothing."""
+"""Second difference over the gap's range below which it is rounding."""
 
 
 def is_sharp(undeformed: FloatArray, pressure: FloatArray, grid: Grid, modulus: float = math.inf) -> bool:
-    """Return True if a contact with that undeformed gap [m] and pressure [Pa] (both nx, ny) ends at steps or touches at
+    """Return True if a contact with an undeformed gap [m] and a pressure [Pa] (both nx, ny) ends at steps or touches at
     kinks.
 
-    modulus : contact modulus of the bodies for waves of two cells [Pa], which says how far pressures at kinks may rise;
-        infinite, all kinks count.
+    modulus : contact modulus of the bodies for waves of two cells [Pa]: it limits the rise of the pressure at kinks;
+        with an infinite one all kinks count.
     """
     return _ends_at_steps(undeformed, pressure, grid) or _touches_at_kinks(undeformed, pressure, grid, modulus)
 
@@ -54,7 +56,7 @@ def _ends_at_steps(undeformed: FloatArray, pressure: FloatArray, grid: Grid) -> 
             place = np.arange(first, last) if axis == 0 else np.arange(n)
             steps = np.abs(np.diff(around(undeformed, axis, first, last, 2), axis=0))
             inside = around(pressure, axis, first, last, 1) > 0
-            # from a cell to the next; of the axis' ends one side is not known
+            # from a cell to the next; at the ends of the axis one side is unknown
             ends = (inside[2:] != inside[1:-1]) & ((place > 0) & (place < n - 2))[:, None]
             edges += int(np.count_nonzero(ends))
             sharp += int(np.count_nonzero(ends & (steps[2:-1] > _STEP * np.maximum(steps[1:-2], steps[3:]))))
@@ -62,8 +64,12 @@ def _ends_at_steps(undeformed: FloatArray, pressure: FloatArray, grid: Grid) -> 
 
 
 class _Kinks(NamedTuple):
-    """Cells where second differences along an axis stand alone and may have the highest pressure at a tip: their
-    numbers, second differences [m], and whether it may be that of a ridge."""
+    """Cells where second differences along an axis stand alone, and the pressure of a tip may be the highest.
+
+    cells : their numbers.
+    bends : their second differences [m].
+    ridges : True where the pressure of a ridge may be the highest, too.
+    """
 
     cells: NDArray[np.int64]
     bends: FloatArray
@@ -71,8 +77,11 @@ class _Kinks(NamedTuple):
 
 
 def _touches_at_kinks(undeformed: FloatArray, pressure: FloatArray, grid: Grid, modulus: float) -> bool:
-    """Return True if there are kinks that may have the highest pressure. Johnson: a wedge of slope t has E* t/pi
-    arcosh(a/x), a cone E* t/2 arcosh(a/r); slopes change by 2 t there, in a cell or two."""
+    """Return True if kinks may have the highest pressure.
+
+    A wedge of slope t has E* t/pi arcosh(a/x), a cone E* t/2 arcosh(a/r) (Johnson); slopes change by 2 t there, in a
+    cell or two.
+    """
     highest, tips = float(pressure.max()), []
     for axis in (0, 1):
         if grid.shape[axis] < 8:
@@ -91,13 +100,13 @@ def _touches_at_kinks(undeformed: FloatArray, pressure: FloatArray, grid: Grid, 
 
 
 def _kinks(undeformed: FloatArray, pressure: FloatArray, grid: Grid, axis: int, rise: float, highest: float) -> _Kinks:
-    """Those along an axis, whose pressure may be `rise` times their change of slope [Pa] above what it is."""
+    """Return the kinks along an axis, whose pressure may rise by `rise` [Pa] times their change of slope."""
     found = []
     for first, last in row_blocks(grid.shape):
         bend = _bends(undeformed, grid, axis, first, last, 2)
         size = np.abs(bend)
         here, inside = bend[2:-2], np.moveaxis(pressure[first:last], axis, 0)
-        # towards the other body: what is grooved bears nothing
+        # towards the other body: grooves bear nothing
         alone = np.nonzero((inside > 0) & (here > _ALONE * np.maximum(size[:-4], size[4:])))
         kink = here[alone]
         turn = kink + np.maximum(np.maximum(bend[1:-3][alone], bend[3:-1][alone]), 0.0)
@@ -111,9 +120,10 @@ def _kinks(undeformed: FloatArray, pressure: FloatArray, grid: Grid, axis: int, 
 
 
 def _bends(undeformed: FloatArray, grid: Grid, axis: int, first: int, last: int, reach: int) -> FloatArray:
-    """Second differences along an axis [m], which comes first, of some rows and so many cells on both sides.
+    """Return second differences along an axis [m], which comes first, of some rows and `reach` cells on both sides.
 
-    Across a free edge of the grid nothing follows; no contact that has bars reaches it."""
+    They are zero at a free edge of the grid, which no contact with error bars reaches.
+    """
     near = around(undeformed, axis, first, last, reach + 1)
     bend = near[:-2] - 2 * near[1:-1] + near[2:]
     if not grid.periodic[axis]:
@@ -124,7 +134,7 @@ def _bends(undeformed: FloatArray, grid: Grid, axis: int, first: int, last: int,
 
 
 def _usual_bend(undeformed: FloatArray, grid: Grid, axis: int) -> float:
-    """What three second differences in four along an axis are below, round-off at least [m]."""
+    """Return the third quartile of second differences along an axis, at least that of rounding [m]."""
     size = np.empty(grid.shape)
     for first, last in row_blocks(grid.shape):
         size[first:last] = np.moveaxis(np.abs(_bends(undeformed, grid, axis, first, last, 0)), 0, axis)

@@ -1,10 +1,11 @@
-"""Error bars of a tribofilm: grown again on the grid of twice the cell, and there with other growth or longer steps.
+"""Error bars of a tribofilm: grown on the grid of twice the cell, and there with other growth or longer steps.
 
-The mean growth is over cells that touch: it is of first order in the cell, and takes steps as single cells come into
-contact. What the tolerance of reused contacts leaves of the growth is put into the growth itself: film and wear are
-integrated once more with it, so that their sensitivity is found and not assumed. Local films have steps in time, whose
-tolerance is taken four times as large. A quarter of the film's work, or half of it for local ones. Factors are set by
-`reports/experiments/tribofilm_error_bars.py`: an estimate, no proved bound.
+The mean growth is over cells that touch: it is of first order in the cell, and jumps as single cells come into contact.
+The tolerance of reused contacts is put into the growth, and film and wear are integrated once more: their sensitivity
+is computed and not assumed. Local films have steps in time, whose tolerance is taken four times as large. Costs a
+quarter of the film's work, or half of it for local ones.
+
+Verified in tests/accuracy/test_bars_of_kinds.py; judged by the experiment that `RULES` names.
 """
 
 from __future__ import annotations
@@ -17,7 +18,8 @@ from typing import Any
 import numpy as np
 
 from bem.accuracy.bars import GRID, REUSE, STEPS, ErrorBars
-from bem.accuracy.mixed import half_grid
+from bem.accuracy.coarsened import half_grid
+from bem.accuracy.richardson import Table, rows
 from bem.contact.nested_iteration import sample
 from bem.errors import ConvergenceError, InfeasibleError
 from bem.grid import FloatArray
@@ -42,26 +44,38 @@ FIGURES = (
     "final_concentration",
     "steady_thickness",
 )
-_GRID, _COUNT = 1.15, 0.075
-"""On the difference to twice the cell: 1 is that of first order, the rest what single cells scatter by; and
-on the share of the contact that lies within a cell of its edge: touching cells are counted, and the count is off by so
-much of those at the edge."""
-_LEFT = 1.0
-"""Share of the tolerance of reused contacts that growth may be wrong by all along."""
+RULES = Table(
+    "tribofilm_error_bars",
+    rows(
+        " ".join(FIGURES),
+        1.15,
+        "First order; single cells scatter by the rest. Touching cells are counted: a count is wrong by a fraction of "
+        "those at the edge.",
+        order=1,
+        count=0.075,
+    ),
+)
+"""Factors on the difference, and a floor on the fraction of the contact within a cell of its edge times the figure
+(count)."""
+_REUSE = 1.0
+"""Error of all growth over the tolerance of reused contacts."""
 _STEPS = 1.0
-"""On the difference to steps in time of four times the tolerance, twice as long: order two would leave a third."""
+"""Factor on the difference to steps of four times the tolerance, twice as long: second order leaves a third."""
 _TABLE = 2e-3
-"""Tolerance of reused contacts here where the film has none."""
+"""Tolerance of reused contacts on the coarser grid where the film has none."""
 _FEWEST = 8
+"""Cells along an axis, below which the coarser grid has too few."""
 
 
 @dataclass(frozen=True, eq=False)
 class TribofilmCase:
-    """A film, and what it grows in.
+    """A film, and the contact that it grows in.
 
-    times : [s]. constants : of the balance, as `bem.tribofilm.grow_tribofilm` takes them.
-    reuse_tolerance : of growth; None for a local film. local_tolerance : of its steps.
-    report : between which times [s] wear is reported, or None.
+    times : [s].
+    constants : of the balance, as `bem.tribofilm.grow_tribofilm` takes them.
+    reuse_tolerance : of growth; None for a local film.
+    local_tolerance : of the steps of a local film.
+    report : times [s] between which wear is reported, or None.
     """
 
     contact: FilmContact
@@ -75,7 +89,7 @@ class TribofilmCase:
 def history_figures(
     history: FilmHistory, steady: float | None, report: Sequence[float] | None
 ) -> dict[str, float | None]:
-    """Headline figures of a film, SI units; None of what it has not."""
+    """Return the headline figures of a film, SI units; None for a figure that it does not have."""
     return {
         "film_thickness": float(history.thickness[-1]),
         "largest_mean_thickness": float(history.thickness.max()),
@@ -88,7 +102,7 @@ def history_figures(
 
 
 def tribofilm_bars(case: TribofilmCase, found: Mapping[str, float | None]) -> ErrorBars:
-    """Bars of the figures `found` of a film."""
+    """Return the error bars of the figures `found` of a film."""
     if min(n for n in case.contact.grid.shape if n > 1) < _FEWEST:
         return ErrorBars.unknown(FIGURES, NoBar.TOO_SMALL)
     coarse = _coarser(case)
@@ -96,20 +110,17 @@ def tribofilm_bars(case: TribofilmCase, found: Mapping[str, float | None]) -> Er
         there, other, origin, share, pressure = (_mean if case.reuse_tolerance is not None else _local)(coarse)
     except (ConvergenceError, InfeasibleError):
         return ErrorBars.unknown(FIGURES, NoBar.COARSER_UNSOLVED)
-    grid, further = {}, {}
-    missing: dict[str, float | None] = {}
-    count = _COUNT * _at_edge(pressure) / 2  # of cells half as wide
-    constant = case.constants.get("concentration_constant", math.inf)
-    for name in FIGURES:
-        value, twice, moved = found[name], there[name], other[name]
-        if value is None or twice is None or moved is None:
-            missing[name] = None
-            continue
-        # exp(-C1 h) changes by C1 h times what h does, relatively
-        least = count * min(1.0, constant * (found["film_thickness"] or 0.0) if name == "final_concentration" else 1.0)
-        grid[name] = _GRID * abs(value - twice) + least * abs(value)
-        further[name] = share * abs(twice - moved)
+    known = [name for name in FIGURES if None not in (found[name], there[name], other[name])]
+    own, twice, moved = ({name: float(one[name] or 0.0) for name in known} for one in (found, there, other))
+    count = {name: _edge_fraction(pressure) / 2 * abs(value) for name, value in own.items()}  # cells half as wide
+    # exp(-C1 h) changes by C1 h times the relative change of h
+    exponent = case.constants.get("concentration_constant", math.inf) * (found["film_thickness"] or 0.0)
+    if "final_concentration" in count:
+        count["final_concentration"] *= min(1.0, exponent)
+    grid = RULES.errors(own, twice, {"count": count})
+    further = {name: share * abs(twice[name] - moved[name]) for name in known}
     bars = ErrorBars.together({GRID: grid, origin: further})
+    missing: dict[str, float | None] = {name: None for name in FIGURES if name not in known}
     return ErrorBars({**missing, **bars.values}, (), bars.parts)
 
 
@@ -127,11 +138,11 @@ _Found = tuple[dict[str, Any], dict[str, Any], str, float, FloatArray]
 
 
 def _mean(case: TribofilmCase) -> _Found:
-    """Of the mean film, and with all growth larger by what reused contacts may miss."""
+    """Return the figures of the mean film, and with all growth larger by the error of reused contacts."""
     assert case.reuse_tolerance is not None
     reuse = case.reuse_tolerance or _TABLE
     grown = grow_tribofilm(case.times, case.contact, **case.constants, reuse_tolerance=reuse)
-    growth = _interpolated(grown.contacts, 1 + _LEFT * case.reuse_tolerance)
+    growth = _interpolated(grown.contacts, 1 + _REUSE * case.reuse_tolerance)
     history = evolve_film(case.times, growth, **case.constants)
     steady = steady_thickness(
         growth, case.constants["wear_coefficient"], longest=1.02 * float(history.thickness.max()) + 1e-12
@@ -141,7 +152,7 @@ def _mean(case: TribofilmCase) -> _Found:
 
 
 def _local(case: TribofilmCase) -> _Found:
-    """Of the local film, and with longer steps."""
+    """Return the figures of the local film, and with longer steps."""
 
     def grown(factor: float) -> LocalFilm:
         tolerance = min(factor * case.local_tolerance, 0.5)
@@ -152,16 +163,18 @@ def _local(case: TribofilmCase) -> _Found:
     return one, other, STEPS, _STEPS, films[0].film_pressure
 
 
-def _at_edge(pressure: FloatArray) -> float:
-    """Share of the touching cells at the contact's edge: faces between cells in contact and not, pi/4 of which are the
-    perimeter of a curve in all directions (Crofton), over the cells."""
+def _edge_fraction(pressure: FloatArray) -> float:
+    """Return the fraction of the touching cells at the contact's edge.
+
+    pi/4 of the faces between cells in contact and not are the perimeter of a curve in all directions (Crofton).
+    """
     touching = pressure > 0
     faces = sum(int(np.sum(np.diff(touching.astype(np.int8), axis=axis) != 0)) for axis in (0, 1))
     return math.pi / 4 * faces / max(int(touching.sum()), 1)
 
 
 def _interpolated(contacts: Sequence[ContactSample], factor: float) -> Callable[[float], float]:
-    """Growth over thickness through contacts that are solved, times a factor; as at the ends beyond them."""
+    """Return growth over thickness through solved contacts, times a factor; constant beyond the ends."""
     thickness = np.array([one.thickness for one in contacts])
     growth = np.log(np.maximum([one.growth for one in contacts], 1e-300))
     return lambda h: factor * math.exp(float(np.interp(h, thickness, growth)))

@@ -226,7 +226,7 @@ def _completed(law: ShearLaw, oil: Oil | None, base: str | None) -> ShearLaw:
     """Return a shear law with the constants of the oil where the law leaves them open."""
     if None not in law.values().values():
         return law
-    from bem.lubrication.oils.rheology import rheology_of
+    from bem.lubrication.rheology import rheology_of
 
     own = None if oil is None else oil.shear
     return law.of_oil(own or rheology_of(base or (oil.base if oil is not None else None)))

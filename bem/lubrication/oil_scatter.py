@@ -1,6 +1,6 @@
 """Scatter of a film's friction from the scatter of its oil's constants in shear.
 
-Oils of one base differ: each constant of the shear law "base_oil" has a range (`bem.lubrication.oils.rheology`). The
+Oils of one base differ: each constant of the shear law "base_oil" has a range (`bem.lubrication.rheology`). The
 friction of a solved film is evaluated anew with each constant at both ends of its range, at the film's own pressures,
 thicknesses and temperatures, and the changes are added in quadrature, as of independent constants. A film whose heat is
 solved for gets warmer where its friction is larger, so that the scatter of the solved friction is smaller than this
@@ -19,9 +19,9 @@ import numpy as np
 from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.lubrication.lubricant import Lubricant
-from bem.lubrication.oils.rheology import ShearRheology, rheology_of
 from bem.lubrication.point.film import PointFilmSolution
 from bem.lubrication.results import FilmSolution
+from bem.lubrication.rheology import ShearRheology, rheology_of
 from bem.lubrication.shear import BaseOilShear
 from bem.lubrication.thermal.full import FullThermalFilm
 from bem.lubrication.thermal.hot_viscosity import HotViscosity

@@ -19,7 +19,7 @@ from bem.grid import FloatArray
 from bem.laws import Law, parameter, register
 
 if TYPE_CHECKING:
-    from bem.lubrication.oils.rheology import ShearRheology
+    from bem.lubrication.rheology import ShearRheology
 
 _NODES, _WEIGHTS = np.polynomial.legendre.leggauss(20)
 _STEPS = 60
@@ -299,7 +299,7 @@ class BaseOilShear(Eyring):
 
     tau_e = tau0 asinh(mu du/dz / tau0) before the limit, tau = tau_e [1 + (tau_e / tau_L)^6]^(-1/6) with it, and
     tau_L = (tau_a + Lambda p) exp(-k (T - 40 degC)), T the temperature of the film. A constant that is not given is
-    that of the oil (`bem.lubrication.oils.rheology`), of a mineral oil where the base is not known.
+    that of the oil (`bem.lubrication.rheology`), of a mineral oil where the base is not known.
     """
 
     name: ClassVar[str] = "base_oil"

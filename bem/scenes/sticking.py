@@ -5,7 +5,7 @@ Knows `build` and the solvers. Verified in tests/scenes/test_partial_slip_kind.p
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -22,7 +22,7 @@ from bem.scenes.tables.pressing import StressedScene
 
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars
-    from bem.accuracy.bars import Rule
+    from bem.accuracy.richardson import Table
     from bem.contact import ContactSolution
     from bem.scenes.tables.tangential import PushedScene, RolledScene
     from bem.stress import StressSummary
@@ -121,7 +121,7 @@ class Found:
 
     figures: dict[str, float]
     contact: ContactSolution
-    rules: Mapping[str, Rule]
+    rules: Table
     given: tuple[str, ...]
     residual: float
     limit: float

@@ -211,6 +211,14 @@ def error_coverage() -> str:
     )
 
 
+def error_factors() -> str:
+    """Return the tables of factors and floors that error bars are made of."""
+    return markdown_table(
+        ("of", "figures", "order", "factor on the difference", "over Richardson", "floors", "why"),
+        [tuple(map(escaped, row)) for row in error_bars.factors()],
+    )
+
+
 def accuracy_met() -> str:
     """Return how often an accuracy that was asked for was met."""
     return markdown_table(

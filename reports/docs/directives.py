@@ -29,6 +29,7 @@ MARKDOWN: dict[str, Callable[..., str]] = {
     "gates": content.gates,
     "verdicts": content.verdicts,
     "error-coverage": content.error_coverage,
+    "error-factors": content.error_factors,
     "accuracy-met": content.accuracy_met,
     "commands": content.commands,
 }

@@ -3,7 +3,7 @@
     python -m reports.experiments.friction_measured
 
 Some half an hour on one core. No constant is fitted to these measurements: the oils have the constants of their bases
-(`bem/lubrication/oils/rheology.toml`). The result is stored in `reports/results/friction_measured.json`, which
+(`bem/lubrication/rheology.toml`). The result is stored in `reports/results/friction_measured.json`, which
 `reports.validation_friction` holds against the measurements.
 """
 
@@ -17,13 +17,13 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
+from bem.lubrication.film import FilmSolution
 
 from bem import Lubricant, solve_line_film
 from bem.elements.element import Element, load_element
 from bem.elements.running import POINTS, run_contact
 from bem.errors import InputError, Status
 from bem.grid import FloatArray
-from bem.lubrication.film import FilmSolution
 from bem.lubrication.oil_scatter import oil_scatter
 from bem.lubrication.oils.catalogue import oil_from_viscosities
 from bem.lubrication.oils.oil import Oil
@@ -124,6 +124,7 @@ def film_loss(base: str) -> dict[str, Any]:
 def _place_scatter(element: Element, contact: Any) -> tuple[float, float]:
     """Scatter of the film's friction at one place of the gear mesh."""
     from bem.scenes.kinds.traction import TractionScene, case_of
+
     from bem.scenes.load import load_scene
 
     scene = load_scene(element.scene(contact, "traction"))
@@ -135,9 +136,10 @@ def _place_scatter(element: Element, contact: Any) -> tuple[float, float]:
 
 def mixed_loss(base: str, roughness: float, seeds: tuple[int, int]) -> dict[str, Any]:
     """Mean coefficient of the gear mesh with film and asperities sharing the load."""
+    from bem.scenes.kinds.friction import FrictionScene, resolve
+
     from bem.friction.solve import solve_setup
     from bem.scenes import build
-    from bem.scenes.kinds.friction import FrictionScene, resolve
     from bem.scenes.load import scene_from_table
 
     element = gear_pair(base, roughness)
@@ -402,9 +404,10 @@ def measured_viscosities() -> list[dict[str, Any]]:
 
 def ball() -> list[dict[str, Any]]:
     """The built-in Stribeck curve of a ball with the law of base oils and lumped heat."""
+    from bem.scenes.kinds.friction import FrictionScene, resolve
+
     from bem.friction.solve import solve_setup
     from bem.scenes import build
-    from bem.scenes.kinds.friction import FrictionScene, resolve
     from bem.scenes.load import load_scene
 
     scene = resolve(load_scene("stribeck-ball-on-disc", ["oil.shear_law=base_oil", "thermal=lumped", *BALL]))

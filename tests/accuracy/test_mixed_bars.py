@@ -9,7 +9,8 @@ from mixed_case import steel_line
 
 from bem import Grid, Lubricant
 from bem.accuracy import MixedCase, mixed_bars, mixed_figures, solve_coarser_mixed
-from bem.accuracy.mixed import CoarserShares, half_grid
+from bem.accuracy.coarsened import half_grid
+from bem.accuracy.mixed import CoarserShares
 from bem.errors import Status
 from bem.friction.balance import Regime
 from bem.friction.models import films_of

@@ -8,7 +8,7 @@ import pytest
 
 from bem import Lubricant
 from bem.accuracy.rough_point import (
-    FACTORS,
+    RULES,
     SMALL,
     STEEP,
     RoughPointCase,
@@ -54,8 +54,8 @@ def bars_beside(film, monkeypatch, **changes):
 def test_shares_have_what_the_film_above_the_least_one_may_move_them_by(film, monkeypatch):
     share, over = film.contact_share, film.mean_thickness - CASE.least_film
     bars = bars_beside(film, monkeypatch, mean_thickness=film.mean_thickness + 0.1 * over)
-    assert bars["mean_thickness"] == pytest.approx(0.1 * FACTORS["mean_thickness"] * over, rel=1e-6, abs=0)
-    wanted = STEEP * share * (1 - share) * 0.1 * FACTORS["mean_thickness"]
+    assert bars["mean_thickness"] == pytest.approx(0.1 * RULES["mean_thickness"].factor * over, rel=1e-6, abs=0)
+    wanted = STEEP * share * (1 - share) * 0.1 * RULES["mean_thickness"].factor
     assert bars["contact_load_share"] == pytest.approx(wanted, rel=1e-6)
     # rubbed by the share alone, at least
     assert bars["traction_coefficient"] >= 0.12 * bars["contact_load_share"] * (1 - 1e-9)
@@ -78,7 +78,7 @@ def test_a_least_film_is_met_only_where_contact_is_sure(film, monkeypatch):
     bars = bars_beside(barely, monkeypatch, mean_thickness=thinner, contact_share=2e-4)
     assert bars["minimum_thickness"] == pytest.approx(bars["mean_thickness"], rel=1e-6, abs=0)
     assert bars["mean_thickness"] == pytest.approx(
-        FACTORS["mean_thickness"] * 0.1 * film.mean_thickness, rel=1e-6, abs=0
+        RULES["mean_thickness"].factor * 0.1 * film.mean_thickness, rel=1e-6, abs=0
     )
 
 

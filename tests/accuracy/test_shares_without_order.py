@@ -8,7 +8,7 @@ import pytest
 
 from bem import Body, Grid, Material, solve_contact
 from bem.accuracy import film, solve_coarser, stress_bars
-from bem.accuracy.contact import ContactCase, share_at_edge
+from bem.accuracy.coarsened import ContactCase, edge_fraction
 from bem.accuracy.sticking import PUSH_RULES, ROLL_RULES, cells_across_ring, sticking_bars
 from bem.convolution import DisplacementOperator
 from bem.reference_solutions.hertz import ellipse_contact
@@ -32,7 +32,7 @@ def bars_of_equal_grids(case, stick):
 
 @pytest.mark.internal
 def test_energy_of_a_ring_of_less_than_a_cell_is_known_to_a_fifth_at_best(ball):
-    edge = share_at_edge(ball)
+    edge = edge_fraction(ball)
     assert cells_across_ring(0.25, 0.1) == pytest.approx(10)  # 20 cells to the radius, half of which sticks
     assert cells_across_ring(0.25, 0.0) == np.inf
     thin, wide = (bars_of_equal_grids(ball, stick)["dissipated"] for stick in (0.99, 0.04))
@@ -62,7 +62,7 @@ def test_stiffness_is_known_as_well_as_whole_cells_fill_a_circle(beside):
     operator = DisplacementOperator(grid, (body,))
     gap = ((grid.x[:, None] - beside * 1e-6) ** 2 + (grid.y - 0.7 * beside * 1e-6) ** 2) / 2e-2
     case = ContactCase(operator, gap, solve_contact(gap, operator, load=0.05), load=0.05)
-    radius = 2 / share_at_edge(case)
+    radius = 2 / edge_fraction(case)
     bar = bars_of_equal_grids(case, 0.5)["normal_stiffness"]
     missed = lattice_misses(centred=not beside) * np.sqrt(radius) / (np.pi * radius**2)
     # 600 circles tell the root mean square to 3 to 5 %
@@ -128,7 +128,7 @@ def test_rolling_forces_are_known_no_better_than_what_sticks(ball, sticks):
     other = 1.05 * sticks
     figures = {"force": 1 - sticks**2, "stick_fraction": sticks}
     again = figures | {"stick_fraction": other}
-    share = ROLL_RULES["force"].resolved
+    share = ROLL_RULES["force"].factor
     bar = sticking_bars(ROLL_RULES, ball, figures, again, residual=0.0, limit=1.0).values["force"]
     floor = sticking_bars(ROLL_RULES, ball, figures, figures, residual=0.0, limit=1.0).values["force"]
     assert bar == pytest.approx(max(share * (other**2 - sticks**2), floor), rel=0.05)
@@ -141,7 +141,7 @@ def test_rolling_forces_are_known_no_better_than_what_sticks(ball, sticks):
 def test_what_sticks_is_known_as_well_as_whole_cells_fill_its_circle(ball):
     """Twice the root mean square of what lattice points in circles of any place miss of the area that sticks."""
     wide, narrow = (bars_of_equal_grids(ball, stick)["stick_fraction"] / stick for stick in (0.81, 0.2025))
-    radius = 0.9 * 2 / share_at_edge(ball)
+    radius = 0.9 * 2 / edge_fraction(ball)
     # points of a lattice miss the area of a circle of r cells by 0.676 sqrt(r)
     assert wide == pytest.approx(2 * 0.676 * np.sqrt(radius) / (np.pi * radius**2), rel=0.01)
     assert narrow / wide == pytest.approx(2**1.5)

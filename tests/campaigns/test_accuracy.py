@@ -130,7 +130,7 @@ def test_a_level_before_serves_as_start_and_as_the_coarser_contact(tmp_path, mon
 
     def solve_coarser(case, *rest):
         again.append(case)
-        return bem.accuracy.contact.solve_coarser(case, *rest)
+        return bem.accuracy.coarsened.solve_coarser(case, *rest)
 
     def solve_contact(*given, initial_pressure, **named):
         starts.append(initial_pressure is not None)

@@ -11,7 +11,7 @@ from bem import Body, InputError, Lubricant, solve_line_film, solve_point_film
 from bem.lubrication import solve_full_thermal_line_film, solve_thermal_line_film
 from bem.lubrication.oils import find_oil
 from bem.lubrication.oils.catalogue import bases
-from bem.lubrication.oils.rheology import rheology_of
+from bem.lubrication.rheology import rheology_of
 from bem.lubrication.shear import BaseOilShear
 from bem.lubrication.thermal.hot_viscosity import HotViscosity
 from bem.materials import CATALOGUE

@@ -7,7 +7,7 @@ import pytest
 
 from bem import Body, InputError, Lubricant, solve_line_film, solve_point_film
 from bem.lubrication.oil_scatter import oil_scatter
-from bem.lubrication.oils.rheology import Constant, rheology_of
+from bem.lubrication.rheology import Constant, rheology_of
 from bem.materials import CATALOGUE
 
 MODULUS = 115.5e9

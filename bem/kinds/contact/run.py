@@ -113,7 +113,7 @@ def _standing_off(solution: ContactSolution) -> tuple[Note, ...]:
     """What is said of bodies that do not touch, so that figures of zero are not taken for those of a contact."""
     if solution.pressure.any() or solution.status is not Status.CONVERGED or solution.approach >= 0:
         return ()
-    from bem.accuracy.contact import mean_opening
+    from bem.accuracy.coarsened import mean_opening
 
     touching = mean_opening(solution.gap) + solution.approach
     return (BODIES_APART(apart=float(-solution.approach), touching=float(touching)),)

@@ -9,7 +9,7 @@ from bem.arguments import is_finite
 from bem.errors import InputError
 from bem.lubrication.oils.over_temperature import CELSIUS, OverTemperature
 from bem.lubrication.oils.pressure import PressureViscosity
-from bem.lubrication.oils.rheology import ShearRheology
+from bem.lubrication.rheology import ShearRheology
 from bem.notes import Note
 from bem.notes.lubrication import OIL_DATA_SHORT, OIL_TOO_HOT, OIL_TOO_THICK
 

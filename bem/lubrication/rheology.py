@@ -65,7 +65,7 @@ class ShearRheology:
 
 @cache
 def _data() -> dict[str, Any]:
-    return tomllib.loads(files("bem.lubrication.oils").joinpath("rheology.toml").read_text(encoding="utf-8"))
+    return tomllib.loads(files("bem.lubrication").joinpath("rheology.toml").read_text(encoding="utf-8"))
 
 
 def rheology_of(base: str | None, own: Mapping[str, Mapping[str, Any]] | None = None) -> ShearRheology:
