@@ -16,7 +16,7 @@ import numpy as np
 from bem.accuracy.bars import DEPTHS, GRID, PRESSING, PRESSING_FACTOR, ErrorBars
 from bem.accuracy.coarsened import Coarser, ContactCase, edge_fraction, regime_of
 from bem.accuracy.contact import touches_sharply
-from bem.accuracy.richardson import Regime, Table, rows
+from bem.accuracy.richardson import Table, rows
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
 from bem.notes.accuracy import NoBar
@@ -37,18 +37,15 @@ RULES = Table(
     ),
     rows(
         "max_von_mises_depth",
-        (1.0, 1.3),
-        "On an unresolved surface the highest stress may lie under another spot. Its place along the surface is that "
-        "of a cell, which moves the depth by 0.1 to 0.5 of a cell squared over the depth under balls.",
-        lateral=(0.3, 0.0),
+        1.0,
+        "First order: the highest stress lies on a cell, where it is not interpolated, or under another spot.",
+        order=1,
     ),
     rows("yielded_volume", (0.95, 1.1), "First order: what yields ends on whole cells and depths.", order=1),
 )
-"""Factors on the difference, and floors: stress times the fraction within a cell of the edge, of all contacts (edge)
-and of rubbed ones whose highest stress is at the surface (rubbed); the cell squared over the depth (lateral)."""
+"""Factors on the difference, and floors on the stress times the fraction within a cell of the edge, of all contacts
+(edge) and of rubbed ones whose highest stress is at the surface (rubbed)."""
 
-_INTERPOLATED = 0.5
-"""Factor on the difference of depths that are interpolated on both grids: second order leaves a third."""
 _RISE, _DEPTH, _WIDE = 0.3, 0.05, 0.4
 """Of an interpolated highest stress: errors over its rise above the depths, and over the interval of the depths. A
 cubic through four depths is of third order, so that the latter falls with the square of the interval below `_WIDE`
@@ -125,18 +122,17 @@ def _of_highest_stress(
         return ErrorBars.unknown(NAMES, NoBar.SHALLOWEST_DEPTH)
     kept = depths[sorted({*range(k % 2, len(depths), 2), max(k - 1, 0), min(k + 1, len(depths) - 1)})]
     there = _highest_below(coarser.solution.pressure, coarser.grid, body, kept, rubbed)
-    regime = regime_of(case)
     rise, interval = (0.0, 0.0) if few else _between(below, k)
     for interface in () if few else body.interfaces:
         above = _STEEPER * (_extrapolated(depths, highest, interface) - highest[k])
         if above > 0:
             rise, interval = max(rise, float(above)), max(interval, abs(interface - float(depths[k])))
+    edge = {"max_von_mises": edge_fraction(case) * below.max_von_mises}
+    found, coarse = ({name: getattr(one, name) for name in NAMES} for one in (below, there))
+    indicators = {"edge": edge, "rubbed": edge if near and _is_rubbed(rubbed) else {}}
     parts = {
-        GRID: _grid_errors(case, below, there, regime, near=near, rubbed=rubbed),
-        DEPTHS: {
-            "max_von_mises": rise,
-            "max_von_mises_depth": RULES["max_von_mises_depth"].error(interval, {}, regime),
-        },
+        GRID: RULES.errors(found, coarse, indicators, regime=regime_of(case)),
+        DEPTHS: {"max_von_mises": rise, "max_von_mises_depth": interval},
     }
     if fewer is not None:
         half = _highest_below(fewer[0], coarser.grid, body, kept, {"traction": fewer[1]})
@@ -144,23 +140,9 @@ def _of_highest_stress(
     return ErrorBars.together(parts)
 
 
-def _grid_errors(
-    case: ContactCase, below: StressSummary, there: StressSummary, regime: Regime, *, near: bool, rubbed: dict[str, Any]
-) -> dict[str, float]:
-    """Return the errors of the cells; `near` : the highest stress lies less than a cell below the surface."""
-    stress, depth = below.max_von_mises, float(below.depths[int(np.argmax(below.highest))])
-    edge = edge_fraction(case) * stress
-    indicators = {"edge": edge}
-    if near and (rubbed["friction"] or rubbed["traction"] is not None):
-        indicators["rubbed"] = edge
-    moved = below.max_von_mises_depth - there.max_von_mises_depth
-    lateral = 0.0 if near else case.grid.cell_area / depth
-    if regime is Regime.RESOLVED and all(one.max_von_mises_depth not in one.depths for one in (below, there)):
-        moved, lateral = _INTERPOLATED * moved, 0.0
-    return {
-        "max_von_mises": float(RULES["max_von_mises"].error(stress - there.max_von_mises, indicators, regime)),
-        "max_von_mises_depth": float(RULES["max_von_mises_depth"].error(moved, {"lateral": lateral}, regime)),
-    }
+def _is_rubbed(rubbed: dict[str, Any]) -> bool:
+    """Return True if tractions act on the surface."""
+    return bool(rubbed["friction"]) or rubbed["traction"] is not None
 
 
 def _highest_below(
