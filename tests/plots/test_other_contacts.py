@@ -162,7 +162,7 @@ def test_panels_over_keys_name_each_unit_once():
     speeds = Variable(("speed",), np.array([0.1, 0.2]), "m/s", "speed")
     figure = Figure()
     fill(figure, {"central_thickness_nm": films, "speed": speeds}, {"speed": "list"}, ("central_thickness_nm",))
-    assert figure.axes[0].get_ylabel() == "central thickness (nm)"
+    assert figure.axes[0].get_ylabel() == "central film thickness (nm)"
 
 
 def test_seeds_are_points_at_whole_numbers():
