@@ -20,7 +20,7 @@ import numpy as np
 from bem.lubrication.film import FilmSolution
 
 from bem import Lubricant, solve_line_film
-from bem.elements.element import Element, load_element
+from bem.elements.element import Element, element_template, load_element
 from bem.elements.running import POINTS, run_contact
 from bem.errors import InputError, Status
 from bem.grid import FloatArray
@@ -88,9 +88,12 @@ MANN = {
 
 def gear_pair(base: str, roughness: float, speed: str = "2250 rpm") -> Element:
     """FZG-C gears in ISO VG 100 of a base at 90 degC, with the law of base oils."""
-    text = (Path(__file__).resolve().parents[2] / "bem/elements/templates/gear-pair.toml").read_text("utf-8")
-    text = text.replace("points = 41", f"points = {PLACES}").replace('"500 nm"', f'"{1e9 * roughness:.6g} nm"')
-    text = text.replace('"2250 rpm"', f'"{speed}"') + f'shear_law = "base_oil"\nbase = "{base}"\n'
+    text = (
+        element_template("gear-pair")
+        .replace("points = 41", f"points = {PLACES}")
+        .replace('"500 nm"', f'"{1e9 * roughness:.6g} nm"')
+    )
+    text = text.replace('"2250 rpm"', f'"{speed}"') + f'base = "{base}"\n'
     with tempfile.TemporaryDirectory() as folder:
         path = Path(folder) / "gears.toml"
         path.write_text(text, encoding="utf-8")
