@@ -88,44 +88,17 @@ class Flow:
 
         pressure, film : (n+1,) at the nodes. exit_film : H_e.
         """
-        positive = np.maximum(pressure, 0.0)
-        log_viscosity, slope = self.problem.flowing(positive)
+        positive, loaded = np.maximum(pressure, 0.0), pressure > 0
         density, density_slope = self.problem.density(positive)
-        slope = np.where(pressure > 0, slope, 0.0)
-        density_slope = np.where(pressure > 0, density_slope, 0.0)
-        thickness = 0.5 * (film[1:] + film[:-1])
+        density_slope = np.where(loaded, density_slope, 0.0)
         mean_density = 0.5 * (density[1:] + density[:-1])
-        fluid, left, right = mean_fluidity(log_viscosity)
-        fluidity = mean_density * fluid / 6
-        gradient = np.diff(pressure) / self.width
-        poiseuille_cube, half_slope = self.problem.poiseuille_cube(thickness)
-        left, right = left * slope[:-1] * mean_density / 6, right * slope[1:] * mean_density / 6
-        mobility, by_film = poiseuille_cube * fluidity, half_slope * fluidity
-        if self.problem.shear is None:
-            flow, by_film, steep = mobility * gradient, by_film * gradient, poiseuille_cube * gradient
-            left, right = steep * left, steep * right
-        else:
-            middle, layers = 0.5 * (positive[1:] + positive[:-1]), self._layers(positive, pressure > 0)
-            own = fluid if layers is None else layers.fluidity
-            equivalent = self.problem.shear.equivalent_gradient(gradient, thickness, own, middle)
-            flow = mobility * equivalent.gradient
-            by_film = by_film * equivalent.gradient + 0.5 * mobility * equivalent.by_film
-            limited, softer = 0.5 * mobility * equivalent.by_pressure, mobility * equivalent.by_fluidity
-            mobility = mobility * equivalent.by_gradient
-            if layers is None:
-                steep = poiseuille_cube * (equivalent.gradient + fluid * equivalent.by_fluidity)
-                left, right = steep * left + limited, steep * right + limited
-            else:
-                steep = poiseuille_cube * equivalent.gradient
-                left = layers.share * (steep * left + softer * layers.left + limited)
-                right = layers.share * (steep * right + softer * layers.right + limited)
-                flow, by_film, mobility = (layers.share * value for value in (flow, by_film, mobility))
+        flow, by_film, mobility, left, right = self._poiseuille(pressure, film, mean_density)
         couette_film, couette_slope = self.problem.couette_film(film)
         mass_slope = couette_film * density_slope
         leaving = float(self.problem.couette_film(np.array([exit_film]))[0][0])
         if self.problem.layered is not None:
-            drag, steep_drag = self.problem.layered.drag(positive)
-            mass_slope = mass_slope * drag + density * couette_film * np.where(pressure > 0, steep_drag, 0.0)
+            drag, drag_slope = self.problem.layered.drag(positive)
+            mass_slope = mass_slope * drag + density * couette_film * np.where(loaded, drag_slope, 0.0)
             couette_film, couette_slope = couette_film * drag, couette_slope * drag
             leaving *= self.problem.layered.leaving
         mass = density * couette_film
@@ -145,6 +118,38 @@ class Flow:
             density=density,
             density_slope=density_slope,
         )
+
+    def _poiseuille(self, pressure: FloatArray, film: FloatArray, mean_density: FloatArray) -> tuple[FloatArray, ...]:
+        """Return the Poiseuille flow (n,) and its derivatives: half of that with the film, that with the gradient, and
+        those with the pressures at both ends by way of viscosity and shear law."""
+        positive = np.maximum(pressure, 0.0)
+        log_viscosity, slope = self.problem.flowing(positive)
+        slope = np.where(pressure > 0, slope, 0.0)
+        thickness = 0.5 * (film[1:] + film[:-1])
+        fluid, left, right = mean_fluidity(log_viscosity)
+        fluidity = mean_density * fluid / 6
+        gradient = np.diff(pressure) / self.width
+        poiseuille_cube, half_slope = self.problem.poiseuille_cube(thickness)
+        left, right = left * slope[:-1] * mean_density / 6, right * slope[1:] * mean_density / 6
+        mobility, by_film = poiseuille_cube * fluidity, half_slope * fluidity
+        if self.problem.shear is None:
+            steep = poiseuille_cube * gradient
+            return mobility * gradient, by_film * gradient, mobility, steep * left, steep * right
+        middle, layers = 0.5 * (positive[1:] + positive[:-1]), self._layers(positive, pressure > 0)
+        own = fluid if layers is None else layers.fluidity
+        equivalent = self.problem.shear.equivalent_gradient(gradient, thickness, own, middle)
+        flow = mobility * equivalent.gradient
+        by_film = by_film * equivalent.gradient + 0.5 * mobility * equivalent.by_film
+        by_limit, by_fluidity = 0.5 * mobility * equivalent.by_pressure, mobility * equivalent.by_fluidity
+        mobility = mobility * equivalent.by_gradient
+        if layers is None:
+            steep = poiseuille_cube * (equivalent.gradient + fluid * equivalent.by_fluidity)
+            return flow, by_film, mobility, steep * left + by_limit, steep * right + by_limit
+        steep = poiseuille_cube * equivalent.gradient
+        left = layers.share * (steep * left + by_fluidity * layers.left + by_limit)
+        right = layers.share * (steep * right + by_fluidity * layers.right + by_limit)
+        flow, by_film, mobility = (layers.share * value for value in (flow, by_film, mobility))
+        return flow, by_film, mobility, left, right
 
     def _layers(self, pressure: FloatArray, loaded: NDArray[np.bool_]) -> _Layers | None:
         """Return the shear-thinning layers; None for a uniform oil."""
