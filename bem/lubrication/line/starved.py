@@ -6,8 +6,8 @@ a meniscus at any place defines a film, and the supply is met by a search over i
 
 1. If the flooded film takes no more oil than there is, the flooded film is the answer.
 2. From a starved film of a similar case: secants on its own mesh (`MeniscusSearch.meet_condition`).
-3. Nearly flooded: the mesh of the flooded film without its first nodes, bisection over the nodes and regula falsi with
-   the Illinois modification between two of them, because meshes differ by more than the lack of oil.
+3. Nearly flooded: the mesh of the flooded film without its first nodes, bisection over the nodes and
+   `bem.numerics.bracketed_root` between two of them, because meshes differ by more than the lack of oil.
 4. Otherwise: coarse films by continuation from the flooded inlet inwards until the condition is bracketed, then secants
    on the final mesh, which is stretched a little.
 """
@@ -31,6 +31,7 @@ from bem.lubrication.line.continuation import (
 from bem.lubrication.line.deflection import LineOperator
 from bem.lubrication.line.newton import LineState, Outcome, newton, remesh, rescale
 from bem.lubrication.line.problem import Problem
+from bem.numerics.bracketed_root import find_decreasing_root
 
 FIRST_STEP = 1.0
 """First step of the continuation, in the logarithm of the distance of the meniscus from the Hertz contact."""
@@ -191,7 +192,8 @@ class MeniscusSearch:
         return self._between(first, last, tolerance)
 
     def _between(self, first: int, last: int, tolerance: float) -> Outcome | None:
-        """Return the film with its meniscus between two neighbouring nodes, or a little upstream of them."""
+        """Return the film with its meniscus between two neighbouring nodes, or a little upstream of them; None where it
+        lies downstream."""
         lengths = -self.flooded.offset[[first, last]]
         low, high = lengths[1], lengths[0]
         for _ in range(SECANTS):
@@ -201,20 +203,18 @@ class MeniscusSearch:
             if self.condition.excess(trial.state, self.flooded) > 0:
                 break
             low, high = high, high + (lengths[0] - lengths[1])
-        trials = [self._on_flooded_nodes(at, tolerance, last + 1) for at in (low, high)]
-        values = [self.condition.excess(trial.state, self.flooded) for trial in trials]
-        side = 0
-        for _ in range(4 * SECANTS):  # regula falsi, the value that stays halved
-            at = low + (high - low) * values[0] / (values[0] - values[1])
-            trial = self._on_flooded_nodes(at, tolerance, last + 1)
-            miss = self.condition.excess(trial.state, self.flooded)
-            if not trial.converged or self.condition.error(trial.state, self.flooded) <= tolerance:
-                break
-            if miss > 0:
-                high, values = at, [values[0] / 2 if side > 0 else values[0], miss]
-            else:
-                low, values = at, [miss, values[1] / 2 if side < 0 else values[1]]
-            side = 1 if miss > 0 else -1
+        excess_low = self.condition.excess(self._on_flooded_nodes(low, tolerance, last + 1).state, self.flooded)
+        if excess_low > 0:
+            return None
+        slope = self.condition.excess(trial.state, self.flooded) - excess_low
+
+        def evaluate(part: float) -> tuple[float, bool]:
+            nonlocal trial
+            trial = self._on_flooded_nodes(low + part * (high - low), tolerance, last + 1)
+            error = self.condition.error(trial.state, self.flooded)
+            return -self.condition.excess(trial.state, self.flooded), not trial.converged or error <= tolerance
+
+        find_decreasing_root(evaluate, -excess_low / slope, slope, (0.0, 1.0), 4 * SECANTS)
         return trial
 
     def share(self, state: LineState) -> float:
