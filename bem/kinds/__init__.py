@@ -2,10 +2,10 @@
 
 A kind is one case. `kind.py` puts its parts together: `scene` (keys and axes), `record` (results), `plan` (what a case
 costs), `run` (solver calls), `errors` (error bars), `checks` (contacts that checks examine), `figures` (pictures,
-loaded when something is drawn). `examples` has its built-in scenes. A kind knows the solvers, `bem.scenes` and its
-context, and no other kind. Loops over loads, variants, repetitions and whatever `[over]` names, workers, resuming,
-statistics, dataset and summary are the business of `bem.campaigns`, which reads them from `axes` and from the record
-(`bem.scenes.records`).
+loaded when something is drawn). `basic.toml` is what `bem new` starts from, `examples` has the built-in scenes,
+`guide.md` is the page of the documentation. A kind knows the solvers, `bem.scenes` and its context, and no other kind.
+Loops over loads, variants, repetitions and whatever `[over]` names, workers, resuming, statistics, dataset and summary
+are the business of `bem.campaigns`, which reads them from `axes` and from the record (`bem.scenes.records`).
 
 How to write one, in the package or in a file of your own that ends in `bem.register(KIND)`, is in the documentation
 (reports/docs/develop/extending.md), part by part, with a small one as a whole. Tables of several kinds stand in

@@ -10,6 +10,12 @@ sys.path.insert(0, str(HERE.parents[1]))
 
 import bem  # noqa: E402
 
+for guide in (HERE.parents[1] / "bem" / "kinds").glob("*/guide.md"):
+    page = HERE / "kinds" / f"{guide.parent.name.replace('_', '-')}.md"
+    text = guide.read_text("utf-8")
+    if not page.is_file() or page.read_text("utf-8") != text:  # a page that is written anew is built anew
+        page.write_text(text, "utf-8")
+
 project = "bem"
 author = copyright = "the authors of bem"
 version = release = bem.__version__.split("+")[0]

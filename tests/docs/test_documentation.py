@@ -28,7 +28,10 @@ from reports.docs import content, keys, kind_pictures, tasks
 ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "reports" / "docs"
 README = (ROOT / "README.md").read_text("utf-8")
-PAGES = {path.relative_to(DOCS): path.read_text("utf-8") for path in sorted(DOCS.rglob("*.md"))}
+PAGES = {path.relative_to(DOCS): path.read_text("utf-8") for path in sorted(DOCS.rglob("*.md"))} | {
+    Path("kinds") / f"{path.parent.name.replace('_', '-')}.md": path.read_text("utf-8")
+    for path in sorted((ROOT / "bem" / "kinds").glob("*/guide.md"))
+}
 SNIPPETS = ("contact", "scene", "law", "criterion", "reader", "kernel")
 """Examples that Python runs as they stand."""
 

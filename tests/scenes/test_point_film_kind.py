@@ -7,7 +7,7 @@ import pytest
 from small_scenes import oiled_ball
 
 from bem import InputError, load_scene, solve_point_film
-from bem.kinds.point_film.figures import colours_of, finely_coloured
+from bem.plots.interferograms import colours_of, finely_coloured
 from bem.runs import run_scene
 
 

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
-from bem.kinds.point_film.figures import finely_coloured
 from bem.plots.figures import FigureKind
+from bem.plots.interferograms import finely_coloured
 from bem.plots.style import BLACK, BLUE, SEQUENTIAL, VERMILION, colour_bar, field_axes, label, prefix, said_beyond
 
 _SECTIONS = 6

@@ -1,4 +1,4 @@
-"""First scenes, a file for each kind: values of the keys that every user sets, which plan without a caution.
+"""First scenes, `basic.toml` of each kind: values of the keys that every user sets, which plan without a caution.
 
 `bem new` and the form of the page begin with them. Verified in tests/scenes/test_new_and_schema.py.
 """
@@ -7,10 +7,10 @@ from __future__ import annotations
 
 import json
 import tomllib
-from importlib import resources
 from typing import Any
 
 from bem.errors import InputError
+from bem.scenes.kind import KINDS
 from bem.scenes.load import library
 
 
@@ -22,7 +22,7 @@ def start_scene(kind: str) -> dict[str, Any]:
     ------
     InputError : there is neither.
     """
-    file = resources.files("bem.scenes.starts") / f"{kind}.toml"
+    file = KINDS / kind.replace("-", "_") / "basic.toml"
     return tomllib.loads(file.read_text("utf-8")) if file.is_file() else shortest_scene(kind)[1]
 
 
