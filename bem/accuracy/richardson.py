@@ -56,6 +56,7 @@ class Row:
         ----------
         difference : between the figure and that on half the resolution; a number or an array.
         indicators : sizes of the floors' indicators [unit of the figure]; zero where one is missing.
+        regime : how well the coarser grid resolves the surface.
         """
         error = at(self.factor, regime) * abs(difference)
         for name, floor in self.floors.items():
@@ -108,6 +109,8 @@ class Table(Mapping[str, Row]):
         ----------
         found, other : figures on the resolution itself, and on `ratio` times as many cells or points.
         indicators : sizes of indicators by figure, by the indicator's name; see `relative`.
+        regime : how well the coarser grid resolves the surface.
+        ratio : cells or points of `other` over those of `found`, along each axis.
         """
         known = indicators or {}
         errors = {}

@@ -360,7 +360,9 @@ class BaseOilShear(Eyring):
 
         Parameters
         ----------
-        newtonian : (n,) [Pa]. pressure : (n,) [Pa]. temperature : (n,) [K]; None is 40 degC.
+        newtonian : (n,) stress of the oil without a limit [Pa].
+        pressure : (n,) [Pa].
+        temperature : (n,) [K]; None is 40 degC.
         """
         unit, limit = self.shear_stress_limit, np.asarray(self.limit_at(pressure, temperature))
         share = newtonian / unit

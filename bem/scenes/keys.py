@@ -35,7 +35,7 @@ def key(
     default : value where the key is not given; without it the key is required.
     reason : why the default is what it is; of a default None, what is taken then.
     example : a typical value as it would be typed, for templates; without it one of the key's dimension.
-    constraints : bounds and further arguments of `pydantic.Field`.
+    **constraints : bounds and further arguments of `pydantic.Field`.
     """
     extra: dict[str, Any] = {"level": level} | ({"reason": reason} if reason else {})
     examples = None if example is None else [example]

@@ -128,7 +128,7 @@ def test_errors_by_origin_in_a_table():
     assert table.head == ("figure", "value", "error", "grid", "residual")
     assert table.rows == (
         ("load (kN)", "2", "0.03", "0.02", "0.01"),
-        ("friction, where the error is largest", "0.2", "0.03", "0.03", "–"),
+        ("friction coefficient, where the error is largest", "0.2", "0.03", "0.03", "–"),
     )
     assert not origin_table({"load_N": 1.0, "load_N_error": 0.1}, ["load_N"])
 

@@ -22,9 +22,14 @@ def attributes_of(docstring):
 
 
 def undocumented(record):
-    """Public fields without an entry, and entries that are neither field, property nor argument."""
+    """Public fields without an entry, and entries that are neither field, property nor argument.
+
+    Fields of a base class may be documented there.
+    """
     documented = attributes_of(record.__doc__)
     fields = {field.name for field in dataclasses.fields(record) if not field.name.startswith("_")}
+    for base in filter(dataclasses.is_dataclass, record.__mro__[1:]):
+        fields -= attributes_of(base.__doc__)
     known = fields | set(dir(record)) | {f"**{name}" for name in inspect.signature(record).parameters}
     return fields - documented if documented else set(), documented - known
 

@@ -42,6 +42,8 @@ def fill_partially(
     ----------
     p : (nx, ny) pressures of the oil.
     layer : oil that the surfaces bring along, as a film thickness.
+    entrainment : components of the entrainment along x and y.
+    spacing : of the cells along x and y.
     full : (nx, ny) outermost cells that are full.
     flux, derivatives : of `reynolds`, changed in place.
     ruptured, content, split : (nx, ny) results: ruptured cells, oil content of all cells, and the share of the outflow

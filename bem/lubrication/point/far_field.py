@@ -130,6 +130,7 @@ def far_load(rectangle: Rectangle, far: FarField, separation: float, load: float
     Parameters
     ----------
     rectangle : edges (x0, x1, y0, y1).
+    far : pressure far from the contact.
     separation : H0.
     load : of elastic bodies, which deflect the gap there as a point force; zero of rigid bodies.
     squeeze_slope : derivative of `far.squeeze` with H0.

@@ -171,6 +171,10 @@ def factorise(
 
     Parameters
     ----------
+    derivatives : of the flux, see `reynolds`.
+    spacing, entrainment : of the cells, and components of the entrainment, along x and y.
+    storage_rate : weight of the storage d(rho h)/dT in the balance; zero of steady films.
+    along_y : 1 for lines along y, 0 along x.
     near : (2, REACH + 1, 3) films under a unit change, of the cell alone and distributed, at distances 0, 1, ... along
         and 0, 1, 2 across the line.
     kinds : (nx, ny) kinds of cells, see FIXED.
@@ -231,12 +235,13 @@ def relax(
 
     Parameters
     ----------
-    factors, near, kinds : of `factorise`.
+    factors, derivatives, spacing, entrainment, storage_rate, along_y, near, kinds : of `factorise`.
     residual : (nx, ny) of balances; in contact of the film.
     backward : from the last line to the first; not where oil is entrained across the lines.
     damping : factors of changes of a cell alone, and of distributed changes.
     couple_films : whether a line feels all that lines before it changed, films included, or the pressures of the last
         line alone.
+    dp : (nx, ny) result, change of pressure.
     """
     count, cells = kinds.shape[1 - along_y], kinds.shape[along_y]
     weights = _neighbour_weights((spacing[along_y], spacing[1 - along_y]))

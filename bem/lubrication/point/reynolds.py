@@ -272,6 +272,8 @@ def jacobian_row(
     Parameters
     ----------
     s : derivatives of the flux, see the module.
+    spacing, entrainment : of the cells, and components of the entrainment, along x and y.
+    storage_rate : weight of the storage d(rho h)/dT in the balance; zero of steady films.
     along_y : 1 for a cell of a line along y, 0 along x.
     upwind_across : whether Couette flow across the lines is of first order, from the cell upstream alone.
     i, j : index along the line and number of the line: cell [i, j] of lines along x, [j, i] of lines along y.
@@ -335,6 +337,8 @@ def fill_jacobian(
 
     Parameters
     ----------
+    derivatives : of the flux, see the module.
+    spacing, entrainment, storage_rate : of `jacobian_row`.
     matrix : (n, n) or larger; derivatives with pressures, films fixed, are added to it.
     columns, by_film : (n, 7) cells of the films that a balance depends on, and derivatives with those films.
     """
@@ -360,6 +364,7 @@ def add_deflection(columns: Any, by_film: FloatArray, influence: FloatArray, mat
     ----------
     columns, by_film : (n, 7) of `fill_jacobian`.
     influence : (nx, ny) deflection under a unit pressure at distances 0, 1, ... along x and y.
+    matrix : (n, n) or larger, changed in place.
     """
     nx, ny = influence.shape
     for row in range(columns.shape[0]):

@@ -211,6 +211,7 @@ def continue_to_end(
     first : first t.
     step : step after the first success; after each further one `growth` times the last.
     least_step : step below which to give up.
+    growth : of the step from one success to the next.
     start : state at t = 0; without it a failure at the first t ends the continuation.
 
     Returns
