@@ -178,6 +178,7 @@ def factorise(
     near : (2, REACH + 1, 3) films under a unit change, of the cell alone and distributed, at distances 0, 1, ... along
         and 0, 1, 2 across the line.
     kinds : (nx, ny) kinds of cells, see FIXED.
+    factors : (lines, cells, FACTORS) result.
     """
     count, cells = kinds.shape[1 - along_y], kinds.shape[along_y]
     tables = np.empty((5, 10, 2 * BAND + 1))
