@@ -1,12 +1,16 @@
 """Rheology and the film of line and point contacts, steady and in time.
 
-Laws of the oil: `viscosity`, `density`, `shear`, gathered in `lubricant`; grades of it in `oils`; what a shear law does
-across a film: `shear_profile`. Films: of line contacts `line`, of point contacts `point`, with heat `thermal`; `solve`
-chooses the model of heat. Shared: `results`, `supply`, `cavitation`, `flow_factors`, `time_stepping`, `inlet_heating`;
-`checks` says where a model ends. Names are loaded when first used, so that laws cost no solver.
+1. The oil: laws in `viscosity`, `density` and `shear`, gathered in `lubricant.Lubricant`; grades and correlations in
+   `oils`; a shear law across the film in `shear_profile`.
+2. Films: `line` and `point`, each with its own equations, solvers and cost in its docstring. With heat: `thermal`.
+3. Public functions: `solve.solve_line_film` chooses between no heat, lumped and full heat. All names below are public.
+4. Shared by lines and points: `results` (of lines), `supply` (starvation), `cavitation` (models), `flow_factors` (rough
+   walls), `time_stepping` (BDF2 with halving), `inlet_heating`, `checks` (validity, as notes).
 
-Sees grids, laws and the dry contact of smooth bodies, no scene. Verified in tests/lubrication: Martin's and Hertz'
-limits, both equations by plain quadrature, order of convergence, closed forms of cavitation, conservation.
+Imports run from `solve` over `thermal` to `line` and `point`, and from there to the shared parts and the oil; an import
+contract checks it. Names are loaded at first use, so that laws load no solver. Sees grids, laws and the dry contact of
+smooth bodies, no scene. Verified in tests/lubrication: Martin's and Hertz' limits, both equations by plain quadrature,
+order of convergence, closed forms of cavitation, conservation of mass.
 """
 
 from typing import TYPE_CHECKING

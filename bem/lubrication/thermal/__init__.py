@@ -7,7 +7,7 @@ Lumped, `lumped.thermal_film` for lines and `lumped_point.add_heat` for points:
 
 1. `bem.lubrication.inlet_heating`: factor by which shear in the inlet thins the film (Gupta and others 1992).
 2. `inlet_thinning`: viscosity whose isothermal film is as thin, by secants in its logarithm. Cost: two or three films,
-   for lines on 250 cells, and the final film.
+   for lines on 250 cells, and the final film: 1.1 to 1.3 times the Newton steps of the isothermal film.
 3. `columns` cuts the film into cells; `lumped_energy` balances their heat: generation, conduction across the film as of
    a parabola, two moving half-spaces (Jaeger 1942; Carslaw and Jaeger 1959), convection. Newton's method on one mean
    temperature per cell. Cost: some dense systems of 200 unknowns, of a point one per line of cells.
@@ -22,7 +22,8 @@ Full, `full.full_thermal_film`, for lines:
 3. `field`: the energy equation by finite volumes, second-order upwind, on 160 columns of 16 layers. Newton's method,
    one banded system and GMRES for the distant warming of the surfaces a step; damping where heat feeds itself.
 4. `coupling`: film and temperatures in turn, with Anderson mixing (1965), coarse mesh first, until Reynolds' equation
-   holds at the temperatures (Cheng and Sternlicht 1965). Cost: 5 to 15 isothermal films.
+   holds at the temperatures (Cheng and Sternlicht 1965). Cost: one to three times the Newton steps of the isothermal
+   film, and 5 to 15 temperature fields, which take most of the time.
 
 Both: `hot_viscosity` (Roelands 1966, Houpert 1985), `bodies` (half-spaces from materials), `checks` (limits of the
 models), `model` (choice by name, applied by `bem.lubrication.solve`). Results share
