@@ -61,6 +61,7 @@ LINES: tuple[dict[str, Any], ...] = (
     {"slide": 2.0},
     {"march": "swift_stieber"},
     {"march": "mass_conserving"},
+    {"thermal": "lumped", "softening": 0.045},
 )
 """Line films: what is special about each; the rest is drawn."""
 
@@ -135,11 +136,27 @@ def _line(number: int, special: dict[str, Any], trial: Trial, folder: Path) -> R
     elif special.get("supply") == "distance":
         common["supply"] = InletDistance(1.3 * half_width)
     if "thermal" in special:
-        oil = Lubricant.of("ISO VG 68", temperature=333.15)
+        oil = _warm_oil(special.get("softening"))
         common |= {"thermal": special["thermal"], "bodies": (Body(STEEL), Body(STEEL)), "bulk": (333.15, 333.15)}
     if "cavitation" in special:
         common["cavitation"] = special["cavitation"]
     return _film_record(solve_line_film(lubricant=oil, **common))
+
+
+def _warm_oil(softening: float | None) -> Lubricant:
+    """An oil of the catalogue; with a softening [1/K] one that is known at its own temperature alone."""
+    if softening is None:
+        return Lubricant.of("ISO VG 68", temperature=333.15)
+    return Lubricant(
+        0.03,
+        pressure_viscosity=18e-9,
+        density_law="dowson_higginson",
+        temperature=333.15,
+        density=850.0,
+        heat_capacity=2000.0,
+        thermal_conductivity=0.14,
+        temperature_viscosity=softening,
+    )
 
 
 def _flooded(oil: Lubricant, speed: float, radius: float, modulus: float, load: float) -> float:

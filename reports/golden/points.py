@@ -11,7 +11,7 @@ import numpy as np
 
 from bem import Body, Grid, Lubricant, Material, OilLayer, contact_modulus, generate_surface, solve_mixed
 from reports.golden.films import COATED, STEEL
-from reports.golden.record import Case, Record, Trial, attributes
+from reports.golden.record import Case, Record, Trial, attributes, plain_figure
 
 FIRST = 557_000
 """Seed of the first point."""
@@ -21,6 +21,8 @@ BRASS = Material(
 POLYMER = Material("polymer", youngs_modulus=3e9, poissons_ratio=0.38)
 CELLS, BALL_CELLS = (64, 32), (48, 48)
 FILM_POINTS, FILM_CELLS = 150, 48
+SUPPLY = 333.15
+"""Temperature of the oil that is supplied where there is heat [K]."""
 
 CYLINDERS: tuple[dict[str, Any], ...] = (
     {},
@@ -76,7 +78,7 @@ def _cylinder(number: int, special: dict[str, Any], trial: Trial, folder: Path) 
     if "supply" in special:
         given["supply"] = OilLayer(special["supply"] * 200e-9)
     if "thermal" in special:
-        given["lubricant"] = Lubricant.of("ISO VG 46", temperature=333.15)
+        given["lubricant"] = Lubricant.of("ISO VG 46", temperature=SUPPLY)
     point = solve_mixed(radius=radius, width=width, bodies=(flat, Body(STEEL)), film_points=FILM_POINTS, **given)
     return _record(point)
 
@@ -128,6 +130,9 @@ def _record(point: Any) -> Record:
         "contact_area", "imbalance", "oil_imbalance", "contact_temperature", "flash_temperature", "oil_on_contact",
     )  # fmt: skip
     record = Record({"status": point.status.value, "regime": point.regime.value, **attributes(point, names)})
+    for name in ("contact", "flash"):
+        hot = getattr(point, f"{name}_temperature")
+        record.figures[f"{name}_rise"] = None if hot is None else plain_figure(hot - SUPPLY)
     record.figures |= {
         "mean_separation": float(point.separation.mean()),
         "contact_pressure_max": float(point.contact_pressure.max()),
