@@ -97,13 +97,15 @@ def _call(name: str) -> str:
 
 
 _SECTIONS = ("Parameters", "Attributes", "Returns", "Yields", "Raises")
+_ENTRY = re.compile(r"\w+(, \w+)* : ")
 
 
 def docstring_lines(lines: list[str]) -> list[str]:
     """Return a docstring as numpydoc reads it.
 
     In the docstrings of bem a description follows its name on the same line, `name : description`, where numpydoc has
-    the type. It moves to a line of its own. Bars are escaped: |x| is an absolute value, no substitution.
+    the type. It moves to a line of its own. A list of fields without a heading gets one. Bars are escaped: |x| is an
+    absolute value, no substitution.
     """
     found: list[str] = []
     inside = False
@@ -111,9 +113,11 @@ def docstring_lines(lines: list[str]) -> list[str]:
         following = lines[number + 1] if number + 1 < len(lines) else ""
         if following and set(following.strip()) == {"-"}:
             inside = line.strip() in _SECTIONS
-        line = "".join(
-            part if part.startswith("`") else part.replace("|", r"\|") for part in re.split("(`[^`]*`)", line)
-        )
+        elif not inside and _ENTRY.match(line) and number > 0 and not lines[number - 1].strip():
+            found += ["Attributes", "----------"]
+            inside = True
+        parts = re.split("(`[^`]*`)", line)
+        line = "".join(part if part.startswith("`") else part.replace("|", r"\|") for part in parts)
         name, colon, words = line.partition(" : ")
         if inside and colon and not line.startswith(" "):
             found += [name, f"    {words}"]

@@ -24,6 +24,7 @@ from bem.scenes.ranges import parse_axes
 from bem.surfaces import formats
 from reports import error_bars
 from reports.docs import content, keys, kind_pictures, tasks
+from reports.docs.directives import docstring_lines
 
 ROOT = Path(__file__).resolve().parents[2]
 DOCS = ROOT / "reports" / "docs"
@@ -236,6 +237,16 @@ def test_every_public_name_is_on_one_page_of_the_api():
     listed = [name for page in PAGES.values() for block in blocks("{api}", page) for name in block.split()]
     assert len(listed) == len(set(listed))
     assert {*listed, "__version__"} == set(bem.__all__)
+
+
+def test_docstrings_are_arranged_for_numpydoc():
+    fields = ["Waves |z|.", "", "height, length : of a wave", "    in metres.", "of : the body, `|z|`."]
+    headed = [*fields[:2], "Attributes", "----------", *fields[2:]]
+    entries = ["height, length", "    of a wave", "    in metres.", "of", "    the body, `|z|`."]
+    arranged = ["Waves \\|z\\|.", "", "Attributes", "----------", *entries]
+    assert docstring_lines(fields) == docstring_lines(headed) == arranged
+    plain = ["A note : of sorts.", "", "Notes", "-----", "a : b"]
+    assert docstring_lines(plain) == plain
 
 
 def test_every_note_has_its_anchor():
