@@ -15,6 +15,7 @@ from typing import Any
 
 from bem.notes import Note, as_note
 from bem.notes.general import VALUE_UNUSUAL
+from bem.notes.note import si
 
 ATOM = 2e-10
 """Distance of neighbouring atoms in a metal [m]."""
@@ -29,7 +30,6 @@ SMALLEST_RADIUS, LARGEST_RADIUS = 1e-10, 1e3
 ARGUMENT = "argument "
 """How a note on an argument of a Python entry point begins; scenes report the same value under its key."""
 
-_PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "u"), (1e-9, "n"))
 _PREFIXED = frozenset(("m", "N", "Pa", "Pa*s", "m/s", "N/m"))
 
 
@@ -100,11 +100,7 @@ class UsualRange:
 
 def with_unit(value: float, unit: str) -> str:
     """A value with its unit, with a prefix where that is usual: 2e9, "Pa" is "2 GPa"."""
-    if unit in _PREFIXED and value and math.isfinite(value):
-        for factor, prefix in _PREFIXES:
-            if factor <= abs(value) * (1 + 1e-12) < 1000 * factor:
-                return f"{float(f'{value / factor:.3g}'):g} {prefix}{unit}"
-    return f"{value:.3g} {unit}".rstrip()
+    return si(value, unit) if unit in _PREFIXED else f"{value:.3g} {unit}".rstrip()
 
 
 _LENGTHS = (("mm", 1e-3), ("um", 1e-6), ("nm", 1e-9))

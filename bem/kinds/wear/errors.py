@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from bem.grid import FloatArray
 from bem.kinds.wear.record import WearRecord
@@ -18,11 +18,14 @@ if TYPE_CHECKING:
 
 def bars(scene: WearScene, initial: tuple[FloatArray, FloatArray], found: WearRecord) -> ErrorBars:
     """Of the loop on every second cell, with the reported sizes."""
-    from bem.accuracy import wear_bars
+    from bem.accuracy.wear import RULES, wear_bars
+
+    def figures(record: WearRecord) -> dict[str, Any]:
+        return {name: getattr(record, name) for name in (*RULES, "criterion_wear_rate")}
 
     there = wearing.on_twice_the_cell(scene, initial, slice_of(scene)[0], wear_down, at_resolution)
     reported = {f"{scene.sizes.report}_mean_{size}": f"reported_{size}" for size in pieces.QUANTITIES}
-    judged = wear_bars(vars(found), None if there is None else vars(there), reported)
+    judged = wear_bars(figures(found), None if there is None else figures(there), reported)
     return wearing.with_least_area(judged, found, scene.cylinder.hardness)
 
 
