@@ -62,8 +62,8 @@ def counting(monkeypatch):
 
     plan = Plan((Step("adding", "it is all there is"),))
     kind = Kind("contact", "counting", CountingScene, lambda scene: plan, run, CountingRecord)
-    for module in ("bem.runs.scene", "bem.scenes.load", "bem.campaigns.cases", "bem.campaigns.engine"):
-        monkeypatch.setattr(f"{module}.get_kind", lambda name: kind)
+    for module in ("runs.scene", "scenes.load", "scenes.checks.facts", "campaigns.cases", "campaigns.engine"):
+        monkeypatch.setattr(f"bem.{module}.get_kind", lambda name: kind)
     return control
 
 
