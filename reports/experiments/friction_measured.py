@@ -17,7 +17,6 @@ from pathlib import Path
 from typing import Any, ClassVar
 
 import numpy as np
-from bem.lubrication.film import FilmSolution
 
 from bem import Lubricant, solve_line_film
 from bem.elements.element import Element, element_template, load_element
@@ -27,6 +26,7 @@ from bem.grid import FloatArray
 from bem.lubrication.oil_scatter import oil_scatter
 from bem.lubrication.oils.catalogue import oil_from_viscosities
 from bem.lubrication.oils.oil import Oil
+from bem.lubrication.results import FilmSolution
 from bem.lubrication.viscosity import ViscosityLaw
 from bem.materials import CATALOGUE, Body
 from reports.experiments.kept import keep, result_of, rounded
@@ -126,8 +126,8 @@ def film_loss(base: str) -> dict[str, Any]:
 
 def _place_scatter(element: Element, contact: Any) -> tuple[float, float]:
     """Scatter of the film's friction at one place of the gear mesh."""
-    from bem.scenes.kinds.traction import TractionScene, case_of
-
+    from bem.kinds.traction.run import case_of
+    from bem.kinds.traction.scene import TractionScene
     from bem.scenes.load import load_scene
 
     scene = load_scene(element.scene(contact, "traction"))
@@ -139,9 +139,8 @@ def _place_scatter(element: Element, contact: Any) -> tuple[float, float]:
 
 def mixed_loss(base: str, roughness: float, seeds: tuple[int, int]) -> dict[str, Any]:
     """Mean coefficient of the gear mesh with film and asperities sharing the load."""
-    from bem.scenes.kinds.friction import FrictionScene, resolve
-
     from bem.friction.solve import solve_setup
+    from bem.kinds.friction.scene import FrictionScene, resolve
     from bem.scenes import build
     from bem.scenes.load import scene_from_table
 
@@ -407,9 +406,8 @@ def measured_viscosities() -> list[dict[str, Any]]:
 
 def ball() -> list[dict[str, Any]]:
     """The built-in Stribeck curve of a ball with the law of base oils and lumped heat."""
-    from bem.scenes.kinds.friction import FrictionScene, resolve
-
     from bem.friction.solve import solve_setup
+    from bem.kinds.friction.scene import FrictionScene, resolve
     from bem.scenes import build
     from bem.scenes.load import load_scene
 
