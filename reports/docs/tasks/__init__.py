@@ -136,6 +136,15 @@ def of_summary(name: str, summary: Mapping[str, Any]) -> dict[str, Any]:
     return {"numbers": {key: summary[key] for key in keys}, "errors": errors}
 
 
+def rounded(value: Any) -> Any:
+    """Return numbers to six digits: the last digits of a run follow the machine."""
+    if isinstance(value, dict):
+        return {key: rounded(one) for key, one in value.items()}
+    if isinstance(value, list):
+        return [rounded(one) for one in value]
+    return float(f"{value:.6g}") if isinstance(value, float) else value
+
+
 def save_small(source: Path, target: Path) -> None:
     """Store a picture with 256 colours: a third of its size."""
     from PIL import Image
@@ -160,4 +169,4 @@ def renew(name: str) -> None:
         made["element"] = of_element(name)
     if name == "gear-losses":
         made["operation"] = of_operation(name)
-    (folder / "results.json").write_text(json.dumps(made, indent=1) + "\n", "utf-8")
+    (folder / "results.json").write_text(json.dumps(rounded(made), indent=1) + "\n", "utf-8")
