@@ -71,7 +71,7 @@ report: setup
 
 # The documentation as a site: reports/site/index.html. It is built without a network; warnings are errors.
 docs: setup setup-docs
-	rm -rf reports/site
+	rm -rf reports/site reports/jupyter_execute
 	$(BIN)/python -m sphinx -q -W --keep-going -b html -d reports/site/.doctrees reports/docs reports/site
 	$(BIN)/python -m reports validation performance --out reports/site/reports >/dev/null
 	@echo reports/site/index.html
