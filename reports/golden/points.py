@@ -49,6 +49,7 @@ BALLS: tuple[dict[str, Any], ...] = (
     {"ratio": 2.0, "flat": COATED},
     {"contact_model": "uncoupled"},
     {"supply": 0.5},
+    {"oil_volume": "hertz"},
 )
 """Balls and ellipsoids: what is special about each; the rest is drawn."""
 
