@@ -286,7 +286,8 @@ def _separation_datum(module: Any, stored: Any) -> Rows:
 def _piece_shapes(module: Any, stored: Any) -> Rows:
     for row in stored:
         compute = partial(module.row, row["load_N"], row["connectivity"])
-        allowed = within(relative=_loop_bar("number_mean"), pieces=(_loop_bar("particles_per_cycle"), 0.0))
+        means = {weight: (_loop_bar(f"{weight}_mean"), 0.0) for weight in module.SHOWN_WEIGHTS}
+        allowed = within(pieces=(_loop_bar("particles_per_cycle"), 0.0), **means)
         yield f"{row['load_N']:g} N, {row['connectivity']} neighbours", _again(row, compute, allowed)
 
 
@@ -459,7 +460,14 @@ def _waviness_reduction(module: Any, stored: Any) -> Rows:
 
 
 def _wear_lengths(module: Any, stored: Any) -> Rows:
-    names = ("particles_per_cycle", "wear_rate", "rms_height", "number_equivalent_radius", "volume_equivalent_radius")
+    names = {
+        "particles_per_cycle": "particles_per_cycle",
+        "wear_rate": "criterion_wear_rate",
+        "rms_height": "Sq_final",
+        "number_equivalent_radius": "number_mean_equivalent_radius",
+        "volume_equivalent_radius": "volume_mean_equivalent_radius",
+    }
+    relative = {name: max(0.01, _loop_bar(figure)) for name, figure in names.items()}
     cases = {(case.group, case.value): case for case in module.cases()}
     for row in stored["rows"]:
         key = (row["criterion"], row["group"], row["value"])
@@ -467,7 +475,7 @@ def _wear_lengths(module: Any, stored: Any) -> Rows:
         bars = {}
         for name in names:
             values = [one[name] for one in alike if one[name] is not None]
-            bars[name] = (0.01, max(values) - min(values) if values else 0.0)
+            bars[name] = (relative[name], max(values) - min(values) if values else 0.0)
         own = {name: row[name] for name in names}
         compute = partial(module.run, cases[key[1:]], row["criterion"], row["seed"])
         yield f"{', '.join(key)}, seed {row['seed']}", _again(own, compute, within(**bars))
@@ -609,7 +617,7 @@ RESULTS: dict[str, Result] = {
         experiment("touching_films", _touching_films, 15, "the film's own error bars; load sharing: " + _MIXED),
         experiment("tribofilm_hardness", _tribofilm_hardness, 120, "1 %, less than either bound is known to"),
         experiment("waviness_reduction", _waviness_reduction, 60, "2e-3, the difference between grids"),
-        experiment("wear_lengths", _wear_lengths, 20, "the scatter over the three pairs of surfaces"),
+        experiment("wear_lengths", _wear_lengths, 20, "the scatter over the three pairs of surfaces and by rounding"),
         Result("line_film", _line_film, "1e-4 of a film, of which five digits are stored; orders within 0.05"),
         experiment("wear_rounding", _wear_rounding, 40, "three times the largest change over all runs, or 0.1 %"),
         Result(

@@ -49,10 +49,10 @@ def first_repetition_only(settings: Sequence[str], stored: Mapping[str, Any]) ->
     return (*settings, "repetitions=1") if stored.get("repetitions", 1) > 1 else tuple(settings)
 
 
-def changes(base: Mapping[str, Any], other: Mapping[str, Any]) -> dict[str, float]:
-    """Return the largest relative change of each figure that has an error bar, over its cases."""
+def changes(base: Mapping[str, Any], other: Mapping[str, Any], stored: Mapping[str, Any]) -> dict[str, float]:
+    """Return the largest relative change of each figure that has an error bar when stored, over its cases."""
     found = {}
-    for name in (key for key in base if f"{key}_error" in base):
+    for name in (key for key in base if f"{key}_error" in stored):
         pairs = zip(_listed(base[name]), _listed(other[name]), strict=True)
         apart = [abs(two - one) / abs(one) for one, two in pairs if one and two is not None]
         if apart:
@@ -70,7 +70,7 @@ def row(name: str) -> dict[str, Any]:
     stored = json.loads(job.target.read_text("utf-8"))
     settings = first_repetition_only(job.settings, stored)
     base, other = (summary_of(job.scene, settings, nudge) for nudge in (0.0, NUDGE))
-    return {"run": name, "kind": stored["kind"], "changes": kept.rounded(changes(base, other))}
+    return {"run": name, "kind": stored["kind"], "changes": kept.rounded(changes(base, other, stored))}
 
 
 def largest(rows: Iterable[Mapping[str, Any]]) -> dict[tuple[str, str], float]:

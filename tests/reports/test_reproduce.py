@@ -112,8 +112,9 @@ def test_the_bar_of_a_wear_loop_holds_what_rounding_moves_and_a_film_has_none_of
 
 
 def test_changes_by_rounding_are_the_largest_of_cases_and_runs():
-    base = {"radius": [100.0, 50.0, 0.0, None], "radius_error": None, "count": 4.0, "film_error": 1.0, "seed": 1}
-    found = wear_rounding.changes(base, base | {"radius": [101.0, 49.0, 1.0, None], "count": 5.0, "seed": 2})
+    base = {"radius": [100.0, 50.0, 0.0, None], "count": 4.0, "seed": 1}
+    stored = {"radius": [99.0], "radius_error": None, "film_error": 1.0}
+    found = wear_rounding.changes(base, {"radius": [101.0, 49.0, 1.0, None], "count": 5.0, "seed": 2}, stored)
     assert found == pytest.approx({"radius": 0.02}, rel=1e-12)
     rows = [
         {"kind": kind, "changes": {"radius": change}} for kind, change in (("wear", 0.1), ("wear", 0.3), ("life", 1))
