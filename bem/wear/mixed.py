@@ -371,9 +371,18 @@ _LAST_TABLES: deque[tuple[Any, FilmTable]] = deque(maxlen=8)
 def shared_film_table(setup: MixedSetup, speeds: Sequence[float]) -> FilmTable:
     """Return the table of films as `film_table`, from the last eight of this process where it is one of them.
 
-    The films of a table do not depend on what was asked of it before.
+    The films of a table do not depend on what was asked of it before. The key holds all that `films_of` reads.
     """
-    key = (setup.smooth, tuple(speeds), setup.load, setup.film_resolution, setup.grid.shape, setup.grid.spacing)
+    film_grid = setup.film_grid
+    key = (
+        setup.smooth,
+        tuple(speeds),
+        setup.load,
+        setup.film_resolution,
+        film_grid.shape,
+        film_grid.spacing,
+        setup.striated_exit,
+    )
     for known, table in _LAST_TABLES:
         if known == key:
             return table

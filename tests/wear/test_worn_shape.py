@@ -16,7 +16,7 @@ from bem.lubrication.line.steady import line_film
 from bem.notes import Level, has_code
 from bem.notes.wear import FILM_OF_OTHER_SHAPE
 from bem.wear import WearModel, pack_state, run_in, unpack_state
-from bem.wear.mixed import MixedContact, MixedCycles
+from bem.wear.mixed import MixedContact, MixedCycles, shared_film_table
 from bem.wear.worn_shape import smoothed
 
 GRID = Grid((64, 32), (0.7e-6, 0.7e-6), periodic=(False, True))
@@ -215,3 +215,14 @@ def test_a_limited_supply_keeps_the_unworn_film():
 def test_an_unknown_shape_is_refused():
     with pytest.raises(InputError, match="film_shape: 'round' is unknown; choose from worn, unworn"):
         contact_of(film_shape="round")
+
+
+def test_sets_of_films_are_shared_by_equal_set_ups_only():
+    """The oil behind the exit adds to the shear force, so films with it and films without it are two tables."""
+    speeds = (0.3, 0.0)
+    plain, again, striated = (
+        shared_film_table(MixedSetup(**CASE, striated_exit=exit_oil), speeds) for exit_oil in (False, False, True)
+    )
+    assert again is plain
+    without, with_exit = (table.under(table.largest_load).shear_force for table in (plain, striated))
+    assert abs(with_exit) > abs(without) > 0
