@@ -1,7 +1,9 @@
 """Continuation in a positive parameter: follow a solution by factors that shrink where the solver fails.
 
 Each solution is the start of the next. The factor of the parameter grows after an easy success; after a failure its
-logarithm is halved, and the last solution is the start again. Verified in tests/numerics/test_continuation.py.
+logarithm is halved, and the last solution is the start again.
+
+Verified in tests/numerics/test_parameter_continuation.py.
 """
 
 from __future__ import annotations

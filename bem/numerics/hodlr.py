@@ -16,7 +16,7 @@ Verified in tests/numerics/test_hodlr.py and tests/lubrication/test_line_operato
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 import numpy as np
@@ -100,27 +100,32 @@ class HodlrFactors:
         return np.asarray(values[:, 0])
 
 
-def factorise(blocks: FloatArray, levels: Sequence[LowRank], border: FloatArray) -> tuple[HodlrFactors, FloatArray]:
+def factorise(
+    blocks: FloatArray, levels: Iterable[LowRank], ranks: Sequence[int], border: FloatArray
+) -> tuple[HodlrFactors, FloatArray]:
     """Factorise a HODLR matrix, and solve it for further columns at once.
 
     Parameters
     ----------
     blocks : (leaves, leaf, leaf) diagonal blocks.
-    levels : low-rank factors, from two clusters down to the leaves.
+    levels : low-rank factors, from two clusters down to the leaves; each is asked for once, its left factor dropped.
+    ranks : of the levels.
     border : (n, k) columns to solve for.
 
     Returns
     -------
     The factors, and the solutions (n, k) of the border.
     """
-    ends = border.shape[1] + np.concatenate([[0], np.cumsum([right.shape[2] for _, right in levels])])
+    ends = border.shape[1] + np.concatenate([[0], np.cumsum(ranks)])
     columns = np.empty((len(border), ends[-1]))
     columns[:, : border.shape[1]] = border
-    for (left, _), start, end in zip(levels, ends[:-1], ends[1:], strict=True):
+    rights = []
+    for (left, right), start, end in zip(levels, ends[:-1], ends[1:], strict=True):
         columns[:, start:end] = left.reshape(len(border), -1)
+        rights.append(right)
     inverses = np.asarray(np.linalg.inv(blocks), dtype=np.float64)
     columns = np.matmul(inverses, columns.reshape(*inverses.shape[:2], -1)).reshape(columns.shape)
-    couplings = tuple(_couple(levels[k][1], columns, ends[k]) for k in reversed(range(len(levels))))
+    couplings = tuple(_couple(rights[k], columns, ends[k]) for k in reversed(range(len(rights))))
     return HodlrFactors(inverses, couplings), columns[:, : border.shape[1]]
 
 

@@ -38,7 +38,7 @@ def test_product_is_that_of_the_dense_matrix(depth):
 @pytest.mark.parametrize("columns", [0, 3])
 def test_solution_is_that_of_the_dense_matrix(depth, columns):
     blocks, levels, border, dense = matrix(depth, 5, 2, columns)
-    factors, solved = factorise(blocks, levels, border)
+    factors, solved = factorise(blocks, levels, [right.shape[2] for _, right in levels], border)
     right = np.random.default_rng(1).standard_normal(len(dense))
     np.testing.assert_allclose(dense @ factors.solve(right), right, rtol=0, atol=1e-10)
     np.testing.assert_allclose(dense @ solved, border, rtol=0, atol=1e-10)

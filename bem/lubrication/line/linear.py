@@ -208,9 +208,10 @@ def factorise(operator: LineOperator, equations: NewtonEquations) -> BorderedFac
     """Return the factors of the hierarchical equations."""
     rows = _interior_rows(operator, equations)
     responses = _film_responses(operator, equations)
-    levels = [_coupling(level, rows) for level in operator.levels]
+    levels = (_coupling(level, rows) for level in operator.levels)
+    ranks = [level.coarse_rank + 1 for level in operator.levels]
     columns = _border_columns(operator, equations, responses)
-    interior, solved = factorise_hodlr(_diagonal_blocks(operator, rows), levels, columns)
+    interior, solved = factorise_hodlr(_diagonal_blocks(operator, rows), levels, ranks, columns)
     border = np.ascontiguousarray(solved[: len(equations.here) - 1])
     last_rows, corner = _last_rows(operator, equations, responses)
     return BorderedFactors(operator, interior, border, last_rows, corner - last_rows @ border)
