@@ -301,3 +301,15 @@ def test_pixels_of_pressure_over_cycles_show_the_largest_of_the_cells_around():
         around = [[of[max(i - 1, 0) : i + 2, max(j - 1, 0) : j + 2].max() for j in range(7)] for i in range(7)]
         assert np.array_equal(frame, around)
     assert highest == shown.max()
+
+
+@pytest.mark.parametrize(("periodic", "cells"), [("y", [5, 1, 1]), ("both", [5, 2])])
+def test_a_particle_across_a_periodic_edge_is_drawn_as_one(periodic, cells):
+    removed = np.zeros((7, 8))
+    removed[2:5, 0] = removed[[2, 4], 7] = 1e-6  # both ends of a piece lie beyond the edge along y
+    removed[[0, 6], 4] = 1e-6  # joined across the edge along x alone
+    run = run_of({"domain": {"periodic": periodic}}, removed=(("x", "y"), removed), x=1e-6 * np.arange(7.0))
+    run.dataset = run.dataset.assign_coords(y=1e-6 * np.arange(8.0))
+    radii = [np.cbrt(3 * number / (4 * np.pi)) * 1e3 for number in cells]  # of cubes of a micrometre
+    titles = [axes.get_title() for axes in drawn(wear._shapes, run).axes]
+    assert titles == [f"radius {radius:.0f} nm" for radius in radii]

@@ -145,20 +145,14 @@ def _worn_surface(run: Any, figure: Figure) -> None:
 def _shapes(run: Any, figure: Figure) -> None:
     """The six largest pieces of the last cycle, upside down, at a slant; thickness is drawn twice as large."""
     from matplotlib.colors import Normalize
-    from scipy.ndimage import find_objects
-    from scipy.ndimage import label as connected
 
     removed = run.dataset["removed"].values
     x, y = run.dataset["x"].values, run.dataset["y"].values
     cell = (float(x[1] - x[0]), float(y[1] - y[0]))
-    names, count = connected(removed > 0)
-    volume = np.bincount(names.ravel(), removed.ravel(), minlength=count + 1)[1:]
-    boxes = find_objects(names)
-    chosen = np.argsort(volume)[::-1][: min(6, count)]
+    periodic = (run.scene.get("domain", {}).get("periodic") == "both", True)
     deepest = float(removed.max())
-    for place, index in enumerate(chosen):
-        box = boxes[index]
-        depth = np.pad(np.where(names[box] == index + 1, removed[box], 0.0), 1)
+    for place, piece in enumerate(largest_pieces(removed, periodic, 6)):
+        depth = np.pad(piece, 1)
         axes: Any = figure.add_subplot(2, 3, place + 1, projection="3d")
         # a column is a prism: repeat its corners so that the walls stand upright
         steps = np.repeat(np.repeat(depth, 2, axis=0), 2, axis=1)
@@ -166,7 +160,7 @@ def _shapes(run: Any, figure: Figure) -> None:
         grid_x, grid_y = np.meshgrid(*along, indexing="ij")
         colours = matplotlib.colormaps["viridis"](Normalize(0, 1e9 * deepest)(1e9 * steps[:-1, :-1]))
         axes.plot_surface(grid_x, grid_y, 1e9 * steps, facecolors=colours, rstride=1, cstride=1, shade=True)
-        radius = (3 * volume[index] * cell[0] * cell[1] / (4 * np.pi)) ** (1 / 3)
+        radius = (3 * float(piece.sum()) * cell[0] * cell[1] / (4 * np.pi)) ** (1 / 3)
         axes.set_title(f"radius {1e9 * radius:.0f} nm", fontsize=9)
         spans = (along[0][-1], along[1][-1], 2e9 * float(depth.max()))
         axes.set_box_aspect(spans, zoom=0.75)
@@ -178,6 +172,35 @@ def _shapes(run: Any, figure: Figure) -> None:
         axes.xaxis.set_major_locator(MaxNLocator(3))
         axes.yaxis.set_major_locator(MaxNLocator(3))
         axes.zaxis.set_major_locator(MaxNLocator(2))
+
+
+def largest_pieces(removed: Array, periodic: tuple[bool, bool], most: int) -> list[Array]:
+    """Return the depths [m] of the largest connected regions of a map (nx, ny), each on its bounding rectangle.
+
+    removed : (nx, ny) depth that left each column [m]. periodic : True where regions continue across the edges along x
+    and y. most : number of regions.
+    """
+    from scipy.ndimage import label as connected
+
+    names, count = connected(removed > 0)
+    for axis in (axis for axis in range(2) if periodic[axis]):
+        first, last = (names.take(end, axis) for end in (0, -1))
+        for here in np.flatnonzero((first > 0) & (last > 0)):
+            own, other = (names.take(end, axis)[here] for end in (0, -1))
+            names[names == other] = own
+    volume = np.bincount(names.ravel(), removed.ravel(), minlength=count + 1)[1:]
+    pieces = []
+    for index in np.argsort(volume)[::-1][: min(most, np.count_nonzero(volume))]:
+        piece = np.where(names == index + 1, removed, 0.0)
+        for axis in range(2):
+            used = np.flatnonzero(piece.any(axis=1 - axis))
+            # the rectangle begins after the widest run of empty rows, across a periodic edge too
+            jumps = np.diff(used, append=used[0] + piece.shape[axis])
+            begins = used[(np.argmax(jumps) + 1) % used.size] if periodic[axis] else used[0]
+            extent = piece.shape[axis] - jumps.max() + 1 if periodic[axis] else used[-1] - used[0] + 1
+            piece = np.take(np.roll(piece, -begins, axis), np.arange(extent), axis)
+        pieces.append(piece)
+    return pieces
 
 
 def _something_left(run: Any) -> bool:
