@@ -16,7 +16,8 @@ class Particle:
     Attributes
     ----------
     volume : [m^3]; cell area times the sum of the columns' thicknesses.
-    length, width : sides of the bounding rectangle [m], length >= width.
+    length, width : sides of the bounding rectangle along x and y [m], length >= width; `particles_from_height_map` can
+        turn the rectangle.
     thickness : the deepest (highest) point [m].
     columns : (n, 2) indices (ix, iy) of the grid columns that it covers.
     column_thickness : (n,) thickness of each of those columns [m].

@@ -60,7 +60,7 @@ class WearDepthsScene(Table):
 
 
 class LastCycles(Table):
-    """Number of wear cycles, and of the last ones over which means are taken."""
+    """Number of wear cycles, and of the last ones over which means are taken, even if the surface still changes."""
 
     count: Count = key("Number of wear cycles.", "basic", default=200)
     settled: Count = key("Number of last cycles over which means of wear particles are taken.", "advanced", default=50)
@@ -355,7 +355,7 @@ class WornRecord(RubbedRecord, ThirdBodyRecord):
 
     convolutions_per_cycle: Annotated[float, Figure("", "convolutions of the contact per cycle", unjudged=True)]
     truncated_particles: Annotated[
-        int, Figure("", "particles of the settled cycles cut off by the deepest depth", unjudged=True)
+        int, Figure("", "particles of the last cycles.settled cycles cut off by the deepest depth", unjudged=True)
     ]
     largest_stress: Annotated[
         float | None,
@@ -372,7 +372,8 @@ class WornRecord(RubbedRecord, ThirdBodyRecord):
 @dataclass(frozen=True, eq=False)
 class WornSurface:
     """What every wear loop leaves: the wearing body's heights on the grid [m], unworn and run in, the last pressure
-    [Pa], the particles that are reported, all and of the settled cycles, and figures of its records by their names."""
+    [Pa], the particles that are reported, all (`particles`) and of the last `cycles.settled` cycles (`late`), and
+    figures of its records by their names."""
 
     height_before: FloatArray
     height_after: FloatArray

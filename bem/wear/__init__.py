@@ -13,6 +13,9 @@ Algorithm of `run_in` (running_in.py), one cycle after the other:
    fatigue damage (damage.py), junctions (junctions.py), a depth by pressure and distance (criterion/local.py).
 5. Lower the surfaces; append the cycle and its particles to the tables (running_in.py).
 
+Heights change by removal and by cuts of third bodies only. Where the pressure is at the hardness, the overlap of the
+surfaces leaves no dent: the next cycle begins with heights that are not flattened.
+
 After the loop: the error of the last step of local wear by step doubling (step_doubling.py), figures (outcome.py,
 mixed_figures.py). Types: loads.py is what a criterion receives and returns, setup.py and model.py what stays the same.
 

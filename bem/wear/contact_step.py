@@ -64,8 +64,8 @@ class ContactOutcome:
     """Contact of one cycle, dry or lubricated, on the grid.
 
     pressure : (nx, ny) [Pa].
-    contact_area, plastic_area : real contact area, and the part at the hardness [m^2].
-    load : carried by the contact [N].
+    contact_area, plastic_area : real contact area on the grid, and the part at the hardness [m^2].
+    load : carried by the contact on the grid [N].
     friction : shear traction over pressure, on the lower body along +x where positive.
     residual, convolutions, status : of the solution.
     minimum_film : minimum film thickness [m]; 0 where dry.
@@ -119,7 +119,8 @@ class DryContact:
 
     grid : of the contact. bodies : (lower, upper). gap : (nx, ny) gap of the smooth bodies [m]. load : on the grid [N].
     friction : shear traction over pressure. hardness : cap of the pressure [Pa]; None for none.
-    tolerance : relative to the rms roughness; 1e-6 of some hundred nanometres is far below an atom.
+    tolerance : relative to the rms of the undeformed gap, smooth bodies and heights together; 1e-6 of some hundred
+        nanometres is far below an atom.
     """
 
     grid: Grid
@@ -175,7 +176,7 @@ class DryContact:
 
 
 def dry_contact(setup: WearSetup, *, tolerance: float = 1e-6) -> DryContact:
-    """Return the dry contact of a wear loop; tolerance : relative to the rms roughness."""
+    """Return the dry contact of a wear loop; tolerance : relative to the rms of the undeformed gap."""
     return DryContact(setup.grid, setup.bodies, setup.gap, setup.load, setup.friction, setup.hardness, tolerance)
 
 

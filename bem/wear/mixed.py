@@ -2,8 +2,10 @@
 
 Algorithm, per cycle:
 
-1. Where the worn shape of the standing body since the first cycle has moved beyond a limit, the films take it over as a
-   whole (`worn_shape`); the rough contact sees the rest of the heights.
+1. With `film_shape` "worn": where the worn shape of the body that stands with the contact has changed beyond a limit,
+   the films take over the whole shape since the first cycle (`worn_shape`); the rough contact sees the rest of the
+   heights. Wear of the moving body is no part of it, since its track wears alike. With "unworn" the films keep the
+   shape of the smooth bodies.
 2. Films under any load come from one table per speed (`bem.friction.film_table`): the film of unworn bodies depends on
    its load alone.
 3. `bem.friction.load_sharing.LoadSharing` finds the film load at which film and rough contact carry the load together,
@@ -66,7 +68,8 @@ MIXED_FIELDS = np.dtype(
         ("rms_height", np.float64),
     ]
 )
-"""A cycle's load sharing as a row of a table: SI units, forces and area on the whole width; regime is an index;
+"""A cycle's load sharing as a row of a table: SI units, forces, loads and area on the whole width, while those of
+`bem.wear.state.CYCLE_FIELDS` are on the grid; regime is an index;
 rms_height is that of both surfaces together without the worn shape of the film, by which the lambda ratio divides.
 Temperatures are those of the surfaces in contact, mean by pressure and highest; the oil's without contact,
 0 where no heat was asked for."""

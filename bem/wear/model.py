@@ -28,24 +28,30 @@ if TYPE_CHECKING:
 class WearModel:
     """Choices of a wear model: each is a name, a table of parameters or an object of your own.
 
-    criterion : the name of one of `bem.wear.criterion` or of your own, or a `Detachment`. "von_mises" is the
-        source's; "tresca" and "maximum_tension", too, let material leave where an equivalent stress exceeds the yield
-        stress. These have no length but the cell and a skin at the surface; "averaged_von_mises", "sphere", "junction"
-        have one of the material, "low_cycle_fatigue" counts passes. "archard", "archard_over_hardness" and "energy"
-        wear by pressure and distance, without pieces.
+    criterion : the name of one of `bem.wear.criterion` or of your own, or a `Detachment`; `law` is the object that it
+        is checked to be. A `WearCriterion` is a `Detachment` that compares an equivalent stress with the yield stress
+        (`bem.wear.yielding.StressCriterion` is the protocol of that comparison). "von_mises" is the source's; "tresca"
+        and "maximum_tension", too, let material leave where an equivalent stress exceeds the yield stress. These have
+        no length but the cell and a skin at the surface; "averaged_von_mises", "sphere", "junction" have one of the
+        material, "low_cycle_fatigue" counts passes. "archard", "archard_over_hardness" and "energy" wear by pressure
+        and distance, without pieces.
     stress_range : judge half the change of stress that each body's material has seen since the last cycle instead of
-        the stress (low-cycle fatigue: a range of twice the yield stress is what shakedown can bear).
+        the stress (low-cycle fatigue: a range of twice the yield stress is what shakedown can bear). There is no load
+        before the first cycle, so half its stress counts.
     refine, refinement : fine voxels per depth interval and how stress is interpolated between depths; "exact" computes
         the stress at every fine depth and is the check of the others.
     connectivity : 6, 18 or 26 neighbours.
     removal : "cap" (a piece takes the material above it along: an addition to the source), "top_run" (only material
         that yields leaves, as in the source), or a law of your own.
     wears : "softer" (lower yield stress; the lower body where equal), "lower", "upper" or "both".
-    frame : which body stands still with the contact. "cylinder": the upper body and the contact are fixed in space and
-        the lower body moves through them, so that all places of its track wear alike; "disk": the lower body is fixed
-        and the roughness of the upper body moves, so that the contact wears a groove into the lower one.
+    frame : which body stands still with the contact. "cylinder": the upper body (the cylinder) and the contact are
+        fixed in space and the lower body moves through them, so that all places of its track wear alike; "disk": the
+        lower body is fixed and the roughness of the upper body moves, so that the contact wears a groove into the lower
+        one.
     shift : cells that the moving body slides over the other one along x before each cycle but the first: for positive
-        friction and shift the upper body along +x, the lower one along -x.
+        friction and shift the upper body along +x, the lower one along -x (`running_in.sliding_direction`), so that
+        friction on the moving body acts against its motion. A cycle counts the slide of as many cells, the first one,
+        too.
     within_layer : pieces of a coated body end at the interface at the latest; the film is taken as replenished.
     traction : the name of one of `bem.wear.traction` or of your own, a table with `kind` and parameters, or a
         `TractionLaw`. "gross_sliding" is the source's, friction x pressure everywhere; "oscillating_force" and
@@ -101,7 +107,7 @@ class WearModel:
         if isinstance(self.film_defect, Mapping):
             object.__setattr__(self, "film_defect", FilmDefect(**self.film_defect))
         misfits = list(self.tractions.misfits(self.law, self.stress_range))
-        if self.particles is not None and not self.tractions.slides:
+        if self.third_body_model is not None and not self.tractions.slides:
             misfits.append(
                 f"third bodies roll where surfaces slide; allowed: no traction {self.tractions.name}, or none"
             )
@@ -118,13 +124,13 @@ class WearModel:
 
     @property
     def law(self) -> Detachment:
-        """The criterion as an object."""
+        """The `criterion` as an object."""
         assert isinstance(self.criterion, Detachment)
         return self.criterion
 
     @property
-    def particles(self) -> ThirdBodies | None:
-        """Particles that stay between the surfaces; None for none."""
+    def third_body_model(self) -> ThirdBodies | None:
+        """Third bodies, the particles that stay between the surfaces; None for none."""
         assert not isinstance(self.third_bodies, Mapping)
         return self.third_bodies
 

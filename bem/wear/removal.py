@@ -36,7 +36,9 @@ class RemovalLaw(Law):
 
     @abstractmethod
     def remove(self, runs: Runs, parent: NDArray[np.int64], labels: NDArray[np.int32], thickness: FloatArray) -> int:
-        """Fill labels and thickness of all columns in place, and return the number of pieces.
+        """Choose the runs that leave, and group them to pieces.
+
+        Write labels and thickness of all columns in place, and return the number of pieces.
 
         runs : of the columns that yield. parent : union-find of the runs that touch; may be changed. labels :
         (columns,) zero at first, 1, 2, ... where a piece leaves. thickness : (columns,) zero at first, depth that
@@ -75,7 +77,12 @@ class Cap(_ByColumns):
 @register
 @dataclass(frozen=True)
 class TopRun(_ByColumns):
-    """Only material that yields without a break from the surface down leaves, as the source's words have it."""
+    """Only material that yields without a break from the surface down leaves, as the source's words have it.
+
+    Regions are joined before, also by yielded material below sound material, which stays. Pieces that only such
+    material joins are labelled as one: sizes are then too large and their number too small. The depth that leaves each
+    column does not depend on it.
+    """
 
     name: ClassVar[str] = "top_run"
     takes_along: ClassVar[bool] = False

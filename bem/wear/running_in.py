@@ -40,6 +40,9 @@ from bem.wear.step_doubling import step_error
 class Settled:
     """Stop rule: means of particle size and roughness over the last `window` cycles and the window before agree.
 
+    The particle size of a cycle is (V / n)^(1/3): V the volume that left all bodies in it, wear by pressure and cuts of
+    third bodies included, n the number of pieces, at least one. The roughness is `rms_height` of `CYCLE_FIELDS`.
+
     tolerance : relative difference of the means below which they agree.
     """
 
@@ -67,7 +70,10 @@ class RunningIn:
 
     lower_heights, upper_heights : surfaces at the end [m]. pressure : of the last cycle [Pa].
     cycles : table of `CYCLE_FIELDS`; particles : table of `PARTICLE_FIELDS`; times : of `TIME_FIELDS` [s] per cycle.
-    settled : True if the stop rule ended the run. state : to resume from.
+    settled : True if the stop rule held after the last cycle; False without a stop rule.
+    state : to resume from.
+    status : CONVERGED, since `run_in` raises where a contact or a loop of partial slip did not converge: every contact
+        was solved. Whether the surface still changes is not part of it (`wear.outcome.drift`).
     wearing : indices of the bodies that wear. moving : index of the body that moves through the contact.
     notes : on where the result is outside its model, or uncertain.
     step_error : estimated error of the depth worn in the last cycle by a local law [m]; None for other laws.
@@ -216,11 +222,11 @@ def _contact_step(
         step, compliance = dry_contact(setup), sum(model.law.compliance(setup, body) for body in wearing)
         if model.boundary_film is not None:
             compliance *= float(model.boundary_film.share())
-    if model.particles is not None:
+    if model.third_body_model is not None:
         from bem.wear.third_bodies import with_third_bodies  # imports both contacts
 
         slide = model.law.distance_per_cycle(abs(model.shift) * setup.grid.spacing[0])
-        step = with_third_bodies(step, model.particles, slide)
+        step = with_third_bodies(step, model.third_body_model, slide)
     return step, compliance
 
 
@@ -251,10 +257,10 @@ def _step_error(
 
 def _coverage_notes(model: WearModel, state: RunningInState) -> tuple[Note, ...]:
     """Return a note where third bodies cover the whole area."""
-    particles = model.particles
-    if particles is None or particles.shed == 0:
+    third_bodies = model.third_body_model
+    if third_bodies is None or third_bodies.shed == 0:
         return ()
-    full = int((state.cycles["third_bodies_per_area"] >= particles.most_per_area * (1 - 1e-9)).sum())
+    full = int((state.cycles["third_bodies_per_area"] >= third_bodies.most_per_area * (1 - 1e-9)).sum())
     return (THIRD_BODIES_MANY(full=full, cycles=len(state.cycles), reason="area"),) if full else ()
 
 
@@ -263,7 +269,8 @@ def advance(
 ) -> RunningInState:
     """Advance by one cycle: move a body through the contact, solve the contact, remove what the criterion finds.
 
-    No body moves before the first cycle.
+    No body moves before the first cycle, but the first cycle wears as the others: local wear, cuts of third bodies and
+    the drag of junctions count the slide of a whole cycle, which follows the contact of the cycle.
 
     compliance : depth that each place wears by pressure in the cycle [m/Pa], for an implicit step.
     """
@@ -309,14 +316,14 @@ def advance(
     stress_time = sum(removal.stress_time for removal in removals)
     pieces_time = sum(removal.segmentation_time for removal in removals)
     particles = np.concatenate(table)
-    worn = _window(heights[removals[0].body], offset if removals[0].body == moving else 0, rows)
+    worn_heights = _window(heights[removals[0].body], offset if removals[0].body == moving else 0, rows)
     return RunningInState(
         cycle=cycle,
         heights=(heights[LOWER], heights[UPPER]),
         offset=offset,
         pressure=contact.pressure,
         removed=removals[0].thickness,
-        cycles=np.append(state.cycles, _cycle_row(cycle, contact, removals, particles, worn, setup.grid)),
+        cycles=np.append(state.cycles, _cycle_row(cycle, contact, removals, particles, worn_heights, setup.grid)),
         particles=np.concatenate([state.particles, particles]),
         times=np.append(
             state.times,
@@ -369,9 +376,9 @@ def _window(heights: FloatArray, offset: int, rows: int) -> FloatArray:
 
 
 def _remove_from_window(heights: FloatArray, thickness: FloatArray, offset: int) -> FloatArray:
-    worn = heights.copy()
-    worn[(np.arange(thickness.shape[0]) - offset) % heights.shape[0]] -= thickness
-    return worn
+    lowered = heights.copy()
+    lowered[(np.arange(thickness.shape[0]) - offset) % heights.shape[0]] -= thickness
+    return lowered
 
 
 def _facing(memory: FloatArray | None, offset: int, rows: int) -> FloatArray | None:
@@ -445,7 +452,7 @@ def _cycle_row(
     contact: ContactOutcome,
     removals: list[Removal],
     particles: NDArray[np.void],
-    worn: FloatArray,
+    worn_heights: FloatArray,
     grid: Grid,
 ) -> NDArray[np.void]:
     besides = sum(float(removal.worn.sum()) for removal in removals if removal.worn is not None) * grid.cell_area
@@ -462,7 +469,7 @@ def _cycle_row(
                 contact.load,
                 contact.friction,
                 contact.minimum_film,
-                strip_wear(worn, worn, strip).rms_after,
+                strip_wear(worn_heights, worn_heights, strip).rms_after,
                 contact.residual,
                 contact.convolutions,
                 sum(removal.depths_computed for removal in removals),

@@ -34,10 +34,11 @@ _NOT_FINITE = "equivalent stress: some values are not finite"
 
 @dataclass(frozen=True, eq=False)
 class Segmentation:
-    """Pieces that reach the free surface.
+    """Pieces that reach the free surface, that is, yield at the first depth of the stack.
 
     labels : (nx, ny) int32, 0 where nothing leaves, else 1..count.
-    thickness : (nx, ny) depth that leaves each column, from the surface down [m].
+    thickness : (nx, ny) depth that leaves each column, from the surface down [m]; at least the first depth of the
+        stack where a piece leaves by `top_run` or `cap`.
     count : number of pieces.
     reaches_bottom : (count + 1,) True for pieces that yield at the last depth: their thickness is a lower bound, unless
         that depth is the interface at which pieces of a layer end.
@@ -64,6 +65,8 @@ def segment(
 ) -> Segmentation:
     """Find the connected regions above yield that reach the free surface.
 
+    A region reaches the surface if it yields at the first depth, above which no stress is known.
+
     Parameters
     ----------
     equivalent_stress : (nz, nx, ny) [Pa] at `depths`.
@@ -75,8 +78,8 @@ def segment(
         which nothing yields ends every piece above it) or "linear".
     connectivity : 6 (faces), 18 (faces and edges) or 26 (corners too).
     removal : "cap": a piece takes all material above its yielded part in a column along; two pieces that meet in a
-        column leave as one. "top_run": only the part connected to the surface within the column leaves. Or a law of
-        `bem.wear.removal`.
+        column leave as one. "top_run": only the part connected to the surface within the column leaves; parts
+        joined by yielded material that stays count as one piece. Or a law of `bem.wear.removal`.
     columns : increasing numbers in the flattened map of all columns in which anything yields or is not a number; None
         searches for them.
     rows : (nz, nx) True for rows of the stack that count; others count as zero. Only with `columns`; the first depth

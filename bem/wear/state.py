@@ -53,10 +53,15 @@ CYCLE_FIELDS = np.dtype(
         ("third_bodies_per_area", np.float64),
     ]
 )
-"""A cycle as a row of a table: SI units; `rms_height` is Sq of the wearing surface inside the contact strip.
+"""A cycle as a row of a table: SI units. `contact_area`, `plastic_area` and `contact_load` are on the grid (columns of
+the same name of `bem.wear.mixed.MIXED_FIELDS` are on the whole width). `volume` and `depths_computed` are sums over the
+wearing bodies. `rms_height` is Sq of the (first) wearing surface inside the contact strip. `converged` is True in every
+row of a loop, which stops at a contact that did not converge.
 `stick_share`, `loop_energy` and `loop_way` are of the cycle's `Rubbing`, 0 in gross sliding."""
 
 TIME_FIELDS = np.dtype([("contact", np.float64), ("stress", np.float64), ("particles", np.float64)])
+"""Time of a cycle [s]: `stress` in stresses, `particles` in segmentation or in the removal of a criterion without
+stress, `contact` all the rest of the cycle, partial slip and third bodies included."""
 
 
 @dataclass(frozen=True, eq=False)

@@ -1,5 +1,9 @@
 """Yielded pieces: equivalent stress from the surface down to a depth without yield, and the pieces above it.
 
+"At the surface" means at the first computed depth, whose stress counts for all material above it (`depths_for`): the
+skin depth of the criterion (100 nm by default), half of a layer thinner than two skins, or the first depth of the setup
+where that is deeper. No piece is thinner than the first computed depth.
+
 1. A bound on von Mises stress without a transform may prove that nothing yields at the first depth (`cannot_yield`).
 2. Compute the equivalent stress depth by depth. `yielded_stress` computes whole planes, down to one below the first
    depth whose plane has no yield. `piece_stress`, for von Mises stress of one load, follows pieces from the first depth
@@ -142,7 +146,7 @@ def _below_skin(depths: FloatArray, skin: float, sliver: float) -> FloatArray:
 class YieldedStress:
     """Equivalent stress from the surface down, as far as pieces can reach.
 
-    planes : (nz, nx, ny) [Pa]. depths : (nz,) [m]; empty where nothing yields at the surface.
+    planes : (nz, nx, ny) [Pa]. depths : (nz,) [m]; empty where nothing yields at the first computed depth.
     computed : number of depths computed. seconds : spent.
     yielding : (nx, ny) True where the column yields at any depth that was computed there; None where unknown.
     rows : (nz, nx) True for rows of the planes that were written; None for all.
@@ -166,7 +170,7 @@ def yielded_stress(
 ) -> YieldedStress:
     """Compute the equivalent stress of one body under a pressure with the setup's friction, or under loads.
 
-    Depths are computed from the surface down, no further than one below the first depth at which nothing yields: a
+    Depths are computed from the skin depth down, no further than one below the first depth at which nothing yields: a
     piece reaches the surface, so it would have to pass that depth, and refinement never exceeds the values that it lies
     between. The one below gives the slope of the monotone cubic; other refinements do not need it.
     """

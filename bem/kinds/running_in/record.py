@@ -25,6 +25,10 @@ from bem.scenes.records import (
 from bem.scenes.tables.sharing import TEMPERATURES
 
 _over, _shown, _line = (partial(Series, ("cycle",)), partial(Series, ("x", "y"), of="first"), partial(Series, ("x",)))
+SETTLED, RUN_IN = (f"mean over the last cycles.{window} cycles" for window in ("settled", "averaged"))
+"""Windows of means: `settled` for particles and worn volume, `averaged` for friction, film and contact. Means are taken
+even if the surface still changes."""
+_STRIP = "in the contact region (Hertz' contact; its whole track on a body that moves)"
 _FOLLOWS_CELL = f"{pieces.FOLLOWS_CELL}; in mixed lubrication the mean by volume follows it too"
 
 
@@ -42,42 +46,51 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
         *("minimum_film", "contact_area_fraction", "criterion_wear_rate", *TEMPERATURES),
     )
     friction_initial: Annotated[float, Figure("", "friction coefficient in the first cycle", headline=True)]
-    friction_run_in: Annotated[float, Figure("", "friction coefficient, mean of the last cycles", headline=True)]
+    friction_run_in: Annotated[float, Figure("", f"friction coefficient, {RUN_IN}", headline=True)]
     particle_equivalent_radius: Annotated[
-        float, Figure("nm", "equivalent radius of the particles, settled", headline=True, no_bar=_FOLLOWS_CELL)
+        float,
+        Figure(
+            "nm",
+            "equivalent radius of the particles of the last cycles.settled cycles",
+            headline=True,
+            no_bar=_FOLLOWS_CELL,
+        ),
     ]
-    Sq_initial: Annotated[float, Figure("nm", "Sq in the contact region (Hertz' contact), unworn", headline=True)]
-    Sq_final: Annotated[float, Figure("nm", "Sq in the contact region (Hertz' contact), run in", headline=True)]
-    contact_load: Annotated[float, Figure("N", "load carried by asperities, run in", headline=True)]
-    film_load: Annotated[float, Figure("N", "load carried by the film, run in", headline=True)]
-    lambda_ratio: Annotated[float, Figure("", f"{LAMBDA_WHOLE}, run in", headline=True)]
-    lambda_ratio_mixed: Annotated[float, Figure("", f"{LAMBDA_MIXED}, run in")]
-    friction: Annotated[float, Figure("", "friction coefficient, mean of the last cycles")]
-    boundary_friction_part: Annotated[float, Figure("", "boundary part of the run-in friction coefficient")]
-    film_friction_part: Annotated[float, Figure("", "film part of the run-in friction coefficient")]
+    Sq_initial: Annotated[float, Figure("nm", f"Sq {_STRIP}, unworn", headline=True)]
+    Sq_final: Annotated[float, Figure("nm", f"Sq {_STRIP}, after the last cycle", headline=True)]
+    contact_load: Annotated[float, Figure("N", f"load carried by asperities, {RUN_IN}", headline=True)]
+    film_load: Annotated[float, Figure("N", f"load carried by the film, {RUN_IN}", headline=True)]
+    lambda_ratio: Annotated[float, Figure("", f"{LAMBDA_WHOLE}, {RUN_IN}", headline=True)]
+    lambda_ratio_mixed: Annotated[float, Figure("", f"{LAMBDA_MIXED}, {RUN_IN}")]
+    friction: Annotated[float, Figure("", f"friction coefficient, {RUN_IN}: friction_run_in, beside its parts")]
+    boundary_friction_part: Annotated[float, Figure("", f"boundary part of the friction coefficient, {RUN_IN}")]
+    film_friction_part: Annotated[float, Figure("", f"film part of the friction coefficient, {RUN_IN}")]
     contact_load_initial: Annotated[float, Figure("N", "load carried by asperities in the first cycle")]
-    minimum_film: Annotated[float, Figure("nm", f"{MINIMUM_FILM}, run in")]
-    contact_area_fraction: Annotated[float, Figure("", "real contact area over patch, run in")]
-    worn_depth: Annotated[float, Figure("nm", "mean depth worn in the contact region (Hertz' contact)")]
+    minimum_film: Annotated[float, Figure("nm", f"{MINIMUM_FILM}, {RUN_IN}")]
+    contact_area_fraction: Annotated[float, Figure("", f"real contact area over patch, {RUN_IN}")]
+    worn_depth: Annotated[float, Figure("nm", f"mean depth worn {_STRIP}")]
     step_error: Annotated[
         float | None,
         Figure("nm", "what its step leaves open of a depth worn by pressure, last cycle", optional=True, unjudged=True),
     ]
     criterion_wear_rate: Annotated[
-        float | None, Figure("mm3_Nm", "volume that the criterion removes by load and distance")
+        float | None, Figure("mm3_Nm", f"volume that the criterion removes by load and distance, {SETTLED}")
     ]
     particles_per_cycle: Annotated[
-        float, Figure("", "particles per cycle of one body, settled", no_bar=pieces.FOLLOWS_CELL)
+        float, Figure("", f"particles per cycle of one body, {SETTLED}", no_bar=pieces.FOLLOWS_CELL)
     ]
     particles_first_cycle: Annotated[
         float, Figure("", "particles of the first cycle, of one body", no_bar=pieces.FOLLOWS_CELL)
     ]
     particles_last_cycles: Annotated[
-        float, Figure("", "particles of the last cycles, of one body", no_bar=pieces.FOLLOWS_CELL)
+        float,
+        Figure(
+            "", "number of particles of all of the last cycles.averaged cycles, of one body", no_bar=pieces.FOLLOWS_CELL
+        ),
     ]
     film_table_error: Annotated[float, Figure("", "error of the film that is interpolated in the table", unjudged=True)]
-    contact_temperature: Annotated[float | None, _heated("surfaces in contact, mean by pressure, run in")]
-    flash_temperature: Annotated[float | None, _heated("surfaces in contact, highest, run in")]
+    contact_temperature: Annotated[float | None, _heated(f"surfaces in contact, mean by pressure, {RUN_IN}")]
+    flash_temperature: Annotated[float | None, _heated(f"surfaces in contact, highest, {RUN_IN}")]
     evaluations_per_cycle: Annotated[float, Figure("", "films per cycle", unjudged=True)]
     number_mean_radius: Annotated[float, Figure("nm", "the same, mean by number", no_bar=pieces.FOLLOWS_CELL)]
     volume_mean_radius: Annotated[float, Figure("nm", "the same, mean by volume", no_bar=_FOLLOWS_CELL)]

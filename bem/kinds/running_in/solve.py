@@ -112,6 +112,8 @@ def _record(
         film_thickness_patch=figures.film_thickness_patch,
         film_pressure_patch=figures.film_pressure_patch,
         separation=figures.separation,
+        # the same number as `friction`, which is the sum of its two parts as in the kind `friction`; here it stands
+        # beside `friction_initial`
         friction_run_in=figures.friction,
         particles_first_cycle=float((worn.particles["cycle"] == 1).sum()),
         particles_last_cycles=float((worn.particles["cycle"] > len(cycles) - averaged).sum()),

@@ -12,6 +12,9 @@ from bem.scenes import pieces, wearing
 from bem.scenes.records import Figure, Series, grid_map
 from bem.scenes.third_bodies import THIRD_BODIES
 
+SETTLED = "mean over the last cycles.settled cycles"
+"""Window of means, which are taken even if the surface still changes."""
+_STRIP = "in the contact region (rows in contact; whole track of a body that moves)"
 _over, _map = partial(Series, ("cycle",)), partial(grid_map, of="last")
 
 
@@ -25,14 +28,16 @@ class WearRecord(pieces.MeanSizes, pieces.ParticleTable, wearing.WornRecord):
         *("first_cycles_radius", "criterion_wear_rate"),
     )
     particles_per_cycle: Annotated[
-        float, Figure("", "particles per cycle of one body, settled", headline=True, no_bar=pieces.FOLLOWS_CELL)
+        float, Figure("", f"particles per cycle of one body, {SETTLED}", headline=True, no_bar=pieces.FOLLOWS_CELL)
     ]
-    Sq_initial: Annotated[float, Figure("nm", "Sq in the contact region (rows in contact), unworn", headline=True)]
-    Sq_final: Annotated[float, Figure("nm", "Sq in the contact region (rows in contact), run in", headline=True)]
-    worn_depth: Annotated[float, Figure("nm", "mean depth worn in the contact region (rows in contact)")]
-    contact_area_fraction: Annotated[float, Figure("", "real contact area over that of the slice", headline=True)]
-    mean_contact_pressure: Annotated[float, Figure("Pa", "mean pressure over the real contact area")]
-    worn_volume_per_cycle: Annotated[float, Figure("um3", "volume worn per cycle, of all bodies that wear")]
+    Sq_initial: Annotated[float, Figure("nm", f"Sq {_STRIP}, unworn", headline=True)]
+    Sq_final: Annotated[float, Figure("nm", f"Sq {_STRIP}, after the last cycle", headline=True)]
+    worn_depth: Annotated[float, Figure("nm", f"mean depth worn {_STRIP}")]
+    contact_area_fraction: Annotated[
+        float, Figure("", f"real contact area over that of the slice, {SETTLED}", headline=True)
+    ]
+    mean_contact_pressure: Annotated[float, Figure("Pa", f"mean pressure over the real contact area, {SETTLED}")]
+    worn_volume_per_cycle: Annotated[float, Figure("um3", f"volume worn per cycle, of all bodies that wear, {SETTLED}")]
     first_cycles_radius: Annotated[
         float, Figure("nm", "volume-mean radius of the particles of the first five cycles", chance=pieces.OF_PIECES)
     ]
@@ -47,7 +52,8 @@ class WearRecord(pieces.MeanSizes, pieces.ParticleTable, wearing.WornRecord):
         ),
     ]
     criterion_wear_rate: Annotated[
-        float | None, Figure("mm3_Nm", "volume that the criterion removes by load and distance", headline=True)
+        float | None,
+        Figure("mm3_Nm", f"volume that the criterion removes by load and distance, {SETTLED}", headline=True),
     ]
     cycles: Annotated[int, Figure("", "cycles", headline=True, unjudged=True)]
     cell: Annotated[float, Figure("nm", "root of the cell's area", unjudged=True)]

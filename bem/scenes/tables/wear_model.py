@@ -26,7 +26,7 @@ class WearScenePart(Table):
         default=VonMises(),
     )
     stress_range: bool = key(
-        "Compare the range of the stress over a cycle, not its value, with the yield stress.",
+        "Compare half the change of stress since the last cycle (none before the first) with the yield stress.",
         "advanced",
         default=False,
         strict=True,
@@ -51,12 +51,14 @@ class WearScenePart(Table):
         "Body that loses material.", "basic", default="softer", reason="the softer one"
     )
     frame: Literal["cylinder", "disk"] = key(
-        "Body that stands with the contact: cylinder (the lower track wears evenly) or disk (it gets a groove).",
+        "Body that stands with the contact: cylinder (upper; the lower track wears evenly) or disk (lower; a groove).",
         "advanced",
         default="cylinder",
     )
     shift: Annotated[int, Field(strict=True, ge=-10_000, le=10_000)] = key(
-        "Sliding distance of a cycle, in cells, along the friction on the moving body.", "expert", default=3
+        "Cells that the moving body slides in a cycle: against the friction on it, or along where negative.",
+        "expert",
+        default=3,
     )
     within_layer: bool = key(
         "Particles end at the interface of the outermost layer.", "advanced", default=True, strict=True

@@ -27,8 +27,10 @@ class LocalWear(Detachment):
 
     Steps of a dry contact are implicit: the pressure is that at their end, solved with the wear as a compliance of each
     place, so a step of any length is stable, and the volume is k F s to round-off. Under a film and in partial slip the
-    pressure is that at the start of a step, which must not overshoot. `bem.wear.step_doubling` estimates the error of
-    the steps. In partial slip the distance at each place is that of the traction law's loops.
+    pressure is that at the start of a step, so a long step may wear more than the bodies give way, and the next
+    pressure alternates from cell to cell. In partial slip `_check_step` refuses such steps; under a film nothing does:
+    shorten the distance where the estimated error of the step (`bem.wear.step_doubling`, `RunningIn.step_error`) is not
+    small against the depth of a cycle. In partial slip the distance at each place is that of the traction law's loops.
     """
 
     distance: float = parameter(
@@ -77,8 +79,10 @@ class LocalWear(Detachment):
         """Return the wear volume of the lower body by load and distance [m^3/(N m)]."""
 
     def detach(self, cycle: BodyCycle) -> Removal:
-        """Return the depth (nx, ny) worn in a cycle, without pieces; it is the memory too, for the error of the
-        step."""
+        """Return the depth (nx, ny) worn in a cycle, without pieces.
+
+        The memory is the depth of this cycle alone, not of all cycles: the error of the last step needs no more.
+        """
         from bem.wear.loads import Removal
         from bem.wear.yielding import no_pieces
 
