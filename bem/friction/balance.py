@@ -14,7 +14,8 @@ variable m is nearly linear: next to either end only one of both changes.
    the balance needs, and the last trial is left to the next level where a secant predicts that it meets the goal.
 3. Where the opening jumps with the load (cells at the hardness), two trials bracket one load. Keep the film and press
    the surfaces to an approach between those of the two contacts.
-4. If the contact's own tolerance hides the root, tighten that tolerance a hundredfold and repeat.
+4. If the contact's own tolerance hides the root, or if the oil is held only within the error of the opening that this
+   tolerance leaves, tighten the tolerance a hundredfold and repeat, down to `FINEST_CONTACT`.
 5. Boundary lubrication: a film with a negligible fraction of the load (a tenth of the tolerance) is thinner than the
    opening under the rest. Return this film with the contact under the rest.
 6. The largest film load that the film model covers may be too small. If the film there is thinner than a few molecules,
@@ -22,6 +23,9 @@ variable m is nearly linear: next to either end only one of both changes.
 7. Certify: recompute both imbalances, of load and of oil, from the film and the contact that are returned. The contact
    load is the sum of its pressure; the film load is the one asked of the film model, for which the film's own status
    stands.
+
+A trial whose film or contact is stalled takes part in the search like any other. If it is the last one, the balance has
+its status; if it is not, it leaves no trace but its effect on later trials.
 
 Cost in mixed lubrication from a start at a neighbouring speed: three or four films, coarse and fine, with a contact
 each; six to eight from nothing. Nothing here depends on the kind of film or contact. Verified in
@@ -69,6 +73,8 @@ LEAST_REST = 1e-12
 """Smallest fraction of the load left to the surfaces that the log odds resolve."""
 _LEAST_STARTING_REST = 1e-6
 """Smallest fraction of the load left to the surfaces in a first trial."""
+_FULLY_YIELDED = 1e-6
+"""Relative distance from the largest load of the surfaces within which they yield everywhere."""
 _EQUAL_LOGARITHMS = 1e-9
 """Difference below which two logarithms of loads are equal."""
 
@@ -84,6 +90,9 @@ class Regime(StrEnum):
 @dataclass(frozen=True, eq=False)
 class BalanceStart:
     """Warm start of a balance; affects cost and rounding only.
+
+    `share_load` reads all but `speed_power` and `whole_film`: those two are carried from speed to speed for
+    `continuation` and for the film under the whole load.
 
     Attributes
     ----------
@@ -141,7 +150,8 @@ class Balance:
     status : converged where film and contact are converged, the load imbalance is within the tolerance, and the oil
         imbalance is within the tolerance or within the error of the opening that the contact's tolerance leaves.
     notes : of film, contact and balance.
-    oil_imbalance : (mean opening - mean film thickness) / mean film thickness where oil is counted; 0 at the ends.
+    oil_imbalance : (mean opening - mean film thickness) / mean film thickness where oil is counted; not evaluated at
+        the ends, where it is set to 0.
     refinement : change of the log odds of the film load from the coarse to the fine level.
     film_neglected : whether the film model ends before the balance, with a film so thin that it is neglected.
     """
@@ -160,12 +170,6 @@ class Balance:
     refinement: float = 0.0
     film_neglected: bool = False
 
-    @property
-    def next_start(self) -> BalanceStart:
-        """Warm start of a balance of nearly the same surfaces."""
-        pressure = None if self.contact is None else self.contact.pressure
-        return BalanceStart(self.film.load, self.slope, pressure, refinement=self.refinement)
-
 
 def share_load(
     film: Film, rough: RoughContact, load: float, tolerance: float, whole: PatchFilm, start: BalanceStart
@@ -177,7 +181,7 @@ def share_load(
     film : films as a function of their load.
     rough : contact of the rough surfaces.
     load : on the whole contact [N].
-    tolerance : largest imbalance, of the load and of the oil.
+    tolerance : largest imbalance, of the load and of the oil; not evaluated for the oil at the ends.
     whole : film under the whole load, or under the largest load of the film model.
     start : warm start.
     """
@@ -194,8 +198,8 @@ def share_load(
     regime = Regime.MIXED
     for level, error in enumerate(film.errors):
         search = _LevelSearch(film, rough, load, max(tolerance, error), level, bottom, top, history)
-        history.contact_tolerance = min(history.contact_tolerance, search.contact_tolerance)
-        coarse = at
+        history.contact_tolerance = min(history.contact_tolerance, search.starting_contact_tolerance)
+        log_load_before = at
         if level > 0 and regime is Regime.MIXED:
             at = search.log_load(search.log_odds(at) + start.refinement)
         found = search.find(at, slope, slope_known=start.slope_known and level == 0)
@@ -203,15 +207,18 @@ def share_load(
         if search.film_model_ends(trial):
             at = trial.log_load
             history.contact_tolerance = min(history.contact_tolerance, rough.tolerance)
-            finest = replace(search, level=len(film.errors) - 1)
+            finest = replace(search, level=len(film.errors) - 1, goal=max(tolerance, film.errors[-1]))
             if search.film_is_molecular(trial):
                 probe = finest.solve_trial()
                 return _certified(probe, rough, load, tolerance, Regime.BOUNDARY, history, slope, model_ends=True)
-            return _certified(finest.solve_trial(at), rough, load, tolerance, regime, history, slope, model_ends=True)
+            at_end = finest.solve_trial(at)
+            if search.is_finest or finest.film_model_ends(at_end):
+                return _certified(at_end, rough, load, tolerance, regime, history, slope, model_ends=True)
+            # only the coarse film is too thick there: the finer levels decide
     balance = _certified(trial, rough, load, tolerance, regime, history, slope)
     if regime is not Regime.MIXED or len(film.errors) == 1 or balance.status is not Status.CONVERGED:
         return balance
-    return replace(balance, refinement=search.log_odds(at) - search.log_odds(coarse))
+    return replace(balance, refinement=search.log_odds(at) - search.log_odds(log_load_before))
 
 
 @dataclass(frozen=True, eq=False)
@@ -297,8 +304,8 @@ class _LevelSearch:
         return self.level == len(self.film.errors) - 1
 
     @property
-    def contact_tolerance(self) -> float:
-        """Tolerance of the contact at the start of the search.
+    def starting_contact_tolerance(self) -> float:
+        """Tolerance of the contact at the start of the search; `_SearchHistory.contact_tolerance` is the current one.
 
         On the finest level the tolerance that was asked for. On coarse levels only what the balance needs: the goal
         times the film thickness, relative to the gap that the contact flattens.
@@ -317,6 +324,7 @@ class _LevelSearch:
         last: list[tuple[_Trial, bool]] = []
         sides: dict[bool, _Trial] = {}
         mismatches: list[float] = [SLOPE_ERROR] if slope_known else []
+        error_before = math.inf
 
         def evaluate(log_odds: float) -> tuple[float, bool]:
             trial = self.solve_trial(self.log_load(log_odds))
@@ -327,27 +335,41 @@ class _LevelSearch:
             return value, met or self.brackets_one_load(sides)
 
         while True:
-            coarse = self.history.contact_tolerance > FINEST_CONTACT
+            can_tighten = self.history.contact_tolerance > FINEST_CONTACT
             rest = -math.expm1(at - math.log(self.load))  # slope over ln(film load) times rest: slope over the log odds
-            trials = COARSE_TRIALS if coarse else MAX_TRIALS
+            trials = COARSE_TRIALS if can_tighten else MAX_TRIALS
             root = find_decreasing_root(evaluate, self.log_odds(at), slope * rest, ends, trials)
             ((trial, met),) = last
+            assert trial.contact is not None
+            # part of the error may not depend on this tolerance, as of tabulated cells
+            error_falls, error_before = trial.contact.opening_error <= 0.5 * error_before, trial.contact.opening_error
+            at, inside = trial.log_load, ends[0] < self.log_odds(trial.log_load) < ends[1]
             if not met and self.brackets_one_load(sides):
                 pressed = self.press_between(sides[True], sides[False])
-                if _volumes_agree(pressed, self.rough, self.goal) or not coarse:
+                agree = _volumes_agree(pressed, self.rough, self.goal)
+                if (agree and self.needs_no_tightening(pressed)) or not (can_tighten and inside):
                     return _LevelResult(pressed, slope, Regime.MIXED, pressed.log_load)
-                sides.clear()
-            at, inside = trial.log_load, ends[0] < self.log_odds(trial.log_load) < ends[1]
-            if met or not (coarse and inside):
+            if met and (self.needs_no_tightening(trial) or not error_falls):
                 break
-            self.history.contact_tolerance *= 0.01  # its effect on the opening may hide the root
+            if not (can_tighten and inside):
+                break
+            # the effect of the tolerance on the opening may hide the root; trials at another tolerance bracket nothing
+            self.history.contact_tolerance = max(0.01 * self.history.contact_tolerance, FINEST_CONTACT)
             mismatches.clear()
+            sides.clear()
         slope = root.slope / max(1 - trial.film.load / self.load, LEAST_REST)
         if at >= math.log(self.load) - _EQUAL_LOGARITHMS and self.mismatch(trial) > self.goal:
             return _LevelResult(self.with_excess(at, trial.film, None), slope, Regime.FULL_FILM, at)
         at_bottom = at <= self.bottom + _EQUAL_LOGARITHMS and self.is_boundary(trial)
         next_log_load = self.log_load(root.next_trial) if met and inside else at
         return _LevelResult(trial, slope, Regime.BOUNDARY if at_bottom else Regime.MIXED, next_log_load)
+
+    def needs_no_tightening(self, trial: _Trial) -> bool:
+        """Return True if a trial that counts as met on this level needs no contact of a tighter tolerance.
+
+        On coarse levels it never does. On the finest level it does where only the error of the opening accepts it.
+        """
+        return not self.is_finest or _volumes_agree(trial, self.rough, self.goal, within_error=False)
 
     def next_level_will_do(self, mismatch: float, before: Sequence[float]) -> bool:
         """Return True if a secant predicts that the next trial meets the goal, and a finer level can make that trial.
@@ -447,11 +469,11 @@ def _load_excess(film: PatchFilm, contact: Pressed | None, load: float) -> float
     return (film.load + (0.0 if contact is None else contact.load) - load) / load
 
 
-def _volumes_agree(trial: _Trial, rough: RoughContact, goal: float) -> bool:
-    """Return True if the opening holds the film's oil, to a goal or to the error of the opening itself."""
+def _volumes_agree(trial: _Trial, rough: RoughContact, goal: float, *, within_error: bool = True) -> bool:
+    """Return True if the opening holds the film's oil, to a goal or, by `within_error`, to the error of the opening."""
     assert trial.contact is not None
     oil, opening = rough.oil(trial.film), trial.contact.opening
-    if abs(opening - oil) <= trial.contact.opening_error * (1 + 1e-9):
+    if within_error and abs(opening - oil) <= trial.contact.opening_error * (1 + 1e-9):
         return True
     return opening > 0 and abs(math.log(oil / opening)) <= goal
 
@@ -469,8 +491,10 @@ def _certified(
 ) -> Balance:
     """Build the balance of the last trial, with imbalances, status and notes recomputed from its film and contact.
 
-    In boundary lubrication the film is sheared across the opening of the surfaces. `model_ends` says that the film
-    model ended before the balance: the case is infeasible, or in boundary lubrication its film is neglected.
+    In boundary lubrication a starved film is sheared across the opening of the surfaces; a flooded one keeps its
+    stress, an upper bound. `model_ends` says that the film
+    model ended before the balance: the case is infeasible, or in boundary lubrication its film is neglected. Surfaces
+    that yield everywhere under the rest, and still leave more open than the film fills, make it infeasible as well.
     """
     film, contact = trial.film, trial.contact
     imbalance = _load_excess(film, contact, load)
@@ -491,7 +515,9 @@ def _certified(
     elif contact is not None and contact.status is not Status.CONVERGED:
         status = contact.status
     elif abs(imbalance) > tolerance or not held:
-        status = Status.INFEASIBLE if model_ends and regime is not Regime.BOUNDARY else Status.STALLED
+        yielded = contact is not None and not held and contact.load >= rough.largest_load * (1 - _FULLY_YIELDED)
+        ends = (model_ends or yielded) and regime is not Regime.BOUNDARY
+        status = Status.INFEASIBLE if ends else Status.STALLED
     return Balance(
         film=film,
         contact=contact,

@@ -27,7 +27,7 @@ from bem.friction import rough_contact as rough_model
 from bem.friction.balance import BalanceStart, Regime, share_load
 from bem.friction.film import PatchFilm
 from bem.friction.models import rough_contact
-from bem.friction.rough_contact import boundary_traction
+from bem.friction.rough_contact import Pressed, boundary_traction
 from bem.friction.setup import MixedSetup
 from bem.notes import has_code
 from bem.notes.friction import BOUNDARY_LUBRICATION, FILM_MODEL_ENDS
@@ -429,3 +429,92 @@ def test_a_slow_soft_roller_has_no_hole_in_its_friction_curve():
     assert found.status is Status.CONVERGED
     assert abs(found.imbalance) <= 1e-3
     assert not has_code(found.notes, FILM_MODEL_ENDS)
+
+
+class ClosedFormContact:
+    """A rough contact whose opening [m] is a given function of load [N] and tolerance."""
+
+    traction = 0.0
+
+    def __init__(self, opening, *, tolerance=0.0, error=0.0, largest_load=math.inf):
+        self.opening, self.tolerance, self.error, self.largest_load = opening, tolerance, error, largest_load
+        self.approached = 0
+
+    def oil(self, film):
+        return float(film.thickness.mean())
+
+    def clears(self, film):
+        return False
+
+    def at_load(self, film, load, tolerance, start):
+        pressure = np.full(GRID.shape, load)
+        return Pressed(
+            load=load, opening=self.opening(load, tolerance), pressure=pressure, approach=0.0, area=1.0,
+            convolutions=1.0, status=Status.CONVERGED, solution=None, separation=pressure[:, 0], covered=pressure,
+            opening_error=tolerance * self.error,
+        )  # fmt: skip
+
+    def at_approach(self, film, approach, tolerance, start):
+        self.approached += 1
+        return self.at_load(film, 1.0, tolerance, start)
+
+
+def balanced(film, rough, tolerance=5e-4, first=2.0):
+    whole = film.under(min(5.5, film.largest_load), 0, None)
+    return share_load(film, rough, 5.5, tolerance, whole, BalanceStart(first))
+
+
+@pytest.mark.internal
+@pytest.mark.parametrize("error", [1e-5, 1e-4])
+def test_the_oil_is_held_to_the_tolerance_where_a_tighter_contact_can_show_it(error):
+    """The error of the opening is a large part of the film: the first trial within it is no balance yet."""
+    rough = ClosedFormContact(lambda load, tolerance: 3e-7 / math.sqrt(load), tolerance=1e-2, error=error)
+    balance = balanced(FlatFilm(1e-6), rough)
+    assert balance.status is Status.CONVERGED
+    assert abs(balance.oil_imbalance) <= 5e-4
+    assert balance.contact.opening_error < 0.5 * 1e-2 * error
+
+
+@pytest.mark.internal
+def test_trials_at_two_tolerances_of_the_contact_bracket_no_jump():
+    """A loose contact's error hides the root. Its last trial and a tight one under the same load are no jump."""
+    for shift in (0.999, 1.001):
+
+        def opening(load, tolerance, shift=shift):
+            exact = 1.5e-7 * (3 / load) ** 0.5
+            held = 1e-6 / (5.5 - load)
+            wrong = 0.9 if held > exact else 1.1
+            return exact * (wrong if tolerance > 1e-3 else shift)
+
+        rough = ClosedFormContact(opening, tolerance=1e-2)
+        balance = balanced(FlatFilm(1e-6), rough, tolerance=1e-8)
+        assert balance.status is Status.CONVERGED
+        assert balance.contacts > balance_model.COARSE_TRIALS
+        assert rough.approached == 0
+
+
+@pytest.mark.internal
+def test_surfaces_that_yield_everywhere_and_leave_more_open_than_the_film_fills_are_infeasible():
+    rough = ClosedFormContact(lambda load, tolerance: 1e-5, largest_load=4.0)
+    balance = balanced(FlatFilm(1e-6), rough)
+    assert balance.contact.load == pytest.approx(4.0, rel=1e-6)
+    assert balance.oil_imbalance > 1
+    assert balance.status is Status.INFEASIBLE
+
+
+@pytest.mark.internal
+@pytest.mark.parametrize("opening", [3.3334e-7, 3.36e-7])
+def test_finer_films_decide_whether_the_film_model_ends_before_the_balance(opening):
+    """At the end of its model the coarse film is 2 % too thick; the fine one holds the oil there or under less load."""
+
+    class Levels(FlatFilm):
+        def under(self, load, level, start):
+            film = super().under(load, level, start)
+            return dataclasses.replace(film, thickness=film.thickness * (1.02 if level == 0 else 1.0))
+
+    film = Levels(1e-6, largest_load=3.0, errors=(1e-3, 0.0))
+    balance = balanced(film, ClosedFormContact(lambda load, tolerance: opening * (2.5 / load) ** 0.5))
+    assert balance.status is Status.CONVERGED
+    assert balance.regime is Regime.MIXED
+    assert abs(balance.oil_imbalance) <= 5e-4
+    assert not has_code(balance.notes, FILM_MODEL_ENDS)
