@@ -75,7 +75,7 @@ def test_run_report_plot_and_the_same_bits_again(small):
     notes = done.stderr.splitlines()
     summary = json.loads((small / "out" / "summary.json").read_text())
     codes = {note["code"] for note in summary["notes"]}
-    assert "contact-at-cap" in codes, "93 % of this contact is at the cap"
+    assert "hardness-decides" in codes, "93 % of this contact is at the cap"
     assert all(line.startswith("bem: caution: ") for line in notes), "piped: no progress, no warnings of libraries"
     assert "contact area fraction" in done.stdout
     assert "out/report.html" in done.stdout

@@ -268,7 +268,8 @@ def _reached(campaign: Campaign, found: Sequence[Mapping[str, Any]]) -> Note:
         steps = "; ".join(f"{level['resolution']}: {_of_asked(level['worst'])}" for level in only["levels"])
         return ACCURACY(
             asked=_asked_words(only["asked"]),
-            met=f"is {'met' if only['met'] else 'not met'} on {last['resolution']}{_worst(campaign.kind.record, last)}",
+            met="is met" if only["met"] else "is not met",
+            on=f"{last['resolution']}{_worst(campaign.kind.record, last)}",
             steps=f" Largest error over what is asked, level by level: {steps}.",
             reason="reached",
         )
@@ -277,9 +278,8 @@ def _reached(campaign: Campaign, found: Sequence[Mapping[str, Any]]) -> Note:
     on = " and ".join(finest) if len(finest) <= 2 else f"{len(finest)} choices such as {next(iter(finest))}"
     several = {_asked_words(item["asked"]) for item in found}
     asked = several.pop() if len(several) == 1 else "as each case asks"
-    return ACCURACY(
-        asked=asked, met=f"is met in {met} of {len(campaign.cases)} cases, on {on}", steps="", reason="reached"
-    )
+    said = "is met" if met == len(campaign.cases) else f"is met in {met} of {len(campaign.cases)} cases"
+    return ACCURACY(asked=asked, met=said, on=on, steps="", reason="reached")
 
 
 def _worst(record: type[Record], level: Mapping[str, Any]) -> str:

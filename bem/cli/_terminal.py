@@ -67,7 +67,7 @@ class Terminal:
         if not isinstance(text, Note):
             self.say(f"note: {text}")
             return
-        keys = {identity(text), (text.code, text.texts), (text.code, text.headline)}
+        keys = {identity(text), (text.code, text.texts), (text.code, text.values.get("reason"), text.headline)}
         if text.level is Level.INFO or keys & self._noted:
             return
         self._noted |= keys
@@ -285,7 +285,7 @@ def show_warnings(warnings: Sequence[str], *, remarks: str = "") -> None:
     notes = [as_note(text) for text in warnings]
     begins = {Level.OUTSIDE_MODEL: OUTSIDE, Level.CAUTION: ""}
     lines = [begins[one.level] + one.line for one in notes if one.level in begins]
-    counts = [(len(lines), "warning"), (len(notes) - len(lines), "remark")]
+    counts = [(len(lines), "caution"), (len(notes) - len(lines), "remark")]
     head = ", ".join(f"{count} {word}{'s' if count > 1 else ''}" for count, word in counts if count)
     if not head:
         return

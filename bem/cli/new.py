@@ -118,7 +118,7 @@ def _list_all() -> None:
         for task, names in kinds_by_task().items()
         for name in names
     ]
-    table(("task", "kind", "what it computes"), rows, title="kinds of scene")
+    table(("task", "kind", "what it computes"), rows, title="kinds of calculation")
     table(("element", "what it shows"), list(TITLES.items()), title="machine elements")
     print("next: bem new KIND writes a commented file to start from; `bem scenes` lists finished scenes")
 

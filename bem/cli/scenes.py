@@ -50,4 +50,7 @@ def register(app: typer.Typer) -> None:
             for name, item in known.items()
             if item["kind"] == kind
         ]
-        table(("scene", "kind", "what it is", "redoes"), rows, wide_only=(1, 3))
+        table(("scene", "kind", "what it is", "reproduces"), rows, wide_only=(1, 3))
+        print(
+            "papers A to E: A. Akchurin, Generation of Wear Particles in Lubricated Contacts during Running-In (2017)"
+        )

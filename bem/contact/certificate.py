@@ -23,7 +23,8 @@ from bem.contact.solution import ContactSolution
 from bem.errors import Status
 from bem.grid import Grid
 from bem.notes import Note
-from bem.notes.contact import CONTACT_AT_EDGE, MEAN_GAP_NOT_MET, SPOTS_SMALL
+from bem.notes.contact import CONTACT_AT_EDGE, CONTACT_UNRESOLVED, MEAN_GAP_NOT_MET
+from bem.notes.note import si
 
 FloatArray = NDArray[np.float64]
 
@@ -132,7 +133,7 @@ def _regions(
     least = load / cap  # the pressure is nowhere above the cap
     doubt: tuple[Note, ...] = ()
     if contact.elastic_edge_area < _SHORT * least and contact.counted_area > _MANY * least:
-        doubt = (SPOTS_SMALL(times=contact.counted_area / least, of=""),)
+        doubt = (CONTACT_UNRESOLVED(times=contact.counted_area / least, of="", reason="spots"),)
     if not capped:
         return contact, Region(0.0, 0.0, 0.0, 0.0, 0.0), doubt
     plastic = plastic_region(pressure, deformed, request.gap, cap, grid, modulus)
@@ -171,5 +172,5 @@ def _why(request: Request, units: Units, result: GridResult, status: Status, ope
     if result.least_found is None and status is not Status.STALLED:
         return ()
     least = None if result.least_found is None else result.least_found * units.length
-    has = f"{opening:.4g} m" if least is None else f"the least that was found, {least:.4g} m"
+    has = si(opening, "m") if least is None else f"the least that was found, {si(least, 'm')}"
     return (MEAN_GAP_NOT_MET(asked=request.mean_gap, found=has, reason="not-found"),)

@@ -26,7 +26,7 @@ from bem.elements.rough_scenes import BOUNDARY_FRICTION, mixed_scene, rubbing_sc
 from bem.errors import InputError
 from bem.materials import Body, Material, contact_modulus
 from bem.notes import Note
-from bem.notes.checks import CONTACT_WIDE, YIELDS
+from bem.notes.checks import SLOPES_LARGE, YIELDS
 from bem.notes.elements import NO_HEAT
 from bem.notes.scenes import FILM_THINNER_THAN_ROUGHNESS
 from bem.scenes.checks.hertz import smooth_contact
@@ -189,7 +189,7 @@ class Element:
         notes = [*notes_on_table(self.model), *self.found.notes]
         conforming = [one.name for one in self.found.contacts if one.conforming(self.modulus)]
         if conforming:
-            notes.append(CONTACT_WIDE(places=len(conforming), first=conforming[0], limit=CONFORMING, reason="element"))
+            notes.append(SLOPES_LARGE(places=len(conforming), first=conforming[0], limit=CONFORMING, reason="element"))
         if (soft := self._yielding()) is not None:
             notes.append(soft)
         cold = [one.name for one in self._bodies() if not one.thermal_diffusivity]

@@ -37,7 +37,7 @@ from bem.flow.inverse_gap import InverseGap, inverse_gap_of_contact, inverse_gap
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
 from bem.notes import Note
-from bem.notes.contact import FLOW_BARRED
+from bem.notes.lubrication import FLOW_FACTORS_LIMIT
 from bem.representation import readable
 
 LEAST_GAP = 1e-4
@@ -182,7 +182,7 @@ def flow_factors(
             columns[f"{name}_error"] = np.abs(columns[name] - coarser[name]) / 3
     closed = [f"{1e9 * d:.4g} nm" for d, row in zip(rising, rows, strict=True) if row[0]["pressure_x"] == 0]
     if closed:
-        notes.append(FLOW_BARRED(separations=closed, reason="table"))
+        notes.append(FLOW_FACTORS_LIMIT(separations=closed, reason="table"))
     return FlowFactors(
         wall_share=float(wall_share),
         separations=rising,

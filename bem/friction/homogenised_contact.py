@@ -34,7 +34,7 @@ from bem.friction.rough_contact import OfPatch, Pressed, SpreadContact
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray, Grid
 from bem.notes import Note
-from bem.notes.friction import CELL_BEYOND_TABLE, CELL_LONG
+from bem.notes.friction import REPEATED_PATCH
 
 LEAST, MOST, STEPS = 1e-4, 4.0, 28
 """Range of the tabulated mean pressures, over the mean pressure of the Hertz contact, and their number."""
@@ -171,9 +171,10 @@ class HomogenisedContact(OfPatch):
         notes = []
         across = min(self.setup.smooth.half_axes(self.setup.load)) / max(self.setup.grid.lengths)
         if across < FEWEST_CELLS_ACROSS:
-            notes.append(CELL_LONG(across=float(across), fewest=FEWEST_CELLS_ACROSS))
+            notes.append(REPEATED_PATCH(across=float(across), fewest=FEWEST_CELLS_ACROSS, reason="long"))
         if float(pressure.max()) > float(self._pressures[-1]) * 1.01:
-            notes.append(CELL_BEYOND_TABLE(pressure=float(pressure.max()), limit=float(self._pressures[-1])))
+            limit = float(self._pressures[-1])
+            notes.append(REPEATED_PATCH(pressure=float(pressure.max()), limit=limit, reason="pressure"))
         return tuple(notes)
 
 

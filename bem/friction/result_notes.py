@@ -22,8 +22,8 @@ from bem.friction.setup import MixedSetup
 from bem.materials import Body
 from bem.notes import Level, Note
 from bem.notes.contact import FRICTION_ON_PRESSURE
-from bem.notes.friction import FILM_MODEL_ENDS, FILM_WITHOUT_LAYERS, FRICTION_UNPHYSICAL, OIL_COUNTED, OIL_ON_CONTACT
-from bem.notes.lubrication import FILM_NOT_FOUND, HEAT_NOT_FOUND
+from bem.notes.friction import FILM_WITHOUT_LAYERS, FRICTION_UNPHYSICAL, LAMBDA_UNCERTAIN, OIL_COUNTED, OIL_ON_CONTACT
+from bem.notes.lubrication import HEAT_NOT_FOUND
 
 LARGEST_FRICTION = 1.0
 """Coefficient of friction that neither a boundary layer nor an oil under pressure reaches."""
@@ -50,10 +50,10 @@ def validity_notes(
         reason = "shear" if stressed else "drag"
         notes.append(FRICTION_UNPHYSICAL(friction=float(friction), limit=LARGEST_FRICTION, reason=reason))
     if whole.load < setup.load * (1 - 1e-12):
-        notes.append(FILM_MODEL_ENDS(load=float(whole.load), reason="whole-load"))
+        notes.append(LAMBDA_UNCERTAIN(load=float(whole.load), reason="model-ends"))
     if film.status is Status.CONVERGED and whole.status is not Status.CONVERGED:
         heat = any(note.code == HEAT_NOT_FOUND.code for note in whole.notes)
-        notes.append((HEAT_NOT_FOUND if heat else FILM_NOT_FOUND)(reason="whole-load"))
+        notes.append(LAMBDA_UNCERTAIN(reason="no-heat" if heat else "no-film"))
     return (*notes, *coating_notes(setup))
 
 

@@ -22,7 +22,6 @@ from bem.notes import Level, Note
 from bem.notes.lubrication import (
     FILM_MOLECULAR,
     FILM_NOT_FOUND,
-    FILM_SLIPS,
     FILM_SPIKE,
     FILM_THICK,
     HEAT_LEFT_OUT,
@@ -154,7 +153,7 @@ def shear_at_the_limit(case: Case) -> Note | None:
         if isinstance(law, LimitedShear)
         else ""
     )
-    return SHEAR_LIMITED(limit=limit)
+    return SHEAR_LIMITED(limit=limit, reason="friction")
 
 
 def film_slips(case: Case) -> Note | None:
@@ -164,7 +163,7 @@ def film_slips(case: Case) -> Note | None:
         return None
     if shear_at_the_limit(case) is None:
         return None
-    return FILM_SLIPS()
+    return SHEAR_LIMITED(reason="film")
 
 
 def _load_share(case: Case, where: NDArray[np.bool_]) -> float:
@@ -217,7 +216,7 @@ def spike_unresolved(case: Case) -> Note | None:
     if not (np.minimum(p[:-2], p[2:])[peaks] < SHARP_SPIKE * inner[peaks]).any():
         return None
     incompressible = case.lubricant.density_law.name == "incompressible"
-    return FILM_SPIKE(remedy=', or take density_law = "dowson_higginson"' if incompressible else "")
+    return FILM_SPIKE(remedy='; density_law = "dowson_higginson" blunts the spike' if incompressible else "")
 
 
 def inlet_heating(case: Case) -> Note | None:

@@ -23,8 +23,7 @@ import numpy as np
 from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.notes import Note
-from bem.notes.contact import FLOW_BARRED
-from bem.notes.lubrication import FACTORS_EXTRAPOLATED
+from bem.notes.lubrication import FLOW_FACTORS_LIMIT
 
 Curve = Callable[[FloatArray], tuple[FloatArray, FloatArray]]
 LEAST_FACTOR = 1e-4
@@ -157,8 +156,8 @@ def notes_on_factors(factors: WallFactors | str, thinnest: float) -> tuple[Note,
     if isinstance(factors, str):
         return ()
     if float(factors.pressure_x_curve(np.array([thinnest]))[0][0]) <= LEAST_FACTOR:
-        return (FLOW_BARRED(thinnest=float(thinnest), least=LEAST_FACTOR, reason="film"),)
+        return (FLOW_FACTORS_LIMIT(thinnest=float(thinnest), least=LEAST_FACTOR, reason="film"),)
     least = float(np.min(factors.separations))
     if thinnest >= least:
         return ()
-    return (FACTORS_EXTRAPOLATED(thinnest=float(thinnest), least=least),)
+    return (FLOW_FACTORS_LIMIT(thinnest=float(thinnest), least=least, reason="extrapolated"),)

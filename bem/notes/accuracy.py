@@ -36,6 +36,7 @@ class NoBar(StrEnum):
     FEW_PARTICLES = "few-particles"
     SCATTERED_PARTICLES = "scattered-particles"
     NO_COARSE_FILM = "no-coarse-film"
+    FEW_FILM_CELLS = "few-film-cells"
     SINGLE_LOOP = "single-loop"
     OF_KIND = "of-kind"
 
@@ -91,6 +92,7 @@ NO_ERROR_BAR = define(
         NoBar.FEW_PARTICLES: "There are fewer than two particles.",
         NoBar.SCATTERED_PARTICLES: "{count} particles leave more than {most:.0f} times the figure open.",
         NoBar.NO_COARSE_FILM: "On half as many cells there is no film to compare with.",
+        NoBar.FEW_FILM_CELLS: "Half as many cells are too few to compare with: take {nx} x {ny} cells.",
         NoBar.SINGLE_LOOP: (
             "A single loop has none: cycles.coarser_grid = true makes it once more on the grid of twice the cell; "
             "repetitions show how figures scatter with the surface."
@@ -123,7 +125,7 @@ ACCURACY = define(
     INFO,
     "The accuracy asked for {met}.",
     reasons={
-        "reached": "Asked for is {asked}.{steps}",
+        "reached": "On {on}. Asked for is {asked}.{steps}",
         "left-out": "{figures:few}: {why}.",
     },
 )

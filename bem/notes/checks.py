@@ -8,15 +8,16 @@ OUTSIDE_MODEL, CAUTION, INFO = Level.OUTSIDE_MODEL, Level.CAUTION, Level.INFO
 VISCOELASTIC = define(
     "material-viscoelastic",
     CAUTION,
-    "A polymer or rubber creeps, and solids here have no time dependence.",
+    "The material may creep; the calculation is purely elastic.",
     "Its modulus is {modulus:si Pa}.",
     "Take the modulus at the rate and temperature of the contact, and run a second one to compare.",
 )
 FATIGUE_CONSTANTS = define(
     "fatigue-constants-of-steel",
     CAUTION,
-    "The fatigue constants are those of unalloyed and low-alloy steels.",
-    "wear.criterion low_cycle_fatigue wears {material}, E = {modulus:si Pa}, which is none.",
+    "Fatigue constants of steel are used for {material}, which is no steel.",
+    "wear.criterion low_cycle_fatigue wears {material}, E = {modulus:si Pa}; the constants are those of unalloyed and "
+    "low-alloy steels.",
     "Give the material its own ductility and exponent.",
 )
 LAYER_INCOMPRESSIBLE = define(
@@ -31,7 +32,7 @@ HARDNESS_UNLIKELY = define(
     CAUTION,
     "The hardness does not fit Young's modulus or yield stress.",
     "",
-    "Check the values and their units.",
+    "Check hardness and youngs_modulus, and their units.",
     reasons={
         "low": "{hardness:si Pa} is {share:.2g} of Young's modulus, below that of annealed metals (5e-4 to 0.2).",
         "high": "{hardness:si Pa} is {share:.2g} of Young's modulus, above that of a perfect solid (5e-4 to 0.2).",
@@ -45,7 +46,7 @@ HARDNESS_UNLIKELY = define(
 CAP_NOT_OF_SOFTER = define(
     "cap-not-of-softer",
     CAUTION,
-    "The pressure is capped by another value than the softer body's hardness.",
+    "The pressure cap is not the hardness of the softer body.",
     "",
     "Give {material} a hardness of its own.",
     reasons={
@@ -67,17 +68,39 @@ GROWTH_WITHOUT_BARRIER = define(
 )
 
 # Surfaces
-SURFACE_STEEP = define(
-    "surface-steep",
+SLOPES_LARGE = define(
+    "slopes-large",
     CAUTION,
-    "The roughness is too steep for half-spaces.",
-    "Its rms slope is {slope:.2g}; half-spaces stand for slopes well below one, and pressures grow with them.",
-    "Filter the surface (low_pass, cutoff_wavelength), or read the result as a trend.",
+    "The contact is wide for the radius of its bodies.",
+    reasons={
+        "roughness": Reason(
+            "Its rms slope is {slope:.2g}; half-spaces stand for slopes well below one, and pressures grow with them.",
+            "Filter the surface (low_pass, cutoff_wavelength), or read the result as a trend.",
+            headline="The roughness is too steep for small-slope (half-space) theory.",
+        ),
+        "hertz": Reason(
+            "The contact radius is {ratio:.2g} of the body's radius: half-spaces and small strains hold below about"
+            " 0.2; strains are of order {strain:%}.",
+            "Expect errors of several per cent, or use finite elements with large deformations.",
+        ),
+        "element": Reason(
+            "At {places} places ({first}, ...) it reaches over {limit:g} of a body's radius: the gap of conforming"
+            " bodies is up to 7 % and more over the parabola of Hertz and of scenes.",
+            "Take the pressures there as estimates.",
+        ),
+        "worn": Reason(
+            "The bodies are worn {depth:si m} deep at a radius of {radius:si m}{of}: the scar's edge has a slope of"
+            " {slope:.2g}, where half-spaces hold below about {limit:g}, and pressure, depth and width are not those of"
+            " such bodies.",
+            "Take less wear (a shorter wear.criterion.distance, fewer cycles.count), or the volume by load and distance"
+            " alone.",
+        ),
+    },
 )
 SURFACE_IS_FORM = define(
     "surface-is-form",
     CAUTION,
-    "The heights are form, or in a wrong unit.",
+    "Roughness is too high for this patch: form, or a wrong unit.",
     "Sq {height:si m} is {share:%} of the patch's side.",
     "Check height_unit and rms_height, or remove form.",
 )
@@ -97,43 +120,12 @@ MAP_COARSE = define(
         ),
     },
 )
-MAP_SCALED = define(
-    "map-scaled",
-    CAUTION,
-    "Measured heights are scaled out of proportion.",
-    "They are multiplied by {factor:.2g} to have Sq {height:si m}, and slopes with them.",
-    "Leave rms_height out, or use a map of such a surface.",
-)
 
 # The contact as a whole
-CONTACT_WIDE = define(
-    "contact-wide",
-    CAUTION,
-    "The contact is wide for the radius of its bodies.",
-    reasons={
-        "hertz": Reason(
-            "Its radius is {ratio:.2g} of the body's: half-spaces and small strains hold below about 0.2; strains are"
-            " of order {strain:%}.",
-            "Expect errors of several per cent, or use finite elements with large deformations.",
-        ),
-        "element": Reason(
-            "At {places} places ({first}, ...) it reaches over {limit:g} of a body's radius: the gap of conforming"
-            " bodies is up to 7 % and more over the parabola of Hertz and of scenes.",
-            "Take the pressures there as estimates.",
-        ),
-        "worn": Reason(
-            "The bodies are worn {depth:si m} deep at a radius of {radius:si m}{of}: the scar's edge has a slope of"
-            " {slope:.2g}, where half-spaces hold below about {limit:g}, and pressure, depth and width are not those of"
-            " such bodies.",
-            "Take less wear (a shorter wear.criterion.distance, fewer cycles.count), or the volume by load and distance"
-            " alone.",
-        ),
-    },
-)
 ABOVE_HARDNESS = define(
     "above-hardness",
     CAUTION,
-    "The contact is elastic above the hardness; a real one would flow.",
+    "Elastic pressures exceed the softer body's hardness; real surfaces would yield.",
     reasons={
         "hertz": Reason(
             "Hertz' pressure {pressure:si Pa} is {ratio:.2g} times the softer hardness.",
@@ -165,42 +157,38 @@ YIELDS = define(
         "solved": "Elastic von Mises stresses reach {stress:si Pa} and are too high in {volume:.3g} um^3.",
     },
 )
-BODY_REPEATS = define(
-    "body-repeats",
+PERIODIC_GRID = define(
+    "periodic-grid",
     CAUTION,
-    "The curved body repeats with the periodic grid.",
-    "It is periodic along {axis}, so the {shape} repeats every {length:si m}{near}.",
-    "For one body make that axis free.",
+    "The shape does not suit the periodic grid.",
+    reasons={
+        "body": Reason(
+            "The grid is periodic along {axis}, so the {shape} repeats every {length:si m}{near}.",
+            "For one body make that axis free.",
+            headline="The curved body repeats with the periodic grid.",
+        ),
+        "wave": Reason(
+            "{waves:.4g} waves lie on a periodic grid of {length:si m}.",
+            "Take a whole number of waves.",
+            headline="The wave has a kink at the grid's seam.",
+        ),
+    },
 )
 PATCH_SINKS = define(
     "patch-sinks",
     INFO,
-    "Loads at a given separation depend on the patch's length.",
+    "The load at a given separation changes with patch size.",
     "The half-space sinks in by up to {sunk:si m} under the mean pressure of the patch, {length:si m} long.",
-)
-WAVE_DOES_NOT_FIT = define(
-    "wave-does-not-fit",
-    CAUTION,
-    "The wave has a kink at the grid's seam.",
-    "{waves:.4g} waves lie on a periodic grid of {length:si m}.",
-    "Take a whole number of waves.",
 )
 CYLINDER_NARROW = define(
     "cylinder-narrow",
     CAUTION,
     "The cylinder is too narrow for a line contact.",
-    "It is {ratio:.2g} times as wide as its contact is long; plane strain is no model of it below about five.",
+    "Its length is {ratio:.2g} times the contact width 2a; a line contact needs five.",
     "Check width, or take an ellipsoid in kind contact.",
 )
 
 # The mesh
-CELLS_ACROSS_CONTACT = define(
-    "cells-across-contact",
-    CAUTION,
-    "The grid has few cells across the Hertz contact.",
-    "There are {across:.2g} cells; {fewest} give the pressure within 1.5 % and the area within 13 %, and 40 give maps.",
-    "Take {fewest} or more: spacing {spacing:si m} gives 20.",
-)
 ROUGHNESS_UNRESOLVED = define(
     "roughness-unresolved",
     CAUTION,
@@ -226,7 +214,7 @@ ROUGHNESS_UNRESOLVED = define(
         ),
         "film-wave": Reason(
             "The film has about {cells:.2g} cells to the surface's shortest wave; load shares in contact change by"
-            " tenths below {fewest:g}.",
+            " tens of per cent below {fewest:g}.",
             "Take more cells of the film.",
         ),
     },
@@ -248,13 +236,15 @@ LAYER_MESH = define(
     "The layer's thickness does not suit the grid.",
     reasons={
         "thin": Reason(
-            "It is {thickness:si m} thick on cells of {cell:si m}: its compliance is found, its bending and stresses"
+            "It is {thickness:si m} thick on cells of {cell:si m}: the layer's softness is right, its bending stresses"
             " are not.",
-            "Take cells of its thickness, or leave it out.",
+            "Take cells no larger than the layer's thickness, or leave the layer out.",
+            headline="The layer is thinner than the cells.",
         ),
         "thick": Reason(
             "It is {thickness:si m} thick over a grid of {length:si m}, and the substrate is hardly felt.",
             "Make the layer the body's material, which is faster.",
+            headline="The layer is thick against the grid.",
         ),
     },
 )
@@ -304,19 +294,22 @@ PARTICLES_OF_MESH = define(
         ),
     },
 )
-NOTHING_SLIDES = define(
-    "nothing-slides",
+WEAR_SHIFT = define(
+    "wear-shift",
     CAUTION,
-    "The surfaces do not slide on; every cycle meets the same asperities.",
-    "wear.shift = 0: the surfaces do not slide on.",
-    "Take 1 or more.",
-)
-SLIDES_DIFFER = define(
-    "slides-differ",
-    CAUTION,
-    "Variants with other meshes slide another distance and do not compare.",
-    "Variants slide {shortest} to {longest} in a cycle.",
-    "Take shifts in proportion to the cells.",
+    "The distance that the surfaces slide in a cycle is unsuitable.",
+    reasons={
+        "zero": Reason(
+            "With wear.shift = 0 the surfaces do not slide on.",
+            "Set wear.shift to 1 or more.",
+            headline="The surfaces do not slide; every cycle meets the same asperities.",
+        ),
+        "differs": Reason(
+            "They slide {shortest} to {longest} in a cycle.",
+            "Keep wear.shift times the cell size the same.",
+            headline="Variants slide different distances per cycle; they cannot be compared.",
+        ),
+    },
 )
 
 # Results of a contact
@@ -330,35 +323,35 @@ PRESSURE_AT_SEAM = define(
 STRAIN_LARGE = define(
     "strain-large",
     CAUTION,
-    "Pressures exceed the range of linear elasticity.",
+    "Pressures are too high for linear elasticity.",
     "They reach {pressure:si Pa}, {ratio:.2g} times the contact modulus, and {share:%} of the load is "
     "carried above 0.2 of it: strains are of that order, and linear elasticity ends at about 0.1.",
     "Check units, smooth the surface, or cap the pressure at a hardness.",
 )
-CONTACT_AT_CAP = define(
-    "contact-at-cap",
+HARDNESS_DECIDES = define(
+    "hardness-decides",
     INFO,
     "Pressures are limited by the hardness that was given.",
     reasons={
-        "reached": "{cells} are at the hardness, {cap:si Pa}; nothing hardens there.",
+        "reached": "{cells} are at the hardness, {cap:si Pa}; work hardening is left out.",
         "within-error": (
             "Nothing is at the hardness here, {cap:si Pa}, but it lies within the error of the highest pressure: on "
             "finer cells a part of the contact may be."
         ),
-    },
-)
-CAPPED_NEARLY_FULL = define(
-    "capped-nearly-full",
-    CAUTION,
-    "Most of the patch is at the hardness, where valleys would resist.",
-    "",
-    "Take a smaller load or a larger grid.",
-    reasons={
         "load": Reason(
-            "The load is {ratio:.2g} of hardness x area of the grid; a cap leaves the resistance out above about half.",
+            "The load is {ratio:.2g} of hardness x area of the grid. At this load most of the patch reaches the"
+            " hardness; rough valleys would carry more.",
+            "Take a smaller load or a larger grid.",
+            CAUTION,
             foreseen=True,
+            headline="Most of the patch reaches the hardness; rough valleys would carry more.",
         ),
-        "area": "{share:%} of the patch is in contact; a cap leaves the resistance out above about half.",
+        "area": Reason(
+            "{share:%} of the patch is in contact; above about half rough valleys resist, which a cap leaves out.",
+            "Take a smaller load or a larger grid.",
+            CAUTION,
+            headline="Most of the patch has yielded; rough valleys would carry more.",
+        ),
     },
 )
 
@@ -367,22 +360,22 @@ SURFACE_ROUGHENED = define(
     "surface-roughened",
     OUTSIDE_MODEL,
     "The worn surface grew rough instead of running in.",
-    "Sq went from {before:si m} to {after:si m}{of}: friction, film and particles at the end are of holes that "
-    "the criterion and the cell made. Both surfaces together had {both:si m}, and pieces{holes} deeper than"
-    " that leave holes{so}.",
+    "Sq went from {before:si m} to {after:si m}{of}. The criterion and the cell size made holes, and friction, film "
+    "and particles at the end are of these holes. Both surfaces together had Sq {both:si m}; pieces{holes} deeper than "
+    "that leave holes{so}.",
     "Compare a finer grid, take fewer cycles, or a criterion that wears by pressure (archard).",
 )
 NO_WEAR_RATE = define(
     "no-wear-rate",
     CAUTION,
-    "criterion_wear_rate is not the wear rate of a metal.",
-    "It is up to {rate:.2g} mm3/(N m){of}; metals have 1e-9 to {severe:g}.",
+    "The computed wear rate is far above that of any metal.",
+    "criterion_wear_rate is up to {rate:.2g} mm3/(N m){of}; metals have 1e-9 to {severe:g}.",
     "Take volumes from a measured rate ([archard], or the criterion archard).",
 )
 NOT_SETTLED = define(
     "not-settled",
     CAUTION,
-    "The loop has not settled.",
+    "The wear cycles have not settled.",
     "Means of the last cycles (25, or half of all) differ from those of as many before them: {drifting}; "
     "the figures of the end are those of this number of cycles.",
     "Take more cycles.count, or read the curves over cycles.",
@@ -390,7 +383,7 @@ NOT_SETTLED = define(
 PARTICLES_OF_BODY = define(
     "particles-of-body",
     INFO,
-    "Figures of particles, heights and volumes are not of the same bodies.",
+    "Particles, roughness and volumes refer to different bodies.",
     reasons={
         "unworn": Reason(
             "sizes.particles_of names the {asked} body, and only the {worn} one wears: sizes and numbers of particles,"
@@ -407,8 +400,8 @@ WEAR_STEPS_LONG = define(
     "The wear law's steps are too long, which no error bar counts.",
     reasons={
         "overshoot": Reason(
-            "A cycle takes {give:.3g} m/Pa off, more than twice the {most:.3g} m/Pa by which the bodies give way from"
-            " cell to cell: depths, roughness and contact are those of the steps.",
+            "Each cycle removes too much: {ratio:.2g} times the depth per pressure by which the bodies give way from"
+            " cell to cell, where less than 2 is needed. Depths, roughness and contact are those of the steps.",
             "Take {share:.2g} times the wear.criterion.distance, in more cycles.count.",
             OUTSIDE_MODEL,
         ),
@@ -423,6 +416,7 @@ NOTHING_CAME_OFF = define(
     CAUTION,
     "Nothing came off by the criterion {law}.",
     "{takes}",
+    "Raise load, friction or cycles.count, or check yield_stress and the constants of wear.criterion.",
 )
 PARTICLES_CUT = define(
     "particles-cut",
@@ -431,7 +425,7 @@ PARTICLES_CUT = define(
     reasons={
         "depths": Reason(
             "{share:%} of the settled particles go on below the deepest depth{unless}; their volume is too small.",
-            "Take more or wider depths.",
+            "Raise depths.count, or depths.spacing.",
         ),
         "grid": Reason(
             "The largest is {largest:si m} long on a grid of {side:si m}.",

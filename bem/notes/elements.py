@@ -9,11 +9,12 @@ NO_HEAT = define(
     INFO,
     "Heat of the film cannot be computed: thermal constants are missing.",
     "{bodies} without thermal_conductivity, heat_capacity and density.",
+    "Give these constants to have the film's heat.",
 )
 CONTACT_LOST = define(
     "contact-lost",
     CAUTION,
-    "The bodies leave each other during a part of the turn.",
+    "The bodies separate during part of the turn.",
     reasons={
         "ring": Reason(
             "At {lost} of {all} angles the pressure below the ring exceeds that above by more than tension holds; those"
@@ -31,7 +32,7 @@ RING_AT_EDGE = define(
     CAUTION,
     "Contact or film reach an edge of the ring's face.",
     "",
-    "Take a higher or more crowned face.",
+    "Take a face that is wider (axially) or more crowned.",
     reasons={
         "contact": (
             "Hertz' contact does at {places} of {all} angles, such as {first}: neither it nor a film of it is that "

@@ -23,12 +23,22 @@ FILM_MODEL_ENDS = define(
             " surfaces do not balance.",
             "Raise speed or viscosity, or lower the load.",
         ),
-        "whole-load": Reason(
-            "It ends at {load:si N} at this speed and viscosity: lambda_ratio, of a film under the whole load, is an"
-            " upper bound.",
-            "Take friction and load shares, which do not rest on lambda_ratio.",
-            INFO,
+    },
+)
+LAMBDA_UNCERTAIN = define(
+    "lambda-uncertain",
+    CAUTION,
+    "The lambda ratio is uncertain; friction and load shares are not affected.",
+    "",
+    "Do not rely on lambda_ratio.",
+    reasons={
+        "model-ends": Reason(
+            "The film's model ends at {load:si N} at this speed and viscosity: lambda_ratio, of a film under the whole"
+            " load, is an upper bound.",
+            level=INFO,
         ),
+        "no-film": "The film under the whole load, which lambda_ratio is taken from, did not converge.",
+        "no-heat": "The heat of the film under the whole load, which lambda_ratio is taken from, was not found.",
     },
 )
 FILM_WITHOUT_LAYERS = define(
@@ -46,14 +56,14 @@ OIL_ON_CONTACT = define(
 OIL_COUNTED = define(
     "oil-counted",
     INFO,
-    "Load share and friction depend on the area where oil is counted.",
+    "Load share depends on whether oil beside the contact is counted.",
     "",
     'Compare oil_volume = "loaded".',
     reasons={
         "patch": (
-            "{share:%} of the oil lies beside Hertz' contact: the surfaces have {contact_share:%} of the load at a "
-            "friction of {friction:.3g}, and {loaded_contact_share:%} at {loaded_friction:.3g} with the oil counted "
-            "where the film carries{most}."
+            "{share:%} of the oil in the mean film thickness lies beside Hertz' contact: the surfaces have "
+            "{contact_share:%} of the load at a friction of {friction:.3g}, and {loaded_contact_share:%} at "
+            "{loaded_friction:.3g} with the oil counted where the film carries{most}."
         ),
         "hertz": (
             "Counted over the nominal Hertz contact the surfaces have {contact_share:%} of the load at a friction "
@@ -75,8 +85,8 @@ BOUNDARY_LUBRICATION = define(
     reasons={
         "load": "The film is left with less than {share:.1g} of the load.",
         "thin": (
-            "At the end of the film's range it is thinner than {limit:si m}, and yet thicker than the surfaces leave "
-            "open; it is taken for none, so friction jumps at the speed from which such films are found."
+            "A film below {limit:si m} is counted as none; friction may jump at the speed from which thicker films are "
+            "found."
         ),
     },
 )
@@ -98,17 +108,20 @@ POINT_FILM_SCALED = define(
         ),
     },
 )
-CELL_LONG = define(
-    "repeated-cell-long",
+REPEATED_PATCH = define(
+    "repeated-patch",
     CAUTION,
-    "The repeated cell is not short against the contact.",
-    "It goes {across:.2g} times into the contact's half-axis; {fewest:g} times or more are needed.",
-    "Take a shorter cell, or a patch that holds the contact.",
-)
-CELL_BEYOND_TABLE = define(
-    "repeated-cell-beyond-table",
-    CAUTION,
-    "The mean pressure exceeds the tabulated pressures of the repeated cell.",
-    "It is {pressure:si Pa} at most; cells were solved up to {limit:si Pa}.",
-    "Lower the load.",
+    "The repeated patch does not suit this contact.",
+    reasons={
+        "long": Reason(
+            "It goes {across:.2g} times into the contact's half-axis; {fewest:g} times or more are needed.",
+            "Take a shorter patch, or one that holds the contact.",
+            headline="The repeated patch is too long for this contact.",
+        ),
+        "pressure": Reason(
+            "The mean pressure is {pressure:si Pa} at most; patches were solved up to {limit:si Pa}.",
+            "Lower the load.",
+            headline="The mean pressure exceeds the tabulated pressures of the repeated patch.",
+        ),
+    },
 )

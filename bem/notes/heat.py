@@ -5,7 +5,7 @@ from bem.notes.note import Level, Reason, define
 SURFACE_HOT = define(
     "surface-hot",
     Level.CAUTION,
-    "The surface is hotter than its material's constants hold.",
+    "The surface is too hot for the given material constants.",
     reasons={
         "rise": Reason(
             "The temperature rises by {rise:.0f} K: steel transforms at 727 degC, and neither light metals nor polymers"

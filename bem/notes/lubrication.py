@@ -38,12 +38,12 @@ OIL_TOO_THICK = define(
 OIL_TOO_HOT = define(
     "oil-too-hot",
     CAUTION,
-    "The fluid is too hot to stay the liquid it is.",
+    "The oil is hotter than it can stand.",
     "",
     "Lower temperature, load, speed or sliding.",
     reasons={
-        "flash-point": "The oil is above its flash point, {limit:.4g} degC.",
-        "service": "Above {limit:.4g} degC its water evaporates.",
+        "flash-point": Reason("The oil is above its flash point, {limit:.4g} degC.", "Lower the temperature."),
+        "service": Reason("Above {limit:.4g} degC its water evaporates.", "Lower the temperature."),
         "cracks": "Oil or surfaces exceed {limit:.4g} degC, where oils crack; viscosities there are extrapolated.",
         "boils": "{oil} is above its boiling point in the contact.",
     },
@@ -76,10 +76,6 @@ FILM_NOT_FOUND = define(
             "The roughness is solved with the film, to a residual of {residual:.1g}: take more cells a wavelength, a "
             "higher speed or a lower surface."
         ),
-        "whole-load": Reason(
-            "It is the film under the whole load, and only lambda_ratio is of it.",
-            "Take friction and load shares, which do not rest on lambda_ratio.",
-        ),
     },
 )
 FILM_THICK = define(
@@ -100,21 +96,27 @@ SHEAR_BEYOND_MEASURED = define(
     "shear-beyond-measured",
     CAUTION,
     "The oil's shear stress exceeds any that was measured.",
-    'With shear_law "{law}" it exceeds {strength:si Pa} + {slope:g} p, so the friction is too high.',
+    'With shear_law "{law}" it exceeds {strength:si Pa} + {slope:g} p, p the local pressure, so the friction is too '
+    "high.",
     'Take shear_law = "limited".',
 )
 SHEAR_LIMITED = define(
     "shear-limited",
     INFO,
     "The oil's limiting shear stress sets the friction.",
-    "The oil is at that limit{limit} in much of the contact; coefficients of oils are 0.04 to 0.12.",
-)
-FILM_SLIPS = define(
-    "film-slips",
-    CAUTION,
-    "The film thickness depends on the wall at which the oil slips.",
-    "The oil is at its limiting shear stress in much of the contact, at a slide-to-roll ratio above 1: the "
-    "thickness is uncertain by a tenth to a third.",
+    reasons={
+        "friction": (
+            "The oil is at that limit{limit} in much of the contact; limiting shear stress over pressure of oils is "
+            "0.03 to 0.1."
+        ),
+        "film": Reason(
+            "The oil is at its limiting shear stress in much of the contact, at a slide-to-roll ratio above 1: the "
+            "thickness is uncertain by a tenth to a third.",
+            "Take the film thickness as an estimate, or lower the slide-to-roll ratio below 1.",
+            CAUTION,
+            headline="The film thickness depends on the wall at which the oil slips.",
+        ),
+    },
 )
 VISCOSITY_EXTRAPOLATED = define(
     "viscosity-extrapolated",
@@ -144,18 +146,18 @@ FILM_SPIKE = define(
     CAUTION,
     "The mesh does not resolve the pressure spike.",
     "Its height follows the mesh; film thickness and load do not.",
-    "Do not use the highest pressure{remedy}.",
+    "Disregard the highest pressure{remedy}.",
 )
 HEAT_LEFT_OUT = define(
     "heat-left-out",
     CAUTION,
-    "Heat changes this film, which is isothermal.",
+    "Heat matters here, but thermal is off.",
     "",
     'Set thermal = "lumped".',
     reasons={
         "inlet": (
-            "Heat of the inlet would make it over 10 % thinner: it is too thick by a factor of about {factor:.2g} "
-            "(Gupta et al. 1992, for a mineral oil)."
+            "Heat of the inlet would make the film over 10 % thinner: it is too thick by a factor of about "
+            "{factor:.2g} (Gupta et al. 1992, for a mineral oil)."
         ),
         "sliding": (
             "Sliding would heat the oil by more than {limit:g} K, and friction is too high: the estimate is "
@@ -163,20 +165,37 @@ HEAT_LEFT_OUT = define(
         ),
     },
 )
-FACTORS_EXTRAPOLATED = define(
-    "flow-factors-extrapolated",
+FLOW_FACTORS_LIMIT = define(
+    "flow-factors-limit",
     CAUTION,
-    "The film is thinner than the flow factors' smallest separation.",
-    "It is {thinnest:si m} at its thinnest; the factors begin at {least:si m} and are extrapolated below.",
-    "Compute factors at smaller separations.",
+    "The flow factors do not cover such small separations.",
+    reasons={
+        "extrapolated": Reason(
+            "The film is {thinnest:si m} at its thinnest; the factors begin at {least:si m} and are extrapolated"
+            " below.",
+            "Compute factors at smaller separations.",
+            headline="The film is thinner than the flow factors' smallest separation.",
+        ),
+        "table": Reason(
+            "At separations of {separations} the pressure flow factor along x is zero.",
+            "Take larger separations, or a smoother patch.",
+            headline="The oil finds no path through the touching surfaces.",
+        ),
+        "film": Reason(
+            "The film's thinnest place, {thinnest:si m}, does not carry this load between these walls; the thickness"
+            " is that of a least flow factor, {least:g}.",
+            "Raise the speed or lower the load.",
+            headline="The oil finds no path through the touching surfaces.",
+        ),
+    },
 )
 FIRST_FILM = define(
     "first-film",
     INFO,
     "The film in time does not begin in equilibrium.",
     reasons={
-        "load": "The first film is {origin} and carries the load {missed:+.2g} %.",
-        "surfaces": "Surfaces in the contact at first lie undeformed in its film.",
+        "load": "The first film is {origin} and carries {missed:.2g} % {direction} than the load asked for.",
+        "surfaces": "Rough surfaces in the contact are not yet deformed in its first film.",
     },
 )
 
@@ -193,7 +212,7 @@ BODIES_NOT_RIGID = define(
 INLET_TOO_SHORT = define(
     "inlet-too-short",
     CAUTION,
-    "The grid does not reach the inlet of the film.",
+    "The grid begins too close to the contact.",
     "It begins where the gap is less than {limit:g} central films; upstream the pressure of rigid bodies is taken.",
     "Take a larger extent upstream.",
 )
@@ -209,7 +228,8 @@ FILM_CELLS_FEW = define(
             "Give a smaller extent, or take more cells.",
         ),
         "constriction": (
-            "Beside the lowest cell the film is more than {limit:g} times as thick, its minimum may be off by tenths."
+            "Beside the lowest cell the film is more than {limit:g} times as thick, its minimum may be off by tens of"
+            " per cent."
         ),
         "error": "Its error is more than {limit:%}: see those of the central and of the minimum thickness.",
         "rim": Reason(
@@ -223,16 +243,7 @@ INLET_FRICTION = define(
     "inlet-friction",
     INFO,
     "Friction depends on how far the inlet is filled with oil.",
-    "Oil up to twice the distance would add {added:.2g} to the friction coefficient of {friction:.2g}.",
-)
-FILM_ERROR_UNKNOWN = define(
-    "film-error-unknown",
-    INFO,
-    "The error of the film thickness is unknown.",
-    reasons={
-        "no-film": "On half as many cells there is no film to compare with: take twice as many cells to see it.",
-        "few-cells": "Half as many cells are too few to compare with: take {nx} x {ny} cells to see it.",
-    },
+    "Taking twice the inlet length would add {added:.2g} to the friction coefficient of {friction:.2g}.",
 )
 OIL_CREATED = define(
     "oil-created",
@@ -252,10 +263,6 @@ HEAT_NOT_FOUND = define(
             "The film is shown without temperatures, friction and heat.",
             "Give the oil a shear law with a limiting stress.",
         ),
-        "whole-load": Reason(
-            "It is the heat of the film under the whole load, and only lambda_ratio is of it.",
-            "Take friction and load shares, which do not rest on lambda_ratio.",
-        ),
         "full": Reason(
             "The last film that was found is shown without its temperatures, friction and heat.",
             "{remedy}",
@@ -267,12 +274,13 @@ LUMPED_HEAT_LIMIT = define(
     CAUTION,
     "Lumped heat is outside the range that it was compared in.",
     "",
-    'Set thermal = "full" on a line contact.',
+    'Line contact: set thermal = "full". Ball: take it as an estimate.',
     reasons={
-        "formula": ("Gupta et al. (1992) did not cover so much load and speed: the film thickness is an estimate."),
+        "formula": "Gupta et al. (1992) did not cover so much load and speed: the film thickness is an estimate.",
         "fast": (
-            "The thermal loading of the inlet mu0 beta u^2/k is {loading:.2g}; above {limit:g} films were up to a "
-            "third too thin, and friction was 10 to 60 % off."
+            "The thermal loading of the inlet, mu0 beta u^2/k, is {loading:.2g} (mu0 viscosity at ambient pressure, "
+            "beta its relative fall per kelvin, u entrainment speed, k thermal conductivity of the oil); above "
+            "{limit:g} films were up to a third too thin, and friction was 10 to 60 % off."
         ),
         "slides": (
             "The slower surface warms the inlet: at a slide-to-roll ratio of 2 flooded films were 1.2 to 2.8 times as "

@@ -6,7 +6,7 @@ from collections.abc import Callable, Hashable, Iterable, Sequence
 from typing import Any
 
 from bem.notes.catalogue import known_kinds
-from bem.notes.note import PLAIN, Note, Span, as_note
+from bem.notes.note import PLAIN, Level, Note, Span, as_note
 
 Place = Callable[[list[int]], str]
 """(indices of results) -> words for them."""
@@ -36,9 +36,18 @@ def merge(by_result: Sequence[Iterable[str]], place: Place) -> list[Note]:
 
 
 def without_foreseen(notes: Sequence[Note]) -> list[Note]:
-    """Return the notes without those made before a run that others of their code, made from its results, confirm."""
-    confirmed = {note.code for note in notes if not _foreseen(note)}
-    return [note for note in notes if not (_foreseen(note) and note.code in confirmed)]
+    """Return the notes without those made before a run that others of their code, made from its results, confirm.
+
+    A remark from the results does not replace a caution made before the run.
+    """
+    found = [note for note in notes if not _foreseen(note)]
+    return [note for note in notes if not _foreseen(note) or not any(_confirms(one, note) for one in found)]
+
+
+def _confirms(found: Note, foreseen: Note) -> bool:
+    """Return True if a note from the results replaces one made before the run: of its code, and as severe."""
+    severities = list(Level)
+    return found.code == foreseen.code and severities.index(found.level) <= severities.index(foreseen.level)
 
 
 def _foreseen(note: Note) -> bool:
@@ -66,8 +75,11 @@ def together(notes: Sequence[Note]) -> Note:
                 spans[key] = Span(min(ends), max(ends))
     if not spans:
         return first
+    kind = known_kinds().get(first.code)
+    if kind is None:  # of a checkpoint from before its code was renamed
+        return first
     values = {**first.values, **spans}
-    return Note(first.code, first.level, values, first.where, known_kinds()[first.code].texts(values))
+    return Note(first.code, first.level, values, first.where, kind.texts(values))
 
 
 def _is_number(value: Any) -> bool:

@@ -45,12 +45,14 @@ class Reason(NamedTuple):
     action : what to do, in place of the kind's own; empty for the kind's.
     level : in place of the kind's own; None for the kind's.
     foreseen : whether the note is made before the run and gives way to one of its code that the results confirm.
+    headline : what is wrong or uncertain, in place of the kind's own; empty for the kind's.
     """
 
     sentence: str
     action: str = ""
     level: Level | None = None
     foreseen: bool = False
+    headline: str = ""
 
 
 _FEW = 3
@@ -94,7 +96,7 @@ class NoteKind:
     headline : what is wrong or uncertain, at most 12 words.
     sentence : by how much, with the numbers; a template over the values; empty for none.
     action : what to do; empty for none.
-    reasons : of a kind with a value `reason`: sentence, action and level of each reason.
+    reasons : of a kind with a value `reason`: sentence, action, level and headline of each reason.
     """
 
     code: str
@@ -117,7 +119,7 @@ class NoteKind:
     def texts(self, values: Mapping[str, Any]) -> tuple[str, str, str]:
         """Return headline, sentence and action with the values filled in."""
         reason = self.reasons[values["reason"]] if self.reasons else Reason(self.sentence)
-        templates = (self.headline, reason.sentence, reason.action or self.action)
+        templates = (reason.headline or self.headline, reason.sentence, reason.action or self.action)
         headline, said, action = (_FORMATTER.vformat(template, (), values) for template in templates)
         return headline, said, action
 

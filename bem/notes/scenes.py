@@ -29,7 +29,7 @@ PATCH_SMALLER_THAN_HERTZ = define(
     "patch-smaller-than-hertz",
     CAUTION,
     "The patch does not cover Hertz' contact.",
-    "It fades over {fading:%} of its sides, and around it the body is smooth.",
+    "The roughness fades out over {fading:%} of the side, and around it the body is smooth.",
     "Take a longer patch.",
 )
 LEAST_FILM_DECIDES = define(
@@ -43,8 +43,9 @@ WAVE_STEPS_FEW = define(
     "wave-steps-few",
     CAUTION,
     "The time steps damp the waves.",
-    "There are {steps:.0f} steps a wave; 20 steps damp a wave by 5 % over a wavelength, 32 steps by 1 %.",
-    "Take more march.steps.",
+    "There are {steps:.0f} steps per wavelength. With 20 steps per wavelength a wave loses 5 % over a wavelength, with "
+    "32 1 %.",
+    "Raise march.steps to {fewest} per wavelength or more.",
 )
 JOINT_CLOSED = define(
     "joint-closed",
@@ -68,36 +69,39 @@ MAP_SYNTHETIC = define(
 )
 
 # What was done to a measured surface
-MAP_FILLED = define(
-    "map-filled",
+_FILLED = "Points of the map were filled smoothly from their neighbours."
+_PERIODIC = "The measured surface was made periodic."
+MAP_ALTERED = define(
+    "map-altered",
     INFO,
-    "Points of the map were filled smoothly from their neighbours.",
+    "The measured map was altered.",
     reasons={
-        "missing": "{points} points were missing.",
-        "spikes": "{points} points were removed as spikes.",
+        "missing": Reason("{points} points were missing.", headline=_FILLED),
+        "spikes": Reason("{points} points were removed as spikes.", headline=_FILLED),
         "much": Reason(
             "{share:%} were missing; instruments lose the steep ones, so the real surface is rougher.",
-            "Crop to a whole part, or measure again.",
+            "Crop to a part without gaps, or measure again.",
             CAUTION,
+            headline="Much of the map was filled smoothly from neighbouring points.",
+        ),
+        "mirror": Reason("It is mirrored, and symmetric about its seams.", headline=_PERIODIC),
+        "seams": Reason(
+            "The step where its ends meet along {along} is spread out (Moisan 2011), which changes the heights by "
+            "{change:si m} rms.",
+            headline=_PERIODIC,
+        ),
+        "scaled": Reason(
+            "They are multiplied by {factor:.2g} to have Sq {height:si m}, and slopes with them.",
+            "Leave rms_height out, or use a map of such a surface.",
+            CAUTION,
+            headline="Measured heights are scaled out of proportion.",
         ),
     },
 )
 MAP_SPACING_GIVEN = define(
     "map-spacing-given",
-    INFO,
+    CAUTION,
     "The given distance of points contradicts the file.",
-    "Points are taken as {own} apart; the file says {other}.",
+    "Points are taken as {own} apart; the file says {other}. A wrong spacing spoils every slope.",
     "Check spacing.",
-)
-MAP_PERIODIC = define(
-    "map-made-periodic",
-    INFO,
-    "The measured surface was made periodic.",
-    reasons={
-        "mirror": "It is mirrored, and symmetric about its seams.",
-        "seams": (
-            "The step where its ends meet along {along} is spread out (Moisan 2011), which changes the heights by "
-            "{change:si m} rms."
-        ),
-    },
 )

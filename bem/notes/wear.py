@@ -52,7 +52,7 @@ LOOP_ALL_SLIPS = define(
     CAUTION,
     "Every cell slips although the force is below the friction limit.",
     "The stick zone is narrower than a cell, and the sliding distance follows the cells.",
-    "Take a smaller share, or smaller cells.",
+    "Take a smaller wear.traction.share, or smaller cells.",
 )
 LIFE_DISTANCE_DIFFERS = define(
     "life-distance-differs",

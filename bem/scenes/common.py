@@ -445,10 +445,10 @@ class GridScene(Table):
     """
 
     shape: tuple[Cells, Cells] | None = key(
-        "Number of cells along x and y; one number stands for both.", "basic", default=None, example=256
+        "Number of mesh cells along x and y; one number stands for both.", "basic", default=None, example=256
     )
     spacing: tuple[PositiveLength, PositiveLength] | None = key(
-        "Cell size along x and y; the shortest wavelength of the roughness needs several cells.",
+        "Cell size along x and y; instead of lengths. The shortest roughness wavelength needs several cells.",
         "basic",
         default=None,
         example="1 um",

@@ -148,7 +148,7 @@ class LubricatedScene(SmoothShapeScene):
     )
     boundary_friction: Annotated[
         float | BoundaryFriction, LawOrNumber("boundary_friction", number=Annotated[Ratio, Field(ge=0, le=2)])
-    ] = key("Friction coefficient where the surfaces touch, or a law of boundary friction.", "basic", example=0.12)
+    ] = key("Boundary friction coefficient of asperity contacts, or a law (see --all).", "basic", example=0.12)
     hardness: PositivePressure | None = key(
         "Hardness that limits the contact pressure.",
         "advanced",
@@ -214,7 +214,7 @@ class MixedScene(SceneModel):
     """A rough cylinder, ball or ellipsoid on a rough flat with oil between them."""
 
     lower: BodyScene = key("Lower body: the flat or disc, on which friction acts along +x.", "basic")
-    upper: BodyScene = key("Upper body: the cylinder or ball.", "basic")
+    upper: BodyScene = key("Upper body: the cylinder or ball; smooth without [upper.surface].", "basic")
     contact: LubricatedScene = key("Shape of the contact, load and boundary friction.", "basic")
     oil: OilScene = key("Lubricant.", "basic")
     speeds: SpeedsScene = key("Speeds of both surfaces.", "basic")
@@ -222,7 +222,9 @@ class MixedScene(SceneModel):
         "Oil supply of a starved contact; without it the inlet is flooded.", "advanced", default=None
     )
     grid: LineGridScene = key(
-        "Grid of the rough contact, a patch that holds the Hertz contact.", "basic", default=LineGridScene()
+        "Mesh over the rough contact; it must be larger than the Hertz contact, or repeat under it.",
+        "basic",
+        default=LineGridScene(),
     )
 
     cell_may_repeat: ClassVar[bool] = False

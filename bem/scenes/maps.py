@@ -16,7 +16,7 @@ import numpy as np
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
 from bem.notes import Note
-from bem.notes.scenes import MAP_FILLED, MAP_PERIODIC, MAP_SPACING_GIVEN
+from bem.notes.scenes import MAP_ALTERED, MAP_SPACING_GIVEN
 from bem.numerics.cache import KeptValues
 from bem.scenes.common import MeasuredSurface
 from bem.scenes.paths import checksum_of
@@ -107,13 +107,13 @@ def fitted(surface: MeasuredSurface, found: Surface, grid: Grid, note: Callable[
     name = Path(surface.path).name
     missing = int(found.metadata.get("missing_points", 0) or 0)
     if missing:
-        note(MAP_FILLED(name, points=missing, reason="missing"))
+        note(MAP_ALTERED(name, points=missing, reason="missing"))
     if told := found.metadata.get("spacing_in_file"):
         own, other = (f"{1e6 * side[0]:.4g} x {1e6 * side[1]:.4g} um" for side in (found.spacing, told))
         note(MAP_SPACING_GIVEN(name, own=own, other=other))
     spikes = int(found.metadata.get("spikes", 0) or 0)
     if spikes:
-        note(MAP_FILLED(name, points=spikes, reason="spikes"))
+        note(MAP_ALTERED(name, points=spikes, reason="spikes"))
     if surface.low_pass is not None:
         found = low_pass(found, surface.low_pass)
     if surface.high_pass is not None:
@@ -132,12 +132,12 @@ def fitted(surface: MeasuredSurface, found: Surface, grid: Grid, note: Callable[
         with warnings.catch_warnings():
             warnings.simplefilter("ignore", MirrorWarning)
             found = mirror_to_periodic(found, axes=axes)
-        note(MAP_PERIODIC(name, reason="mirror"))
+        note(MAP_ALTERED(name, reason="mirror"))
     open_x, open_y = (wraps and not mirrored for wraps, mirrored in zip(grid.periodic, axes, strict=True))
     if open_x or open_y:
         found = close_seams(found, axes=(open_x, open_y))
         along = " and ".join(axis for axis, is_open in zip("xy", (open_x, open_y), strict=True) if is_open)
-        note(MAP_PERIODIC(name, along=along, change=float(found.metadata["seams_closed"]), reason="seams"))
+        note(MAP_ALTERED(name, along=along, change=float(found.metadata["seams_closed"]), reason="seams"))
     if surface.rms_height is not None:
         found = scale_to_rms(found, surface.rms_height)
     return np.ascontiguousarray(found.heights - found.heights.mean())

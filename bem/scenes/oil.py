@@ -72,7 +72,9 @@ class OilScene(LawTable):
         default=None,
         example="20 mPa*s",
     )
-    temperature: Temperature | None = key("Temperature of the oil at the inlet.", "basic", default=None)
+    temperature: Temperature | None = key(
+        "Temperature of the oil at the inlet; a bare number is in kelvin.", "basic", default=None
+    )
     viscosity_index: Annotated[Ratio, Field(ge=-100, le=450)] | None = key(
         "Viscosity index of the grade.", "advanced", default=None, reason="the usual one of the base oil", example=95
     )

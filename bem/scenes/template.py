@@ -119,7 +119,9 @@ def scene_template(kind: str, *, everything: bool = False) -> str:
     lines = [
         f"# {get_kind(kind).title[:1].upper()}{get_kind(kind).title[1:]}.",
         "# Change the values. A quoted value has its own unit; a bare number is in the SI unit in [brackets].",
-        f"# {more}" if everything else f"# Keys behind a # are alternatives; `bem new {kind} --all` writes all.",
+        f"# {more}"
+        if everything
+        else f"# Lines behind a # are optional or alternatives; `bem new {kind} --all` writes all keys.",
         "# `bem plan FILE` checks the file and shows the work, `bem run FILE` runs it.",
         f'kind = "{kind}"',
         *_Writer(everything).table(keys_of_kind(kind), data, ()),

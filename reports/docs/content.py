@@ -150,6 +150,8 @@ def notes() -> str:
             if isinstance(kind, NoteKind):
                 actions = [kind.action, *(one.action for one in kind.reasons.values())]
                 words = " ".join(dict.fromkeys(text for text in actions if text)) or kind.sentence
+                own = " ".join(dict.fromkeys(one.headline for one in kind.reasons.values() if one.headline))
+                words = f"{own} {words}".strip()
                 parts.append(
                     f"({kind.anchor})=\n{code(kind.code)} ({_LEVELS[kind.level]}): "
                     f"**{escaped(blank(kind.headline)).rstrip('.')}.** {escaped(blank(words))}\n"

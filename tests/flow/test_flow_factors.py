@@ -111,7 +111,7 @@ def test_no_flow_below_percolation():
     assert not table.flows_through_x[0]
     assert table.pressure_x[0] == 0
     assert table.pressure_x[1] > 0.5
-    assert any((note.code, note.values.get("reason")) == ("flow-barred", "table") for note in table.notes)
+    assert any((note.code, note.values.get("reason")) == ("flow-factors-limit", "table") for note in table.notes)
     value, slope = table.pressure_x_curve(np.array([0.01, 0.02, 0.5]) * RMS)
     assert (value[:2] == 0).all()
     assert value[2] > 0

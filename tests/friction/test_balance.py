@@ -30,7 +30,7 @@ from bem.friction.models import rough_contact
 from bem.friction.rough_contact import Pressed, boundary_traction
 from bem.friction.setup import MixedSetup
 from bem.notes import has_code
-from bem.notes.friction import BOUNDARY_LUBRICATION, FILM_MODEL_ENDS
+from bem.notes.friction import BOUNDARY_LUBRICATION, FILM_MODEL_ENDS, LAMBDA_UNCERTAIN
 from bem.wear.contact_step import ContactStart
 from bem.wear.mixed import MixedContact, MixedCycles
 
@@ -337,8 +337,8 @@ def test_boundary_where_the_films_model_ends_in_a_film_thinner_than_molecules():
     assert point.regime is Regime.BOUNDARY
     assert point.contact_load + point.film_load == pytest.approx(1300, rel=5e-4)  # the tolerance
     assert point.friction == pytest.approx(0.15, rel=1e-3)  # a tenth of the tolerance is the film's
-    assert has_code(point.notes, FILM_MODEL_ENDS, reason="whole-load")
-    assert has_code(step.notes, FILM_MODEL_ENDS, reason="whole-load")
+    assert has_code(point.notes, LAMBDA_UNCERTAIN, reason="model-ends")
+    assert has_code(step.notes, LAMBDA_UNCERTAIN, reason="model-ends")
 
 
 @pytest.mark.internal

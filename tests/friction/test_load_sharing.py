@@ -18,6 +18,7 @@ from bem.friction.load_sharing import LoadSharing
 from bem.friction.models import films_of
 from bem.friction.setup import MixedSetup
 from bem.notes import has_code
+from bem.notes.friction import LAMBDA_UNCERTAIN
 from bem.notes.lubrication import FILM_NOT_FOUND, HEAT_NOT_FOUND
 
 CASE = mixed_case(100, 0.9e-6, 4e-6, lubricant=Lubricant(0.36, pressure_viscosity=25e-9), boundary_friction=0.15)
@@ -307,13 +308,13 @@ def test_curve_refusals():
         stribeck_curve([0.01], **{key: value for key, value in CASE.items() if key != "load"})
 
 
-@pytest.mark.parametrize("kind", [FILM_NOT_FOUND, HEAT_NOT_FOUND])
-def test_a_film_under_the_whole_load_that_is_not_found_is_noted(kind, monkeypatch):
+@pytest.mark.parametrize(("kind", "reason"), [(FILM_NOT_FOUND, "no-film"), (HEAT_NOT_FOUND, "no-heat")])
+def test_a_film_under_the_whole_load_that_is_not_found_is_noted(kind, reason, monkeypatch):
     """Only the lambda ratio is of that film: load shares and friction keep their status."""
     solve, speeds = SolvedLineFilm.under, (0.01, 0.0)
     found = solve_mixed(**CASE, speeds=speeds)
     assert found.regime is Regime.MIXED
-    assert not has_code(found.notes, kind)
+    assert not has_code(found.notes, LAMBDA_UNCERTAIN)
 
     def stalled_under_the_whole_load(films, load, level, start):
         film = solve(films, load, level, start)
@@ -325,5 +326,5 @@ def test_a_film_under_the_whole_load_that_is_not_found_is_noted(kind, monkeypatc
     noted = solve_mixed(**CASE, speeds=speeds)
     assert noted.status is Status.CONVERGED
     assert noted.friction == found.friction
-    (note,) = [note for note in noted.notes if note.code == kind.code]
-    assert note.values["reason"] == "whole-load"
+    assert has_code(noted.notes, LAMBDA_UNCERTAIN, reason=reason)
+    assert not has_code(noted.notes, kind)

@@ -18,8 +18,7 @@ from bem import (
 from bem.flow import FlowFactors
 from bem.lubrication.flow_factors import RoughWalls
 from bem.notes import has_code
-from bem.notes.contact import FLOW_BARRED
-from bem.notes.lubrication import FACTORS_EXTRAPOLATED
+from bem.notes.lubrication import FLOW_FACTORS_LIMIT
 
 CASE = {"load": 5e4, "radius": 0.01, "contact_modulus": 1.1e11, "points": 400, "tolerance": 1e-9}
 
@@ -84,7 +83,9 @@ def test_a_table_of_factors_in_a_film(table):
     assert found.minimum_thickness != plain.minimum_thickness
     assert found.load == pytest.approx(CASE["load"], rel=1e-8)
     thin = film(speeds=(0.02, 0.01), factors=table)
-    assert has_code(thin.notes, FACTORS_EXTRAPOLATED) == (thin.minimum_thickness < table.separations[0])
+    assert has_code(thin.notes, FLOW_FACTORS_LIMIT, reason="extrapolated") == (
+        thin.minimum_thickness < table.separations[0]
+    )
     assert isinstance(table, FlowFactors)
     # what drives pressure is the change of h + k s phi_s along the film; phi_s falls as h grows, so roughness on the
     # faster wall (k > 0) takes from it and on the slower one adds
@@ -116,8 +117,8 @@ def test_a_film_below_percolation_says_so(table):
     shut = replace(table, pressure_x=np.where(table.separations < 3e-7, 0.0, table.pressure_x))
     thin = film(speeds=(0.02, 0.01), factors=shut)
     assert thin.minimum_thickness < 3e-7
-    assert has_code(thin.notes, FLOW_BARRED, reason="film")
-    assert not has_code(film(speeds=(20.0, 10.0), factors=shut).notes, FLOW_BARRED, reason="film")
+    assert has_code(thin.notes, FLOW_FACTORS_LIMIT, reason="film")
+    assert not has_code(film(speeds=(20.0, 10.0), factors=shut).notes, FLOW_FACTORS_LIMIT, reason="film")
 
 
 def test_what_is_no_table():
@@ -134,4 +135,4 @@ def test_notes_on_the_table_stay_with_heat():
     hot = Lubricant.of("ISO VG 68", temperature=333.15)
     asked = CASE | {"points": 150, "speeds": (1.0, 0.9), "lubricant": hot, "flow_factors": Far(1.0)}
     for heat in ({}, {"thermal": "lumped", "bodies": (STEEL, STEEL)}):
-        assert has_code(solve_line_film(**asked, **heat).notes, FACTORS_EXTRAPOLATED)
+        assert has_code(solve_line_film(**asked, **heat).notes, FLOW_FACTORS_LIMIT, reason="extrapolated")

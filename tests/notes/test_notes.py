@@ -8,9 +8,10 @@ import pytest
 
 from bem.notes import OUTSIDE, Level, Note, Reason, Span, as_note, has_code, of_summary, outside, unpacked, without
 from bem.notes.catalogue import known_kinds
+from bem.notes.checks import HARDNESS_DECIDES
 from bem.notes.friction import FRICTION_UNPHYSICAL
-from bem.notes.lubrication import FACTORS_EXTRAPOLATED, FILM_MOLECULAR, FILM_NOT_FOUND, OIL_CREATED
-from bem.notes.merge import merge
+from bem.notes.lubrication import FILM_MOLECULAR, FILM_NOT_FOUND, FLOW_FACTORS_LIMIT, OIL_CREATED
+from bem.notes.merge import merge, without_foreseen
 
 pytestmark = pytest.mark.internal
 
@@ -35,7 +36,7 @@ def test_every_kind_of_the_catalogue_says_what_is_wrong_in_a_line(kind):
 
 
 def test_a_note_is_a_string_with_numbers_in_their_units():
-    note = FACTORS_EXTRAPOLATED("film", thinnest=45e-9, least=1e-7)
+    note = FLOW_FACTORS_LIMIT("film", thinnest=45e-9, least=1e-7, reason="extrapolated")
     assert isinstance(note, str)
     assert "45 nm" in note
     assert "100 nm" in note
@@ -75,6 +76,20 @@ def test_notes_of_several_results_are_one_with_places_and_the_range_of_their_num
     reasons = [FILM_NOT_FOUND(reason="line"), FILM_NOT_FOUND(reason="rigid-spike")]
     assert len(merge([[reasons[0]], [reasons[1]]], str)) == 2
     assert [str(note) for note in merge([["a"], ["a", "b"]], lambda at: f"case {at[0]}")] == ["a", "case 1: b"]
+
+
+def test_a_caution_before_a_run_gives_way_to_a_caution_from_its_results_but_not_to_a_remark():
+    before = HARDNESS_DECIDES(reason="load", ratio=0.7)
+    caution, remark = HARDNESS_DECIDES(reason="area", share=0.6), HARDNESS_DECIDES(reason="within-error", cap=1e9)
+    assert without_foreseen([before, remark]) == [before, remark]
+    assert without_foreseen([before, remark, caution]) == [remark, caution]
+
+
+def test_notes_of_a_code_that_is_gone_stay_as_they_were():
+    packed = OIL_CREATED(created=0.5).packed() | {"code": "gone"}
+    old = [unpacked(packed | {"values": {"created": created}}) for created in (0.5, 0.7)]
+    (merged,) = merge([[old[0]], [old[1]]], str)
+    assert merged == old[0]
 
 
 def test_code_tells_notes_apart_whatever_their_words():

@@ -5,11 +5,11 @@ import pytest
 
 from bem.cli._terminal import Terminal, show_remarks, show_warnings
 from bem.notes.friction import FRICTION_UNPHYSICAL
-from bem.notes.lubrication import FILM_SPIKE, OIL_TOO_THICK, SHEAR_LIMITED
+from bem.notes.lubrication import FILM_NOT_FOUND, FILM_SPIKE, OIL_TOO_THICK, SHEAR_LIMITED
 
 pytestmark = pytest.mark.internal
 BEYOND = FRICTION_UNPHYSICAL(friction=3.0, limit=1.0, reason="drag")
-REMARK = SHEAR_LIMITED(limit="")
+REMARK = SHEAR_LIMITED(limit="", reason="friction")
 
 
 def summary(*notes):
@@ -28,6 +28,16 @@ def test_a_caution_is_shown_once_and_a_remark_not(capsys):
     lines = capsys.readouterr().err.splitlines()
     assert len(lines) == 2
     assert all(line.startswith("bem: caution: ") for line in lines)
+
+
+def test_another_reason_of_a_code_is_shown_too(capsys):
+    with Terminal() as terminal:
+        terminal.note(FILM_NOT_FOUND(reason="line"))
+        terminal.note(FILM_NOT_FOUND(reason="narrow", nx=32, ny=32))
+        terminal.note(FILM_NOT_FOUND(reason="narrow", nx=64, ny=64))
+    first, second = capsys.readouterr().err.splitlines()
+    assert "take more points" in first
+    assert "twice as many cells" in second
 
 
 def test_what_is_outside_the_model_stands_beside_the_status_alone(capsys):
@@ -56,7 +66,7 @@ def test_a_message_on_the_work_is_shown_as_it_is(capsys):
 def test_warnings_of_a_plan_are_lines_and_remarks_a_number(capsys):
     show_warnings([FILM_SPIKE(remedy=""), REMARK], remarks="in the report")
     lines = capsys.readouterr().out.splitlines()
-    assert lines[0] == "1 warning, 1 remark (in the report)"
+    assert lines[0] == "1 caution, 1 remark (in the report)"
     assert len(lines) == 2
     show_remarks([FILM_SPIKE(remedy=""), REMARK])
     assert capsys.readouterr().out == f"  {REMARK}\n"

@@ -8,7 +8,7 @@ import pytest
 from bem.campaigns.collect import outcome_of
 from bem.errors import InputError, Status, SurfaceFileError
 from bem.notes import has_code
-from bem.notes.scenes import MAP_PERIODIC
+from bem.notes.scenes import MAP_ALTERED
 from bem.runs import plan_scene
 from bem.scenes import PlainContext, get_kind
 
@@ -56,7 +56,7 @@ def test_hard_pin_on_soft_disk_elastic_and_capped(measured):
     text = " ".join(context.notes)
     assert "di-3.di" in text
     assert "al3d-1.al3d" in text
-    assert has_code(context.notes, MAP_PERIODIC, reason="seams")
+    assert has_code(context.notes, MAP_ALTERED, reason="seams")
 
 
 @pytest.mark.internal
@@ -76,7 +76,7 @@ def test_unequal_spacings(measured):
 def test_missing_points_are_filled_and_noted_or_refused(measured):
     _, outcome, context = run(scene(measured / "opd-1.opd"), ["grid.shape=128"])
     assert outcome.status == Status.CONVERGED
-    assert any((note.code, note.values.get("reason")) == ("map-filled", "missing") for note in context.notes)
+    assert any((note.code, note.values.get("reason")) == ("map-altered", "missing") for note in context.notes)
     with pytest.raises(SurfaceFileError, match="missing"):
         plan_scene(scene(measured / "opd-1.opd"), ["lower.surface.fill=false"])
 
@@ -142,9 +142,9 @@ def test_grid_from_two_maps_is_the_finer_spacing_and_the_common_area(plain_map, 
 def test_mirrored_grid_is_twice_the_map_and_has_no_seam(plain_map):
     resolved, _, context = run(scene(plain_map), ["lower.surface.mirror=x"])
     assert resolved.grid.shape == (80, 30)
-    assert any((note.code, note.values.get("reason")) == ("map-made-periodic", "mirror") for note in context.notes)
+    assert any((note.code, note.values.get("reason")) == ("map-altered", "mirror") for note in context.notes)
     # a step at the seam was once left as it is, and the highest pressures lay on it
-    assert any((note.code, note.values.get("reason")) == ("map-made-periodic", "seams") for note in context.notes)
+    assert any((note.code, note.values.get("reason")) == ("map-altered", "seams") for note in context.notes)
     with pytest.raises(InputError, match="even numbers of cells"):
         run(scene(plain_map), ["lower.surface.mirror=x", "grid.shape=[41, 30]", "grid.spacing=[1e-6, 2e-6]"])
 
@@ -173,7 +173,7 @@ def test_not_a_number_heights_are_filled_or_refused(tmp_path):
     heights[10, :] = 1e-8
     np.savez(tmp_path / "holes.npz", heights=heights, spacing=np.array([1e-6, 1e-6]))
     _, _, context = run(scene(tmp_path / "holes.npz"))
-    assert any((note.code, note.values.get("reason")) == ("map-filled", "missing") for note in context.notes)
+    assert any((note.code, note.values.get("reason")) == ("map-altered", "missing") for note in context.notes)
     with pytest.raises(InputError, match="1 of 400 points are missing"):
         plan_scene(scene(tmp_path / "holes.npz"), ["lower.surface.fill=false"])
 

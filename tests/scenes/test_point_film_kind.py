@@ -54,7 +54,9 @@ def test_bars_cover_the_grid_but_the_spike_has_none(tmp_path):
 def test_a_scene_on_few_cells_has_bars_and_does_not_say_that_there_is_no_error(tmp_path):
     summary = run_scene(scene(), tmp_path / "run", figures=False).summary
     assert summary["central_thickness_nm_error"] > 0
-    assert not any(note["code"] == "film-error-unknown" for note in summary.get("notes", ()))
+    assert not any(
+        note["code"] == "no-error-bar" and "central thickness" in note["text"] for note in summary.get("notes", ())
+    )
 
 
 def test_bars_of_friction_count_what_the_inlet_adds(tmp_path):

@@ -131,7 +131,7 @@ def test_points_of_a_sweep_share_measured_maps(made, tmp_path):
     assert (found.computed, made) == (3, {"read": 1, "fitted": 1, "described": 1})
     notes = [open_run(point).summary["notes"] for point in (tmp_path / "s" / "points").iterdir()]
     maps_notes = [{note["code"] for note in of if note["code"].startswith("map-")} for of in notes]
-    assert maps_notes == [{"map-coarse", "map-filled", "map-made-periodic"}] * 3
+    assert maps_notes == [{"map-coarse", "map-altered"}] * 3
     whole = bem.surfaces.read_surface(path, despike=6)
     alone = maps.fitted(measured(path, despike=6), whole, found_grid(found), lambda text: None)
     for point in (tmp_path / "s" / "points").iterdir():
@@ -157,7 +157,7 @@ def test_other_treatments_of_a_map_are_others(made, tmp_path, change):
             np.testing.assert_array_equal(
                 heights, maps.fitted(surface, maps.read_map(surface), grid, lambda text: None)
             )
-            assert any(note.code == "map-filled" for note in told)
+            assert any((note.code, note.values["reason"]) == ("map-altered", "spikes") for note in told)
             heights += 1.0  # the caller's own
     assert made["read"] == (1 if "mirror" in change else 2)
     assert made["fitted"] == 2 + 4  # four of the test's own

@@ -46,7 +46,7 @@ def run(scene: PointFilmTimeScene, context: Context) -> PointFilmTimeRecord:
         initial_thickness=scene.march.initial_thickness,
     )
     if (steps := _steps_a_wave(scene)) < _FEW_STEPS:
-        context.note(WAVE_STEPS_FEW(steps=steps))
+        context.note(WAVE_STEPS_FEW(steps=steps, fewest=_FEW_STEPS))
     wanted = scene.outputs.errors
     march = Marched.of(case, case.cells, context, wanted, lambda films: point_march_bars(case.done(films)))
     return _record(scene, march)

@@ -12,7 +12,7 @@ from bem.scenes.kind import Kind
 
 KIND = Kind(
     name="running-in",
-    title="running-in in mixed lubrication: friction coefficient, roughness and wear particles over wear cycles",
+    title="running-in in mixed lubrication (with oil film): friction, roughness and wear particles over wear cycles",
     model=RunningInScene,
     record=RunningInRecord,
     plan=plan,

@@ -15,7 +15,7 @@ from bem.scenes.kind import Kind
 
 KIND = Kind(
     name="wear",
-    title="wear in boundary lubrication: wear particles, wear volume and roughness of a cylinder on a flat over cycles",
+    title="wear in boundary lubrication (no oil film): particles, volume and roughness of a cylinder on a flat",
     model=WearScene,
     record=WearRecord,
     plan=plan,

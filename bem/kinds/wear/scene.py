@@ -28,14 +28,18 @@ class WearScene(SceneModel):
 
     kind: Literal["wear"] = key("Kind of computation.", "basic", default="wear")
     lower: BodyScene = key("Lower body, on which friction acts along +x.", "basic")
-    upper: BodyScene = key("Upper body, the cylinder.", "basic")
+    upper: BodyScene = key("Upper body, the cylinder; smooth without [upper.surface].", "basic")
     cylinder: CylinderScene = key("Cylinder, loads and friction.", "basic")
     domain: DomainScene = key("The slice of the contact that is computed.", "basic")
     depths: wearing.WearDepthsScene = key("Depths at which stresses are computed.", "basic")
     wear: WearScenePart = key(
         "Wear model: detachment criterion or wear law, and how material leaves.", "advanced", default=WearScenePart()
     )
-    cycles: CyclesScene = key("Number of wear cycles.", "basic", default=CyclesScene())
+    cycles: CyclesScene = key(
+        "Wear cycles. One cycle: contact solved, particles removed, surfaces shifted by wear.shift (3 cells).",
+        "basic",
+        default=CyclesScene(),
+    )
     sizes: pieces.SizesScene = key("Statistics of the wear particle sizes.", "advanced", default=pieces.SizesScene())
     archard: pieces.WearRateScene | None = key(
         "Archard's wear law, which gives the number of particles.", "advanced", default=None

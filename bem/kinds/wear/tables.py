@@ -37,7 +37,7 @@ class CylinderScene(CylinderTable):
     radius: Annotated[Length, Field(ge=0)] = key("Radius of the cylinder; 0 is a flat.", "basic", default=0.0)
     loads: Loads = key("Normal loads on the width, one result for each.", "basic")
     friction: Annotated[Ratio, Field(ge=0, le=2)] = key(
-        "Friction coefficient of boundary lubrication: traction over pressure.", "basic", default=0.0
+        "Friction coefficient of boundary lubrication: shear stress over pressure.", "basic", default=0.0
     )
     hardness: PositivePressure | None = key(
         "Hardness that limits the contact pressure.",
@@ -55,7 +55,7 @@ class DomainScene(Table):
         "Number of cells along x and y; check that particle sizes do not depend on it.", "basic", default=(240, 240)
     )
     half_widths: Annotated[Ratio, Field(gt=0, le=100)] | None = key(
-        "Side length of the slice in half-widths of the Hertz line contact; instead of lengths.",
+        "Side of the computed square in Hertz half-widths; instead of lengths.",
         "basic",
         default=None,
         example=4.0,

@@ -152,7 +152,8 @@ def start_from_state(march: March, film: TransientState, time: float) -> tuple[R
     solution = build_solution_at(march, film, time)
     missed = solution.load / march.operation.load(time) - 1
     if solution.load > 0 and abs(missed) > march.tolerance:
-        note = FIRST_FILM(origin="the one given", missed=100 * missed, reason="load")
+        direction = "more" if missed > 0 else "less"
+        note = FIRST_FILM(origin="the one given", missed=100 * abs(missed), direction=direction, reason="load")
         solution = replace(solution, notes=(*solution.notes, note))
     return Reached(time, film), solution
 

@@ -372,7 +372,8 @@ def _with_surfaces(
     """Put surfaces (nx, ny), in the unit of films, into the first film, and note its error of load."""
     missed = solution.load / march.operation.load(solution.time or 0.0) - 1
     if abs(missed) > march.tolerance:
-        note = FIRST_FILM(origin=origin, missed=100 * missed, reason="load")
+        direction = "more" if missed > 0 else "less"
+        note = FIRST_FILM(origin=origin, missed=100 * abs(missed), direction=direction, reason="load")
         solution = replace(solution, notes=(*solution.notes, note))
     if heights is None:
         return film, solution

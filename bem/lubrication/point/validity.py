@@ -22,12 +22,12 @@ from bem.lubrication.point.grid import GridLevel
 from bem.lubrication.point.problem import ScaledCase
 from bem.lubrication.point.similarity import PointScales, point_scales
 from bem.lubrication.point.start import COARSEST, grid_shapes
-from bem.notes import Note, without
+from bem.notes import Note
+from bem.notes.accuracy import NoBar, named, no_error_bar
 from bem.notes.checks import ROUGHNESS_UNRESOLVED
 from bem.notes.lubrication import (
     BODIES_NOT_RIGID,
     FILM_CELLS_FEW,
-    FILM_ERROR_UNKNOWN,
     FILM_NOT_FOUND,
     HEAT_LEFT_OUT,
     INLET_FRICTION,
@@ -47,6 +47,8 @@ LONGEST_CELL, MORE_CELLS = 2.0, 1.5
 along an axis: seven isoviscous contacts of Rx/Ry 9 to 17 and M 1700 to 7000 have no film on 80 x 80 cells four to six
 times as long along the flow, two of them none on 160 x 160 either; with square cells all have a film, two of them with
 1.5 times as many cells only, the others with as many."""
+_BARLESS = ("central_thickness", "minimum_thickness")
+"""Figures whose error comes from half as many cells."""
 LARGEST_ERROR = 0.02
 """Relative error of a film above which there is a note, and the ratio of the inlet's friction to the friction."""
 STEEL = 115e9
@@ -193,7 +195,12 @@ def notes_on_point(
 
 def but_unknown(notes: Iterable[Note]) -> tuple[Note, ...]:
     """Return the notes without those on an unknown error, for results with error bars of their own."""
-    return without(notes, FILM_ERROR_UNKNOWN)
+    unknown = (NoBar.NO_COARSE_FILM, NoBar.FEW_FILM_CELLS)
+    return tuple(
+        note
+        for note in notes
+        if not (note.values.get("figures") == named(_BARLESS) and note.values.get("reason") in unknown)
+    )
 
 
 def inlet_shear(film: PointFilmSolution, case: ScaledCase) -> float:
@@ -287,8 +294,8 @@ def _on_grid(film: PointFilmSolution, thickness: FloatArray, case: ScaledCase, l
         notes.append(FILM_CELLS_FEW(limit=LARGEST_ERROR, reason="error"))
     unknown = film.time is None and film.status is Status.CONVERGED and errors[0][0] is None
     if unknown and len(grid_shapes(level.shape)) > 1:
-        notes.append(FILM_ERROR_UNKNOWN(reason="no-film"))
+        notes.append(no_error_bar(_BARLESS, NoBar.NO_COARSE_FILM))
     elif unknown:
         nx, ny = (max(n, 2 * COARSEST) for n in film.pressure.shape)
-        notes.append(FILM_ERROR_UNKNOWN(reason="few-cells", nx=nx, ny=ny))
+        notes.append(no_error_bar(_BARLESS, NoBar.FEW_FILM_CELLS, nx=nx, ny=ny))
     return tuple(notes)

@@ -8,12 +8,11 @@ from collections.abc import Iterator
 from bem.notes import Note
 from bem.notes.checks import (
     ABOVE_HARDNESS,
-    BODY_REPEATS,
-    CAPPED_NEARLY_FULL,
-    CONTACT_WIDE,
     CYLINDER_NARROW,
+    HARDNESS_DECIDES,
     PATCH_SINKS,
-    WAVE_DOES_NOT_FIT,
+    PERIODIC_GRID,
+    SLOPES_LARGE,
     YIELDS,
 )
 from bem.notes.contact import CONTACT_AT_EDGE
@@ -35,7 +34,7 @@ def contact_large_for_its_radius(facts: Facts) -> Iterator[Note]:
     found = worst((case.smooth.ratio, case) for case in facts.cases if case.smooth is not None)
     if found is not None and found[0] > LARGEST_SLOPE:
         ratio, case = found
-        yield CONTACT_WIDE(case.label, ratio=ratio, strain=0.2 * ratio, reason="hertz")
+        yield SLOPES_LARGE(case.label, ratio=ratio, strain=0.2 * ratio, reason="hertz")
 
 
 @scene_check
@@ -88,7 +87,7 @@ def mean_pressure_near_hardness(facts: Facts) -> Iterator[Note]:
     found = worst((pressure / limit, case) for pressure, limit, case in limits if limit)
     if found is not None and found[0] > 0.5:
         ratio, case = found
-        yield CAPPED_NEARLY_FULL(case.label, ratio=ratio, reason="load")
+        yield HARDNESS_DECIDES(case.label, ratio=ratio, reason="load")
 
 
 @scene_check
@@ -156,7 +155,9 @@ def curved_body_repeats(facts: Facts) -> Iterator[Note]:
             size, length = case.smooth.semi_axes[axis], case.grid.lengths[axis]
             if case.grid.periodic[axis] and math.isfinite(size):
                 near = f", {length / size:.2g} contact radii apart" if length < 5 * size else ""
-                yield BODY_REPEATS(case.note_place("grid"), axis=name, shape=case.shape, length=length, near=near)
+                yield PERIODIC_GRID(
+                    case.note_place("grid"), axis=name, shape=case.shape, length=length, near=near, reason="body"
+                )
 
 
 @scene_check
@@ -182,7 +183,9 @@ def wave_does_not_fit_the_period(facts: Facts) -> Iterator[Note]:
             continue
         waves = case.grid.lengths[0] / case.wavelength
         if abs(waves - round(waves)) > 1e-6 * waves or round(waves) == 0:
-            yield WAVE_DOES_NOT_FIT(case.note_place("shape.wavelength"), waves=waves, length=case.grid.lengths[0])
+            yield PERIODIC_GRID(
+                case.note_place("shape.wavelength"), waves=waves, length=case.grid.lengths[0], reason="wave"
+            )
 
 
 @scene_check

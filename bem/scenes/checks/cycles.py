@@ -15,14 +15,14 @@ from bem.grid import FloatArray, Grid
 from bem.notes import Level, Note
 from bem.notes.accuracy import NoBar, no_error_bar
 from bem.notes.checks import (
-    CONTACT_WIDE,
     NO_WEAR_RATE,
     NOT_SETTLED,
     PARTICLES_OF_BODY,
+    SLOPES_LARGE,
     SURFACE_ROUGHENED,
     WEAR_STEPS_LONG,
 )
-from bem.notes.contact import SPOTS_SMALL
+from bem.notes.contact import CONTACT_UNRESOLVED
 from bem.notes.note import joined, percent, si
 from bem.scenes.checks.facts import Facts
 from bem.scenes.checks.hertz import LARGEST_SLOPE, STEEP
@@ -137,7 +137,8 @@ def least_area_of_worn_surfaces(facts: Facts, outcome: Outcome) -> Iterator[Note
     counted = [float((plane > 0).mean()) for plane in planes]
     many = [c / low for area, low, c in zip(areas, least, counted, strict=True) if area <= _MANY * low < c]
     if many:
-        yield SPOTS_SMALL(of=" in the last cycle" + _of(len(many), len(areas)), times=max(many))
+        of = " in the last cycle" + _of(len(many), len(areas))
+        yield CONTACT_UNRESOLVED(of=of, times=max(many), reason="spots")
 
 
 @outcome_check
@@ -163,7 +164,7 @@ def worn_beyond_small_slopes(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     # of a contact too wide before any wear it is said there
     if largest <= (STEEP if unworn > LARGEST_SLOPE else LARGEST_SLOPE):
         return
-    yield CONTACT_WIDE(
+    yield SLOPES_LARGE(
         level=Level.OUTSIDE_MODEL if largest > STEEP else None,
         depth=max(depths),
         radius=radius,
@@ -246,7 +247,7 @@ def steps_of_wear_in_oil_that_overshoot(facts: Facts, outcome: Outcome) -> Itera
         )
         most = cell_to_cell_compliance(grid, pair)
         if give > 2 * most:
-            yield WEAR_STEPS_LONG(case.label, give=give, most=most, share=0.99 * most / give, reason="overshoot")
+            yield WEAR_STEPS_LONG(case.label, ratio=give / most, share=0.99 * most / give, reason="overshoot")
             return
 
 

@@ -9,15 +9,14 @@ from collections.abc import Iterator, Sequence
 from bem.materials import Body
 from bem.notes import Note
 from bem.notes.checks import (
-    CELLS_ACROSS_CONTACT,
     DEPTHS_MISS_STRESS,
     LAYER_MESH,
-    NOTHING_SLIDES,
     PARTICLES_OF_MESH,
     PATCH_SHORT,
     ROUGHNESS_UNRESOLVED,
-    SLIDES_DIFFER,
+    WEAR_SHIFT,
 )
+from bem.notes.contact import CONTACT_UNRESOLVED
 from bem.notes.note import joined, si
 from bem.scenes.checks.facts import Case, Facts, worst
 from bem.scenes.checks.registry import scene_check
@@ -42,8 +41,9 @@ def few_cells_across_the_contact(facts: Facts) -> Iterator[Note]:
     if found is not None and 1 / found[0] < _CELLS_ACROSS:
         across, case = 1 / found[0], found[1]
         assert case.smooth is not None
-        yield CELLS_ACROSS_CONTACT(
-            case.note_place("grid"), across=across, fewest=_CELLS_ACROSS, spacing=min(case.smooth.semi_axes) / 10
+        spacing = min(case.smooth.semi_axes) / 10
+        yield CONTACT_UNRESOLVED(
+            case.note_place("grid"), across=across, fewest=_CELLS_ACROSS, spacing=spacing, reason="hertz"
         )
 
 
@@ -259,7 +259,7 @@ def nothing_slides(facts: Facts) -> Iterator[Note]:
     if not (facts.of_kind("wear", "running-in") and facts.cases and all(case.slide == 0 for case in facts.cases)):
         return
     if facts.scene.wear.criterion.needs_strength:  # local wear has a distance of its own
-        yield NOTHING_SLIDES()
+        yield WEAR_SHIFT(reason="zero")
 
 
 @scene_check
@@ -275,7 +275,7 @@ def slides_differ(facts: Facts) -> Iterator[Note]:
         shortest, longest = min(cases, key=_slide), max(cases, key=_slide)
         if len(meshes) > 1 and _slide(longest) > 1.02 * _slide(shortest):
             ends = [f"{si(_slide(one), 'm')}{one.at}" for one in (shortest, longest)]
-            yield SLIDES_DIFFER(shortest=ends[0], longest=ends[1])
+            yield WEAR_SHIFT(shortest=ends[0], longest=ends[1], reason="differs")
             return
 
 

@@ -12,9 +12,8 @@ from bem.grid import Grid
 from bem.notes import Level, Note
 from bem.notes.checks import (
     ABOVE_HARDNESS,
-    CAPPED_NEARLY_FULL,
-    CONTACT_AT_CAP,
     DEPTHS_MISS_STRESS,
+    HARDNESS_DECIDES,
     NOTHING_CAME_OFF,
     PARTICLES_CUT,
     PARTICLES_OF_MESH,
@@ -152,7 +151,7 @@ def contact_at_the_cap(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """Where the pressure is the cap, it is an input and no result; said from a tenth of the contact on."""
     cells, cap = at_the_cap(facts, outcome)
     if cells and not roughened(facts, outcome).grown:  # which says it too
-        yield CONTACT_AT_CAP(cells=cells, cap=cap, reason="reached")
+        yield HARDNESS_DECIDES(cells=cells, cap=cap, reason="reached")
 
 
 def at_the_cap(facts: Facts, outcome: Outcome) -> tuple[str, float]:
@@ -180,7 +179,7 @@ def cap_within_the_error_of_the_pressure(facts: Facts, outcome: Outcome) -> Iter
     if case is None or case.cap is None or not len(plastic) == len(highest) == len(errors):
         return
     if any(p == 0 and h < case.cap < h + e for p, h, e in zip(plastic, highest, errors, strict=True)):
-        yield CONTACT_AT_CAP(cap=case.cap, reason="within-error")
+        yield HARDNESS_DECIDES(cap=case.cap, reason="within-error")
 
 
 @outcome_check
@@ -192,7 +191,7 @@ def capped_contact_nearly_full(facts: Facts, outcome: Outcome) -> Iterator[Note]
         return
     largest = max(numbers(fraction), default=0.0)
     if largest > _CONTACT and all(case.cap for case in facts.cases) and _anything_at_the_cap(facts, outcome):
-        yield CAPPED_NEARLY_FULL(share=largest, reason="area")
+        yield HARDNESS_DECIDES(share=largest, reason="area")
 
 
 def _anything_at_the_cap(facts: Facts, outcome: Outcome) -> bool:

@@ -6,8 +6,8 @@ import math
 from collections.abc import Iterator
 
 from bem.notes import Note
-from bem.notes.checks import MAP_COARSE, MAP_SCALED, SURFACE_IS_FORM, SURFACE_STEEP
-from bem.notes.scenes import MAP_FILLED
+from bem.notes.checks import MAP_COARSE, SLOPES_LARGE, SURFACE_IS_FORM
+from bem.notes.scenes import MAP_ALTERED
 from bem.scenes.checks.facts import Facts
 from bem.scenes.checks.hertz import STEEP
 from bem.scenes.checks.registry import scene_check
@@ -26,7 +26,7 @@ def steep_roughness(facts: Facts) -> Iterator[Note]:
     an rms slope of 0.5, and summits at twice the rms slope are cliffs."""
     for slope, case, surface in facts.worst_surfaces(lambda surface: surface.rms_slope):
         if slope > STEEP:
-            yield SURFACE_STEEP(case.note_place(f"{surface.body}.surface"), slope=slope)
+            yield SLOPES_LARGE(case.note_place(f"{surface.body}.surface"), slope=slope, reason="roughness")
 
 
 @scene_check
@@ -42,7 +42,7 @@ def much_of_the_map_is_filled(facts: Facts) -> Iterator[Note]:
     """Missing points are filled smoothly from their neighbours, and steep flanks are what instruments miss."""
     for filled, _, surface in facts.worst_surfaces(lambda surface: surface.filled):
         if filled > _FILLED:
-            yield MAP_FILLED(f"{surface.body}.surface", share=filled, reason="much")
+            yield MAP_ALTERED(f"{surface.body}.surface", share=filled, reason="much")
 
 
 @scene_check
@@ -75,4 +75,5 @@ def scaled_out_of_proportion(facts: Facts) -> Iterator[Note]:
     """Heights scaled to another Sq scale slopes and curvatures with them; a surface twice as rough has other waves."""
     for change, _, surface in facts.worst_surfaces(lambda surface: abs(math.log(surface.scaled or math.nan))):
         if change > math.log(3):
-            yield MAP_SCALED(f"{surface.body}.surface", factor=surface.scaled, height=surface.rms_height)
+            height = surface.rms_height
+            yield MAP_ALTERED(f"{surface.body}.surface", factor=surface.scaled, height=height, reason="scaled")

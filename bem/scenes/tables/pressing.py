@@ -51,7 +51,7 @@ class ContactControl(Table):
         example="0.2 um",
     )
     behaviour: Literal["elastic", "capped"] = key(
-        "Contact model: elastic, or capped (elastic-perfectly plastic: pressure limited by the hardness).",
+        "Contact model: elastic, or capped (elastic-plastic: pressure limited by the hardness of the softer body).",
         "basic",
         default="elastic",
     )
@@ -63,7 +63,9 @@ class ContactControl(Table):
         example="7 GPa",
     )
     friction: Annotated[Ratio, Field(ge=-10, le=10)] = key(
-        "Friction coefficient of sliding: traction over pressure, for stresses and heat.", "basic", default=0.0
+        "Friction coefficient of sliding, for stresses and heat; leaves the pressure of equal materials as it is.",
+        "basic",
+        default=0.0,
     )
     tolerance: Annotated[Ratio, Field(ge=1e-12, le=0.1)] = key(
         "Relative tolerance of the contact conditions; smaller values cost little.", "expert", default=1e-8
@@ -125,7 +127,9 @@ class PressedScene(SceneModel):
 
     grid: GridScene = key("Grid of the contact.", "basic", default=GridScene())
     lower: BodyScene = key("Lower body, on which friction acts along +x.", "basic")
-    upper: UpperBodyScene = key("Upper body, which carries the smooth shape.", "basic", default=UpperBodyScene())
+    upper: UpperBodyScene = key(
+        "Upper body, which carries the smooth shape; smooth without [upper.surface].", "basic", default=UpperBodyScene()
+    )
     shape: ShapeScene = key("Smooth shape of the upper body.", "basic", default=ShapeScene())
     contact: ContactControl = key("How the bodies are pressed together.", "basic")
 

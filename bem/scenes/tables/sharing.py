@@ -87,7 +87,7 @@ class HotMixedScene(MixedScene):
     """A `MixedScene` whose film (lumped, or along and across it) and surfaces (conducted) may have their heat."""
 
     thermal: Literal["off", "lumped", "full"] = key(
-        "Frictional heat: off (isothermal), lumped (mean film temperature) or full (across the film too).",
+        "Frictional heat: off (isothermal), lumped (mean film temperature) or full (across the film; cylinders only).",
         "basic",
         default="off",
     )

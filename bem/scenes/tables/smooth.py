@@ -23,7 +23,7 @@ class SmoothShapeScene(Table):
         "Width of the line contact along y, on which the load acts.", "basic", default=None, example="8 mm"
     )
     ball: PositiveLength | None = key(
-        "Radius of a ball; instead of radius and width.", "basic", default=None, example="10 mm"
+        "Radius of the ball, not its diameter; instead of radius and width.", "basic", default=None, example="10 mm"
     )
     radii: tuple[PositiveLength, PositiveLength] | None = key(
         "Reduced radii along x and y of an elliptical contact; instead of ball.",

@@ -15,10 +15,10 @@ from bem.lubrication.point.certificate import certify, minimum_film
 from bem.lubrication.point.newton import newton
 from bem.lubrication.point.validity import inlet_shear
 from bem.notes import has_code
+from bem.notes.accuracy import NO_ERROR_BAR, NoBar
 from bem.notes.lubrication import (
     BODIES_NOT_RIGID,
     FILM_CELLS_FEW,
-    FILM_ERROR_UNKNOWN,
     FILM_NOT_FOUND,
     INLET_FRICTION,
     INLET_TOO_SHORT,
@@ -399,7 +399,7 @@ def test_an_error_that_no_coarser_grid_gives_is_said_to_be_unknown(monkeypatch):
     )  # fmt: skip
     assert film.status == "converged"
     assert film.minimum_thickness_error is None
-    assert has_code(film.notes, FILM_ERROR_UNKNOWN)
+    assert has_code(film.notes, NO_ERROR_BAR, reason=NoBar.NO_COARSE_FILM)
     assert has_code(film.notes, FILM_CELLS_FEW, reason="constriction")
 
 
@@ -411,11 +411,11 @@ def test_cells_too_few_to_halve_are_said_with_those_that_tell_the_error(shape, w
     few = solve_point_film(**case, shape=shape)
     assert few.status == "converged"
     assert few.central_thickness_error is few.minimum_thickness_error is None
-    (note,) = (note for note in few.notes if note.code == FILM_ERROR_UNKNOWN.code)
+    (note,) = (note for note in few.notes if note.code == NO_ERROR_BAR.code)
     assert f"take {wanted[0]} x {wanted[1]}" in note
     enough = solve_point_film(**case, shape=wanted)
     assert enough.central_thickness_error > 0
-    assert not has_code(enough.notes, FILM_ERROR_UNKNOWN)
+    assert not has_code(enough.notes, NO_ERROR_BAR)
 
 
 def test_errors_cover_films_that_are_far_from_second_order():
