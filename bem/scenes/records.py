@@ -150,7 +150,8 @@ grid_map = partial(Series, ("x", "y"))
 class Record:
     """What every case gives; kinds add fields.
 
-    status : the worst status of the case's solvers.
+    status : the worst status of the case's solvers; of a wear loop, whether every contact was solved, not whether the
+        surface has settled.
     where : where that happened, in words; emptied if it is converged.
     errors : error bars of figures by their fields' names, SI; None for a figure that does not converge. Summary and
         dataset have them beside the figures, under `error_key`; a figure that is not named has no bar.
