@@ -36,7 +36,8 @@ class WearScene(SceneModel):
         "Wear model: detachment criterion or wear law, and how material leaves.", "advanced", default=WearScenePart()
     )
     cycles: CyclesScene = key(
-        "Wear cycles. One cycle: contact solved, particles removed, surfaces shifted by wear.shift (3 cells).",
+        "Wear cycles. One cycle: contact solved, particles removed by wear.criterion (by default where the von Mises "
+        "stress exceeds the yield stress), surfaces shifted by wear.shift (3 cells).",
         "basic",
         default=CyclesScene(),
     )

@@ -126,7 +126,8 @@ def test_it_starts_from_a_gap_at_rest():
     films = all_found(march(np.linspace(0, 4e-3, 21), speeds=lambda t: (SPEED * t / 4e-3,) * 2, initial_thickness=3e-7))
     note = films[0].notes[0]
     assert (note.code, note.values["origin"]) == (FIRST_FILM.code, "a gap full of oil")
-    assert note.values["missed"] == pytest.approx(-100.0, abs=0.5)
+    assert note.values["missed"] == pytest.approx(100.0, abs=0.5)
+    assert note.values["direction"] == "less"
     steady = march([0, 1e-5])[0]
     # the speed has only just come, and the outlet is still thinner
     assert 0.6 < films[-1].minimum_thickness / steady.minimum_thickness < 1.0
