@@ -50,14 +50,18 @@ class MixedSolution:
     contact_solves : number of rough contacts solved.
     imbalance : (film_load + contact_load - load) / load, of these three.
     balance_slope : slope of ln(opening / film thickness) over ln(film_load), a warm start of the next speed.
-    continuation : other parts of the next speed's warm start.
-    status : converged where the imbalances of load and oil are within the tolerance, and film, contact and heat
-        conduction are converged themselves; infeasible where film and surfaces cannot carry the load within their
-        models.
+    continuation : other parts of the next speed's warm start: `refinement`, `speed_power` and `whole_film`. Film load,
+        slope and pressure of the start are those of this solution.
+    status : converged where the imbalance of the load is within the tolerance, that of the oil is within the tolerance
+        or within the error of the opening that the tightest contact leaves (contact tolerance times the standard
+        deviation of the gap), and film, contact and heat conduction are converged themselves. At an end of the balance
+        the oil is not tested. With heat the film's temperatures must balance its heat as well; the thickness that
+        inlet heating leaves is then known to 5e-3 (`ThermalFilm.inlet_missed`), which no imbalance shows. Infeasible
+        where film and surfaces cannot carry the load within their models.
     grid : as given.
     boundary_friction : as given; a law over temperature has the temperature of the contact.
     oil_imbalance : (mean opening - mean film thickness) / mean film thickness where oil is counted (`oil_volume`), of
-        this film and contact; 0 at an end of the balance.
+        this film and contact; not evaluated at an end of the balance, where it is set to 0.
     oil : sensitivity of contact share and friction to the area where oil is counted.
     patch_film : film as the patch sees it. Film, pressures and stresses of a repeated cell are those at the centre of
         the contact.
@@ -141,9 +145,12 @@ class MixedSolution:
 
     @property
     def boundary_shear_stress(self) -> FloatArray:
-        """Boundary shear stress (nx, ny) [Pa], positive where u1 > u2: the flat drags the other surface along."""
+        """Boundary shear stress (nx, ny) [Pa], positive where u1 > u2: the flat drags the other surface along.
+
+        Zero without sliding, as `boundary_force` is.
+        """
         sign, speed = sliding_sign(self.speeds), abs(self.speeds[0] - self.speeds[1])
-        if self.contact is None or (speed == 0 and not isinstance(self.boundary_friction, float)):
+        if self.contact is None or speed == 0:
             return np.zeros(self.grid.shape)
         if isinstance(self.boundary_friction, float):
             return sign * self.boundary_friction * self.contact.pressure
