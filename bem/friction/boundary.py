@@ -30,6 +30,8 @@ from bem.laws import Law, make_laws, parameter, register
 
 BOLTZMANN = 1.380649e-23
 """[J/K]"""
+_LARGEST_EXPONENT = 100.0
+"""Largest exponent of a law: far beyond any friction, and far from the end of floating point."""
 
 
 @dataclass(frozen=True)
@@ -183,9 +185,8 @@ class TemperatureDependentFriction(BoundaryFriction):
 
     def shear_stress(self, pressure: FloatArray, sliding_speed: float) -> FloatArray:
         """The coefficient above times pressure."""
-        return (
-            self.friction * math.exp(-self.softening * (_temperature_of(self) - self.reference_temperature)) * pressure
-        )
+        exponent = -self.softening * (_temperature_of(self) - self.reference_temperature)
+        return self.friction * math.exp(min(exponent, _LARGEST_EXPONENT)) * pressure
 
 
 @register

@@ -23,7 +23,7 @@ class PatchFilm:
 
     Attributes
     ----------
-    load : that the film carries [N].
+    load : under which the film was requested [N]; `status` says whether the film carries it.
     thickness : film thickness [m].
     pressure : film pressure [Pa].
     shear_stress : shear stress on the flat [Pa].
@@ -35,6 +35,8 @@ class PatchFilm:
     smooth_gap : gap of the smooth bodies deformed by the film pressure alone, up to a constant [m]; None where it is
         the thickness.
     plateau : central film thickness [m] of a point contact; None of a line contact.
+    sliding_stress : shear stress in the middle of the film [Pa], zero without pressure; None where the film model gives
+        none.
     """
 
     load: float
@@ -48,6 +50,7 @@ class PatchFilm:
     solution: FilmSolution | PointFilmSolution | None = None
     smooth_gap: FloatArray | None = None
     plateau: float | None = None
+    sliding_stress: FloatArray | None = None
 
     @property
     def carrying_thickness(self) -> float:
@@ -77,7 +80,12 @@ class PatchFilm:
         if starvation is None or starvation.flooded or not 0 < oil < opening:
             return self
         scale = (oil / opening) ** 2
-        return replace(self, shear_stress=scale * self.shear_stress, shear_force=scale * self.shear_force)
+        return replace(
+            self,
+            shear_stress=scale * self.shear_stress,
+            shear_force=scale * self.shear_force,
+            sliding_stress=None if self.sliding_stress is None else scale * self.sliding_stress,
+        )
 
 
 def middle_line(field: FloatArray) -> FloatArray:

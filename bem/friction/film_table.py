@@ -115,6 +115,7 @@ class FilmTable:
             return sum((w * v for w, v in zip(weights, values, strict=True)), np.zeros_like(values[0]))
 
         failed = [film.status for film in films if film.status is not Status.CONVERGED]
+        sliding = [film.sliding_stress for film in films if film.sliding_stress is not None]
         thickness = np.exp(mean([np.log(film.thickness) for film in films]))
         return PatchFilm(
             load=load,
@@ -131,6 +132,7 @@ class FilmTable:
             if films[0].plateau is None
             else math.exp(sum(w * math.log(film.carrying_thickness) for w, film in zip(weights, films, strict=True))),
             smooth_gap=smooth_gap(thickness, self.films.parabola, load, self.contact),
+            sliding_stress=None if len(sliding) < len(films) else mean(sliding),
         )
 
     def error(self, load: float) -> float:

@@ -22,6 +22,7 @@ from bem.lubrication.checks import THINNEST_FILM
 from bem.lubrication.line.case import MOES_LOADS, LineCase, load_range
 from bem.lubrication.line.problem import line_scales
 from bem.lubrication.line.state import interpolate_to_mesh, without_factors
+from bem.lubrication.line.steady import film_at_positions
 from bem.lubrication.solve import solve_case
 
 BALANCE_POINTS = 400
@@ -65,7 +66,8 @@ def solved_line_film(
     points : nodes of the mesh.
     initial : warm start.
     position : abscissae of the solution [m]; its own mesh by default.
-    tolerance : largest residual without heat; the iterations of heat have their own.
+    tolerance : largest residual without heat. With heat the residual is at most 1e-8, on coarse meshes 1e-4 (lumped)
+        or 1e-3 (full). Inlet heating's film is met to 5e-3 (`inlet_thinning.FACTOR_TOLERANCE`).
     """
     modulus, heat = contact.film_modulus(load), contact.heat
     lowest, _ = load_range(contact.radius, modulus, speeds, contact.lubricant)
@@ -165,15 +167,17 @@ class SolvedLineFilm:
     def resampled(self, film: PatchFilm, position: FloatArray, *, negligible: bool) -> FilmSolution:
         """Return a film's solution at other abscissae [m]; a negligible film may reach beyond them.
 
+        Without heat Reynolds' equation is solved again from the film, which `evaluations` does not count. A film with
+        heat is interpolated.
+
         Raises
         ------
-        InputError : a film that is not negligible reaches beyond the positions.
+        InputError : a film that is not negligible reaches beyond the positions, with or without heat.
         """
         solution = line_solution(film.solution)
         assert solution is not None
         if self.contact.heat is not None:
-            pressure, thickness = solution.at(position)
-            return replace(solution, position=position, pressure=pressure, thickness=thickness)
+            return film_at_positions(solution, position, may_reach_beyond=negligible)
         try:
             return solved_line_film(
                 self.contact, self.speeds, film.load, self.points, initial=solution, position=position
@@ -181,8 +185,7 @@ class SolvedLineFilm:
         except InputError:
             if not negligible:
                 raise
-        pressure, thickness = solution.at(position)
-        return replace(solution, position=position, pressure=pressure, thickness=thickness)
+        return film_at_positions(solution, position, may_reach_beyond=True)
 
 
 def largest_film_load(contact: LineContact, speeds: Sequence[float]) -> float:
@@ -219,6 +222,7 @@ def sampled(
     """Sample a solved film at the abscissae (nx,) [m] of a patch; `load` and forces are on the whole width [N]."""
     pressure, thickness = film.at(position)
     force = film.striated_shear_force if striated_exit else film.shear_force
+    sliding = None if film.sliding_stress is None else np.where(film.pressure > 0, film.sliding_stress, 0.0)
     return PatchFilm(
         load=load,
         thickness=thickness[:, None],
@@ -230,6 +234,9 @@ def sampled(
         notes=film.notes,
         solution=film,
         smooth_gap=smooth_gap(thickness[:, None], contact.parabola(position, position[:0]), load, contact),
+        sliding_stress=None
+        if sliding is None
+        else np.interp(position, film.position, sliding, left=0.0, right=0.0)[:, None],
     )
 
 

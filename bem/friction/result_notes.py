@@ -73,7 +73,8 @@ def coupling_notes(forces: Forces, traction: float, setup: MixedSetup) -> tuple[
     couple them.
     """
     used, found = abs(traction), forces.coefficient
-    if setup.boundary_law.constant is not None or used == 0 or found == 0 or abs(used - found) <= 0.1 * found:
+    known = setup.boundary_law.constant is None and used != 0 and found != 0 and math.isfinite(found)
+    if not known or abs(used - found) <= 0.1 * found:
         return ()
     bodies = (setup.bodies,) if isinstance(setup.bodies, Body) else setup.bodies
     if not couples(bodies):

@@ -101,6 +101,7 @@ class WornFilms:
             thickness=thickness,
             pressure=np.maximum(film.pressure + change.pressure, 0.0),
             shear_stress=film.shear_stress + change.shear_stress,
+            sliding_stress=None,
             shear_force=film.shear_force + change.shear_force,
             minimum_thickness=film.minimum_thickness * math.exp(change.minimum_thickness),
             smooth_gap=smooth_gap(thickness, self.parabola + self.shape[:, None], load, self.contact),

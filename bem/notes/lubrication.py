@@ -267,6 +267,10 @@ HEAT_NOT_FOUND = define(
             "The last film that was found is shown without its temperatures, friction and heat.",
             "{remedy}",
         ),
+        "boundary": Reason(
+            "Boundary friction rises with temperature faster than the bodies conduct its heat away.",
+            "Lower load or sliding speed, or give a law that falls at such temperatures.",
+        ),
     },
 )
 LUMPED_HEAT_LIMIT = define(

@@ -22,6 +22,7 @@ from bem import (
 )
 from bem.accuracy import MixedCase, mixed_bars, solve_coarser_mixed
 from bem.friction.balance import Regime
+from bem.friction.boundary import filled_part
 from bem.friction.setup import MixedSetup
 from bem.friction.solve import solve_setup
 from bem.heat.steady import surface_temperature
@@ -51,7 +52,8 @@ def conducted(found, coefficient):
     pressure, slide = found.contact_pressure, abs(found.speeds[0] - found.speeds[1])
     stress = np.where(found.film.pressure > 0, np.abs(found.film.sliding_stress), 0.0)
     sheared = np.interp(found.grid.x, found.film.position, stress)[:, None]
-    heat = slide * (coefficient * pressure + np.where(pressure > 0, 0.0, sheared))
+    filled = filled_part(pressure, found.contact.contact_area, found.grid)
+    heat = slide * (coefficient * pressure + np.where(pressure > 0, 1 - filled, 1.0) * sheared)
     field = surface_temperature(
         heat, found.grid, (STEEL, STEEL), speeds=found.speeds, bulk=(333.15, 333.15), tolerance=1e-7
     ).temperature
@@ -84,6 +86,60 @@ def test_a_law_over_temperature_is_told_that_of_the_contact():
     stress = found.boundary_shear_stress.sum() * found.grid.cell_area * 6e-3 / found.grid.lengths[1]
     assert stress == pytest.approx(found.boundary_force, rel=1e-6)
     assert solve_mixed(**CASE | {"boundary_friction": FALLING}, speeds=ROLLING).boundary_force > found.boundary_force
+
+
+@pytest.mark.parametrize("cells", [32, 64])
+def test_oil_heats_the_contact_by_the_stress_of_the_films_own_mesh(cells):
+    """On a patch of few cells the pressure gradient on the patch differs from that on the film's mesh."""
+    case = mixed_case(cells, 0.8e-6 * 64 / cells, 6e-6, lubricant=OIL, boundary_friction=0.0, bodies=(STEEL, STEEL))
+    found = hot(**case | {"film_points": 250})
+    assert found.regime is Regime.MIXED
+    _, mean = conducted(found, 0.0)
+    assert found.contact_temperature - 333.15 == pytest.approx(mean - 333.15, rel=1e-5)
+
+
+def test_a_law_of_the_pressure_heats_each_cell_by_its_own_stress():
+    law = {"kind": "pressure_dependent", "shear_strength": 50e6, "pressure_coefficient": 0.02}
+    found = hot(boundary_friction=law)
+    pressure, slide = found.contact_pressure, abs(found.speeds[0] - found.speeds[1])
+    stress = np.where(found.film.pressure > 0, np.abs(found.film.sliding_stress), 0.0)
+    sheared = np.interp(found.grid.x, found.film.position, stress)[:, None]
+    filled = filled_part(pressure, found.contact.contact_area, found.grid)
+    heat = slide * (np.abs(found.boundary_shear_stress) + np.where(pressure > 0, 1 - filled, 1.0) * sheared)
+    field = surface_temperature(
+        heat, found.grid, (STEEL, STEEL), speeds=found.speeds, bulk=(333.15, 333.15), tolerance=1e-7
+    ).temperature
+    assert found.flash_temperature - 333.15 == pytest.approx(field[pressure > 0].max() - 333.15, rel=1e-5)
+
+
+@pytest.mark.parametrize("softening", [-0.1, -0.05])
+def test_heat_of_a_law_that_rises_may_run_away(softening):
+    """No coefficient reproduces itself: it is said, and raises nothing."""
+    poor = Body(Material("poor", **ELASTIC, thermal_conductivity=0.46, density=7800.0, heat_capacity=470.0))
+    law = {"kind": "temperature_dependent", "friction": 0.2, "softening": softening, "reference_temperature": 333.15}
+    found = hot(boundary_friction=law, bodies=(poor, poor))
+    assert found.status is Status.STALLED
+    assert has_code(found.notes, HEAT_NOT_FOUND, reason="boundary")
+    assert math.isnan(found.friction)
+    assert math.isnan(found.contact_temperature)
+
+
+def test_a_hot_film_is_returned_at_the_positions_asked_for():
+    own = hot().film
+    n = len(own.position)
+    position = np.append(own.position, [3e-5, 5e-5])  # beyond the exit, to cover the patch
+    found = hot(film_position=position).film
+    np.testing.assert_allclose(found.sliding_stress[:n], own.sliding_stress, rtol=1e-9)
+    np.testing.assert_allclose(found.shear_stress()[: n - 1], own.shear_stress()[: n - 1], rtol=1e-9)
+    assert not found.shear_stress()[n:].any()
+    position = np.linspace(-0.3e-3, 0.8e-3, 3000)
+    shorter = hot(film_position=position).film
+    assert shorter.shear_stress().shape == position.shape
+    cold = solve_mixed(**CASE, speeds=ROLLING, film_position=position).film
+    assert shorter.inlet_load_fraction == pytest.approx(cold.inlet_load_fraction, rel=0.1)
+    assert shorter.inlet_load_fraction > 1.5 * found.inlet_load_fraction > 0
+    with pytest.raises(InputError, match="start at"):
+        hot(film_position=np.linspace(-2.6e-5, 1e-3, 100))
 
 
 @pytest.mark.internal

@@ -79,7 +79,7 @@ def line_film(
     film = build_solution(outcome, flooded, case, (scales, reversed_), position)
     notes = notes_on(found) + notes_on_factors(case.flow_factors, film.minimum_thickness)
     film = replace(film, starvation=starvation, notes=notes)
-    return film if cavitation is Cavitation.SWIFT_STIEBER else _with_fraction(film, outcome, scales, reversed_)
+    return film if cavitation is Cavitation.SWIFT_STIEBER else _with_fraction(film, outcome.state, scales, reversed_)
 
 
 def solve_coarse_film(case: LineCase) -> FilmSolution:
@@ -98,13 +98,50 @@ def solve_coarse_film(case: LineCase) -> FilmSolution:
     return replace(film, state=replace(film.state, coarse=True))
 
 
-def _with_fraction(film: FilmSolution, outcome: Outcome, scales: Scales, reversed_: bool) -> FilmSolution:
+def film_at_positions(film: FilmSolution, position: FloatArray, *, may_reach_beyond: bool = False) -> FilmSolution:
+    """Return a steady film at other positions, interpolated from its state.
+
+    The product of stress in the middle of the film and thickness is interpolated: it is about constant upstream of the
+    mesh.
+
+    Parameters
+    ----------
+    film : solution with its state.
+    position : (n,) ascending abscissae [m].
+    may_reach_beyond : whether much of the film may lie beyond the positions.
+
+    Raises
+    ------
+    InputError : the film reaches beyond the positions, unless it may.
+    """
+    own = film.state
+    assert isinstance(own, FilmState)
+    at = -position[::-1] if own.reversed else position
+    upstream = _share_upstream(at, own.state, own.scales, own.load)
+    if not may_reach_beyond:
+        _check_reach(at, own.state, own.scales, own.load)
+    pressure, thickness = film.at(position)
+    stress = film.sliding_stress
+    if stress is not None:
+        stress = np.interp(position, film.position, stress * film.thickness) / thickness
+    moved = replace(
+        film,
+        position=position,
+        pressure=pressure,
+        thickness=thickness,
+        sliding_stress=stress,
+        inlet_load_fraction=upstream,
+    )
+    return moved if film.film_fraction is None else _with_fraction(moved, own.state, own.scales, own.reversed)
+
+
+def _with_fraction(film: FilmSolution, state: LineState, scales: Scales, reversed_: bool) -> FilmSolution:
     """Return the film with the filled fraction of the gap: below one behind the exit and before a meniscus."""
-    exit_film = outcome.state.film[-1] * scales.film
+    exit_film = state.film[-1] * scales.film
     along = film.position * (-1.0 if reversed_ else 1.0)
-    ruptured = along > outcome.state.exit * scales.length
-    if outcome.state.far_field == 0:
-        ruptured |= along < outcome.state.position[0] * scales.length
+    ruptured = along > state.exit * scales.length
+    if state.far_field == 0:
+        ruptured |= along < state.position[0] * scales.length
     return replace(film, film_fraction=np.where(ruptured, exit_film / film.thickness, 1.0))
 
 
@@ -218,22 +255,33 @@ def build_solution(
 
 def _check_reach(at: FloatArray, state: LineState, scales: Scales, load: float) -> float:
     """Return the share of the load upstream of ascending positions [m]; refuse positions that miss much of the film."""
-    x, first = state.position, at[0] / scales.length
-    total = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(x) * (state.pressure[1:] + state.pressure[:-1]))])
-    total += state.far_field * 4 / x[0] ** 2
-    missing_load = state.far_field * 4 / first**2 if first < x[0] else float(np.interp(first, x, total))
-    if missing_load > MAX_INLET_SHARE * load:
-        needed = float(np.interp(0.5 * MAX_INLET_SHARE * load, total, x)) * scales.length
+    x, missing = state.position, _share_upstream(at, state, scales, load)
+    if missing > MAX_INLET_SHARE:
+        needed = float(np.interp(0.5 * MAX_INLET_SHARE * load, _load_upstream(state), x)) * scales.length
         raise InputError(
             f"position: starts at {at[0]:g} m (along the entrainment), where the film already carries "
-            f"{100 * missing_load / load:.2g} % of the load; start at {needed:.3g} m or further upstream"
+            f"{100 * missing:.2g} % of the load; start at {needed:.3g} m or further upstream"
         )
     if at[-1] < x[-1] * scales.length:
         raise InputError(
             f"position: ends at {at[-1]:g} m (along the entrainment), before the film's exit at "
             f"{x[-1] * scales.length:.3g} m; end beyond it"
         )
-    return missing_load / load
+    return missing
+
+
+def _share_upstream(at: FloatArray, state: LineState, scales: Scales, load: float) -> float:
+    """Return the share of the load M upstream of the first of ascending positions [m]."""
+    x, first = state.position, at[0] / scales.length
+    carried = state.far_field * 4 / first**2 if first < x[0] else float(np.interp(first, x, _load_upstream(state)))
+    return carried / load
+
+
+def _load_upstream(state: LineState) -> FloatArray:
+    """Return the load upstream of each node (n,), in Moes' units."""
+    x = state.position
+    total = np.concatenate([[0.0], np.cumsum(0.5 * np.diff(x) * (state.pressure[1:] + state.pressure[:-1]))])
+    return np.asarray(total + state.far_field * 4 / x[0] ** 2)
 
 
 def parabolic_minimum(x: FloatArray, film: FloatArray) -> float:
