@@ -3,7 +3,8 @@
 Film and rough contact carry the load in parallel (Johnson, Greenwood and Poon, *Wear* 19, 1972, 91; papers A and D of
 the thesis). The film is that between smooth surfaces under its part of the load F_film. The rough surfaces are pressed
 together by the rest. Their mean opening must equal the mean film thickness, both taken over the area where oil is
-counted. One point of a Stribeck curve, `solve.solve_mixed`, in order:
+counted. The parts of one point of a Stribeck curve, `solve.solve_mixed`; in code the warm start (4) comes before the
+contact model (3):
 
 1. `setup.MixedSetup` checks the arguments. `smooth` has the contact of the smooth bodies: half-axes and undeformed gap.
    `oil_volume` averages film and opening over the patch weighted by the film pressure (default), over the patch (the
@@ -12,8 +13,10 @@ counted. One point of a Stribeck curve, `solve.solve_mixed`, in order:
 2. `models` chooses the film model and the contact model. A film model gives the film under any load, at a coarse and at
    the wanted accuracy (protocol `film.Film`): `line_film` and `point_film` solve films when they are requested,
    `film_table` interpolates them in load, `worn_film` corrects them for worn bodies. With `thermal` every film of the
-   balance has heat of its own, which thins the film and lowers its shear stress; one such film costs several without
-   heat.
+   balance has heat of its own, which thins the film and lowers its shear stress. One trial with lumped heat solves two
+   or three coarse films and one film on all points (1.1 to 1.3 times the Newton steps of one isothermal film), and a
+   dense system for the temperatures of 200 cells; with full heat one to three times the steps and 5 to 15 temperature
+   fields.
 3. The contact model gives the opening under any load (protocol `rough_contact.RoughContact`): the rough half-space or
    uncoupled `asperities`; `homogenised_contact` with `cell_law` for a cell that repeats over the contact of a ball
    (Greenwood and Tripp 1967); `given_separation` for mean planes at the central film thickness (figures 5 and 6 of
@@ -38,7 +41,10 @@ counted. One point of a Stribeck curve, `solve.solve_mixed`, in order:
 (figures 3 and 4 of paper A) presses an array of equal asperities and has no film.
 
 Terms: the *whole* film is the film under the whole load; the *opening* is the mean gap between the rough surfaces where
-oil is counted; the *rest* is the load less the film load; the *odds* of a film load are film load over rest.
+oil is counted; the *rest* is the load less the film load; the *odds* of a film load are film load over rest. *Coarse*
+without more is a film on `line_film.BALANCE_POINTS` = 400 nodes, the first level of the balance (residual 1e-5). Inside
+one film `lubrication` has coarse meshes of its own: 250 cells for starts in `line.continuation` (residual 1e-4), and
+400 cells for the coupling with full heat in `thermal.coupling` (residual 1e-3).
 
 Names are loaded at first use, so that laws of boundary friction need no solver. The package knows films, contacts and
 operators, but no wear and no scene. Verified in tests/friction: the balance against its parts solved separately, the

@@ -44,7 +44,12 @@ class SmoothContact(Protocol):
         """Model of the film's heat; None for an isothermal film."""
 
     def film_modulus(self, load: float) -> float:
-        """Return E* [Pa] that gives a film under a load [N] the deflection by the deforming load."""
+        """Return E* [Pa] that gives a film under a load [N] the deflection by the deforming load.
+
+        A modelling assumption: film and contact pressure are taken to be distributed alike, so that the film with the
+        fraction F_film / F of the pressure is solved with the same fraction of the modulus, E* F_film / F. The pressure
+        of the contact then deforms the film's bodies as well, without being part of Reynolds' equation.
+        """
 
     def slices(self, grid: Grid) -> float:
         """Return the number of patches side by side that make the contact."""

@@ -114,7 +114,8 @@ def solve_mixed(
     supply : oil that reaches the contact, as of `solve_line_film`; of a ball a layer, without flow factors.
         `MixedSolution.film.starvation` has its effect.
     thermal : "off", "lumped" or "full": heat of the film, as of `solve_line_film`, and frictional heat of the contact
-        (`bem.friction.contact_heat`), whose temperature laws of boundary friction use. Far away both bodies have the
+        (`bem.friction.contact_heat`), whose temperature laws of boundary friction use. Heat of the contact does not act
+        back on film and balance: inlet heating alone thins a film with lumped heat. Far away both bodies have the
         temperature of the oil that arrives. The grid is free along x. "full" takes no supply and no ball.
 
     Returns
@@ -122,15 +123,20 @@ def solve_mixed(
     MixedSolution; friction = (F_boundary + F_film) / load, F_boundary the sum of the boundary shear stress over the
     contact (boundary_friction F_C for a coefficient), F_film the shear force of the film on the flat outside the real
     contact: cells in contact count by the fraction of them that does not touch. `status` is converged only where the
-    returned film and contact carry the load and hold the oil to `tolerance`; `notes` say where a model is outside its
-    validity. A film with less than a tenth of the tolerance is boundary lubrication: the contact is solved for the rest
-    of the load. The same holds, with a note of its own, where the film model ends while the film is a few molecules
-    thick.
+    returned film and contact carry the load and hold the oil to `tolerance`, or hold the oil to the error that the
+    tightest contact leaves in the opening: contact tolerance times the standard deviation of the gap. The contact is
+    solved more tightly than `contact_tolerance`, down to 1e-9, before that error is accepted. At both ends, full film
+    and boundary lubrication, the oil is not tested. With heat `converged` includes temperatures that balance the film's
+    heat, but not the 5e-3 to which the film that inlet heating leaves is known. `notes` say where a model is outside
+    its validity. A film with less than a tenth of the tolerance is boundary lubrication: the contact is solved for the
+    rest of the load. The same holds, with a note of its own, where the film model ends while the film is a few
+    molecules thick.
 
     Raises
     ------
     InputError : values out of range; no entrainment; a patch that is larger than `film_position` or does not cover
-        the contact; film positions that do not reach the inlet.
+        the contact; film positions that do not reach the inlet. With `thermal` also during the balance: inlet heating
+        that leaves an oil too thin for a film under the load of a trial to be looked for.
 
     Notes
     -----

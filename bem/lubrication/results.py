@@ -51,7 +51,8 @@ class FilmSolution:
     iterations : Newton steps in total, continuation and chord steps included.
     residual : largest residual of the equations, relative to the local film.
     status : outcome.
-    speeds, lubricant : as given.
+    speeds : as given.
+    lubricant : as given; of a film with lumped heat the oil that inlet heating thinned.
     time : [s]; None for a steady film.
     film_fraction : (n,) share of the gap that is filled with oil; 1 in the full film. None with Swift and Stieber's
         cavitation.

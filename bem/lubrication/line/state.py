@@ -31,7 +31,7 @@ class ThermalState:
     isothermal : film without heat.
     nodes : (n,) places of the mesh.
     layers : (n, K + 1) rises at the nodes in K layers and, last, the thinning
-        (`thermal.coupling.ThermalProblem.layered`).
+        (`thermal.coupling.Coupling.layered`).
     columns : (m,) places of the centres of the columns.
     rise : (m, K + 2) rises in the columns, both walls included.
     edge : (m+1,) nodes at which columns begin and end.

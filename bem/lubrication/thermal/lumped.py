@@ -268,7 +268,7 @@ def _check_load(case: LineCase, thinner: Lubricant, inlet: InletHeating) -> None
     highest = load_range(case.radius, case.contact_modulus, case.speeds, thinner)[1]
     if case.load > highest:
         raise InputError(
-            f"solve_thermal_line_film: shear heating in the inlet leaves {inlet.factor:.2g} of the film, as of an oil "
+            f"thermal: shear heating in the inlet leaves {inlet.factor:.2g} of the film, as of an oil "
             f"of {thinner.viscosity:.3g} Pa s, with which a film is looked for up to {highest:.4g} N/m: load "
             f"{case.load!r} N/m is beyond it. Lower the load or the speeds."
         )
