@@ -14,9 +14,9 @@ contact model (3):
    the wanted accuracy (protocol `film.Film`): `line_film` and `point_film` solve films when they are requested,
    `film_table` interpolates them in load, `worn_film` corrects them for worn bodies. With `thermal` every film of the
    balance has heat of its own, which thins the film and lowers its shear stress. One trial with lumped heat solves two
-   or three coarse films and one film on all points (1.1 to 1.3 times the Newton steps of one isothermal film), and a
-   dense system for the temperatures of 200 cells; with full heat one to three times the steps and 5 to 15 temperature
-   fields.
+   or three films on 250 cells, which find the viscosity of the thinned film, and that film on all nodes of the level
+   (1.1 to 1.3 times the Newton steps of one isothermal film), then dense systems for the temperatures of 200 cells;
+   with full heat one to three times the steps and 5 to 15 temperature fields.
 3. The contact model gives the opening under any load (protocol `rough_contact.RoughContact`): the rough half-space or
    uncoupled `asperities`; `homogenised_contact` with `cell_law` for a cell that repeats over the contact of a ball
    (Greenwood and Tripp 1967); `given_separation` for mean planes at the central film thickness (figures 5 and 6 of
@@ -42,9 +42,10 @@ contact model (3):
 
 Terms: the *whole* film is the film under the whole load; the *opening* is the mean gap between the rough surfaces where
 oil is counted; the *rest* is the load less the film load; the *odds* of a film load are film load over rest. *Coarse*
-without more is a film on `line_film.BALANCE_POINTS` = 400 nodes, the first level of the balance (residual 1e-5). Inside
-one film `lubrication` has coarse meshes of its own: 250 cells for starts in `line.continuation` (residual 1e-4), and
-400 cells for the coupling with full heat in `thermal.coupling` (residual 1e-3).
+without more is a film on `line_film.BALANCE_POINTS` = 400 nodes, the first level of the balance (residual 1e-5; with
+heat 1e-8 on both levels). Inside one film `lubrication` has coarse meshes of its own: 250 cells for starts in
+`line.continuation` (residual 1e-4), on which lumped heat also finds the viscosity of the thinned film and with it the
+thickness (to 5e-3), and 400 cells for the coupling with full heat in `thermal.coupling` (residual 1e-3).
 
 Names are loaded at first use, so that laws of boundary friction need no solver. The package knows films, contacts and
 operators, but no wear and no scene. Verified in tests/friction: the balance against its parts solved separately, the

@@ -145,7 +145,7 @@ class Balance:
     imbalance : (film load + contact load - load) / load, of these two.
     slope : of ln(opening / film thickness) over ln(film load).
     regime : end of the balance that it is at, or mixed.
-    films, contacts : solved in the search.
+    films, contacts : solved in the search; in `SharedLoad.balance` with the films under the whole load.
     convolutions : of the contacts.
     status : converged where film and contact are converged, the load imbalance is within the tolerance, and the oil
         imbalance is within the tolerance or within the error of the opening that the contact's tolerance leaves.
@@ -432,7 +432,8 @@ class _LevelSearch:
         return self.with_excess(log_load, film, contact)
 
     def solve_film(self, log_load: float) -> PatchFilm:
-        """Solve a film from the nearest stored one, and store it."""
+        """Solve a film, and store it; the nearest stored one is offered as start (with lumped heat only to the films on
+        250 cells, unless the loads agree to 1e-3)."""
         load = math.exp(log_load)
         film = self.film.under(load, self.level, self.history.nearest_film(load))
         self.history.add_film(film)

@@ -43,7 +43,7 @@ def start_from_solution(setup: MixedSetup, speeds: tuple[float, float], initial:
 def start_for_next_speed(
     speeds: tuple[float, float], balance: Balance, load: float, whole: PatchFilm, initial: MixedSolution | None
 ) -> BalanceStart:
-    """Return the parts of the next speed's warm start that a solution does not have.
+    """Return the next speed's warm start: film load and slope of this balance, and what a solution does not keep.
 
     Parameters
     ----------

@@ -40,7 +40,8 @@ whose heating takes more may be beyond the largest M; it is then refused with an
 COARSE_FILM = 1e-3
 """Relative error of films on `BALANCE_POINTS` nodes; the balance is not solved more accurately with them."""
 TOLERANCE, COARSE_TOLERANCE = 1e-8, 1e-5
-"""Largest residual of films on the wanted and on the coarse mesh; the latter is a hundredth of the mesh's own error."""
+"""Largest residual of films without heat on the wanted and on the coarse mesh; the latter is a hundredth of the mesh's
+own error."""
 
 
 def solved_line_film(
@@ -96,8 +97,8 @@ class SolvedLineFilm:
     position : (nx,) abscissae of the patch [m].
     points : nodes of the wanted mesh; a coarse mesh has `BALANCE_POINTS`.
     striated_exit : whether the oil behind the exit adds to the shear force.
-    initial : film of a similar case, the warm start of the first film.
-    tolerance : largest residual on the wanted mesh.
+    initial : film of a similar case, whose mesh the first film takes (not with heat) and which it may start from.
+    tolerance : largest residual on the wanted mesh; with heat `TOLERANCE` on both levels.
     """
 
     contact: LineContact

@@ -45,7 +45,7 @@ def films_of(
     speeds : of flat and cylinder or ball.
     at : abscissae (nx,), (ny,) [m] at which films are sampled; those of the patch by default.
     resolution : nodes of the line film, or cells along an axis of the point film; those of the set-up by default.
-    initial : line film of a similar case, the warm start of the first film.
+    initial : line film of a similar case, whose mesh the first film takes (not with heat) and which it may start from.
 
     Raises
     ------

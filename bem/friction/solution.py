@@ -40,9 +40,9 @@ class MixedSolution:
     separation : (nx,) distance [m] between the mean planes of the undeformed surfaces at the grid's abscissae: gap of
         the smooth bodies under film pressure (`PatchFilm.gap`) less the approach that keeps the volume of oil; of a
         ball on y = 0. In full film the film thickness, without the shift at which rough surfaces hold that oil.
-    lambda_ratio : minimum of the smooth film under the whole load over the rms height of the patch. Outside full film
-        that film is one on the coarse mesh of a cylinder; where the film model ends below the load, it is the film
-        under the largest load of the model.
+    lambda_ratio : minimum of the smooth film under the whole load over the rms height of the patch. Of a cylinder whose
+        film on the coarse mesh does not clear the roughness it is that film; where the film model ends below the load,
+        it is the film under the largest load of the model.
     minimum_film : minimum thickness [m] of `film`.
     contact_area : real contact area on the whole width [m^2].
     evaluations : number of films solved: those of the balance and those under the whole load. A film with heat counts

@@ -8,13 +8,17 @@ Algorithm of `run_in` (running_in.py), one cycle after the other:
    surfaces are a step around either (third_bodies.py).
 3. Shear tractions: friction x pressure, or a loop of partial slip (traction/).
 4. Removal by the criterion (criterion/) on each wearing body (cycle.py). Stress criteria: equivalent stress from the
-   surface down to a depth without yield (yielding.py), runs above yield joined to pieces (segmentation.py,
-   yielded_runs.py), of which the removal law says what leaves (removal.py). Others: averaged stress (lengths.py),
-   fatigue damage (damage.py), junctions (junctions.py), a depth by pressure and distance (criterion/local.py).
+   first depth (the skin, 100 nm by default) down; von Mises only where yielding material is connected to the surface,
+   other stresses in whole planes to one below the first without yield (yielding.py); then runs above yield joined to
+   pieces (segmentation.py, yielded_runs.py), of which the removal law says what leaves (removal.py). Others: averaged
+   stress (lengths.py), fatigue damage (damage.py), junctions (junctions.py), a depth by pressure and distance
+   (criterion/local.py).
 5. Lower the surfaces; append the cycle and its particles to the tables (running_in.py).
 
 Heights change by removal and by cuts of third bodies only. Where the pressure is at the hardness, the overlap of the
-surfaces leaves no dent: the next cycle begins with heights that are not flattened.
+surfaces leaves no dent: the next cycle begins with heights that are not flattened. In mixed lubrication only the
+pressure of the rough contact makes stresses: the pressure of the oil does not, so where the film carries all load
+nothing yields. The dry loop is what kind `wear` calls boundary lubrication.
 
 After the loop: the error of the last step of local wear by step doubling (step_doubling.py), figures (outcome.py,
 mixed_figures.py). Types: loads.py is what a criterion receives and returns, setup.py and model.py what stays the same.

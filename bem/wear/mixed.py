@@ -130,7 +130,8 @@ class MixedContact:
 
     Notes
     -----
-    The oil's shear stress, a hundred times smaller than the boundary traction, is left out of the stresses. The oil is
+    Stresses are of the pressure of the rough contact and its friction alone: the pressure of the oil, often most of the
+    load but smooth, and its shear stress, a hundred times smaller than the boundary traction, are left out. The oil is
     counted as the set-up says (`oil_volume`), in every cycle.
 
     Raises

@@ -51,7 +51,7 @@ class WearModel:
     shift : cells that the moving body slides over the other one along x before each cycle but the first: for positive
         friction and shift the upper body along +x, the lower one along -x (`running_in.sliding_direction`), so that
         friction on the moving body acts against its motion. A cycle counts the slide of as many cells, the first one,
-        too.
+        too; laws of local wear have a distance of their own.
     within_layer : pieces of a coated body end at the interface at the latest; the film is taken as replenished.
     traction : the name of one of `bem.wear.traction` or of your own, a table with `kind` and parameters, or a
         `TractionLaw`. "gross_sliding" is the source's, friction x pressure everywhere; "oscillating_force" and

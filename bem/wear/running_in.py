@@ -269,8 +269,9 @@ def advance(
 ) -> RunningInState:
     """Advance by one cycle: move a body through the contact, solve the contact, remove what the criterion finds.
 
-    No body moves before the first cycle, but the first cycle wears as the others: local wear, cuts of third bodies and
-    the drag of junctions count the slide of a whole cycle, which follows the contact of the cycle.
+    No body moves before the first cycle, but the first cycle wears as the others: cuts of third bodies and the drag
+    of junctions count the slide of a whole cycle, which follows the contact of the cycle, and local wear its law's own
+    distance.
 
     compliance : depth that each place wears by pressure in the cycle [m/Pa], for an implicit step.
     """

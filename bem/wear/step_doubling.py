@@ -21,7 +21,7 @@ from collections.abc import Callable
 
 import numpy as np
 
-from bem.errors import ConvergenceError, Status
+from bem.errors import ConvergenceError, InputError, Status
 from bem.grid import FloatArray
 from bem.wear.contact_step import ContactStart, ContactStep
 from bem.wear.criterion import LocalWear
@@ -42,7 +42,8 @@ def step_error(
 ) -> float | None:
     """Estimate the largest error of the depth that the (first) wearing body lost in the last cycle [m].
 
-    None for laws that wear in pieces, before the first cycle, and where the contact of a half does not converge.
+    None for laws that wear in pieces, before the first cycle, and where a half cannot be taken: its contact does not
+    converge, or slides so far that the law refuses the step.
 
     Parameters
     ----------
@@ -64,7 +65,7 @@ def step_error(
             contact, removals = wear_cycle(
                 (heights[LOWER], heights[UPPER]), setup, model, contact_step, start, compliance=0.5 * compliance
             )
-        except ConvergenceError:
+        except (ConvergenceError, InputError):
             return None
         if contact.status is not Status.CONVERGED:
             return None

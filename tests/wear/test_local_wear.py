@@ -8,7 +8,7 @@ import pytest
 from wear_loops import goes_on
 
 from bem import Body, Grid, InputError, Material, contact_modulus, generate_surface, run_in
-from bem.wear import WearModel
+from bem.wear import WearModel, step_doubling
 from bem.wear.criterion import Archard, ArchardOverHardness, EnergyWear
 
 pytestmark = pytest.mark.internal
@@ -114,6 +114,18 @@ def test_the_error_of_a_step_is_told_of_both_bodies_a_long_counterface_and_a_loo
     there = run_in(lower, upper, cycles=9, state=replace(before, offset=before.offset + 5), **(arguments | halves))
     apart = float(np.abs(there.lower_heights - whole.lower_heights).max())
     assert whole.step_error == pytest.approx(2 * apart, rel=0.02)
+
+
+def test_a_loop_is_not_lost_where_its_law_refuses_half_a_step(monkeypatch):
+    """In partial slip the slide of a half may be just over the law's limit."""
+
+    def refused(*_, **__):
+        raise InputError("criterion archard: worn in a cycle is more than the bodies give way")
+
+    monkeypatch.setattr(step_doubling, "wear_cycle", refused)
+    result, *_ = ball(2)
+    assert result.step_error is None
+    assert len(result.cycles) == 2
 
 
 def test_a_flat_punch_wears_until_its_pressure_is_uniform():

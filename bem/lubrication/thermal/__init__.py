@@ -10,7 +10,7 @@ Lumped, `lumped.thermal_film` for lines and `lumped_point.add_heat` for points:
    for lines on 250 cells, and the final film: 1.1 to 1.3 times the Newton steps of the isothermal film.
 3. `columns` cuts the film into cells; `lumped_energy` balances their heat: generation, conduction across the film as of
    a parabola, two moving half-spaces (Jaeger 1942; Carslaw and Jaeger 1959), convection. Newton's method on one mean
-   temperature per cell. Cost: some dense systems of 200 unknowns, of a point one per line of cells.
+   temperature per cell. Cost: some dense systems of 200 unknowns and one of 400, of a point one per line of cells.
 4. Friction follows from the shear law at these temperatures. The film's thickness does not feel them.
 
 Full, `full.full_thermal_film`, for lines:
