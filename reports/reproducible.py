@@ -128,10 +128,12 @@ def judged_case(experiment: Experiment[Any], stored: Sequence[Mapping[str, Any]]
     """Compare value, true error and bar of every figure of a case with the stored rows.
 
     Value and error may move by the stored bar: both are known no better. The bar is an estimate with a safety factor
-    of two and more, so that it may move by a factor of two. Without a bar the true error takes its place.
+    of two and more, so that it may move by a factor of two. Without a bar the true error takes its place. Figures are
+    compared by name, in whatever order they were written.
     """
     number = stored[0]["case"]
     rows = experiment.rows(_drawn(experiment, experiment.cases)[number], number)
+    stored, rows = (sorted(found, key=lambda row: row["figure"]) for found in (stored, rows))
     yield "figures", [row["figure"] for row in stored], [row["figure"] for row in rows], 0.0
     for old, new in zip(stored, rows, strict=False):
         bar = max(old["error"] if old["bar"] is None else old["bar"], ROUNDING * abs(old["value"]))

@@ -97,9 +97,10 @@ class Case:
 
     @cached_property
     def sliding_stress(self) -> FloatArray:
-        """Stress of the shear law at `newtonian_stress` [Pa]."""
+        """Stress of the shear law at `newtonian_stress` [Pa]; with heat the stress there, up to the limit of the oil at
+        its supply: beside the middle of a film pressure shears it, too."""
         if self.hot_stress is not None:
-            return self.newtonian_stress
+            return np.minimum(self.newtonian_stress, self.lubricant.limiting_stress(self.pressure))
         return self.lubricant.shear_stress(self.newtonian_stress, self.pressure)
 
     def integral(self, values: FloatArray) -> float:

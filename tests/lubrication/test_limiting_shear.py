@@ -10,7 +10,7 @@ from hypothesis import strategies as st
 
 from bem.errors import InputError
 from bem.lubrication import Lubricant, march_line_film, solve_line_film
-from bem.lubrication.checks import viscosity_beyond_range
+from bem.lubrication.checks import Case, shear_beyond_measurements, viscosity_beyond_range
 from bem.notes import has_code
 from bem.notes.lubrication import (
     FILM_MOLECULAR,
@@ -85,6 +85,20 @@ def test_a_newtonian_oil_by_name_says_that_it_is_none():
     assert film.shear_force / film.load > 1e3
     assert about(film, SHEAR_BEYOND_MEASURED)
     assert not about(roller(3.0), SHEAR_BEYOND_MEASURED)
+
+
+@pytest.mark.internal
+def test_wall_shear_by_pressure_is_no_friction_beyond_measurements():
+    """With heat across the film the stress beside its middle is that of the pressure gradient, too."""
+    hot = SimpleNamespace(
+        lubricant=Lubricant(viscosity=0.04, pressure_viscosity=20e-9), pressure=np.array([1e8, 1e9]),
+        hot_stress=np.array([-4e7, 9e7]), newtonian_stress=np.array([4e7, 9e7]),
+    )  # fmt: skip
+    limit = hot.lubricant.limiting_stress(hot.pressure)
+    stress = Case.sliding_stress.func(hot)
+    np.testing.assert_allclose(stress, np.minimum(hot.newtonian_stress, limit), rtol=0)
+    assert shear_beyond_measurements(SimpleNamespace(**vars(hot), sliding_stress=stress)) is None
+    assert shear_beyond_measurements(SimpleNamespace(**vars(hot), sliding_stress=hot.newtonian_stress)) is not None
 
 
 @pytest.mark.parametrize("speed", np.geomspace(0.001, 0.4, 5))

@@ -74,6 +74,7 @@ def test_a_judged_case_with_another_number_is_outside(key):
     found = [reproducible.inside(figure) for figure in reproducible.judged_case(experiment, wrong)]
     assert not all(found)
     assert all(reproducible.inside(figure) for figure in reproducible.judged_case(experiment, rows))
+    assert all(reproducible.inside(figure) for figure in reproducible.judged_case(experiment, rows[::-1]))
 
 
 def test_an_error_bar_that_came_or_went_is_outside():
