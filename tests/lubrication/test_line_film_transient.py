@@ -209,5 +209,7 @@ def test_a_given_first_film_says_by_how_much_it_misses_the_load():
     films = march_line_film(
         np.array([0.0, 1e-3]), load=lambda t: 900.0, speeds=lambda t: (0.1, 0.0), initial=steady, **contact
     )
-    assert any(note.values.get("missed") == pytest.approx(-11, abs=0.5) for note in films[0].notes)
+    (missing,) = [note.values for note in films[0].notes if "missed" in note.values]
+    assert missing["missed"] == pytest.approx(11, abs=0.5)
+    assert missing["direction"] == "less"
     assert not has_code(films[1].notes, FIRST_FILM, reason="load")
