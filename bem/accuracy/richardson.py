@@ -24,7 +24,7 @@ Value = float | tuple[float, ...]
 
 
 class Regime(IntEnum):
-    """How well the coarser grid represents a surface; the index into a `Value`."""
+    """Quality with which the coarser grid represents a surface; the index into a `Value`."""
 
     RESOLVED = 0
     """Curvature changes little from cell to cell, and spots are several cells wide: figures show their order."""

@@ -18,20 +18,20 @@ class Job(Protocol):
 
     @property
     def index(self) -> int:
-        """Which job this is."""
+        """Number of the job."""
 
     @property
     def plan(self) -> Plan | None:
-        """What it takes; None is next to nothing."""
+        """Plan of its time and memory; None for a job that takes next to nothing."""
 
     def compute(self, watcher: Watcher) -> Any:
-        """Do it."""
+        """Do the work and return what can be sent back."""
 
     def elsewhere(self) -> Job:
         """The same job for a process that does not see this disk."""
 
     def lost(self, why: str) -> Any:
-        """What stands in the place of its result when its process died again and again."""
+        """Return what takes the place of its result after its process died repeatedly."""
 
 
 @dataclass(frozen=True)

@@ -99,8 +99,8 @@ def oil_scatter(
 
 @dataclass(frozen=True)
 class _Sheared:
-    """Where a film is sheared, each of one shape: size of the Newtonian stress [Pa], pressure [Pa], temperature [K],
-    area or length that it counts with."""
+    """State of sheared places of a film, arrays of one shape: size of the Newtonian stress [Pa], pressure [Pa],
+    temperature [K], area or length that it counts with."""
 
     newtonian: FloatArray
     pressure: FloatArray

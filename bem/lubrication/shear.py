@@ -33,7 +33,7 @@ SHARPNESS = 6.0
 
 @dataclass(frozen=True)
 class Moments:
-    """Of the Newtonian stress X(tau) across a film with tau = middle + half s, -1 < s < 1, all (n,).
+    """Moments of the Newtonian stress X(tau) across a film with tau = middle + half s, -1 < s < 1, all (n,).
 
     mean : 1/2 integral X ds [Pa]. first : 3/2 integral s X ds [Pa]. X = tau gives the middle and the half stress.
     Derivatives with these two; that of `first` with the middle is three times `mean_by_half`.
@@ -112,7 +112,8 @@ class ShearLaw(Law):
         return np.where(size > 0, np.copysign(found, stress), 0.0), slope
 
     def moments(self, middle: FloatArray, half: FloatArray) -> Moments:
-        """Of the Newtonian stress across a film, see `Moments`: by Gauss' rule unless a law has a formula."""
+        """Compute the moments of the Newtonian stress across a film, see `Moments`: by Gauss' rule unless a law has a
+        formula."""
         if not self.thins:
             one, none = np.ones_like(middle), np.zeros_like(middle)
             return Moments(middle, one, none, half, one)

@@ -22,7 +22,7 @@ class Attempt(Protocol):
 
     @property
     def converged(self) -> bool:
-        """Whether the solver converged."""
+        """True if the solver converged."""
 
     @property
     def iterations(self) -> int:

@@ -21,7 +21,7 @@ _SHARES = {"mean_plane": "load_over_hertz", "from_flat": "load_over_hertz_finite
 
 
 def bars_of(scene: AsperitiesScene, grid: Grid, found: ArrayLoads) -> ErrorBars:
-    """From the grid of twice the cell; None of each where that one does not reach the depths."""
+    """Estimate errors from the grid of twice the cell; None of each where that one does not reach the depths."""
     from bem.accuracy import ErrorBars, asperity_bars
 
     try:

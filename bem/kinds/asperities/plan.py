@@ -10,7 +10,7 @@ _CONVOLUTIONS = 20  # of each contact
 
 
 def plan(scene: AsperitiesScene) -> Plan:
-    """What will be computed."""
+    """Plan the computation of one case."""
     from bem.friction.asperity_array import LOADS
 
     grid, convolutions = scene.array.grid(max(scene.array.spacings)), _CONVOLUTIONS * LOADS

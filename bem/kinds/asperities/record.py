@@ -29,6 +29,6 @@ class AsperityRecord(Record):
 
 
 def summarise(scene: AsperitiesScene, axes: Any, records: Sequence[AsperityRecord | None]) -> dict[str, Any]:
-    """Of an asperity alone, at the deepest."""
+    """Summarise an asperity alone, at the deepest."""
     first = next(record for record in records if record is not None)
     return {"hertz_load_N": float(first.hertz_load[-1]), "interference_nm": 1e9 * float(first.interference[-1])}

@@ -8,7 +8,7 @@ from bem.scenes.planner import Plan
 
 
 def plan(scene: ContactScene) -> Plan:
-    """What will be computed.
+    """Plan the computation of one case.
 
     Raises
     ------

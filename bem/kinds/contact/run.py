@@ -54,7 +54,8 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
     return ContactRecord(
         **figures,
         **roughness,
-        **{f"{name}_height": heights for name, heights in rough.items()},  # type: ignore[arg-type]
+        lower_height=rough.get("lower"),
+        upper_height=rough.get("upper"),
         **_stress_fields(below),
         residual=solution.residual,
         iterations=solution.iterations,
@@ -110,7 +111,7 @@ def _cut_off(scene: ContactScene, grid: Grid, solution: ContactSolution) -> tupl
 
 
 def _standing_off(solution: ContactSolution) -> tuple[Note, ...]:
-    """What is said of bodies that do not touch, so that figures of zero are not taken for those of a contact."""
+    """Return the note on bodies that do not touch, so that figures of zero are not taken for those of a contact."""
     if solution.pressure.any() or solution.status is not Status.CONVERGED or solution.approach >= 0:
         return ()
     from bem.accuracy.coarsened import mean_opening

@@ -12,7 +12,7 @@ if TYPE_CHECKING:
 
 
 def bars_of(case: MarchCase, width: float) -> ErrorBars:
-    """With the friction force on the whole width."""
+    """Estimate errors of the films, with the friction force on the whole width."""
     from bem.accuracy import march_bars
 
     bars = march_bars(case)

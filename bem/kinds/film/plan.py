@@ -8,7 +8,7 @@ from bem.scenes.planner import Plan, Step
 
 
 def plan(scene: FilmScene) -> Plan:
-    """What will be computed."""
+    """Plan the computation of one case."""
     n, errors = scene.march.points, scene.outputs.errors
     why = f"{scene.march.steps} steps on {n} points, each by Newton's method"
     seconds = scene.march.steps * 1.6 * (0.002 + 2e-11 * n**3 + 1e-8 * n**2)

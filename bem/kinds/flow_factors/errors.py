@@ -13,7 +13,7 @@ if TYPE_CHECKING:
 
 
 def bars_of(found: FlowFactors, heights: FloatArray, grid: Grid, pair: float) -> ErrorBars:
-    """With that of roughness on both walls."""
+    """Estimate errors of the flow factors, with that of roughness on both walls."""
     from bem.accuracy import flow_bars
 
     bars = flow_bars(found, heights, grid)

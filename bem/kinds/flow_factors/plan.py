@@ -8,7 +8,7 @@ from bem.scenes.planner import Plan, Step
 
 
 def plan(scene: FlowFactorsScene) -> Plan:
-    """What will be computed."""
+    """Plan the computation of one case."""
     grid, flow = build.grid_of(scene.grid), scene.flow
     count, pressed = len(flow.separations or flow.ratios or ()), flow.behaviour != "undeformed"
     of_one = flow.behaviour == "capped", plans.stiffest(scene.lower.build(), scene.upper.build())

@@ -14,7 +14,7 @@ measured, 0.7 of a ball's, 0.4 to 0.8 of both with heat."""
 
 
 def plan(scene: FrictionScene) -> Plan:
-    """What will be computed for one curve.
+    """Plan the computation of one curve.
 
     Raises
     ------

@@ -82,8 +82,8 @@ class CurveRecord(Record):
 def summarise(
     scene: FrictionScene, axes: Sequence[Axis], records: Sequence[CurveRecord | None]
 ) -> dict[str, list[dict[str, Any]]]:
-    """How far each model is from its baseline [%], eq. (13) of paper A: mean and spread over the repetitions; and each
-    model's share of the load on the surfaces over the lambda ratio, fitted."""
+    """Summarise how far each model is from its baseline [%], eq. (13) of paper A: mean and spread over the repetitions;
+    and each model's share of the load on the surfaces over the lambda ratio, fitted."""
     from bem.friction.curves import relative_difference
     from bem.friction.share_fit import curves_load_share
 

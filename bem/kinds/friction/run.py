@@ -67,7 +67,7 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
 
 
 def _notes(solution: MixedSolution) -> tuple[Note, ...]:
-    """What is noted of one speed; what the oil says is told of all of them together."""
+    """Return the notes on one speed, without those on the oil, which are told of all speeds together."""
     from bem.friction.result_notes import covered_notes, oil_notes
 
     of_oil = oil_notes([solution.oil]) + covered_notes([(solution.friction, solution.oil_on_contact)])
@@ -77,7 +77,7 @@ def _notes(solution: MixedSolution) -> tuple[Note, ...]:
 def _flow_factors(
     scene: FrictionScene, grid: Grid, lower: FloatArray, upper: FloatArray, context: Context
 ) -> FlowFactors | Literal["off"]:
-    """Those of both surfaces [m] where they are asked for: once for all speeds."""
+    """Compute the flow factors of both surfaces [m], once for all speeds, or "off"."""
     if scene.sharing.flow_factors == "off":
         return "off"
     from bem.flow import factors_for_films
@@ -137,15 +137,15 @@ def _record(
         oil_stress=resists * shown.film_shear_stress,
         separation=shown.separation,
         **sections,
-        errors=_kept(bars, left_out),
-        error_parts={origin: _kept(part, left_out) for origin, part in parts.items()},
+        errors=_without(bars, left_out),
+        error_parts={origin: _without(part, left_out) for origin, part in parts.items()},
         status=bad[0].status if bad else Status.CONVERGED,
         where="; ".join(f"speed {one.speed:g} m/s: {one.status.value}" for one in bad[:5]),
     )
 
 
-def _kept(errors: Mapping[str, FloatArray], left_out: Collection[str]) -> dict[str, FloatArray]:
-    """Errors of the figures that are not left out."""
+def _without(errors: Mapping[str, FloatArray], left_out: Collection[str]) -> dict[str, FloatArray]:
+    """Return the errors of the figures that are not left out."""
     return {name: error for name, error in errors.items() if name not in left_out}
 
 

@@ -21,7 +21,8 @@ if TYPE_CHECKING:
 def bars_of(
     scene: PartialSlipScene, site: Site, path: Path, below: StressSummary | None, extra: dict[str, Any]
 ) -> ErrorBars:
-    """From the same steps on the grid of twice the cell, and there with half of those in which the load comes."""
+    """Estimate errors from the same steps on the grid of twice the cell, and there with half of those in which the load
+    comes."""
     from bem.accuracy.sticking import PUSH_RULES
 
     steps = pressing_steps(scene)

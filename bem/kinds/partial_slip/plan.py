@@ -16,7 +16,7 @@ _ANSWERED = 4.0
 
 
 def plan(scene: PartialSlipScene) -> Plan:
-    """What will be computed."""
+    """Plan the computation of one case."""
     count, pressing = len(scene.push.path()), pressing_steps(scene)
     each = _TRANSFORMS * (_ANSWERED if answers(scene) else 1.0)
 

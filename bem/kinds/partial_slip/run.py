@@ -43,7 +43,7 @@ def run(scene: PartialSlipScene, context: Context) -> PartialSlipRecord:
 
 
 def _tell(scene: PartialSlipScene, steps: int, context: Context) -> None:
-    """What bodies that differ do under pressure alone."""
+    """Note how bodies of different elasticity slip under pressure alone."""
     if not sticking.coupled(scene):
         return
     if not answers(scene):

@@ -20,7 +20,8 @@ _PROBE = 1e-3
 def stiffness(
     scene: PartialSlipScene, site: Site, note: Callable[[Note], None] = lambda note: None
 ) -> dict[str, float]:
-    """Of the contact as a whole [N/m]: load over approach, by its difference, and force over shift where all sticks."""
+    """Compute the stiffness of the contact as a whole [N/m]: load over approach, by its difference, and force over
+    shift where all sticks."""
     from bem.contact import solve_contact
     from bem.tangential import tangential_stiffness
 

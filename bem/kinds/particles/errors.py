@@ -23,7 +23,7 @@ def bars_of(
     spacing: tuple[float, float],
     archard: Mapping[str, float],
 ) -> ErrorBars:
-    """With those of the number of particles, which goes as their mean volume to the power of -1."""
+    """Estimate errors of particles, with those of their number, which goes as their mean volume to the power of -1."""
     from bem.accuracy import particle_bars
 
     bars = particle_bars(found, heights, spacing, scene.separation.model_dump())

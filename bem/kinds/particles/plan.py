@@ -12,7 +12,7 @@ from bem.scenes.planner import Plan, Step
 
 
 def plan(scene: ParticlesScene) -> Plan:
-    """What will be computed."""
+    """Plan the computation of one case."""
     cells = 4.0 * 1024**2 if scene.synthetic is None else float(np.prod(scene.synthetic.shape))
     number = "wear volume by Archard over the mean particle volume" if scene.archard else "no wear rate is given"
     spun = "Stokes in the centrifuge" if scene.sedimentation else "no centrifuge is given"

@@ -23,7 +23,7 @@ class SyntheticMapScene(Table):
 
 
 class SeparationScene(Table):
-    """How particles are found in the height map."""
+    """Method that finds particles in the height map."""
 
     threshold: PositiveLength = key(
         "Height above the plate from which on a point belongs to a particle.", "basic", default=50e-9

@@ -8,7 +8,7 @@ from bem.scenes.planner import Plan, Step
 
 
 def plan(scene: PointFilmScene) -> Plan:
-    """What will be computed."""
+    """Plan the computation of one case."""
     (nx, ny), errors = scene.film.cells, scene.outputs.errors
     # counted: 60 to 300 cycles and as many convolutions, weighed by cells
     seconds = 2.5e-5 * nx * ny * (1.0 if scene.supply is None else 2.0)

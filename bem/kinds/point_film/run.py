@@ -47,7 +47,7 @@ def run(scene: PointFilmScene, context: Context) -> PointFilmRecord:
     figures: dict[str, Any] = point_figures(case, film)
     return PointFilmRecord(
         **figures,
-        **_given(case, film, film.state.case),
+        **_reference_figures(case, film, film.state.case),
         maximum_pressure=film.maximum_pressure,
         residual=film.residual,
         mass_imbalance=film.mass_imbalance,
@@ -68,12 +68,12 @@ def _case(scene: PointFilmScene) -> PointCase:
     from bem.accuracy.point import PointCase
 
     return PointCase(
-        **_asked(scene), cells=scene.film.cells, roughness=scene.roughness, supply=build_supply(scene.supply)
+        **_solver_arguments(scene), cells=scene.film.cells, roughness=scene.roughness, supply=build_supply(scene.supply)
     )
 
 
-def _asked(scene: PointFilmScene) -> dict[str, Any]:
-    """What films of smooth and of rough bodies are asked for with."""
+def _solver_arguments(scene: PointFilmScene) -> dict[str, Any]:
+    """Return the arguments that films of smooth and of rough bodies share."""
     modulus, bodies = build.modulus_of(scene), (scene.lower.build(), scene.upper.build())
     return {
         "load": scene.ball.force(modulus),
@@ -96,7 +96,7 @@ def _rough(scene: PointFilmScene, context: Context) -> PointFilmRecord:
     assert scene.contact is not None
     grid, rough = patch_grid(scene), rough_body(scene)
     heights = build.both_heights(scene, grid, context)[0 if rough == "lower" else 1]
-    asked = _asked(scene)
+    asked = _solver_arguments(scene)
     case = RoughPointCase(
         **asked,
         heights=MeasuredHeights(heights, grid.spacing, scene.patch.at),
@@ -109,7 +109,7 @@ def _rough(scene: PointFilmScene, context: Context) -> PointFilmRecord:
     scaled = scale_case(
         case.load, case.radii, case.contact_modulus, entrainment(case.speeds), case.lubricant, None, case.bodies
     )
-    given = _given(case, film, scaled)
+    given = _reference_figures(case, film, scaled)
     tell(context, [*film.notes, *rough_notes(scene, grid, dry.semi_axes, film), *narrow_notes(case, film)])
     if given["formula_central"] < case.least_film:
         context.note(LEAST_FILM_DECIDES())
@@ -144,10 +144,10 @@ def _dry(case: PointCase | RoughPointCase) -> PointContact:
     return ellipse_contact(radii=case.radii, contact_modulus=case.contact_modulus, load=case.load)
 
 
-def _given(
+def _reference_figures(
     case: PointCase | RoughPointCase, film: PointFilmSolution | RoughPointFilm, scaled: ScaledCase
 ) -> dict[str, Any]:
-    """The dry contact, Moes' numbers and the sections through the middle."""
+    """Return the dry contact, Moes' numbers and the sections through the middle."""
     a, b = _dry(case).semi_axes
     sections = {}
     for name in ("thickness", "pressure"):

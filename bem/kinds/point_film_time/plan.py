@@ -8,7 +8,7 @@ from bem.scenes.planner import Plan, Step
 
 
 def plan(scene: PointFilmTimeScene) -> Plan:
-    """What will be computed."""
+    """Plan the computation of one case."""
     (nx, ny), steps, errors = scene.film.cells, scene.march.steps, scene.outputs.errors
     # counted: 3 to 5 Newton steps of 4 to 8 cycles each
     seconds = steps * (0.02 + 9e-6 * nx * ny)

@@ -118,7 +118,8 @@ def _middle(film: PointFilmSolution, field: FloatArray) -> FloatArray:
 
 
 def _amplitudes(scene: PointFilmTimeScene, films: Sequence[PointFilmSolution]) -> dict[str, Any]:
-    """Of steady rolling over waves across it and nothing else: the amplitude in the centre, and what the curve says."""
+    """Return, of steady rolling over waves across it and nothing else, the amplitude in the centre, and what the curve
+    says."""
     from bem.lubrication.point.moving_surfaces import amplitude_in_centre, rolling_reduction
 
     waves, ball = scene.waves, scene.ball

@@ -55,11 +55,11 @@ class PointFilmTimeScene(SceneModel):
         return self
 
     def factors(self, time: float) -> tuple[float, float]:
-        """Of speed and load at a time [s]."""
+        """Return the factors of speed and load at a time [s]."""
         return (1.0, 1.0) if self.over_time is None else self.over_time.factors(time)
 
     def speeds_at(self, time: float) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Of flat and ball at a time [m/s]."""
+        """Return the speeds of flat and ball at a time [m/s]."""
         factor = self.factors(time)[0]
         first, second = self.rolling.speeds
         return (factor * first[0], factor * first[1]), (factor * second[0], factor * second[1])

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
 def bars_of(
     scene: RollingContactScene, site: Site, found: TangentialSolution, below: StressSummary | None
 ) -> ErrorBars:
-    """From the same on the grid of twice the cell."""
+    """Estimate errors from the same rolling on the grid of twice the cell."""
     from bem.accuracy.sticking import ROLL_RULES
 
     def again(coarser: Site) -> Coarse:

@@ -13,7 +13,7 @@ vector passes."""
 
 
 def plan(scene: RollingContactScene) -> Plan:
-    """What will be computed."""
+    """Plan the computation of one case."""
 
     def steps(grid: Grid, points: float) -> tuple[Step, ...]:
         return (

@@ -28,7 +28,7 @@ def solve_rolling_contact(scene: RollingContactScene, site: Site) -> TangentialS
 
 
 def rolled_figures(site: Site, found: TangentialSolution, spin: float) -> dict[str, float]:
-    """Those that have error bars, SI units; `spin` [1/m] of the rolling."""
+    """Return the figures that have error bars, SI units; `spin` [1/m] of the rolling."""
     load, area = site.contact.load, found.stick_area + found.slip_area
     creepage = found.creepage - site.carried(spin)
     return {

@@ -20,8 +20,8 @@ if TYPE_CHECKING:
 
 
 def bars(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], found: RunningInRecord) -> ErrorBars:
-    """Of the loop on every second cell and half the points of the film, columns and layers of full heat, cells of
-    lumped heat; where half are too few for a film, of that loop with twice the points besides."""
+    """Estimate errors from the loop on every second cell and half the points of the film, columns and layers of full
+    heat, cells of lumped heat; where half are too few for a film, of that loop with twice the points besides."""
     from bem.accuracy import running_in_bars
     from bem.accuracy.wear import MIXED_RULES
 
@@ -52,7 +52,8 @@ def bars(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], found: R
 
 
 def _of_heights(scene: RunningInScene, found: RunningInRecord) -> ErrorBars:
-    """Of what the unworn heights alone decide: the coarser loop's lie half a cell beside where it has them."""
+    """Estimate errors of what the unworn heights alone decide: the coarser loop's lie half a cell beside where it has
+    them."""
     from bem.accuracy.bars import GRID, ErrorBars
     from bem.wear.outcome import rms_error
 

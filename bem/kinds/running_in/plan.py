@@ -13,7 +13,7 @@ _DEPTHS_NEEDED = 6
 
 
 def plan(scene: RunningInScene) -> Plan:
-    """What will be computed for one wear loop.
+    """Plan one wear loop.
 
     Raises
     ------

@@ -117,7 +117,7 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
 
 
 def summarise(scene: RunningInScene, axes: Sequence[Axis], records: Sequence[RunningInRecord | None]) -> dict[str, Any]:
-    """What is the same for all cases, and the hardness of least friction where several were tried."""
+    """Summarise what is the same for all cases, and the hardness of least friction where several were tried."""
     from bem.wear.mixed_figures import least_friction
 
     summary: dict[str, Any] = {"cycles": scene.cycles.count, "load_N": scene.load, "reported_mean": scene.sizes.report}

@@ -18,7 +18,7 @@ _JUMPS = 25  # steps of a life of a million cycles, each of three rounds
 
 
 def plan(scene: RunningInLifeScene) -> Plan:
-    """What will be computed for one life.
+    """Plan one life.
 
     Raises
     ------

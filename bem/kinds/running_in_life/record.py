@@ -95,5 +95,5 @@ class RunningInLifeRecord(GridRecord):
 
 
 def summarise(scene: RunningInLifeScene, axes: Sequence[Axis], records: Sequence[Any]) -> dict[str, Any]:
-    """What is the same for all cases."""
+    """Summarise what is the same for all cases."""
     return {"cycles": scene.life.count, "load_N": scene.load}

@@ -69,7 +69,7 @@ def _with_body(figures: Mapping[str, Any]) -> dict[str, Any]:
 
 
 def _tell(scene: RunningInLifeScene, context: Context, setup: MixedSetup, film_notes: tuple[Note, ...]) -> None:
-    """What the reader must know."""
+    """Note partial error bars, a distance that differs from the slid one, and the notes on films."""
     wear, (speeds,) = scene.wear, scene.speeds.build()
     hold = "cycle jumps, positions, cells and points of the films" if scene.life.coarser_lives else JUMPS_ALONE
     context.note(BARS_PARTIAL(positions=wear.positions, hold=hold, reason="life"))
@@ -116,7 +116,7 @@ def _record(scene: RunningInLifeScene, setup: MixedSetup, end: LifeState, monito
 
 
 def _temperatures(scene: RunningInLifeScene, cycle: FloatArray, end: LifeState) -> dict[str, Any]:
-    """Of the contact, where its heat was asked for."""
+    """Return temperatures of the contact, where its heat was requested."""
     if scene.thermal == "off":
         return dict.fromkeys((*TEMPERATURES, "flash_temperature_over_cycles"))
     flash = np.interp(cycle, end.over("cycles"), end.over("flash_temperature"))

@@ -8,7 +8,7 @@ from bem.scenes.planner import Plan, Step, padded_points
 
 
 def plan(scene: SurfaceTemperatureScene) -> Plan:
-    """What will be computed.
+    """Plan the computation of one case.
 
     Raises
     ------

@@ -8,7 +8,7 @@ from bem.scenes.planner import Plan, Step
 
 
 def plan(scene: TractionScene) -> Plan:
-    """What will be computed."""
+    """Plan the computation of one case."""
     points, hot, errors = scene.film.points, scene.thermal != "off", scene.outputs.errors
     starved = scene.supply is not None
     heat = {"off": 0.0, "lumped": 0.05, "full": 0.4 + 5e-4 * points}[scene.thermal]

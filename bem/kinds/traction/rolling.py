@@ -51,7 +51,7 @@ class RollingScene(Table):
 
     @property
     def speeds(self) -> tuple[float, float]:
-        """Of flat and roller [m/s]."""
+        """Speeds of flat and roller [m/s]."""
         half = 0.5 * self.slide_roll_ratio
         return self.mean_speed * (1 + half), self.mean_speed * (1 - half)
 

@@ -21,7 +21,7 @@ def planned_contacts(scene: TribofilmScene) -> int:
 
 
 def plan(scene: TribofilmScene) -> Plan:
-    """What will be computed for one film.
+    """Plan one film.
 
     Raises
     ------

@@ -17,7 +17,7 @@ _over_time, _sample = partial(Series, ("time",)), partial(Series, ("sample",), r
 
 @dataclass(frozen=True, eq=False)
 class FilmRecord(GridRecord):
-    """What a film gives: its end, its history, the contacts that were solved for it, maps at the end."""
+    """Results of a tribofilm: its end, its history, the contacts that were solved for it, maps at the end."""
 
     film_thickness: Annotated[float, Figure("nm", "mean film thickness at the end", headline=True)]
     largest_mean_thickness: Annotated[float, Figure("nm", "largest mean film thickness over the time of rubbing")]

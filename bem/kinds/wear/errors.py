@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 def bars(scene: WearScene, initial: tuple[FloatArray, FloatArray], found: WearRecord) -> ErrorBars:
-    """Of the loop on every second cell, with the reported sizes."""
+    """Estimate errors from the loop on every second cell, with the reported sizes."""
     from bem.accuracy.wear import RULES, wear_bars
 
     def figures(record: WearRecord) -> dict[str, Any]:

@@ -17,7 +17,7 @@ _DEPTHS_AT_FIRST = 40  # the same in the first cycle, of sharp asperities
 
 
 def plan(scene: WearScene) -> Plan:
-    """What will be computed for one case.
+    """Plan one case.
 
     Raises
     ------

@@ -20,7 +20,7 @@ _over, _map = partial(Series, ("cycle",)), partial(grid_map, of="last")
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class WearRecord(pieces.MeanSizes, pieces.ParticleTable, wearing.WornRecord):
-    """What a wear loop gives: means over its settled cycles, tables over cycles and particles, the worn surface."""
+    """Results of a wear loop: means over its settled cycles, tables over cycles and particles, the worn surface."""
 
     scatters: ClassVar[tuple[str, ...]] = (
         *pieces.MeanSizes.scatters,
@@ -95,7 +95,7 @@ class WearRecord(pieces.MeanSizes, pieces.ParticleTable, wearing.WornRecord):
 
 
 def summarise(scene: WearScene, axes: Any, records: Any) -> dict[str, Any]:
-    """What the means are of."""
+    """Summarise what the means are of."""
     told = {"reported_mean": scene.sizes.report, "smallest_radius_nm": 1e9 * scene.sizes.smallest}
     return told | pieces.particles_of(scene)
 

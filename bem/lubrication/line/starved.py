@@ -78,13 +78,13 @@ class LayerCondition:
 
     def excess(self, state: LineState, flooded: LineState) -> float:
         """Return the log odds of the flow less those wanted."""
-        return _odds(self._share(state, flooded)) - _odds(self.share)
+        return _odds(self._flow_ratio(state, flooded)) - _odds(self.share)
 
     def error(self, state: LineState, flooded: LineState) -> float:
         """Return the relative deviation of the flow."""
-        return abs(self._share(state, flooded) / self.share - 1)
+        return abs(self._flow_ratio(state, flooded) / self.share - 1)
 
-    def _share(self, state: LineState, flooded: LineState) -> float:
+    def _flow_ratio(self, state: LineState, flooded: LineState) -> float:
         """Return the flow over the flooded flow."""
         return mass_flow(self.problem, state) / mass_flow(self.problem, flooded)
 
@@ -135,7 +135,7 @@ def solve_starved(
     search = MeniscusSearch(problem, flooded.state, condition, min(cells, MEDIUM_CELLS), limit)
     if near is not None:
         start = solve_from_neighbour(problem, near, cells, tolerance, limit)
-        if start.converged and search.share(start.state) < NEARLY_FLOODED:
+        if start.converged and search.flow_ratio(start.state) < NEARLY_FLOODED:
             start = search.meet_condition(start, 1.0, tolerance)
             if start.converged:
                 return replace(start, iterations=spent + start.iterations)
@@ -176,11 +176,11 @@ class MeniscusSearch:
         while True:
             last = max(int(np.searchsorted(-places, FIRST_STEP - places[last])), last + 1)
             trial = self._on_flooded_nodes(-self.flooded.offset[last], tolerance)
-            if not trial.converged or self.share(trial.state) < LEAST_BRACKET:
+            if not trial.converged or self.flow_ratio(trial.state) < LEAST_BRACKET:
                 return None
             if self.condition.excess(trial.state, self.flooded) <= 0:
                 break
-            if self.share(trial.state) < NEARLY_FLOODED:
+            if self.flow_ratio(trial.state) < NEARLY_FLOODED:
                 return None
             first = last
         while last - first > 1:
@@ -217,7 +217,7 @@ class MeniscusSearch:
         find_decreasing_root(evaluate, -excess_low / slope, slope, (0.0, 1.0), 4 * SECANTS)
         return trial
 
-    def share(self, state: LineState) -> float:
+    def flow_ratio(self, state: LineState) -> float:
         """Return the flow over the flooded flow."""
         return mass_flow(self.problem, state) / mass_flow(self.problem, self.flooded)
 

@@ -120,7 +120,7 @@ class MarchArguments:
 
 @dataclass(frozen=True)
 class PointMarch:
-    """What is constant over a march.
+    """Constants of a march.
 
     operation, lubricant, contact_modulus, bodies : what acts, and on what.
     scales : units, of the highest load and the largest entrainment.
