@@ -1,6 +1,7 @@
 """Rows of stored results computed anew: figures within their bars, the draw, the record, and the command's verdict."""
 
 import json
+import shlex
 import sys
 
 import pytest
@@ -152,6 +153,52 @@ def test_the_command_prints_records_and_fails_where_a_row_is_outside(monkeypatch
     assert "outside their bars: one" in reproduced.words("bad")
     assert "not reproduced since" in reproduced.words("never")
     assert "processor times" in reproduced.words("shared_work")
+
+
+def test_rows_outside_end_the_output_with_the_command_that_computes_each_alone(monkeypatch, capsys):
+    found = {"case 1": 2.0, "case 10": 1.0, "M 3, L 2": 1.5}
+    rows = [*fake("bad", found).rows(), *fake("bad", {"long": 3.0}, seconds=1000.0).rows()]
+    monkeypatch.setattr(reproduce, "RESULTS", {"bad": Result("bad", lambda: rows, ""), "good": fake("good", {"a": 1})})
+
+    def called(*arguments):
+        monkeypatch.setattr(sys, "argv", ["reproduce", *arguments])
+        with pytest.raises(SystemExit) as end:
+            reproduce.main()
+        return end.value.code, capsys.readouterr().out.splitlines()
+
+    code, lines = called("--sample", "4", "--minutes", "20", "--no-record")
+    assert code == 1
+    count = lines.index("5 rows of 2 results: 2 within their bars, 3 outside")
+    last = lines[count + 1 :]
+    said, commands = sorted(last[::2]), last[1::2]
+    assert said == [
+        "OUTSIDE bad, M 3, L 2: a 1.5, stored 1, bar 0.1",
+        "OUTSIDE bad, case 1: a 2, stored 1, bar 0.1",
+        "OUTSIDE bad, long: a 3, stored 1, bar 0.1",
+    ]
+    for line, command in zip(last[::2], commands, strict=True):
+        program, *arguments = shlex.split(command)
+        assert [program, *arguments[:2]] == ["python", "-m", "reports.reproduce"]
+        code, alone = called(*arguments[2:])
+        assert code == 1
+        assert alone[-3:] == ["1 rows of 1 results: 0 within their bars, 1 outside", line, command]
+    assert reproduced.read() == {}
+
+
+def test_rows_are_chosen_by_label_and_else_by_a_part_of_it(monkeypatch, capsys):
+    found = {"case 1": 1.0, "case 10": 1.0, "case 2": 1.0}
+    monkeypatch.setattr(reproduce, "RESULTS", {"one": fake("one", found), "two": fake("two", {"case 10, x": 1.0})})
+
+    def rows(text):
+        return reproduce.reproduce(["one", "two"], sample=1, seed=1, minutes=1, record=False, row=text)
+
+    assert rows("case 1") == {"one": {"case 1": "in"}}
+    assert rows("e 1") == {"one": {"case 1": "in", "case 10": "in"}, "two": {"case 10, x": "in"}}
+    monkeypatch.setattr(sys, "argv", ["reproduce", "one", "--row", "case 3"])
+    with pytest.raises(SystemExit) as end:
+        reproduce.main()
+    assert end.value.code == 2
+    assert "no row of one is labelled 'case 3'" in capsys.readouterr().err
 
 
 def test_verdicts_without_a_record_leave_it_as_it_is(monkeypatch):
