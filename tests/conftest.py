@@ -7,6 +7,7 @@ a test belongs to its code and may go with it. Tests through public doors stay u
 
 import os
 import signal
+from collections.abc import Generator
 from pathlib import Path
 
 # many small factorisations: more than one BLAS thread only spins, and the bits would depend on their number
@@ -18,6 +19,7 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
 
 import durations
 import pytest
+import worker_logs
 from hypothesis import settings
 
 from bem import threads
@@ -30,9 +32,14 @@ SHARED_FROM = threads.SHARED_FROM
 threads.SHARED_FROM = 1  # small fields, too, so that tests of threads need no large ones
 
 
-@pytest.hookimpl(tryfirst=True)
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
-    """Mark tests slow by their stored durations, and deal their files to workers that share the tests.
+def pytest_configure(config: pytest.Config) -> None:
+    """Keep logs of workers."""
+    worker_logs.register(config)
+
+
+@pytest.hookimpl(wrapper=True, tryfirst=True)
+def pytest_collection_modifyitems(items: list[pytest.Item]) -> Generator[None]:
+    """Mark tests slow by their stored durations; deal files of the chosen tests to workers that share them.
 
     Functions of which some cases are marked in the code are left as they are.
     """
@@ -43,12 +50,11 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> None:
     for function, item in zip(functions, items, strict=True):
         if function in slow:
             item.add_marker(pytest.mark.slow)
+    yield
     if "PYTEST_XDIST_WORKER" in os.environ:
-        files = {function.partition("::")[0]: 0.0 for function in functions}
-        for function, (total, _) in seconds.items():
-            file = function.partition("::")[0]
-            if file in files:
-                files[file] += total
+        files = {item.nodeid.partition("::")[0]: 0.0 for item in items}
+        for function in {durations.function_of(item.nodeid) for item in items} & seconds.keys():
+            files[function.partition("::")[0]] += seconds[function][0]
         place = {file: number for number, file in enumerate(durations.deal_files(files))}
         items.sort(key=lambda item: place[item.nodeid.partition("::")[0]])
 

@@ -7,6 +7,7 @@ contacts before them.
 
 import ast
 import copy
+import functools
 from pathlib import Path
 
 import numpy as np
@@ -18,10 +19,15 @@ from bem.contact import pcg
 
 PACKAGE = Path(bem.__file__).parent
 DECORATORS = {"compiled", "inlined"}
-TREES = {
-    path.relative_to(PACKAGE).as_posix(): ast.parse(path.read_text(encoding="utf-8"))
-    for path in sorted(PACKAGE.rglob("*.py"))
-}
+
+
+@functools.cache
+def trees():
+    """Syntax trees of the package's modules by path."""
+    return {
+        path.relative_to(PACKAGE).as_posix(): ast.parse(path.read_text(encoding="utf-8"))
+        for path in sorted(PACKAGE.rglob("*.py"))
+    }
 
 
 def is_loop(function):
@@ -29,7 +35,7 @@ def is_loop(function):
 
 
 def functions():
-    for path, tree in TREES.items():
+    for path, tree in trees().items():
         for node in ast.walk(tree):
             if isinstance(node, ast.FunctionDef | ast.AsyncFunctionDef):
                 yield path, node
