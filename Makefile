@@ -4,7 +4,7 @@ PYTHON ?= python3
 BIN := .venv/bin
 STAMP := .venv/.installed
 
-.PHONY: setup setup-fem setup-browser setup-docs run test test-fast gates lint bench report docs notebooks validation gallery wheel clean golden mutants reproduce examples
+.PHONY: setup setup-fem setup-browser setup-docs run test test-fast gates lint bench peers report docs notebooks validation gallery wheel clean golden mutants reproduce examples
 
 setup: $(STAMP)
 
@@ -65,6 +65,12 @@ golden: setup
 
 bench: setup
 	$(BIN)/bem bench
+
+# The cases of `bem bench` beside other codes (tamaas, ContactMechanics, ASPHER, slippy; installed into .venv-peers), appended to
+# the history that the performance report shows. Hours; PEERS=--quick for a short look. Two runs of the history side by side:
+# $(BIN)/python -m reports.benchmarks --compare -2 -1
+peers: setup
+	$(BIN)/python -m reports.benchmarks --peers $(PEERS)
 
 report: setup
 	$(BIN)/python -m reports --pdf

@@ -1,13 +1,14 @@
 """Load-area curves and stresses of other codes beside bem's, on the page of run times.
 
-Drawn from a run of `bem bench --peers`; nothing is measured here. Verified in tests/benchmarks/test_beside_peers.py.
+Drawn from a run of `python -m reports.benchmarks --peers`; nothing is measured here. Verified in
+tests/reports/test_beside_peers.py.
 """
 
 from __future__ import annotations
 
 from collections.abc import Iterator
 
-from bem.benchmarks.beside import (
+from reports.benchmarks.beside import (
     CURVE_HEADERS,
     MISES_HEADERS,
     STRESS_HEADERS,
@@ -15,10 +16,10 @@ from bem.benchmarks.beside import (
     mises_rows,
     stress_rows,
 )
-from bem.benchmarks.history import Run
+from reports.benchmarks.history import StoredRun
 from reports.builder import Section, table, text
 
-NOT_IN_IT = "Not in the stored run: bem bench --peers --json reports/results/performance.json measures it."
+NOT_IN_IT = "Not in the stored run: python -m reports.benchmarks --peers measures it."
 CURVES = (
     "20 rising loads, 0.5 to 40 % of contact, on a surface without waves shorter than 1/48 of its side; the whole "
     "curve is timed. All solve the same discrete problem and begin each load as they do best; ASPHER's solver by "
@@ -46,7 +47,7 @@ MISES = (
 )
 
 
-def sections(run: Run) -> Iterator[Section]:
+def sections(run: StoredRun) -> Iterator[Section]:
     """Curves and stresses; what the run does not have is said."""
     curves, stresses = run.peer_curves, run.peer_stresses
     body = text(CURVES) + table(CURVE_HEADERS, curve_rows(curves)) if curves else text(NOT_IN_IT)

@@ -1,6 +1,6 @@
 """What was wanted of run times, beside what was measured, and why where it is not reached.
 
-Knows a run of `bem bench` and the stored experiments; nothing is measured here. Verified in
+Knows a stored run of the benchmarks and the stored experiments; nothing is measured here. Verified in
 tests/reports/test_goals.py: every goal has a row, a verdict and, where it is not reached, a reason.
 """
 
@@ -12,10 +12,10 @@ from dataclasses import dataclass
 from statistics import mean
 from typing import Any
 
-from bem.benchmarks.history import Run
 from bem.benchmarks.measure import Point, growth
-from bem.benchmarks.peers import GOALS as PEER_GOALS
-from bem.benchmarks.show import FLOOR_GOALS, floor_share
+from bem.benchmarks.show import floor_share
+from reports.benchmarks.goals import FLOOR_GOALS, PEER_GOALS
+from reports.benchmarks.history import StoredRun
 from reports.builder import table, text
 from reports.experiments.contact_convolutions import RESULT as COUNTS
 from reports.experiments.enter_to_report import RESULT as START
@@ -58,12 +58,12 @@ class Goal:
         return (self.what, wanted, value, verdict, self.why if self.met is False else "")
 
 
-def find(run: Run, case: str, size: float, threads: int = 1) -> Point | None:
+def find(run: StoredRun, case: str, size: float, threads: int = 1) -> Point | None:
     """A point of a run."""
     return next((p for p in run.points if (p.case, p.size, p.threads) == (case, size, threads)), None)
 
 
-def _floor(run: Run) -> Iterator[Goal]:
+def _floor(run: StoredRun) -> Iterator[Goal]:
     why = (
         "convolutions on coarser grids and in single precision are counted as cheap as they are, what is around them "
         "is not: finding what touches, the preconditioner on the cells in contact, judging a round in double, a "
@@ -98,7 +98,7 @@ def _convolutions() -> Iterator[Goal]:
     yield Goal(f"they grow with cells a side to the power{span}", GROWTH, grown, why)
 
 
-def _peers(run: Run) -> Iterator[Goal]:
+def _peers(run: StoredRun) -> Iterator[Goal]:
     why = {
         "tamaas": "its time grows with cells a side to the power 3.3, bem's 2.2: the ratio is least on small grids, "
         "where what is around transforms weighs most (time over FFTW pairs)",
@@ -112,7 +112,7 @@ def _peers(run: Run) -> Iterator[Goal]:
         yield Goal(f"times faster than {NAMES[peer]}, equal residual, {cells}", wanted, value, why[peer], least=True)
 
 
-def _others(run: Run) -> Iterator[Goal]:
+def _others(run: StoredRun) -> Iterator[Goal]:
     start = found(START.stem) if START.exists() else {}
     ratios = start.get("ratios", {})
     what = "`bem run hertz-sphere` with report over the import of its libraries"
@@ -170,12 +170,12 @@ def outside_solvers() -> str:
     return words + table(("scene", "all, s", "outside its solvers, s", "of it, %", "over the imports"), shown)
 
 
-def goals(run: Run) -> list[Goal]:
+def goals(run: StoredRun) -> list[Goal]:
     """All of them."""
     return [*_others(run), *_floor(run), *_convolutions(), *_peers(run)]
 
 
-def section(run: Run) -> str:
+def section(run: StoredRun) -> str:
     """The table of goals of a run."""
     words = text(
         "Times are processor times of one thread unless said otherwise: medians of repeats, after kernels and plans "

@@ -6,7 +6,7 @@ import io
 import math
 from pathlib import Path
 
-from bem.benchmarks.line_film import drawing, read_table
+from reports.benchmarks.line_film import drawing, read_table
 from reports.builder import picture, table, text
 from reports.reproduced import paragraph
 
@@ -59,7 +59,7 @@ def body() -> str:
             "2000 cells, whose last three levels give the observed order (two is expected). Errors are those of a "
             f"plain call with 400 and 2000 points, in per cent of the converged film; at 2000 points none exceeds "
             f"{worst:.2g} %, where 0.3 % is asked for. Newton steps are those of a cold start at 2000 points, all "
-            "coarse meshes included. The table is made again by python -m bem.benchmarks.line_film, and tests hold "
+            "coarse meshes included. The table is made again by python -m reports.benchmarks.line_film, and tests hold "
             "it to the solver."
         )
         + picture(

@@ -1,6 +1,7 @@
 """Run time and memory against error, what the goals were, where the time goes, and where each part holds.
 
-Everything is drawn from `reports/results/performance.json`, which `bem bench --json` appends to; nothing is timed here.
+Everything is drawn from `reports/results/performance.json`, which `python -m reports.benchmarks` appends to; nothing is
+timed here.
 """
 
 from __future__ import annotations
@@ -11,27 +12,29 @@ from pathlib import Path
 from typing import Any
 
 from bem.benchmarks.cases import CASES
-from bem.benchmarks.history import Run, compare, read_history
 from bem.benchmarks.show import (
-    FLOOR_HEADERS,
-    MEMORY_HEADERS,
-    PEER_HEADERS,
     POINT_HEADERS,
     SPLIT_HEADERS,
-    THREAD_HEADERS,
     by_case,
-    floor_rows,
-    memory_rows,
-    peer_rows,
     point_rows,
     split_rows,
-    thread_rows,
     time_exponent,
 )
 from bem.benchmarks.show import (
     work_precision as residual_curves,
 )
 from reports import beside, goals, large, shared, work_precision
+from reports.benchmarks.history import StoredRun, compare, read_history
+from reports.benchmarks.tables import (
+    FLOOR_HEADERS,
+    MEMORY_HEADERS,
+    PEER_HEADERS,
+    THREAD_HEADERS,
+    floor_rows,
+    memory_rows,
+    peer_rows,
+    thread_rows,
+)
 from reports.builder import Page, Section, figure, table, text
 from reports.experiments.kept import age, found, result_of
 from reports.experiments.large_peers import RESULT as LARGE_PEERS
@@ -158,7 +161,7 @@ def finite_elements() -> list[dict[str, Any]]:
     return rows
 
 
-def _finite_element_section(run: Run) -> Section:
+def _finite_element_section(run: StoredRun) -> Section:
     words = text(
         "The same sphere on a half-space, by finite elements and by boundary elements. The finite-element problem is "
         "axisymmetric, two-dimensional, graded towards the edge of contact, and solves five loads on three meshes for "
@@ -200,7 +203,7 @@ def build() -> Page:
     """The page, from the last run of the stored history."""
     runs = read_history(RESULTS)
     if not runs:
-        missing = text("No run is stored yet: bem bench --json reports/results/performance.json makes one.")
+        missing = text("No run is stored yet: python -m reports.benchmarks measures one.")
         return Page("performance", "Run time against error", "Nothing measured yet.", [Section("Nothing yet", missing)])
     run = runs[-1]
     sections = [*work_precision.sections(), _goals(run), *_work_sections(run)]
@@ -225,11 +228,11 @@ def build() -> Page:
     return Page("performance", "Run time against error", lead, sections, facts)
 
 
-def _goals(run: Run) -> Section:
+def _goals(run: StoredRun) -> Section:
     return Section("Goals and what was measured", goals.section(run))
 
 
-def _work_sections(run: Run) -> Iterator[Section]:
+def _work_sections(run: StoredRun) -> Iterator[Section]:
     """Error over time and memory of each group of cases, and how time grows."""
     for title, names in GROUPS:
         if not any(p.case in names for p in run.points):
@@ -246,7 +249,7 @@ def _work_sections(run: Run) -> Iterator[Section]:
         yield Section(title, body)
 
 
-def _peer_sections(run: Run) -> Iterator[Section]:
+def _peer_sections(run: StoredRun) -> Iterator[Section]:
     """Other codes in the same run, and as measured before."""
     if run.peers:
         words = text(
@@ -363,7 +366,7 @@ def random_convolutions() -> str:
     return body + table(headers, rows) + age(RANDOM)
 
 
-def _split(run: Run) -> str:
+def _split(run: StoredRun) -> str:
     body = text(
         "Processor time of one solve of the largest size, by counters around transforms (with their products), "
         "rounds that are compiled whole (small grids: transforms, passes and preconditioner in one call), "
@@ -381,7 +384,7 @@ def _split(run: Run) -> str:
     return body
 
 
-def _threads_and_memory(run: Run) -> str:
+def _threads_and_memory(run: StoredRun) -> str:
     words = "Wall times of two threads over one, in the stored run; where the second core was busy it tells little."
     headers, rows = THREAD_HEADERS[:3], [row[:3] for row in thread_rows(run)]
     body = shared.gains() + text(words) + table(headers, rows)
@@ -389,7 +392,7 @@ def _threads_and_memory(run: Run) -> str:
     return body + table(MEMORY_HEADERS, memory_rows(run), caption=caption) + large.contacts() + large.slabs()
 
 
-def _changes(old: Run, new: Run) -> str:
+def _changes(old: StoredRun, new: StoredRun) -> str:
     rows = [
         (
             c.case,

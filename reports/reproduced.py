@@ -19,11 +19,11 @@ INSIDE = "in"
 TIMES = {
     "enter_to_report": "processor times of commands",
     "large_peers": "processor times beside other codes",
-    "performance": "run times and peak memory (bem bench)",
+    "performance": "run times and peak memory (python -m reports.benchmarks)",
     "shared_work": "processor times of threads",
     "slab_transforms": "processor times of transforms",
     "wear_cycle_times": "processor times of wear cycles",
-    "work_precision": "run times beside other codes (bem bench)",
+    "work_precision": "run times beside other codes (python -m reports.benchmarks)",
 }
 """Results that hold for the machine they were measured on: measured again, not reproduced."""
 

@@ -484,8 +484,8 @@ def _wear_lengths(module: Any, stored: Any) -> Rows:
 
 
 def _line_film() -> list[Row]:
-    """Rows of the table over M and L, which `bem.benchmarks.line_film` makes."""
-    from bem.benchmarks.line_film import film_row, read_table
+    """Rows of the table over M and L, which `reports.benchmarks.line_film` makes."""
+    from reports.benchmarks.line_film import film_row, read_table
 
     allowed = within(relative=1e-4, order_minimum=(0.0, 0.05), order_central=(0.0, 0.05))
     names = ("minimum", "central", "order_minimum", "order_central")

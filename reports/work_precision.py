@@ -1,6 +1,6 @@
 """The top of the performance page: how long an asked-for error of each physical figure takes, ours and others'.
 
-Drawn from `reports/results/work_precision.json`, which `bem bench --kind all --peers --json` appends to.
+Drawn from `reports/results/work_precision.json`, which `python -m reports.benchmarks --kind all --peers` appends to.
 """
 
 from __future__ import annotations
@@ -9,10 +9,12 @@ import json
 from collections.abc import Iterator
 from pathlib import Path
 
-from bem.benchmarks.history import Run, read_history
 from bem.benchmarks.physical_cases import PHYSICAL
-from bem.benchmarks.show import draw_errors, draw_reach
+from bem.benchmarks.show import draw_reach
 from bem.benchmarks.work_precision import ERROR_HEADERS, REACH_HEADERS, error_rows, reach_rows
+from reports.benchmarks.history import StoredRun, read_history
+from reports.benchmarks.peer_figures import curves_with_peers
+from reports.benchmarks.tables import draw_errors
 from reports.builder import Section, figure, table, text
 from reports.reproduced import paragraph
 
@@ -20,7 +22,7 @@ RESULTS = Path(__file__).resolve().parent / "results" / "work_precision.json"
 AREA = RESULTS.with_name("contact_area.json")
 _AREA_ASKED = {256: 0.005, 512: 0.001}
 """Relative error of the contact area that was hoped for, by cells a side."""
-COMMAND = "bem bench --kind all --peers --json reports/results/work_precision.json"
+COMMAND = "python -m reports.benchmarks --kind all --peers"
 """Kinds of scene whose code the benchmarks run."""
 _WORDS = (
     "What a user waits for is an error of a figure, not a residual. Each figure is compared with the limit of its two "
@@ -37,8 +39,9 @@ def sections() -> Iterator[Section]:
     if not runs:
         return
     run = runs[-1]
-    body = text(_WORDS) + figure(draw_reach(run), "Processor time, one thread, to errors of 10, 3, 1 and 0.3 %.")
-    body += table(REACH_HEADERS, reach_rows(run), caption=f"Seconds; in brackets: drawn on. {measured_on(run)}")
+    found = curves_with_peers(run)
+    body = text(_WORDS) + figure(draw_reach(found), "Processor time, one thread, to errors of 10, 3, 1 and 0.3 %.")
+    body += table(REACH_HEADERS, reach_rows(found), caption=f"Seconds; in brackets: drawn on. {measured_on(run)}")
     yield Section("Time to an error, ours and others'", body)
     for case in PHYSICAL.values():
         if any(point.case == case.name for point in run.points):
@@ -48,9 +51,9 @@ def sections() -> Iterator[Section]:
             )
             yield Section(
                 f"Error over time and memory: {case.title[0].lower()}{case.title[1:]}",
-                figure(draw_errors(run, case.kind), caption),
+                figure(draw_errors(found, case.kind), caption),
             )
-    yield Section("All errors of figures", table(ERROR_HEADERS, error_rows(run)))
+    yield Section("All errors of figures", table(ERROR_HEADERS, error_rows(found)))
     yield _area()
 
 
@@ -86,7 +89,7 @@ def _area() -> Section:
     return Section("Contact area from few cells", text(words) + table(head, rows) + paragraph(AREA.stem))
 
 
-def measured_on(run: Run) -> str:
+def measured_on(run: StoredRun) -> str:
     """Where and when, in words; a busy machine is told, and code that has changed since."""
     load = run.machine.get("load average at the end", "unknown")
     return f"Commit {run.commit}, {run.date}, {run.machine.get('processor', '')}, load average {load} ({COMMAND})."

@@ -1,9 +1,9 @@
-"""Run time, memory and work against error, and the tables of results that are made again by a command.
+"""Run time, memory and work against error: the cases of `bem bench`, their measurement and their tables.
 
-`cases` lists what is measured, a curve each; `measure` times one point, `run` all of them, `history` keeps runs and
-compares two, `show` prints and draws, `floor` and `peers` measure what the machine and other codes do. `line_film`
-makes the committed table of line-contact films.
+`cases` lists what is measured, a curve each; `measure` times one point, `run` all of them; `work_precision` measures
+physical figures of kinds. `floor` measures what the machine can do at best, `record` is the record of a run, `show`
+prints and draws it. Histories, goals and other codes are in `reports.benchmarks`, outside of the package.
 
 Sees every solver, closed forms to judge them by, and no command line. Verified in tests/benchmarks: cases run at their
-smallest size, errors fall with the mesh, counters leave no trace; reports show the last stored run.
+smallest size, errors fall with the mesh, counters leave no trace.
 """

@@ -1,8 +1,8 @@
 """What is measured: one entry of `CASES` is one curve of error, time and memory over a size.
 
-To add a case, write a function of the size that returns `Timed` and enter it in `CASES`; tables, figures, the history
-and the command line follow. The functions are in `contact_cases`, `lubricated_cases`, `surface_change_cases`,
-`tangential_cases`, `campaign_cases` and `checkpoint_cases`, those beside other codes in `peer_cases`.
+To add a case, write a function of the size that returns `Timed` and enter it in `CASES`; tables, figures and the
+command line follow. The functions are in `contact_cases`, `lubricated_cases`, `surface_change_cases`,
+`tangential_cases`, `campaign_cases` and `checkpoint_cases`.
 Verified in tests/benchmarks/test_benchmarks.py: every case runs at its smallest size.
 """
 
@@ -21,7 +21,6 @@ from bem.benchmarks.contact_cases import (
     cylinder,
     film_on_base,
     load_area_curve,
-    peer_tolerance,
     rough,
     row,
     sphere,
@@ -30,7 +29,6 @@ from bem.benchmarks.contact_cases import (
 )
 from bem.benchmarks.lubricated_cases import line_film, load_sharing, stribeck
 from bem.benchmarks.measure import Timed
-from bem.benchmarks.peer_cases import AXES, ball_mises, ball_stress, load_area
 from bem.benchmarks.physical_cases import PHYSICAL
 from bem.benchmarks.surface_change_cases import one_wear_cycle, stress_of_sphere, tribofilm
 from bem.benchmarks.tangential_cases import partial_slip
@@ -54,7 +52,8 @@ class Case:
     most_repeats: int = 100
 
 
-def _cells(name: str, title: str, prepare: Callable[[float], Timed], **change: Any) -> Case:
+def case_of_cells(name: str, title: str, prepare: Callable[[float], Timed], **change: Any) -> Case:
+    """Return a case whose size is the number of cells a side."""
     settings: dict[str, Any] = {
         "sizes": (256, 512, 1024, 2048),
         "quick": (128, 256),
@@ -76,25 +75,27 @@ _STRESS: dict[str, Any] = {"error_name": "largest error over p0", "sizes": (64, 
 CASES = {
     case.name: case
     for case in (
-        _cells("contact-periodic", "Dry rough contact, periodic", rough, threads=True),
-        _cells("contact-free", "Dry rough contact, free", functools.partial(rough, periodic=FREE)),
-        _cells("contact-semi-periodic", "Dry rough contact, periodic along y", functools.partial(rough, periodic=SEMI)),
-        _cells("contact-capped", "Rough contact capped at a hardness", functools.partial(rough, hardness=0.05)),
-        _cells(
+        case_of_cells("contact-periodic", "Dry rough contact, periodic", rough, threads=True),
+        case_of_cells("contact-free", "Dry rough contact, free", functools.partial(rough, periodic=FREE)),
+        case_of_cells(
+            "contact-semi-periodic", "Dry rough contact, periodic along y", functools.partial(rough, periodic=SEMI)
+        ),
+        case_of_cells("contact-capped", "Rough contact capped at a hardness", functools.partial(rough, hardness=0.05)),
+        case_of_cells(
             "contact-layered",
             "Rough contact of a coated body, free",
             functools.partial(rough, periodic=FREE, bodies=film_on_base),
             sizes=(128, 256, 512, 1024),
         ),
-        _cells(
+        case_of_cells(
             "load-area",
             "Load-area curve of 20 loads, each begun with those before",
             load_area_curve,
             sizes=(128, 256, 512, 1024),
             most_repeats=5,
         ),
-        _cells("surface", "Rough surface of these contacts", surface, error_name="error of the rms slope"),
-        _cells(
+        case_of_cells("surface", "Rough surface of these contacts", surface, error_name="error of the rms slope"),
+        case_of_cells(
             "contact-tolerance",
             "Dry rough contact at 512, error asked for",
             tolerances(512),
@@ -103,30 +104,30 @@ CASES = {
             warm_size=1,
             size_name="digits asked for",
         ),
-        _cells(
+        case_of_cells(
             "partial-slip",
             "Partial slip of the dry rough contact, first push",
             partial_slip,
             sizes=(128, 256, 512, 1024),
             error_name="residual of Coulomb's conditions",
         ),
-        _cells("hertz-sphere", "Sphere on a half-space, free", sphere, **_MESH),
-        _cells("hertz-cylinder", "Cylinder, periodic along its axis", cylinder, **_MESH),
-        _cells("sinusoid", "Row of sinusoids, periodic", row, **_MESH),
-        _cells(
+        case_of_cells("hertz-sphere", "Sphere on a half-space, free", sphere, **_MESH),
+        case_of_cells("hertz-cylinder", "Cylinder, periodic along its axis", cylinder, **_MESH),
+        case_of_cells("sinusoid", "Row of sinusoids, periodic", row, **_MESH),
+        case_of_cells(
             "stress",
             "Six stresses with traction, cells / 4 depths, kernels included",
             stress_of_sphere,
             **_STRESS,
         ),
-        _cells(
+        case_of_cells(
             "stress-warm",
             "Six stresses with traction, kernels known",
             functools.partial(stress_of_sphere, warm=True),
             **_STRESS,
             threads=True,
         ),
-        _cells(
+        case_of_cells(
             "von-mises-warm",
             "Von Mises only with traction, kernels known",
             functools.partial(stress_of_sphere, mises_only=True, warm=True),
@@ -153,7 +154,7 @@ CASES = {
             "nodes",
             "error of the minimum film",
         ),
-        _cells(
+        case_of_cells(
             "load-sharing",
             "One mixed-lubrication point",
             load_sharing,
@@ -162,7 +163,7 @@ CASES = {
             quick=(40, 60),
             error_name="error of the friction",
         ),
-        _cells(
+        case_of_cells(
             "stribeck",
             "Stribeck curve of seven speeds",
             stribeck,
@@ -171,7 +172,7 @@ CASES = {
             quick=(40,),
             error_name="largest error of the friction",
         ),
-        _cells(
+        case_of_cells(
             "wear-cycle",
             "Wear cycle, 240 x 240 cells",
             one_wear_cycle,
@@ -213,7 +214,7 @@ CASES = {
             "points",
             "points that are missing",
         ),
-        _cells(
+        case_of_cells(
             "tribofilm",
             "Tribofilm under an AFM tip",
             tribofilm,
@@ -225,23 +226,8 @@ CASES = {
     )
 }
 
-INNER = (
-    {
-        "peer-tolerance": _cells("peer-tolerance", "Beside peers", peer_tolerance, warm_size=64.02),
-        "peer-curve": _cells("peer-curve", "Load-area curve beside peers", load_area, warm_size=64.02),
-    }
-    | {
-        name: _cells(name, "Stresses beside peers", functools.partial(prepare, axes=axes, **more), warm_size=32)
-        for axes in AXES
-        for name, prepare, more in (
-            (f"peer-stress-{axes}", ball_stress, {"kept": False}),
-            (f"peer-stress-{axes}-kept", ball_stress, {"kept": True}),
-            (f"peer-mises-{axes}", ball_mises, {}),
-        )
-    }
-    | {
-        case.name: Case(case.name, case.title, case.prepare, (), (), case.points(quick=True)[0], case.size_name, "")
-        for case in PHYSICAL.values()
-    }
-)
-"""Cases that other modules measure; they are not part of a run of their own."""
+INNER = {
+    case.name: Case(case.name, case.title, case.prepare, (), (), case.points(quick=True)[0], case.size_name, "")
+    for case in PHYSICAL.values()
+}
+"""Cases of `bem bench --kind`; they are not part of a run of their own."""

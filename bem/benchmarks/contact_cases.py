@@ -148,12 +148,6 @@ def tolerances(cells: float) -> Callable[[float], Timed]:
     return lambda digits: rough(cells, tolerance=10.0 ** (-digits))
 
 
-def peer_tolerance(code: float) -> Timed:
-    """`cells + digits / 100`: one number, as every size is."""
-    cells = int(code)
-    return rough(cells, tolerance=10.0 ** -round(100 * (code - cells)))
-
-
 def sphere(cells: float) -> Timed:
     """A sphere against Hertz, free along both axes."""
     from bem.reference_solutions.hertz import sphere_contact

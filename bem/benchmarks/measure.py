@@ -11,14 +11,15 @@ import statistics
 import subprocess
 import sys
 import time
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from types import FunctionType
 from typing import Any
 
 THREAD_VARIABLES = ("OMP_NUM_THREADS", "OPENBLAS_NUM_THREADS", "MKL_NUM_THREADS")
-
+PROGRAM = ("-P", "-m", "bem.benchmarks")
+"""Arguments of Python that measure one point (`__main__`)."""
 
 _LEAST_TOLD = 2.0**20
 """Memory [bytes] below which what the process holds anyway decides."""
@@ -211,8 +212,16 @@ def watched() -> Iterator[dict[str, float]]:
             setattr(owner, name, value)
 
 
-def measure_apart(case: str, size: float, threads: int, repeats: int, limit: float = 1800.0) -> Point:
+def measure_apart(
+    case: str, size: float, threads: int, repeats: int, limit: float = 1800.0, program: Sequence[str] = PROGRAM
+) -> Point:
     """Measure a point in a process of its own.
+
+    Parameters
+    ----------
+    case, size, threads, repeats : the point.
+    limit : wall time [s] that the process may take.
+    program : arguments of Python; the point's follow.
 
     Raises
     ------
@@ -220,7 +229,7 @@ def measure_apart(case: str, size: float, threads: int, repeats: int, limit: flo
     """
     environment = os.environ | dict.fromkeys(THREAD_VARIABLES, "1") | {"BEM_THREADS": str(threads)}
     done = subprocess.run(
-        [sys.executable, "-P", "-m", "bem.benchmarks", case, repr(size), str(threads), str(repeats)],
+        [sys.executable, *program, case, repr(size), str(threads), str(repeats)],
         capture_output=True,
         text=True,
         timeout=limit,

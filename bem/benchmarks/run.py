@@ -4,17 +4,12 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from pathlib import Path
-from typing import Any
 
-from bem.benchmarks import peer_curves, peer_stresses
-from bem.benchmarks.beside import CurveBeside, StressBeside
 from bem.benchmarks.cases import CASES, Case
 from bem.benchmarks.floor import measure_floor
-from bem.benchmarks.history import INTERRUPTED, Run, new_run
 from bem.benchmarks.measure import Point, measure_apart, named_failure
 from bem.benchmarks.names import refuse_unknown
-from bem.benchmarks.peers import compare_with_peers, environment
+from bem.benchmarks.record import INTERRUPTED, Run, new_run
 from bem.errors import InputError
 
 
@@ -60,14 +55,15 @@ def run_cases(
     threads: Sequence[int] | None = None,
     repeats: int = 5,
     with_floor: bool = True,
-    peers: tuple[Path, tuple[int, ...]] | None = None,
     say: Callable[[str], None] = lambda words: None,
 ) -> Run:
-    """Measure; a point that fails is named in `failures` and the rest goes on. An interrupt keeps what there is."""
+    """Measure all points of some cases, each in a process of its own.
+
+    A point that fails is named in `failures` and the rest goes on; an interrupt keeps the points there are.
+    """
     points: list[Point] = []
     failures: dict[str, str] = {}
-    floor, rows = None, list[dict[str, Any]]()
-    curves, stresses = list[CurveBeside](), list[StressBeside]()
+    floor = None
     wanted_points = [
         (name, size, count)
         for name in names
@@ -77,7 +73,6 @@ def run_cases(
     counts = {count for _, _, count in wanted_points}
     at = "the start"
     try:
-        python = Path() if peers is None else environment(peers[0], say)  # before anything that takes long
         for name, size, count in wanted_points:
             say(at := f"{name}: {size:g} {CASES[name].size_name}, {count} thread{'s' if count > 1 else ''}")
             with named_failure(failures, f"{name} {size:g} ({count})"):
@@ -86,16 +81,6 @@ def run_cases(
             wanted = {int(p.size) for p in points if p.case.startswith("contact-") and p.size >= 32}
             say(at := "the machine's floor")
             floor = measure_floor(tuple(sorted({240} | wanted)), tuple(sorted(counts)) or (1,))
-        for n in () if peers is None else peers[1]:
-            at = f"peers at {n}"
-            # minutes a solve from 2048 on: once is enough where ratios are of the order of ten
-            compare_with_peers(python, n, min(repeats, 3) if n < 2048 else 1, say, rows, failures)
-        if peers is not None:
-            at = "load-area curves of peers"
-            peer_curves.curves_beside(python, quick, min(repeats, 3), say, curves, failures)
-            at = "stresses of peers"
-            pythons = peer_stresses.interpreters(peers[0], say, failures)
-            peer_stresses.stresses_beside(pythons, quick, min(repeats, 3), say, stresses, failures)
     except KeyboardInterrupt:
         failures[INTERRUPTED] = f"at {at}; {len(points)} of {len(wanted_points)} points are kept"
-    return new_run(points, floor, rows, failures, curves, stresses)
+    return new_run(points, floor, failures)

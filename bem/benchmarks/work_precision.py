@@ -1,8 +1,8 @@
 """Processor time and memory against the error of physical figures, and the time that an asked-for error takes.
 
-The reference of a figure comes from the two finest grids, by the order that its kind converges with; a peer's figures
-are compared with the same one. An error counts as reached at a grid if all finer ones have it too. Where a curve ends
-before, its last two grids say how it goes on: such a time is marked.
+The reference of a figure comes from the two finest grids, by the order that its kind converges with. An error counts as
+reached at a grid if all finer ones have it too. Where a curve ends before, its last two grids say how it goes on: such
+a time is marked.
 Verified in tests/benchmarks/test_work_precision.py.
 """
 
@@ -11,25 +11,21 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
-from pathlib import Path
-from typing import Any
 
-from bem.benchmarks.history import INTERRUPTED, Run, new_run
 from bem.benchmarks.measure import Point, measure_apart, named_failure
 from bem.benchmarks.names import refuse_unknown
-from bem.benchmarks.peers import SCRIPTS, solve_by_peer
-from bem.benchmarks.physical_cases import PHYSICAL, RAW, PhysicalCase, pressure_figures, rough_surface, size_and_digits
+from bem.benchmarks.physical_cases import PHYSICAL, RAW, PhysicalCase, size_and_digits
+from bem.benchmarks.record import INTERRUPTED, Run, new_run
 
 TARGETS = (0.1, 0.03, 0.01, 0.003)
 OURS, CELLS_ALONE = "bem", "bem, cells alone"
-PEER_SIZES = (128, 256, 512, 1024)
 _LEAST_ORDER = 0.3
 """Errors that fall more slowly than with this power of the time are not drawn on."""
 
 
 @dataclass(frozen=True)
 class Curve:
-    """Errors of a figure over grids, coarsest first. `digits` of the tolerance asked for, 0 of a peer.
+    """Errors of a figure over grids, coarsest first. `digits` of the tolerance asked for, 0 of another code.
 
     times : processor time [s]. memory : beyond the inputs [bytes]. errors : relative.
     """
@@ -69,14 +65,14 @@ def measure_kinds(
     *,
     quick: bool = False,
     repeats: int = 3,
-    peers: Path | None = None,
     say: Callable[[str], None] = lambda words: None,
 ) -> Run:
-    """All points of some kinds, each in a process of its own, and the peers on the same rough surface where their
-    environment is given. What fails is named and the rest goes on; an interrupt keeps what there is."""
+    """Measure all points of some kinds, each in a process of its own.
+
+    A point that fails is named in `failures` and the rest goes on; an interrupt keeps the points there are.
+    """
     points: list[Point] = []
     failures: dict[str, str] = {}
-    rows: list[dict[str, Any]] = []
     at = "the start"
     try:
         for case in (PHYSICAL[kind] for kind in kinds):
@@ -85,19 +81,9 @@ def measure_kinds(
                 say(at := f"{case.kind}: {size} {case.size_name}, {digits} digits")
                 with named_failure(failures, f"{case.kind} {size} ({digits})"):
                     points.append(measure_apart(case.name, code, 1, repeats))
-        pairs = [(peer, cells) for peer in SCRIPTS for cells in (PEER_SIZES[:2] if quick else PEER_SIZES)]
-        for peer, cells in pairs if "contact" in kinds else ():
-            if peers is None:
-                break
-            say(at := f"{peer} at {cells}")
-            gap = rough_surface(cells)
-            with named_failure(failures, f"{peer} {cells}"):
-                times, memory, pressure = solve_by_peer(peers, peer, gap, repeats if cells < 1024 else 1)
-                figures = pressure_figures(pressure, gap)
-                rows.append({"peer": peer, "cells": cells, "cpu": times, "memory": memory, "figures": figures})
     except KeyboardInterrupt:
         failures[INTERRUPTED] = f"at {at}; {len(points)} points are kept"
-    return new_run(points, None, rows, failures)
+    return new_run(points, None, failures)
 
 
 def reference(case: PhysicalCase, points: Sequence[Point]) -> dict[str, float]:
@@ -128,23 +114,6 @@ def curves(run: Run) -> list[Curve]:
                 for solver, key in ((OURS, name), (CELLS_ALONE, RAW + name)):
                     if own and key in own[0].values:
                         found.append(_curve(case.kind, name, solver, digits, own, key, limit))
-    limits = reference(PHYSICAL["contact"], [p for p in run.points if p.case == PHYSICAL["contact"].name])
-    for peer in dict.fromkeys(row["peer"] for row in run.peers):
-        rows = sorted((row for row in run.peers if row["peer"] == peer and "figures" in row), key=lambda r: r["cells"])
-        for name in rows[0]["figures"] if rows else ():
-            if name in limits:
-                found.append(
-                    Curve(
-                        "contact",
-                        name,
-                        peer,
-                        0,
-                        tuple(row["cells"] for row in rows),
-                        tuple(sorted(row["cpu"])[len(row["cpu"]) // 2] for row in rows),
-                        tuple(row["memory"] for row in rows),
-                        tuple(abs(row["figures"][name] / limits[name] - 1) for row in rows),
-                    )
-                )
     return found
 
 
@@ -188,9 +157,8 @@ def best(found: Sequence[Curve], kind: str, figure: str, solver: str) -> list[Re
     return least
 
 
-def reach_rows(run: Run) -> list[tuple[str, ...]]:
+def reach_rows(found: Sequence[Curve]) -> list[tuple[str, ...]]:
     """Rows of words: kind, figure, solver, and the time to each of the targets."""
-    found = curves(run)
     rows = []
     for kind, figure, solver in dict.fromkeys((c.kind, c.figure, c.solver) for c in found):
         least = best(found, kind, figure, solver)
@@ -207,7 +175,7 @@ def _words(reach: Reach | None) -> str:
     return f"{reach.time:.2g}" if reach.measured else f"({reach.time:.1g})"
 
 
-def error_rows(run: Run) -> list[tuple[str, ...]]:
+def error_rows(found: Sequence[Curve]) -> list[tuple[str, ...]]:
     """Rows of words: the error of every figure on every grid, with its time and memory."""
     return [
         (
@@ -220,7 +188,7 @@ def error_rows(run: Run) -> list[tuple[str, ...]]:
             f"{t:.2g}",
             f"{m / 2**20:.2g}",
         )
-        for c in curves(run)
+        for c in found
         for n, e, t, m in zip(c.sizes, c.errors, c.times, c.memory, strict=True)
     ]
 

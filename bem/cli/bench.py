@@ -9,8 +9,10 @@ from typing import TYPE_CHECKING, Annotated, Any
 
 import typer
 
+from bem.errors import InputError
+
 if TYPE_CHECKING:
-    from bem.benchmarks.history import Run
+    from bem.benchmarks.record import Run
 
 
 def register(app: typer.Typer) -> None:
@@ -48,26 +50,10 @@ def bench(
     ] = None,
     repeats: Annotated[int, typer.Option(min=1, max=1000, help="Timed solves of each point.")] = 5,
     floor: Annotated[bool, typer.Option("--floor/--no-floor", help="Measure what the machine can do at best.")] = True,
-    peers: Annotated[
-        bool,
-        typer.Option(
-            "--peers",
-            help="Also time tamaas, ContactMechanics, ASPHER and slippy, installed from PyPI: contacts, load-area "
-            "curves and stresses.",
-        ),
-    ] = False,
-    peers_folder: Annotated[Path, typer.Option(help="Environment of the peers.")] = Path(".venv-peers"),
-    peers_size: Annotated[
-        list[int] | None, typer.Option(help="Cells a side for the peers' contacts; 512 without it.")
-    ] = None,
     json_: Annotated[
-        Path | None, typer.Option("--json", metavar="FILE", help="Append the run to this history.")
+        Path | None, typer.Option("--json", metavar="FILE", help="Write the run to a new .json file.")
     ] = None,
     figure: Annotated[Path | None, typer.Option(help="Draw error against time and memory into this file.")] = None,
-    compare: Annotated[
-        tuple[str, str] | None,
-        typer.Option("--compare", metavar="A B", help="Compare two commits (or -2 -1) of the history, run nothing."),
-    ] = None,
 ) -> None:
     """Run time and memory against error, beside what the machine can do at best.
 
@@ -78,21 +64,15 @@ def bench(
     Examples:
       bem bench --quick
       bem bench --only contact-periodic --size 512 --json bench.json
-      bem bench --compare -2 -1 --json bench.json
       bem bench --kind contact --figure time-to-an-error.png
     """
     from bem.benchmarks.run import check_names, run_cases
-    from bem.benchmarks.show import draw_run, print_comparison, print_run
+    from bem.benchmarks.show import draw_run, print_run
     from bem.cli._terminal import table
 
-    cases = {"--only": only, "--size": size, "--threads": threads, "--peers-size": peers_size}
-    if compare is not None:
-        _refuse("--compare", cases | {"--kind": kind, "--peers": peers, "--figure": figure})
-        print_comparison(json_ or Path("bench.json"), *compare, table)
-        return
-    _check(cases, peers, kind, json_, figure)
+    _check({"--only": only, "--size": size, "--threads": threads}, kind, json_, figure)
     if kind:
-        _bench_kinds(kind, quick, min(repeats, 3), peers_folder if peers else None, json_, figure)
+        _bench_kinds(kind, quick, min(repeats, 3), json_, figure)
         return
     run = run_cases(
         check_names(only),
@@ -102,66 +82,50 @@ def bench(
         threads=threads,
         repeats=repeats,
         with_floor=floor,
-        peers=(peers_folder, tuple(peers_size or [512])) if peers else None,
         say=_say,
     )
     print_run(run, table)
     _keep(run, json_, figure, lambda path: draw_run(run, path))
 
 
-def _check(
-    cases: Mapping[str, Any], peers: bool, kind: list[str] | None, history: Path | None, figure: Path | None
-) -> None:
-    """Before minutes of work: options of cases that do nothing here, or name what nothing has, and files that cannot be
-    written."""
+def _check(cases: Mapping[str, Any], kind: list[str] | None, record: Path | None, figure: Path | None) -> None:
+    """Refuse, before any work, options that do nothing here, sizes that cannot be and files that cannot be written."""
     from bem.benchmarks.run import check_sizes
 
-    if not peers:
-        _refuse("a run without --peers", {"--peers-size": cases["--peers-size"]})
-    _check_files(history, figure)
-    if kind:
-        _refuse("--kind", cases)
+    _check_files(record, figure)
+    if kind and (idle := [name for name, value in cases.items() if value]):
+        raise InputError([f"{name}: does nothing with --kind; allowed: one or the other" for name in idle])
     check_sizes("--size", cases["--size"])
-    check_sizes("--peers-size", cases["--peers-size"], least=16)
 
 
-def _refuse(beside: str, given: Mapping[str, object]) -> None:
-    """Refuse options that would do nothing beside another."""
-    from bem.errors import InputError
-
-    if idle := [name for name, value in given.items() if value]:
-        raise InputError([f"{name}: does nothing with {beside}; allowed: one or the other" for name in idle])
-
-
-def _check_files(history: Path | None, figure: Path | None) -> None:
-    """Return True if what comes of a run can be written."""
-    from bem.benchmarks.history import read_history
+def _check_files(record: Path | None, figure: Path | None) -> None:
+    """Refuse files of results that cannot be written, and a record that exists."""
     from bem.cli._quantity import new_file
     from bem.errors import ResultsError
 
     if figure is not None:
         new_file(figure, "--figure", (".png", ".pdf", ".svg"))
-    for path in (history, figure):
+    if record is not None:
+        new_file(record, "--json", (".json",))
+    for path in (record, figure):
         if path is None:
             continue
         folder = next(parent for parent in path.absolute().parents if parent.exists())
         if path.is_dir() or not folder.is_dir() or not os.access(folder, os.W_OK):
             why = "it is a folder" if path.is_dir() else f"{folder} takes no files"
             raise ResultsError(f"{path}: cannot be written ({why})")
-    if history is not None:
-        read_history(history)
+    if record is not None and record.exists():
+        raise ResultsError(f"{record}: exists; allowed: a new file")
 
 
-def _bench_kinds(
-    names: list[str], quick: bool, repeats: int, peers: Path | None, history: Path | None, picture: Path | None
-) -> None:
+def _bench_kinds(names: list[str], quick: bool, repeats: int, record: Path | None, picture: Path | None) -> None:
     """`--kind`."""
-    from bem.benchmarks.peers import environment
     from bem.benchmarks.show import draw_reach, save_picture
     from bem.benchmarks.work_precision import (
         ERROR_HEADERS,
         REACH_HEADERS,
         check_kinds,
+        curves,
         error_rows,
         measure_kinds,
         reach_rows,
@@ -169,30 +133,33 @@ def _bench_kinds(
     from bem.cli._terminal import table
 
     kinds = check_kinds(names)
-    python = None if peers is None else environment(peers, _say)
-    run = measure_kinds(kinds, quick=quick, repeats=repeats, peers=python, say=_say)
-    table(ERROR_HEADERS, error_rows(run), title="errors against the limit of the two finest grids", right=range(3, 8))
-    table(REACH_HEADERS, reach_rows(run), title="processor time to an error; in brackets: drawn on", right=range(3, 7))
-    _keep(run, history, picture, lambda path: save_picture(draw_reach(run), path))
+    run = measure_kinds(kinds, quick=quick, repeats=repeats, say=_say)
+    found = curves(run)
+    table(ERROR_HEADERS, error_rows(found), title="errors against the limit of the two finest grids", right=range(3, 8))
+    table(
+        REACH_HEADERS,
+        reach_rows(found),
+        title="processor time to an error; in brackets: extrapolated",
+        right=range(3, 7),
+    )
+    _keep(run, record, picture, lambda path: save_picture(draw_reach(found), path))
 
 
 def _say(words: str) -> None:
     typer.echo(words, err=True)
 
 
-def _keep(run: Run, history: Path | None, picture: Path | None, draw: Callable[[Path], None]) -> None:
+def _keep(run: Run, record: Path | None, picture: Path | None, draw: Callable[[Path], None]) -> None:
     """Write what was asked for, name what failed, and end with the exit code of it."""
-    from bem.benchmarks.history import INTERRUPTED, append_run
-    from bem.cli._streams import results_saved
+    from bem.benchmarks.record import INTERRUPTED, write_runs
+    from bem.cli._terminal import print_written
 
-    if history is not None or picture is not None:
-        results_saved()
-    if history is not None:
-        append_run(history, run)
-        print(f"history: {history}")
+    if record is not None:
+        write_runs(record, [run])
+        print_written(record)
     if picture is not None:
         draw(picture)
-        print(f"figure: {picture}")
+        print_written(picture)
     for what, why in run.failures.items():
         _say(f"bem: {what} {why}" if what == INTERRUPTED else f"bem: {what} failed: {why}")
     if run.failures:

@@ -1,10 +1,11 @@
-"""Other codes on grids of 2048 and 4096 cells a side: minutes to an hour a solve, so apart from `bem bench`.
+"""Other codes on grids of 2048 and 4096 cells a side: minutes to an hour a solve, so apart from `reports.benchmarks`.
 
     python -m reports.experiments.large_peers --cells 2048 4096 --peer tamaas aspher
 
-As the contacts of `bem bench --peers`: the same surface, one thread, one solve each, residuals by one routine, and bem
-at the first tolerance whose pressure is at least as good. Processor times; how busy the machine was is kept with each.
-Rows of other sizes and peers are kept. The result is stored in `reports/results/large_peers.json`.
+As the contacts of `python -m reports.benchmarks --peers`: the same surface, one thread, one solve each, residuals by
+one routine, and bem at the first tolerance whose pressure is at least as good. Processor times; how busy the machine
+was is kept with each. Rows of other sizes and peers are kept. The result is stored in
+`reports/results/large_peers.json`.
 """
 
 from __future__ import annotations
@@ -14,8 +15,9 @@ import os
 from pathlib import Path
 from typing import Any
 
-from bem.benchmarks.history import new_run
-from bem.benchmarks.peers import SCRIPTS, compare_with_peers, environment
+from bem.benchmarks.record import new_run
+from reports.benchmarks.history import present_commit
+from reports.benchmarks.peers import SCRIPTS, compare_with_peers, environment
 from reports.experiments.kept import found, keep, result_of
 
 RESULT = result_of("large_peers")
@@ -40,8 +42,11 @@ def main() -> None:
             failures: dict[str, str] = {}
             compare_with_peers(python, cells, 1, print, new, failures, (peer,), given.hours * HOUR)
             for row in new:
-                run = new_run([])
-                told = {"commit": run.commit, "date": run.date, "load_average": round(os.getloadavg()[1], 1)}
+                told = {
+                    "commit": present_commit(),
+                    "date": new_run([]).date,
+                    "load_average": round(os.getloadavg()[1], 1),
+                }
                 rows[peer, cells] = row | told
                 keep(RESULT, [rows[key] for key in sorted(rows, key=lambda key: (key[1], key[0]))])
             print(

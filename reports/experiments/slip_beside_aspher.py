@@ -2,11 +2,11 @@
 
     python -m reports.experiments.slip_beside_aspher PYTHON
 
-PYTHON is the interpreter of an environment that has ASPHER (`bem bench --peers` makes one in .venv-peers). A ball half
-as wide as the grid, free, like bodies, friction 0.4, pushed by 0.6 of what friction carries, from nothing. ASPHER stops
-by its own criterion (`tol_tangential` as it comes); its residual is the one that it states, ours is formed anew from
-the tractions (`TangentialSolution.residual`). Processor times of the tangential step alone. The result is stored in
-`reports/results/slip_beside_aspher.json`.
+PYTHON is the interpreter of an environment that has ASPHER (`python -m reports.benchmarks --peers` makes one in
+.venv-peers). A ball half as wide as the grid, free, like bodies, friction 0.4, pushed by 0.6 of what friction
+carries, from nothing. ASPHER stops by its own criterion (`tol_tangential` as it comes); its residual is the one that
+it states, ours is formed anew from the tractions (`TangentialSolution.residual`). Processor times of the tangential
+step alone. The result is stored in `reports/results/slip_beside_aspher.json`.
 """
 
 from __future__ import annotations

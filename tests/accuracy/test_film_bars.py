@@ -8,8 +8,8 @@ from error_bar_ratios import ratios_of, rows_of
 
 from bem import Lubricant, solve_line_film
 from bem.accuracy import FilmCase, film_bars, film_figures, solve_coarser_film
-from bem.benchmarks.line_film import similarity_case
 from bem.errors import Status
+from reports.benchmarks.line_film import similarity_case
 from reports.experiments.film_error_bars import EXPERIMENT
 
 OIL = Lubricant(0.1, pressure_viscosity=2e-8, density_law="dowson_higginson")

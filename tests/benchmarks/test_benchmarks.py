@@ -1,6 +1,6 @@
-"""The harness: points, history, comparison, the common residual. Figures themselves are never asserted here."""
+"""The harness: points, records, the common residual. Figures themselves are never asserted here."""
 
-import dataclasses
+import json
 import math
 
 import numpy as np
@@ -11,11 +11,11 @@ import bem.benchmarks.measure
 from bem import InputError, ResultsError, displacement_operator, solve_contact
 from bem.benchmarks.cases import CASES
 from bem.benchmarks.contact_cases import UNIT, common_residual, rough_gap
-from bem.benchmarks.floor import Floor, bandwidth, transform_pair
-from bem.benchmarks.history import INTERRUPTED, append_run, compare, find_run, new_run, read_history
+from bem.benchmarks.floor import bandwidth, transform_pair
 from bem.benchmarks.measure import Point, growth, measure, measure_apart, watched
+from bem.benchmarks.record import INTERRUPTED, new_run, write_runs
 from bem.benchmarks.run import check_names, check_sizes, run_cases, sizes_of
-from bem.benchmarks.show import draw_run, memory_rows, thread_rows
+from bem.benchmarks.show import draw_run
 from bem.benchmarks.work_precision import measure_kinds
 from bem.cli import main
 from bem.grid import Grid
@@ -123,34 +123,6 @@ def test_the_common_residual_sees_what_is_wrong_with_a_pressure():
     )
 
 
-def test_history_is_appended_read_back_and_compared(tmp_path):
-    path = tmp_path / "history.json"
-    assert read_history(path) == []
-    old = dataclasses.replace(new_run([point()], Floor({"256-64-1": 1e-3}, 1e10)), commit="aaaa111")
-    faster = point(cpu=(0.005, 0.0051, 0.0052), counts={"convolutions": 25.0})
-    new = dataclasses.replace(new_run([faster, point(size=512)]), commit="bbbb222")
-    append_run(path, old)
-    append_run(path, new)
-    runs = read_history(path)
-    assert runs == [old, new]
-    assert find_run(runs, "aaaa") == old
-    assert find_run(runs, "-1") == new
-    (change,) = compare(find_run(runs, "-2"), find_run(runs, "bbbb222"))
-    assert change.clear
-    assert change.ratio == pytest.approx(0.0051 / 0.011)
-    assert change.counts == {"convolutions": (30.0, 25.0)}
-    with pytest.raises(InputError, match="aaaa111, bbbb222"):
-        find_run(runs, "cccc")
-    path.write_text("{}")
-    with pytest.raises(ResultsError, match="not a history"):
-        read_history(path)
-
-
-def test_within_the_spread_a_change_is_not_clear():
-    (change,) = compare(new_run([point()]), new_run([point(cpu=(0.0105, 0.0112, 0.0118))]))
-    assert not change.clear
-
-
 def test_names_and_sizes():
     assert check_names(None) == list(CASES)
     with pytest.raises(InputError, match="nearest: line-film"):
@@ -176,19 +148,16 @@ BENCH = "bench --only sinusoid --size 24 --no-floor --repeats 1"
     ("arguments", "code", "words"),
     [
         ("bench --size 0", 2, "whole numbers from 1"),
-        ("bench --peers-size 512", 2, "--peers-size: does nothing"),
-        ("bench --peers --peers-size 8", 2, "whole numbers from 16"),
         ("bench --kind contact --only sinusoid", 2, "--only: does nothing with --kind"),
-        ("bench --compare -2 -1 --figure a.png", 2, "--figure: does nothing with --compare"),
         (f"{BENCH} --figure a.xyz", 2, ".png, .pdf, .svg"),
-        (f"{BENCH} --json .", 4, "it is a folder"),
-        (f"{BENCH} --json plain/h.json", 4, "takes no files"),
-        (f"{BENCH} --json plain", 4, "not a history of benchmarks"),
+        (f"{BENCH} --json run.txt", 2, ".json"),
+        (f"{BENCH} --json plain.json/h.json", 4, "takes no files"),
+        (f"{BENCH} --json plain.json", 4, "exists; allowed: a new file"),
     ],
 )
 def test_a_mistake_of_bem_bench_is_one_message_before_any_work(arguments, code, words, tmp_path, monkeypatch, capsys):
     monkeypatch.chdir(tmp_path)
-    (tmp_path / "plain").write_text("here before")
+    (tmp_path / "plain.json").write_text("here before")
     monkeypatch.setattr("sys.argv", ["bem", *arguments.split()])
     monkeypatch.setattr("bem.benchmarks.run.measure_apart", None)  # nothing may be measured
     with pytest.raises(SystemExit) as end:
@@ -196,8 +165,8 @@ def test_a_mistake_of_bem_bench_is_one_message_before_any_work(arguments, code, 
     assert end.value.code == code
     (line,) = capsys.readouterr().err.strip().splitlines()
     assert words in line
-    assert [path.name for path in tmp_path.iterdir()] == ["plain"]
-    assert (tmp_path / "plain").read_text() == "here before"
+    assert [path.name for path in tmp_path.iterdir()] == ["plain.json"]
+    assert (tmp_path / "plain.json").read_text() == "here before"
 
 
 @pytest.mark.parametrize("stopped", ["measure_apart", "measure_floor"])
@@ -231,42 +200,34 @@ def test_an_interrupt_keeps_what_is_measured_of_kinds(monkeypatch):
     assert "1 points are kept" in run.failures[INTERRUPTED]
 
 
-def test_a_history_or_picture_that_cannot_be_written_leaves_what_was_there(tmp_path, monkeypatch):
-    path = tmp_path / "history.json"
-    append_run(path, new_run([point()]))
-    before = path.read_bytes()
-
+def test_a_record_or_picture_that_cannot_be_written_leaves_nothing(tmp_path, monkeypatch):
     def full(*_, **__):
         raise OSError(28, "No space left on device")
 
     monkeypatch.setattr("pathlib.Path.write_text", full)
     with pytest.raises(ResultsError, match="No space left"):
-        append_run(path, new_run([point()]))
+        write_runs(tmp_path / "a.json", [new_run([point()])])
     monkeypatch.setattr("matplotlib.figure.Figure.savefig", full)
     with pytest.raises(ResultsError, match="No space left"):
         draw_run(new_run([point()]), tmp_path / "a.png")
-    assert [one.name for one in tmp_path.iterdir()] == ["history.json"]
-    assert path.read_bytes() == before
+    assert not list(tmp_path.iterdir())
+
+
+def test_bem_bench_writes_its_record(tmp_path, monkeypatch, capsys):
+    path = tmp_path / "run.json"
+    monkeypatch.setattr("sys.argv", ["bem", *BENCH.split(), "--threads", "1", "--json", str(path)])
+    monkeypatch.setattr("bem.benchmarks.run.measure_apart", lambda *_: point(case="sinusoid", size=24))
+    with pytest.raises(SystemExit) as end:
+        main()
+    assert end.value.code in (0, None)
+    (run,) = json.loads(path.read_text())["runs"]
+    assert [one["size"] for one in run["points"]] == [24]
+    assert run["versions"]["bem"] in capsys.readouterr().out
 
 
 def test_growth_is_the_exponent_of_a_power_law():
     assert growth([1, 2, 4], [3, 12, 48]) == pytest.approx(2)
     assert math.isnan(growth([1], [1]))
-
-
-def test_what_more_threads_would_gain_follows_from_two():
-    """A fifth of the work serial: two threads take 0.6 of the time, four 0.4, eight 0.3."""
-    run = new_run([point(wall=(1.0, 1.0, 1.0)), point(wall=(0.6, 0.6, 0.6), threads=2), point(size=512, threads=2)])
-    assert thread_rows(run) == [("contact-periodic", "256", "1.67", "20", "2.5", "3.3")]
-    slower = new_run([point(wall=(1.0, 1.0, 1.0)), point(wall=(1.2, 1.2, 1.2), threads=2)])
-    assert thread_rows(slower)[0][3:] == ("100", "1.0", "1.0")
-
-
-def test_memory_is_told_by_the_cell():
-    assert memory_rows(new_run([point(memory=256.0**2 * 50)])) == [("contact-periodic", "256", "3", "50")]  # older
-    told = point(case="surface", memory=256.0**2 * 50, values={"bytes_a_cell": 50.0})
-    assert memory_rows(new_run([told])) == [("surface", "256", "3", "50")]
-    assert not memory_rows(new_run([point(case="tribofilm", memory=1e6)]))
 
 
 def test_all_kinds_of_transforms_are_watched():
@@ -310,37 +271,3 @@ def test_the_floor_leaves_what_fftw_knows():
     pyfftw.forget_wisdom()
     pyfftw.import_wisdom(before)
     assert entries(after) != entries(before), "such a plan leaves something, and nothing was known of it"
-
-
-def test_the_report_is_built_from_a_history(tmp_path, monkeypatch):
-    import reports.performance as report
-
-    monkeypatch.setattr(report, "RESULTS", tmp_path / "none.json")
-    assert "bem bench" in report.build().sections[0].body
-    append_run(
-        tmp_path / "some.json",
-        new_run(
-            [
-                point(),
-                point(size=512),
-                point(
-                    case="hertz-sphere",
-                    size=64,
-                    errors={
-                        "mean_pressure_error": 1e-3,
-                        "maximum_pressure": 1e-3,
-                        "approach": 1e-4,
-                        "contact_radius": 1e-3,
-                    },
-                    values={"unknowns": 4096.0},
-                ),
-            ]
-        ),
-    )
-    monkeypatch.setattr(report, "RESULTS", tmp_path / "some.json")
-    page = report.build()
-    titles = [section.title for section in page.sections]
-    assert "Goals and what was measured" in titles
-    assert "Where each part holds" in titles
-    assert {"Dry contact of rough surfaces", "Partial slip beside ASPHER"} <= set(titles)
-    assert len(report.finite_elements()) >= 1

@@ -6,10 +6,10 @@ import numpy as np
 import pytest
 
 from bem import InputError
-from bem.benchmarks.history import new_run
 from bem.benchmarks.measure import Point
 from bem.benchmarks.physical_cases import PHYSICAL, RAW, rough_surface, size_and_digits
-from bem.benchmarks.show import draw_errors, draw_reach
+from bem.benchmarks.record import new_run
+from bem.benchmarks.show import draw_reach
 from bem.benchmarks.work_precision import (
     CELLS_ALONE,
     OURS,
@@ -18,11 +18,13 @@ from bem.benchmarks.work_precision import (
     Reach,
     best,
     check_kinds,
-    curves,
     reach_rows,
     reference,
     time_to_reach,
 )
+from reports.benchmarks.history import stored_run
+from reports.benchmarks.peer_figures import curves_with_peers
+from reports.benchmarks.tables import draw_errors
 
 pytestmark = pytest.mark.internal
 
@@ -72,13 +74,13 @@ def made_up(kind="contact", limit=2.0, constant=40.0):
         }
         for n in sizes
     ]
-    return dataclasses.replace(new_run(points), peers=tuple(peers))
+    return stored_run(new_run(points), peers)
 
 
 def test_references_and_errors_are_those_of_the_order():
     run = made_up()
     assert reference(PHYSICAL["contact"], run.points)["contact_area"] == pytest.approx(2.0, rel=1e-12)
-    found = curves(run)
+    found = curves_with_peers(run)
     ours = [c for c in found if c.solver == OURS]
     assert {c.digits for c in ours} == set(PHYSICAL["contact"].digits)
     assert all(c.sizes == (128, 256, 512, 1024) for c in ours)  # the finest is the reference's
@@ -88,7 +90,7 @@ def test_references_and_errors_are_those_of_the_order():
 
 
 def test_time_to_an_error_is_measured_or_drawn_on():
-    found = curves(made_up())
+    found = curves_with_peers(made_up())
     ours = best(found, "contact", "contact_area", OURS)
     # the coarsest grid and loosest tolerance have 0.24 %: enough for all
     assert ours == [Reach(128**2 * 3 / 8e5, True)] * len(TARGETS)
@@ -96,7 +98,7 @@ def test_time_to_an_error_is_measured_or_drawn_on():
     assert [reach.measured for reach in cells] == [True, True, True, False]
     # 0.3 % of 8 / n needs n = 2667; the last two grids say so
     assert cells[3].time == pytest.approx((8 / 0.003) ** 2 * 3 / 8e5)
-    rows = reach_rows(made_up())
+    rows = reach_rows(found)
     assert {row[2] for row in rows} == {OURS, CELLS_ALONE, "other"}
     assert rows[1][-1].startswith("(")
 
@@ -118,9 +120,9 @@ def test_unknown_kinds_are_named():
 
 
 def test_pictures_of_a_run():
-    run = made_up()
-    assert draw_reach(run).axes[0].get_xscale() == "log"
-    assert len(draw_errors(run, "contact").axes) == 1  # all grids took as much memory: it says nothing
+    found = curves_with_peers(made_up())
+    assert draw_reach(found).axes[0].get_xscale() == "log"
+    assert len(draw_errors(found, "contact").axes) == 1  # all grids took as much memory: it says nothing
 
 
 def test_memory_is_drawn_where_the_grid_tells_it():
@@ -128,6 +130,6 @@ def test_memory_is_drawn_where_the_grid_tells_it():
     run = made_up()
     told = {128: 0.0, 256: 8e6, 512: 3e7, 1024: 1.2e8, 2048: 5e8}
     points = [dataclasses.replace(p, memory=told[size_and_digits(p.size)[0]]) for p in run.points]
-    time, memory = draw_errors(dataclasses.replace(run, points=tuple(points)), "contact").axes
+    time, memory = draw_errors(curves_with_peers(dataclasses.replace(run, points=tuple(points))), "contact").axes
     assert len(memory.lines) == len(time.lines) - 1  # the peer's did not rise
     assert all(np.isnan(line.get_xdata()[0]) and line.get_xdata()[-1] > 100 for line in memory.lines)

@@ -15,7 +15,6 @@ from scipy.optimize import brentq
 import bem.lubrication.line.continuation as line_continuation
 import bem.lubrication.line.newton as line_newton
 from bem import InputError, Lubricant, Status, solve_line_film
-from bem.benchmarks.line_film import LOADS, PIEZO, film_row, read_table
 from bem.lubrication.line import steady
 from bem.lubrication.line.case import LineCase
 from bem.lubrication.line.friction import rolling_upstream
@@ -24,6 +23,7 @@ from bem.lubrication.line.steady import parabolic_minimum
 from bem.notes.lubrication import FILM_NOT_FOUND
 from bem.reference_solutions import line_film
 from bem.reference_solutions.line_film import MartinFilm, dowson_higginson_minimum, moes_central
+from reports.benchmarks.line_film import LOADS, PIEZO, film_row, read_table
 
 THESIS = {
     "load": 5.5 / 6e-3,
@@ -130,7 +130,7 @@ def test_heavy_films_of_oils_that_pressure_thickens_do_not_depend_on_the_mesh(lo
 
 
 TABLE = Path(__file__).parents[2] / "reports" / "results" / "line_film.csv"
-"""Converged films over M and L; `python -m bem.benchmarks.line_film` with this path makes it again."""
+"""Converged films over M and L; `python -m reports.benchmarks.line_film` with this path makes it again."""
 
 
 @pytest.mark.parametrize("index", [0, 20, 24, 29, 34, 41, 49, 55, 59])

@@ -10,9 +10,9 @@ import bem.lubrication.line.deflection as line_kernel
 import bem.lubrication.line.linear as line_linear
 import bem.lubrication.line.newton as line_newton
 from bem import solve_line_film
-from bem.benchmarks.line_film import similarity_case
 from bem.lubrication.line.deflection import LineOperator, logarithmic_integral, logarithmic_weights
 from bem.lubrication.line.linear import factorise, film_terms
+from reports.benchmarks.line_film import similarity_case
 
 
 def graded(cells):

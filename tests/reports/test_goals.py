@@ -6,8 +6,9 @@ import numpy as np
 import pytest
 
 from bem import threads
-from bem.benchmarks.history import new_run, read_history
+from bem.benchmarks.record import new_run
 from reports import goals, performance, shared
+from reports.benchmarks.history import read_history, stored_run
 from reports.experiments import enter_to_report, kept, shared_work
 
 
@@ -43,7 +44,7 @@ def test_a_goal_is_reached_at_its_number_and_missed_beyond_it():
 
 
 def test_a_run_without_points_measures_nothing(run):
-    empty = dataclasses.replace(new_run([]), commit="aaaa")
+    empty = dataclasses.replace(stored_run(new_run([])), commit="aaaa")
     told = {goal.what for goal in goals.goals(run) if goal.met is not None}
     assert {goal.what for goal in goals.goals(empty) if goal.met is not None} < told
 

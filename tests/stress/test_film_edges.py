@@ -8,7 +8,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from bem import Body, Grid, InputError, Lubricant, Material, Status, march_line_film, solve_line_film, solve_mixed
-from bem.benchmarks.line_film import similarity_case
+from reports.benchmarks.line_film import similarity_case
 
 LOADS = (0.001, 0.03, 1.0, 30.0, 3000.0)
 

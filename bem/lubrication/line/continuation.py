@@ -37,7 +37,7 @@ SPIKE_CELLS = (2e-3, 7e-4, 2.5e-4)
 spike has no limit the relative error of the film is about five times the last one."""
 SHARPER = 300.0
 """Load M from which the smallest cell follows the length of the outlet. The steepest fall of pressure is in the
-constriction there, spike or not (`bem.benchmarks.line_film`)."""
+constriction there, spike or not (`reports.benchmarks.line_film`)."""
 SPIKE_SHIFT = 0.75
 """Exponent of the load with which the distance of the spike from the exit, and the length of the constriction, shrink,
 in units of the exit's abscissa."""

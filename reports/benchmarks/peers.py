@@ -21,20 +21,12 @@ from typing import Any
 import numpy as np
 
 from bem.benchmarks.contact_cases import MEAN_PRESSURE, PERIODIC, UNIT, common_residual, rough_gap
-from bem.benchmarks.measure import THREAD_VARIABLES, Point, measure_apart, named_failure
+from bem.benchmarks.measure import THREAD_VARIABLES, Point, named_failure
 from bem.errors import InputError
 from bem.grid import FloatArray
+from reports.benchmarks.point import measure_beside
 
 PACKAGES = ("tamaas", "ContactMechanics", "SurfaceTopography", "aspher", "numpy", "scipy")
-GOALS = {
-    ("tamaas", 512): 60.0,
-    ("tamaas", 1024): 100.0,
-    ("aspher", 1024): 15.0,
-    ("tamaas", 2048): 200.0,
-    ("aspher", 2048): 20.0,
-}
-"""How many times faster bem is meant to be, at equal residual on one thread."""
-
 TIMER = """
 import json, sys, time, numpy as np
 folder, pressure, tolerance = sys.argv[1], float(sys.argv[2]), float(sys.argv[3])
@@ -233,7 +225,7 @@ def compare_with_peers(
             row = run_peer(python, peer, cells, repeats, limit)
             for digits in range(2, 12):
                 if digits not in own:
-                    own[digits] = measure_apart("peer-tolerance", cells + digits / 100, 1, max(3, repeats))
+                    own[digits] = measure_beside("peer-tolerance", cells + digits / 100, 1, max(3, repeats))
                 if own[digits].errors["complementarity"] <= row["complementarity"]:
                     break
             else:

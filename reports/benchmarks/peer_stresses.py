@@ -6,7 +6,7 @@ on such a grid, then Hooke's law; equal depths from the surface on, nothing is k
 surface xy and xz of the wave of two cells along x, whose values at the points are a matter of definition, are not
 bem's, which are none. slippy: influence coefficients of pressures constant on cells of a free grid, as bem there, which
 its convolution keeps; along axes that are exchanged. ContactMechanics and ASPHER have no stresses below the surface.
-Verified in tests/benchmarks/test_beside_peers.py.
+Verified in tests/reports/test_beside_peers.py.
 """
 
 from __future__ import annotations
@@ -17,14 +17,15 @@ from pathlib import Path
 
 import numpy as np
 
-from bem.benchmarks.beside import StressBeside
 from bem.benchmarks.contact_cases import POISSON, UNIT
-from bem.benchmarks.measure import Point, measure_apart, named_failure
-from bem.benchmarks.peer_cases import DEEPEST, ball_depths, ball_grid, ball_pressure, exact_error, highest_mises
-from bem.benchmarks.peer_curves import coarsest
-from bem.benchmarks.peers import PeerRun, environment, run_script
+from bem.benchmarks.measure import Point, named_failure
 from bem.errors import InputError
 from bem.grid import FloatArray
+from reports.benchmarks.beside import StressBeside
+from reports.benchmarks.peer_cases import DEEPEST, ball_depths, ball_grid, ball_pressure, exact_error, highest_mises
+from reports.benchmarks.peer_curves import coarsest
+from reports.benchmarks.peers import PeerRun, environment, run_script
+from reports.benchmarks.point import measure_beside
 
 SIZES, QUICK = (128, 256), (64,)
 AXES = {"tamaas": "periodic", "slippy": "free"}
@@ -112,7 +113,7 @@ def stresses_beside(
     @functools.cache
     def bem(case: str, cells: int) -> Point:
         say(f"{case}: {cells} cells a side")
-        return measure_apart(case, cells, 1, max(3, repeats))
+        return measure_beside(case, cells, 1, max(3, repeats))
 
     for peer, python in pythons.items():
         for cells in QUICK if quick else SIZES:

@@ -2,7 +2,7 @@
 
 The ball's pressure is known, so are its stresses: alone (Hamilton), and in a square array of equal balls, whose Fourier
 series is summed here from the ball's transform and the stresses of a pressure wave, by nothing that solvers use.
-Verified in tests/benchmarks/test_beside_peers.py.
+Verified in tests/reports/test_beside_peers.py.
 """
 
 from __future__ import annotations
@@ -12,7 +12,17 @@ import functools
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.benchmarks.contact_cases import FREE, PERIODIC, POISSON, UNIT, common_residual, deformed_gap, solve_curve
+from bem.benchmarks.cases import case_of_cells
+from bem.benchmarks.contact_cases import (
+    FREE,
+    PERIODIC,
+    POISSON,
+    UNIT,
+    common_residual,
+    deformed_gap,
+    rough,
+    solve_curve,
+)
 from bem.benchmarks.measure import Outcome, Timed
 from bem.benchmarks.physical_cases import rough_surface, size_and_digits
 from bem.contact import ContactSolution
@@ -24,6 +34,12 @@ RADIUS, DEEPEST = 0.25, 0.5
 AXES = {"periodic": PERIODIC, "free": FREE}
 _SERIES = 256
 """Points a side that the series is summed on: e^(-kz) is 1e-21 for the last wave at the shallowest depth judged."""
+
+
+def peer_tolerance(code: float) -> Timed:
+    """Return the periodic rough contact of a size and tolerance given as cells + digits / 100."""
+    n, digits = size_and_digits(code)
+    return rough(n, tolerance=10.0**-digits)
 
 
 def load_area(code: float) -> Timed:
@@ -176,3 +192,18 @@ def highest_mises(axes: str) -> float:
 
     found = minimize_scalar(lambda depth: -below(depth), bounds=(0.3 * RADIUS, 0.8 * RADIUS), method="bounded")
     return float(-found.fun)
+
+
+PEER_CASES = {
+    "peer-tolerance": case_of_cells("peer-tolerance", "Beside peers", peer_tolerance, warm_size=64.02),
+    "peer-curve": case_of_cells("peer-curve", "Load-area curve beside peers", load_area, warm_size=64.02),
+} | {
+    name: case_of_cells(name, "Stresses beside peers", functools.partial(prepare, axes=axes, **more), warm_size=32)
+    for axes in AXES
+    for name, prepare, more in (
+        (f"peer-stress-{axes}", ball_stress, {"kept": False}),
+        (f"peer-stress-{axes}-kept", ball_stress, {"kept": True}),
+        (f"peer-mises-{axes}", ball_mises, {}),
+    )
+}
+"""Cases that are measured beside other codes."""

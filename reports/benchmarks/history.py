@@ -1,116 +1,69 @@
-"""Runs of the benchmarks kept in one JSON file, appended to, and two of them compared."""
+"""History of benchmark runs: kept in one JSON file, appended to, and two of them compared."""
 
 from __future__ import annotations
 
 import json
-import os
-import platform
 import subprocess
 from collections.abc import Sequence
-from dataclasses import asdict, dataclass, field
-from datetime import UTC, datetime
-from importlib.metadata import PackageNotFoundError, version
+from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-import bem
 from bem.arguments import named
-from bem.benchmarks.beside import CurveBeside, StressBeside, beside_of
 from bem.benchmarks.floor import Floor
 from bem.benchmarks.measure import Point
+from bem.benchmarks.record import FORMAT, Run, write_runs
 from bem.errors import InputError, ResultsError
-from bem.results.atomic import replacing
+from reports.benchmarks.beside import CurveBeside, StressBeside, beside_of
 
-FORMAT = "bem-benchmarks 1"
-INTERRUPTED = "interrupted"
-"""Among the failures of a run: where it was when it was interrupted."""
-PACKAGES = ("bem", "numpy", "scipy", "pyfftw", "numba")
+HERE = Path(__file__).resolve().parents[2]
 
 
 @dataclass(frozen=True)
-class Run:
-    """One run: what was measured, on what, at which commit. `peers` : rows of `bem.benchmarks.peers`; runs of before
-    have neither curves nor stresses beside other codes."""
+class StoredRun(Run):
+    """A run with its commit and with what other codes did in it.
 
-    commit: str
-    date: str
-    machine: dict[str, str]
-    versions: dict[str, str]
-    points: tuple[Point, ...]
-    floor: Floor | None = None
+    commit : short hash of the source tree. peers : rows of `reports.benchmarks.peers`. peer_curves, peer_stresses :
+    empty in runs that did not measure them.
+    """
+
+    commit: str = ""
     peers: tuple[dict[str, Any], ...] = ()
-    failures: dict[str, str] = field(default_factory=dict)
     peer_curves: tuple[CurveBeside, ...] = ()
     peer_stresses: tuple[StressBeside, ...] = ()
 
 
-def present_commit() -> str:
-    """Short hash of the source tree's commit, "+" behind it where files differ from it; "" outside of a tree."""
-    here = Path(__file__).resolve().parent
-
-    def git(*arguments: str) -> str:
-        try:
-            done = subprocess.run(["git", *arguments], cwd=here, capture_output=True, text=True, timeout=20, check=True)
-        except (OSError, subprocess.SubprocessError):
-            return ""
-        return done.stdout.strip()
-
-    commit = git("rev-parse", "--short=10", "HEAD")
-    return commit + (
-        "+" if commit and git("status", "--porcelain", "--untracked-files=no", "--", here.parent.as_posix()) else ""
-    )
-
-
-def _version(package: str) -> str:
-    if package == "bem":  # the distribution has another name
-        return str(bem.__version__)
-    try:
-        return version(package)
-    except PackageNotFoundError:
-        return "unknown"
-
-
-def _processor() -> str:
-    try:
-        for line in Path("/proc/cpuinfo").read_text().splitlines():
-            if line.startswith("model name"):
-                return line.partition(":")[2].strip()
-    except OSError:
-        pass
-    return platform.processor() or platform.machine()
-
-
-def new_run(
-    points: Sequence[Point],
-    floor: Floor | None = None,
+def stored_run(
+    run: Run,
     peers: Sequence[dict[str, Any]] = (),
-    failures: dict[str, str] | None = None,
     curves: Sequence[CurveBeside] = (),
     stresses: Sequence[StressBeside] = (),
-) -> Run:
-    """A run of now, here."""
-    load = os.getloadavg()[0] if hasattr(os, "getloadavg") else float("nan")
-    return Run(
+) -> StoredRun:
+    """Return the run at the present commit, with what other codes did."""
+    return StoredRun(
+        **vars(run),
         commit=present_commit(),
-        date=datetime.now(UTC).isoformat(timespec="seconds"),
-        machine={
-            "processor": _processor(),
-            "cores": str(os.cpu_count()),
-            "system": f"{platform.system()} {platform.machine()}",
-            "python": platform.python_version(),
-            "load average at the end": f"{load:.1f}",
-        },
-        versions={name: _version(name) for name in PACKAGES},
-        points=tuple(points),
-        floor=floor,
         peers=tuple(peers),
-        failures=failures or {},
         peer_curves=tuple(curves),
         peer_stresses=tuple(stresses),
     )
 
 
-def read_history(path: Path) -> list[Run]:
+def present_commit() -> str:
+    """Return the short hash of the source tree's commit, with "+" if files of bem differ; "" outside of a tree."""
+
+    def git(*arguments: str) -> str:
+        try:
+            done = subprocess.run(["git", *arguments], cwd=HERE, capture_output=True, text=True, timeout=20, check=True)
+        except (OSError, subprocess.SubprocessError):
+            return ""
+        return done.stdout.strip()
+
+    commit = git("rev-parse", "--short=10", "HEAD")
+    return commit + ("+" if commit and git("status", "--porcelain", "--untracked-files=no", "--", "bem") else "")
+
+
+def read_history(path: Path) -> list[StoredRun]:
     """All runs of a file, oldest first; none where there is no file.
 
     Raises
@@ -126,18 +79,18 @@ def read_history(path: Path) -> list[Run]:
         return [_run_of(item) for item in data["runs"]]
     except (OSError, ValueError, KeyError, TypeError) as error:
         raise ResultsError(
-            f"{path} is not a history of benchmarks ({error}); allowed: a file that bem bench wrote"
+            f"{path} is not a history of benchmarks ({error}); allowed: a file of python -m reports.benchmarks"
         ) from None
 
 
-def _run_of(data: dict[str, Any]) -> Run:
-    return Run(
+def _run_of(data: dict[str, Any]) -> StoredRun:
+    return StoredRun(
         **(
             data
             | {
                 "points": tuple(Point.of(item) for item in data["points"]),
                 "floor": None if data["floor"] is None else Floor(**data["floor"]),
-                "peers": tuple(data["peers"]),
+                "peers": tuple(data.get("peers", ())),
                 "peer_curves": tuple(beside_of(CurveBeside, item) for item in data.get("peer_curves", ())),
                 "peer_stresses": tuple(beside_of(StressBeside, item) for item in data.get("peer_stresses", ())),
             }
@@ -145,21 +98,17 @@ def _run_of(data: dict[str, Any]) -> Run:
     )
 
 
-def append_run(path: Path, run: Run) -> None:
+def append_run(path: Path, run: StoredRun) -> None:
     """Add a run to a file, which is replaced whole or not at all.
 
     Raises
     ------
     ResultsError : the file is no history, or cannot be written; what was there before is untouched.
     """
-    runs = [*read_history(path), run]
-    text = json.dumps({"format": FORMAT, "runs": [asdict(item) for item in runs]}, indent=1)
-    with replacing(path) as temporary:
-        path.parent.mkdir(parents=True, exist_ok=True)
-        temporary.write_text(text + "\n")
+    write_runs(path, [*read_history(path), run])
 
 
-def find_run(runs: Sequence[Run], commit: str) -> Run:
+def find_run(runs: Sequence[StoredRun], commit: str) -> StoredRun:
     """The latest run at a commit (its first letters suffice), or counted from the end: "-1" is the last.
 
     Raises

@@ -10,8 +10,14 @@ import numpy as np
 import pytest
 
 from bem import Grid, InputError, displacement_operator, solve_contact
-from bem.benchmarks import peer_curves, peer_stresses, peers
-from bem.benchmarks.beside import (
+from bem.benchmarks.contact_cases import LOADS, POISSON, UNIT
+from bem.benchmarks.measure import Point
+from bem.benchmarks.record import new_run
+from bem.reference_solutions.hertz import sphere_contact
+from bem.stress import subsurface_stress, von_mises
+from reports import beside as page
+from reports.benchmarks import peer_curves, peer_stresses, peers
+from reports.benchmarks.beside import (
     CURVE_HEADERS,
     MISES_HEADERS,
     STRESS_HEADERS,
@@ -21,12 +27,10 @@ from bem.benchmarks.beside import (
     mises_rows,
     stress_rows,
 )
-from bem.benchmarks.cases import INNER
-from bem.benchmarks.contact_cases import LOADS, POISSON, UNIT
-from bem.benchmarks.history import append_run, new_run, read_history
-from bem.benchmarks.measure import Point
-from bem.benchmarks.peer_cases import (
+from reports.benchmarks.history import append_run, read_history, stored_run
+from reports.benchmarks.peer_cases import (
     AXES,
+    PEER_CASES,
     RADIUS,
     ball_depths,
     ball_grid,
@@ -36,10 +40,7 @@ from bem.benchmarks.peer_cases import (
     highest_mises,
     load_area,
 )
-from bem.benchmarks.run import run_cases
-from bem.reference_solutions.hertz import sphere_contact
-from bem.stress import subsurface_stress, von_mises
-from reports import beside as page
+from reports.benchmarks.run import add_peers
 
 pytestmark = pytest.mark.internal
 
@@ -103,7 +104,7 @@ def test_the_highest_stress_of_a_ball_is_hertzs():
 
 OURS = """
 from bem.benchmarks.contact_cases import UNIT
-from bem.benchmarks.peer_cases import ball_depths, ball_grid
+from reports.benchmarks.peer_cases import ball_depths, ball_grid
 from bem.stress import summarise_stress, subsurface_stress
 axes = "{axes}"
 def stresses():
@@ -124,7 +125,7 @@ def stub(monkeypatch, change="", **times):
         asked.append((case, cells))
         return point(case, cpu=cells / 1000, error=10.0 / cells**2)
 
-    monkeypatch.setattr(peer_stresses, "measure_apart", measured)
+    monkeypatch.setattr(peer_stresses, "measure_beside", measured)
     return asked
 
 
@@ -190,7 +191,7 @@ def test_a_peers_curve_is_judged_by_its_pressures_and_met_twice(monkeypatch):
             known[cells, digits] = dataclasses.replace(point(), errors=errors, values=values)
         return known[cells, digits]
 
-    monkeypatch.setattr(peer_curves, "measure_apart", measured)
+    monkeypatch.setattr(peer_curves, "measure_beside", measured)
     monkeypatch.setattr(peer_curves, "SCRIPTS", {("other", "as bem"): CURVE_STUB, ("none", "at all"): "exit(3)"})
     monkeypatch.setattr(peer_curves, "QUICK", (32, 64))
     for tolerances in ("TOLERANCES", "AREA_TOLERANCES"):
@@ -270,7 +271,7 @@ def test_the_limit_of_areas_follows_from_two_grids():
 
 def test_a_run_keeps_what_is_beside_and_older_runs_have_none(tmp_path):
     path = tmp_path / "history.json"
-    append_run(path, new_run([], curves=[CURVE], stresses=[STRESS]))
+    append_run(path, stored_run(new_run([]), curves=[CURVE], stresses=[STRESS]))
     (run,) = read_history(path)
     assert run.peer_curves == (CURVE,)
     assert run.peer_stresses == (STRESS,)
@@ -296,16 +297,17 @@ def test_rows_have_their_headers_and_the_page_shows_them():
     assert "not reached" in curve_rows([nowhere])[0]
     assert "not reached" in mises_rows([hardly])[0]
     assert "nothing" in stress_rows([hardly])[0]
-    body = "".join(section.body for section in page.sections(new_run([], curves=[CURVE], stresses=[STRESS])))
+    body = "".join(
+        section.body for section in page.sections(stored_run(new_run([]), curves=[CURVE], stresses=[STRESS]))
+    )
     assert "from nothing" in body
     assert body.count("<table") == 3
-    missing = "".join(section.body for section in page.sections(new_run([])))
+    missing = "".join(section.body for section in page.sections(stored_run(new_run([]))))
     assert missing.count("Not in the stored run") == 2
 
 
 def test_a_run_with_peers_has_contacts_curves_and_stresses_in_one(monkeypatch, tmp_path):
-    monkeypatch.setattr("bem.benchmarks.run.environment", lambda folder, say: HERE)
-    monkeypatch.setattr("bem.benchmarks.run.compare_with_peers", lambda *given: given[4].append({"peer": "other"}))
+    monkeypatch.setattr("reports.benchmarks.run.compare_with_peers", lambda *given: given[4].append({"peer": "other"}))
     monkeypatch.setattr(peer_curves, "curves_beside", lambda *given: given[4].append(CURVE))
     monkeypatch.setattr(peer_stresses, "stresses_beside", lambda *given: given[4].append(STRESS))
 
@@ -313,7 +315,7 @@ def test_a_run_with_peers_has_contacts_curves_and_stresses_in_one(monkeypatch, t
         raise InputError("no such package")
 
     monkeypatch.setattr(peer_stresses, "environment", refuse)
-    run = run_cases([], with_floor=False, peers=(tmp_path, (64,)))
+    run = add_peers(new_run([]), tmp_path, HERE, [64], quick=True, repeats=1, say=said)
     assert [row["peer"] for row in run.peers] == ["other"]
     assert (run.peer_curves, run.peer_stresses) == ((CURVE,), (STRESS,))
     assert run.failures == {"slippy": "no such package"}  # an environment that cannot be made ends nothing
@@ -336,6 +338,6 @@ def test_packages_that_stand_alone_are_installed_without_what_they_ask_for(monke
 
 def test_all_that_is_measured_beside_peers_is_a_case():
     for axes in set(peer_stresses.AXES.values()):
-        assert {f"peer-stress-{axes}", f"peer-stress-{axes}-kept", f"peer-mises-{axes}"} <= set(INNER)
-        timed = INNER[f"peer-mises-{axes}"].prepare(64)
+        assert {f"peer-stress-{axes}", f"peer-stress-{axes}-kept", f"peer-mises-{axes}"} <= set(PEER_CASES)
+        timed = PEER_CASES[f"peer-mises-{axes}"].prepare(64)
         assert timed.judge(timed.solve()).errors["mises_error"] < 0.01

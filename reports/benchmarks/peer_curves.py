@@ -7,7 +7,7 @@ from coarser grids, as it is meant (no start is taken there), and on the grid al
 At equal residual all solve to the tolerances of single contacts, at equal error of the area to looser ones, as bem
 does. A peer's area is its counted cells less what their steps along the edge add (Yastrebov, Anciaux and Molinari,
 Tribol. Int. 114 (2017) 161), as tamaas has it; bem's edge lies inside of cells. Verified in
-tests/benchmarks/test_beside_peers.py.
+tests/reports/test_beside_peers.py.
 """
 
 from __future__ import annotations
@@ -19,14 +19,15 @@ from pathlib import Path
 
 import numpy as np
 
-from bem.benchmarks.beside import CurveBeside
 from bem.benchmarks.contact_cases import LOADS, PERIODIC, UNIT, common_residual, deformed_gap
-from bem.benchmarks.measure import Point, measure_apart, named_failure
-from bem.benchmarks.peer_cases import area_and_gap
-from bem.benchmarks.peers import TOLERANCES, PeerRun, run_script
+from bem.benchmarks.measure import Point, named_failure
 from bem.benchmarks.physical_cases import rough_surface
 from bem.convolution import displacement_operator
 from bem.grid import FloatArray, Grid
+from reports.benchmarks.beside import CurveBeside
+from reports.benchmarks.peer_cases import area_and_gap
+from reports.benchmarks.peers import TOLERANCES, PeerRun, run_script
+from reports.benchmarks.point import measure_beside
 
 SIZES, QUICK = (256, 512), (128,)
 LIMIT, QUICK_LIMIT = (512, 1024), (256, 512)
@@ -110,7 +111,7 @@ def curves_beside(
     def bem(cells: int, digits: int) -> Point:
         if (cells, digits) not in own:
             say(f"load-area curve, {cells} cells a side, {digits} digits")
-            own[cells, digits] = measure_apart("peer-curve", cells + digits / 100, 1, repeats if cells < 512 else 1)
+            own[cells, digits] = measure_beside("peer-curve", cells + digits / 100, 1, repeats if cells < 512 else 1)
         return own[cells, digits]
 
     with named_failure(failures, what := "load-area curve"):

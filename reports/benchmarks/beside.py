@@ -1,7 +1,7 @@
 """What stands beside another code in a run of the benchmarks: load-area curves and stresses, as records and as words.
 
 Knows no solver and runs nothing: `peer_curves` and `peer_stresses` measure. Times are processor times [s].
-Verified in tests/benchmarks/test_beside_peers.py.
+Verified in tests/reports/test_beside_peers.py.
 """
 
 from __future__ import annotations

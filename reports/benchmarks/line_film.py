@@ -1,6 +1,6 @@
 """Table of line-contact films over Moes' M and L: converged values, observed order, error against points, the fits.
 
-`python -m bem.benchmarks.line_film TABLE.csv [FIGURE.png]` makes the committed table again.
+`python -m reports.benchmarks.line_film TABLE.csv [FIGURE.png]` makes the committed table again.
 """
 
 from __future__ import annotations
