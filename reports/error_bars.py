@@ -54,6 +54,11 @@ TABLES = {
     "friction, film of a line with heat": "mixed.HOT_FILM_RULES",
     "wear": "wear.RULES",
     "running-in": "wear.MIXED_RULES",
+    "life, cells": "life.GRID_RULES",
+    "life, positions": "life.POSITION_RULES",
+    "life, scatter of positions": "life.SCATTER_RULES",
+    "life, sampled surfaces": "life.SAMPLING_RULES",
+    "life, film": "life.POINT_RULES",
     "tribofilm": "tribofilm.RULES",
     "particles in maps": "particles.RULES",
 }

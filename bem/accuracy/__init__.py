@@ -38,6 +38,7 @@ if TYPE_CHECKING:
     from bem.accuracy.contact import contact_bars, counted_figures, figures_of
     from bem.accuracy.film import FilmCase, OtherFilm, film_bars, film_figures, solve_coarser_film
     from bem.accuracy.flow import flow_bars
+    from bem.accuracy.life import OtherLives, jump_bars, life_bars, life_figures
     from bem.accuracy.march import MarchCase, march_bars, march_figures
     from bem.accuracy.mixed import CoarserShares, MixedCase, mixed_bars, mixed_figures, solve_coarser_mixed
     from bem.accuracy.particles import map_figures, particle_bars
@@ -56,6 +57,7 @@ __all__ = [
     "MarchCase",
     "MixedCase",
     "OtherFilm",
+    "OtherLives",
     "RubbingCase",
     "TractionCase",
     "TribofilmCase",
@@ -68,6 +70,9 @@ __all__ = [
     "film_figures",
     "flow_bars",
     "history_figures",
+    "jump_bars",
+    "life_bars",
+    "life_figures",
     "map_figures",
     "march_bars",
     "march_figures",
@@ -96,6 +101,7 @@ __getattr__ = loader(
         "contact": ["contact_bars", "counted_figures", "figures_of"],
         "film": ["FilmCase", "OtherFilm", "film_bars", "film_figures", "solve_coarser_film"],
         "flow": ["flow_bars"],
+        "life": ["OtherLives", "jump_bars", "life_bars", "life_figures"],
         "march": ["MarchCase", "march_bars", "march_figures"],
         "mixed": ["CoarserShares", "MixedCase", "mixed_bars", "mixed_figures", "solve_coarser_mixed"],
         "particles": ["map_figures", "particle_bars"],

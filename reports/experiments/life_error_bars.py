@@ -14,9 +14,9 @@ from typing import Any
 
 import numpy as np
 
+from bem.accuracy.life import life_figures
 from bem.errors import BemError
 from bem.kinds.running_in_life import lives
-from bem.life.error_bars import life_figures
 from bem.scenes import build, wearing
 from bem.scenes.axes import with_keys
 from bem.scenes.context import PlainContext

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 
 from bem import Body, Grid, InputError, Material, generate_surface
-from bem.life.error_bars import POSITIONS, OtherLives, errors_of_jumps, fewer_positions, life_bars, two_rounds
+from bem.accuracy.life import POSITIONS, OtherLives, errors_of_jumps, fewer_positions, life_bars, two_rounds
 from bem.life.march import LifeState, advance, run_life
 from bem.life.passes import Passing
 from bem.life.surfaces import GrowingFilm, LifeCase, solve_round
@@ -114,6 +114,10 @@ def test_bars_add_up_what_jumps_positions_cells_and_films_leave_open():
     assert apart[POSITIONS]["contact_area_fraction"] == pytest.approx(max(0.75 * missed, scatter), rel=1e-12)
     # heights need no other positions
     assert apart[POSITIONS]["Sq_final"] == same.parts[POSITIONS]["Sq_final"] > 0
+    assert apart["film points"]["contact_share_final"] == pytest.approx(0.1 * rounds[1]["contact_share"], rel=1e-9)
+    finer = life_bars(end, OtherLives(one.passing, end, other, rounds, halved, ratio=2.0)).parts["film points"]
+    for name, error in apart["film points"].items():  # second order: half of the points would differ four times as much
+        assert finer[name] == pytest.approx(4 * error, rel=1e-9, abs=0), name
     # a tenth less of the load in contact is a tenth less of what wears
     assert apart["film points"]["worn_depth"] == pytest.approx(0.1 * end.over("lower_depth")[-1], rel=1e-9, abs=0)
     assert fewer_positions(8) == 4

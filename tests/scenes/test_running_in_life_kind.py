@@ -161,6 +161,12 @@ def test_a_body_that_does_not_wear_has_no_error_and_needs_no_hardness():
         run(LIFE | {"upper": {"material": soft}, "wear": one | {"wears": "both"}})
 
 
+def test_films_of_the_fewest_points_are_compared_with_films_of_twice_as_many():
+    scene = LIFE | {"sharing": {"film_points": 110}, "life": SHORT | {"coarser_lives": True}}
+    points = run(scene)[0].error_parts["film points"]
+    assert points["minimum_film"] > 0 < points["friction_final"]
+
+
 def test_a_distance_that_the_speeds_do_not_make_is_said():
     law = LIFE["wear"]["law"] | {"distance": "54 um"}
     scene = LIFE | {"wear": LIFE["wear"] | {"law": law}, "life": SHORT | {"count": 10, "first_step": 10.0}}

@@ -113,7 +113,9 @@ def end_of(scene: Any, heights: tuple[FloatArray, FloatArray]) -> LifeState:
 
 def bars(scene: Any, initial: tuple[FloatArray, FloatArray], end: LifeState) -> ErrorBars:
     """Of a life from these heights (lower, upper) [m] to its end."""
-    from bem.life.error_bars import OtherLives, fewer_positions, life_bars, two_rounds
+    from bem.accuracy.coarsened import other_points
+    from bem.accuracy.film import FEWEST
+    from bem.accuracy.life import OtherLives, fewer_positions, life_bars, two_rounds
 
     def half(positions: int) -> LifeState | None:
         keys = {"wear.positions": positions, "particles": None, "fatigue": None}
@@ -129,13 +131,10 @@ def bars(scene: Any, initial: tuple[FloatArray, FloatArray], end: LifeState) -> 
     coarser, fewer = half(positions), half(fewer_positions(positions))
     if coarser is None or fewer is None:
         return life_bars(end, None)
-    # halved where films were solved for, too: not below the fewest points
-    points = max(scene.sharing.film_points // 2, 100)
-    rounds = [
-        two_rounds(_alone(with_keys(scene, {"sharing.film_points": count})), end)
-        for count in (scene.sharing.film_points, points)
-    ]
-    return life_bars(end, OtherLives(_alone(scene).passing, coarser, fewer, rounds[0], rounds[1]))
+    points = scene.sharing.film_points
+    other = other_points(points, FEWEST)
+    rounds = [two_rounds(_alone(with_keys(scene, {"sharing.film_points": count})), end) for count in (points, other)]
+    return life_bars(end, OtherLives(_alone(scene).passing, coarser, fewer, rounds[0], rounds[1], other / points))
 
 
 def _alone(scene: Any) -> LifeCase:

@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 def run(scene: RunningInLifeScene, context: Context) -> RunningInLifeRecord:
     """One life."""
-    from bem.life.error_bars import jump_bars
+    from bem.accuracy import jump_bars
     from bem.life.march import initial_state, run_life
 
     setup = scene.setup(**scene.sharing.model_dump())
@@ -84,7 +84,7 @@ def _tell(scene: RunningInLifeScene, context: Context, setup: MixedSetup, film_n
 
 def _record(scene: RunningInLifeScene, setup: MixedSetup, end: LifeState, monitors: Monitors) -> RunningInLifeRecord:
     """The figures of a life."""
-    from bem.life.error_bars import life_figures
+    from bem.accuracy import life_figures
 
     cycle, at = scene.life.reported(), end.over("cycles")
     over: dict[str, Any] = {name: np.interp(cycle, at, end.over(column)) for name, column in _COLUMNS.items()}
