@@ -19,6 +19,7 @@ from bem.friction.smooth import LineContact
 from bem.grid import FloatArray
 from bem.lubrication import FilmSolution, PointFilmSolution
 from bem.lubrication.checks import THINNEST_FILM
+from bem.lubrication.inlet_heating import hertz_over_modulus, inlet_heating_factor
 from bem.lubrication.line.case import MOES_LOADS, LineCase, load_range
 from bem.lubrication.line.problem import line_scales
 from bem.lubrication.line.state import interpolate_to_mesh, without_factors
@@ -32,11 +33,13 @@ MOLECULAR_LOAD = 1e4
 LEAST_FILM = 0.5 * THINNEST_FILM
 """Smallest film thickness [m] above `MOLECULAR_LOAD`: half of the thickness below which the film model is not valid."""
 HOT_FRACTION = 0.9
-"""Fraction of the largest load that is used with heat.
-
-M goes with the inverse root of the viscosity, so that heating of the inlet may take a fifth of the viscosity. A film
-whose heating takes more may be beyond the largest M; it is then refused with an `InputError`.
-"""
+"""Fraction of the largest load that is used with heat; smaller where inlet heating takes more than a fifth of the
+viscosity (`_hot_fraction`)."""
+_LEAST_EXPONENT = 0.6
+"""Smallest exponent of the film in the viscosity, that of elastic bodies with isoviscous oil: the oil of a film thinned
+by a factor is at most as thin as factor^(1/0.6)."""
+_SEARCHED_BEYOND = 0.97
+"""Margin for oils that the search for the thinned oil tries beyond its result."""
 COARSE_FILM = 1e-3
 """Relative error of films on `BALANCE_POINTS` nodes; the balance is not solved more accurately with them."""
 TOLERANCE, COARSE_TOLERANCE = 1e-8, 1e-5
@@ -194,14 +197,39 @@ def largest_film_load(contact: LineContact, speeds: Sequence[float]) -> float:
 
     The limit is one of Moes' load parameter M, `MOLECULAR_LOAD`. Above it films are solved as long as their asymptotes
     are thicker than `LEAST_FILM`. M goes with the load over the root of the modulus; where the modulus itself goes with
-    the load (`OilVolume.LOADED`), M goes with the root of the load.
+    the load (`OilVolume.LOADED`), M goes with the root of the load. With heat the oil is that which inlet heating
+    leaves, so that a film too hot for a load is a film model that ends, at this speed alone.
     """
     largest = contact.width * load_range(contact.radius, contact.contact_modulus, speeds, contact.lubricant)[1]
     if math.isfinite(largest):
         largest *= min(max(_load_of_least_film(contact, speeds), MOLECULAR_LOAD) / MOES_LOADS[1], 1.0)
-    if contact.heat is not None:
-        largest *= HOT_FRACTION
+    if contact.heat is None or math.isinf(largest):
+        return _load_on_modulus(contact, largest)
+    # the fraction falls with the load: at the smaller one of both it is at least as large
+    fraction = _hot_fraction(contact, speeds, _load_on_modulus(contact, HOT_FRACTION * largest))
+    return _load_on_modulus(contact, min(HOT_FRACTION, fraction) * largest)
+
+
+def _load_on_modulus(contact: LineContact, largest: float) -> float:
+    """Return the load [N] whose M is that of `largest` [N] on the unscaled modulus; see `LineContact.film_modulus`."""
     return largest if contact.deforming_load is None else largest**2 / contact.deforming_load * (1 - 1e-9)
+
+
+def _hot_fraction(contact: LineContact, speeds: Sequence[float], load: float) -> float:
+    """Return the fraction of the largest load that inlet heating leaves to a film under a load [N].
+
+    M goes with the inverse root of the viscosity. The thinned oil is estimated from below, so that the search for it
+    stays within the largest M.
+    """
+    oil = contact.lubricant
+    assert oil.temperature_viscosity is not None
+    assert oil.thermal_conductivity is not None
+    first, second = speeds
+    hertz = hertz_over_modulus(load / contact.width, contact.radius, contact.film_modulus(load))
+    inlet = inlet_heating_factor(
+        oil.viscosity, oil.temperature_viscosity, oil.thermal_conductivity, (float(first), float(second)), hertz
+    )
+    return _SEARCHED_BEYOND * inlet.factor ** (0.5 / _LEAST_EXPONENT)
 
 
 def _load_of_least_film(contact: LineContact, speeds: Sequence[float]) -> float:

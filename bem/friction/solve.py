@@ -31,6 +31,7 @@ from bem.friction.solution import MixedSolution
 from bem.grid import FloatArray, Grid
 from bem.lubrication import FilmSolution, Lubricant, PointFilmSolution
 from bem.lubrication.flow_factors import WallFactors
+from bem.lubrication.line.case import check_entrainment
 from bem.lubrication.line.state import without_factors
 from bem.lubrication.supply import Supply
 from bem.materials import Body
@@ -204,12 +205,15 @@ def stribeck_curve(speeds: Sequence[float | Sequence[float]], **as_solve_mixed: 
 
     Raises
     ------
-    InputError : as `solve_mixed`; no speeds; an argument that `solve_mixed` does not have, or one missing.
+    InputError : as `solve_mixed`, for any of the speeds before the first one is solved; no speeds; an argument that
+        `solve_mixed` does not have, or one missing.
     """
     pairs = [(float(u), 0.0) if isinstance(u, (int, float, np.number)) else u for u in speeds]
     if not pairs:
         raise InputError("speeds: give at least one")
     _check_keywords(as_solve_mixed)
+    for pair in pairs:
+        check_entrainment(pair)
     initial, height = as_solve_mixed.pop("initial", None), as_solve_mixed.pop("height")
     setup = MixedSetup(**as_solve_mixed)
     curve: list[MixedSolution] = []

@@ -15,20 +15,23 @@ from bem import (
     Lubricant,
     Material,
     Status,
+    generate_surface,
     load_scene,
     solve_line_film,
     solve_mixed,
     stribeck_curve,
 )
 from bem.accuracy import MixedCase, mixed_bars, solve_coarser_mixed
+from bem.friction import line_film
 from bem.friction.balance import Regime
 from bem.friction.boundary import filled_part
 from bem.friction.setup import MixedSetup
 from bem.friction.solve import solve_setup
 from bem.heat.steady import surface_temperature
+from bem.lubrication.line import case as line_case
 from bem.lubrication.thermal import lumped
 from bem.notes import has_code
-from bem.notes.friction import OIL_COUNTED
+from bem.notes.friction import FILM_MODEL_ENDS, OIL_COUNTED
 from bem.notes.lubrication import HEAT_NOT_FOUND
 from bem.runs import run_scene
 
@@ -185,6 +188,49 @@ def test_a_curve_with_heat_costs_little_more():
     assert sum(one.contact_solves for one in warm) <= sum(one.contact_solves for one in cold) + 3
     temperatures = [one.contact_temperature for one in warm]
     assert temperatures == sorted(temperatures)
+
+
+@pytest.mark.internal
+def test_a_speed_at_which_inlet_heating_leaves_no_film_fails_alone(monkeypatch):
+    """A polymer at a third of the largest M with the oil as supplied, and beyond it with what 500 m/s leave of the oil,
+    were the largest M 1.5e4."""
+    for module in (line_case, line_film):
+        monkeypatch.setattr(module, "MOES_LOADS", (1e-5, 1.5e4))
+    thin, radius, modulus = Lubricant.of("ISO VG 10", temperature=373.15), 10e-3, 1e9
+    heat = {"thermal_conductivity": 0.3, "density": 1100.0, "heat_capacity": 1500.0}
+    polymer = Body(Material("polymer", youngs_modulus=1.68e9, poissons_ratio=0.4, **heat))
+    heavy = 5000 * math.sqrt(2 * modulus * radius * thin.viscosity * 100)
+    spacing = 3 * math.sqrt(4 * heavy * radius / math.pi / modulus) / 32
+    grid = Grid((32, 16), (spacing, spacing), periodic=(False, True))
+    case = {
+        "height": generate_surface(grid, rms_height=1e-6, seed=1, correlation_length=4 * spacing),
+        "grid": grid,
+        "bodies": (polymer, polymer),
+        "radius": radius,
+        "width": 1e-3,
+        "load": heavy * 1e-3,
+        "lubricant": thin,
+        "boundary_friction": 0.1,
+        "film_points": 200,
+        "thermal": "lumped",
+        "tolerance": 1e-3,
+        "contact_tolerance": 1e-4,
+        "oil_volume": "patch",
+    }
+    slow, fast = (75.0, 25.0), (750.0, 250.0)
+    first, hottest, again = stribeck_curve([slow, fast, slow], **case)
+    assert (first.status, hottest.status, again.status) == (Status.CONVERGED, Status.INFEASIBLE, Status.CONVERGED)
+    assert has_code(hottest.notes, FILM_MODEL_ENDS, reason="balance")
+    assert hottest.film_load < case["load"]
+    assert first.friction == solve_mixed(**case, speeds=slow).friction
+    assert again.film_load == pytest.approx(first.film_load, rel=1e-3)  # the balance's own tolerance
+    assert again.minimum_film == pytest.approx(first.minimum_film, rel=5e-3)
+
+
+def test_speeds_that_entrain_nothing_are_refused_before_any_work(monkeypatch):
+    monkeypatch.setattr("bem.friction.solve.solve_setup", lambda *_: pytest.fail("a speed was solved"))
+    with pytest.raises(InputError, match="entrain no oil"):
+        stribeck_curve([ROLLING, (1.0, -1.0)], **CASE)
 
 
 @pytest.mark.internal
