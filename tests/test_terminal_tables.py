@@ -4,7 +4,11 @@ import re
 
 import pytest
 
-from bem.cli._terminal import print_numbers, print_points, table
+from bem.cli._terminal import Terminal, print_numbers, print_points, print_text, show_warnings, table, wrapped
+from bem.plots.report import with_error
+from bem.plots.tables import figure_tables
+from bem.runs import run_scene
+from bem.scenes import get_kind, kind_names
 
 WIDTHS = [60, 80, 110]
 FIGURES = {f"some_long_name_of_figure_{i}_m_s": [10.0**-j * (i + 1.2345) for j in range(9)] for i in range(14)}
@@ -106,3 +110,83 @@ def test_a_sweep_prints_its_figures(capsys):
     assert capsys.readouterr().out.splitlines()[1].endswith("  0.1 ± 0.01")
     print_points({key: value if key == "over" else value[:1] for key, value in points.items()})
     assert "0.1 ± 0.01" in capsys.readouterr().out
+
+
+def whole_units(head):
+    """The unit at the end of a head, such as "(W/(m K))"; not "(under the whole load)"."""
+    return re.findall(r"\((?!under)(?:[^()]|\([^()]*\))*\)$", head)
+
+
+@pytest.mark.parametrize("width", [60, 80])
+@pytest.mark.parametrize("kind", kind_names())
+def test_records_of_all_kinds_are_shown_whole(shown, kind, width):
+    """Several cases: numbers with their errors stand on one line, units of heads too."""
+    names = get_kind(kind).headline
+    figures = {name: [10.0**-j * (i + 0.12345) for j in range(3)] for i, name in enumerate(names, 1)}
+    errors = {f"{name}_error": [0.0321 * value for value in values] for name, values in figures.items()}
+    summary = RUN | {"kind": kind} | figures | errors
+    text = shown(width, lambda: print_numbers(summary, names))
+    assert max(map(len, text.splitlines())) <= width
+    tables = figure_tables(summary, names, columns=1000)
+    assert sum(len(item.rows) for item in tables) >= 3
+    for item in tables:
+        for cell in (cell for row in item.rows for cell in row):
+            assert re.search(rf"(?<!\S){re.escape(cell)}(?!\S)", text), cell
+        for unit in (unit for head in item.head for unit in whole_units(head)):
+            assert unit in text
+
+
+@pytest.mark.parametrize("width", [60, 80])
+def test_the_record_of_a_run_is_shown_whole(shown, width, tmp_path):
+    done = run_scene("hertz-sphere", tmp_path / "run", settings=["grid.shape=16"], figures=False)
+    names = get_kind("contact").headline
+    text = shown(width, lambda: print_numbers(done.summary, names))
+    assert max(map(len, text.splitlines())) <= width
+    for name in (name for name in names if done.summary.get(name) is not None):
+        assert with_error(name, done.summary)[1] in text
+
+
+SENTENCE = "steel (E 207 GPa, hardness 7 GPa, heat 46.6 W/(m K)), alpha 20.6 1/GPa at 40 degC, friction 0.071 ± 0.0032"
+
+
+@pytest.mark.parametrize("width", range(24, 81, 7))
+def test_a_line_ends_neither_in_a_number_nor_before_its_unit_or_error(width):
+    lines = wrapped(SENTENCE, width, "  ").split("\n")
+    assert max(map(len, lines)) <= width
+    assert " ".join(line.strip() for line in lines) == SENTENCE
+    for part in ("207 GPa", "7 GPa", "46.6 W/(m K)", "20.6 1/GPa", "40 degC", "0.071 ± 0.0032"):
+        assert any(part in line for line in lines), part
+
+
+@pytest.mark.parametrize("width", [60, 80])
+def test_cells_and_heads_keep_numbers_with_units(shown, width):
+    rows = [("lower", SENTENCE, "1"), ("contact_area_fraction_error_residual", SENTENCE, "2")]
+    text = shown(width, lambda: table(("body", "what it is", "thermal conductivity (W/(m K))"), rows))
+    assert max(map(len, text.splitlines())) <= width
+    for part in ("7 GPa", "46.6 W/(m K)", "0.071 ± 0.0032"):
+        assert text.count(part) >= 2
+    assert "(W/(m K))" in text
+    assert re.search(r"contact_area_fraction_(error_)? ", text)  # a long name ends its line behind a mark
+
+
+@pytest.mark.parametrize("width", [60, 80])
+def test_notes_and_sentences_are_wrapped_on_a_terminal(shown, width, capsys, monkeypatch):
+    note = f"The film is thin. {SENTENCE}. Use more points."
+    text = shown(width, lambda: show_warnings([note, note + " Again."]))
+    assert max(map(len, text.splitlines())) <= width
+    assert sum(line.startswith("  - ") for line in text.splitlines()) == 2
+    text = shown(width, lambda: print_text(note))
+    assert flat(text).strip() == note
+    assert max(map(len, text.splitlines())) <= width
+    monkeypatch.setattr("sys.stderr.isatty", lambda: True)
+    monkeypatch.setenv("COLUMNS", str(width))
+    with Terminal() as terminal:
+        terminal.say(note)
+    said = capsys.readouterr().err
+    assert max(map(len, said.splitlines())) <= width
+    assert "0.071 ± 0.0032" in said
+
+
+def test_sentences_are_one_line_when_piped(capsys):
+    print_text(SENTENCE + SENTENCE)
+    assert capsys.readouterr().out == SENTENCE + SENTENCE + "\n"

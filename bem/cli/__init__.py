@@ -97,9 +97,11 @@ def main() -> None:
         with interrupts_as_they_are():
             build()(standalone_mode=True)
     except BemError as error:
+        from bem.cli._terminal import print_text
+
         lines = getattr(error, "messages", None) or str(error).splitlines()
         for line in lines[:_MOST_LINES]:
-            print(f"bem: {line}", file=sys.stderr)
+            print_text(f"bem: {line}", file=sys.stderr)
         if len(lines) > _MOST_LINES:
             print(f"bem: and {len(lines) - _MOST_LINES} more", file=sys.stderr)
         sys.exit(error.exit_code)

@@ -3,13 +3,14 @@
 from __future__ import annotations
 
 import re
+import shutil
 import sys
 import time
 from collections.abc import Hashable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, TextIO
 
 import typer
 
@@ -85,11 +86,14 @@ class Terminal:
         self.printed = True
 
     def say(self, text: str) -> None:
-        """A line on the error stream, above the bars."""
+        """Print a text on the error stream, above the bars."""
         if self._bars is not None:
-            self._bars.console.print(f"bem: {text}", markup=False, highlight=False)
+            width = self._bars.console.width
+            self._bars.console.print(
+                wrapped(f"bem: {text}", width, "  "), markup=False, highlight=False, soft_wrap=True
+            )
         else:
-            print(f"bem: {text}", file=sys.stderr)
+            print_text(f"bem: {text}", file=sys.stderr)
 
 
 @contextmanager
@@ -140,20 +144,78 @@ class Column:
     def of(cls, head: str, cells: Sequence[str], *, right: bool = False) -> Column:
         """The column with the widths that its texts need: heads and sentences may be wrapped, numbers not."""
         texts = [] if right else [cell for cell in cells if len(cell) > _LONG and not _NUMBER.match(cell)]
-        words = [min(len(word), _LONG) for text in texts for word in text.split()]
+        words = [word for text in (head, *texts) for word in _kept_together(text).split(" ")]
         whole = [len(cell) for cell in cells if cell not in texts]
-        longest = max((min(len(word), _LONG) for word in head.split()), default=0)
-        narrowest = max([longest, *words, *whole])
+        narrowest = max([0, *whole, *(len(word) if _KEPT in word else min(len(word), _LONG) for word in words)])
         return cls(head, tuple(cells), right, narrowest, max([len(head), narrowest, *map(len, texts)]))
 
 
 _LONG = 24
-"""Longer texts may be wrapped between words, and longer words inside."""
+"""Longer texts may be wrapped between words, and longer words after a mark (`_`, `/`)."""
+_UNIT = (
+    r"(?:[munpkMG\u00b5]?(?:m|s|g|N|Pa|W|J|B)|cm|[KMG]iB|K|h|min|rad|deg|degC|\u00b0C|%|1(?=/))(?:\^\d|[\u00b2\u00b3])?"
+)
+_UNITS = rf"{_UNIT}(?:[/ ]\(?{_UNIT}\)?)*"
+_WITH_UNIT = re.compile(rf"(?<=[\d)]) (?={_UNITS}(?![\w/^]))")
+"""The space between a number and its unit."""
+_IN_UNIT = re.compile(rf"(?:(?<=[\d)]\u00a0)|(?<=\()){_UNITS}(?![\w/^])|(?<=/)\({_UNIT}(?: {_UNIT})+\)")
+"""A unit of several factors behind a number or in brackets."""
+_KEPT = "\u00a0"
+"""A space at which no line ends."""
 _NUMBER = re.compile(r"[-+–(]?[\d.]")
 _GAP = 2
 """Spaces between columns."""
 _MOST_TURNED = 6
 """The most rows that become columns where a table is too wide."""
+
+
+def _kept_together(text: str) -> str:
+    """Return the text with spaces at which no line ends: in a number with its unit or error."""
+    text = text.replace(" \u00b1 ", f"{_KEPT}\u00b1{_KEPT}")
+    text = _WITH_UNIT.sub(_KEPT, text)
+    return _IN_UNIT.sub(lambda found: found[0].replace(" ", _KEPT), text)
+
+
+def _parts(text: str) -> list[str]:
+    """Return the parts of a text between which a line may end: words, and parts of long words behind a mark."""
+    parts: list[str] = []
+    for word in _kept_together(text).split(" "):
+        if len(word) <= _LONG or _KEPT in word:
+            parts.append(f"{word} ")
+            continue
+        pieces = re.split(r"(?<=[_/.,-])(?!\d)", word)
+        parts += [piece[i : i + _LONG] for piece in pieces for i in range(0, len(piece), _LONG)]
+        parts[-1] += " "
+    return parts
+
+
+def wrapped(text: str, width: int, indent: str = "") -> str:
+    """Return a text in lines of at most so many characters; numbers stay with their units and errors.
+
+    Parameters
+    ----------
+    text : the text; its own line breaks stay.
+    width : characters of a line, fewer than the longest part needs are exceeded.
+    indent : begins every line but the first.
+    """
+    lines = []
+    for paragraph in text.split("\n"):
+        line = ""
+        for part in _parts(paragraph):
+            if line.strip() and len(line) + len(part.rstrip()) > width:
+                lines.append(line)
+                line = indent
+            line += part
+        lines.append(line)
+    return "\n".join(line.rstrip() for line in lines).replace(_KEPT, " ")
+
+
+def print_text(text: str, *, file: TextIO | None = None) -> None:
+    """Print a sentence: wrapped between words on a terminal, on one line otherwise."""
+    stream = sys.stdout if file is None else file
+    if stream.isatty():
+        text = wrapped(text, shutil.get_terminal_size().columns, "  ")
+    print(text, file=stream)
 
 
 def fitted_widths(columns: Sequence[Column], room: int) -> list[int] | None:
@@ -249,6 +311,10 @@ def _print_ruled(console: Any, columns: Sequence[Column], title: str) -> None:
     from rich.text import Text
 
     widths = fitted_widths(columns, console.width)
+
+    def within(text: str, column: int) -> str:
+        return text if widths is None else wrapped(text, widths[column])
+
     shown = Table(
         box=box.SIMPLE_HEAD,
         show_edge=False,
@@ -259,13 +325,13 @@ def _print_ruled(console: Any, columns: Sequence[Column], title: str) -> None:
     )
     for i, column in enumerate(columns):
         shown.add_column(
-            Text(column.head),
+            Text(within(column.head, i)),
             justify="right" if column.right else "left",
             overflow="fold",
             width=None if widths is None else widths[i],
         )
     for row in zip(*(column.cells for column in columns), strict=True):
-        shown.add_row(*map(Text, row))
+        shown.add_row(*(Text(within(cell, i)) for i, cell in enumerate(row)))
     console.print()
     if title:
         console.print(Text(title, style="bold"))
@@ -297,20 +363,19 @@ def show_warnings(warnings: Sequence[str], *, remarks: str = "") -> None:
             print(f"  {text}")
         return
     from rich.console import Console
-    from rich.padding import Padding
     from rich.text import Text
 
     console = Console()
     console.print(Text(head, style="bold yellow"))
     for text in lines:
-        console.print(Padding(Text(f"- {text}"), (0, 0, 0, 2)))
+        console.print(Text(wrapped(f"  - {text}", console.width, "    ")))
 
 
 def show_remarks(notes: Sequence[str]) -> None:
     """Print the whole text of the remarks among notes, a line each."""
     for note in map(as_note, notes):
         if note.level is Level.INFO:
-            print(f"  {note}")
+            print_text(f"  {note}")
 
 
 def print_numbers(summary: Mapping[str, Any], headline: Sequence[str]) -> None:

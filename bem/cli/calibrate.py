@@ -43,7 +43,7 @@ def calibrate(
       bem calibrate film.csv --fit activation_energy_eV --figure fit.png
     """
     from bem.cli._quantity import new_file
-    from bem.cli._terminal import print_written, table
+    from bem.cli._terminal import print_text, print_written, table
     from bem.tribofilm.calibrate import FITTED, read_measurements
     from bem.tribofilm.calibrate import calibrate as run_fit
 
@@ -61,7 +61,7 @@ def calibrate(
     ]
     table(("parameter", "value", "standard deviation"), rows, right=(1, 2))
     print(f"chi-square {result.chi_square:.4g} with {result.degrees} degrees of freedom")
-    print(result.verdict())
+    print_text(result.verdict())
     print(f"lines of a scene (kind tribofilm):\n\n{result.scene_lines()}\n")
     if json_out is not None:
         _write(json_out, result)

@@ -36,7 +36,7 @@ def register(app: typer.Typer) -> None:
         Example:
           bem compare runs/rough-contact-001 runs/rough-contact-002 --out both
         """
-        from bem.cli._terminal import table
+        from bem.cli._terminal import print_text, table
         from bem.results import open_run
         from bem.results.compare import beyond, run_labels, scene_differences, scene_units, shown
 
@@ -55,7 +55,7 @@ def register(app: typer.Typer) -> None:
             print("scenes: equal")
         _results(runs, names, all_)
         for text in beyond(runs, names):
-            print(text)
+            print_text(text)
         if figures:
             from bem.plots.compare import draw_comparison
 

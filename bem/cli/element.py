@@ -165,7 +165,7 @@ def _chosen(found: Element, at: str) -> ElementContact:
 
 
 def _show(found: Element, chosen: ElementContact) -> None:
-    from bem.cli._terminal import table
+    from bem.cli._terminal import print_text, table
     from bem.elements.element import degrees
     from bem.plots.report import spelled
 
@@ -188,7 +188,7 @@ def _show(found: Element, chosen: ElementContact) -> None:
     title = f"{found.model.name}: {found.model.element}"
     table(head, rows, title=title, right=range(2, len(head)), leading=2)
     for sentence in found.found.geometry:
-        print(sentence)
+        print_text(sentence)
 
 
 def _letters(found: Element) -> list[str]:

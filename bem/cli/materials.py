@@ -27,7 +27,15 @@ def register(app: typer.Typer) -> None:
         from bem.scenes.validate import nearest
 
         if name is None:
-            head = ("material", "E GPa", "nu", "hardness GPa", "yield MPa", "W/(m K)", "source")
+            head = (
+                "material",
+                "E (GPa)",
+                "nu",
+                "hardness (GPa)",
+                "yield stress (MPa)",
+                "conductivity (W/(m K))",
+                "source",
+            )
             rows = [(key, *_numbers(key)[:5], CATALOGUE[key].source) for key in sorted(CATALOGUE)]
             table(head, rows, right=(1, 2, 3, 4, 5), wide_only=(6,))
             return

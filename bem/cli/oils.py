@@ -36,7 +36,7 @@ def register(app: typer.Typer) -> None:
 
         at = quantity(temperature, TEMPERATURE, "--temperature")
         if name is None:
-            head = ("oil", "base", "mm^2/s at 40", "at 100 degC", "index", "1/GPa at 40", "source")
+            head = ("oil", "base", "mm^2/s at 40 degC", "mm^2/s at 100 degC", "index", "1/GPa at 40 degC", "source")
             table(head, [_row(one) for one in oil_names()], right=(2, 3, 4, 5), wide_only=(6,))
             return
         found = find_oil(name, viscosity_index=viscosity_index, base=base)

@@ -25,7 +25,7 @@ def register(app: typer.Typer) -> None:
           bem plan rough-contact
           bem plan rough-contact --set grid.shape=8192
         """
-        from bem.cli._terminal import show_warnings
+        from bem.cli._terminal import print_text, show_warnings
         from bem.compiled import SECONDS, is_cold
         from bem.runs import plan_scene
         from bem.scenes.checks import examine, scene_warnings
@@ -34,14 +34,14 @@ def register(app: typer.Typer) -> None:
         resolved, planned = plan_scene(scene, set_ or (), asked(accuracy))
         facts = examine(resolved)
         warnings = scene_warnings(facts)
-        typer.echo(
+        print_text(
             f"{resolved.name}: kind {resolved.kind}" + (f". {resolved.description}" * bool(resolved.description))
         )
         _show_contacts(facts)
         _show_steps(planned)
         show_warnings(warnings, remarks="in the report of the run")
         if is_cold():
-            typer.echo(
+            print_text(
                 f"not compiled yet: the first run takes about {SECONDS:.0f} s longer (`bem warm-up` does it now)"
             )
         free = available_memory()

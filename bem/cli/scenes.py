@@ -31,7 +31,7 @@ def register(app: typer.Typer) -> None:
           bem scenes
           bem scenes --show rough-contact > my-scene.toml
         """
-        from bem.cli._terminal import table
+        from bem.cli._terminal import print_text, table
         from bem.errors import InputError
         from bem.scenes.kind import kind_names
         from bem.scenes.load import library, library_text
@@ -51,6 +51,6 @@ def register(app: typer.Typer) -> None:
             if item["kind"] == kind
         ]
         table(("scene", "kind", "what it is", "reproduces"), rows, wide_only=(1, 3))
-        print(
+        print_text(
             "papers A to E: A. Akchurin, Generation of Wear Particles in Lubricated Contacts during Running-In (2017)"
         )

@@ -96,9 +96,9 @@ def test_the_plan_shows_every_figure_with_its_source():
 @pytest.mark.parametrize(
     ("arguments", "words"),
     [
-        (("oils",), ("ISO VG 68", "PAO 4", "squalane", "SAE 5W-30", "mm^2/s at 40")),
+        (("oils",), ("ISO VG 68", "PAO 4", "squalane", "SAE 5W-30", "mm^2/s at 40 degC")),
         (("oils", "vg68", "--temperature", "60 C"), ("24.6 mPa s", "20.62 1/GPa", "table 2.3", "ASTM D341")),
-        (("materials",), ("steel-52100", "E GPa", "Akchurin")),
+        (("materials",), ("steel-52100", "E (GPa)", "Akchurin")),
         (("materials", "dlc"), ("Young's modulus", "200 GPa", "source")),
         (("plan", "film-start-stop", "--set", 'oil={grade="PAO 40", temperature="40 C"}'), ("PAO 40", "1/GPa")),
     ],
