@@ -97,10 +97,7 @@ def solve_pass(contact: ContactStep, grid: Grid, heights: FloatArray, start: Con
     """
     outcome = contact(heights, start, compliance)
     if outcome.status is not Status.CONVERGED:
-        raise ConvergenceError(
-            f"a contact of the life ended with status {outcome.status.value!r} at residual {outcome.residual:.1e}; "
-            f"{outcome.status.message}"
-        )
+        raise ConvergenceError(f"a position of the life: {outcome.failure}")
     if outcome.sharing is None:
         return Pass(
             pressure=outcome.pressure,

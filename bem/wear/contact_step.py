@@ -75,6 +75,8 @@ class ContactOutcome:
     measure_strip : function that measures `strip`; None where unknown.
     sharing : (1,) row of `bem.wear.mixed.MIXED_FIELDS`; None for a dry contact.
     memory : what the step asks for in the next cycle.
+    unsolved : the part that did not converge and how far it came, in words; empty for the contact, whose `residual`
+        says it.
     """
 
     pressure: FloatArray
@@ -92,6 +94,13 @@ class ContactOutcome:
     measure_strip: Callable[[], FloatArray] | None = field(default=None, repr=False)
     sharing: NDArray[np.void] | None = None
     memory: Any = None
+    unsolved: str = ""
+
+    @property
+    def failure(self) -> str:
+        """What did not converge, how far it came, and the meaning of the status, for an error message."""
+        part = self.unsolved or f"the contact, of residual {self.residual:.1e},"
+        return f"{part} ended with status {self.status.value!r}; {self.status.message}"
 
     @cached_property
     def strip(self) -> FloatArray | None:

@@ -41,7 +41,9 @@ def fatigue_removal(
     if cycle.memory is not None:
         damage[:known] = cycle.memory
     if new:
-        damage[:new] += damage_of(found.stress, cycle.solid.surface_material)
+        stress = found.stress
+        counted = _planes_above_sound(stress, setup.yield_stress(body))
+        damage[:counted] += damage_of(stress[:counted], cycle.solid.surface_material)
     pieces = no_pieces(setup.grid.shape)
     if len(damage) >= 2 and damage[0].max() > 1.0:
         pieces = pieces_above(damage, depths[: len(damage)], 1.0, setup, model)
@@ -49,6 +51,15 @@ def fatigue_removal(
         # a piece ends where the damage is one; linear interpolation may lie above the cubic that found the depth
         np.minimum(damage[0], 1.0, out=damage[0], where=pieces.thickness > 0)
     return Removal(body, pieces, found.computed, found.seconds, time.perf_counter() - start, damage)
+
+
+def _planes_above_sound(stress: FloatArray, strength: float) -> int:
+    """Return the number of leading planes of a stack (nz, nx, ny) before the first plane that yields nowhere.
+
+    Stress may be known below that plane, for the slope of the interpolation alone.
+    """
+    sound = np.flatnonzero(stress.reshape(len(stress), -1).max(axis=1) <= strength)
+    return int(sound[0]) if sound.size else len(stress)
 
 
 @compiled

@@ -20,6 +20,7 @@ Verified in tests/scenes/test_friction_kinds.py, tests/friction/test_balance.py 
 
 from __future__ import annotations
 
+import math
 from collections import deque
 from collections.abc import Sequence
 from dataclasses import dataclass, field, replace
@@ -30,7 +31,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.contact import ContactSolution
-from bem.errors import InputError
+from bem.errors import InputError, Status
 from bem.friction.balance import NEGLIGIBLE, Balance, BalanceStart, Regime
 from bem.friction.film import Film, PatchFilm, middle_line
 from bem.friction.film_table import FilmTable
@@ -280,7 +281,24 @@ class MixedContact:
             measure_strip=strip,
             sharing=row,
             memory=replace(memory, last=last),
+            unsolved=_unsolved(shared),
         )
+
+
+def _unsolved(shared: SharedLoad) -> str:
+    """Return the part of a cycle's load sharing that did not converge, and how far it came, in words."""
+    balance, heat = shared.balance, shared.forces.heat
+    if shared.status is Status.CONVERGED:
+        return ""
+    if balance.status is Status.CONVERGED and heat is not None:
+        return "the heat of the contact"
+    if balance.film.status is not Status.CONVERGED:
+        return f"the film under {balance.film.load:.3g} N"
+    solution = None if balance.contact is None else balance.contact.solution
+    if balance.contact is not None and balance.contact.status is not Status.CONVERGED:
+        return f"the contact, of residual {getattr(solution, 'residual', math.nan):.1e},"
+    imbalances = f"{abs(balance.imbalance):.1e} and an imbalance of oil of {abs(balance.oil_imbalance):.1e}"
+    return f"load sharing, with an imbalance of load of {imbalances},"
 
 
 @dataclass(frozen=True, eq=False)

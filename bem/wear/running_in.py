@@ -290,10 +290,7 @@ def advance(
         (facing[LOWER], facing[UPPER]), setup, model, contact_step, start, last, memories, compliance
     )
     if contact.status != Status.CONVERGED:
-        raise ConvergenceError(
-            f"cycle {cycle}: the contact ended with status {contact.status.value!r} at residual "
-            f"{contact.residual:.1e}; {contact.status.message}"
-        )
+        raise ConvergenceError(f"cycle {cycle}: {contact.failure}")
     rubbing = contact.rubbing
     if rubbing is not None and rubbing.status != Status.CONVERGED:
         raise ConvergenceError(

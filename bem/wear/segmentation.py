@@ -40,8 +40,8 @@ class Segmentation:
     thickness : (nx, ny) depth that leaves each column, from the surface down [m]; at least the first depth of the
         stack where a piece leaves by `top_run` or `cap`.
     count : number of pieces.
-    reaches_bottom : (count + 1,) True for pieces that yield at the last depth: their thickness is a lower bound, unless
-        that depth is the interface at which pieces of a layer end.
+    reaches_bottom : (count + 1,) True for pieces that leave down to the last depth: their thickness is a lower bound,
+        unless that depth is the interface at which pieces of a layer end.
     """
 
     labels: NDArray[np.int32]
@@ -116,9 +116,11 @@ def segment(
     runs = find_runs(candidates, values, levels, limits[candidates], refine, cubic)
     parent = connect(runs, (nx, ny), (bool(periodic[0]), bool(periodic[1])), connectivity)
     count = law.remove(runs, parent, labels.reshape(-1), thickness.reshape(-1))
+    # a column is removed down to the last depth, not only yielded there
+    lowest = np.repeat(runs.columns, np.diff(runs.first))[runs.bottom == (nz - 1) * refine]
+    lowest = lowest[thickness.reshape(-1)[lowest] >= levels[-1]]
     reaches_bottom = np.zeros(count + 1, dtype=np.bool_)
-    run_column = np.repeat(candidates, np.diff(runs.first))
-    reaches_bottom[labels.reshape(-1)[run_column[runs.bottom == (nz - 1) * refine]]] = True
+    reaches_bottom[labels.reshape(-1)[lowest]] = True
     reaches_bottom[0] = False
     return Segmentation(labels, thickness, count, reaches_bottom)
 

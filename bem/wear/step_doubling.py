@@ -18,6 +18,7 @@ Knows cycles and states; no scene. Verified in tests/wear/test_local_wear.py.
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 
 import numpy as np
 
@@ -59,6 +60,9 @@ def step_error(
         return None
     worn = {body: facing(depth[0], body) for body, depth in depths.items() if depth is not None}
     heights = [facing(state.heights[body], body) + worn.get(body, 0.0) for body in (LOWER, UPPER)]
+    # the macroscopic shape of the film follows the heights before the cycle, as in the cycle itself
+    standing = UPPER if model.moving == LOWER else LOWER
+    start = replace(start, standing_profile=heights[standing].mean(axis=1))
     halves = np.zeros(setup.grid.shape)
     for _ in range(2):
         try:

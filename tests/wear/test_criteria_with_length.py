@@ -16,6 +16,9 @@ from bem.wear.criterion import AveragedVonMises, Junction, LowCycleFatigue, Sphe
 from bem.wear.damage import move_up
 from bem.wear.junctions import half_spheres, junctions
 from bem.wear.lengths import averaged, disc, pieces_holding_sphere
+from bem.wear.loads import BodyCycle, SurfaceLoad
+from bem.wear.setup import WearSetup
+from bem.wear.yielding import YieldedStress
 
 STEEL = Material("disk", youngs_modulus=210e9, poissons_ratio=0.3, hardness=1.8e9, yield_stress=0.64e9)
 SOFT, HARD = Body(STEEL), Body(Material("cylinder", youngs_modulus=210e9, poissons_ratio=0.3, hardness=6e9))
@@ -392,6 +395,23 @@ def test_what_stays_has_life_left_and_nothing_is_damaged_twice():
     assert result.particles.size > 0
     assert damage[0].max() <= 1
     assert damage.min() >= 0
+
+
+@pytest.mark.internal
+def test_damage_counts_down_to_the_first_depth_without_yield_and_no_further(monkeypatch):
+    """The plane below that depth is known for the slope of the interpolation, with the monotone cubic alone."""
+    planes = np.full((4, *GRID.shape), 0.3e9)
+    planes[[0, 1, 3], 20, 20] = 1e9  # yields above a plane that does not, and below it
+    found = YieldedStress(planes, DEPTHS[:4], 4, 0.0)
+    monkeypatch.setattr("bem.wear.damage.yielded_stress", lambda *_: found)
+    load = SurfaceLoad(np.zeros(GRID.shape), 0.16)
+    setup = WearSetup(**ARGUMENTS | {"gap": np.zeros(GRID.shape), "hardness": None})
+    law = LowCycleFatigue(passes=10.0)
+    cycle = BodyCycle(load.pressure, (load,), setup, WearModel(criterion=law), 0, 0.0)
+    memory = law.detach(cycle).memory
+    assert memory is not None
+    assert (memory[:2, 20, 20] > 0).all()
+    assert not memory[2:].any()
 
 
 @pytest.mark.internal

@@ -135,6 +135,17 @@ def test_a_buried_region_stays_and_a_cap_leaves_with_its_region():
     assert {tuple(c) for c in top.columns} == {(1, 1)}
 
 
+@pytest.mark.parametrize("removal", ["cap", "top_run"])
+def test_a_piece_is_truncated_by_what_leaves_with_it_and_not_by_yield_below_it(removal):
+    stack = np.zeros((5, 3, 3))
+    stack[0, 1, 1] = 2.0  # leaves
+    stack[3:, 1, 1] = 2.0  # below it, not connected, down to the last depth
+    given = {"yield_stress": 1.0, "refinement": "linear", "removal": removal}
+    assert not segment(stack, np.arange(5) * 1e-8, **given).reaches_bottom.any()
+    stack[:, 1, 1] = 2.0
+    assert list(segment(stack, np.arange(5) * 1e-8, **given).reaches_bottom) == [False, True]
+
+
 def test_a_piece_across_a_periodic_edge_is_one_and_its_rectangle_does_not_span_the_domain():
     stack = np.zeros((3, 8, 9))
     stack[0, 3:5, [0, 1, 8]] = 2.0

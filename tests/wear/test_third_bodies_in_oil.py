@@ -1,10 +1,14 @@
 """Particles between surfaces in oil, and a number of them that changes: flats, sums, limits, recursions, resuming."""
 
+from dataclasses import replace
+
 import numpy as np
 import pytest
 from mixed_case import mixed_case
 
 from bem import Body, InputError, Lubricant, Material, run_in
+from bem.errors import ConvergenceError, Status
+from bem.friction.load_sharing import LoadSharing
 from bem.friction.setup import MixedSetup
 from bem.notes import has_code
 from bem.notes.friction import OIL_COUNTED
@@ -104,6 +108,41 @@ def test_halves_of_the_last_step_are_no_cycles_of_a_contact_in_oil():
     )  # fmt: skip
     assert found.step_error > 0
     assert len(found.state.sharing) == 2
+
+
+def test_halves_of_the_last_step_begin_with_the_film_of_that_step():
+    """The film's shape follows the standing body as it was before the cycle, not as the cycle left it."""
+    contact, profiles = step(), []
+
+    def recorded(heights, start, compliance):
+        profiles.append(start.standing_profile)
+        return contact(heights, start, compliance)
+
+    setup = contact.setup
+    law = {"kind": "archard", "specific_wear_rate": 1e-15, "distance": 1e-3}
+    run_in(
+        *(ROUGH, np.zeros_like(ROUGH)), grid=setup.grid, bodies=(SOFT, HARD), load=setup.load / setup.slices,
+        depths=np.array([0.0, 1e-7]), gap=np.broadcast_to(setup.grid.x[:, None] ** 2 / 4e-3, setup.grid.shape),
+        friction=0.1, hardness=2e9, cycles=2, criterion=law, contact_step=recorded,
+        model=WearModel(wears="both"),
+    )  # fmt: skip
+    first, last, half, second = profiles
+    assert np.abs(last - first).max() > 0  # the first cycle wore it
+    assert half == pytest.approx(last, abs=1e-9 * np.abs(last - first).max() + 1e-22)
+    assert second is None
+
+
+def test_an_error_says_which_part_of_load_sharing_did_not_converge(monkeypatch):
+    contact = step()
+    good = LoadSharing.balance
+    monkeypatch.setattr(
+        LoadSharing, "balance", lambda *given: replace(good(*given), status=Status.STALLED, oil_imbalance=-0.02)
+    )
+    outcome = contact(ROUGH)
+    assert outcome.residual < 1e-3
+    assert "an imbalance of oil of 2.0e-02" in outcome.failure
+    with pytest.raises(ConvergenceError, match=r"load sharing, .* an imbalance of oil of 2\.0e-02, ended"):
+        loop(1)
 
 
 def test_a_contact_in_oil_keeps_no_state():
