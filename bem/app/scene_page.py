@@ -11,7 +11,7 @@ from bem.app.form_view import FormView
 from bem.app.layout import page, rows, say
 from bem.app.planning import ShownPlan, shown_plan
 from bem.app.workspace import Workspace
-from bem.errors import BemError
+from bem.errors import BemError, InputError
 from bem.scenes.form import form_of, library_scene, start_of
 from bem.scenes.kind import get_kind, kinds_by_task
 from bem.scenes.load import library
@@ -107,14 +107,18 @@ class ScenePage:
         self._again()
 
     def _typed(self, table: dict[str, Any]) -> None:
-        """What was typed goes into the file at once."""
-        self._table = table
+        """Put what was typed into the file; read the file anew instead if it was written elsewhere meanwhile."""
         try:
+            if self._workspace.scene_text(self._name) != self._written:
+                say(InputError(f"{self._name}: the file was changed elsewhere and is shown as it is now; type again"))
+                self._read()
+                return
             self._workspace.save_scene(self._name, table)
             self._written = self._workspace.scene_text(self._name)
         except BemError as error:
             say(error)
             return
+        self._table = table
         self._editor.set_value(self._written)
         self._again()
 

@@ -19,7 +19,8 @@ from typing import Any
 from bem.errors import InputError, ResultsError
 from bem.results.atomic import write_bytes, write_text
 from bem.results.directory import LOCK, SCENE, SUMMARY
-from bem.scenes.load import read_table, table_text
+from bem.scenes.edit import edited_text, table_text
+from bem.scenes.load import read_table
 from bem.surfaces.examples import example_names
 
 OWN = ".app"
@@ -106,8 +107,18 @@ class Workspace:
         return {**table, "name": name}
 
     def save_scene(self, name: str, scene: Mapping[str, Any] | str) -> None:
-        """Write the file of a scene, whole or not at all: a table, or the text itself."""
-        write_text(self.scene_path(name), scene if isinstance(scene, str) else table_text(scene))
+        """Write the file of a scene, whole or not at all.
+
+        scene : the text itself; or a table, which is put into the text of the file: comments, order and paths of the
+            file stay, and so does its `name`.
+
+        Raises
+        ------
+        InputError : a table, and the text of the file is not valid TOML; the file stays as it is.
+        """
+        if not isinstance(scene, str):
+            scene = edited_text(self.scene_text(name), scene, self.folder, keep=("name",))
+        write_text(self.scene_path(name), scene)
 
     def free_scene_name(self, wanted: str) -> str:
         """The name, with a number behind it where there is such a scene."""

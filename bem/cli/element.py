@@ -57,7 +57,8 @@ def element(
     from bem.elements.element import load_element
     from bem.errors import InputError
     from bem.results.atomic import write_text
-    from bem.scenes.load import scene_from_table, table_text
+    from bem.scenes.edit import table_text
+    from bem.scenes.load import scene_from_table
 
     if table is not None:
         new_file(table, "--table", (".csv",))

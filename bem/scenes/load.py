@@ -376,20 +376,6 @@ def _is_text(text: Any) -> bool:
     return not isinstance(text, str) or text.isascii() or not any("\ud800" <= c <= "\udfff" for c in text)
 
 
-def table_text(table: Mapping[str, Any]) -> str:
-    """A table of plain values as the TOML text of a scene: its tables under headings, what is in those on one line."""
-    lines = [f"{_spelt(key)} = {dumped(value)}" for key, value in table.items() if not isinstance(value, Mapping)]
-    for key, value in table.items():
-        if isinstance(value, Mapping):
-            lines += ["", f"[{_spelt(key)}]", *(f"{_spelt(inner)} = {dumped(item)}" for inner, item in value.items())]
-    return "\n".join(lines) + "\n"
-
-
-def _spelt(key: str) -> str:
-    """A key, in quotes where it needs them."""
-    return key if re.fullmatch(r"[A-Za-z0-9_-]+", key) else json.dumps(key)
-
-
 def dump_scene(scene: SceneModel) -> str:
     """The scene as TOML text in SI units, each number with its unit behind it; loading it gives an equal scene.
 

@@ -46,6 +46,51 @@ def test_scenes_are_files(workspace):
         workspace.scene_table("broken")
 
 
+BY_HAND = """# What the ball does.
+name = "mine"
+kind = "contact"
+
+[contact]
+mean_pressure = "80 MPa"  # as measured
+
+[lower]
+# ground, then run in
+surface = { kind = "measured", path = "map.npz" }  # of July
+material = "steel-52100"
+
+[grid]
+shape = 32
+lengths = "60 um"  # as the map
+"""
+
+
+def test_a_form_keeps_comments_order_and_paths_of_a_file(workspace):
+    (workspace.folder / "map.npz").write_bytes(b"x")
+    workspace.save_scene("ball", BY_HAND)
+    table = workspace.scene_table("ball")
+    workspace.save_scene("ball", table)
+    assert workspace.scene_text("ball") == BY_HAND
+    changed = {**table, "contact": {"mean_pressure": "90 MPa"}, "seed": 3}
+    changed["grid"] = {"shape": 32}
+    changed["lower"] = {**table["lower"], "layer": {"thickness": "1 um"}}
+    workspace.save_scene("ball", changed)
+    wanted = BY_HAND.replace('"80 MPa"', '"90 MPa"').replace('lengths = "60 um"  # as the map\n', "")
+    wanted = wanted.replace('kind = "contact"\n', 'kind = "contact"\nseed = 3\n')
+    wanted = wanted.replace('"steel-52100"\n', '"steel-52100"\nlayer = {thickness = "1 um"}\n')
+    assert workspace.scene_text("ball") == wanted
+    assert workspace.scene_table("ball") == changed | {"name": "ball"}
+
+
+def test_a_file_that_is_broken_by_hand_is_not_overwritten(workspace):
+    workspace.save_scene("ball", BY_HAND)
+    table = workspace.scene_table("ball")
+    broken = BY_HAND + "load = \n"
+    workspace.scene_path("ball").write_text(broken)
+    with pytest.raises(InputError, match=r"not valid TOML .*stays as it is"):
+        workspace.save_scene("ball", {**table, "seed": 3})
+    assert workspace.scene_path("ball").read_text() == broken
+
+
 @pytest.mark.parametrize("name", ["../x", "", ".hidden", "a/b", "x" * 65])
 def test_names_stay_in_the_folder(workspace, name):
     with pytest.raises(InputError):

@@ -11,8 +11,9 @@ from bem.errors import InputError
 from bem.runs import plan_scene
 from bem.scenes import dump_scene, kind_names, library, load_scene, units
 from bem.scenes.checks import SCENE_CHECKS, examine
+from bem.scenes.edit import table_text
 from bem.scenes.form import library_scene
-from bem.scenes.load import read_table, table_text
+from bem.scenes.load import read_table
 from bem.scenes.planner import SEARCHED_IN_SINGLE
 
 NAMES = sorted(library())
