@@ -1,8 +1,9 @@
 """Cases of the golden net, each run once in a test session, by whichever worker comes to it first."""
 
-import fcntl
 import json
 import os
+
+from filelock import FileLock
 
 from reports.golden.groups import run_case
 from reports.golden.record import Record
@@ -20,8 +21,7 @@ def record_of(folder, group, case):
     """The record of a case, and the folder in which it ran; other workers wait for the one that runs it."""
     place = folder / f"{group}-{case}"
     path = place.with_suffix(".json")
-    with open(place.with_suffix(".lock"), "w") as lock:
-        fcntl.flock(lock, fcntl.LOCK_EX)
+    with FileLock(place.with_suffix(".lock")):
         if not path.exists():
             path.write_text(json.dumps(run_case(group, case, folder=place).plain()))
     return Record.of(json.loads(path.read_text())), place

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import fcntl
 import hashlib
 import json
 import math
@@ -13,6 +12,8 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from pathlib import Path
 from typing import Any
+
+from filelock import FileLock, Timeout
 
 from bem.errors import InputError, ResultsError
 from bem.results.atomic import force_names, reason, write_text
@@ -46,23 +47,17 @@ class RunDirectory:
                 if not folder.is_dir():
                     folder.mkdir(exist_ok=True)
                     self._made.append(folder)
-            self._lock = os.open(path / LOCK, os.O_RDWR | os.O_CREAT, 0o644)
+            # not bound to a thread; no soft lock, which would outlast a killed process
+            self._lock = FileLock(path / LOCK, timeout=0, mode=0o644, thread_local=False, fallback_to_soft=False)
+            self._lock.acquire()
+        except Timeout as error:
+            raise ResultsError(_in_use(path)) from error
         except (OSError, ValueError) as error:
             self._unmake()
             text = reason(error) if isinstance(error, OSError) else str(error)
             raise ResultsError(f"{path}: cannot be used as the run's folder ({text})") from error
-        try:
-            fcntl.flock(self._lock, fcntl.LOCK_EX | fcntl.LOCK_NB)
-        except OSError as error:
-            holder = os.pread(self._lock, 20, 0).decode(errors="replace").strip() or "unknown"
-            os.close(self._lock)
-            raise ResultsError(_in_use(path, holder)) from error
-        if not _same_file(self._lock, path / LOCK):  # its last holder removed it between our opening and locking it
-            os.close(self._lock)
-            raise ResultsError(_in_use(path, "just ending"))
         with suppress(OSError):  # who holds it is only for the message
-            os.ftruncate(self._lock, 0)
-            os.pwrite(self._lock, f"{os.getpid()}\n".encode(), 0)
+            (path / LOCK).write_text(f"{os.getpid()}\n", "utf-8")
 
     @classmethod
     def start(
@@ -227,12 +222,11 @@ class RunDirectory:
 
     def close(self) -> None:
         """Give the folder back, without what a process that was ended while it wrote had begun."""
-        if self._lock >= 0:
+        if self._lock.is_locked:
             self.remove_leftovers()
-            with suppress(OSError):
+            with suppress(OSError):  # while it is held: who has opened it meanwhile sees that it is gone
                 (self._home / LOCK).unlink(missing_ok=True)
-            os.close(self._lock)
-            self._lock = -1
+            self._lock.release()
 
     def discard(self) -> None:
         """Give the folder back and remove what this run made, as for a bad scene; an older run's files stay."""
@@ -349,15 +343,13 @@ def _scene_text(folder: Path) -> str | None:
     return path.read_text("utf-8", errors="replace") if path.is_file() else None
 
 
-def _in_use(path: Path, holder: str) -> str:
-    return f"{path}: another run is using this folder (process {holder}); wait for it or give another --out"
-
-
-def _same_file(descriptor: int, path: Path) -> bool:
-    try:
-        return os.path.samestat(os.fstat(descriptor), os.stat(path))
-    except OSError:
-        return False
+def _in_use(path: Path) -> str:
+    holder = ""
+    with suppress(OSError):
+        holder = (path / LOCK).read_text("utf-8", errors="replace")[:20].strip()
+    return (
+        f"{path}: another run is using this folder (process {holder or 'unknown'}); wait for it or give another --out"
+    )
 
 
 def _difference(old: str, new: str) -> str:

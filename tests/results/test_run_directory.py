@@ -255,6 +255,40 @@ except ResultsError as error: print(error); sys.exit(error.exit_code)
         assert again.resumed
 
 
+def test_a_killed_holder_gives_the_folder_back_and_leaves_its_lock_file(tmp_path):
+    holder = f"""
+import time; from pathlib import Path; from bem.results import RunDirectory
+directory = RunDirectory.start(Path({str(tmp_path / "run")!r}), "a", "kind = 'contact'\\n")
+print("held", flush=True)
+time.sleep(600)
+"""
+    process = subprocess.Popen([sys.executable, "-c", holder], stdout=subprocess.PIPE, text=True)
+    assert process.stdout.readline() == "held\n"
+    with pytest.raises(ResultsError, match=f"another run is using this folder \\(process {process.pid}\\)"):
+        RunDirectory(tmp_path / "run")
+    process.kill()
+    process.communicate()
+    lock = tmp_path / "run" / ".lock"
+    assert lock.read_text() == f"{process.pid}\n"
+    with RunDirectory.start(tmp_path / "run", "a", "kind = 'contact'\n", resume=True) as again:
+        assert again.resumed
+        assert lock.read_text() == f"{os.getpid()}\n"
+        with pytest.raises(ResultsError, match=f"process {os.getpid()}"):
+            RunDirectory(tmp_path / "run")
+    assert not lock.exists()
+
+
+def test_a_folder_given_back_twice_stays_with_its_next_holder(tmp_path):
+    first = RunDirectory(tmp_path)
+    first.close()
+    second = RunDirectory(tmp_path)
+    first.close()
+    with pytest.raises(ResultsError, match="another run is using this folder"):
+        RunDirectory(tmp_path)
+    second.close()
+    RunDirectory(tmp_path).close()
+
+
 def test_an_older_run_is_not_overwritten_unasked(tmp_path):
     RunDirectory.start(tmp_path, "a", "a = 1\n").close()
     with pytest.raises(ResultsError, match="--resume continues it, --overwrite replaces it"):
