@@ -15,7 +15,6 @@ from numpy.typing import NDArray
 from PIL import Image
 
 from bem.plots.pictures import settle
-from bem.plots.quick_ticks import ticks_found_once
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
@@ -56,8 +55,7 @@ def write_animation(
     over = [*moving, *spines]
     for item in over:
         item.set_animated(True)
-    with ticks_found_once():
-        canvas.draw()
+    canvas.draw()
     rest = canvas.copy_from_bbox(figure.bbox)
     frames = []
     for index in range(count):

@@ -5,7 +5,6 @@ Knows nothing of results. Verified in tests/plots/test_settings_of_the_user.py.
 
 from __future__ import annotations
 
-import gc
 import importlib
 import os
 import sys
@@ -16,17 +15,7 @@ def load_matplotlib() -> Any:
     """The package, also where MPLBACKEND names no backend, with which it would not load: then its backend is Agg."""
     if "matplotlib" in sys.modules:
         return importlib.import_module("matplotlib")
-    package = _loaded(os.environ.get("MPLBACKEND"))
-    if not gc.isenabled():  # the command, as in `bem.startup.lazy.collecting`: nobody asks for help there
-        _without_help()
-    return package
-
-
-def _without_help() -> None:
-    """Let matplotlib write no help on the properties of its artists: two fifths of what it takes to load."""
-    artist: Any = importlib.import_module("matplotlib.artist")
-    if hasattr(artist, "kwdoc"):
-        artist.kwdoc = lambda _: ""
+    return _loaded(os.environ.get("MPLBACKEND"))
 
 
 def _loaded(named: str | None) -> Any:

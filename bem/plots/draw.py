@@ -11,7 +11,6 @@ from typing import Any
 from bem.errors import InputError, ResultsError
 from bem.plots.cases import axes_of, case_shown, case_words, first_case, first_figures
 from bem.plots.figures import FigureKind, all_figures
-from bem.plots.side_by_side import side_by_side
 from bem.results.arrays import LEFT_OUT, Arrays
 from bem.results.atomic import replacing
 from bem.results.read import FinishedRun
@@ -67,11 +66,8 @@ def draw_all(
     folder: Path,
     formats: Sequence[str] = ("png",),
     on_failure: Callable[[str, Exception], None] | None = None,
-    processes: int | None = 1,
 ) -> list[Drawn]:
     """Draw those of the named figures that fit the run, in that order.
-
-    Side by side in so many processes, as many as cores where None, with the same bytes (see `side_by_side`).
 
     With `on_failure` a figure that cannot be drawn is reported to it by name and left out: hours of results must not be
     lost to a picture. Files that cannot be written are a ResultsError all the same.
@@ -80,50 +76,25 @@ def draw_all(
     run = _seen(run)
     wanted = [*names, *(extra for extra in _OF_ANY_KIND if extra not in names)]
 
-    def one(i: int) -> tuple[Path, ...] | None:
-        kind = known[wanted[i]]
-        return draw(run, kind, folder, formats).paths if kind.fits(_for(run, kind)) else None
-
-    if processes != 1:
-        load_what_draws()
-    found = {} if processes == 1 else side_by_side(one, len(wanted), processes)
     drawn = []
-    for i, name in enumerate(wanted):
+    for name in wanted:
+        kind = known[name]
         try:
-            paths = found[i] if i in found else one(i)
+            if kind.fits(_for(run, kind)):
+                drawn.append(draw(run, kind, folder, formats))
         except ResultsError:
             raise
         except Exception as error:
             if on_failure is None:
                 raise
             on_failure(name, error)
-        else:
-            if paths is not None:
-                drawn.append(Drawn(known[name], paths))
     return drawn
 
 
 def load_what_draws() -> None:
-    """Load what every figure needs, before copies of this process are made."""
+    """Load the modules that every figure needs, for processes that wait meanwhile."""
     for name in ("bem.plots.style", "matplotlib.backends.backend_agg", "matplotlib.figure", "bem.plots.pictures"):
         importlib.import_module(name)
-
-
-def draw_for_nobody() -> None:
-    """A small figure, drawn and thrown away: fonts are there for those that follow, half of what the first one takes
-    beside the others."""
-    from matplotlib.backends.backend_agg import FigureCanvasAgg
-    from matplotlib.figure import Figure
-
-    from bem.plots.pictures import DOTS, settle
-    from bem.plots.style import style
-
-    with style():
-        figure = Figure(figsize=(2.0, 2.0), dpi=DOTS, layout="constrained")
-        canvas = FigureCanvasAgg(figure)
-        figure.subplots().imshow([[0.0, 1.0]])
-        settle(figure)
-        canvas.draw()
 
 
 def draw(

@@ -11,7 +11,6 @@ from matplotlib.figure import Figure
 from matplotlib.ticker import LogFormatterSciNotation
 from PIL import Image
 
-from bem.plots.quick_ticks import ticks_found_once
 from bem.results.atomic import replacing
 
 DOTS = 200
@@ -54,12 +53,11 @@ def settle(figure: Figure, *, sized: bool = False) -> None:
                     axis.set_minor_formatter(PlainPowers(labelOnlyBase=False))
     engine = figure.get_layout_engine()
     if engine is not None:
-        with ticks_found_once():
+        engine.execute(figure)
+        low = _without_blank(figure)
+        if not sized and low < (1 - _BLANK) * figure.get_figheight():
+            figure.set_figheight(low)
             engine.execute(figure)
-            low = _without_blank(figure)
-            if not sized and low < (1 - _BLANK) * figure.get_figheight():
-                figure.set_figheight(low)
-                engine.execute(figure)
         figure.set_layout_engine("none")
 
 
@@ -104,8 +102,7 @@ def _write_png(figure: Figure, path: Path) -> None:
     """Nothing shines through a figure: its opacity is left out."""
     canvas = figure.canvas
     assert isinstance(canvas, FigureCanvasAgg)
-    with ticks_found_once():
-        canvas.draw()
+    canvas.draw()
     size = canvas.get_width_height(physical=True)
     picture = Image.frombuffer("RGBA", size, canvas.buffer_rgba(), "raw", "RGBA", 0, 1).convert("RGB")
     picture.save(path, format="png", dpi=(figure.dpi, figure.dpi), compress_type=_RUNS)

@@ -5,9 +5,9 @@ from __future__ import annotations
 import os
 import time
 from collections.abc import Collection, Iterator, Mapping, Sequence
-from contextlib import closing, contextmanager, suppress
+from contextlib import contextmanager, suppress
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 import bem
 from bem.campaigns import Computed, campaign_of, compute, plan
@@ -26,9 +26,6 @@ from bem.scenes.common import SceneModel
 from bem.scenes.kind import get_kind
 from bem.scenes.load import dump_scene, load_scene, scene_table
 from bem.scenes.planner import Plan, check_memory
-
-if TYPE_CHECKING:
-    from bem.plots.pages import Ahead
 
 
 def plan_scene(
@@ -101,22 +98,19 @@ def run_scene(
     ResultsError : the results cannot be written.
     KeyboardInterrupt : passed on; the folder can be resumed.
     """
-    from bem.plots.pages import drawing_ahead
-
     check_workers(workers)
     check_out(out)
     formats = ("vtu", *(("png", "pdf") if pdf else ("png",))) if figures else ("vtu",)
-    with drawing_ahead(figures, workers) as ahead:
-        scene, planned = plan_scene(source, settings, accuracy)
-        check_memory(planned)
-        held = RunDirectory.start(
-            None if out is None else Path(out), scene.name, dump_scene(scene), resume=resume, overwrite=overwrite
-        )
-        with held as directory, closing(ahead):  # nobody draws into a folder that is given back
-            if directory.resumed and directory.finished:
-                check_data(directory.path)
-            else:
-                run_planned(directory, scene, planned, Staff(workers, scheduler), formats, watcher or Silent(), ahead)
+    scene, planned = plan_scene(source, settings, accuracy)
+    check_memory(planned)
+    held = RunDirectory.start(
+        None if out is None else Path(out), scene.name, dump_scene(scene), resume=resume, overwrite=overwrite
+    )
+    with held as directory:
+        if directory.resumed and directory.finished:
+            check_data(directory.path)
+        else:
+            run_planned(directory, scene, planned, Staff(workers, scheduler), formats, watcher or Silent())
     return open_run(directory.path)
 
 
@@ -139,11 +133,9 @@ def run_planned(
     staff: Staff,
     formats: tuple[str, ...],
     watcher: Watcher,
-    ahead: Ahead | None = None,
     fields: bool = True,
 ) -> dict[str, Any]:
-    """Compute and write all of a run; pictures as named in `formats` ("vtu", "png", "pdf"), by the copy `ahead` where
-    there is one. Its summary.
+    """Compute and write all of a run, with pictures in `formats` ("vtu", "png", "pdf"); return its summary.
 
     Without `fields` the file of results has single maps but no stacks of them (stresses at depths, frames over time).
 
@@ -181,7 +173,7 @@ def run_planned(
     computed.notes[:] = without_foreseen(computed.notes)
     computed.notes.sort(key=lambda note: list(Level).index(note.level))  # the most serious ones first
     left_out = [] if fields else stacks_of_maps(computed.outcome.variables)
-    return _write(directory, scene, computed, formats, watcher, staff.workers, ahead, left_out)
+    return _write(directory, scene, computed, formats, watcher, left_out)
 
 
 def _stored(notes: list[Note]) -> dict[str, Any]:
@@ -197,8 +189,6 @@ def _write(
     computed: Computed,
     formats: tuple[str, ...],
     watcher: Watcher,
-    processes: int | None,
-    ahead: Ahead | None,
     left_out: Collection[str],
 ) -> dict[str, Any]:
     """Arrays but those left out, volumes, figures with the report (neither without a format); the summary last."""
@@ -228,12 +218,8 @@ def _write(
     kind = get_kind(scene.kind)
     headline = (*(scene.over or ()), *kind.headline)
     drawn_as = tuple(ending for ending in formats if ending != "vtu")
-    pages = Pages(
-        directory.path, scene_table(scene), summary, kind.figures, drawn_as, headline, computed.epoch, processes
-    )
+    pages = Pages(directory.path, scene_table(scene), summary, kind.figures, drawn_as, headline, computed.epoch)
     arrays = to_arrays(variables, attributes)
-    if drawn_as and ahead is not None:
-        ahead.begin(pages, arrays)
     tell = getattr(watcher, "numbers", None)
     if tell is not None:
         with suppress(OSError):  # nobody may be listening any more; the run goes on
@@ -244,9 +230,7 @@ def _write(
     if drawn_as:
         directory.sum_up()
         with _timed(seconds, "figures and report"):
-            missing = None if ahead is None else ahead.result()
-            if missing is None:
-                missing = make(pages, arrays)
+            missing = make(pages, arrays)
         for note in missing:
             summary["notes"].append(note.as_dict())
             watcher.note(note)

@@ -92,21 +92,6 @@ def test_a_light_name_does_not_pull_in_a_heavy_one():
     assert not loaded("from bem import Grid, Material, Status") & (HEAVY - {"numpy"})
 
 
-@pytest.mark.parametrize("command", [True, False])
-def test_a_command_writes_no_help_on_artists_and_a_session_does(command):
-    code = """
-import gc, sys
-if sys.argv[1] == "True":
-    gc.disable()
-from bem.plots.draw import load_what_draws
-load_what_draws()
-from matplotlib.lines import Line2D
-assert ("linestyle" in Line2D.set.__doc__) == (sys.argv[1] == "False")
-Line2D([0.0], [0.0]).set(linewidth=2.0)
-"""
-    loaded(code, str(command))
-
-
 SMALL = (
     *("hertz-sphere", "--set", "grid.shape=32", "--set", "grid.lengths=256 um", "--set", "outputs.depths=[0.0]"),
     *("--out", "run"),
@@ -117,7 +102,7 @@ def test_a_run_loads_no_scheduler_and_no_units_registry(tmp_path, monkeypatch):
     """dask came in by three doors, pyfftw's interfaces, pint and xarray: two seconds of every run. Of pyfftw only the
     library is loaded."""
     monkeypatch.chdir(tmp_path)
-    modules = loaded(COMMAND, "run", *SMALL, "--workers", "1")  # else a copy of the process draws
+    modules = loaded(COMMAND, "run", *SMALL, "--workers", "1")
     assert "matplotlib" in modules
     assert not modules & {
         "pyfftw",

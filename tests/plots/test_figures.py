@@ -1,8 +1,6 @@
 """Figures: drawn from data alone, labelled with units, of the asked size, and never solving."""
 
-import os
 import re
-import sys
 from types import SimpleNamespace
 
 import numpy as np
@@ -10,7 +8,6 @@ import pytest
 from PIL import Image
 
 from bem.errors import InputError
-from bem.plots import side_by_side
 from bem.plots.draw import Drawn, draw, draw_all, figure_kind
 from bem.plots.figures import all_figures
 from bem.plots.report import spelled, write_report
@@ -108,20 +105,6 @@ def test_files_have_the_asked_format_and_size(tmp_path):
         assert image.size == (800, 600)  # 200 dots an inch
     assert (tmp_path / "convergence.pdf").read_bytes().startswith(b"%PDF")
     assert b"<svg" in (tmp_path / "convergence.svg").read_bytes()[:2000]
-
-
-@pytest.mark.skipif(sys.platform != "linux", reason="copies are made on Linux only")
-def test_pictures_have_the_same_bytes_however_many_draw(tmp_path, monkeypatch):
-    monkeypatch.setattr(side_by_side, "_alone", lambda: True)  # test runners have threads
-    run, alone, together = contact_run(tmp_path), tmp_path / "alone", tmp_path / "together"
-    alone.mkdir()
-    together.mkdir()
-    expected = draw_all(run, NAMES, alone)
-    drawn = draw_all(run, NAMES, together, processes=3)
-    assert [item.kind.name for item in drawn] == [item.kind.name for item in expected]
-    assert sorted(os.listdir(together)) == sorted(os.listdir(alone))
-    for name in os.listdir(alone):
-        assert (alone / name).read_bytes() == (together / name).read_bytes(), name
 
 
 def test_only_what_fits_is_drawn(tmp_path):
