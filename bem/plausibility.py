@@ -15,7 +15,7 @@ from typing import Any
 
 from bem.notes import Note, as_note
 from bem.notes.general import VALUE_UNUSUAL
-from bem.notes.note import si
+from bem.quantities import with_unit
 
 ATOM = 2e-10
 """Distance of neighbouring atoms in a metal [m]."""
@@ -29,8 +29,6 @@ SMALLEST_RADIUS, LARGEST_RADIUS = 1e-10, 1e3
 """Radii [m] beyond which no body is in contact: an atom, and a flat that is hardly crowned."""
 ARGUMENT = "argument "
 """How a note on an argument of a Python entry point begins; scenes report the same value under its key."""
-
-_PREFIXED = frozenset(("m", "N", "Pa", "Pa*s", "m/s", "N/m"))
 
 
 @dataclass(frozen=True)
@@ -96,11 +94,6 @@ class UsualRange:
         if likely is None:
             return "check its unit"
         return f'a number without a unit is in {self.unit}: write "{value:g} {likely}" if that is meant'
-
-
-def with_unit(value: float, unit: str) -> str:
-    """A value with its unit, with a prefix where that is usual: 2e9, "Pa" is "2 GPa"."""
-    return si(value, unit) if unit in _PREFIXED else f"{value:.3g} {unit}".rstrip()
 
 
 _LENGTHS = (("mm", 1e-3), ("um", 1e-6), ("nm", 1e-9))

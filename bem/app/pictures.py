@@ -16,18 +16,17 @@ from bem.plots.labels import (
     in_celsius,
     key_words,
     label,
-    largest_of,
     prefix,
     uniform_value,
 )
 from bem.plots.tables import is_error, is_list, name_and_unit
+from bem.quantities import with_signs
 from bem.results.arrays import Array, Arrays
 
 Picture = dict[str, Any]
 MOST_CELLS = 384
 """Along each axis of a map that is sent: every n-th cell of larger ones, which the title then says."""
 MOST_CURVES = 24
-_PREFIXED = ("m", "Pa", "N", "s")
 _LONGEST = 5.0
 """Ratio of a map's sides up to which both have one scale."""
 _MARGIN = {"l": 60, "r": 10, "t": 36, "b": 46}
@@ -183,7 +182,7 @@ def curve_picture(arrays: Arrays, name: str, case: str = "") -> Picture:
     errors = arrays.get(f"{name}_error")
     words = str(item.attrs.get("long_name", name))
     along, under = in_celsius(np.asarray(axis.values), unit_of(axis), item.dims[-1])
-    if under in _PREFIXED and along.dtype.kind in "fiu":
+    if along.dtype.kind in "fiu":
         length, under = prefix(along, under)
         along = along * length
     values, unit = in_celsius(np.asarray(item.values, dtype=np.float64), unit_of(item), name, words)
@@ -228,12 +227,8 @@ def figures_over(summary: Mapping[str, Any]) -> list[tuple[str, str]]:
 
 
 def scaled(values: Any, unit: str) -> tuple[float, str]:
-    """Factor and unit in which the largest of the values is a number of few digits; areas and volumes by their side."""
-    power = {"m^2": 2, "m^3": 3}.get(unit)
-    if power is None:
-        return prefix(values, unit) if unit in _PREFIXED else (1.0, unit)
-    factor, side = prefix([largest_of(values) ** (1 / power)], "m")
-    return factor**power, f"{side}{'²' if power == 2 else '³'}"
+    """Return factor and unit in which the largest of the values is a number of few digits."""
+    return prefix(values, with_signs(unit))
 
 
 _POWERS_OF_TEN = {"type": "log", "exponentformat": "power"}

@@ -194,7 +194,7 @@ def _show(surface: Surface, name: str) -> None:
     import math
 
     from bem.cli._terminal import table
-    from bem.notes.note import si
+    from bem.quantities import si
     from bem.surfaces import describe_surface
 
     d = describe_surface(surface.heights, surface.spacing, periodic=_periodic(surface))

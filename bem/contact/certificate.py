@@ -24,7 +24,7 @@ from bem.errors import Status
 from bem.grid import Grid
 from bem.notes import Note
 from bem.notes.contact import CONTACT_AT_EDGE, CONTACT_UNRESOLVED, MEAN_GAP_NOT_MET
-from bem.notes.note import si
+from bem.quantities import si
 
 FloatArray = NDArray[np.float64]
 

@@ -7,12 +7,13 @@ know more. Code decides by `code`, `level` and `values`, never by the text. Veri
 
 from __future__ import annotations
 
-import math
 import string
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 from enum import StrEnum
 from typing import Any, NamedTuple
+
+from bem.quantities import si
 
 OUTSIDE = "outside the model: "
 """Words before the headline of a note of level `OUTSIDE_MODEL`, in every view."""
@@ -256,21 +257,6 @@ def without(notes: Iterable[Note], *kinds: NoteKind) -> tuple[Note, ...]:
     """Return the notes that are of none of the kinds."""
     codes = {kind.code for kind in kinds}
     return tuple(note for note in notes if note.code not in codes)
-
-
-_PREFIXES = ((1e9, "G"), (1e6, "M"), (1e3, "k"), (1.0, ""), (1e-3, "m"), (1e-6, "u"), (1e-9, "n"))
-
-
-def si(value: float, unit: str, digits: int = 3) -> str:
-    """Return a value with its unit and a prefix: `45e-9, "m"` is "45 nm"; powers of ten beyond nano and giga."""
-    if value == 0 or not math.isfinite(value):
-        return f"{value:g} {unit}"
-    rounded = float(f"{value:.{digits}g}")
-    for factor, prefix in _PREFIXES:
-        if factor <= abs(rounded) * (1 + 1e-12) < 1000 * factor:
-            shown = rounded / factor
-            return f"{shown:.{digits}g} {prefix}{unit}" if abs(shown) < 10**digits else f"{shown:.0f} {prefix}{unit}"
-    return f"{value:.{digits}g} {unit}"
 
 
 def percent(share: float) -> str:

@@ -2,22 +2,15 @@
 
 from __future__ import annotations
 
-import math
 from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bem.numerics.blocks import BLOCK, row_blocks
+from bem.quantities import plain_digits, prefix_for
 from bem.scenes.context import release
 
-_PREFIXES = {-4: "p", -3: "n", -2: "µ", -1: "m", 0: "", 1: "k", 2: "M", 3: "G", 4: "T"}
-_PREFIXED = ("m", "Pa", "N", "s", "m/s", "N/m", "J", "W")
-_POWERS = {"m²": 2, "m³": 3}
-_OF_NAMES = {"nm": 1e-9, "µm": 1e-6}
-"""Lengths in the unit that ends their names, in metres: kept below 1000 of it, and shown in a larger one from there."""
-_ROUNDED = 1.00005
-"""What is shown as 1000 in the four digits that tables have is 1 of the next unit."""
 ZERO_CELSIUS = 273.15
 UNIFORM = 1e-5
 """A field that differs by less than this fraction of its largest value is drawn as uniform: solvers leave 1e-6."""
@@ -36,24 +29,8 @@ _KEY_WORDS = {
 
 
 def prefix(values: Any, unit: str) -> tuple[float, str]:
-    """Factor and unit label that bring the largest of `values` between 1 and 1000: (1e6, "µm") for micrometres, and
-    (0.001, "µm") for a thousand of them that are given in nanometres; areas and volumes get no prefix above one.
-    """
-    if unit in ("", "1"):
-        return 1.0, ""
-    if unit not in (*_PREFIXED, *_POWERS, *_OF_NAMES):
-        return 1.0, unit
-    largest = largest_of(values)
-    if unit in _OF_NAMES:
-        if largest * _ROUNDED < 1000:
-            return 1.0, unit
-        factor, shown = prefix([largest * _OF_NAMES[unit]], "m")
-        return factor * _OF_NAMES[unit], shown
-    if largest == 0:
-        return 1.0, unit
-    step = 3 * _POWERS.get(unit, 1)
-    power = min(max(math.floor(math.log10(largest * _ROUNDED) / step), -4), 4 if step == 3 else 0)
-    return 10.0 ** (-step * power), _PREFIXES[power] + unit
+    """Return factor and unit label that bring the largest of `values` between 1 and 1000; see `prefix_for`."""
+    return prefix_for(largest_of(values), unit)
 
 
 def largest_of(values: Any) -> float:
@@ -108,22 +85,17 @@ def beyond_ends(ends: tuple[float, float], reached: tuple[float, float]) -> tupl
     """
     slack = 1e-6 * max(abs(ends[0]), abs(ends[1]))
     below, above = reached[0] < ends[0] - slack, reached[1] > ends[1] + slack
-    low, high = _three(ends[0]), _three(ends[1])
+    low, high = plain_digits(ends[0], 3), plain_digits(ends[1], 3)
     if below and above:
         said = f"colours end at ±{high}" if low == f"-{high}" else f"colours end at {low}, {high}"
-        words = f"{said};\nvalues {_three(reached[0])} to {_three(reached[1])}"
+        words = f"{said};\nvalues {plain_digits(reached[0], 3)} to {plain_digits(reached[1], 3)}"
     elif above:
-        words = f"colours end at {high};\nmaximum {_three(reached[1])}"
+        words = f"colours end at {high};\nmaximum {plain_digits(reached[1], 3)}"
     elif below:
-        words = f"colours end at {low};\nminimum {_three(reached[0])}"
+        words = f"colours end at {low};\nminimum {plain_digits(reached[0], 3)}"
     else:
         return "neither", ""
     return {(True, True): "both", (True, False): "min", (False, True): "max"}[below, above], words
-
-
-def _three(number: float) -> str:
-    """A number in three digits, without a power of ten up to a million."""
-    return f"{float(f'{number:.3g}'):g}"
 
 
 def colour_ends(values: NDArray[np.float64], low: float, high: float) -> tuple[float, float]:

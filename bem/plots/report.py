@@ -74,10 +74,6 @@ def summary_rows(summary: dict[str, Any], names: Sequence[str]) -> list[tuple[st
     return [with_error(name, summary) for name in names]
 
 
-_PREFIXED = ("m", "Pa", "N", "s", "m²", "m³", "nm", "µm")
-"""Units that are shown with a prefix."""
-
-
 def with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
     """Name and value of a figure as `spelled`, with its error where it has one: `1.2 ± 0.013 GPa`."""
     value, error = _only(summary[name]), _only(summary.get(f"{name}_error"))
@@ -117,7 +113,7 @@ def _with_unit(value: Any, unit: str) -> str:
         return ", ".join(shown) + (", ..." if len(value) > 12 else "") + (f" {unit}" if unit else "")
     if isinstance(value, dict):
         return json.dumps(value)
-    if isinstance(value, float) and unit in _PREFIXED:
+    if isinstance(value, float):
         factor, unit = prefix([value], unit)
         value = value * factor
     number = f"{value:.4g}" if isinstance(value, float) else str(value)

@@ -10,9 +10,9 @@ from typing import Any
 import numpy as np
 
 from bem.plots.labels import label, prefix
+from bem.quantities import plain_digits, with_signs
 from bem.scenes.records import TELLING, unit_of
 
-_PREFIXED = ("m", "Pa", "N", "s", "nm", "µm")
 _SPREAD, _ERROR = "_spread", "_error"
 _TELLING = tuple(f"{name}_{unit}" for name, unit in TELLING.items())
 """Figures that say which row it is; texts (a variant's name) do so too."""
@@ -21,7 +21,6 @@ ABOUT_THE_RUN = (
     *("accuracy", "seconds_by_stage", "seconds_by_level"),
 )
 """Keys of a summary that hold no figure. A list of these, such as the notes, has no entry for each case."""
-_SIGNS = (("^2", "²"), ("^3", "³"), ("degC", "°C"), ("um", "µm"))
 MOST_COLUMNS = 7
 """Columns of a table on a page and in a file; more would not fit beside each other."""
 _MOST_ROWS = 200
@@ -44,9 +43,7 @@ class FigureTable:
 def name_and_unit(name: str) -> tuple[str, str]:
     """`mean_contact_pressure_Pa` -> `mean contact pressure`, `Pa`."""
     words, unit = unit_of(name)
-    for written, sign in _SIGNS:
-        unit = unit.replace(written, sign)
-    return _LABELS.get(words, " ".join(words.split("_")).replace("von mises", "von Mises")), unit
+    return _LABELS.get(words, " ".join(words.split("_")).replace("von mises", "von Mises")), with_signs(unit)
 
 
 _LABELS = {
@@ -115,9 +112,9 @@ def within(name: str, value: float, error: float, factor: float = 1.0, sign: str
     least = 0.0 if value >= 0 and not signed and (is_share or not _WITHOUT_SIGN.isdisjoint(words)) else -np.inf
     most = 1.0 if value <= 1 and is_share else np.inf
     if least <= value - error and value + error <= most:
-        return f"± {short(error * abs(factor))}{sign}"
+        return f"± {plain_digits(error * abs(factor))}{sign}"
     low, high = max(value - error, least) * factor, min(value + error, most) * factor
-    return f"({short(low, 3)}{sign} to {short(high, 3)}{sign})"
+    return f"({plain_digits(low, 3)}{sign} to {plain_digits(high, 3)}{sign})"
 
 
 def is_list(value: Any) -> bool:
@@ -145,9 +142,9 @@ def origin_table(summary: Mapping[str, Any], names: Sequence[str]) -> list[Figur
         at = int(np.nanargmax(values[1]))
         shown = [values[0][at], values[1][at], *(np.ravel(parts[name].get(origin, np.nan)) for origin in origins)]
         numbers = [float(v[at] if np.size(v) > 1 else np.ravel(v)[0]) for v in shown]
-        factor, unit = prefix(numbers[:1], unit) if unit in _PREFIXED else (1.0, unit)
+        factor, unit = prefix(numbers[:1], unit)
         largest = ", where the error is largest" if len(values[1]) > 1 else ""
-        cells = [_cell(numbers[0], factor), *(short(number * factor) for number in numbers[1:])]
+        cells = [_cell(numbers[0], factor), *(plain_digits(number * factor) for number in numbers[1:])]
         rows.append((label(words, unit) + largest, *cells))
     return [FigureTable("", ("figure", "value", "error", *origins), tuple(rows))] if rows else []
 
@@ -156,11 +153,6 @@ def _parts(name: str, summary: Mapping[str, Any]) -> dict[str, Any]:
     """What each origin adds to the error of a figure, by the words for the origin."""
     start = f"{name}{_ERROR}_"
     return {" ".join(key.removeprefix(start).split("_")): v for key, v in summary.items() if key.startswith(start)}
-
-
-def short(number: float, digits: int = 2) -> str:
-    """Of so many digits, two as an error: 110, not 1.1e+02."""
-    return "–" if not np.isfinite(number) else f"{float(f'{number:.{digits}g}'):g}"
 
 
 def varied_keys(summary: Mapping[str, Any]) -> dict[str, str]:
@@ -312,9 +304,7 @@ def shown_values(key: str, values: Sequence[Any], unit: str) -> tuple[str, list[
     if unit == "K" and key.endswith("temperature"):
         return "°C", [v if isinstance(v, str) else _cell(v - 273.15) for v in values]
     factor, unit = prefix(numbers, unit) if numbers else (1.0, "" if unit == "1" else unit)
-    for written, sign in _SIGNS:
-        unit = unit.replace(written, sign)
-    return unit, [v if isinstance(v, str) else _cell(v, factor) for v in values]
+    return with_signs(unit), [v if isinstance(v, str) else _cell(v, factor) for v in values]
 
 
 def _varied(key: str, values: Sequence[Any], unit: str) -> tuple[str, list[str]]:
@@ -329,7 +319,7 @@ def _column(name: str, values: Sequence[Any], spread: Any, *, bars: bool = False
     values = [None if is_size_of_no_particles(name, value) else value for value in values]
     numbers = [v for v in values if isinstance(v, int | float) and not isinstance(v, bool)]
     factor = 1.0
-    if unit in _PREFIXED and numbers:
+    if numbers:
         factor, unit = prefix(numbers, unit)
     if words.endswith(" fraction"):
         factor, unit = 100.0, "%"
@@ -338,7 +328,7 @@ def _column(name: str, values: Sequence[Any], spread: Any, *, bars: bool = False
         cells = [
             cell
             if cell == "–" or not s or s < _ROUND_OFF * abs(value)
-            else f"{cell} {within(name, value, s, factor) if bars else f'± {short(s * factor)}'}"
+            else f"{cell} {within(name, value, s, factor) if bars else f'± {plain_digits(s * factor)}'}"
             for cell, s, value in zip(cells, spread, values, strict=True)
         ]
     return label(words, unit), cells

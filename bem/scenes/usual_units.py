@@ -8,6 +8,8 @@ from __future__ import annotations
 import re
 from decimal import Decimal, localcontext
 
+from bem.quantities import MICRO, PREFIXES
+
 Dimensionality = tuple[tuple[str, float], ...]
 
 _LENGTH, _MASS, _TIME, _HEAT = "[length]", "[mass]", "[time]", "[temperature]"
@@ -16,24 +18,28 @@ _PRESSURE = {_LENGTH: -1, _MASS: 1, _TIME: -2}
 _ENERGY = {_LENGTH: 2, _MASS: 1, _TIME: -2}
 _POWER = {_LENGTH: 2, _MASS: 1, _TIME: -3}
 
+
+def _with_prefixes(unit: str, letters: str, dimensions: dict[str, int]) -> dict[str, tuple[dict[str, int], str]]:
+    """Return a unit and its multiples by the prefixes of these letters, with their factors to SI."""
+    spelt = {"": 0} | {way: PREFIXES[letter] for letter in letters for way in (MICRO if letter == "u" else letter)}
+    return {f"{way}{unit}": (dimensions, f"1e{power}") for way, power in spelt.items()}
+
+
 _UNITS: dict[str, tuple[dict[str, int], str]] = {
-    **{name: ({_LENGTH: 1}, factor) for name, factor in (
-        ("m", "1"), ("cm", "1e-2"), ("mm", "1e-3"), ("um", "1e-6"), ("µm", "1e-6"), ("μm", "1e-6"), ("nm", "1e-9"),
-        ("pm", "1e-12"), ("km", "1e3"), ("angstrom", "1e-10"),
-    )},
-    **{name: ({_TIME: 1}, factor) for name, factor in (
-        ("s", "1"), ("ms", "1e-3"), ("us", "1e-6"), ("min", "60"), ("h", "3600"), ("hour", "3600"), ("day", "86400"),
-    )},
-    **{name: (_FORCE, factor) for name, factor in (
-        ("N", "1"), ("kN", "1e3"), ("mN", "1e-3"), ("uN", "1e-6"), ("µN", "1e-6"), ("nN", "1e-9"),
-    )},
-    **{name: (_PRESSURE, factor) for name, factor in (
-        ("mPa", "1e-3"), ("Pa", "1"), ("kPa", "1e3"), ("MPa", "1e6"), ("GPa", "1e9"), ("bar", "1e5"),
-    )},
-    **{name: (_ENERGY, factor) for name, factor in (
-        ("J", "1"), ("kJ", "1e3"), ("mJ", "1e-3"), ("eV", "1.602176634e-19"),
-    )},
-    **{name: (_POWER, factor) for name, factor in (("W", "1"), ("mW", "1e-3"), ("kW", "1e3"))},
+    **_with_prefixes("m", "pnumk", {_LENGTH: 1}),
+    "cm": ({_LENGTH: 1}, "1e-2"),
+    "angstrom": ({_LENGTH: 1}, "1e-10"),
+    **_with_prefixes("s", "um", {_TIME: 1}),
+    "min": ({_TIME: 1}, "60"),
+    "h": ({_TIME: 1}, "3600"),
+    "hour": ({_TIME: 1}, "3600"),
+    "day": ({_TIME: 1}, "86400"),
+    **_with_prefixes("N", "numk", _FORCE),
+    **_with_prefixes("Pa", "mkMG", _PRESSURE),
+    "bar": (_PRESSURE, "1e5"),
+    **_with_prefixes("J", "mk", _ENERGY),
+    "eV": (_ENERGY, "1.602176634e-19"),
+    **_with_prefixes("W", "mk", _POWER),
     "cP": ({_LENGTH: -1, _MASS: 1, _TIME: -1}, "1e-3"),
     "kg": ({_MASS: 1}, "1"),
     "g": ({_MASS: 1}, "1e-3"),
@@ -42,7 +48,7 @@ _UNITS: dict[str, tuple[dict[str, int], str]] = {
     "%": ({}, "1e-2"),
     "rad": ({}, "1"),
     "deg": ({}, "0.0174532925199433"),  # to the fifteen digits that pint's are taken to
-}  # fmt: skip
+}
 
 _DENOMINATOR = re.compile(r"/\s*\(([^()/]*)\)\s*$")
 _FACTOR = re.compile(r"\s*([*/]?)\s*(?:([A-Za-zµμ%]+)\s*(?:(?:\^|\*\*)\s*([1-4]))?|(1)(?=\s*/))")

@@ -8,7 +8,7 @@ from contact_oracles import FREE, rough
 from bem import Body, Grid, Layer, Material, Status, displacement_operator, solve_contact
 from bem.notes import has_code
 from bem.notes.contact import MEAN_GAP_NOT_MET
-from bem.notes.note import si
+from bem.quantities import si
 from reports.experiments import random_contacts
 
 

@@ -196,4 +196,4 @@ def test_every_roughness_says_of_which_region_it_is(kind):
 def test_a_figure_of_a_life_is_shown_under_one_name():
     summary = {"lower_Sq_final_nm": [1.0, 2.0], "Sq_final_nm": [1.0, 2.0], "speed_m_s": [0.1, 0.2]}
     (table,) = figure_tables(summary, list(summary))
-    assert table.head == ("speed (m/s)", "Sq of the lower surface, final (nm)")
+    assert table.head == ("speed (mm/s)", "Sq of the lower surface, final (nm)")

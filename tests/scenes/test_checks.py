@@ -7,7 +7,8 @@ from small_scenes import PATCH, oiled_ball
 from bem import Grid
 from bem.errors import InputError
 from bem.notes import OUTSIDE, outside
-from bem.notes.note import percent, si
+from bem.notes.note import percent
+from bem.quantities import si
 from bem.runs import plan_scene, run_scene
 from bem.scenes import library
 from bem.scenes.checks import OUTCOME_CHECKS, SCENE_CHECKS, examine, outcome_warnings, scene_warnings, surfaces_of

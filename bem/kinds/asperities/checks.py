@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING
 
 from bem.kinds.asperities.scene import AsperitiesScene
-from bem.notes.note import si
+from bem.quantities import si
 
 if TYPE_CHECKING:
     from bem.scenes.checks.facts import Case

@@ -23,7 +23,8 @@ from bem.notes.checks import (
     WEAR_STEPS_LONG,
 )
 from bem.notes.contact import CONTACT_UNRESOLVED
-from bem.notes.note import joined, percent, si
+from bem.notes.note import joined, percent
+from bem.quantities import si
 from bem.scenes.checks.facts import Facts
 from bem.scenes.checks.hertz import LARGEST_SLOPE, STEEP
 from bem.scenes.checks.outcome import at_the_cap

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from bem.grid import Grid
 from bem.materials import Body, Material, contact_modulus, softer_hardness
-from bem.notes.note import si
+from bem.quantities import si
 from bem.scenes import build
 from bem.scenes.axes import Axis
 from bem.scenes.checks.hertz import SmoothContact, smooth_contact

@@ -6,7 +6,7 @@ import math
 from dataclasses import dataclass
 
 from bem.materials import Body, contact_modulus
-from bem.notes.note import si
+from bem.quantities import si
 
 LARGEST_SLOPE = 0.2
 """At the edge of a contact, semi-axis over radius: half-spaces and parabolas need small ones (Johnson 1985, section

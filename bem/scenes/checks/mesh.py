@@ -17,7 +17,8 @@ from bem.notes.checks import (
     WEAR_SHIFT,
 )
 from bem.notes.contact import CONTACT_UNRESOLVED
-from bem.notes.note import joined, si
+from bem.notes.note import joined
+from bem.quantities import si
 from bem.scenes.checks.facts import Case, Facts, worst
 from bem.scenes.checks.registry import scene_check
 from bem.scenes.checks.surfaces_of import RoughSurface

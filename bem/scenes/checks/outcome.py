@@ -22,7 +22,8 @@ from bem.notes.checks import (
     YIELDS,
 )
 from bem.notes.contact import CONTACT_AT_EDGE
-from bem.notes.note import joined, percent, si
+from bem.notes.note import joined, percent
+from bem.quantities import si
 from bem.scenes.checks.contact import hertz_pressure_above_hardness, yield_below_the_surface
 from bem.scenes.checks.facts import Case, Facts
 from bem.scenes.checks.registry import outcome_check

@@ -6,7 +6,8 @@ import math
 from typing import TYPE_CHECKING, Any
 
 from bem.materials import Body, Material
-from bem.notes.note import percent, si
+from bem.notes.note import percent
+from bem.quantities import si
 from bem.scenes.checks.facts import Case, Facts
 from bem.scenes.checks.words import times
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from bem.materials import contact_modulus
-from bem.notes.note import si
+from bem.quantities import si
 from bem.scenes.checks.facts import Case, Facts
 from bem.scenes.checks.units_of import suspected_units
 

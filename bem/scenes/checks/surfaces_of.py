@@ -9,7 +9,8 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from bem.grid import FloatArray, Grid
-from bem.notes.note import percent, si
+from bem.notes.note import percent
+from bem.quantities import si
 from bem.scenes import build, maps
 from bem.scenes.checks.words import times
 from bem.scenes.common import GeneratedSurface, MeasuredSurface

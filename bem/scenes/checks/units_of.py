@@ -10,8 +10,8 @@ from __future__ import annotations
 from collections.abc import Iterable, Iterator
 from typing import Any
 
-from bem.notes.note import si
 from bem.plausibility import LARGEST_RADIUS, SMALLEST_RADIUS, SOFTEST, STIFFEST
+from bem.quantities import si
 from bem.scenes.common import MaterialScene
 from bem.scenes.table import Table
 

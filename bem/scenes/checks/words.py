@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from bem.notes.note import si
+from bem.quantities import si
 
 
 def times(values: tuple[float, float], unit: str) -> str:

@@ -1,0 +1,72 @@
+"""Numbers with units in texts, in tables and on axes: one table of prefixes, and how values are written with it."""
+
+from __future__ import annotations
+
+import math
+
+PREFIXES = {"p": -12, "n": -9, "u": -6, "m": -3, "": 0, "k": 3, "M": 6, "G": 9, "T": 12}
+"""Prefixes of units and their powers of ten. Scenes and messages write "um"; axes and tables "µm"."""
+MICRO = ("u", "µ", "μ")
+"""Ways of writing micro: the letter u, the micro sign and the Greek letter."""
+PREFIXED = frozenset(("m", "Pa", "N", "s", "m/s", "N/m", "J", "W", "Pa*s", "Pa s"))
+"""SI units that are written with a prefix."""
+_POWERS = {"m²": 2, "m³": 3}
+_OF_NAMES = {"nm": -9, "µm": -6}
+"""Lengths in the unit that ends their names: kept below 1000 of it, and shown in a larger unit from there."""
+_ROUNDED = 1.00005
+"""A number that four digits show as 1000 is 1 of the next unit."""
+_SIGNS = (("^2", "²"), ("^3", "³"), ("degC", "°C"), ("um", "µm"))
+_BY_POWER = {power: letter for letter, power in PREFIXES.items()}
+_IN_TEXT = range(-9, 10, 3)
+
+
+def prefix_for(largest: float, unit: str) -> tuple[float, str]:
+    """Return factor and unit that bring the largest absolute value of numbers in `unit` between 1 and 1000.
+
+    (1e6, "µm") for micrometres in metres; (0.001, "µm") for a thousand nanometres in nanometres. Areas and volumes get
+    no prefix above one; other units than those of `PREFIXED` get none.
+    """
+    if unit in ("", "1"):
+        return 1.0, ""
+    if unit in _OF_NAMES:
+        if largest * _ROUNDED < 1000:
+            return 1.0, unit
+        in_metres = 10.0 ** _OF_NAMES[unit]
+        factor, shown = prefix_for(largest * in_metres, "m")
+        return factor * in_metres, shown
+    if (unit not in PREFIXED and unit not in _POWERS) or largest == 0:
+        return 1.0, unit
+    step = 3 * _POWERS.get(unit, 1)
+    power = min(max(math.floor(math.log10(largest * _ROUNDED) / step), -4), 4 if step == 3 else 0)
+    return 10.0 ** (-step * power), _BY_POWER[3 * power].replace("u", "µ") + unit
+
+
+def si(value: float, unit: str, digits: int = 3) -> str:
+    """Return a value with its unit and a prefix: `45e-9, "m"` is "45 nm"; powers of ten beyond nano and giga."""
+    if value == 0 or not math.isfinite(value):
+        return f"{value:g} {unit}"
+    rounded = float(f"{value:.{digits}g}")
+    for power in _IN_TEXT:
+        factor = float(f"1e{power}")
+        if factor <= abs(rounded) * (1 + 1e-12) < 1000 * factor:
+            shown = rounded / factor
+            number = f"{shown:.{digits}g}" if abs(shown) < 10**digits else f"{shown:.0f}"
+            return f"{number} {_BY_POWER[power]}{unit}"
+    return f"{value:.{digits}g} {unit}"
+
+
+def with_unit(value: float, unit: str) -> str:
+    """Return a value in three digits with its unit, with a prefix where `PREFIXED` has the unit."""
+    return si(value, unit) if unit in PREFIXED else f"{value:.3g} {unit}".rstrip()
+
+
+def plain_digits(number: float, digits: int = 2) -> str:
+    """Return a number rounded to so many digits, without a power of ten up to a million: 110, not 1.1e+02."""
+    return f"{float(f'{number:.{digits}g}'):g}" if math.isfinite(number) else "–"
+
+
+def with_signs(unit: str) -> str:
+    """Return a unit as people write it: "um^2" is "µm²"."""
+    for written, sign in _SIGNS:
+        unit = unit.replace(written, sign)
+    return unit
