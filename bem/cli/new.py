@@ -133,9 +133,9 @@ def _check_kind(word: str) -> None:
     from bem.arguments import did_you_mean
     from bem.elements.element import TITLES
     from bem.errors import InputError
-    from bem.scenes.kind import kind_names
+    from bem.scenes.kind import kind_aliases, kind_names
     from bem.scenes.load import library
-    from bem.scenes.template import ALSO, kind_meant
+    from bem.scenes.template import kind_meant
 
     if kind_meant(word) in kind_names() or word in library():
         return
@@ -144,6 +144,7 @@ def _check_kind(word: str) -> None:
         raise InputError(f"{word}: the kind is missing; allowed: bem new KIND {word}, such as bem new contact {word}")
     raise InputError(
         f'KIND "{word}": neither a kind of scene nor a machine element'
-        f"{did_you_mean(word, [*kinds, *TITLES, *ALSO, *library()])}; allowed: the kinds {', '.join(kinds)}, the "
+        f"{did_you_mean(word, [*kinds, *TITLES, *kind_aliases(), *library()])}; "
+        f"allowed: the kinds {', '.join(kinds)}, the "
         f"elements {', '.join(TITLES)}, or a built-in scene (`bem new` explains them, `bem scenes` lists the scenes)"
     )

@@ -29,6 +29,10 @@ from bem.scenes.resolutions import Resolution
 
 KINDS = Path(__file__).resolve().parents[1] / "kinds"
 """Folder of the package's kinds: each one's parts, and its built-in scenes under `examples`."""
+TASKS = ("dry contact", "oil films (EHL)", "mixed lubrication", "wear and running-in", "tribofilms")
+"""Order of the tasks that lists of kinds go by; other tasks follow, and last of all `OTHER`."""
+OTHER = "other kinds"
+"""Task of a kind that says none."""
 _NAME = re.compile(r"[a-z][a-z0-9-]{0,63}")
 
 
@@ -58,6 +62,7 @@ class Kind:
     contacts : contacts of a scene, each a `bem.scenes.checks.Case`, that plans show and checks examine; None where
         there are none.
     warm_up : built-in scenes and the settings that make them small; their runs compile the loops of the kind.
+    task : of a kind from outside the package, under which lists show it; a folder of `bem/kinds` says its own.
     """
 
     name: str
@@ -77,6 +82,7 @@ class Kind:
     resolutions: tuple[Resolution, ...] = ()
     contacts: Callable[[Any], list[Any]] | None = None
     warm_up: tuple[tuple[str, tuple[str, ...]], ...] = ()
+    task: str = OTHER
 
     def __post_init__(self) -> None:
         marked = (key for key in headline_of(self.record) if key not in self.headline)
@@ -142,15 +148,6 @@ def with_checksums(table: Any) -> Any:
     return table.model_copy(update=changed) if changed else table
 
 
-TASKS: dict[str, tuple[str, ...]] = {
-    "dry contact": ("contact", "asperities", "partial-slip", "rolling", "surface-temperature"),
-    "oil films (EHL)": ("traction", "film", "point-film", "point-film-time", "flow-factors"),
-    "mixed lubrication": ("friction",),
-    "wear and running-in": ("wear", "running-in", "running-in-life", "particles"),
-    "tribofilms": ("tribofilm",),
-}
-"""Kinds by task, as lists show them; a kind that is not named here stands under other kinds."""
-
 _registered: dict[str, Kind] = {}
 
 
@@ -160,17 +157,26 @@ def kind_names() -> tuple[str, ...]:
 
 
 def kinds_by_task() -> dict[str, tuple[str, ...]]:
-    """Names of all kinds by task, without loading those of the package; tasks without a kind are left out."""
+    """Names of all kinds by task, without loading those of the package."""
     load_extensions()
-    known = {*_of_the_package(), *_registered}
-    named = {name for names in TASKS.values() for name in names}
-    tasks = {task: tuple(name for name in names if name in known) for task, names in TASKS.items()}
-    return {task: names for task, names in {**tasks, "other kinds": tuple(sorted(known - named))}.items() if names}
+    listed = {name: (part.TASK, part.PLACE) for name, part in _of_the_package().items()}
+    listed |= {name: (kind.task, 0) for name, kind in _registered.items()}
+    found: dict[str, list[str]] = {task: [] for task in TASKS}
+    for name in sorted(listed, key=lambda name: (listed[name][0] == OTHER, *listed[name], name)):
+        found.setdefault(listed[name][0], []).append(name)
+    return {task: tuple(names) for task, names in found.items() if names}
+
+
+def kind_aliases() -> dict[str, str]:
+    """Names that people guess for kinds, and the kinds."""
+    return {word: name for name, part in _of_the_package().items() for word in part.ALSO}
 
 
 @cache
-def _of_the_package() -> tuple[str, ...]:
-    return tuple(sorted(module.name.replace("_", "-") for module in pkgutil.iter_modules([str(KINDS)]) if module.ispkg))
+def _of_the_package() -> dict[str, Any]:
+    """Folders of the package's kinds by name: modules with TASK, PLACE among the kinds of the task, and ALSO."""
+    folders = sorted(module.name for module in pkgutil.iter_modules([str(KINDS)]) if module.ispkg)
+    return {name.replace("_", "-"): importlib.import_module(f"bem.kinds.{name}") for name in folders}
 
 
 def get_kind(name: str) -> Kind:

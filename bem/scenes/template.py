@@ -11,84 +11,21 @@ from typing import Any
 from bem.errors import InputError
 from bem.scenes.form import Entry, FormTable, keys_of_kind, table_at
 from bem.scenes.keys import LEVELS
-from bem.scenes.kind import get_kind, kind_names
-from bem.scenes.load import dumped, library, library_text
+from bem.scenes.kind import get_kind, kind_aliases, kind_names
+from bem.scenes.load import library, library_text
 from bem.scenes.starts import start_scene
 from bem.scenes.validate import nearest, show
+from bem.scenes.values import dumped
 
 _MOST_CHOICES = 12
 _WIDEST, _WIDTH = 42, 118
 """Column of the comments behind keys, at most, and where they end."""
 
 
-ALSO = {
-    "stribeck": "friction",
-    "stribeck-curve": "friction",
-    "mixed": "friction",
-    "mixed-lubrication": "friction",
-    "boundary": "friction",
-    "hertz": "contact",
-    "dry-contact": "contact",
-    "coating": "contact",
-    "ehl-line": "traction",
-    "line-contact": "traction",
-    "thermal-traction": "traction",
-    "thermal-ehl": "traction",
-    "ehl-point": "point-film",
-    "point-contact": "point-film",
-    "micropitting": "running-in-life",
-    "fatigue": "running-in-life",
-    "wear-volume": "wear",
-    "wear-scar": "wear",
-    "dry": "contact",
-    "rough": "contact",
-    "rough-contact": "contact",
-    "stress": "contact",
-    "ehl": "film",
-    "lubrication": "film",
-    "oil-film": "film",
-    "ball": "point-film",
-    "barrel": "point-film",
-    "ball-on-disc": "point-film",
-    "interferogram": "point-film",
-    "dimple": "point-film-time",
-    "dent": "point-film-time",
-    "waviness": "point-film-time",
-    "impact": "point-film-time",
-    "wear-particles": "wear",
-    "debris": "wear",
-    "archard": "wear",
-    "run-in": "running-in",
-    "runningin": "running-in",
-    "life": "running-in-life",
-    "cycle-jumps": "running-in-life",
-    "zddp": "tribofilm",
-    "antiwear": "tribofilm",
-    "afm": "particles",
-    "particle": "particles",
-    "fretting": "partial-slip",
-    "cattaneo": "partial-slip",
-    "stick-slip": "partial-slip",
-    "creep": "rolling",
-    "creepage": "rolling",
-    "wheel-rail": "rolling",
-    "rolling-contact": "rolling",
-    "flash-temperature": "surface-temperature",
-    "temperature": "surface-temperature",
-    "heat": "surface-temperature",
-    "traction-curve": "traction",
-    "flow-factor": "flow-factors",
-    "patir-cheng": "flow-factors",
-    "greenwood-williamson": "asperities",
-    "asperity": "asperities",
-}
-"""Names that people guess for the kinds; `bem new NAME` takes them."""
-
-
 def kind_meant(word: str) -> str:
     """The kind that a word means: its name, one of the names people guess, or the word itself."""
     name = word.strip().lower().replace("_", "-").replace(" ", "-")
-    return name if name in kind_names() else ALSO.get(name, word)
+    return name if name in kind_names() else kind_aliases().get(name, word)
 
 
 def scene_template(kind: str, *, everything: bool = False) -> str:
@@ -110,7 +47,7 @@ def scene_template(kind: str, *, everything: bool = False) -> str:
         return without_description(library_text(kind))
     if kind not in kind_names():
         listed = ", ".join(f'"{name}"' for name in kind_names())
-        close = nearest(kind, [*kind_names(), *ALSO, *library()])
+        close = nearest(kind, [*kind_names(), *kind_aliases(), *library()])
         raise InputError(
             f"KIND {show(kind)}: not a kind of scene{close}; allowed: {listed}, or a built-in scene of `bem scenes`"
         )

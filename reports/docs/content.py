@@ -12,7 +12,9 @@ from bem.notes.catalogue import PARTS
 from bem.plots.report import spelled
 from bem.plots.tables import name_and_unit
 from bem.scenes import get_kind
+from bem.scenes.kind import kinds_by_task
 from bem.scenes.records import Figure, described
+from bem.scenes.walk import Key, is_law, meaning_of_table
 from bem.surfaces.processes import PROCESSES
 from bem.verification import registry
 from reports import error_bars, validation
@@ -59,23 +61,35 @@ def markdown_table(head: Sequence[str], rows: Iterable[Sequence[str]]) -> str:
     return "\n".join("| " + " | ".join(line) + " |" for line in lines) + "\n"
 
 
-def key_rows(found: Iterable[keys.Key]) -> str:
+def key_rows(found: Iterable[Key]) -> str:
     """Return the table of some keys."""
     rows = []
     for key in found:
         links = [
             f"{{ref}}`{keys.tag(model) or key.name} <{keys.anchor(model)}>`"
-            for model in key.tables
-            if not keys.is_law(model)
+            for model in keys.tables_at(key)
+            if not is_law(model)
         ]
-        laws = [code(model.name) for model in key.tables if keys.is_law(model)]
-        allowed = escaped(key.allowed)
+        laws = [code(model.name) for model in keys.tables_at(key) if is_law(model)]
+        allowed = escaped(keys.allowed_at(key))
         if links:
             allowed = "table " + ", ".join(links) if len(links) == 1 else "one of the tables " + ", ".join(links)
         elif laws and not allowed:
             allowed = "a {ref}`law <laws>`: " + ", ".join(laws)
-        rows.append((code(key.name), escaped(key.meaning), allowed, code(key.default), key.level))
+        rows.append((code(key.name), escaped(keys.meaning_of(key)), allowed, code(keys.default_of(key)), key.level))
     return markdown_table(("key", "meaning", "unit or choices", "default", "level"), rows)
+
+
+def kinds() -> str:
+    """Return the kinds by task, with their titles, and the contents of their pages."""
+    parts = []
+    for task, names in kinds_by_task().items():
+        heading = f"{task[:1].upper()}{task[1:]}"
+        rows = [(f"{{doc}}`{name} <{name}>`", escaped(get_kind(name).title)) for name in names]
+        parts.append(f"**{heading}**\n\n" + markdown_table(("kind", "what it computes"), rows))
+        pages = "\n".join(names)
+        parts.append(f"```{{toctree}}\n:hidden:\n:caption: {heading}\n\n{pages}\n```\n")
+    return "\n\n".join(parts)
 
 
 def scene_keys() -> str:
@@ -87,7 +101,7 @@ def table_text(model: Any, key: str, note: str = "") -> str:
     """Return a table's anchor, heading, meaning and keys."""
     tag = keys.tag(model)
     title = f'`[{key}]` with kind = "{tag}"' if tag else f"`[{key}]`"
-    lead = f"({keys.anchor(model)})=\n### {title}\n\n{escaped(keys.about(model))}{note}\n\n"
+    lead = f"({keys.anchor(model)})=\n### {title}\n\n{escaped(meaning_of_table(model))}{note}\n\n"
     return lead + key_rows(keys.keys_of_table(model, key))
 
 

@@ -17,6 +17,7 @@ from reports.docs import content
 from reports.docs.tasks import HERE as TASKS
 
 MARKDOWN: dict[str, Callable[..., str]] = {
+    "kinds": content.kinds,
     "scene-keys": content.scene_keys,
     "kind-keys": content.kind_keys,
     "shared-tables": content.shared_tables,

@@ -9,7 +9,7 @@ from bem.laws import FAMILIES, laws_of
 from bem.scenes import get_kind, kind_names
 from bem.scenes.form import mistakes_of, start_of
 from bem.scenes.keys import LEVELS, key, level_of, reason_of
-from bem.scenes.kind import TASKS, kinds_by_task
+from bem.scenes.kind import kind_aliases, kinds_by_task
 from bem.scenes.laws import LawTable, fields_of
 from bem.scenes.table import Table
 from bem.scenes.units import Dimension
@@ -110,5 +110,12 @@ def test_kinds_are_listed_by_task_and_each_once():
     tasks = kinds_by_task()
     assert [name for names in tasks.values() for name in names] == list(kind_names())
     assert len(set(kind_names())) == len(kind_names())
-    assert {name for names in TASKS.values() for name in names} <= set(kind_names())
     assert next(iter(tasks.values()))[0] == "contact"
+    assert "other kinds" not in tasks  # each folder says its task
+
+
+def test_names_that_people_guess_mean_one_kind_each():
+    aliases = [word for kind in kind_names() for word, meant in kind_aliases().items() if meant == kind]
+    assert len(aliases) == len(kind_aliases())
+    assert not set(aliases) & set(kind_names())
+    assert kind_aliases()["stribeck"] == "friction"

@@ -2,3 +2,10 @@
 
 A regular array of spherical asperities against a flat: load per asperity over depth.
 """
+
+TASK = "dry contact"
+PLACE = 2
+ALSO: tuple[str, ...] = (
+    "greenwood-williamson",
+    "asperity",
+)

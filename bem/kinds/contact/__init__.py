@@ -2,3 +2,15 @@
 
 Two rough, possibly coated bodies pressed together: pressure, contact area, approach, stresses below.
 """
+
+TASK = "dry contact"
+PLACE = 1
+ALSO: tuple[str, ...] = (
+    "hertz",
+    "dry-contact",
+    "coating",
+    "dry",
+    "rough",
+    "rough-contact",
+    "stress",
+)

@@ -2,3 +2,11 @@
 
 Pressed bodies pushed along, once or there and back: where they stick and slip, loop, energy of friction.
 """
+
+TASK = "dry contact"
+PLACE = 3
+ALSO: tuple[str, ...] = (
+    "fretting",
+    "cattaneo",
+    "stick-slip",
+)

@@ -2,3 +2,10 @@
 
 Sizes of the wear particles in an AFM height map.
 """
+
+TASK = "wear and running-in"
+PLACE = 4
+ALSO: tuple[str, ...] = (
+    "afm",
+    "particle",
+)

@@ -2,3 +2,12 @@
 
 Running-in over a life: wear and tribofilm over millions of cycles in mixed lubrication, in jumps of known error.
 """
+
+TASK = "wear and running-in"
+PLACE = 3
+ALSO: tuple[str, ...] = (
+    "micropitting",
+    "fatigue",
+    "life",
+    "cycle-jumps",
+)
