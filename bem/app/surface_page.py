@@ -18,10 +18,10 @@ from bem.errors import BemError, InputError
 from bem.grid import Grid
 from bem.plots.report import spelled
 from bem.scenes.common import GridScene, MeasuredSurface
-from bem.scenes.load import dumped, plain_value
 from bem.scenes.maps import fitted, read_map
 from bem.scenes.paths import absolute
 from bem.scenes.validate import validate
+from bem.scenes.values import dumped, plain_value
 
 _TREATMENTS = (
     ("detrend", "levelling: plane, curvature or none", "plane"),

@@ -15,8 +15,8 @@ from pydantic_core import PydanticCustomError
 from bem.elements.element import Element, load_element, read_element
 from bem.errors import InputError
 from bem.kinds.traction.along import columns_of
-from bem.scenes.load import plain_value
 from bem.scenes.paths import parse_key, put
+from bem.scenes.values import plain_value
 
 
 def load_cases(source: str | Path, rows: str | Path) -> tuple[Element, ...]:

@@ -93,6 +93,17 @@ class MaterialScene(Table):
     )
     source: str = key("Source of the constants, repeated in the scene file of the run.", "expert", default="")
 
+    @classmethod
+    def short_forms(cls, table: dict[str, Any]) -> None:
+        """Add the name of a material, and constants beside `catalogue`."""
+        super().short_forms(table)
+        table["properties"]["catalogue"] = {"enum": sorted(CATALOGUE)}
+        required = table.pop("required", [])
+        table["anyOf"] = [{"required": ["catalogue"]}, {"required": required}]
+        whole = dict(table)
+        table.clear()
+        table |= {"anyOf": [{"enum": sorted(CATALOGUE)}, whole], "description": whole.get("description")}
+
     @model_validator(mode="before")
     @classmethod
     def _from_catalogue(cls, data: Any) -> Any:
@@ -210,6 +221,12 @@ class GeneratedSurface(Table):
         example=256,
     )
     source: str = key("Source of the statistics, repeated in the scene file of the run.", "expert", default="")
+
+    @classmethod
+    def short_forms(cls, table: dict[str, Any]) -> None:
+        """Add a `process`, which supplies the statistics."""
+        super().short_forms(table)
+        table["anyOf"] = [{"required": ["process"]}, {"required": table.pop("required", [])}]
 
     _pairs = field_validator("drawn_on", mode="before")(one_for_both)
 
@@ -374,6 +391,12 @@ class _LayeredScene(Table):
     surface: SurfaceScene = key(
         "Roughness of the body: generated or measured; smooth without this table.", "basic", default=SmoothSurface()
     )
+
+    @classmethod
+    def short_forms(cls, table: dict[str, Any]) -> None:
+        """Add the word "smooth" for a surface."""
+        super().short_forms(table)
+        table["properties"]["surface"] = {"anyOf": [{"const": "smooth"}, table["properties"]["surface"]]}
 
     @field_validator("surface", mode="before")
     @classmethod

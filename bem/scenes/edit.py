@@ -77,7 +77,7 @@ def _merge(target: Any, wanted: Mapping[str, Any], before: Mapping[str, Any], *,
             continue
         if isinstance(old, Mapping) and isinstance(value, Mapping):
             _merge(target[key], value, old)
-        elif _are_tables(old) and _are_tables(value) and len(value) == len(old):
+        elif old and _are_tables(old) and _are_tables(value) and len(value) == len(old):
             for row, one, was in zip(target[key], value, old, strict=True):
                 _merge(row, one, was)
         elif key in before:

@@ -7,29 +7,24 @@ known here. Verified in tests/scenes/test_form.py.
 from __future__ import annotations
 
 import typing
-from collections.abc import Collection, Iterator, Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, replace
 from typing import Any
 
-from pydantic import BaseModel
-from pydantic.fields import FieldInfo
-from pydantic_core import PydanticUndefined
-
 from bem.errors import InputError
-from bem.laws import Law, laws_of
+from bem.laws import laws_of
 from bem.lubrication.oils.catalogue import oil_names
 from bem.materials import CATALOGUE
 from bem.scenes.common import MaterialScene
-from bem.scenes.keys import LEVELS, Level, level_of, reason_of
+from bem.scenes.keys import Level
 from bem.scenes.kind import get_kind
-from bem.scenes.laws import LawKey, LawOrNumber, fields_of
-from bem.scenes.load import dumped, library, plain_value, read_table, scene_from_table
+from bem.scenes.laws import LawKey, LawOrNumber
+from bem.scenes.load import library, read_table, scene_from_table
 from bem.scenes.starts import start_scene
-from bem.scenes.units import Dimension
-from bem.scenes.validate import fields_of_table, is_law, literals, members_of, unwrap, without_none
+from bem.scenes.values import dumped, plain_value
+from bem.scenes.walk import DEEPEST, Key, TableType, fields_of_table, keys_of, literals, unwrap
 
 _NOT_ASKED = ("redoes", "name", "over", "sha256")
-_DEEPEST = 6
 
 
 @dataclass(frozen=True)
@@ -106,7 +101,7 @@ def form_of(kind: str) -> FormTable:
 def keys_of_kind(kind: str) -> FormTable:
     """All keys of a kind; KeyError if there is none."""
     found = get_kind(kind)
-    return FormTable(kind, found.title, _entries(found.model, "", 0, "basic"))
+    return FormTable(kind, found.title, _entries(found.model, (), "basic"))
 
 
 def _without(table: FormTable, names: Collection[str]) -> FormTable:
@@ -189,93 +184,48 @@ def library_scene(name: str) -> dict[str, Any]:
     return {**library()[name], "name": name}
 
 
-def _entries(model: Any, prefix: str, depth: int, level: Level) -> tuple[Entry, ...]:
-    return tuple(
-        _entry(f"{prefix}{name}", field, depth, level)
-        for name, field in fields_of_table(model).items()
-        if not (name == "kind" and _says_which(field, prefix))
-    )
+def _table(table: TableType, path: tuple[str, ...], level: Level) -> FormTable:
+    """Return the table of a form that stands at a path."""
+    return FormTable(table.kind, table.meaning, _entries(table.model, path, level))
 
 
-def _says_which(field: Any, prefix: str) -> bool:
-    """Return True if a `kind` only tells which table or scene it is: there is nothing to choose then."""
-    return not prefix or len(typing.get_args(field.annotation)) == 1
+def _entries(model: Any, path: tuple[str, ...], level: Level) -> tuple[Entry, ...]:
+    return tuple(_entry(key) for key in keys_of(model, path, level))
 
 
-def _entry(key: str, field: Any, depth: int, above: Level) -> Entry:
-    annotation = without_none(field.annotation)
-    default = "" if field.default in (PydanticUndefined, None) else default_text(field)
-    level = max(level_of(field), above, key=LEVELS.index)
-    deeper = depth < _DEEPEST
-    tables = _tables(annotation, field, key, depth, level) if deeper else ()
-    row = _row(annotation) if deeper else None
+def _entry(key: Key) -> Entry:
+    deeper = len(key.path) <= DEEPEST
+    tables = tuple(_table(one, key.path, key.level) for one in key.tables) if deeper else ()
+    rows = _table(key.row, (), key.level) if deeper and key.row else None
     return Entry(
-        key=key,
-        name=key.rpartition(".")[2].replace("_", " "),
-        description=field.description or "",
-        level=level,
-        reason=reason_of(field),
-        unit=unit_of(field),
-        allowed=about_field(field) or _words(annotation),
-        default=default,
-        example=_example(field, key, default),
-        choices=_choices(annotation, key),
-        closed=typing.get_origin(annotation) is typing.Literal,
-        required=field.default is PydanticUndefined and field.default_factory is None,
-        switch=annotation is bool,
+        key=".".join(key.path),
+        name=key.name.replace("_", " "),
+        description=key.meaning,
+        level=key.level,
+        reason=key.reason,
+        unit=key.unit,
+        allowed=key.allowed or _words(key.type),
+        default=key.default,
+        example=_example(key),
+        choices=_choices(key),
+        closed=typing.get_origin(key.type) is typing.Literal,
+        required=key.required,
+        switch=key.type is bool,
         tables=tables,
-        rows=None if row is None else FormTable("", _about(row), _entries(row, "", depth + 1, level)),
-        typed=not tables or annotation is MaterialScene or is_law(annotation) or _family(field) is not None,
-        is_law=is_law(annotation) or _family(field) is not None,
+        rows=rows,
+        typed=not tables or key.type is MaterialScene or key.is_law,
+        is_law=key.is_law,
     )
 
 
-def _row(annotation: Any) -> Any:
-    """Table that a key holds several of; None if it does not."""
-    if typing.get_origin(annotation) not in (list, tuple):
-        return None
-    item = unwrap(typing.get_args(annotation)[0])[0]
-    return item if fields_of_table(item) and not is_law(item) else None
-
-
-def _tables(annotation: Any, field: Any, key: str, depth: int, level: Level) -> tuple[FormTable, ...]:
-    family = _family(field) or (annotation.family if is_law(annotation) and not annotation.name else None)
-    if family is not None:
-        return tuple(
-            FormTable(name, _about(law), _of_law(law, f"{key}.", depth, level)) for name, law in laws_of(family).items()
-        )
-    inner = members_of(annotation) or [annotation]
-    tables = [one for one in inner if fields_of_table(one) and typing.get_origin(one) is not list]
-    several = len(tables) > 1
-    return tuple(
-        FormTable(_tag(one) if several else "", _about(one), _entries(one, f"{key}.", depth + 1, level))
-        for one in tables
-    )
-
-
-def _of_law(law: Any, prefix: str, depth: int, level: Level) -> tuple[Entry, ...]:
-    return tuple(_entry(f"{prefix}{name}", field, depth + 1, level) for name, field in fields_of(law).items())
-
-
-def _family(field: Any) -> str | None:
-    """The family of laws of which one may stand in a number's place."""
-    return next((item.family for item in _parts(field) if isinstance(item, LawOrNumber)), None)
-
-
-def _tag(model: Any) -> str:
-    kind = fields_of_table(model).get("kind")
-    return str(typing.get_args(kind.annotation)[0]) if kind is not None else model.__name__
-
-
-def _choices(annotation: Any, key: str) -> tuple[str, ...]:
-    if annotation is MaterialScene:
+def _choices(key: Key) -> tuple[str, ...]:
+    if key.type is MaterialScene:
         return tuple(sorted(CATALOGUE))
-    if key.rpartition(".")[2] == "grade":
-        return oil_names()
-    return tuple(literals(annotation))
+    return oil_names() if key.name == "grade" else tuple(literals(key.type))
 
 
 def _words(annotation: Any) -> str:
+    """What may be typed at a key that is no quantity and has no choices."""
     if annotation is MaterialScene:
         return "a material of the catalogue, or constants of its own"
     if typing.get_origin(annotation) is list:
@@ -287,95 +237,32 @@ def _words(annotation: Any) -> str:
     return {int: "a whole number", str: "text", float: "a number"}.get(annotation, "")
 
 
-def _parts(field: Any) -> Iterator[Any]:
-    """What the annotation of a field is made of, and its metadata."""
-    pending = [field.annotation, *field.metadata]
-    while pending:
-        item = pending.pop(0)
-        yield item
-        pending += [*getattr(item, "__metadata__", ()), *typing.get_args(item)]
-        if isinstance(item, LawOrNumber):
-            pending.append(item.number)
-
-
-def dimension_of(field: Any) -> Dimension | None:
-    """Dimension of the numbers of a key; None of other keys, and of one whose numbers have several."""
-    found = {item for item in _parts(field) if isinstance(item, Dimension)}
-    return found.pop() if len(found) == 1 else None
-
-
-def unit_of(field: Any) -> str:
-    """SI unit of a key, "" for none."""
-    found = dimension_of(field)
-    return "" if found is None else found.unit
-
-
-def _example(field: Any, key: str, default: str) -> str:
+def _example(key: Key) -> str:
     """A value of a key as it would be typed: its default, an example of its own, or one of its type."""
-    if default:
-        return default
-    if field.examples:
-        return dumped(field.examples[0])
-    annotation, dimension = unwrap(without_none(field.annotation))[0], dimension_of(field)
-    law = next((item for item in _parts(field) if isinstance(item, LawKey)), None)
-    several = typing.get_origin(annotation) is list
-    if dimension is not None:
-        value: Any = dimension.example if dimension.unit else float(dimension.example)
-    elif law is not None and not isinstance(law, LawOrNumber):
-        value = _example_of_law(law)
+    if key.default:
+        return key.default
+    if key.field.examples:
+        return dumped(key.field.examples[0])
+    annotation = unwrap(key.type)[0]
+    if key.dimension is not None:
+        value: Any = key.dimension.example if key.dimension.unit else float(key.dimension.example)
+    elif key.law is not None and not isinstance(key.law, LawOrNumber):
+        value = _example_of_law(key.law)
     elif annotation is MaterialScene:
         value = "steel-52100"
-    elif choices := _choices(annotation, key):
+    elif choices := _choices(key):
         value = choices[0]
     else:
-        value = {bool: True, int: 10, str: "..."}.get(annotation, 10 if int in list(_parts(field)) else "...")
-    return dumped([value] if several else value)
+        value = {bool: True, int: 10, str: "..."}.get(annotation, 10 if int in key.parts else "...")
+    return dumped([value] if typing.get_origin(annotation) is list else value)
 
 
-def _example_of_law(key: LawKey) -> Any:
+def _example_of_law(law_key: LawKey) -> Any:
     """Name of a law that needs no parameters, or else the first law with examples of those that it needs."""
-    laws = laws_of(key.family)
+    laws = laws_of(law_key.family)
     plain = next((name for name, law in laws.items() if not law.required()), None)
     if plain is not None or not laws:
         return plain or "..."
     name, law = next(iter(laws.items()))
-    own = fields_of(law)
-    return {"kind": name} | {one: plain_value(_example(own[one], one, "")) for one in law.required()}
-
-
-def about_field(field: Any) -> str:
-    """What may be typed at a key: its choices, or its dimension."""
-    annotation, metadata = unwrap(without_none(field.annotation))
-    pending = [*metadata, *field.metadata, *typing.get_args(annotation)]
-    words: list[str] = list(literals(annotation))
-    for item in sorted(pending, key=lambda item: not isinstance(item, LawOrNumber)):
-        item, more = unwrap(item)
-        pending_more = [*more, item]
-        for part in pending_more:
-            if isinstance(part, LawOrNumber):
-                return f"{about_field(FieldInfo.from_annotation(part.number))}, or a law: {', '.join(part.names())}"
-            if isinstance(part, Dimension):
-                return part.allowed
-        words = words or list(literals(item))
-    if words:
-        return "one of " + ", ".join(words)
-    if annotation is bool:
-        return "true or false"
-    return ""
-
-
-def _about(model: Any) -> str:
-    """The first paragraph of a table's docstring, in a line."""
-    if not (isinstance(model, type) and issubclass(model, BaseModel | Law)) or not model.__doc__:
-        return ""
-    return " ".join(model.__doc__.strip().split("\n\n")[0].split())
-
-
-def default_text(field: Any) -> str:
-    """The default of a key as it would be typed; "" for none."""
-    if field.default is PydanticUndefined or field.default is None:
-        return ""
-    try:
-        return dumped(field.default.name if isinstance(field.default, Law) else field.default)
-    except TypeError:
-        return ""
+    own = {key.name: key for key in keys_of(law)}
+    return {"kind": name} | {one: plain_value(_example(own[one])) for one in law.required()}

@@ -255,12 +255,10 @@ class LawTable(Table):
         return made
 
     @classmethod
-    def __get_pydantic_json_schema__(cls, schema: core_schema.CoreSchema, handler: GetJsonSchemaHandler) -> Any:
-        """The parameters beside are properties like any other."""
-        made = handler(schema)
-        table = handler.resolve_ref_schema(made)
+    def short_forms(cls, table: dict[str, Any]) -> None:
+        """The parameters beside the laws' keys are properties like any other."""
         table.setdefault("properties", {}).update(_json_properties(cls.fields_beside()))
-        return made
+        super().short_forms(table)
 
 
 def checked(

@@ -7,10 +7,8 @@ import copy
 import functools
 import json
 import os
-import re
 import tomllib
 from collections.abc import Iterable, Mapping, Sequence
-from contextlib import suppress
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -19,16 +17,14 @@ from pydantic import BaseModel
 
 from bem.arguments import did_you_mean, read_small
 from bem.errors import InputError
-from bem.laws import Law
 from bem.scenes.common import SceneModel
 from bem.scenes.kind import KINDS, get_kind, kind_names
-from bem.scenes.laws import plain
-from bem.scenes.paths import MOST_PARTS, Key, absolute, drop, parse_key, put, values_in_file
-from bem.scenes.units import Dimension
+from bem.scenes.paths import Key, absolute, drop, parse_key, put, values_in_file
 from bem.scenes.validate import capped, is_pair, show, validate
+from bem.scenes.values import dumped, parse_toml, plain_value
+from bem.scenes.walk import own_keys
 
 _DEEPEST = 20
-_LONG_KEY = re.compile(rf"(?<![\w\"'-])[\w\"'-]++(?:[ \t]*\.[ \t]*[\w\"'-]++){{{MOST_PARTS}}}", re.ASCII)
 
 
 def load_scene(source: str | os.PathLike[str] | Mapping[str, Any], settings: Sequence[str] = ()) -> SceneModel:
@@ -152,8 +148,8 @@ def unit_at(scene: SceneModel, key: str) -> str:
         if isinstance(part, int):
             table = table[part] if isinstance(table, list | tuple) and part < len(table) else None
             continue
-        field = getattr(type(table), "model_fields", {}).get(part)
-        unit = "" if field is None else _unit_of(field)
+        known = {key.name: key for key in own_keys(type(table))}
+        unit = known[part].unit if part in known else ""
         table = getattr(table, part, None)
     return unit or "1"
 
@@ -276,7 +272,7 @@ def machine_element(data: Mapping[str, Any], file: str) -> InputError:
 def _read_file(path: Path) -> dict[str, Any]:
     raw = read_small(path)
     try:
-        data = _from_toml(raw.decode(_encoding(raw)))
+        data = parse_toml(raw.decode(_encoding(raw)))
     except (ValueError, RecursionError) as error:  # both TOML and UTF-8 errors are ValueErrors
         reason = "nested too deeply" if isinstance(error, RecursionError) else str(error)
         raise InputError(f"scene {show(str(path))}: not valid TOML ({reason}); allowed: a TOML scene file") from None
@@ -317,21 +313,6 @@ def _set(data: dict[str, Any], setting: str) -> None:
     if key[-1] == "path" and isinstance(found, str):
         found = absolute(found, Path.cwd())  # what is typed in a shell is relative to the shell's folder
     put(data, key, found, pair=_is_pair(data, key))
-
-
-def _from_toml(text: str) -> dict[str, Any]:
-    """As `tomllib.loads`, which takes minutes over a key of very many parts; ValueError for that too."""
-    if _LONG_KEY.search(text):
-        raise ValueError(f"a key of more than {MOST_PARTS} parts")
-    return tomllib.loads(text)
-
-
-def plain_value(text: str) -> Any:
-    """A value as in TOML; what is none is a plain word or a quantity without quotes."""
-    value = text.strip()
-    with suppress(ValueError, RecursionError):
-        return _from_toml(f"value = {value}")["value"] if "\n" not in value else value
-    return value
 
 
 def _is_pair(data: Mapping[str, Any], key: Key) -> bool:
@@ -396,52 +377,13 @@ def _dump_table(table: BaseModel, path: tuple[str, ...]) -> Iterable[str]:
     if path:
         yield ""
         yield f"[{'.'.join(path)}]"
-    for name, field in type(table).model_fields.items():
-        value = getattr(table, name)
+    for key in own_keys(type(table)):
+        value = getattr(table, key.name)
         if value is None or value == "":
             continue
         if isinstance(value, BaseModel):
-            tables.append((name, value))
+            tables.append((key.name, value))
             continue
-        unit = _unit_of(field)
-        yield f"{name} = {dumped(value)}" + (f"  # {unit}" if unit else "")
+        yield f"{key.name} = {dumped(value)}" + (f"  # {key.unit}" if key.unit else "")
     for name, inner in tables:
         yield from _dump_table(inner, (*path, name))
-
-
-def dumped(value: Any) -> str:
-    """A plain value, a law or a table as TOML, in a line.
-
-    Raises
-    ------
-    TypeError : anything else.
-    """
-    if isinstance(value, bool):
-        return str(value).lower()
-    if isinstance(value, int):
-        return str(value)
-    if isinstance(value, float):
-        return repr(value)
-    if isinstance(value, str):
-        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
-    if isinstance(value, list | tuple):
-        return "[" + ", ".join(dumped(item) for item in value) + "]"
-    if isinstance(value, Law):
-        return dumped(plain(value))
-    if isinstance(value, BaseModel):
-        value = value.model_dump(mode="python", exclude_none=True)
-    if isinstance(value, Mapping):
-        return "{" + ", ".join(f"{json.dumps(str(key))} = {dumped(item)}" for key, item in value.items()) + "}"
-    raise TypeError(f"no TOML for {type(value).__name__}")
-
-
-def _unit_of(field: Any) -> str:
-    """The SI unit of a field, looking into optional and tuple annotations."""
-    pending = [field.annotation, *field.metadata]
-    while pending:
-        item = pending.pop()
-        if isinstance(item, Dimension):
-            return item.unit
-        pending.extend(getattr(item, "__metadata__", ()))
-        pending.extend(getattr(item, "__args__", ()))
-    return ""

@@ -6,14 +6,36 @@ from collections.abc import Sequence
 from itertools import pairwise
 from typing import Any
 
-from pydantic import BaseModel, ConfigDict, model_validator
-from pydantic_core import PydanticCustomError
+from pydantic import BaseModel, ConfigDict, GetJsonSchemaHandler, model_validator
+from pydantic_core import PydanticCustomError, core_schema
 
 
 class Table(BaseModel):
     """A table of a scene: unknown keys are refused, values never change."""
 
     model_config = ConfigDict(extra="forbid", frozen=True, protected_namespaces=(), validate_default=True)
+
+    @classmethod
+    def short_forms(cls, table: dict[str, Any]) -> None:
+        """Add to the JSON schema of the table, in place, what its validators accept beside a full table.
+
+        Here: one value in place of a pair of equal values. Tables with further short forms extend this.
+        """
+        for key, value in table.get("properties", {}).items():
+            options = value.get("anyOf", [value])
+            pairs = [
+                one for one in options if one.get("type") == "array" and one.get("maxItems") == 2 == one["minItems"]
+            ]
+            if pairs:
+                rest = {name: item for name, item in value.items() if name in ("default", "description", "title")}
+                table["properties"][key] = {"anyOf": [*options, pairs[0]["prefixItems"][0]], **rest}
+
+    @classmethod
+    def __get_pydantic_json_schema__(cls, schema: core_schema.CoreSchema, handler: GetJsonSchemaHandler) -> Any:
+        """The table of its fields with its short forms."""
+        made = handler(schema)
+        cls.short_forms(handler.resolve_ref_schema(made))
+        return made
 
 
 def problem(text: str, allowed: str) -> PydanticCustomError:

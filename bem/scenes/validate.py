@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import re
-import types
 import typing
 from collections.abc import Iterable, Sequence
 from typing import Any, TypeVar
@@ -13,8 +12,9 @@ from pydantic import BaseModel, ValidationError
 from bem.arguments import did_you_mean
 from bem.errors import InputError
 from bem.laws import Law, laws_of
-from bem.scenes.laws import LawOrNumber, LawTable, fields_of
+from bem.scenes.laws import LawOrNumber
 from bem.scenes.units import Dimension
+from bem.scenes.walk import fields_of_table, literals, members_of, unwrap, without_none
 
 _BARE = re.compile(r"[A-Za-z0-9_-]{1,64}")
 MOST_MESSAGES = 20
@@ -197,39 +197,6 @@ def is_pair(loc: Sequence[Any], data: Any, model: type[BaseModel]) -> bool:
     return len(arguments) == 2 and Ellipsis not in arguments
 
 
-def unwrap(annotation: Any) -> tuple[Any, tuple[Any, ...]]:
-    """An annotation without `Annotated`, and what was in it."""
-    metadata: tuple[Any, ...] = ()
-    while typing.get_origin(annotation) is typing.Annotated:
-        metadata = (*metadata, *annotation.__metadata__)
-        annotation = annotation.__origin__
-    return annotation, metadata
-
-
-def without_none(annotation: Any) -> Any:
-    """An annotation without `Annotated` and `None`; of a number or a law the law."""
-    annotation, _ = unwrap(annotation)
-    if typing.get_origin(annotation) in (typing.Union, types.UnionType):
-        members = [item for item in typing.get_args(annotation) if item is not type(None)]
-        # of a number or a law the number's dimension is with the field
-        members = [item for item in members if is_law(item)] or members
-        if len(members) == 1:
-            return members[0]
-    return annotation
-
-
-def is_law(annotation: Any) -> bool:
-    """Return True if it is a law or a family of them."""
-    return isinstance(annotation, type) and issubclass(annotation, Law)
-
-
-def members_of(annotation: Any) -> list[Any]:
-    """The members of a union, none of anything else."""
-    if typing.get_origin(annotation) in (typing.Union, types.UnionType):
-        return [unwrap(item)[0] for item in typing.get_args(annotation)]
-    return []
-
-
 def member_of(annotation: Any, tag: Any) -> Any:
     """The member of a union of tables whose `kind` is `tag`."""
     for item in members_of(annotation):
@@ -246,28 +213,6 @@ def _tags(annotation: Any) -> list[str]:
         if "kind" in fields_of_table(item)
         for tag in typing.get_args(fields_of_table(item)["kind"].annotation)
     ]
-
-
-def fields_of_table(annotation: Any) -> dict[str, Any]:
-    """Fields of a table, or of a law that has a name; a family of laws has none of its own."""
-    annotation = without_none(annotation)
-    if not isinstance(annotation, type):
-        return {}
-    if issubclass(annotation, LawTable):
-        return {**annotation.model_fields, **annotation.fields_beside()}
-    if issubclass(annotation, BaseModel):
-        return dict(annotation.model_fields)
-    return fields_of(annotation) if issubclass(annotation, Law) and annotation.name else {}
-
-
-def literals(annotation: Any) -> list[str]:
-    """The words that are allowed: of a literal, or names of a family of laws."""
-    annotation = without_none(annotation)
-    if isinstance(annotation, type) and issubclass(annotation, Law) and not annotation.name:
-        return list(laws_of(annotation.family))
-    return (
-        [str(item) for item in typing.get_args(annotation)] if typing.get_origin(annotation) is typing.Literal else []
-    )
 
 
 def _choices(annotation: Any) -> str:

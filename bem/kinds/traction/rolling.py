@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from typing import Annotated
+from typing import Annotated, Any
 
 from pydantic import Field
 
@@ -24,6 +24,12 @@ class RollerScene(CylinderTable):
     )
 
     _one_load = one_of("load", "hertz_pressure")
+
+    @classmethod
+    def short_forms(cls, table: dict[str, Any]) -> None:
+        """Need no key: the first row of `along` says those that are left out."""
+        super().short_forms(table)
+        table.pop("required", None)
 
     def per_length(self, contact_modulus: float) -> float:
         """Load per length [N/m]; of a pressure p0 it is pi R p0^2/E*, Johnson (1985), eq. 4.45."""
@@ -48,6 +54,12 @@ class RollingScene(Table):
     upper_bulk: BulkTemperature | None = key(
         "Bulk temperature of the upper body.", "advanced", default=None, reason="the oil's"
     )
+
+    @classmethod
+    def short_forms(cls, table: dict[str, Any]) -> None:
+        """Need no key: the first row of `along` says those that are left out."""
+        super().short_forms(table)
+        table.pop("required", None)
 
     @property
     def speeds(self) -> tuple[float, float]:

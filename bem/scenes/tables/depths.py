@@ -23,6 +23,15 @@ class DepthsScene(Table):
         "Exponent of the grading: 1 is uniform, larger values refine near the surface.", "expert", default=2.0
     )
 
+    @classmethod
+    def short_forms(cls, table: dict[str, Any]) -> None:
+        """Add a list of depths."""
+        super().short_forms(table)
+        values = next(one["items"] for one in table["properties"]["values"]["anyOf"] if "items" in one)
+        whole = dict(table)
+        table.clear()
+        table |= {"anyOf": [whole, {"type": "array", "items": values, "minItems": 1}]}
+
     @model_validator(mode="before")
     @classmethod
     def _from_list(cls, data: Any) -> Any:

@@ -1,0 +1,73 @@
+"""The walk over models: every key once, with its path, unit and level; the schema describes the same keys."""
+
+import pytest
+
+from bem.laws import Law
+from bem.scenes import get_kind, kind_names
+from bem.scenes.schema import scene_schema
+from bem.scenes.walk import keys_of, own_keys, walk
+
+pytestmark = pytest.mark.internal
+
+
+def key_at(kind, *path):
+    found = [key for key in walk(get_kind(kind).model) if key.path == path]
+    assert found, path
+    return found[0]
+
+
+def test_a_key_says_its_unit_level_default_and_meaning():
+    modulus = key_at("contact", "lower", "material", "youngs_modulus")
+    assert (modulus.unit, modulus.level, modulus.required, modulus.default) == ("Pa", "basic", True, "")
+    assert modulus.meaning == "Young's modulus E."
+    assert modulus.allowed.startswith("a pressure such as")
+    surface = key_at("contact", "lower", "surface")
+    assert [table.kind for table in surface.tables] == ["smooth", "generated", "measured"]
+    assert surface.default
+    layers = key_at("contact", "lower", "layers")
+    assert (layers.row.kind, layers.tables) == ("", ())
+    assert [key.name for key in keys_of(layers.row.model)] == ["material", "thickness"]
+
+
+def test_a_key_has_at_least_the_level_of_the_tables_that_it_is_in():
+    order = ("basic", "advanced", "expert")
+    for kind in kind_names():
+        levels = {}
+        for key in walk(get_kind(kind).model):
+            levels.setdefault(key.path, key.level)
+            above = levels.get(key.path[:-1], "basic")
+            assert order.index(key.level) >= order.index(above), (kind, key.path)
+    layer = key_at("contact", "lower", "layer", "thickness")  # basic in its own table
+    assert layer.level == key_at("contact", "lower", "layer").level == "advanced"
+
+
+def test_laws_are_tables_of_their_key_and_own_keys_leave_parameters_beside_out():
+    law = key_at("friction", "oil", "shear_law")
+    assert law.is_law
+    assert {table.kind for table in law.tables} >= {"eyring", "limited"}
+    oil = next(key for key in keys_of(get_kind("friction").model) if key.name == "oil").tables[0].model
+    beside = {key.name for key in keys_of(oil)} - {key.name for key in own_keys(oil)}
+    parameters = {name for table in law.tables for name in table.model.parameters()}
+    assert "shear_stress_limit" in beside & parameters
+    assert all(issubclass(table.model, Law) for table in law.tables)
+
+
+def descriptions(schema):
+    """Description by name of each property, at any depth."""
+    if isinstance(schema, dict):
+        for name, value in (schema.get("properties") or {}).items():
+            if isinstance(value, dict) and "description" in value:
+                yield name, value["description"]
+        for value in schema.values():
+            yield from descriptions(value)
+    elif isinstance(schema, list):
+        for value in schema:
+            yield from descriptions(value)
+
+
+@pytest.mark.parametrize("kind", ["contact", "friction", "wear"])
+def test_the_schema_has_the_meanings_of_the_walk(kind):
+    described = set(descriptions(scene_schema(kind)))
+    for key in walk(get_kind(kind).model):
+        if not key.tables and key.path[0] != "over":
+            assert (key.name, key.meaning) in described, key.path
