@@ -4,7 +4,16 @@ import re
 
 import pytest
 
-from bem.cli._terminal import Terminal, print_numbers, print_points, print_text, show_warnings, table, wrapped
+from bem.cli._terminal import (
+    Terminal,
+    figures_within,
+    print_numbers,
+    print_points,
+    print_text,
+    show_warnings,
+    table,
+    wrapped,
+)
 from bem.plots.report import with_error
 from bem.plots.tables import figure_tables
 from bem.runs import run_scene
@@ -190,3 +199,11 @@ def test_notes_and_sentences_are_wrapped_on_a_terminal(shown, width, capsys, mon
 def test_sentences_are_one_line_when_piped(capsys):
     print_text(SENTENCE + SENTENCE)
     assert capsys.readouterr().out == SENTENCE + SENTENCE + "\n"
+
+
+@pytest.mark.parametrize("room", [-3, 10, 15, 40])
+def test_progress_shows_whole_figures_only(room):
+    text = figures_within({"friction": 0.0774123, "contact_load": 12.5}, room)
+    assert text in ("", "friction 0.07741", "friction 0.07741  contact load 12.5")
+    assert len(text) <= max(room, 0)
+    assert ("contact load 12.5" in text) == (room == 40)

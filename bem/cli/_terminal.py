@@ -55,7 +55,8 @@ class Terminal:
                 return
             self._bars = _bars()
             self._bars.start()
-        beside = "  ".join(f"{name.replace('_', ' ')} {value:.4g}" for name, value in figures.items())
+        room = self._bars.console.width - len(what or "working") - _BAR
+        beside = figures_within(figures, room)
         if what not in self._tasks:
             self._tasks[what] = self._bars.add_task(what or "working", total=total, beside=beside)
         self._bars.update(self._tasks[what], completed=done, total=total, beside=beside)
@@ -105,6 +106,21 @@ def resumable() -> Iterator[Terminal]:
         except KeyboardInterrupt:
             terminal.say("interrupted; the same command with --resume goes on")
             raise typer.Exit(130) from None
+
+
+_BAR = 16 + 9 + 4 + 8 + 5
+"""Characters of a line of progress beside its name and figures: bar, count, "left", time and the spaces between."""
+
+
+def figures_within(figures: Mapping[str, float], room: int) -> str:
+    """Return the first figures by name that fit in so many characters, each of them whole."""
+    shown = ""
+    for name, value in figures.items():
+        longer = f"{shown}  {name.replace('_', ' ')} {value:.4g}".lstrip()
+        if len(longer) > room:
+            break
+        shown = longer
+    return shown
 
 
 def _bars() -> Any:
