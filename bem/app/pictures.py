@@ -21,7 +21,8 @@ from bem.plots.labels import (
 )
 from bem.plots.tables import is_error, is_list, name_and_unit
 from bem.quantities import with_signs
-from bem.results.arrays import Array, Arrays
+from bem.results.arrays import Arrays
+from bem.scenes.context import Variable
 
 Picture = dict[str, Any]
 MOST_CELLS = 384
@@ -277,18 +278,19 @@ def _is_wide(along: Any) -> bool:
     return values.dtype.kind in "fiu" and bool((values > 0).all()) and bool(values.max() > 30 * values.min())
 
 
-def unit_of(item: Array) -> str:
+def unit_of(item: Variable) -> str:
     """As it is shown: nothing for none."""
     return "" if item.attrs.get("units", "1") == "1" else str(item.attrs["units"])
 
 
-def _is_numeric(item: Array) -> bool:
+def _is_numeric(item: Variable) -> bool:
     return item.values.dtype.kind in "fiu"
 
 
-def stood_up(item: Array, kept: int = 1) -> Array:
+def stood_up(item: Variable, kept: int = 1) -> Variable:
     """The same axes but the last `kept`, as if a map stood at each of them."""
-    return Array((*item.dims[:-kept], "x", "y"), (*item.shape[:-kept], 2, 2), {}, lambda: np.zeros(0))
+    dimensions, shape = (*item.dims[:-kept], "x", "y"), (*item.shape[:-kept], 2, 2)
+    return Variable(dimensions, lambda: np.zeros(0), "", "", shape=shape)
 
 
 def _one(value: Any, unit: str) -> str:

@@ -14,8 +14,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from bem.plots.labels import ZERO_CELSIUS, key_words, prefix
-from bem.results.arrays import Array as ArrayOfRun
 from bem.results.arrays import Arrays
+from bem.scenes.context import Variable
 from bem.scenes.kind import get_kind
 from bem.scenes.records import Series, described, figures
 
@@ -38,11 +38,12 @@ def first_case(dataset: Any) -> Any:
     if not axes:
         return dataset
 
-    def first(item: Any) -> ArrayOfRun:
+    def first(item: Any) -> Variable:
         kept = tuple(slice(None) if name not in axes else 0 for name in item.dims)
         dims = tuple(name for name in item.dims if name not in axes)
         shape = tuple(n for n, name in zip(item.shape, item.dims, strict=True) if name not in axes)
-        return ArrayOfRun(dims, shape, item.attrs, lambda: np.asarray(item.values[kept]))
+        units, description = (str(item.attrs.get(key, "")) for key in ("units", "long_name"))
+        return Variable(dims, lambda: np.asarray(item.values[kept]), units, description, shape=shape)
 
     one = {name: first(dataset[name]) for name in dataset.variables if name not in axes}
     return Arrays(one, {**dataset.attrs, "axes": ""})

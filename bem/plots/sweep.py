@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Mapping, Sequence
-from dataclasses import replace
 from itertools import product
 from pathlib import Path
 from typing import Any
@@ -108,7 +107,7 @@ def _varies(values: Any) -> bool:
 def _in_celsius(name: str, variable: Variable) -> Variable:
     """Temperatures in °C; every other variable is the same."""
     values, unit = in_celsius(variable.values, variable.units, name, variable.description)
-    return variable if unit == variable.units else replace(variable, values=values, units=unit)
+    return variable if unit == variable.units else variable.with_values(values, unit)
 
 
 def _drawable(variable: Variable, name: str) -> bool:

@@ -1,13 +1,12 @@
 """The arrays of a run by name, without xarray: what figures are drawn from.
 
 Importing xarray takes longer than most contacts do (and brings pandas, and dask and pint where they are installed), so
-it waits until somebody opens results. What is here looks the same for as much as figures need.
+it waits until somebody opens results. A `Variable` has the names of xarray that figures need.
 """
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
-from functools import cached_property
+from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -19,47 +18,10 @@ from bem.results.atomic import reason
 from bem.scenes.context import Variable
 
 
-class Array:
-    """An array with names of its axes and attributes; the values are read when first asked for."""
-
-    def __init__(
-        self,
-        dims: tuple[str, ...],
-        shape: tuple[int, ...],
-        attrs: Mapping[str, Any],
-        read: Callable[[], NDArray[Any]],
-    ) -> None:
-        self.dims = dims
-        self.shape = shape
-        self.attrs = dict(attrs)
-        self._read = read
-
-    @cached_property
-    def values(self) -> NDArray[Any]:
-        """The numbers."""
-        return self._read()
-
-    @property
-    def size(self) -> int:
-        """How many numbers."""
-        return int(np.prod(self.shape))
-
-    @property
-    def ndim(self) -> int:
-        """How many axes."""
-        return len(self.shape)
-
-    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
-        return np.array(self.values, dtype=dtype, copy=copy)
-
-    def __float__(self) -> float:
-        return float(self.values)
-
-
-class Arrays(Mapping[str, Array]):
+class Arrays(Mapping[str, Variable]):
     """Arrays by name; `sizes` has the length of every axis, `coords` those named like their only axis."""
 
-    def __init__(self, variables: Mapping[str, Array], attrs: Mapping[str, Any]) -> None:
+    def __init__(self, variables: Mapping[str, Variable], attrs: Mapping[str, Any]) -> None:
         self.variables = dict(variables)
         self.attrs = dict(attrs)
         self.sizes = {
@@ -67,7 +29,7 @@ class Arrays(Mapping[str, Array]):
         }
         self.coords = {name: item for name, item in self.variables.items() if item.dims == (name,)}
 
-    def __getitem__(self, name: str) -> Array:
+    def __getitem__(self, name: str) -> Variable:
         return self.variables[name]
 
     def __iter__(self) -> Iterator[str]:
@@ -87,41 +49,13 @@ def stacks_of_maps(variables: Mapping[str, Variable]) -> list[str]:
     return [name for name, item in variables.items() if len(item.dimensions) > 2 and item.dimensions[-2:] in maps]
 
 
-def to_arrays(variables: Mapping[str, Variable], attributes: Mapping[str, Any]) -> Arrays:
-    """Variables of an outcome as they would be read back."""
-
-    def entry(item: Variable) -> Array:
-        attrs = {"units": item.units, "long_name": item.description}
-        return Array(item.dimensions, item.values.shape, attrs, lambda: item.values)
-
-    return Arrays({name: entry(item) for name, item in variables.items()}, attributes)
-
-
-Described = dict[str, tuple[tuple[str, ...], tuple[int, ...], dict[str, Any]]]
-"""Axes, shape and attributes of arrays by name, without their values."""
-
-
-def described(arrays: Arrays) -> Described:
-    """What arrays are, to be sent to another process."""
-    return {name: (item.dims, item.shape, item.attrs) for name, item in arrays.items()}
-
-
-def stored_arrays(path: Path, known: Described, attributes: Mapping[str, Any]) -> Arrays:
-    """The arrays of a file of which it is known what they are, each read when first asked for; what reads netCDF as
-    such takes longer to load than many arrays do."""
-
-    def entry(name: str) -> Array:
-        return Array(*known[name], lambda: _values(path, name))
-
-    return Arrays({name: entry(name) for name in known}, attributes)
-
-
 def read_arrays(path: Path) -> Arrays:
     """The arrays in the file, each read when first asked for; ResultsError if it is missing or damaged."""
     import h5netcdf
 
-    def entry(name: str, item: Any) -> Array:
-        return Array(tuple(item.dimensions), tuple(item.shape), dict(item.attrs), lambda: _values(path, name))
+    def entry(name: str, item: Any) -> Variable:
+        units, description = (str(item.attrs.get(key, "")) for key in ("units", "long_name"))
+        return Variable(item.dimensions, lambda: _values(path, name), units, description, shape=tuple(item.shape))
 
     try:
         with h5netcdf.File(path, "r") as file:

@@ -16,7 +16,7 @@ from bem.campaigns.jobs import Staff
 from bem.errors import ConvergenceError, InputError, Status
 from bem.notes import Level, Note, outside
 from bem.notes.merge import without_foreseen
-from bem.results.arrays import LEFT_OUT, stacks_of_maps, to_arrays
+from bem.results.arrays import LEFT_OUT, Arrays, stacks_of_maps
 from bem.results.directory import RESULTS, RunDirectory, plain
 from bem.results.read import FinishedRun, check_data, open_run
 from bem.scenes.asked import Asked, with_accuracy
@@ -219,7 +219,7 @@ def _write(
     headline = (*(scene.over or ()), *kind.headline)
     drawn_as = tuple(ending for ending in formats if ending != "vtu")
     pages = Pages(directory.path, scene_table(scene), summary, kind.figures, drawn_as, headline, computed.epoch)
-    arrays = to_arrays(variables, attributes)
+    arrays = Arrays(variables, attributes)
     tell = getattr(watcher, "numbers", None)
     if tell is not None:
         with suppress(OSError):  # nobody may be listening any more; the run goes on

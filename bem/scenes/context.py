@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 import hashlib
+import math
 import mmap
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import AbstractContextManager, contextmanager
 from dataclasses import dataclass, field
+from functools import cached_property
 from typing import Any, Protocol
 
 import numpy as np
@@ -72,28 +74,78 @@ class Bars(Protocol):
         """What each origin adds to them."""
 
 
-@dataclass(frozen=True)
 class Variable:
-    """A named array of the results.
+    """A named array of the results, from the record of a run to the file, the figures and the page.
 
-    Attributes
+    Parameters
     ----------
     dimensions : one name per axis. A variable with the name of its only dimension is that dimension's coordinate.
-    values : numbers.
+    values : numbers; with `shape`, a function that reads them when they are first asked for.
     units : SI, such as "Pa"; "1" for none.
     description : long name for axes and for readers of the file.
+    shape : of values that are still to be read.
     """
 
-    dimensions: tuple[str, ...]
-    values: NDArray[Any]
-    units: str
-    description: str
+    def __init__(
+        self,
+        dimensions: Sequence[str],
+        values: NDArray[Any] | Callable[[], NDArray[Any]],
+        units: str,
+        description: str,
+        *,
+        shape: tuple[int, ...] | None = None,
+    ) -> None:
+        self.dimensions = tuple(dimensions)
+        self.units = units
+        self.description = description
+        self._read = values if callable(values) and shape is not None else None
+        if self._read is None:
+            self.__dict__["values"] = np.asarray(values)
+            shape = self.values.shape
+        assert shape is not None
+        self.shape = shape
+        if self.ndim != len(self.dimensions):
+            raise ValueError(f"{description}: {self.ndim} axes but dimensions {self.dimensions}")
 
-    def __post_init__(self) -> None:
-        values = np.asarray(self.values)
-        if values.ndim != len(self.dimensions):
-            raise ValueError(f"{self.description}: {values.ndim} axes but dimensions {self.dimensions}")
-        object.__setattr__(self, "values", values)
+    @cached_property
+    def values(self) -> NDArray[Any]:
+        """The numbers."""
+        assert self._read is not None
+        return self._read()
+
+    @property
+    def dims(self) -> tuple[str, ...]:
+        """Dimensions, by xarray's name."""
+        return self.dimensions
+
+    @property
+    def attrs(self) -> dict[str, str]:
+        """Units and description as xarray has them."""
+        known = {"units": self.units, "long_name": self.description}
+        return {name: text for name, text in known.items() if text}
+
+    @property
+    def size(self) -> int:
+        """Count of numbers."""
+        return math.prod(self.shape)
+
+    @property
+    def ndim(self) -> int:
+        """Count of axes."""
+        return len(self.shape)
+
+    def with_values(self, values: NDArray[Any], units: str) -> Variable:
+        """Return the variable with other values in other units."""
+        return Variable(self.dimensions, values, units, self.description)
+
+    def __array__(self, dtype: Any = None, copy: bool | None = None) -> NDArray[Any]:
+        return np.array(self.values, dtype=dtype, copy=copy)
+
+    def __float__(self) -> float:
+        return float(self.values)
+
+    def __repr__(self) -> str:
+        return f"Variable({self.dimensions}, shape {self.shape}, {self.units!r}, {self.description!r})"
 
 
 @dataclass(frozen=True)

@@ -18,7 +18,7 @@ from bem.app.pictures import (
     sections_picture,
 )
 from bem.app.solids import MOST_PARTICLES, PARTICLES, cases_of, field_picture, solid_names, solid_picture
-from bem.results.arrays import to_arrays
+from bem.results.arrays import Arrays
 from bem.scenes.context import Variable
 
 pytestmark = pytest.mark.internal
@@ -69,7 +69,7 @@ def test_curves_have_their_error_bars():
         "friction_error": Variable(("load", "speed"), np.full((2, 2), 0.01), "1", "error of friction"),
         "map": Variable(("load", "x", "y"), np.zeros((2, 4, 4)), "Pa", "pressure"),
     }
-    arrays = to_arrays(variables, {})
+    arrays = Arrays(variables, {})
     assert curve_names(arrays) == ["friction"]
     picture = curve_picture(arrays, "friction")
     assert [trace["name"] for trace in picture["data"]] == ["load 1 N", "load 2 N"]
@@ -123,7 +123,7 @@ def test_particles_in_space_have_their_sizes_and_places():
     variables = {f"particle_{k}": Variable(("load", "particle"), v, "m", k) for k, v in rows.items()}
     variables["load"] = Variable(("load",), np.array([1.0, 2.0]), "N", "load")
     variables["stress"] = Variable(("load", "depth", "x", "y"), np.ones((2, 3, 4, 4)), "Pa", "stress")
-    arrays = to_arrays(variables, {})
+    arrays = Arrays(variables, {})
     assert list(solid_names(arrays)) == ["stress", PARTICLES]
     assert cases_of(arrays, PARTICLES) == cases_of(arrays, "stress") == ["load 1 N", "load 2 N"]
     picture = solid_picture(arrays, PARTICLES, 1)
@@ -177,7 +177,7 @@ def test_the_browser_draws_no_empty_charts_and_names_case_and_temperature():
         "iteration": Variable(("iteration",), np.arange(3.0), "1", "iteration"),
         "residual_history": Variable(("iteration",), np.array([1.0, 1e-4, 1e-9]), "1", "residual"),
     }
-    arrays = to_arrays(variables, {})
+    arrays = Arrays(variables, {})
     assert curve_names(arrays) == ["oil_temperature", "residual_history"]
     picture = curve_picture(arrays, "oil_temperature", "0.01 m/s, 5.5 N")
     assert picture["data"][0]["y"] == pytest.approx([70.0, 80.0])

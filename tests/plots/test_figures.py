@@ -12,7 +12,7 @@ from bem.plots.draw import Drawn, draw, draw_all, figure_kind
 from bem.plots.figures import all_figures
 from bem.plots.report import spelled, write_report
 from bem.plots.style import BLUE, ORANGE, SKY, VERMILION, prefix
-from bem.results.arrays import to_arrays
+from bem.results.arrays import Arrays
 from bem.results.directory import RunDirectory
 from bem.scenes.context import Variable
 
@@ -46,7 +46,7 @@ def contact_run(path, nx=40, ny=30, depths=6, roughness=True):
         "scene": "invented", "kind": "contact", "version": "1", "seed": 1, "wall_time_s": 1.0, "status": "converged",
         "where": "", "approach_m": 1e-7, "load_N": 2.0, "notes": ["<b>&"], "seconds_by_stage": {"contact": 1.0},
     }  # fmt: skip
-    return SimpleNamespace(path=path, scene=scene, summary=summary, dataset=to_arrays(variables, {}))
+    return SimpleNamespace(path=path, scene=scene, summary=summary, dataset=Arrays(variables, {}))
 
 
 NAMES = (

@@ -7,7 +7,7 @@ import pytest
 from matplotlib.figure import Figure
 
 from bem.plots.figures import all_figures
-from bem.results.arrays import to_arrays
+from bem.results.arrays import Arrays
 from bem.scenes.context import Variable
 
 pytestmark = pytest.mark.internal
@@ -25,7 +25,7 @@ def film_run(*, fraction):
     }
     if fraction:
         variables["film_fraction"] = Variable(("time", "film_x"), filled.copy(), "1", "share of the gap filled")
-    return SimpleNamespace(dataset=to_arrays(variables, {}))
+    return SimpleNamespace(dataset=Arrays(variables, {}))
 
 
 def test_filled_share_over_place_and_time():
@@ -54,8 +54,6 @@ def test_friction_over_time_only_where_surfaces_slide(friction, panels):
     drawn = {"speed": 1.0, "minimum_film": 2e-7, "central_film": 3e-7, "friction": friction}
     variables = {name: Variable(("time",), np.full(11, value), "1", name) for name, value in drawn.items()}
     kind, figure = all_figures()["film-over-time"], Figure()
-    kind.draw(
-        SimpleNamespace(dataset=to_arrays(variables | {"time": Variable(("time",), time, "s", "time")}, {})), figure
-    )
+    kind.draw(SimpleNamespace(dataset=Arrays(variables | {"time": Variable(("time",), time, "s", "time")}, {})), figure)
     assert len(figure.axes) == panels
     assert figure.axes[-1].get_xlabel() == "time (ms)"

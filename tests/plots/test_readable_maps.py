@@ -6,7 +6,7 @@ import pytest
 from bem.plots.figures.pressure import _one_colour
 from bem.plots.figures.subsurface import _drawn_over_depth
 from bem.plots.style import along_x, field_axes, height_limit, map_of_heights, named_axes
-from bem.results.arrays import Array
+from bem.scenes.context import Variable
 
 pytestmark = pytest.mark.internal
 
@@ -66,7 +66,7 @@ def test_the_first_axis_of_a_map_is_what_the_results_call_it(said, written):
     from matplotlib.figure import Figure
 
     axes, x = Figure().add_subplot(), np.arange(4) * 1e-6
-    with named_axes({"x": Array(("x",), (4,), {"long_name": said}, lambda: x)}):
+    with named_axes({"x": Variable(("x",), x, "m", said)}):
         field_axes(axes, x, x)
     assert axes.get_xlabel().startswith(f"{written} ")
     assert along_x() == "x, sliding"

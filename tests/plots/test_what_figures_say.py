@@ -15,7 +15,7 @@ from bem.plots.figures.keys import FIGURES as KEYS
 from bem.plots.labels import beyond_ends, colour_ends, in_celsius, key_words, uniform_value
 from bem.plots.style import SPIKE_LIMIT, has_unresolved_spike, map_of, mark_spike, spike_in, style
 from bem.plots.sweep import fill
-from bem.results.arrays import to_arrays
+from bem.results.arrays import Arrays
 from bem.scenes.context import Variable
 
 pytestmark = pytest.mark.internal
@@ -27,7 +27,7 @@ RATIO = "rolling.slide_roll_ratio"
 def run_of(kind, axes, variables, **more):
     scene, summary = more.get("scene", {}), {"kind": kind, **more.get("summary", {})}
     return SimpleNamespace(
-        dataset=to_arrays(variables, {"axes": axes}), summary=summary, scene=scene, path=more.get("path")
+        dataset=Arrays(variables, {"axes": axes}), summary=summary, scene=scene, path=more.get("path")
     )
 
 
@@ -90,7 +90,7 @@ def test_a_map_of_the_first_of_several_cases_names_it(tmp_path, monkeypatch):
 
 
 def test_the_last_case_is_named_where_the_last_is_kept():
-    data = to_arrays(
+    data = Arrays(
         {
             "load": Variable(("load",), np.array([1.0, 4.0]), "N", "load"),
             "temperature": Variable(("temperature",), np.array([293.15, 353.15]), "K", "temperature"),
@@ -263,11 +263,11 @@ def test_flat_figures_over_keys_and_films_that_are_nowhere_are_not_drawn():
         run = traction_run(3)
         for name, unit in (("film_temperature", "K"), ("film_rise", "K")):
             flat = Variable((RATIO,), 350.0 * (1 + spread * np.arange(3)), unit, name)
-            run.dataset.variables[name] = to_arrays({name: flat}, {})[name]
+            run.dataset.variables[name] = Arrays({name: flat}, {})[name]
         assert kind.applies(run) == drawn
     films = all_figures()
     empty = SimpleNamespace(
-        dataset=to_arrays(
+        dataset=Arrays(
             {name: Variable(("x", "y"), np.zeros((9, 9)), "m", name) for name in ("film_map", "wear_rate")}, {}
         )
     )

@@ -4,7 +4,7 @@ import numpy as np
 import pytest
 
 from bem.errors import ResultsError
-from bem.results.arrays import read_arrays, to_arrays
+from bem.results.arrays import Arrays, read_arrays
 from bem.results.dataset import read_dataset, write_variables
 from bem.scenes.context import Variable
 
@@ -23,7 +23,7 @@ def test_what_is_read_is_what_xarray_reads(tmp_path):
     path = tmp_path / "results.nc"
     write_variables(path, VARIABLES, {"title": "t", "seed": 3})
     dataset = read_dataset(path)
-    for arrays in (read_arrays(path), to_arrays(VARIABLES, {"title": "t", "seed": 3})):
+    for arrays in (read_arrays(path), Arrays(VARIABLES, {"title": "t", "seed": 3})):
         assert set(arrays) == set(arrays.variables) == set(dataset.variables)
         assert arrays.sizes == dict(dataset.sizes)
         assert set(arrays.coords) == set(dataset.coords)

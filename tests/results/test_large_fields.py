@@ -114,7 +114,7 @@ def test_a_rough_contact_with_its_error_bars_holds_nine_and_a_half_fields(tmp_pa
 def test_pictures_of_a_contact_hold_no_field_besides_its_own(tmp_path, monkeypatch):
     """But for what grows with the dots of the picture, not with the cells, of which there are few here."""
     from bem.plots.draw import draw_all
-    from bem.results.arrays import to_arrays
+    from bem.results.arrays import Arrays
     from bem.results.read import FinishedRun
 
     monkeypatch.setattr("bem.plots.style._MOST_CELLS", 300)
@@ -133,7 +133,7 @@ def test_pictures_of_a_contact_hold_no_field_besides_its_own(tmp_path, monkeypat
     variables = {name: Variable(("x", "y"), values, unit, name) for name, (values, unit) in fields.items()}
     variables |= {name: Variable((name,), x, "m", name) for name in "xy"}
     run = FinishedRun(tmp_path, {"contact": {}}, {"approach_m": 1e-7})
-    run.__dict__["arrays"] = to_arrays(variables, {})
+    run.__dict__["arrays"] = Arrays(variables, {})
     names = ["pressure-map", "contact-map", "contact-section", "pressure-histogram", "surface-maps"]
     draw_all(run, names[1:2], tmp_path)  # what draws
     tracemalloc.start()

@@ -21,10 +21,10 @@ def _keys(run: Any) -> list[str]:
 def _variables(run: Any) -> dict[str, Variable]:
     """Axes of the cases and figures over them, by their names in the summary."""
     kind, data = get_kind(run.summary["kind"]), run.dataset
-    variables = {name: _variable(data[name]) for name in axes_of(data)}
+    variables = {name: data[name] for name in axes_of(data)}
     for key, name in figures(kind.record).items():
         if name in data.variables and set(data[name].dims) <= set(axes_of(data)):
-            variables[key] = _variable(data[name])
+            variables[key] = data[name]
     return variables
 
 
@@ -36,10 +36,6 @@ def _applies(run: Any) -> bool:
     """Return True if any headline figure differs along the keys: flat curves say nothing."""
     keys = _keys(run)
     return bool(keys) and varies(_variables(run), keys, get_kind(run.summary["kind"]).headline)
-
-
-def _variable(item: Any) -> Variable:
-    return Variable(tuple(item.dims), item.values, str(item.attrs["units"]), str(item.attrs["long_name"]))
 
 
 FIGURES = (
