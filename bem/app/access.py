@@ -1,4 +1,5 @@
-"""Who may see the page: who has its address with the token, from this machine; and it loads nothing from elsewhere."""
+"""Access to the page: for whoever has its address with the token, from this machine; nothing is loaded from
+elsewhere."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What can be taken away from a run: scene, arrays, figures for print, a table, a script that repeats it."""
+"""Downloads of a run: scene, arrays, figures for print, a table, a script that repeats it."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What all pages have: a head with links, messages, tables."""
+"""Parts of all pages: a head with links, messages, tables."""
 
 from __future__ import annotations
 

@@ -40,7 +40,7 @@ def map_names(arrays: Arrays) -> list[str]:
 
 
 def layers_of(arrays: Arrays, name: str) -> list[str]:
-    """What the maps of a variable are, one for each, in words: "depth 1.2 um"; empty for a single one."""
+    """Describe the maps of a variable, one each: "depth 1.2 um"; empty for a single one."""
     item = arrays[name]
     words = [""]
     for dim, size in zip(item.dims[:-2], item.shape[:-2], strict=True):

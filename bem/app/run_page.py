@@ -29,7 +29,7 @@ _EVERY = 1.0  # seconds between two looks into the folder
 
 
 def actions(workspace: Workspace, state: RunState, after: Callable[[], Any]) -> None:
-    """What can be done with a run now."""
+    """Return the actions that a run allows now."""
 
     def act(what: Callable[[str], Any]) -> None:
         try:
@@ -50,7 +50,7 @@ def actions(workspace: Workspace, state: RunState, after: Callable[[], Any]) -> 
 
 
 class Progress:
-    """How far a run is. `show` changes it in place: a button that is drawn anew under the mouse loses its click."""
+    """Progress of a run. `show` changes it in place: a button that is drawn anew under the mouse loses its click."""
 
     def __init__(self, state: RunState) -> None:
         self._bar = ui.linear_progress(0.0, show_value=False).classes("w-48")
@@ -71,7 +71,7 @@ class Progress:
 
 
 def frame_of(state: RunState) -> RunState:
-    """What decides which buttons there are: all but how far it is."""
+    """Return the state that decides which buttons there are: all but the progress."""
     return replace(state, done=0, total=0, what="", notes=())
 
 
@@ -234,7 +234,7 @@ def _over(found: FinishedRun) -> None:
 
 
 def _curves(found: FinishedRun) -> None:
-    """What is known along an axis of its own."""
+    """Show the quantities along an axis of their own."""
     names = pictures.curve_names(found.arrays)
     with ui.element("div").classes("w-full").style(_GRID):
         for name in [item for item in names if found.arrays[item].dims[-1] not in ("speed", "load")][:6]:
@@ -335,7 +335,7 @@ class Maps:
 
 
 def _peak(values: np.ndarray) -> tuple[int, int]:
-    """Where the first section goes: through the largest value."""
+    """Return the place of the first section: through the largest value."""
     at = np.unravel_index(int(np.nanargmax(np.where(np.isfinite(values), values, -np.inf))), values.shape)
     return int(at[0]), int(at[1])
 

@@ -21,7 +21,8 @@ _LEVELS = 5
 
 
 def solid_names(arrays: Arrays) -> dict[str, str]:
-    """What of a run has a picture in space, with its words: fields over depth, x and y, and particles with places."""
+    """Return variables with a picture in space, with their words: fields over depth, x and y, and particles with
+    places."""
     found = {
         name: str(item.attrs.get("long_name", name))
         for name, item in arrays.items()
@@ -34,7 +35,7 @@ def solid_names(arrays: Arrays) -> dict[str, str]:
 
 
 def cases_of(arrays: Arrays, name: str) -> list[str]:
-    """Which cases or components there are of it, in words; empty for one."""
+    """Describe the cases or components of a variable; empty for one."""
     item, kept = (arrays["particle_length"], 1) if name == PARTICLES else (arrays[name], 3)
     return layers_of(Arrays({**arrays.variables, "_": stood_up(item, kept)}, {}), "_")
 

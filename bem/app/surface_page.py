@@ -114,7 +114,7 @@ class SurfacePage:
         self._again()
 
     def _scenes(self) -> None:
-        """Where the treated surface can be put."""
+        """Show the scenes that can take the treated surface."""
         names = list(self._workspace.scenes())
         scene = ui.select(names, label="take it into the scene", value=names[0] if names else None)
         scene.classes("w-full").props("dense outlined")

@@ -43,7 +43,7 @@ class Told:
             self._write()
 
     def end(self, state: str, message: str = "") -> None:
-        """How it ended."""
+        """Write how the run ended."""
         self._state |= {"state": state, "message": message}
         self._write()
 

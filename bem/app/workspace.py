@@ -93,7 +93,7 @@ class Workspace:
         return self.folder / f"{name}.toml"
 
     def scene_text(self, name: str) -> str:
-        """What the file of a scene says, "" where there is none."""
+        """Return the text of a scene's file, "" where there is none."""
         try:
             return self.scene_path(name).read_text("utf-8-sig")
         except FileNotFoundError:
@@ -278,7 +278,7 @@ class Workspace:
 
 
 def _begun(folder: Path) -> float:
-    """When a run was asked for; the time of its folder changes with each file that it writes."""
+    """Return the time at which a run was asked for; the time of its folder changes with each file that it writes."""
     for file in (folder / OWN / ASKED, folder / SCENE):
         with suppress(OSError):
             return file.stat().st_mtime

@@ -55,7 +55,7 @@ class Campaign:
 
     @property
     def shape(self) -> tuple[int, ...]:
-        """How many values each axis has."""
+        """Count of values of each axis."""
         return tuple(len(axis) for axis in self.axes)
 
 
@@ -124,7 +124,7 @@ def axes_of_keys(over: Mapping[str, Sequence[Any]], scenes: Sequence[SceneModel]
 
 
 def _value(table: Mapping[str, Any], key: str) -> Any:
-    """What stands at a key; one value where it stands for both axes."""
+    """Return the value at a key; one value where it stands for both axes."""
     value = value_at(table, parse_key(key) or ())
     if isinstance(value, list) and value and all(item == value[0] for item in value):
         return value[0]
@@ -132,7 +132,7 @@ def _value(table: Mapping[str, Any], key: str) -> Any:
 
 
 def label_of(axes: Sequence[Axis], place: Sequence[int | None]) -> str:
-    """What is at a place, in words: "load 5 N, repetition 2"; axes of one value and those with None are left out."""
+    """Describe a place: "load 5 N, repetition 2"; axes of one value and those with None are left out."""
     words = [_words(axis, i) for axis, i in zip(axes, place, strict=True) if i is not None and len(axis) > 1]
     return ", ".join(words)
 

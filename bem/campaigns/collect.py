@@ -37,7 +37,7 @@ _FAILURES_NAMED = 5
 
 @dataclass(frozen=True)
 class Given:
-    """What a case gave: a record, or why it failed and with what status."""
+    """Result of a case: a record, or the reason of its failure with a status."""
 
     case: Case
     record: Record | None
@@ -125,7 +125,7 @@ def _barred(records: Sequence[Record | None]) -> set[str]:
 
 
 def _never_barred(campaign: Campaign) -> Mapping[str, str]:
-    """Why figures of the kind never have a bar; none of them where no error bars are wanted."""
+    """Return the reasons why figures of the kind never have a bar; empty where no error bars are wanted."""
     wanted = getattr(getattr(campaign.scene, "outputs", None), "errors", True)
     free = _scattering(campaign)
     return {name: why for name, why in without_bars(campaign.kind.record).items() if wanted and name not in free}
@@ -142,8 +142,8 @@ def _something(value: Any) -> bool:
 
 
 def words_of_bars(campaign: Campaign, records: Sequence[Record | None]) -> list[Note]:
-    """What a reader of error bars must know: which figures have none and why, and which bars are scatter alone; of what
-    is nothing everywhere, as the sizes of no pieces, no word."""
+    """Return notes on error bars: figures without bars and the reasons, and bars that are scatter alone; none on
+    figures that are zero everywhere, as the sizes of no pieces."""
     record = campaign.kind.record
     told = {
         name: " ".join((item.name or name).split("_"))
@@ -200,7 +200,8 @@ def _known(values: Sequence[Any]) -> list[Any]:
 
 
 def _parts(name: str, figure: Figure, records: Sequence[Record | None]) -> dict[str, list[Any]]:
-    """What each origin adds to a figure's error, of every record that knows it, by the words for the origin."""
+    """Return the contribution of each origin to a figure's error, of every record that knows it, by the words for
+    the origin."""
     parts: dict[str, list[Any]] = {}
     for record in records:
         for origin, errors in (record.error_parts if record is not None else {}).items():
@@ -239,7 +240,7 @@ def coordinates(axes: Sequence[Axis]) -> dict[str, Variable]:
 def laid_out(
     axes: Sequence[Axis], values: list[Any], unit: str, text: str, dimensions: tuple[str, ...] = ()
 ) -> Variable:
-    """What all cases gave of one thing, over the axes: texts, numbers, or arrays with dimensions of their own."""
+    """Arrange the values of all cases over the axes: texts, numbers, or arrays with dimensions of their own."""
     names, shape = tuple(axis.name for axis in axes), tuple(len(axis) for axis in axes)
     if any(isinstance(value, str) for value in values):
         texts = np.array(["" if value is None else str(value) for value in values])

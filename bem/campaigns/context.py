@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 
 class Watcher(Protocol):
-    """Who is told how work goes on, such as a terminal."""
+    """Receiver of progress and notes, such as a terminal."""
 
     def progress(self, done: int, total: int, what: str, figures: Mapping[str, float]) -> None:
         """`done` of `total` steps are finished."""

@@ -1,4 +1,4 @@
-"""Whether a worker sees the same disk: a file with a secret in the folder of the run says so."""
+"""Test whether a worker sees the same disk: a file with a secret token in the folder of the run."""
 
 from __future__ import annotations
 

@@ -36,7 +36,7 @@ _RECORD = "_record"
 
 @dataclass(frozen=True)
 class Result:
-    """What came of a case: its record, packed, or what went wrong."""
+    """Result of a case: its packed record, or the reason of its failure."""
 
     record: dict[str, Any] | None
     notes: list[Note] = field(default_factory=list)

@@ -32,7 +32,7 @@ _ALIKE = 0.75
 
 @dataclass(frozen=True)
 class Staff:
-    """Who computes.
+    """Workers of a run: processes of this machine, or a Dask cluster.
 
     workers : processes on this machine; as many as cores, memory and work allow where None.
     scheduler : address of a Dask scheduler, instead of processes.
@@ -93,7 +93,8 @@ def _seconds(jobs: Sequence[Job], threads: int) -> dict[int, float]:
 
 
 def _threads_at_end(seconds: Sequence[float], count: int) -> list[int]:
-    """Of every job in turn, how many times the threads: those of a last round that is not full share the idle cores.
+    """Return the factor of threads for every job in turn: jobs of a last round that is not full share the idle
+    cores.
 
     Only where jobs are alike; of others nobody knows who will be idle when. No result depends on its threads.
     """
@@ -105,7 +106,8 @@ def _threads_at_end(seconds: Sequence[float], count: int) -> list[int]:
 def processes(
     workers: int | None, jobs: Sequence[Job], seconds: float, threads: int, note: Callable[[str], None]
 ) -> int:
-    """How many processes: as asked, or one per core as far as `seconds` of work are worth it and memory allows."""
+    """Return the number of processes: as asked, or one per core as far as `seconds` of work are worth it and memory
+    allows."""
     if workers is not None:
         return min(workers, len(jobs))
     wanted = max(1, min(cores() // threads, len(jobs), int(seconds / _WORTH_A_PROCESS)))
@@ -117,7 +119,7 @@ def processes(
 
 
 def words_of(error: BemError | MemoryError) -> str:
-    """What went wrong with a job, in words, several mistakes in one line."""
+    """Describe the failure of a job, several mistakes in one line."""
     if isinstance(error, MemoryError):
         return "out of memory; fewer --workers or a smaller grid"
     return " | ".join(getattr(error, "messages", None) or [str(error)])

@@ -17,7 +17,7 @@ _CASES_NAMED = 10
 
 
 def plan(campaign: Campaign) -> Plan:
-    """What will be computed for all cases.
+    """Plan of all cases.
 
     Work adds up over the cases; memory is that of the most demanding one, as every worker holds one case.
 

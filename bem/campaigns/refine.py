@@ -226,8 +226,8 @@ def _with_levels(record: Record, scene: SceneModel, levels: Sequence[Level], met
 
 
 def told_in_summary(campaign: Campaign, records: Sequence[Record | None]) -> dict[str, Any]:
-    """What the summary says of the accuracy: what was asked and whether all cases met it, their levels, and what these
-    cost; nothing where none is asked for."""
+    """Return the summary's entry on the accuracy: the request, whether all cases met it, their levels and the cost;
+    empty where none is asked for."""
     if campaign.base.accuracy is None:
         return {}
     cases, seconds = [], []
@@ -240,7 +240,7 @@ def told_in_summary(campaign: Campaign, records: Sequence[Record | None]) -> dic
 
 
 def words_of_levels(campaign: Campaign, records: Sequence[Record | None]) -> list[Note]:
-    """How the accuracy was reached, and what was left out of it."""
+    """Return notes on the levels of refinement, and on the figures left out of the request."""
     found = [record.refinement for record in records if record is not None and record.refinement.get("levels")]
     if not found:
         return []
@@ -248,7 +248,7 @@ def words_of_levels(campaign: Campaign, records: Sequence[Record | None]) -> lis
 
 
 def _left_to_chance(campaign: Campaign) -> list[Note]:
-    """What of the headline figures all did not mean, and why."""
+    """Return the headline figures that "all" leaves out, with the reasons."""
     asked, kind = campaign.base.accuracy, campaign.kind
     if isinstance(asked, Mapping) and asked.get(ALL, ANY) == ANY:
         return []
@@ -386,5 +386,5 @@ class _LevelContext:
 
 
 def _without_notes(state: Mapping[str, Any] | None) -> dict[str, Any] | None:
-    """What a kind saved, without what its level noted."""
+    """Return the saved state of a kind without the notes of its level."""
     return None if state is None else {key: value for key, value in state.items() if key != "_notes"}

@@ -128,7 +128,7 @@ def _leave_interrupted() -> None:
 
 
 def _done() -> None:
-    """What was asked for is done: an interrupt while Python takes itself down must not make a failure of it. CPython
-    gives such signals back to the system there, unless they are ignored."""
+    """Ignore signals at exit: an interrupt while Python takes itself down must not turn success into failure.
+    CPython gives such signals back to the system there, unless they are ignored."""
     for number in (signal.SIGINT, signal.SIGTERM, signal.SIGALRM):
         signal.signal(number, signal.SIG_IGN)

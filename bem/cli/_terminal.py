@@ -411,7 +411,7 @@ def print_numbers(summary: Mapping[str, Any], headline: Sequence[str]) -> None:
 
 
 def print_lists(summary: Mapping[str, Any], names: Sequence[str]) -> None:
-    """Those of the named figures that are lists, as tables with a row for each case."""
+    """Print the named figures that are lists, as tables with a row for each case."""
     from bem.plots.tables import MOST_COLUMNS, figure_tables
 
     most = sys.maxsize if sys.stdout.isatty() else MOST_COLUMNS

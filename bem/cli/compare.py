@@ -98,7 +98,7 @@ def _results(runs: list[Any], names: list[str], everything: bool) -> None:
 
 
 def _seen(differences: list[Any]) -> list[Any]:
-    """Those that can be told apart in the digits shown."""
+    """Return the differences that show in the printed digits."""
     from bem.results.compare import shown
 
     return [d for d in differences if len({shown(value) for value in d.values}) > 1]

@@ -60,7 +60,7 @@ SchedulerOption = Annotated[
 
 
 def asked(accuracy: list[str] | None) -> str | dict[str, str | float] | None:
-    """What `--accuracy` asks for: of all figures, or figure by figure."""
+    """Parse `--accuracy`: of all figures, or figure by figure."""
     table: dict[str, str | float] = {}
     for text in accuracy or ():
         name, equals, share = text.rpartition("=")

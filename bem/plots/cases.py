@@ -50,7 +50,8 @@ def first_case(dataset: Any) -> Any:
 
 
 def case_shown(data: Any, kind: str, names: Sequence[str]) -> str:
-    """Which of several cases variables are of, in words with units, such as "0.01 m/s, 5.5 N"; empty for a single case.
+    """Describe the case that variables are of, in words with units, such as "0.01 m/s, 5.5 N"; empty for a single
+    case.
 
     Parameters
     ----------
@@ -138,7 +139,7 @@ def redoes(run: Any, source: str) -> bool:
 
 
 def label_of(dataset: Any, axes: Sequence[str], place: Sequence[int]) -> str:
-    """What is at a place along axes, of those with more than one value; a number without a unit, with its name."""
+    """Describe a place along axes with more than one value; a number without a unit has its name."""
     words = []
     for axis, i in zip(axes, place, strict=True):
         if dataset.sizes[axis] > 1:

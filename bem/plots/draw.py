@@ -45,7 +45,7 @@ def _for(run: Any, kind: FigureKind) -> Any:
 
 
 def _case_of(run: Any, kind: FigureKind) -> str:
-    """Which of several cases a figure shows, in words; empty where it shows all of them, or where there is one."""
+    """Describe the case that a figure shows; empty where it shows all cases, or where there is one."""
     several = bool(axes_of(run.dataset)) and not kind.all_cases
     return case_shown(run.dataset, run.summary.get("kind", ""), kind.needs) or (
         case_words(run.dataset) if several else ""

@@ -79,7 +79,8 @@ def key_words(key: str, words: str = "") -> str:
 
 
 def beyond_ends(ends: tuple[float, float], reached: tuple[float, float]) -> tuple[str, str]:
-    """How a colour bar is extended ("neither", "min", "max", "both"), and what it says of values beyond its ends.
+    """Return the extension of a colour bar ("neither", "min", "max", "both"), and its words on values beyond its
+    ends.
 
     ends : of the colours. reached : least and largest value, in the same unit.
     """
@@ -99,7 +100,7 @@ def beyond_ends(ends: tuple[float, float], reached: tuple[float, float]) -> tupl
 
 
 def colour_ends(values: NDArray[np.float64], low: float, high: float) -> tuple[float, float]:
-    """Where the colours of a field end: at percentiles where lone values would take them all, else at its extremes.
+    """Return the ends of a field's colours: percentiles where lone values would take them all, else its extremes.
 
     low, high : percentiles.
     """

@@ -131,7 +131,7 @@ def _over_axis(dataset: Any, variable: Any, title: str) -> Panel | None:
 
 
 def _axis_of_cases(dataset: Any, dimensions: Sequence[str]) -> Any:
-    """What cases without an axis of their own can be drawn over: the first number that varies among them."""
+    """Return an axis for cases without one of their own: the first number that varies among them."""
     for name in CASES:
         if name not in dataset or list(dataset[name].dims) != list(dimensions) or dataset[name].dtype.kind != "f":
             continue
@@ -141,7 +141,7 @@ def _axis_of_cases(dataset: Any, dimensions: Sequence[str]) -> Any:
 
 
 def _case(dataset: Any, at: dict[str, int], axis: str) -> str:
-    """What tells a case from the others, in words; repetitions are not told apart."""
+    """Describe the difference of a case from the others; repetitions are not told apart."""
     words = []
     for dimension, index in at.items():
         if dimension == "repetition":

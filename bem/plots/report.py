@@ -121,7 +121,8 @@ def _with_unit(value: Any, unit: str) -> str:
 
 
 def _animated(paths: Sequence[Path], run: Path) -> str:
-    """Where the animation beside a figure is, as seen from the run's folder; "" for most, which have none."""
+    """Return the path of the animation beside a figure, seen from the run's folder; "" for most figures, which have
+    none."""
     found = [path for path in paths if path.suffix == ".gif"]
     return Path(os.path.relpath(found[0], run)).as_posix() if found else ""
 

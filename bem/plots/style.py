@@ -75,7 +75,7 @@ _ALONG = ContextVar("along x", default="x, sliding")
 
 
 def along_x() -> str:
-    """What a map's first axis is called: "x, sliding" unless the run that is drawn says otherwise."""
+    """Name of a map's first axis: "x, sliding" unless the run that is drawn says otherwise."""
     return _ALONG.get()
 
 
@@ -108,7 +108,7 @@ def thinned(values: NDArray[Any]) -> NDArray[Any]:
 
 
 def height_limit(heights: NDArray[np.float64]) -> float:
-    """Where the colours of a map of heights end, up and down [m]: lone spikes of an instrument would take them all.
+    """Return the limit of a height map's colours, up and down [m]: lone spikes of an instrument would take them all.
 
     The 99.8th percentile of the absolute heights, or the largest where that is zero.
     """

@@ -62,7 +62,7 @@ def draw_sweep(
 
 
 def say_beyond(figure: Any, variables: Mapping[str, Variable]) -> None:
-    """How many points are solved but outside their model; what each says stands in the table."""
+    """Write the count of points that are solved but outside their model; the table has the reasons."""
     beyond = variables.get("outside_model")
     if beyond is not None and (points := int(np.count_nonzero(beyond.values != ""))):
         said_above(figure, f"{OUTSIDE}{points} of {beyond.values.size} points, see the column outside_model")
@@ -203,7 +203,7 @@ def _crowded(position: Any) -> bool:
 
 
 def _axis(variables: Mapping[str, Variable], dimensions: Sequence[str], keys: Sequence[str]) -> str:
-    """What a panel is drawn over: what curves run over (speed) if the figure is one, else the first swept key."""
+    """Return the axis of a panel: that of curves (speed) if the figure is one, else the first swept key."""
     curve = [d for d in dimensions if d not in keys and d in variables and variables[d].values.dtype.kind in "if"]
     swept = [key for key in keys if key in dimensions and len(variables[key].values) > 1]
     return next((d for d in (*curve, *swept) if len(variables[d].values) > 1), dimensions[0])

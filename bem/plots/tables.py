@@ -150,7 +150,7 @@ def origin_table(summary: Mapping[str, Any], names: Sequence[str]) -> list[Figur
 
 
 def _parts(name: str, summary: Mapping[str, Any]) -> dict[str, Any]:
-    """What each origin adds to the error of a figure, by the words for the origin."""
+    """Return the contribution of each origin to the error of a figure, by the words for the origin."""
     start = f"{name}{_ERROR}_"
     return {" ".join(key.removeprefix(start).split("_")): v for key, v in summary.items() if key.startswith(start)}
 
@@ -229,7 +229,7 @@ def summary_of_points(
 
 
 def accuracy_tables(summary: Mapping[str, Any]) -> list[FigureTable]:
-    """How an accuracy that was asked for was reached: the levels of each case, their relative errors and seconds."""
+    """Tables of the refinement to a requested accuracy: levels of each case, their relative errors and seconds."""
     cases = summary.get("accuracy", {}).get("cases", ())
     rows, names = [], list(dict.fromkeys(n for case in cases for level in case["levels"] for n in level["errors"]))
     for case, spent in zip(cases, summary.get("seconds_by_level", ()), strict=True):
@@ -382,7 +382,7 @@ def _cases(title: str, cases: Sequence[Mapping[str, Any]], known: Mapping[str, A
 
 
 def _beside(name: str, among: Mapping[str, Any]) -> Any:
-    """What stands behind a figure's values: its error bars, else the spread of repetitions."""
+    """Return the uncertainty behind a figure's values: its error bars, else the spread of repetitions."""
     errors = among.get(name + _ERROR)
     return errors if isinstance(errors, list) and any(errors) else among.get(name + _SPREAD)
 

@@ -56,7 +56,7 @@ def force_names(folder: Path) -> None:
 
 
 def reason(error: OSError) -> str:
-    """What the system said, without the path."""
+    """Return the system's message without the path."""
     return error.strerror or str(error) or type(error).__name__
 
 

@@ -53,7 +53,7 @@ def figure_differences(*runs: FinishedRun) -> list[Difference]:
 
 
 def headline_differences(found: Sequence[Difference], headline: Sequence[str]) -> list[Difference]:
-    """Those of the figures that are headline figures, of further cases (`curves`) too."""
+    """Return the differences of headline figures, of further cases (`curves`) too."""
     rank = {name: i for i, name in enumerate(headline)}
     return sorted(
         (item for item in found if _bare(item.key) in rank), key=lambda d: (" (" in d.key, rank[_bare(d.key)])
@@ -61,7 +61,7 @@ def headline_differences(found: Sequence[Difference], headline: Sequence[str]) -
 
 
 def beyond(runs: Sequence[FinishedRun], names: Sequence[str]) -> list[str]:
-    """What of the runs is solved but outside its model, with the name of the run before it."""
+    """Return the parts of the runs that are solved but outside their model, with the name of the run before each."""
     return [
         f"{name}: {OUTSIDE}{text}"
         for run, name in zip(runs, names, strict=True)

@@ -55,7 +55,7 @@ class _Sink(io.RawIOBase):
         return len(view)
 
     def readinto(self, buffer: Any) -> int:
-        """What was written; zeros where nothing was."""
+        """Read the bytes that were written; zeros where nothing was."""
         view = memoryview(buffer).cast("B")
         done = self._raw.readinto(view) or 0
         view[done:] = bytes(len(view) - done)
@@ -74,7 +74,7 @@ class _Sink(io.RawIOBase):
         return self._raw.seek(offset, whence)
 
     def tell(self) -> int:
-        """Where we are."""
+        """Return the position."""
         return self._raw.tell()
 
     def readable(self) -> bool:

@@ -1,4 +1,4 @@
-"""Where two scenes differ, key by key, and the same in words for who goes on in a folder with another one."""
+"""Differences of two scenes, key by key, and in words for a user who resumes a folder with another scene."""
 
 from __future__ import annotations
 

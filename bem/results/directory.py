@@ -353,7 +353,7 @@ def _in_use(path: Path) -> str:
 
 
 def _difference(old: str, new: str) -> str:
-    """Where two scene texts differ, in words."""
+    """Describe the keys in which two scene texts differ."""
     try:
         return words_of_difference(tomllib.loads(old), tomllib.loads(new)) or "comments"
     except ValueError:

@@ -180,7 +180,7 @@ _ABOUT = {
 
 
 def _from_scene(scene: Mapping[str, Any], columns: Mapping[str, Any]) -> list[tuple[str, Any]]:
-    """What the scene says of all points where it was not varied: the oil's temperature, the slide-roll ratio."""
+    """Return the scene's values of quantities that do not vary: the oil's temperature, the slide-to-roll ratio."""
     from bem.scenes.units import TEMPERATURE
 
     found: list[tuple[str, Any]] = []

@@ -69,7 +69,7 @@ class FinishedRun:
 
 
 def _figures(summary: dict[str, Any]) -> dict[str, int | float | str]:
-    """What of a summary is one value, and not an empty text."""
+    """Return the entries of a summary that are one value, and not an empty text."""
     return {key: value for key, value in summary.items() if isinstance(value, int | float | str) and value != ""}
 
 
@@ -103,7 +103,7 @@ def open_run(path: str | os.PathLike[str]) -> FinishedRun:
 
 
 def _wrong_form(summary: Any) -> str:
-    """What every summary has and this does not, in words; empty where nothing is amiss."""
+    """Describe the entries that every summary has and this one lacks; empty if none is missing."""
     if not isinstance(summary, dict):
         return "it is not a table"
     for key, kind, words in (
@@ -177,7 +177,7 @@ def _sound(folder: Path, name: str, known: dict[str, Any]) -> bool:
 
 
 def _known(folder: Path) -> dict[str, Any]:
-    """What the files were when the run was finished, which is written with it: a folder without it is damaged."""
+    """Return the checksums of the files when the run was finished; a folder without them is damaged."""
     try:
         known = json.loads((folder / CHECKSUMS).read_text("utf-8"))
     except FileNotFoundError:

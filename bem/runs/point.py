@@ -81,7 +81,7 @@ class Point:
 
 @dataclass(frozen=True)
 class Done:
-    """How a point ended; `files` only where the worker does not see the sweep's folder."""
+    """End of a point; `files` only where the worker does not see the sweep's folder."""
 
     name: str
     summary: dict[str, Any] | None = None

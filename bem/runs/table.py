@@ -90,7 +90,7 @@ def _number(value: Any) -> float:
 
 
 def _dimensions(figure: Figure, inner: Sequence[Axis], length: int) -> tuple[tuple[str, ...], tuple[int, ...]]:
-    """What a list runs over, and how far."""
+    """Return the dimensions of a list and their lengths."""
     if figure.dimensions:
         return figure.dimensions, (length,)
     several = [axis for axis in inner if len(axis) > 1]

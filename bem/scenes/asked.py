@@ -28,7 +28,7 @@ _ALLOWED = f'"1 %", or a table of figures with "all" for the others: numbers fro
 
 
 def _parsed(value: Any) -> Any:
-    """What a scene says, as one number or numbers by figures."""
+    """Parse a requested accuracy into one number, or numbers by figure."""
     if not isinstance(value, Mapping):
         return _share("", value)
     if not value:
@@ -88,7 +88,7 @@ def figures_that_may_be_asked(record: type[Record], headline: Iterable[str]) -> 
 
 
 def figures_that_may_not(record: type[Record]) -> dict[str, str]:
-    """Why an accuracy cannot be asked of the other figures of a record, by their names."""
+    """Return the reasons why no accuracy can be asked of the other figures of a record, by name."""
     return figures_of_chance(record) | {
         item.name or name: f"it has no error bar: {item.no_bar or _UNJUDGED}"
         for name, item in described(record).items()
@@ -97,8 +97,8 @@ def figures_that_may_not(record: type[Record]) -> dict[str, str]:
 
 
 def figures_of_chance(record: type[Record], headline: Iterable[str] | None = None) -> dict[str, str]:
-    """What of the error bars of figures finer cells do not narrow, by their names; of all figures that have bars, or of
-    the headline figures."""
+    """Return the parts of error bars that finer cells do not narrow, by figure; of all figures with bars, or of the
+    headline figures."""
     shown = None if headline is None else set(headline)
     return {
         item.name or name: f"its error bar holds chance: {item.chance}"

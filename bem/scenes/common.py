@@ -380,7 +380,7 @@ SurfaceScene = Annotated[SmoothSurface | GeneratedSurface | MeasuredSurface, Fie
 
 
 class _LayeredScene(Table):
-    """What both bodies share: a stack of layers and a surface."""
+    """Parts of both bodies: a stack of layers and a surface."""
 
     layer: LayerScene | None = key("Coating: one bonded layer of uniform thickness.", "advanced", default=None)
     layers: list[LayerScene] = key(
@@ -522,7 +522,7 @@ class OutputsScene(Table):
 
 
 class SceneModel(Table):
-    """What every scene has. `redoes` says which figure or table of the thesis, where it is one.
+    """Keys of every scene. `redoes` names the figure or table of the thesis that the scene repeats.
 
     `repetitions` runs every case so often, with seeds of its own; means and spreads of all figures are then reported.
     `over` holds dotted keys with several values each, of which all combinations are run: lists, or ranges as of

@@ -1,4 +1,4 @@
-"""What a kind of scene is given while it runs, and what it hands back. It knows no file format."""
+"""Inputs of a kind of scene while it runs, and its outcome; independent of file formats."""
 
 from __future__ import annotations
 
@@ -26,7 +26,7 @@ LARGE = 1 << 30
 
 
 class Context(Protocol):
-    """What `Kind.run` may use besides its scene."""
+    """Services that `Kind.run` may use besides its scene."""
 
     @property
     def resumed(self) -> bool:
@@ -59,7 +59,7 @@ class Context(Protocol):
 
 
 class Bars(Protocol):
-    """What of `bem.accuracy.ErrorBars` matters here."""
+    """Part of `bem.accuracy.ErrorBars` that is used here."""
 
     @property
     def values(self) -> Mapping[str, Any]:
@@ -71,7 +71,7 @@ class Bars(Protocol):
 
     @property
     def parts(self) -> Mapping[str, Mapping[str, Any]]:
-        """What each origin adds to them."""
+        """Contribution of each origin to the errors."""
 
 
 class Variable:
@@ -150,7 +150,7 @@ class Variable:
 
 @dataclass(frozen=True)
 class Outcome:
-    """What a run gives.
+    """Results of a run.
 
     Attributes
     ----------

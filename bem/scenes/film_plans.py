@@ -47,14 +47,14 @@ def of_curve(speeds: int, points: int, cells: int | None, hertz_pressure: float)
 
 
 def heat(thermal: str, speeds: int, cells: int) -> Step:
-    """Of films and contacts at so many speeds, on a grid of so many cells."""
+    """Step of heat for films and contacts at a number of speeds, on a grid of a number of cells."""
     what, seconds = _HEAT[thermal]
     cost = speeds * (seconds + 3e-6 * cells)
     return Step("heat", what, skipped=thermal == "off", seconds=cost, memory=2e7 + 300.0 * cells)
 
 
 def oil_beside(oil_volume: str, speeds: int, *, at_film_separation: bool = False) -> Step:
-    """Of a curve: what the oil beside Hertz' contact decides."""
+    """Step of a curve for the oil beside Hertz' contact."""
     loaded = oil_volume == "loaded" or at_film_separation
     why = (
         "no volume of oil is kept"

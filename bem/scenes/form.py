@@ -119,7 +119,7 @@ def start_of(kind: str) -> dict[str, Any]:
 
 
 def mistakes_of(table: Mapping[str, Any]) -> tuple[str, ...]:
-    """What is wrong with a table as a scene, one message per mistake; none where it is right."""
+    """Return the mistakes of a table as a scene, one message each; empty if it is valid."""
     try:
         scene_from_table(table)
     except InputError as error:
@@ -225,7 +225,7 @@ def _choices(key: Key) -> tuple[str, ...]:
 
 
 def _words(annotation: Any) -> str:
-    """What may be typed at a key that is no quantity and has no choices."""
+    """Describe the values of a key that is no quantity and has no choices."""
     if annotation is MaterialScene:
         return "a material of the catalogue, or constants of its own"
     if typing.get_origin(annotation) is list:

@@ -1,4 +1,4 @@
-"""What a kind of scene is, and which there are: those of the package, one folder of `bem/kinds` each, and those that
+"""Kinds of scene: the class, and the registry of the package's kinds (a folder of `bem/kinds` each) and those that
 `bem.register` entered.
 
 Knows plans, records and axes; no kind of its own until one is asked for. Verified in tests/scenes and tests/extension.

@@ -1,4 +1,4 @@
-"""What scenes with an oil film share: their tables, and the rough contact that load sharing works on.
+"""Tables shared by scenes with an oil film, and the rough contact of load sharing.
 
 Knows tables, and how they become set-ups of `bem.friction` and `bem.lubrication`; no solver. Verified in
 tests/scenes/test_friction_kinds.py and test_film_kind.py.

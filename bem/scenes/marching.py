@@ -1,4 +1,4 @@
-"""What the kinds of films in time share: a march with its checkpoints, and the few of its times that are shown.
+"""Parts shared by the kinds of films in time: the march with its checkpoints, and the choice of the times to show.
 
 Knows contexts and checkpoints; the marches are `bem.accuracy.march`. Verified in tests/scenes/test_film_kind.py and
 test_point_film_time_kind.py.
@@ -57,7 +57,7 @@ class Marched:
         wanted: bool,
         bars: Callable[[list[Any]], ErrorBars],
     ) -> Marched:
-        """Of a case on its mesh (points or cells), told; `bars` of its films, where they are `wanted`."""
+        """Build the march of a case on its mesh (points or cells); `bars` are those of its films, if `wanted`."""
         with context.timer("film"):
             films = _films(case, mesh, context)
         tell(context, dict.fromkeys(note for film in films for note in film.notes), "film")

@@ -45,7 +45,7 @@ def spell_key(key: Sequence[str | int]) -> str:
 
 
 def value_at(table: Any, key: Sequence[str | int]) -> Any:
-    """What stands at the key in tables and lists of plain values; None where nothing does."""
+    """Return the value at a key in tables and lists of plain values; None if there is none."""
     for part in key:
         if isinstance(part, int):
             table = table[part] if isinstance(table, list | tuple) and part < len(table) else None
@@ -166,7 +166,7 @@ def values_in_file(name: str, option: str) -> tuple[str, ...]:
 
 
 def what_is_wrong_with(path: str) -> tuple[str, str] | None:
-    """Of the path of a surface file: what is wrong, and what is allowed; None where it can be read."""
+    """Return the fault of a path of a surface file and the allowed values; None if the file can be read."""
     try:
         if not path or not Path(path).is_file():
             return "no such file", "the path of a surface file, relative to the scene file"

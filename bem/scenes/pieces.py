@@ -38,7 +38,7 @@ class WearRateScene(Table):
     distance: PositiveLength = key("Sliding distance.", "basic", example="100 m")
 
     def figures(self, load: float, mean_particle_volume: float) -> dict[str, float]:
-        """What records hold of it, for a load [N] and particles of a mean volume [m^3]."""
+        """Figures of a record about the particles, for a load [N] and particles of a mean volume [m^3]."""
         from bem.particles import archard_wear
 
         wear = archard_wear(self.specific_wear_rate, load, self.distance, mean_particle_volume)

@@ -1,4 +1,4 @@
-"""What a scene will compute, what it skips and why, and what that costs in memory and time."""
+"""Plan of a scene: steps, skipped steps with their reasons, memory and time."""
 
 from __future__ import annotations
 
@@ -64,7 +64,7 @@ class Plan:
 
     @classmethod
     def of(cls, *steps: Step) -> Plan:
-        """That of one case."""
+        """Plan of one case."""
         return cls(steps)
 
     @property
@@ -79,7 +79,7 @@ class Plan:
 
     @property
     def precisions(self) -> dict[str, str]:
-        """Of each step that does not hold all numbers in double: which it does not, and what that costs."""
+        """List each step with numbers in single precision: the numbers, and the error that this costs."""
         return {step.name: step.precision for step in self.steps if step.precision and not step.skipped}
 
     @property
@@ -157,7 +157,7 @@ def check_memory(plan: Plan) -> None:
 
 
 def _fitting(plan: Plan, free: float) -> str:
-    """How much of its grid would fit; empty where not even the process does."""
+    """Describe the part of the grid that fits into memory; empty if not even the process does."""
     share = (free - _PROCESS) / (plan.memory - _PROCESS)
     if not share > 0:
         return ""
@@ -188,7 +188,7 @@ def machine_rate(threads: int = 1) -> float:
 
 
 def cache_folder() -> Path:
-    """Where measurements of this machine are kept."""
+    """Return the folder of stored measurements of this machine."""
     base = os.environ.get("XDG_CACHE_HOME") or os.path.join(os.path.expanduser("~"), ".cache")
     return Path(base) / "bem"
 

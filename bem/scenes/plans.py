@@ -105,7 +105,7 @@ def of_bodies(
 
 
 def stiffest(*bodies: Body | None) -> float:
-    """How many times as stiff as its base the stiffest layer is; one where none is stiffer."""
+    """Return the largest ratio of a layer's stiffness to its base; one if no layer is stiffer."""
     coated = [body for body in bodies if body is not None]
     moduli = [layer.material.youngs_modulus / body.material.youngs_modulus for body in coated for layer in body.layers]
     return max([1.0, *moduli])

@@ -167,7 +167,7 @@ def _range(text: str, parts: Sequence[str], logarithmic: bool) -> tuple[str, ...
 
 
 def _ratio(text: str, unit: str, other: str) -> float:
-    """How many `other` one `unit` is."""
+    """Return the number of `other` in one `unit`."""
     from bem.scenes.units import _unit
 
     try:

@@ -1,4 +1,4 @@
-"""What a case gives: frozen dataclasses whose fields say once what they are.
+"""Records of results: frozen dataclasses whose fields state their unit and meaning once.
 
     @dataclass(frozen=True, eq=False)
     class WearRecord(Record):
@@ -148,7 +148,7 @@ grid_map = partial(Series, ("x", "y"))
 
 @dataclass(frozen=True, eq=False)
 class Record:
-    """What every case gives; kinds add fields.
+    """Fields of every record of a case; kinds add theirs.
 
     status : the worst status of the case's solvers; of a wear loop, whether every contact was solved, not whether the
         surface has settled.
@@ -207,7 +207,7 @@ SCATTER = "scatter"
 
 
 def error_key(name: str, origin: str = "") -> str:
-    """Where the error of a figure (or of a variable of the dataset) stands, or what an origin adds to it."""
+    """Return the key of a figure's error (or of a variable of the dataset), or of the part that an origin adds."""
     return "_".join([name, "error", *origin.split()])
 
 
@@ -235,7 +235,7 @@ def figures(record: type[Record]) -> Mapping[str, str]:
 
 
 def without_bars(record: type[Record]) -> Mapping[str, str]:
-    """Why figures never have an error bar, by the names of their fields."""
+    """Return the reasons why figures never have an error bar, by field."""
     known = described(record).items()
     return {name: item.no_bar for name, item in known if isinstance(item, Figure) and item.no_bar}
 

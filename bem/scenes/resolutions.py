@@ -1,4 +1,4 @@
-"""What scenes resolve - cells, depths, points, steps - where an accuracy is asked for: chosen first, and refined.
+"""Resolutions of scenes (cells, depths, points, steps) for a requested accuracy: first choice, and refinement.
 
 A kind lists its `Resolution`s; `bem.campaigns.refine` goes from level to level with them. What a scene gives is where
 it begins; what it leaves out follows from the shortest waves of its surfaces and from the size of the smooth contact.
@@ -209,7 +209,7 @@ def _lengths(scene: Any) -> tuple[float, float]:
 
 
 def _longest(surface: GeneratedSurface) -> tuple[float, float]:
-    """What holds the long waves of a generated surface along x and y [m]; 0 where it has none."""
+    """Return the longest waves of a generated surface along x and y [m]; 0 where it has none."""
     x, y = surface.correlation_lengths or (0.0, 0.0)
     rolloff = surface.rolloff_wavelength or 0.0
     return max(_PER_LENGTH * x, rolloff), max(_PER_LENGTH * y, rolloff)

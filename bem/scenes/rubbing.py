@@ -1,4 +1,5 @@
-"""What wear loops in partial slip tell besides: how much sticks, the energy of a loop, what each place slides.
+"""Further figures of wear loops in partial slip: share that sticks, energy of a loop, sliding distance of each
+place.
 
 Knows records and plans; the loop is `bem.wear.traction`. Verified in tests/scenes/test_wear_partial_slip.py.
 """
@@ -53,7 +54,7 @@ def rubbed(result: RunningIn, settled: int) -> dict[str, Any]:
 
 
 def rubbing_step(law: TractionLaw, grid: Grid, cycles: int) -> Step:
-    """Of a plan."""
+    """Step of a plan for these figures."""
     return Step(
         "partial slip",
         "wear.traction is gross_sliding: traction is friction x pressure everywhere"

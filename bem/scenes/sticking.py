@@ -1,4 +1,4 @@
-"""What the kinds with stick and slip share: the contact, bodies that differ, stresses under tractions, error bars.
+"""Parts shared by the kinds with stick and slip: contact, dissimilar bodies, stresses under tractions, error bars.
 
 Knows `build` and the solvers. Verified in tests/scenes/test_partial_slip_kind.py and test_rolling_kind.py.
 """
@@ -31,8 +31,8 @@ if TYPE_CHECKING:
 
 @dataclass(frozen=True)
 class Site:
-    """Where bodies stick and slip: grid, undeformed gap (nx, ny) [m], the contact without friction; `rough` : the gap
-    counts from first touch; `centre` [m] : about which bodies turn, from the middle of the grid."""
+    """Contact in which bodies stick and slip: grid, undeformed gap (nx, ny) [m], the frictionless contact; `rough` :
+    the gap counts from first touch; `centre` [m] : centre of rotation, from the middle of the grid."""
 
     grid: Grid
     gap: FloatArray
@@ -53,7 +53,8 @@ class Site:
         return Site(grid, gap - gap.min() if self.rough else gap, contact, self.rough, centre)
 
     def carried(self, turn: float) -> tuple[float, float]:
-        """What a turn about `centre` is besides one about the middle of the grid, along x and y."""
+        """Return the displacement along x and y that a rotation about `centre` adds to one about the middle of the
+        grid."""
         return turn * self.centre[1], -turn * self.centre[0]
 
 
@@ -102,9 +103,9 @@ def pressed_together(scene: StressedScene, context: Context) -> Site:
 
 @dataclass(frozen=True)
 class Coarse:
-    """What came of the grid of twice the cell: figures that have error bars, the contact under its tractions, these
-    (2, nx, ny) on the lower body [Pa], whether all of it converged; and figures with half the steps in which the load
-    comes, where it has any, with the contact and tractions that they leave."""
+    """Solution on the grid of twice the cell size: figures with error bars, the contact under its tractions, these
+    tractions (2, nx, ny) on the lower body [Pa], whether all of it converged; and figures with half the steps of the
+    load, where it has any, with their contact and tractions."""
 
     figures: dict[str, float]
     contact: ContactSolution
@@ -116,8 +117,8 @@ class Coarse:
 
 @dataclass(frozen=True)
 class Found:
-    """What error bars are of: figures, the contact under its tractions, rules, which are `given`, the largest residual,
-    friction x load [N], stresses."""
+    """Input of the error bars: figures, the contact under its tractions, rules, the figures that are `given`, the
+    largest residual, friction x load [N], stresses."""
 
     figures: dict[str, float]
     contact: ContactSolution

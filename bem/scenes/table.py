@@ -1,4 +1,4 @@
-"""What the tables of scenes are made of: a model that refuses unknown keys, and how it says what is wrong."""
+"""Base of the tables of scenes: a model that refuses unknown keys, and its messages."""
 
 from __future__ import annotations
 

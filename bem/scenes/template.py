@@ -159,7 +159,7 @@ def _by_level(table: FormTable) -> list[Entry]:
 
 
 def _identity(table: FormTable) -> tuple[Any, ...]:
-    """What tables of one model have in common, wherever they stand."""
+    """Return an identity that tables of one model share, wherever they stand."""
     return table.kind, table.about, tuple((one.last, one.description) for one in table.entries)
 
 

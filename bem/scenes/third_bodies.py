@@ -77,6 +77,6 @@ def third_body_figures(
 
 
 def tell_of_third_bodies(context: Context, share: float | None) -> None:
-    """What the reader must know of particles that bear most of the load."""
+    """Note particles that bear most of the load."""
     if share is not None and share > 0.5:
         context.note(THIRD_BODIES_MANY(share=share, reason="load"))

@@ -49,7 +49,7 @@ _COMMON_UNITS = (
 
 @dataclass(frozen=True)
 class Dimension:
-    """What a key of a scene measures; as annotation of a float it parses, converts and refuses.
+    """Dimension of a key; as annotation of a float it parses, converts and refuses.
 
     Attributes
     ----------
@@ -64,7 +64,7 @@ class Dimension:
 
     @property
     def allowed(self) -> str:
-        """What may be written, as a phrase for messages."""
+        """Allowed values as a phrase for messages."""
         if not self.unit:
             return f'{self.noun} such as {self.example} or "10 %"'
         return f'{self.noun} such as "{self.example}", or a number in {self.unit}'

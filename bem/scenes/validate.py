@@ -117,7 +117,8 @@ def _meaning(loc: Sequence[Any], data: Any, model: type[BaseModel]) -> str:
 
 
 def _elsewhere(word: str, parent: str, model: type[BaseModel]) -> str:
-    """Where a key that is not allowed in a table would be: at the top, or in other tables of the top; or nothing."""
+    """Return the places where a key that is not allowed in a table would be: at the top, or in other tables of the
+    top; or nothing."""
     top = fields_of_table(model)
     if parent and word in top:
         return f" - it is a key at the top of the scene: [{word}]"

@@ -1,5 +1,5 @@
-"""What the kinds with wear share: depths, the wear model's parts, the loop over cycles with its checkpoint and on the
-grid of twice the cell, what it leaves.
+"""Parts shared by the kinds with wear: depths, the wear model, the loop over cycles with its checkpoint and on the
+grid of twice the cell size, and its results.
 
 Knows tables, plans and records; the loop itself is `bem.wear.run_in`. Verified in tests/scenes/test_wear_kind.py and
 test_friction_kinds.py.
@@ -147,7 +147,7 @@ def stress_transforms(wear: Any, depths: int) -> float:
 
 
 def bars_step(scene: Any, grid: Grid, convolutions: int, solves: float) -> Step:
-    """Of a plan: the loop on the coarser grid; `convolutions` of the contacts of a cycle, and their number."""
+    """Step of a plan for the loop on the coarser grid; `convolutions` of the contacts of a cycle, and their number."""
     wanted = scene.cycles.coarser_grid
     return Step(
         "error bars",
@@ -208,9 +208,9 @@ def resolution_keys(scene: Any, factor: float) -> dict[str, Any]:
 def on_every_second_cell(
     heights: tuple[FloatArray, FloatArray], grid: Grid, loop: Callable[[tuple[FloatArray, FloatArray], float], Found]
 ) -> Found | None:
-    """What a loop finds from the heights of both bodies on the grid of twice the cell, told how many times the cells
-    along y that has: half, or as many in a strip of fewer than a coarser grid needs along which nothing changes. None
-    where cells are odd or too few for one, or a contact there does not converge."""
+    """Run `loop` on every second sample of the heights of both bodies, and pass it the factor of the cells along y:
+    a half, or one in a uniform strip with too few cells for a coarser grid. None where the cells are odd or too few,
+    or a contact does not converge."""
     from bem.accuracy.wear import FEWEST
     from bem.contact.nested_iteration import sample
 
@@ -227,7 +227,7 @@ def on_every_second_cell(
 
 
 def between(scene: Any, grid: Grid, load: float) -> tuple[ThirdBodies | None, FilmDefect | None]:
-    """What a case has between its surfaces, under a load [N] on its grid: particles, and a boundary film with defects.
+    """Return third bodies and boundary film with defects of a case, under a load [N] on its grid.
 
     Raises
     ------
@@ -244,9 +244,8 @@ def on_twice_the_cell(
     loop: Callable[[Any, tuple[FloatArray, FloatArray], Context], Found],
     at: Callable[[Any, float, float], Any],
 ) -> Found | None:
-    """What `loop` finds of a scene from heights on its grid, with half of all that it resolves: `at(scene, factor,
-    across)` is the scene with so many times that, and along y so many times the cells. None as
-    `on_every_second_cell`."""
+    """Run `loop` with half of all resolutions from heights on its grid: `at(scene, factor, across)` is the scene
+    with its resolutions times `factor`, and its cells along y times `across`. None as `on_every_second_cell`."""
     return on_every_second_cell(
         heights, grid, lambda coarser, across: loop(at(scene, 0.5, across), coarser, PlainContext(scene.seed))
     )
@@ -274,7 +273,7 @@ _LEAST = 1.1
 
 
 def wear_model(scene: Any, particles: ThirdBodies | None = None, defect: FilmDefect | None = None) -> WearModel:
-    """Of a scene, with what a case has between its surfaces."""
+    """Build the wear model of a scene, with the particles and films between its surfaces."""
     from bem.wear import WearModel
 
     table = scene.wear.model_dump(exclude={"third_bodies", "film_defect"})
@@ -351,7 +350,7 @@ def wear_loop(
 
 @dataclass(frozen=True, eq=False, kw_only=True)
 class WornRecord(RubbedRecord, ThirdBodyRecord):
-    """What every wear loop tells besides its own."""
+    """Fields of the record of every wear loop."""
 
     convolutions_per_cycle: Annotated[float, Figure("", "convolutions of the contact per cycle", unjudged=True)]
     truncated_particles: Annotated[
@@ -371,9 +370,9 @@ class WornRecord(RubbedRecord, ThirdBodyRecord):
 
 @dataclass(frozen=True, eq=False)
 class WornSurface:
-    """What every wear loop leaves: the wearing body's heights on the grid [m], unworn and run in, the last pressure
-    [Pa], the particles that are reported, all (`particles`) and of the last `cycles.settled` cycles (`late`), and
-    figures of its records by their names."""
+    """Result of a wear loop: the wearing body's heights on the grid [m], unworn and run in, the last pressure [Pa],
+    the reported particles, all (`particles`) and of the last `cycles.settled` cycles (`late`), and figures of its
+    records by name."""
 
     height_before: FloatArray
     height_after: FloatArray
@@ -392,10 +391,11 @@ class WornSurface:
         load: float,
         strip: NDArray[Any],
     ) -> WornSurface:
-        """That of a scene's loop, which started from `initial` heights of both bodies; `load` [N] on the grid.
+        """Result of a scene's loop, which started from `initial` heights of both bodies; `load` [N] on the grid.
 
         strip : the fraction of each row (nx,) or cell (nx, ny) over which roughness and depth are averaged; on a body
-        that moves through the contact, its whole track is."""
+        that moves through the contact, its whole track is.
+        """
         from bem.wear.outcome import criterion_wear_rate, strip_wear, track_of
 
         assert result.pressure is not None

@@ -1,4 +1,4 @@
-"""What a case of kind `asperities` gives."""
+"""Record of a case of kind `asperities`."""
 
 from __future__ import annotations
 

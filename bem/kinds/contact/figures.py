@@ -63,7 +63,7 @@ def _contact_map(run: Any, figure: Figure) -> None:
 
 
 def _edges_of(area: Any, counted: float) -> str:
-    """What the legend's shares are, and the headline's area where that is another."""
+    """Return the shares of the legend, and the headline's area where that is another."""
     if not isinstance(area, float) or f"{area:.3%}" == f"{counted:.3%}":
         return "share of the cells"
     return f"share of the cells; contact area as drawn through them: {area:.3%}"

@@ -1,4 +1,4 @@
-"""What a case of kind `contact` gives."""
+"""Record of a case of kind `contact`."""
 
 from __future__ import annotations
 

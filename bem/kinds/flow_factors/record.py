@@ -1,4 +1,4 @@
-"""What a case of kind `flow-factors` gives."""
+"""Record of a case of kind `flow-factors`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""Where flow factors are wanted, and how the roughness is pressed together: tables of the kind flow-factors."""
+"""Separations of flow factors, and the contact of the roughness: tables of the kind flow-factors."""
 
 from __future__ import annotations
 

@@ -108,7 +108,7 @@ def _name_first_curve(run: Any, figure: Figure) -> None:
 
 
 def _temperatures(run: Any, figure: Figure) -> None:
-    """Of oil and surfaces in contact, of each curve: the highest of the first."""
+    """Draw the temperatures of oil and surfaces in contact, of each curve; the surfaces' highest of the first."""
     axes, speed = figure.add_subplot(), np.sort(run.dataset["speed"].values)
     for number, (name, values) in enumerate(_curves(run, "contact_temperature")):
         _band(

@@ -1,4 +1,4 @@
-"""Where the friction of a mixed contact comes from: stresses of the surfaces that touch, and of the oil beside them.
+"""Map of the origin of friction in a mixed contact: shear stresses of touching surfaces, and of the oil beside them.
 
 Knows a run's dataset; solves nothing. Verified in tests/plots/test_friction_map.py.
 """
@@ -26,7 +26,7 @@ _SOME = 0.02
 
 
 def _shares(run: Any) -> tuple[float, float]:
-    """Of the friction at the speed shown of the first curve, what the surfaces and the oil have of it."""
+    """Return the shares of surfaces and oil in the friction at the speed shown of the first curve."""
     data = run.dataset
     at = int(np.abs(data["speed"].values - float(data["shown_speed"])).argmin())
     curves = (data[name].values.reshape(-1, data["speed"].size)[0] for name in ("boundary_part", "film_part"))

@@ -1,4 +1,4 @@
-"""What a case of kind `friction` gives."""
+"""Record of a case of kind `friction`."""
 
 from __future__ import annotations
 

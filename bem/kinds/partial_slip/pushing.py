@@ -32,9 +32,8 @@ rotation [rad] and moment [N m] about the grid's centre."""
 
 @dataclass(frozen=True, eq=False)
 class Path:
-    """What came of the steps so far: the last one; `steps` (steps, columns); `sums` (2, nx, ny), distance slid and
-    energy by area; convolutions; the worst status.
-    """
+    """Result of the steps so far: the last one; `steps` (steps, columns); `sums` (2, nx, ny), distance slid and
+    energy by area; convolutions; the worst status."""
 
     found: TangentialSolution | CoupledSolution | None
     steps: FloatArray
@@ -82,7 +81,7 @@ def pressing_steps(scene: PushedScene) -> int:
 
 
 def pressed(scene: PushedScene, site: Site, steps: int) -> Path:
-    """What pressure alone does, in steps in which the contact's size grows evenly: a ball's load like its cube."""
+    """Compute the steps of pressure alone, in which the contact's size grows evenly: a ball's load like its cube."""
     path = Path(None, np.zeros((0, len(COLUMNS))), np.zeros((2, *site.grid.shape)), 0.0, Status.CONVERGED)
     if steps == 1 or not site.contact.load > 0:
         return path

@@ -1,4 +1,4 @@
-"""What a case of kind `partial-slip` gives."""
+"""Record of a case of kind `partial-slip`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a case of kind `particles` gives."""
+"""Record of a case of kind `particles`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a case of kind `point-film` gives."""
+"""Record of a case of kind `point-film`."""
 
 from __future__ import annotations
 

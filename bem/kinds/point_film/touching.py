@@ -1,4 +1,4 @@
-"""Where a rough ball touches under its film: the table `contact` of the kind point-film, and what goes with it.
+"""Contact of a rough ball under its film: the table `contact` of the kind point-film, and its notes.
 
 Verified in tests/scenes/test_rough_point_film_kind.py.
 """
@@ -80,7 +80,7 @@ def check_touching(scene: Any) -> None:
 
 
 def rough_notes(scene: Any, grid: Grid, semi_axes: tuple[float, float], film: RoughPointFilm) -> list[Note]:
-    """What a reader must know of a patch over Hertz' contact, of these half-axes [m], and of the film's cells on it."""
+    """Return notes on a patch over Hertz' contact of these half-axes [m], and on the film's cells on it."""
     from bem.lubrication import MeasuredHeights
 
     notes = []

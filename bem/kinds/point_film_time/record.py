@@ -1,4 +1,4 @@
-"""What a case of kind `point-film-time` gives."""
+"""Record of a case of kind `point-film-time`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a case of kind `rolling` gives."""
+"""Record of a case of kind `rolling`."""
 
 from __future__ import annotations
 

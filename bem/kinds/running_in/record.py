@@ -1,4 +1,4 @@
-"""What a case of kind `running-in` gives."""
+"""Record of a case of kind `running-in`."""
 
 from __future__ import annotations
 

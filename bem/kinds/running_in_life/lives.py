@@ -42,7 +42,7 @@ def monitors_of(scene: Any, setup: MixedSetup, case: LifeCase) -> Monitors:
 
 
 def on_grid(scene: Any) -> float:
-    """What of the load lies on the patch [N]."""
+    """Load on the patch [N]."""
     grid = build.grid_of(scene.grid)
     return scene.contact.on_patch(scene.load, grid.lengths)
 
@@ -112,7 +112,7 @@ def end_of(scene: Any, heights: tuple[FloatArray, FloatArray]) -> LifeState:
 
 
 def bars(scene: Any, initial: tuple[FloatArray, FloatArray], end: LifeState) -> ErrorBars:
-    """Of a life from these heights (lower, upper) [m] to its end."""
+    """Error bars of a life from these heights (lower, upper) [m] to its end."""
     from bem.accuracy.coarsened import other_points
     from bem.accuracy.film import FEWEST
     from bem.accuracy.life import OtherLives, fewer_positions, life_bars, two_rounds

@@ -1,4 +1,4 @@
-"""What a case of kind `running-in-life` gives."""
+"""Record of a case of kind `running-in-life`."""
 
 from __future__ import annotations
 

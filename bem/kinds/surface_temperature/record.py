@@ -1,4 +1,4 @@
-"""What a case of kind `surface-temperature` gives."""
+"""Record of a case of kind `surface-temperature`."""
 
 from __future__ import annotations
 

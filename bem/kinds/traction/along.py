@@ -1,4 +1,5 @@
-"""What a contact sees on its way, row by row: the table `along` of kind traction, such as a flank's line of action.
+"""Conditions along the way of a contact, row by row: the table `along` of kind traction, such as a flank's line of
+action.
 
 The rows are columns of the scene, or of a text file with a line of names first:
 

@@ -246,7 +246,7 @@ def _rows_along(run: Any) -> dict[str, Any]:
 
 
 def _zeros(place: Any, values: Any) -> list[float]:
-    """Where values (n,) over place (n,) change their sign, between two rows by a straight line."""
+    """Return the places where values (n,) change their sign, interpolated linearly between two rows."""
     at = np.flatnonzero(values[:-1] * values[1:] < 0)
     between = [place[i] - values[i] * (place[i + 1] - place[i]) / (values[i + 1] - values[i]) for i in at]
     return [float(zero) for zero in (*between, *place[values == 0])]

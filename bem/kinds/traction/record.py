@@ -1,4 +1,4 @@
-"""What a case of kind `traction` gives."""
+"""Record of a case of kind `traction`."""
 
 from __future__ import annotations
 

@@ -1,4 +1,4 @@
-"""What a case of kind `tribofilm` gives."""
+"""Record of a case of kind `tribofilm`."""
 
 from __future__ import annotations
 

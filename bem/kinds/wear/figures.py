@@ -204,7 +204,7 @@ def largest_pieces(removed: Array, periodic: tuple[bool, bool], most: int) -> li
 
 
 def _something_left(run: Any) -> bool:
-    """Of pieces: what a law of wear takes off by thickness has no shape."""
+    """Return True if particles were removed: a law of wear that removes thickness gives no shapes."""
     return _any_piece(run) and bool((run.dataset["removed"].values > 0).any())
 
 

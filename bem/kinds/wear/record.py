@@ -1,4 +1,4 @@
-"""What a case of kind `wear` gives."""
+"""Record of a case of kind `wear`."""
 
 from __future__ import annotations
 

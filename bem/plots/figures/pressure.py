@@ -31,7 +31,8 @@ def _pressure_map(run: Any, figure: Figure) -> None:
 
 
 def _one_colour(pressure: NDArray[np.float64]) -> str:
-    """What a map says in its darkest colour alone; nothing where less than a tenth of what touches is at one pressure.
+    """Describe the pressure of a map in its darkest colour alone; empty where less than a tenth of the contact is at
+    one pressure.
 
     Only a cap, or full contact of smooth bodies, makes so many cells alike.
     """

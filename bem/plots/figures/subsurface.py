@@ -121,7 +121,7 @@ def _drawn_over_depth(
 
 
 def _mark_depths(axes: Axes, depths: NDArray[np.float64]) -> None:
-    """Where stresses were computed: one artist instead of a tick each, which took a tenth of all figures' time."""
+    """Mark the depths of computed stresses by one artist, which draws faster than a tick each."""
     axes.plot(
         np.zeros(len(depths)),
         depths,
@@ -135,7 +135,7 @@ def _mark_depths(axes: Axes, depths: NDArray[np.float64]) -> None:
 
 
 def _extent(x: NDArray[np.float64], depth: NDArray[np.float64]) -> tuple[float, float, float, float]:
-    """Of an image whose pixels have their centres at even places, depth downwards."""
+    """Return the extent of an image whose pixels have their centres at even places, depth downwards."""
     half_x, half_z = 0.5 * (x[1] - x[0]), 0.5 * (depth[1] - depth[0])
     return float(x[0] - half_x), float(x[-1] + half_x), float(depth[-1] + half_z), float(depth[0] - half_z)
 
@@ -151,7 +151,7 @@ def _by_depth(stress: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray
 
 @dataclass(frozen=True)
 class _Medium:
-    """What lies between two depths [m] of the body shown."""
+    """Medium between two depths [m] of the body shown."""
 
     top: float
     bottom: float

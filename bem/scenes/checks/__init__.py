@@ -1,4 +1,4 @@
-"""What an expert would warn of, before a scene is run and after: one list of small checks.
+"""Checks of a scene before it is run and of its results: one list of small functions that return notes.
 
 To add one, write into the file of its subject (before a run: `plausible.py`, whose usual ranges of values are in
 `bem.plausibility`, `materials.py`, `contact.py`, `mesh.py`, `surfaces.py`, `operation.py`; after it: `outcome.py`,
@@ -43,7 +43,7 @@ _ORDER = [module.__name__ for module in (plausible, materials, operation, surfac
 
 
 def scene_warnings(facts: Facts) -> list[Note]:
-    """What can be warned of before any work.
+    """Return the notes that can be made before any work.
 
     Raises
     ------
@@ -55,7 +55,7 @@ def scene_warnings(facts: Facts) -> list[Note]:
 
 
 def outcome_warnings(facts: Facts, result: Outcome) -> list[Note]:
-    """What the results give reason to warn of."""
+    """Return the notes that the results give reason for."""
     return _sentences(OUTCOME_CHECKS, facts, result) if facts.cases else []
 
 

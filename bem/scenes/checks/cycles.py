@@ -90,7 +90,7 @@ def drifting_at_the_last_cycle(facts: Facts, outcome: Outcome) -> Iterator[Note]
 
 
 def _drifting(facts: Facts, outcome: Outcome) -> list[str]:
-    """What has not settled, and by how much."""
+    """Describe the quantities that have not settled, with their changes."""
     if not facts.of_kind("wear", "running-in"):
         return []
     from bem.wear.outcome import drift

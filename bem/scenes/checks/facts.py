@@ -1,4 +1,4 @@
-"""What a scene presses together, in one form for all kinds: what plans show and checks look at."""
+"""Contacts of a scene in one form for all kinds, for plans and checks."""
 
 from __future__ import annotations
 
@@ -80,7 +80,7 @@ class Case:
 
     @property
     def bodies(self) -> dict[str, Body]:
-        """Those that are elastic, by name."""
+        """Elastic bodies by name."""
         return {name: body for name, body in (("lower", self.lower), ("upper", self.upper)) if body is not None}
 
     @property
@@ -90,7 +90,7 @@ class Case:
 
     @property
     def wearing_bodies(self) -> tuple[int, ...]:
-        """Which bodies wear in a wear loop: 0 the lower, 1 the upper one."""
+        """Bodies that wear in a wear loop: 0 the lower, 1 the upper one."""
         if self.wear is None or self.upper is None:
             return ()
         from bem.wear.setup import wearing_bodies

@@ -23,8 +23,8 @@ def oil_outside_its_range(facts: Facts) -> Iterator[Note]:
 
 @scene_check
 def growth_without_a_barrier(facts: Facts) -> Iterator[Note]:
-    """Where friction x pressure x activation volume reaches the barrier, growth runs at its prefactor whatever the
-    heat."""
+    """Note that growth runs at its prefactor, whatever the heat, once friction x pressure x activation volume
+    reaches the barrier."""
     if not facts.of_kind("tribofilm"):
         return
     film = facts.scene.film

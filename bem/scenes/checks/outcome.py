@@ -142,21 +142,21 @@ def pressure_beyond_linear_elasticity(facts: Facts, outcome: Outcome) -> Iterato
 
 
 def _share_above(pressure: NDArray[np.float64], limit: float) -> float:
-    """Of the load, what cells above a pressure carry."""
+    """Return the share of the load on cells above a pressure."""
     total = float(pressure.sum())
     return float(pressure[pressure > limit].sum()) / total if total > 0 else 0.0
 
 
 @outcome_check
 def contact_at_the_cap(facts: Facts, outcome: Outcome) -> Iterator[Note]:
-    """Where the pressure is the cap, it is an input and no result; said from a tenth of the contact on."""
+    """Note that the pressure is the cap, an input and not a result, on at least a tenth of the contact."""
     cells, cap = at_the_cap(facts, outcome)
     if cells and not roughened(facts, outcome).grown:  # which says it too
         yield HARDNESS_DECIDES(cells=cells, cap=cap, reason="reached")
 
 
 def at_the_cap(facts: Facts, outcome: Outcome) -> tuple[str, float]:
-    """How many of the cells in contact are at the hardness, in words, and that [Pa]; nothing below a tenth of them."""
+    """Return the share of contact cells at the hardness in words, and the hardness [Pa]; nothing below a tenth."""
     case = _capped(facts, outcome)
     if case is None or case.cap is None or not facts.of_kind("contact", "wear", "running-in"):
         return "", 0.0

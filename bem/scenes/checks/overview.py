@@ -22,7 +22,7 @@ Rows = list[tuple[str, str]]
 
 
 def bodies(facts: Facts) -> Rows:
-    """What is pressed together: materials, layers, and the surfaces with what was done to them."""
+    """Describe both bodies: materials, layers, and surfaces with their treatment."""
     rows: Rows = []
     if not facts.cases:
         return rows
@@ -51,7 +51,7 @@ def bodies(facts: Facts) -> Rows:
 
 
 def common(facts: Facts) -> Rows:
-    """What all contacts have in common: grid, Hertz contact, depths."""
+    """Describe the parts common to all contacts: grid, Hertz contact, depths."""
     columns = [_column(case) for case in facts.cases]
     return [
         (name, columns[0][name])

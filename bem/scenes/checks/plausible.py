@@ -68,7 +68,7 @@ def values_of(value: Any, key: str = "", unit: str | None = None) -> Values:
 
 
 def _derived(facts: Facts) -> Values:
-    """What follows from several keys: cells of the grid, and friction by a law."""
+    """Return quantities that follow from several keys: cells of the grid, and friction by a law."""
     given = getattr(getattr(facts.scene, "grid", None), "spacing", None) is not None  # as a key of its own
     for case in facts.cases:
         if case.grid is not None and not given:

@@ -18,8 +18,8 @@ _REMEDY = "lower the load, or check the units of load, modulus and lengths"
 
 
 def refusals(facts: Facts) -> list[str]:
-    """Why a scene is not run, a sentence for each of its contacts at most, or for each unit that is likely the reason;
-    empty where it is."""
+    """Return the reasons to refuse a scene, at most one sentence for each contact or each suspected unit; empty if
+    it can run."""
     why = list(dict.fromkeys(words for case in facts.cases for words in _why(case)))
     return (suspected_units(facts.scene) or why) if why else []
 

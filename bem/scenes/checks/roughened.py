@@ -1,4 +1,4 @@
-"""Whether a worn surface grew rough where running-in takes summits off: then all else at its end is of holes.
+"""Growth of roughness by wear although running-in removes summits: later results are then results of holes.
 
 Knows facts and a summary. Verified in tests/scenes/test_checks.py.
 """
@@ -34,7 +34,8 @@ def with_pieces(facts: Facts) -> bool:
 
 
 def roughened(facts: Facts, outcome: Outcome) -> Roughened:
-    """Of the loops of a result; none where nothing leaves in pieces, or both surfaces are smooth."""
+    """Return the wear loops of a result whose surface grew rough; none without particles, or between smooth
+    surfaces."""
     if not facts.of_kind("wear", "running-in") or not with_pieces(facts):
         return Roughened()
     rough = dict.fromkeys(("lower", "upper"), 0.0)

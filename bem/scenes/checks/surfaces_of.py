@@ -1,4 +1,4 @@
-"""What the surfaces of a scene are, and what was done to them to get them onto the grid."""
+"""Surfaces of a scene, and the changes that put them onto the grid."""
 
 from __future__ import annotations
 
@@ -74,7 +74,7 @@ class RoughSurface:
 
 
 def rough_surface(body: str, table: build.AnySurface, grid: Grid, seed: int) -> RoughSurface | None:
-    """What a table of a surface becomes on a grid; None for a smooth one.
+    """Return the rough surface of a table on a grid; None for a smooth one.
 
     A generated surface is looked at as if its heights were Gaussian: the slope and the correlation length follow from
     the spectrum, and the moments take many times as long to impose.

@@ -62,7 +62,7 @@ class BallRollingScene(Table):
 
     @property
     def speeds(self) -> tuple[tuple[float, float], tuple[float, float]]:
-        """Of flat and ball along x and y [m/s]."""
+        """Speeds of flat and ball along x and y [m/s]."""
         # along an axis to rounding is along it
         cos, sin = (0.0 if abs(part) < 1e-12 else part for part in (math.cos(self.direction), math.sin(self.direction)))
         both = (self.mean_speed * (1 + side * 0.5 * self.slide_roll_ratio) for side in (1, -1))

@@ -35,7 +35,8 @@ class FilmDefectScene(Table):
     )
 
     def build(self, speeds: tuple[float, float] | None = None, temperature: float | None = None) -> FilmDefect:
-        """Of surfaces at speeds (u1, u2) [m/s] and a temperature [K], where the table has none of its own.
+        """Build the defect of surfaces at speeds (u1, u2) [m/s] and a temperature [K], if the table has none of its
+        own.
 
         Raises
         ------
@@ -59,7 +60,8 @@ class FilmDefectScene(Table):
 
 
 def film_defect(scene: Any) -> FilmDefect | None:
-    """Of the boundary film of a case, in oil at its speeds and the oil's temperature; InputError for what it lacks."""
+    """Return the film defect of a case's boundary film in oil at its speeds and the oil's temperature; InputError
+    for missing keys."""
     table, oil = scene.wear.film_defect, getattr(scene, "oil", None)
     if table is None:
         return None

@@ -1,4 +1,4 @@
-"""How the surfaces of a rubbing contact move and how warm the bodies are: the table of the kind surface-temperature."""
+"""Motion of the surfaces of a rubbing contact and bulk temperatures: the table of the kind surface-temperature."""
 
 from __future__ import annotations
 

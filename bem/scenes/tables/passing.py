@@ -1,4 +1,4 @@
-"""What passes through a point contact, and what acts on it over time: tables of the kind point-film-time."""
+"""Features that pass through a point contact, and loads over time: tables of the kind point-film-time."""
 
 from __future__ import annotations
 
@@ -89,7 +89,7 @@ class OverTimeScene(Table):
         return self
 
     def factors(self, time: float) -> tuple[float, float]:
-        """Of speed and load at a time [s]."""
+        """Factors of speed and load at a time [s]."""
         speed, load = (1.0 if v is None else float(np.interp(time, self.times, v)) for v in (self.speed, self.load))
         return speed, load
 

@@ -1,4 +1,4 @@
-"""How two bodies are pressed together, and what is wanted of it: of the kinds contact and surface-temperature."""
+"""Control of a dry contact and its outputs: tables of the kinds contact and surface-temperature."""
 
 from __future__ import annotations
 
@@ -33,7 +33,7 @@ if TYPE_CHECKING:
 
 
 class ContactControl(Table):
-    """How the bodies are pressed together: load, mean pressure, normal approach or mean gap."""
+    """Control of the contact: load, mean pressure, normal approach or mean gap."""
 
     load: Annotated[Force, Field(gt=0)] | None = key(
         "Normal load; instead of mean_pressure, approach or mean_gap.", "basic", default=None, example="20 N"
@@ -103,12 +103,12 @@ class ContactControl(Table):
             )
 
     def prescribed(self, area: float) -> dict[str, Any]:
-        """What holds the bodies together, and the cap, as `solve_contact` takes them."""
+        """Control and cap as arguments of `solve_contact`."""
         given = {"approach": self.approach, "mean_gap": self.mean_gap, "hardness": self.hardness}
         return given | {"load": self.load_on(area)}
 
     def accuracy(self) -> dict[str, Any]:
-        """How well the contact is solved, as `solve_contact` takes it."""
+        """Tolerances as arguments of `solve_contact`."""
         return {"tolerance": self.tolerance, "max_iterations": self.max_iterations}
 
     def words(self) -> str:

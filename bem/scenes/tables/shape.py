@@ -44,7 +44,7 @@ class ShapeScene(Table):
 
     @property
     def radii(self) -> tuple[float, float]:
-        """Of the shape along x and y [m], infinite where it does not bend (a sinusoid's are none)."""
+        """Radii of the shape along x and y [m], infinite where it does not bend (none of a sinusoid)."""
         if self.kind in ("flat", "sinusoid"):
             return math.inf, math.inf
         assert self.radius is not None

@@ -1,4 +1,4 @@
-"""What lies on the flat, of scenes with a rough contact in oil: a cylinder of some width, a ball or an ellipsoid."""
+"""Body on the flat in scenes with a rough contact in oil: a cylinder of a given width, a ball or an ellipsoid."""
 
 from __future__ import annotations
 
@@ -52,7 +52,7 @@ class SmoothShapeScene(Table):
 
     @property
     def point_radii(self) -> tuple[float, float] | None:
-        """Of a ball or an ellipsoid [m]; None of a cylinder."""
+        """Radii of a ball or an ellipsoid [m]; None of a cylinder."""
         return self.radii if self.ball is None else (self.ball, self.ball)
 
     @property
@@ -68,11 +68,11 @@ class SmoothShapeScene(Table):
 
     @property
     def length(self) -> float:
-        """What a load is divided by to be that of a `SmoothContact` of checks: the width [m], or 1 of a ball."""
+        """Divisor of a load for a `SmoothContact` of checks: the width [m], or 1 of a ball."""
         return self.width or 1.0
 
     def half_axes(self, load: float, contact_modulus: float) -> tuple[float, float]:
-        """Of Hertz' contact under a load on the whole [N], infinite along a cylinder [m]."""
+        """Half-axes of Hertz' contact [m] under a load on the whole [N]; infinite along a cylinder."""
         if self.point_radii is not None:
             return ellipse_contact(radii=self.point_radii, contact_modulus=contact_modulus, load=load).semi_axes
         assert self.radius is not None
@@ -80,7 +80,7 @@ class SmoothShapeScene(Table):
         return line.half_width, math.inf
 
     def mean_pressure(self, load: float, contact_modulus: float) -> float:
-        """Of Hertz' contact under a load on the whole [N], in Pa; Johnson (1985), eq. 4.45."""
+        """Mean pressure of Hertz' contact [Pa] under a load on the whole [N]; Johnson (1985), eq. 4.45."""
         if self.point_radii is not None:
             return ellipse_contact(radii=self.point_radii, contact_modulus=contact_modulus, load=load).mean_pressure
         assert self.radius is not None
@@ -96,9 +96,9 @@ class SmoothShapeScene(Table):
         return math.pi * self.radius * maximum_pressure * maximum_pressure / contact_modulus * self.length
 
     def slice_area(self, lengths: tuple[float, float]) -> float:
-        """Of the flat that is under patches of these lengths [m], side by side along a cylinder [m^2]."""
+        """Area of the flat under patches of these lengths [m], side by side along a cylinder [m^2]."""
         return lengths[0] * (lengths[1] if self.width is None else self.width)
 
     def on_patch(self, load: float, lengths: tuple[float, float]) -> float:
-        """What of a load on the whole [N] is on one patch of these lengths [m]."""
+        """Load on one patch of these lengths [m], of a load on the whole [N]."""
         return load if self.width is None else load * lengths[1] / self.width

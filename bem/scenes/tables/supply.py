@@ -1,4 +1,4 @@
-"""How much oil reaches a contact: the table `supply` of the kinds with an oil film.
+"""Supply of oil to a contact: the table `supply` of the kinds with an oil film.
 
 Verified in tests/scenes/test_supply_scenes.py.
 """

@@ -1,4 +1,4 @@
-"""How pressed bodies are pushed along x, there and back, or roll: tables of the kinds partial-slip and rolling."""
+"""Tangential loads, once or there and back, and rolling: tables of the kinds partial-slip and rolling."""
 
 from __future__ import annotations
 
@@ -66,11 +66,11 @@ class PushScene(Table):
 
     @property
     def peak(self) -> float:
-        """Of what is given: a share of friction x load, a force [N] or a shift [m]; 0 of a rotation alone."""
+        """Peak of the given load: a share of friction x load, a force [N] or a shift [m]; 0 of a rotation alone."""
         return next((value for value in (self.share, self.force, self.shift) if value is not None), 0.0)
 
     def path(self) -> FloatArray:
-        """What is given at every step, over its peak: up to it, then whole cycles that start and end there."""
+        """Given load at every step over its peak: up to the peak, then whole cycles that start and end there."""
         rise = np.arange(1, self.steps + 1) / self.steps
         quarter = np.arange(1, 4 * self.steps + 1) / self.steps
         # a triangle from 1 down to -1 and up again
@@ -79,7 +79,7 @@ class PushScene(Table):
 
 
 class StickingControl(ContactControl):
-    """How the bodies are pressed together: load, mean pressure, normal approach or mean gap."""
+    """Control of the contact: load, mean pressure, normal approach or mean gap."""
 
     friction: Annotated[Ratio, Field(ge=-10, le=10)] = key(
         "Not used: push.friction or roll.friction is the friction coefficient.", "expert", default=0.0

@@ -61,7 +61,7 @@ class ThirdBodiesScene(Table):
         return self
 
     def build(self, pressure: float) -> ThirdBodies:
-        """Of surfaces under a mean pressure [Pa]."""
+        """Build the third bodies of surfaces under a mean pressure [Pa]."""
         from bem.wear.third_bodies import ThirdBodies
 
         number_per_area = self.number_per_area

@@ -32,7 +32,7 @@ if TYPE_CHECKING:
 
 
 class KineticsScene(Table):
-    """How a film grows and wears.
+    """Kinetics of growth and wear of a film.
 
     Growth is stress-activated, of the energy, volume and prefactor given, or that of another law, `growth`.
     """
