@@ -2,7 +2,8 @@
 
 Workers are started as `python -c` with a pipe, not by `multiprocessing`: a script that runs a scene need not guard its
 main part, and nothing of it is run again. They import from where this process does, not from the folder it is in
-(`-P`), and end with this process, however that ends.
+(`-P`), and end with this process, however that ends. The pool is our own because a killed worker is survived here: the
+executors of loky and of `concurrent.futures` fail all pending jobs then, and do not say which of them the worker had.
 """
 
 from __future__ import annotations

@@ -22,6 +22,7 @@ from bem.runs import plan_scene, run_scene
 from bem.scenes import get_kind, kind_names, library
 from bem.scenes.load import load_scene
 from bem.scenes.ranges import parse_axes
+from bem.scenes.walk import is_law
 from bem.surfaces import formats
 from reports import error_bars
 from reports.docs import content, keys, kind_pictures, tasks
@@ -187,14 +188,14 @@ def test_every_key_of_a_kind_is_shown_with_its_meaning_in_one_place(kind):
     own = [get_kind(kind).model, *keys.own_tables(kind)]
     for model, name in [(get_kind(kind).model, ""), *keys.tables_of(kind).items()]:
         for key in keys.keys_of_table(model, name):
-            row = f"| `{key.name}` | {content.escaped(key.meaning)} |"
+            row = f"| `{key.name}` | {content.escaped(keys.meaning_of(key))} |"
             assert key.meaning, f"{kind}: {name}.{key.name}"
             assert row in (page if model in own else shared), f"{kind}: {name}.{key.name}"
 
 
 def test_quantities_are_shown_with_their_unit():
     oil = next(model for model, name in keys.tables_of("friction").items() if name == "oil")
-    found = {key.name: key.allowed for key in keys.keys_of_table(oil, "oil")}
+    found = {key.name: keys.allowed_at(key) for key in keys.keys_of_table(oil, "oil")}
     assert found["viscosity"] == "dynamic viscosity [Pa*s]"
     assert found["temperature"] == "temperature [K]"
     assert found["viscosity_law"].startswith("one of ") or "law" in found["viscosity_law"]
@@ -211,7 +212,8 @@ def test_every_kind_has_a_picture():
     for kind in kind_names():
         (name,) = re.findall(r"```{figure} (\S+)", PAGES[Path("kinds") / f"{kind}.md"])
         assert (DOCS / "kinds" / name).is_file(), kind
-    for scene, figure in kind_pictures.PICTURES.values():
+        assert name.startswith("pictures/") == (kind in kind_pictures.pictures()), kind
+    for scene, figure in kind_pictures.pictures().values():
         assert figure in get_kind(library()[scene]["kind"]).figures
 
 
@@ -222,7 +224,8 @@ def test_keys_that_pages_name_exist():
             tables.add(name)
             for key in keys.keys_of_table(model, name):
                 known.add(f"{name}.{key.name}")
-                known |= {f"{key.name}.{one}" for law in filter(keys.is_law, key.tables) for one in law.parameters()}
+                laws = filter(is_law, keys.tables_at(key))
+                known |= {f"{key.name}.{one}" for law in laws for one in law.parameters()}
     seen = 0
     for page, text in PAGES.items():
         for name in re.findall(r"`(?:--set ['\"]?)?([a-z_]+\.[a-z_]+)(?:\.\w+)?(?: ?=[^`]*)?`", text):

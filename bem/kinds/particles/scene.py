@@ -19,7 +19,7 @@ class ParticlesScene(SceneModel):
     synthetic: SyntheticMapScene | None = key(
         "Synthetic height map with particles of known sizes; instead of map.", "basic", default=None
     )
-    separation: SeparationScene = key("How particles are found in the height map.", "basic", default=SeparationScene())
+    separation: SeparationScene = key("Separation of particles in the height map.", "basic", default=SeparationScene())
     archard: ArchardScene | None = key(
         "Archard's wear law, which gives the number of particles.", "basic", default=None
     )

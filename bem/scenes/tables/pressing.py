@@ -131,7 +131,7 @@ class PressedScene(SceneModel):
         "Upper body, which carries the smooth shape; smooth without [upper.surface].", "basic", default=UpperBodyScene()
     )
     shape: ShapeScene = key("Smooth shape of the upper body.", "basic", default=ShapeScene())
-    contact: ContactControl = key("How the bodies are pressed together.", "basic")
+    contact: ContactControl = key("Control of the contact: load, pressure, approach or gap.", "basic")
 
     def resolved(self) -> Self:
         """With the grid filled in where measured surfaces decide it, and the softer surface's hardness where capped."""

@@ -89,7 +89,7 @@ class StickingControl(ContactControl):
 class StickingScene(StressedScene):
     """A contact whose surfaces stick and slip."""
 
-    contact: StickingControl = key("How the bodies are pressed together.", "basic")
+    contact: StickingControl = key("Control of the contact: load, pressure, approach or gap.", "basic")
 
     @model_validator(mode="after")
     def _friction_in_one_place(self) -> Self:
