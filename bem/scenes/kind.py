@@ -159,7 +159,9 @@ def kind_names() -> tuple[str, ...]:
 def kinds_by_task() -> dict[str, tuple[str, ...]]:
     """Names of all kinds by task, without loading those of the package."""
     load_extensions()
-    listed = {name: (part.TASK, part.PLACE) for name, part in _of_the_package().items()}
+    listed = {
+        name: (getattr(part, "TASK", OTHER), getattr(part, "PLACE", 0)) for name, part in _of_the_package().items()
+    }
     listed |= {name: (kind.task, 0) for name, kind in _registered.items()}
     found: dict[str, list[str]] = {task: [] for task in TASKS}
     for name in sorted(listed, key=lambda name: (listed[name][0] == OTHER, *listed[name], name)):
@@ -169,7 +171,7 @@ def kinds_by_task() -> dict[str, tuple[str, ...]]:
 
 def kind_aliases() -> dict[str, str]:
     """Names that people guess for kinds, and the kinds."""
-    return {word: name for name, part in _of_the_package().items() for word in part.ALSO}
+    return {word: name for name, part in _of_the_package().items() for word in getattr(part, "ALSO", ())}
 
 
 @cache
