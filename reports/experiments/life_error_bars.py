@@ -65,7 +65,11 @@ def draw(rng: np.random.Generator) -> dict[str, Any]:
             "boundary_friction": float(rng.uniform(0.08, 0.15)),
             "hardness": 4.1e9,
         },
-        "oil": {"viscosity": 10 ** float(rng.uniform(-2.5, -1.5)), "pressure_viscosity": 18e-9},
+        "oil": {
+            "viscosity": 10 ** float(rng.uniform(-2.5, -1.5)),
+            "pressure_viscosity": 18e-9,
+            "shear_law": "limited",
+        },
         "speeds": {"values": [speed], "cylinder": (2 - ratio) / (2 + ratio)},
         "grid": {"shape": [cells, cells // 2], "spacing": spacing, "periodic": [False, True]},
         "wear": {

@@ -27,7 +27,7 @@ def film(**oil):
 
 def test_a_grade_is_its_lubricant_and_stays_itself_when_resolved(tmp_path):
     scene = load_scene(FILM)
-    assert scene.oil.build() == Lubricant.of("ISO VG 68", temperature=333.15)
+    assert scene.oil.build() == Lubricant.of("ISO VG 68", temperature=333.15, shear_law="base_oil")
     text = dump_scene(scene)
     assert 'grade = "ISO VG 68"' in text
     assert "temperature = 333.15" in text
