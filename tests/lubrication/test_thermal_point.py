@@ -147,6 +147,12 @@ def test_thinned_oil_by_a_power_law():
     assert find_oil_thinning(OIL, inlet, lambda _: math.nan, 0.7).deviation == math.inf
 
 
+@pytest.mark.internal
+def test_no_film_is_solved_for_an_inlet_that_hardly_thins():
+    slight = find_oil_thinning(OIL, InletHeating(0.997, 0.001, False), lambda _: pytest.fail("a film"), 0.7)
+    assert (slight.exponent, slight.deviation) == (0.7, pytest.approx(0.003))
+
+
 GRID = Grid((48, 48), (6.5e-6, 6.5e-6))
 MIXED = {
     "grid": GRID, "bodies": (STEEL, STEEL), "radii": (0.01, 0.01), "load": 20.0, "lubricant": OIL,

@@ -173,12 +173,12 @@ def test_without_heat_it_is_the_isothermal_film(tmp_path):
 @pytest.mark.parametrize(
     ("changes", "words"),
     [
-        ({"oil": {"viscosity": "0.05 Pa*s"}}, "heat of an oil without temperature"),
+        ({"thermal": "lumped", "oil": {"viscosity": "0.05 Pa*s"}}, "heat of an oil without temperature"),
         ({"rolling": {"mean_speed": "5 m/s", "slide_roll_ratio": 2.5}}, "slide_roll_ratio"),
         ({"rolling": {"mean_speed": "0 m/s"}}, "mean_speed"),
         ({"roller": {"radius": "1 mm", "width": "1 mm"}}, "exactly one of load, hertz_pressure"),
         (
-            {"upper": {"material": {"youngs_modulus": "210 GPa", "poissons_ratio": 0.3}}},
+            {"thermal": "full", "upper": {"material": {"youngs_modulus": "210 GPa", "poissons_ratio": 0.3}}},
             "upper, which has layers or a material without thermal constants",
         ),
         ({"lower": {"material": "steel-52100", "surface": ROUGH}}, "a rough surface"),

@@ -14,7 +14,7 @@ from bem.scenes.common import BodyScene, OutputsScene, PositiveLength, SceneMode
 from bem.scenes.keys import key
 from bem.scenes.oil import OilScene
 from bem.scenes.records import Figure
-from bem.scenes.tables.heat import check_film_heat, check_supply_of_heat
+from bem.scenes.tables.heat import HEAT_REASON, check_film_heat, check_supply_of_heat, knows_film_heat
 from bem.scenes.tables.supply import SupplyScene
 
 
@@ -31,6 +31,7 @@ class TractionScene(SceneModel):
         "Frictional heat: off (isothermal), lumped (mean film temperature) or full (across the film too).",
         "basic",
         default="lumped",
+        reason=HEAT_REASON,
     )
     supply: SupplyScene | None = key(
         "Oil supply of a starved contact; without it the inlet is flooded.", "advanced", default=None
@@ -57,6 +58,8 @@ class TractionScene(SceneModel):
     @model_validator(mode="after")
     def _complete(self) -> TractionScene:
         check_smooth(self, 'smooth surfaces, or kind = "friction"')
+        if "thermal" not in self.model_fields_set and not knows_film_heat(self.oil, self.lower, self.upper):
+            object.__setattr__(self, "thermal", "off")
         if self.thermal == "off":
             return self
         check_supply_of_heat(self.thermal, self.supply)

@@ -30,6 +30,7 @@ from bem.lubrication.thermal.lumped_energy import Channel, film_temperatures
 from bem.materials import Body
 from bem.notes import without
 from bem.notes.lubrication import HEAT_LEFT_OUT, HEAT_NOT_FOUND, LUMPED_HEAT_LIMIT
+from bem.threads import one_blas_thread
 
 MOST_FILMS = 6
 """Largest number of thinned films."""
@@ -87,9 +88,12 @@ def find_oil_thinning(
     """Find how films depend on the viscosity, from the central films of ever thinner oils.
 
     central : returns the central film of an oil [m], NaN where there is none. exponent : of films in the viscosity, to
-    begin with.
+    begin with; it is enough where the inlet thins the film by less than the tolerance, and no film is solved.
     """
-    wanted, cold = math.log(inlet.factor), central(lubricant)
+    wanted = math.log(inlet.factor)
+    if abs(wanted) <= FACTOR_TOLERANCE:
+        return OilThinning(exponent, abs(math.expm1(wanted)))
+    cold = central(lubricant)
 
     def log_film(log_viscosity: float) -> float:
         return math.log(central(thinned_oil(lubricant, math.exp(log_viscosity))) / cold)
@@ -155,6 +159,7 @@ def _spread(bodies: tuple[Conductor, Conductor], half_axes: tuple[float, float])
     return max((math.sqrt(along / abs(body.peclet_per_length)) / across for body in moving), default=0.0)
 
 
+@one_blas_thread  # systems of a few hundred unknowns, one for each line of cells
 def point_heat(film: PointFilmSolution, lubricant: Lubricant, bodies: tuple[Conductor, Conductor]) -> PointHeat:
     """Solve for the temperatures on lines of cells along x."""
     reverse = film.speeds[0][0] + film.speeds[1][0] < 0

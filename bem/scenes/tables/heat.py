@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import TYPE_CHECKING, Annotated
 
 from pydantic import Field
+from pydantic_core import PydanticCustomError
 
 from bem.friction.setup import HEAT_NEEDS
 from bem.grid import Grid
@@ -40,6 +41,22 @@ class RubbingHeatScene(Table):
         default=ROOM,
         reason="room temperature, 20 degC",
     )
+
+
+HEAT_REASON = (
+    "lumped, as sliding warms and thins the oil; off where oil or materials have no thermal constants, or the model "
+    "of the film has no heat"
+)
+"""Reason of the default of `thermal`, the same in every kind of scene with a film that may have heat."""
+
+
+def knows_film_heat(oil: OilScene, lower: BodyScene, upper: BodyScene) -> bool:
+    """Return True if oil and bodies have the constants that heat needs."""
+    try:
+        check_film_heat(oil, lower, upper)
+    except PydanticCustomError:
+        return False
+    return True
 
 
 def check_film_heat(oil: OilScene, lower: BodyScene, upper: BodyScene) -> None:

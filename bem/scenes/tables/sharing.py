@@ -13,7 +13,7 @@ from bem.scenes.common import PositiveLength, Table, Variant, problem
 from bem.scenes.keys import key
 from bem.scenes.lubrication import FilmCells, FilmMeshScene, MixedScene
 from bem.scenes.records import Figure
-from bem.scenes.tables.heat import check_film_heat, check_supply_of_heat
+from bem.scenes.tables.heat import HEAT_REASON, check_film_heat, check_supply_of_heat, knows_film_heat
 from bem.scenes.units import Ratio
 from bem.scenes.wearing import Count, LastCycles
 
@@ -89,11 +89,21 @@ class HotMixedScene(MixedScene):
     thermal: Literal["off", "lumped", "full"] = key(
         "Frictional heat: off (isothermal), lumped (mean film temperature) or full (across the film; cylinders only).",
         "basic",
-        default="off",
+        default="lumped",
+        reason=HEAT_REASON,
     )
+
+    @property
+    def can_be_hot(self) -> bool:
+        """Return True if heat of film and surfaces is defined: the constants are known, and the patch repeats neither
+        along x nor under a ball."""
+        periodic = self.cell_repeats or self.grid.periodic[0]
+        return not periodic and knows_film_heat(self.oil, self.lower, self.upper)
 
     @model_validator(mode="after")
     def _heat(self) -> Self:
+        if "thermal" not in self.model_fields_set and not self.can_be_hot:
+            object.__setattr__(self, "thermal", "off")
         if self.thermal == "off":
             return self
         check_film_heat(self.oil, self.lower, self.upper)
@@ -145,6 +155,11 @@ class CurveScene(HotMixedScene):
     )
 
     cell_may_repeat = True
+
+    @property
+    def can_be_hot(self) -> bool:
+        """As `HotMixedScene`; oil streamers behind the exit have no heat."""
+        return super().can_be_hot and not self.sharing.striated_exit
 
     @model_validator(mode="after")
     def _cold_exit(self) -> Self:
