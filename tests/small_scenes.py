@@ -12,6 +12,14 @@ CONTACT = {
     "contact": {"mean_pressure": "80 MPa", "behaviour": "capped"},
 }
 
+OIL = {
+    "viscosity": "0.36 Pa*s",
+    "pressure_viscosity": "25 1/GPa",
+    "density_law": "incompressible",
+    "shear_law": "limited",
+}
+"""Oil of the thesis' papers A and D, with the laws that `Lubricant` has by default."""
+
 PATCH = {
     "lower": {
         "material": "steel-disk-110HV",
@@ -19,7 +27,7 @@ PATCH = {
     },
     "upper": {"material": "steel-cylinder"},
     "contact": {"radius": "2 mm", "width": "6 mm", "loads": ["5.5 N"], "boundary_friction": 0.15},
-    "oil": {"viscosity": "0.36 Pa*s", "pressure_viscosity": "25 1/GPa"},
+    "oil": OIL,
     "grid": {"shape": [64, 32], "spacing": "0.8 um", "periodic": [False, True]},
 }
 
@@ -28,7 +36,7 @@ FILM = {
     "lower": {"material": {"youngs_modulus": "210 GPa", "poissons_ratio": 0.3}},
     "upper": {"material": {"youngs_modulus": "210 GPa", "poissons_ratio": 0.3}},
     "cylinder": {"radius": "2 mm", "width": "6 mm", "load": "5.5 N"},
-    "oil": {"viscosity": "0.36 Pa*s", "pressure_viscosity": "25 1/GPa"},
+    "oil": OIL,
 }
 """Wants `motion` and `march`."""
 

@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal
 from pydantic import Field, field_validator, model_validator
 
 from bem.errors import InputError
-from bem.lubrication.density import DensityLaw, Incompressible
+from bem.lubrication.density import DensityLaw, DowsonHigginson
 from bem.lubrication.oils.catalogue import find_oil, oil_from_viscosities
 from bem.lubrication.shear import BaseOilShear, ShearLaw
 from bem.lubrication.viscosity import Roelands, ViscosityLaw
@@ -118,7 +118,10 @@ class OilScene(LawTable):
         reason="roelands, as Barus' law overestimates viscosity at high pressure",
     )
     density_law: Annotated[DensityLaw, LawKey("density_law", beside=True)] = key(
-        "Density-pressure law; dowson_higginson blunts the pressure spike.", "advanced", default=Incompressible()
+        "Density-pressure law; dowson_higginson blunts the pressure spike.",
+        "advanced",
+        default=DowsonHigginson(),
+        reason="dowson_higginson, as oils give way by 10 to 25 % at 0.5 GPa and above",
     )
     shear_law: Annotated[ShearLaw, LawKey("shear_law", beside=True)] = key(
         "Rheology at high shear: shear thinning and limiting shear stress of the oil.",

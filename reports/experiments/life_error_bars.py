@@ -68,6 +68,7 @@ def draw(rng: np.random.Generator) -> dict[str, Any]:
         "oil": {
             "viscosity": 10 ** float(rng.uniform(-2.5, -1.5)),
             "pressure_viscosity": 18e-9,
+            "density_law": "incompressible",
             "shear_law": "limited",
         },
         "speeds": {"values": [speed], "cylinder": (2 - ratio) / (2 + ratio)},

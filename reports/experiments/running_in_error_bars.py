@@ -44,7 +44,12 @@ def draw(rng: np.random.Generator) -> dict[str, Any]:
             "loads": [float(rng.uniform(3, 8))],
             "boundary_friction": float(rng.uniform(0.08, 0.2)),
         },
-        "oil": {"viscosity": 0.36, "pressure_viscosity": 25e-9, "shear_law": "limited"},
+        "oil": {
+            "viscosity": 0.36,
+            "pressure_viscosity": 25e-9,
+            "density_law": "incompressible",
+            "shear_law": "limited",
+        },
         "speeds": [10 ** float(rng.uniform(-3, math.log10(0.3)))],
         "grid": {"shape": [cells, cells // 2], "spacing": cell},
         "depths": {"count": int(rng.integers(8, 14)), "spacing": float(rng.uniform(0.15, 0.25)) * cell},

@@ -59,7 +59,12 @@ MIXED: dict[str, Any] = {
     },
     "upper": {"material": "steel-cylinder"},
     "contact": {"radius": "2 mm", "width": "6 mm", "loads": ["5.5 N"], "boundary_friction": 0.15},
-    "oil": {"viscosity": "0.36 Pa*s", "pressure_viscosity": "25 1/GPa", "shear_law": "limited"},
+    "oil": {
+        "viscosity": "0.36 Pa*s",
+        "pressure_viscosity": "25 1/GPa",
+        "density_law": "incompressible",
+        "shear_law": "limited",
+    },
     "grid": {"shape": [64, 32], "spacing": "0.8 um", "periodic": [False, True]},
     "depths": {"count": 16, "spacing": "90 nm"},
     "cycles": {"count": 3, "settled": 2, "averaged": 2},
