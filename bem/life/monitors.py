@@ -19,12 +19,17 @@ from bem.life.surfaces import LifeCase
 from bem.materials import Body
 from bem.notes import Level, Note
 from bem.notes.checks import NOTHING_CAME_OFF
+from bem.notes.wear import MICROPITS_EARLY
 from bem.wear.criterion import Detachment
 from bem.wear.loads import BodyCycle, SurfaceLoad
 from bem.wear.model import WearModel
 from bem.wear.segmentation import describe_pieces
 from bem.wear.setup import LOWER, WearSetup
 
+HIGH_CYCLES = 1e4
+"""Fewest cycles at which a criterion of high-cycle fatigue holds: below, cyclic plasticity decides."""
+PITTED_EARLY = 0.005
+"""Share of the surface that may fail in fewer cycles than that without a note."""
 FIGURES = (
     *("particles", "particle_equivalent_radius", "particles_over_cycles"),
     *(
@@ -119,6 +124,18 @@ class Monitors:
         return now
 
     def notes(self) -> tuple[Note, ...]:
+        """Return the notes on micropits and pieces."""
+        return (*self._early_micropits(), *self._no_pieces())
+
+    def _early_micropits(self) -> tuple[Note, ...]:
+        """Return a note where part of the surface fails in so few cycles that no fatigue law holds."""
+        early = self.pits[self.pits[:, 0] <= HIGH_CYCLES]
+        if not len(early) or early[-1, 1] <= PITTED_EARLY:
+            return ()
+        cycles, share = early[-1]
+        return (MICROPITS_EARLY(share=float(share), cycles=float(cycles), limit=HIGH_CYCLES),)
+
+    def _no_pieces(self) -> tuple[Note, ...]:
         """Return a note where the criterion finds no piece in any pass, so that particles have no size."""
         if self.sizes is None or (self.pieces[:, 1] > 0).any():
             return ()

@@ -7,6 +7,7 @@ from small_scenes import PATCH
 from bem import InputError
 from bem.friction.solve import solve_setup
 from bem.kinds.running_in_life import lives
+from bem.notes import Level
 from bem.scenes import PlainContext, build, get_kind, load_scene
 from bem.wear import WearModel
 
@@ -111,7 +112,7 @@ def test_a_life_with_heat_begins_as_load_sharing_with_heat_and_goes_on_to_the_sa
     assert record.contact_temperature - 373.15 == pytest.approx(rise, rel=0.3)  # worn a little, of other positions
     assert record.flash_temperature > record.contact_temperature
     assert record.flash_temperature_over_cycles[-1] == record.flash_temperature
-    cold, _ = run(HOT)
+    cold, _ = run(HOT | {"thermal": "off"})
     assert cold.contact_temperature is cold.flash_temperature_over_cycles is None
     # hot oil is thinner
     assert record.lambda_ratio < cold.lambda_ratio
@@ -143,11 +144,16 @@ def test_fatigue_counts_pits_of_either_body_and_goes_on():
     assert record.largest_damage >= 1
     assert (record.damage_map >= 1).mean() == pytest.approx(record.micropitted_share)
     assert record.jumps >= 16
+    early = next(note for note in context.notes if note.code == "micropits-early")  # 4000 cycles in all
+    assert early.level is Level.OUTSIDE_MODEL
+    assert early.values["share"] == pytest.approx(record.micropitted_share)
     again, _ = run(scene, PlainContext(3, resumed=True, state=context.state))
     assert np.array_equal(again.damage_map, record.damage_map)
     assert np.array_equal(again.micropitted_over_cycles, record.micropitted_over_cycles)
     strong = scene["fatigue"] | {"bending": "3 GPa", "body": "lower"}
-    assert run(scene | {"fatigue": strong, "life": SHORT})[0].micropitted_share == 0
+    lasting, quiet = run(scene | {"fatigue": strong, "life": SHORT})
+    assert lasting.micropitted_share == 0
+    assert not any(note.code == "micropits-early" for note in quiet.notes)
 
 
 def test_a_body_that_does_not_wear_has_no_error_and_needs_no_hardness():
