@@ -46,6 +46,7 @@ class CurvePoint:
         contact or without sliding.
     oil_on_contact : friction that the film's shear stress on cells in contact would add.
     oil_volume : area over which oil was counted.
+    oil_scatter : scatter of the coefficient from the oil's constants, half-width; not-a-number where it is not known.
     notes : on this speed.
     """
 
@@ -72,6 +73,7 @@ class CurvePoint:
     flash_temperature: float = math.nan
     oil_on_contact: float = 0.0
     oil_volume: OilVolume = OilVolume.PATCH
+    oil_scatter: float = math.nan
     notes: tuple[Note, ...] = ()
 
     @property
@@ -87,8 +89,8 @@ class CurvePoint:
         )
 
     @classmethod
-    def of(cls, solution: MixedSolution, notes: tuple[Note, ...] = ()) -> CurvePoint:
-        """Return the figures of a solution, with notes on it."""
+    def of(cls, solution: MixedSolution, notes: tuple[Note, ...] = (), oil_scatter: float | None = None) -> CurvePoint:
+        """Return the figures of a solution, with notes on it and the scatter of its friction."""
         area = 0.0 if solution.contact is None else solution.contact.contact_area
         starved = solution.film.starvation
         return cls(
@@ -113,6 +115,7 @@ class CurvePoint:
             flash_temperature=_or_nan(solution.flash_temperature),
             oil_on_contact=solution.oil_on_contact,
             oil_volume=solution.oil.counted,
+            oil_scatter=_or_nan(oil_scatter),
             film_reduction=1.0 if starved is None else starved.reduction,
             meniscus_position=math.nan if starved is None or starved.flooded else starved.meniscus_position,
             notes=notes,
@@ -131,13 +134,13 @@ class Curve:
     shown: MixedSolution | None = None
     last: MixedSolution | None = None
 
-    def then(self, solution: MixedSolution, notes: tuple[Note, ...] = ()) -> Curve:
-        """Return the curve with one more speed and notes on it.
+    def then(self, solution: MixedSolution, notes: tuple[Note, ...] = (), oil_scatter: float | None = None) -> Curve:
+        """Return the curve with one more speed, notes on it and the scatter of its friction from the oil's constants.
 
         The plotted solution is the one whose film and contact share the load most evenly, or the first full film.
         """
         shown = solution if self.shown is None or _evenness(solution) < _evenness(self.shown) else self.shown
-        return Curve((*self.points, CurvePoint.of(solution, notes)), shown, solution)
+        return Curve((*self.points, CurvePoint.of(solution, notes, oil_scatter)), shown, solution)
 
 
 def _evenness(solution: MixedSolution) -> float:

@@ -135,9 +135,13 @@ class FilmTable:
             sliding_stress=None if len(sliding) < len(films) else mean(sliding),
         )
 
+    def nearest(self, load: float) -> Any:
+        """Return the solved film whose load is nearest to a load [N]."""
+        return self.entry(max(round(math.log(self.largest_load / load) / self.films.step), 0))
+
     def error(self, load: float) -> float:
         """Return the largest relative error of the interpolated thickness under a load [N]. Cost: one film."""
-        nearest = self.entry(max(round(math.log(self.largest_load / load) / self.films.step), 0))
+        nearest = self.nearest(load)
         solved = self.films.sampled(self.films.solve(load, nearest), load, 1.0)
         return float(np.max(np.abs(self.under(load).thickness / solved.thickness - 1)))
 

@@ -16,12 +16,13 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from bem.errors import InputError
+from bem.errors import InputError, Status
 from bem.grid import FloatArray
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.point.film import PointFilmSolution
+from bem.lubrication.point.rough_film import RoughPointFilm
 from bem.lubrication.results import FilmSolution
-from bem.lubrication.rheology import ShearRheology, rheology_of
+from bem.lubrication.rheology import ShearRheology, bases_known, rheology_of
 from bem.lubrication.shear import BaseOilShear
 from bem.lubrication.thermal.full import FullThermalFilm
 from bem.lubrication.thermal.hot_viscosity import HotViscosity
@@ -50,8 +51,34 @@ class OilScatter:
         return f"{self.friction:.3g} (-{self.down:.2g}, +{self.up:.2g} by the oil's constants)"
 
 
+def friction_scatter(
+    film: FilmSolution | PointFilmSolution | RoughPointFilm | ThermalFilm | FullThermalFilm,
+    lubricant: Lubricant,
+    friction: float,
+) -> float | None:
+    """Return the scatter of a friction coefficient from the oil's constants, as a half-width: the film's own relative
+    scatter times the coefficient. Its cost is that of nine evaluations of the law.
+
+    Parameters
+    ----------
+    film : steady film that the friction is of, or its part of the load.
+    lubricant : the oil as it was given to the solver.
+    friction : coefficient, or the part of one that is of the film.
+
+    Returns
+    -------
+    None with another shear law than "base_oil", and where film or coefficient are not known; zero without sliding.
+    """
+    if not isinstance(lubricant.shear_law, BaseOilShear) or not math.isfinite(friction):
+        return None
+    if film.status is not Status.CONVERGED:
+        return None
+    found = oil_scatter(film, lubricant)
+    return abs(friction / found.friction) * found.half_width if found.friction > 0 else 0.0
+
+
 def oil_scatter(
-    film: FilmSolution | PointFilmSolution | ThermalFilm | FullThermalFilm,
+    film: FilmSolution | PointFilmSolution | RoughPointFilm | ThermalFilm | FullThermalFilm,
     lubricant: Lubricant | None = None,
     rheology: ShearRheology | None = None,
 ) -> OilScatter:
@@ -59,7 +86,8 @@ def oil_scatter(
 
     Parameters
     ----------
-    film : steady film of a line or a point contact, with or without heat.
+    film : steady film of a line or a point contact, with or without heat; of rough surfaces the oil between those that
+        do not touch.
     lubricant : the oil as it was given to the solver; by default the film's own, which a film with lumped heat has as
         thin as inlet heating leaves it.
     rheology : constants with their ranges; by default those of the oil. A constant that the lubricant has otherwise
@@ -74,9 +102,8 @@ def oil_scatter(
     law = oil.shear_law
     if not isinstance(law, BaseOilShear):
         raise InputError(f'oil_scatter: shear_law "{law.name}" has no known scatter; allowed: "base_oil"')
-    own = oil.oil.shear if oil.oil is not None else None
-    known = rheology or own or rheology_of(None)
-    if isinstance(solved, PointFilmSolution):
+    known = rheology or _rheology(oil, law)
+    if isinstance(solved, PointFilmSolution | RoughPointFilm):
         sheared, load = _sheared_point(solved, oil), solved.load
     else:
         sheared, load = _sheared_line(solved, oil), solved.load
@@ -95,6 +122,21 @@ def oil_scatter(
     down = math.sqrt(sum(min(*ends, 0.0) ** 2 for ends in parts.values()))
     up = math.sqrt(sum(max(*ends, 0.0) ** 2 for ends in parts.values()))
     return OilScatter(middle, down, up, parts)
+
+
+def _rheology(oil: Lubricant, law: BaseOilShear) -> ShearRheology:
+    """Return the constants of an oil with their ranges; of one without a name those of the base whose central values
+    are the law's in most places."""
+    if oil.oil is not None and oil.oil.shear is not None:
+        return oil.oil.shear
+    if oil.oil is not None:
+        return rheology_of(oil.oil.base)
+    given = law.values()
+
+    def agreeing(rheology: ShearRheology) -> int:
+        return sum(given[name] == value for name, value in rheology.parameters().items())
+
+    return max(map(rheology_of, bases_known()), key=agreeing)
 
 
 @dataclass(frozen=True)
@@ -119,12 +161,15 @@ def _sheared_line(film: FilmSolution, oil: Lubricant) -> _Sheared:
     return _Sheared(HotViscosity.of(oil)(pressure, at)[0] * rate, pressure, at, weight)
 
 
-def _sheared_point(film: PointFilmSolution, oil: Lubricant) -> _Sheared:
+def _sheared_point(film: PointFilmSolution | RoughPointFilm, oil: Lubricant) -> _Sheared:
     """Cells of a point film."""
     cell = float((film.x[1] - film.x[0]) * (film.y[1] - film.y[0]))
     weight = np.where(film.pressure > 0, cell, 0.0)
     slide = math.hypot(*np.subtract(film.speeds[1], film.speeds[0]))
     rate = slide / film.thickness
+    if isinstance(film, RoughPointFilm):
+        weight = np.where(film.touching, 0.0, weight)
+        return _Sheared(oil.viscosity_at(film.oil_pressure) * rate, film.oil_pressure, oil.temperature, weight)
     if film.temperature is None:
         return _Sheared(oil.viscosity_at(film.pressure) * rate, film.pressure, oil.temperature, weight)
     flat = HotViscosity.of(oil)(film.pressure.ravel(), film.temperature.ravel())[0]

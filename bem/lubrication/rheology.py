@@ -68,6 +68,11 @@ def _data() -> dict[str, Any]:
     return tomllib.loads(files("bem.lubrication").joinpath("rheology.toml").read_text(encoding="utf-8"))
 
 
+def bases_known() -> tuple[str, ...]:
+    """Return the bases with constants, that of an oil of unknown base first."""
+    return (DEFAULT_BASE, *sorted(set(_data()) - {"all", DEFAULT_BASE}))
+
+
 def rheology_of(base: str | None, own: Mapping[str, Mapping[str, Any]] | None = None) -> ShearRheology:
     """Return the rheology of a base oil.
 

@@ -17,6 +17,7 @@ from bem.plots.draw import Drawn
 from bem.plots.labels import prefix
 from bem.plots.tables import (
     ABOUT_THE_RUN,
+    OIL,
     accuracy_tables,
     figure_tables,
     is_error,
@@ -27,6 +28,7 @@ from bem.plots.tables import (
     origin_table,
     shown_values,
     varied_keys,
+    with_scatter,
     within,
 )
 from bem.results.atomic import write_text
@@ -75,7 +77,15 @@ def summary_rows(summary: dict[str, Any], names: Sequence[str]) -> list[tuple[st
 
 
 def with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
-    """Name and value of a figure as `spelled`, with its error where it has one: `1.2 ± 0.013 GPa`."""
+    """Name and value of a figure as `spelled`, with its error where it has one: `1.2 ± 0.013 GPa`; a friction
+    coefficient with its scatter from the constants of the oil, too."""
+    text, shown = _with_error(name, summary)
+    scatter = _only(summary.get(f"{name}{OIL}"))
+    return text, with_scatter(shown, scatter, numerical="±" in shown or " to " in shown)
+
+
+def _with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
+    """Name and value of a figure with its numerical error."""
     value, error = _only(summary[name]), _only(summary.get(f"{name}_error"))
     if name in (varied := varied_keys(summary)):
         sign, cells = shown_values(name, [value], varied[name])

@@ -14,6 +14,8 @@ from bem.quantities import plain_digits, with_signs
 from bem.scenes.records import TELLING, unit_of
 
 _SPREAD, _ERROR = "_spread", "_error"
+OIL = "_oil_scatter"
+"""End of the name of a friction coefficient's scatter from the constants of its oil."""
 _TELLING = tuple(f"{name}_{unit}" for name, unit in TELLING.items())
 """Figures that say which row it is; texts (a variant's name) do so too."""
 ABOUT_THE_RUN = (
@@ -117,13 +119,28 @@ def within(name: str, value: float, error: float, factor: float = 1.0, sign: str
     return f"({plain_digits(low, 3)}{sign} to {plain_digits(high, 3)}{sign})"
 
 
+def with_scatter(shown: str, scatter: Any, *, numerical: bool) -> str:
+    """Return a friction coefficient as it is shown with its scatter from the constants of the oil behind its error:
+    `0.046 ± 0.0004 (numerical), ± 0.012 (oil)`.
+
+    shown : the coefficient, with its error where it has one. scatter : half-width, None of none. numerical : whether
+    there is an error in `shown`.
+    """
+    if not isinstance(scatter, int | float) or not np.isfinite(scatter):
+        return shown
+    return f"{shown} (numerical), ± {short(scatter)} (oil)" if numerical else f"{shown} ± {short(scatter)} (oil)"
+
+
 def is_list(value: Any) -> bool:
     """Return True if a figure is a list that wants a table: of several values, or of cases."""
     return isinstance(value, list) and (len(value) > 1 or any(isinstance(item, Mapping) for item in value))
 
 
 def is_error(name: str, among: Mapping[str, Any]) -> bool:
-    """Return True if a figure is the error bar of another, beside which it stands, or what an origin adds to it."""
+    """Return True if a figure is the error bar of another, beside which it stands, what an origin adds to it, or its
+    scatter from the constants of the oil."""
+    if name.removesuffix(_SPREAD).endswith(OIL):
+        return name.removesuffix(_SPREAD).removesuffix(OIL) in among
     bare, found, origin = name.rpartition(_ERROR)
     return bool(found) and bare in among and (not origin or bare + _ERROR in among)
 
@@ -207,7 +224,7 @@ def summary_of_points(
     wanted = [
         key
         for name in names
-        for key in (name, name + _ERROR, name + _SPREAD)
+        for key in (name, name + _ERROR, name + _SPREAD, name + OIL)
         if name not in over and any(summary and summary.get(key) is not None for summary in summaries)
     ]
     found |= {name: [] for name in wanted}
@@ -255,7 +272,13 @@ def _columns(summary: Mapping[str, Any], names: Sequence[str], title: str, colum
     leading = _leading(summary, length) or list(names[:1])
     repeated = [n for n in names if n in _TELLING and _repeats_key(n, summary)]
     rest = [
-        _column(name, summary[name], _beside(name, summary), bars=f"{name}{_ERROR}" in summary)
+        _column(
+            name,
+            summary[name],
+            _beside(name, summary),
+            bars=f"{name}{_ERROR}" in summary,
+            oil=summary.get(f"{name}{OIL}"),
+        )
         for name in names
         if name not in leading and name not in varied and name not in repeated
     ]
@@ -313,8 +336,13 @@ def _varied(key: str, values: Sequence[Any], unit: str) -> tuple[str, list[str]]
     return label(key, unit), cells
 
 
-def _column(name: str, values: Sequence[Any], spread: Any, *, bars: bool = False) -> tuple[str, list[str]]:
-    """Head with its unit, and the values in it; not-a-number and nothing are a dash."""
+def _column(
+    name: str, values: Sequence[Any], spread: Any, *, bars: bool = False, oil: Any = None
+) -> tuple[str, list[str]]:
+    """Head with its unit, and the values in it; not-a-number and nothing are a dash.
+
+    oil : scatter of each value from the constants of the oil, None of none.
+    """
     words, unit = name_and_unit(name)
     values = [None if is_size_of_no_particles(name, value) else value for value in values]
     numbers = [v for v in values if isinstance(v, int | float) and not isinstance(v, bool)]
@@ -330,6 +358,11 @@ def _column(name: str, values: Sequence[Any], spread: Any, *, bars: bool = False
             if cell == "–" or not s or s < _ROUND_OFF * abs(value)
             else f"{cell} {within(name, value, s, factor) if bars else f'± {plain_digits(s * factor)}'}"
             for cell, s, value in zip(cells, spread, values, strict=True)
+        ]
+    if isinstance(oil, list) and len(oil) == len(values):
+        cells = [
+            with_scatter(cell, s, numerical=bars and ("±" in cell or " to " in cell))
+            for cell, s in zip(cells, oil, strict=True)
         ]
     return label(words, unit), cells
 
@@ -374,7 +407,8 @@ def _cases(title: str, cases: Sequence[Mapping[str, Any]], known: Mapping[str, A
         table = {key: [case.get(key) for case in cases] for key in plain}
         shown = {k: v for k, v in table.items() if not _is_spread(k, table) and not is_error(k, table)}
         columns = [
-            _varied(k, v, varied[k]) if k in varied else _column(k, v, _beside(k, table)) for k, v in shown.items()
+            _varied(k, v, varied[k]) if k in varied else _column(k, v, _beside(k, table), oil=table.get(f"{k}{OIL}"))
+            for k, v in shown.items()
         ]
         rows = tuple(zip(*(cells for _, cells in columns), strict=True))
         found.append(FigureTable(title, tuple(head for head, _ in columns), rows))

@@ -202,6 +202,11 @@ def columns(rows: Iterable[Any], names: Iterable[str], prefix: str = "") -> dict
     return {f"{prefix}{name}": np.array([getattr(row, name) for row in rows]) for name in names}
 
 
+OIL = "_oil_scatter"
+"""End of the name of a friction coefficient's scatter from the constants of the oil, beside the coefficient's own."""
+OIL_SCATTER = "scatter of the friction coefficient from the oil's constants, half-width"
+"""What it is."""
+
 SCATTER = "scatter"
 """The origin of errors that repetitions tell: the standard error of their mean."""
 

@@ -6,7 +6,8 @@ from dataclasses import replace
 import pytest
 
 from bem import Body, InputError, Lubricant, solve_line_film, solve_point_film
-from bem.lubrication.oil_scatter import oil_scatter
+from bem.errors import Status
+from bem.lubrication.oil_scatter import friction_scatter, oil_scatter
 from bem.lubrication.rheology import Constant, rheology_of
 from bem.materials import CATALOGUE
 
@@ -80,3 +81,26 @@ def test_a_ball_has_it_too_and_other_laws_have_none():
     assert str(found).startswith("0.0")
     with pytest.raises(InputError, match='shear_law "limited" has no known scatter'):
         oil_scatter(solve_line_film(**LINE, lubricant=Lubricant.of("ISO VG 68", temperature=333.15)))
+
+
+def test_of_a_coefficient_it_is_the_films_own_relative_scatter():
+    film = solve_line_film(**LINE, lubricant=oil())
+    found = oil_scatter(film)
+    assert friction_scatter(film, oil(), found.friction) == pytest.approx(found.half_width, rel=1e-12)
+    assert friction_scatter(film, oil(), -0.5 * found.friction) == pytest.approx(0.5 * found.half_width, rel=1e-12)
+    assert friction_scatter(film, oil(), math.nan) is None
+    rolling = solve_line_film(**(LINE | {"speeds": (2.0, 2.0)}), lubricant=oil())
+    assert friction_scatter(rolling, oil(), 0.001) == 0.0
+    limited = Lubricant.of("ISO VG 68", temperature=333.15)
+    assert friction_scatter(solve_line_film(**LINE, lubricant=limited), limited, 0.05) is None
+    missing = replace(film, status=Status.STALLED)
+    assert friction_scatter(missing, oil(), 0.05) is None
+
+
+@pytest.mark.parametrize("base", ["mineral", "pao", "traction"])
+def test_of_an_oil_without_a_name_it_has_the_ranges_of_its_base(base):
+    named = {"viscosity": 0.02, "pressure_viscosity": 18e-9, "shear_law": "base_oil", "base": base}
+    found = oil_scatter(solve_line_film(**LINE, lubricant=Lubricant(**named)))
+    expected = oil_scatter(solve_line_film(**LINE, lubricant=Lubricant(**named)), rheology=rheology_of(base))
+    assert set(found.parts) == set(rheology_of(base).constants())
+    assert found.half_width == pytest.approx(expected.half_width, rel=1e-12)

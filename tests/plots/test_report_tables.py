@@ -36,6 +36,32 @@ def test_a_row_for_each_speed_with_spread_and_unit():
     assert table.rows[2][2] == "–"
 
 
+def test_friction_has_its_scatter_from_the_oil_behind_its_error():
+    friction = {
+        "speed_m_s": [0.01, 0.1, 1.0],
+        "friction": [0.1, 0.05, 0.046],
+        "friction_error": [0.002, None, 0.0004],
+        "friction_oil_scatter": [0.0, 0.007, 0.012],
+    }
+    (table,) = figure_tables(friction, list(friction))
+    assert table.head == ("speed (m/s)", "friction coefficient")
+    assert [row[1] for row in table.rows] == [
+        "0.1 ± 0.002 (numerical), ± 0 (oil)",
+        "0.05 ± 0.007 (oil)",
+        "0.046 ± 0.0004 (numerical), ± 0.012 (oil)",
+    ]
+    one = {
+        "traction_coefficient": 0.046,
+        "traction_coefficient_error": 0.0004,
+        "traction_coefficient_oil_scatter": 0.012,
+    }
+    assert with_error("traction_coefficient", one)[1] == "0.046 ± 0.0004 (numerical), ± 0.012 (oil)"
+    assert with_error("traction_coefficient", {"traction_coefficient": 0.046})[1] == "0.046"
+    swept = summary_of_points({"oil.grade": "1"}, [["a"], ["b"]], [one, one], ["traction_coefficient"])
+    (cases,) = figure_tables(swept, [name for name in swept if name != "over"])
+    assert [row[1] for row in cases.rows] == ["0.046 ± 0.0004 (numerical), ± 0.012 (oil)"] * 2
+
+
 def test_units_of_names_are_those_of_records():
     assert name_and_unit("film_wear_rate_nm_s") == ("film wear rate", "nm/s")
     assert name_and_unit("wear_volume_mm3") == ("wear volume", "mm³")

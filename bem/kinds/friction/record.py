@@ -16,6 +16,8 @@ from bem.scenes.records import (
     LAMBDA_MIXED,
     LAMBDA_WHOLE,
     MINIMUM_FILM,
+    OIL,
+    OIL_SCATTER,
     Figure,
     Record,
     Series,
@@ -38,6 +40,9 @@ class CurveRecord(Record):
 
     speed: Annotated[FloatArray, _curve("m_s", "speed of the flat", headline=True, unjudged=True)]
     friction: Annotated[FloatArray, _curve("", "friction coefficient", headline=True)]
+    oil_scatter: Annotated[
+        FloatArray | None, _curve("", OIL_SCATTER, name=f"friction{OIL}", optional=True, unjudged=True)
+    ] = None
     boundary_part: Annotated[
         FloatArray, _curve("", "boundary part of friction coefficient", name="boundary_friction_part")
     ]

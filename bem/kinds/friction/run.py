@@ -14,6 +14,7 @@ from bem.grid import FloatArray, Grid
 from bem.kinds.friction.errors import bars_of
 from bem.kinds.friction.record import CurveRecord
 from bem.kinds.friction.scene import FrictionScene
+from bem.lubrication.shear import BaseOilShear
 from bem.notes import Note
 from bem.notes.scenes import PART_UNSOLVED
 from bem.scenes import build
@@ -30,6 +31,7 @@ if TYPE_CHECKING:
     from bem.friction.curves import Curve
 _OF_SUPPLY = ("film_reduction", "meniscus_position")
 _OF_HEAT = ("oil_temperature", "contact_temperature", "flash_temperature")
+_OF_BASE_OIL = ("oil_scatter",)
 
 
 def run(scene: FrictionScene, context: Context) -> CurveRecord:
@@ -38,6 +40,7 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
     from bem.friction.curves import Curve
     from bem.friction.result_notes import covered_notes, oil_notes
     from bem.friction.solve import solve_setup
+    from bem.lubrication.oil_scatter import friction_scatter
 
     grid, pairs = build.grid_of(scene.grid), scene.speeds.build()
     lower, upper = build.both_heights(scene, grid, context)
@@ -55,7 +58,7 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
             bars = bars_of(setup, height, own, context)
             errors.append(table(bars.values, bars.parts, RULES, ORIGINS))
             notes += bars.notes
-        curve = curve.then(own, notes)
+        curve = curve.then(own, notes, friction_scatter(own.film, setup.lubricant, own.film_force / own.load))
         if len(curve.points) < len(pairs):
             keep(context, (curve, errors), made_again)
         context.progress(len(curve.points), len(pairs), "speeds", friction=own.friction)
@@ -63,6 +66,7 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
     tell(context, oil_notes([point.oil for point in curve.points]))
     tell(context, covered_notes([(point.friction, point.oil_on_contact) for point in curve.points]))
     left_out = (_OF_SUPPLY if scene.supply is None else ()) + (_OF_HEAT if scene.thermal == "off" else ())
+    left_out += () if isinstance(setup.lubricant.shear_law, BaseOilShear) else _OF_BASE_OIL
     return _record(grid, curve, height, errors, left_out)
 
 
@@ -153,7 +157,7 @@ _OF_SPEED = (
     *("speed", "friction", "boundary_part", "film_part", "contact_load", "film_load", "minimum_film", "lambda_ratio"),
     *("contact_area_fraction", "film_solves", "contact_solves"),
     *("oil_beside_contact", "loaded_contact_load", "loaded_friction"),
-    *(*_OF_SUPPLY, *_OF_HEAT),
+    *(*_OF_SUPPLY, *_OF_HEAT, *_OF_BASE_OIL),
 )
 """Figures of every speed, under one name in `CurvePoint` and in the record."""
 _ON_PATCH, _ON_ITS_MESH = (

@@ -7,7 +7,7 @@ from functools import partial
 from typing import Annotated
 
 from bem.grid import FloatArray
-from bem.scenes.records import LAMBDA_WHOLE, Figure, Record, Series
+from bem.scenes.records import LAMBDA_WHOLE, OIL, OIL_SCATTER, Figure, Record, Series
 
 _SPIKE = "the pressure spike before the outlet is narrower than the cells, and its height follows them"
 _GIVEN = partial(Figure, unjudged=True)
@@ -24,6 +24,9 @@ class PointFilmRecord(Record):
     central_pressure: Annotated[float, Figure("Pa", "pressure at the centre")]
     maximum_pressure: Annotated[float, Figure("Pa", "maximum pressure", headline=True, no_bar=_SPIKE)]
     traction_coefficient: Annotated[float, Figure("", "friction coefficient of sliding", headline=True)]
+    oil_scatter: Annotated[
+        float | None, Figure("", OIL_SCATTER, name=f"traction_coefficient{OIL}", optional=True, unjudged=True)
+    ] = None
     friction_power: Annotated[float, Figure("W", "power of sliding")]
     lambda_ratio: Annotated[float | None, Figure("", LAMBDA_WHOLE, optional=True, headline=True)] = None
     film_reduction: Annotated[float | None, _of_supply("", "central film thickness over the flooded one")] = None

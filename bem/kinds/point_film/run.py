@@ -34,6 +34,7 @@ def run(scene: PointFilmScene, context: Context) -> PointFilmRecord:
     if scene.patch is not None:
         return _rough(scene, context)
     from bem.accuracy.point import point_bars, point_figures
+    from bem.lubrication.oil_scatter import friction_scatter
     from bem.lubrication.point.validity import but_unknown
 
     case = _case(scene)
@@ -48,6 +49,7 @@ def run(scene: PointFilmScene, context: Context) -> PointFilmRecord:
     return PointFilmRecord(
         **figures,
         **_reference_figures(case, film, film.state.case),
+        oil_scatter=friction_scatter(film, case.lubricant, figures["traction_coefficient"]),
         maximum_pressure=film.maximum_pressure,
         residual=film.residual,
         mass_imbalance=film.mass_imbalance,
@@ -89,6 +91,7 @@ def _rough(scene: PointFilmScene, context: Context) -> PointFilmRecord:
     """The film of a rough body at rest, and what it bears itself."""
     from bem.accuracy.rough_point import RoughPointCase, narrow_notes, rough_point_bars, rough_point_figures
     from bem.lubrication import MeasuredHeights
+    from bem.lubrication.oil_scatter import friction_scatter
     from bem.lubrication.point.arguments import entrainment
     from bem.lubrication.point.problem import scale_case
 
@@ -120,6 +123,7 @@ def _rough(scene: PointFilmScene, context: Context) -> PointFilmRecord:
     return PointFilmRecord(
         **figures,
         **given,
+        oil_scatter=friction_scatter(film, case.lubricant, film.oil_friction),
         maximum_pressure=float(film.pressure.max()),
         oil_friction=film.oil_friction,
         oil_on_contact=film.oil_on_contact,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import partial
 from typing import Annotated, Any, ClassVar
 
@@ -17,6 +17,8 @@ from bem.scenes.records import (
     LAMBDA_MIXED,
     LAMBDA_WHOLE,
     MINIMUM_FILM,
+    OIL,
+    OIL_SCATTER,
     Figure,
     GridRecord,
     Series,
@@ -47,6 +49,9 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
     )
     friction_initial: Annotated[float, Figure("", "friction coefficient in the first cycle", headline=True)]
     friction_run_in: Annotated[float, Figure("", f"friction coefficient, {RUN_IN}", headline=True)]
+    oil_scatter: Annotated[
+        float | None, Figure("", OIL_SCATTER, name=f"friction_run_in{OIL}", optional=True, unjudged=True)
+    ] = field(default=None, kw_only=True)
     particle_equivalent_radius: Annotated[
         float,
         Figure(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -23,6 +24,7 @@ def wear_down(
     scene: RunningInScene, initial: tuple[FloatArray, FloatArray], context: Context, *, heat_mesh: float = 1.0
 ) -> RunningInRecord:
     """The wear loop of a scene from these heights [m] on its grid, with times the columns and layers of full heat."""
+    from bem.lubrication.oil_scatter import friction_scatter
     from bem.wear.mixed import MixedContact, MixedCycles, shared_film_table
 
     sharing, (speeds,), saved = scene.sharing, scene.speeds.build(), context.saved()
@@ -57,7 +59,9 @@ def wear_down(
     shared = MixedCycles(step, result.state.sharing, result.state.contact)
     with context.timer("films"):
         film_error = step.table.error(float(shared.rows["film_load"][-1]))
+        film = step.table.nearest(float(shared.rows["film_load"][-1]))
     found = _record(scene, initial, result, shared, film_table_error=film_error, pressure_frames=np.array(frames))
+    found = replace(found, oil_scatter=friction_scatter(film, setup.lubricant, found.film_friction_part))
     tell_of_third_bodies(context, found.third_body_load_share)
     tell(context, notes_of_balance(shared.notes, shared.film.notes))
     return found

@@ -7,7 +7,7 @@ from functools import partial
 from typing import Annotated
 
 from bem.grid import FloatArray
-from bem.scenes.records import LAMBDA_WHOLE, Figure, Record, Series
+from bem.scenes.records import LAMBDA_WHOLE, OIL, OIL_SCATTER, Figure, Record, Series
 
 _along = partial(Series, ("x",))
 _HOTTEST = "in pure rolling it stands at the spike of pressure and follows the mesh"
@@ -21,6 +21,9 @@ class TractionRecord(Record):
     """One steady motion; temperatures only with heat."""
 
     traction_coefficient: Annotated[float, Figure("", "friction coefficient: friction force over load", headline=True)]
+    oil_scatter: Annotated[
+        float | None, Figure("", OIL_SCATTER, name=f"traction_coefficient{OIL}", optional=True, unjudged=True)
+    ] = None
     sliding_traction: Annotated[float, Figure("", "friction coefficient of sliding, without rolling")]
     minimum_thickness: Annotated[float, Figure("nm", "minimum film thickness", headline=True)]
     central_thickness: Annotated[float, Figure("nm", "central film thickness", headline=True)]

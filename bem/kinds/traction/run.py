@@ -27,6 +27,7 @@ def run(scene: TractionScene, context: Context) -> TractionRecord:
     """Solve the film, with its heat where asked."""
     from bem.accuracy import traction_bars, traction_figures
     from bem.accuracy.traction import film_of
+    from bem.lubrication.oil_scatter import friction_scatter
 
     case = case_of(scene)
     with context.timer("film"):
@@ -42,6 +43,7 @@ def run(scene: TractionScene, context: Context) -> TractionRecord:
     return TractionRecord(
         **figures,
         **curves,
+        oil_scatter=friction_scatter(found, case.lubricant, figures["sliding_traction"]),
         hertz_pressure=math.sqrt(case.load * case.contact_modulus / (math.pi * case.radius)),
         newton_steps=int(found.iterations),
         **error_bars(context, wanted, lambda: traction_bars(case, found)),
