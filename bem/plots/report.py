@@ -17,7 +17,6 @@ from bem.plots.draw import Drawn
 from bem.plots.labels import prefix
 from bem.plots.tables import (
     ABOUT_THE_RUN,
-    OIL,
     accuracy_tables,
     figure_tables,
     is_error,
@@ -33,6 +32,7 @@ from bem.plots.tables import (
 )
 from bem.results.atomic import write_text
 from bem.results.directory import REPORT
+from bem.scenes.records import OIL
 
 
 def write_report(run: Any, drawn: Sequence[Drawn], headline: Sequence[str]) -> Path:

@@ -11,11 +11,9 @@ import numpy as np
 
 from bem.plots.labels import label, prefix
 from bem.quantities import plain_digits, with_signs
-from bem.scenes.records import TELLING, unit_of
+from bem.scenes.records import OIL, TELLING, unit_of
 
 _SPREAD, _ERROR = "_spread", "_error"
-OIL = "_oil_scatter"
-"""End of the name of a friction coefficient's scatter from the constants of its oil."""
 _TELLING = tuple(f"{name}_{unit}" for name, unit in TELLING.items())
 """Figures that say which row it is; texts (a variant's name) do so too."""
 ABOUT_THE_RUN = (
@@ -128,7 +126,8 @@ def with_scatter(shown: str, scatter: Any, *, numerical: bool) -> str:
     """
     if not isinstance(scatter, int | float) or not np.isfinite(scatter):
         return shown
-    return f"{shown} (numerical), ± {short(scatter)} (oil)" if numerical else f"{shown} ± {short(scatter)} (oil)"
+    oil = f"± {plain_digits(scatter)} (oil)"
+    return f"{shown} (numerical), {oil}" if numerical else f"{shown} {oil}"
 
 
 def is_list(value: Any) -> bool:

@@ -13,6 +13,9 @@ from bem.scenes import library
 def run(tmp_path_factory):
     scene = dict(library()["stribeck-ball-on-disc"])
     scene |= {
+        "thermal": "off",
+        "contact": scene["contact"] | {"hertz_pressures": ["0.8 GPa"]},
+        "oil": {"grade": "ISO VG 68", "temperature": "60 degC", "shear_law": "limited"},
         "speeds": {"values": ["0.03 m/s"], "slide_roll_ratio": 0.5},
         "grid": {"shape": 64, "lengths": "320 um"},
         "film": {"cells": 48},

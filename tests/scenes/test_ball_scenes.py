@@ -33,7 +33,7 @@ def test_a_ball_is_an_ellipsoid_of_equal_radii():
     assert ball.load == radii.load
     assert ball.slices == 1
     pressure = ellipse_contact(radii=(0.01, 0.01), contact_modulus=ball.smooth.contact_modulus, load=ball.load)
-    assert pressure.maximum_pressure == pytest.approx(0.8e9, rel=1e-12)
+    assert pressure.maximum_pressure == pytest.approx(0.5e9, rel=1e-12)
 
 
 def test_a_cylinder_is_said_in_two_ways():
@@ -60,7 +60,7 @@ def test_slide_roll_ratio_is_that_of_both_surfaces(ratio, other):
         ({"contact": {"cylinder": "2 mm", "radius": "2 mm"}}, "they say the same"),
         ({"contact": {}}, "no shape"),
         ({"grid": {"shape": 64, "lengths": "320 um", "periodic": [False, True]}}, "patch holds the contact of a ball"),
-        ({"grid": {"shape": 64, "lengths": ["320 um", "150 um"]}}, "half-axis along y"),
+        ({"grid": {"shape": 64, "lengths": ["320 um", "100 um"]}}, "half-axis along y"),
         ({"thermal": "full", "oil": {"grade": "ISO VG 68", "temperature": "60 degC"}}, "thermal"),
         ({"sharing": {"striated_exit": True}}, "striated_exit"),
         ({"oil": {"viscosity": 0.03, "film_rheology": "shear_law"}}, "film of a point contact"),

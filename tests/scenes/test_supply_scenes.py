@@ -113,7 +113,8 @@ def test_friction_of_a_starved_ball(tmp_path):
     bench = library()["stribeck-ball-on-disc"]
     small = {
         "grid": {"shape": 64, "lengths": "320 um"}, "film": {"cells": 48}, "speeds": {"values": ["0.3 m/s"]},
-        "outputs": {"errors": False},
+        "outputs": {"errors": False}, "contact": bench["contact"] | {"hertz_pressures": ["0.8 GPa"]},
+        "oil": {"grade": "ISO VG 68", "temperature": "60 degC"},
     }  # fmt: skip
 
     def found(layer):
