@@ -53,8 +53,9 @@ def point(**change):
 )
 def test_a_point_of_a_case(name):
     case = CASES[name]
-    found = measure(name, case.warm_size, 1, case.prepare, 2)
-    assert len(found.cpu) == len(found.wall) == 2
+    repeats = 2 if name == "sinusoid" else 1  # the others take longer
+    found = measure(name, case.warm_size, 1, case.prepare, repeats)
+    assert len(found.cpu) == len(found.wall) == repeats
     assert min(found.cpu) > 0
     assert 0 <= found.error < 0.1
     # counters are read one after another: what they found is part of the whole, up to the clock's tick
@@ -70,17 +71,24 @@ def test_loads_of_a_curve_begin_with_those_before():
     assert curve.counts["convolutions_a_load"] < 10
 
 
+def solved(name, size):
+    """Outcome of a case that is solved once."""
+    timed = CASES[name].prepare(size)
+    return timed.judge(timed.solve())
+
+
 @pytest.mark.slow
 def test_errors_of_closed_forms_fall_with_the_mesh():
     for name in ("hertz-sphere", "hertz-cylinder", "sinusoid"):
-        coarse, fine = (measure(name, n, 1, CASES[name].prepare, 1).error for n in (32, 128))
+        coarse, fine = (next(iter(solved(name, n).errors.values())) for n in (32, 128))
         assert fine < 0.4 * coarse
 
 
 def test_hierarchical_equations_give_the_dense_film_for_less_work():
     """What the hierarchical weights of a line film buy: the same film and steps, a twentieth of the multiplications."""
-    usual, dense = (measure(name, 1000, 1, CASES[name].prepare, 1) for name in ("line-film", "line-film-dense"))
-    assert usual.error == pytest.approx(dense.error, abs=1e-8)  # both to the film's own tolerance
+    usual, dense = (solved(name, 1000) for name in ("line-film", "line-film-dense"))
+    first = next(iter(usual.errors))
+    assert usual.errors[first] == pytest.approx(dense.errors[first], abs=1e-8)  # both to the film's own tolerance
     assert usual.counts["newton_steps"] == dense.counts["newton_steps"]
     assert usual.counts["megaflop"] < 0.1 * dense.counts["megaflop"]
     assert usual.counts["weights_MB"] < 0.4 * dense.counts["weights_MB"]
@@ -241,7 +249,7 @@ def test_all_kinds_of_transforms_are_watched():
 def test_a_point_keeps_its_memory_by_the_cell(name, monkeypatch):
     held = iter([(5e6, 5e6), (6e6, 9e6)])
     monkeypatch.setattr(bem.benchmarks.measure, "held_memory", lambda: next(held))
-    found = measure(name, 64, 1, CASES[name].prepare, 1)
+    found = measure(name, 64, 1, CASES[name].prepare, 0)
     cells = 64**2 * found.counts.get("depths", 1.0)
     assert found.values["bytes_a_cell"] == pytest.approx(4e6 / cells, rel=1e-12)
 
