@@ -122,15 +122,32 @@ def check_replaced(name, replaced):
     assert time.process_time() - start < SLOW
 
 
-@pytest.mark.parametrize("turn", [0, *(pytest.param(turn, marks=pytest.mark.slow) for turn in (1, 2, 3))])
-def test_every_leaf_of_every_kind_may_be_wrong(turn):
+def wrong_leaves():
+    """For each leaf of each kind, scene and two values, of `NUMBERS` and `OTHERS`; and the rest of both for each path.
+
+    Kinds that share the path of a leaf share its values: together they have all of both lists.
+    """
+    paths: dict[tuple[str, ...], list[list[str]]] = {}
+    for (_, path), names in sorted(PLACES.items()):
+        paths.setdefault(path, []).append(names)
+    once, rest = [], []
+    for offset, (path, kinds) in enumerate(sorted(paths.items())):
+        for values in (NUMBERS, OTHERS):
+            for turn in range(max(len(kinds), len(values))):
+                names = kinds[turn % len(kinds)]
+                found = (names[(turn + offset) % len(names)], path, values[(turn + offset) % len(values)])
+                (once if turn < len(kinds) else rest).append(found)
+    return {"each-kind": once, "all-values": rest}
+
+
+@pytest.mark.parametrize("part", ["each-kind", pytest.param("all-values", marks=pytest.mark.slow)])
+def test_every_leaf_of_every_kind_may_be_wrong(part):
     """Each leaf of each kind of scene is replaced by a hostile number and by a value of another type.
 
-    The turns together give every number to every leaf.
+    Both parts together give every value to the leaf of every path.
     """
-    for number, ((_, path), names) in enumerate(sorted(PLACES.items()), turn):
-        for values in (NUMBERS, OTHERS):
-            check_replaced(names[number % len(names)], {path: values[number % len(values)]})
+    for name, path, value in wrong_leaves()[part]:
+        check_replaced(name, {path: value})
 
 
 @given(data=st.data())
