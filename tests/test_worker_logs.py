@@ -1,6 +1,7 @@
 """Logs of workers: a worker that ends without a report leaves its last test, its memory and its exit status."""
 
 import itertools
+import os
 import subprocess
 import sys
 from pathlib import Path
@@ -27,10 +28,13 @@ CAUSES = {"exit": "exit status 3", "term": "signal 15 (Terminated)", "kill": "si
 def run_tests(folder, *options):
     (folder / "conftest.py").write_text(CONFTEST)
     (folder / "test_endings.py").write_text(ENDINGS)
-    command = [sys.executable, "-m", "pytest", "-q", "-p", "no:cacheprovider", *options, "test_endings.py"]
-    path = f"import sys; sys.path.insert(0, {str(Path(__file__).parent)!r}); import pytest; "
-    command[1:3] = ["-c", path + "sys.exit(pytest.main(sys.argv[1:]))"]
-    done = subprocess.run(command, cwd=folder, capture_output=True, text=True, timeout=300, check=False)
+    start = f"import sys; sys.path.insert(0, {str(Path(__file__).parent)!r}); import pytest; "
+    arguments = ["-q", "-p", "no:cacheprovider", "-p", "xdist", *options, "test_endings.py"]
+    command = [sys.executable, "-c", start + "sys.exit(pytest.main(sys.argv[1:]))", *arguments]
+    environment = os.environ | {"PYTEST_DISABLE_PLUGIN_AUTOLOAD": "1"}  # others take most of a start
+    done = subprocess.run(
+        command, cwd=folder, capture_output=True, text=True, timeout=300, check=False, env=environment
+    )
     section = done.stdout.partition("= workers =")[2]
     assert section, done.stdout + done.stderr
     return done.returncode, section.splitlines()
