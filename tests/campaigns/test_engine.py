@@ -202,7 +202,7 @@ def test_an_interrupt_that_falls_into_a_compiled_call_pauses_the_run(tmp_path, m
 
     monkeypatch.setattr("bem.campaigns.engine.solve_case", interrupted)
     with pytest.raises(KeyboardInterrupt):
-        run_scene({**SCENE, "repetitions": 1}, tmp_path / "run", workers=1)
+        run_scene({**SCENE, "repetitions": 1}, tmp_path / "run", figures=False, workers=1)
     monkeypatch.undo()
     with pytest.raises(SystemError), interrupts_as_they_are():
         raise SystemError("of its own")

@@ -90,7 +90,7 @@ def bem_run(folder, text, *more, settings=(), **environment):
     (folder / "scene.toml").write_text(text)
     asked = (f"--set={one}" for one in settings)
     return subprocess.run(
-        [sys.executable, "-m", "bem", *more, "run", "scene.toml", "--out", "out", *asked],
+        [sys.executable, "-m", "bem", *more, "run", "scene.toml", "--out", "out", "--no-figures", *asked],
         cwd=folder, capture_output=True, text=True, timeout=300, check=False, env={**os.environ, **environment},
     )  # fmt: skip
 

@@ -76,7 +76,7 @@ def test_bars_of_friction_count_what_the_inlet_adds(tmp_path):
 
 def test_over_speeds_films_grow(tmp_path):
     over = {"rolling.mean_speed": ["0.2 m/s", "0.5 m/s"]}
-    run = run_scene(scene(over=over, outputs={"errors": False}), tmp_path / "run")
+    run = run_scene(scene(over=over, outputs={"errors": False}), tmp_path / "run", figures=False)
     films = run.summary["central_thickness_nm"]
     # Hamrock and Dowson's exponent of the speed, 0.67
     assert math.log(films[1] / films[0]) / math.log(2.5) == pytest.approx(0.67, abs=0.04)

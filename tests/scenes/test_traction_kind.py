@@ -65,14 +65,16 @@ def test_a_curve_over_the_slide_to_roll_ratio(tmp_path):
 
 def test_bars_cover_the_mesh(tmp_path):
     """The same on eight times the points, which leave a sixtieth of the error."""
-    coarse = run_scene(scene(rolling={"mean_speed": "5 m/s", "slide_roll_ratio": 0.3}), tmp_path / "coarse").summary
+    rolling = {"mean_speed": "5 m/s", "slide_roll_ratio": 0.3}
+    coarse = run_scene(scene(rolling=rolling), tmp_path / "coarse", figures=False).summary
     fine = run_scene(
         scene(
-            rolling={"mean_speed": "5 m/s", "slide_roll_ratio": 0.3},
+            rolling=rolling,
             film={"points": 1600},
             outputs={"errors": False},
         ),
         tmp_path / "fine",
+        figures=False,
     ).summary
     films = ("minimum_thickness_nm", "central_thickness_nm")
     for name in ("traction_coefficient", "film_temperature_C", "friction_power_W", *films):
@@ -163,7 +165,7 @@ def test_pure_rolling_has_no_traction_of_sliding():
 
 def test_without_heat_it_is_the_isothermal_film(tmp_path):
     rolling = {"mean_speed": "5 m/s", "slide_roll_ratio": 1.0}
-    run = run_scene(scene(thermal="off", rolling=rolling), tmp_path / "run")
+    run = run_scene(scene(thermal="off", rolling=rolling), tmp_path / "run", figures=False)
     found = solve_line_film(speeds=(7.5, 2.5), **line(load_scene(scene())))
     assert run.summary["traction_coefficient"] == pytest.approx(found.shear_force / found.load, rel=1e-12)
     assert run.summary.get("film_temperature_C") is None

@@ -33,7 +33,7 @@ def test_a_ball_runs_in(tmp_path):
         "depths": {"count": 12, "spacing": "300 nm"},
         "sharing": {"oil_volume": "loaded", "film_cells": 48},
     }
-    run = run_scene(scene, tmp_path / "run")
+    run = run_scene(scene, tmp_path / "run", figures=False)
     assert run.summary["status"] == "converged"
     data = run.dataset
     carried = data["contact_share"].values.squeeze() + data["film_load_over_cycles"].values.squeeze() / 0.2
