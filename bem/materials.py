@@ -300,8 +300,18 @@ class UnknownMaterialError(InputError, KeyError):
     __str__ = InputError.__str__  # a KeyError shows itself in quotes
 
 
+OTHER_NAMES = {"nylon": "pa66", "teflon": "ptfe", "acetal": "pom", "100cr6": "steel-52100", "bronze": "phosphor-bronze"}
+"""Common names of materials of the catalogue, by which `bem materials` finds them."""
+
+
 class Catalogue(dict[str, CatalogueEntry]):
     """Materials by name."""
+
+    def meant(self, word: str) -> str:
+        """Return the name that a word stands for: case does not matter, and common names are known; else the word."""
+        name = word.strip().lower()
+        spelling = {known.lower(): known for known in self}
+        return spelling.get(OTHER_NAMES.get(name, name), word)
 
     def __missing__(self, name: object) -> CatalogueEntry:
         hint = did_you_mean(name, self)

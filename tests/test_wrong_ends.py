@@ -1,11 +1,13 @@
 """Where a user takes the wrong turn, the message names the right one: files, kinds, elements, materials, oils."""
 
+import re
+
 import pytest
 from typer.testing import CliRunner
 
 from bem import InputError, load_scene
 from bem.cli import build
-from bem.elements.element import MODELS, TITLES, element_template, load_element
+from bem.elements.element import MODELS, NOT_HERE, TITLES, element_template, load_element
 from bem.lubrication.oils.catalogue import find_oil, oil_names
 from bem.materials import CATALOGUE
 from bem.scenes.kind import get_kind, kind_names
@@ -94,14 +96,28 @@ def test_grease_says_what_can_be_done_instead():
 def test_water_is_a_viscosity_that_a_scene_takes():
     code, said = bem("oils", "water")
     assert code == 2
-    assert 'viscosity = "0.65 mPa*s"' in said
-    water = {"viscosity": "0.65 mPa*s", "pressure_viscosity": "0 1/GPa"}
-    assert load_scene("starved-roller", ["thermal=off", *_as_settings(water)]).oil.viscosity == pytest.approx(6.5e-4)
+    water = dict(re.findall(r'(\w+) = "([^"]+)"', said))
+    assert load_scene("starved-roller", ["thermal=off", *_as_settings(water)]).oil.viscosity == pytest.approx(6.53e-4)
+    assert load_scene("traction-curve", ["thermal=lumped", *_as_settings(water, ("grade",))]).thermal == "lumped"
 
 
-def _as_settings(oil):
-    gone = ("grade", "temperature")
+def _as_settings(oil, gone=("grade", "temperature")):
     return [*(f"oil.{key}=" for key in gone), *(f'oil.{key}="{value}"' for key, value in oil.items())]
+
+
+@pytest.mark.parametrize("word", NOT_HERE)
+def test_what_is_not_modelled_has_its_own_answer(word):
+    """The words are listed twice, in the command without loading the elements."""
+    code, said = bem("new", word)
+    assert code == 2
+    assert NOT_HERE[word] in said
+
+
+@pytest.mark.parametrize(("word", "name"), [("PEEK", "peek"), ("nylon", "pa66"), ("Teflon", "ptfe"), ("pom", "pom")])
+def test_materials_are_found_by_common_names(word, name):
+    code, said = bem("materials", word)
+    assert code == 0
+    assert said.startswith(name)
 
 
 @pytest.mark.internal

@@ -154,7 +154,7 @@ def words_of_bars(campaign: Campaign, records: Sequence[Record | None]) -> list[
     for name, why in _never_barred(campaign).items():
         if name in told and any(_something(getattr(one, name)) for one in records if one is not None):
             reasons.setdefault(why, []).append(told[name])
-    found = [no_error_bar(names, NoBar.OF_KIND, why=why) for why, names in reasons.items()]
+    found = [no_error_bar(names, NoBar.OF_KIND, why=why[:1].upper() + why[1:]) for why, names in reasons.items()]
     repeated = next((len(axis) for axis in campaign.axes if axis.name == REPETITION), 1)
     if record.scatters and repeated > 1:
         judged = [told[name] for name in record.scatters if name in told and name in _barred(records)]

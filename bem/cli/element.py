@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+import os
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -11,6 +12,7 @@ import typer
 if TYPE_CHECKING:
     from bem.elements.contact import ElementContact
     from bem.elements.element import Element
+    from bem.notes import Note
 
 
 def register(app: typer.Typer) -> None:
@@ -28,21 +30,24 @@ def element(
             "lubrication), surface-temperature."
         ),
     ] = "traction",
-    at: Annotated[str, typer.Option(help="Which: worst, thinnest, a number of the table; path: all.")] = "worst",
+    at: Annotated[
+        str, typer.Option(help="Which contact: worst, thinnest, a row number; path: all along a gear's path.")
+    ] = "worst",
     path: Annotated[
-        Path | None, typer.Option(metavar="FILE", help="Write the path as .csv, for `along` of kind traction.")
+        Path | None,
+        typer.Option(metavar="FILE", help="Write the path of contact as .csv, for `along` of kind traction."),
     ] = None,
     table: Annotated[Path | None, typer.Option(metavar="FILE", help="Write all contacts as .csv.")] = None,
     running: Annotated[
-        bool, typer.Option("--running", help="Solve the film with its heat everywhere: friction, power, wear.")
+        bool, typer.Option("--running", help="Solve the thermal film at every position: friction, power loss, wear.")
     ] = False,
     cases: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Rows of keys to change, .csv with units: a line for each.")
     ] = None,
     remarks: Annotated[bool, typer.Option("--remarks", help="Show the whole text of remarks, too.")] = False,
 ) -> None:
-    """Show the contacts of a machine element: load, radii, speeds, Hertz contact, film; the worst one, and where
-    half-space and line film do not carry.
+    """Show the contacts of a machine element: load, radii, speeds, Hertz contact and film; marks the critical contact
+    and reports contacts for which the half-space or line-contact assumption is not valid.
 
     \b
     Examples, of the file that `bem new gear-pair gears.toml` writes:
@@ -55,9 +60,9 @@ def element(
     from bem.cli._quantity import new_file
     from bem.cli._terminal import print_written, show_remarks, show_warnings
     from bem.elements.element import load_element
+    from bem.elements.scene_text import scene_text
     from bem.errors import InputError
     from bem.results.atomic import write_text
-    from bem.scenes.edit import table_text
     from bem.scenes.load import scene_from_table
 
     if table is not None:
@@ -75,14 +80,23 @@ def element(
     if scene is not None and whole and kind != "traction":
         raise InputError(f"--at path: makes a scene of kind traction; allowed: no --kind, or one place, not {kind}")
     made = None if scene is None else found.path_scene() if whole else found.scene(chosen, kind)
-    rows = None if path is None else found.path_csv()
     if made is not None:
         scene_from_table(made)
-    _show(found, chosen)
-    show_warnings(found.notes(), remarks="--remarks shows them")
+    if scene is not None and made is not None and whole:
+        path = path or new_file(scene.with_name(f"{scene.stem}-path.csv"), "--scene", (".csv",))
+        made["along"] = {"path": os.path.relpath(path, scene.parent)} | {
+            key: value for key, value in made["along"].items() if key == "marks"
+        }
+    rows = None if path is None else found.path_csv()
+    notes = found.notes()
+    more: dict[str, list[float]] = {}
+    if running:
+        more, notes = _operation(found)
+    else:
+        _show(found, chosen)
+    show_warnings(notes, remarks="--remarks shows them")
     if remarks:
-        show_remarks(found.notes())
-    more = _running(found) if running else {}
+        show_remarks(notes)
     if path is not None and rows is not None:
         write_text(path, rows)
         print_written(path)
@@ -90,7 +104,7 @@ def element(
         write_text(table, found.csv(more))
         print_written(table)
     if scene is not None and made is not None:
-        write_text(scene, table_text(made))
+        write_text(scene, scene_text(made))
         print_written(scene)
         print(f"next:    bem plan {scene}; bem run {scene}")
 
@@ -127,29 +141,33 @@ def _spelled(name: str, value: float) -> str:
     return "" if math.isnan(value) else spelled(f"x_{unit}" if unit else "x", value)[1]
 
 
-def _running(found: Element) -> dict[str, list[float]]:
-    """Show what the element does as it runs; the columns of it."""
-    from bem.cli._terminal import Terminal, show_warnings, table
+def _operation(found: Element) -> tuple[dict[str, list[float]], list[Note]]:
+    """Show the element with the solved film of every contact; return the columns of these films and all notes."""
+    from bem.cli._terminal import Terminal, print_text, table
     from bem.elements.running import columns, notes, run_all, summary
 
     with Terminal() as terminal:
         runs = run_all(found, lambda done, total: terminal.progress(done, total, "films", {}))
     solved = columns(found, runs)
-    lines = [
-        (str(number), contact.name, *(_spelled(name, value) for name, value in zip(solved, row, strict=True)))
-        for number, (contact, row) in enumerate(
-            zip(found.found.contacts, zip(*solved.values(), strict=True), strict=True), 1
-        )
-        if not all(map(math.isnan, row))
-    ]
+    by_formula = found.columns()
+    lines = []
+    for i, (contact, *row) in enumerate(zip(found.found.contacts, *solved.values(), strict=True)):
+        if all(map(math.isnan, row)):
+            continue
+        cells = [_spelled(name, value) for name, value in zip(solved, row, strict=True)]
+        pressure = _spelled("hertz_pressure [Pa]", by_formula["hertz_pressure [Pa]"][i])
+        lines.append((str(i + 1), _place(found, i), pressure, f"{contact.slide_roll_ratio:.3g}", *cells))
     head = (
-        *("", "where", "minimum film thickness (solved)", "lambda ratio (solved)", "friction coefficient", "power"),
-        *("oil", "hottest surface", "wear 1 per pass", "wear 2 per pass"),
+        *("", "where", "Hertz pressure", "slide-roll", "minimum film thickness (solved)", "lambda ratio (solved)"),
+        *("friction coefficient", "friction power", "oil temperature", "surface temperature"),
+        *("wear 1 per pass", "wear 2 per pass"),
     )
-    table(head, lines, title="as it runs", right=range(2, len(head)), leading=2)
+    title = f"{found.model.name}: {found.model.element}, at operating conditions"
+    table(head, lines, title=title, right=range(2, len(head)), leading=2)
+    for sentence in found.found.geometry:
+        print_text(sentence)
     table(("", ""), summary(found, runs))
-    show_warnings(notes(runs))
-    return solved
+    return solved, [*found.notes(), *notes(runs)]
 
 
 def _chosen(found: Element, at: str) -> ElementContact:
@@ -167,12 +185,11 @@ def _chosen(found: Element, at: str) -> ElementContact:
 
 def _show(found: Element, chosen: ElementContact) -> None:
     from bem.cli._terminal import print_text, table
-    from bem.elements.element import degrees
     from bem.plots.report import spelled
 
     columns = found.columns()
     shown = (("load", "load [N]", "N"), ("radius", "radius [m]", "m"), ("Hertz pressure", "hertz_pressure [Pa]", "Pa"))
-    rows, letters = [], _letters(found)
+    rows = []
     for i, one in enumerate(found.found.contacts):
         cells = [spelled(f"x_{unit}", columns[key][i])[1] for _, key, unit in shown]
         ratio = one.slide_roll_ratio
@@ -182,14 +199,22 @@ def _show(found: Element, chosen: ElementContact) -> None:
         if "film_over_roughness" in columns:
             cells.append(f"{columns['film_over_roughness'][i]:.3g}")
         number = f"{i + 1} <" if one is chosen else str(i + 1)
-        where = one.name if found.found.along_unit == "rad" else degrees(one, found.found.along_unit)
-        rows.append((number, f"{where}  {letters[i]}".rstrip(), *cells))
+        rows.append((number, _place(found, i), *cells))
     head = ["", "where", *(name for name, _, _ in shown), "entrainment speed", "slide-roll"]
     head += [_BY_FORMULA[name] for name in _BY_FORMULA if name in columns]
     title = f"{found.model.name}: {found.model.element}"
     table(head, rows, title=title, right=range(2, len(head)), leading=2)
     for sentence in found.found.geometry:
         print_text(sentence)
+
+
+def _place(found: Element, index: int) -> str:
+    """Name of a contact in a table: its position along the path, with the letter of a marked point nearest to it."""
+    from bem.elements.element import degrees
+
+    one = found.found.contacts[index]
+    where = one.name if found.found.along_unit == "rad" else degrees(one, found.found.along_unit)
+    return f"{where}  {_letters(found)[index]}".rstrip()
 
 
 def _letters(found: Element) -> list[str]:
@@ -205,4 +230,4 @@ _BY_FORMULA = {
     "minimum_film [m]": "minimum film thickness (formula)",
     "film_over_roughness": "lambda ratio (formula)",
 }
-"""Heads of the columns that follow from a film formula; those of a solved film are another figure."""
+"""Heads of the columns that follow from a film formula; those of a solved film are other values."""

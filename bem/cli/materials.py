@@ -39,6 +39,7 @@ def register(app: typer.Typer) -> None:
             rows = [(key, *_numbers(key)[:5], CATALOGUE[key].source) for key in sorted(CATALOGUE)]
             table(head, rows, right=(1, 2, 3, 4, 5), wide_only=(6,))
             return
+        name = CATALOGUE.meant(name)
         if name not in CATALOGUE:
             known = ", ".join(sorted(CATALOGUE))
             raise InputError(f'MATERIAL "{name}": not in the catalogue{nearest(name, CATALOGUE)}; allowed: {known}')

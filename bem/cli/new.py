@@ -103,6 +103,8 @@ _ELEMENTS = (
     ),
     *("journal-bearing", "plain-bearing", "sleeve-bearing", "sliding-bearing"),
     *("bush", "bushing", "bushes", "bushings", "grease"),
+    *("seal", "seals", "lip-seal", "scuffing", "scoring", "bearing-life", "rating-life", "l10"),
+    *("worm-gear", "bevel-gear", "hypoid-gear", "internal-gear", "planetary-gear"),
 )
 """Words for elements, and for what is none of them with the reason; known without loading them."""
 
@@ -143,8 +145,7 @@ def _check_kind(word: str) -> None:
     if word.endswith(".toml"):
         raise InputError(f"{word}: the kind is missing; allowed: bem new KIND {word}, such as bem new contact {word}")
     raise InputError(
-        f'KIND "{word}": neither a kind of scene nor a machine element'
-        f"{did_you_mean(word, [*kinds, *TITLES, *kind_aliases(), *library()])}; "
-        f"allowed: the kinds {', '.join(kinds)}, the "
-        f"elements {', '.join(TITLES)}, or a built-in scene (`bem new` explains them, `bem scenes` lists the scenes)"
+        f'"{word}": neither a kind of scene nor a machine element'
+        f"{did_you_mean(word, [*kinds, *TITLES, *kind_aliases(), *library()])}; allowed: kinds and elements that `bem new` "
+        f"lists ({', '.join([*kinds, *TITLES])}), or a scene of `bem scenes`"
     )

@@ -41,21 +41,41 @@ MODELS: dict[str, type[ElementModel]] = {
     "rolling-bearing": BearingModel,
 }
 _CONFORM = (
-    "bush and shaft conform, and their film reaches around the shaft: neither half-space nor a film between parabolas "
-    "carries there. A small flat patch of both under its mean pressure is a scene of kind contact, wear or running-in: "
-    "what roughness does at start and stop; an edge that a tilted shaft presses into is none of them"
+    "Journal bearings are not modelled. Shaft and bush conform, so that neither the half-space nor the film between "
+    "parabolas applies. Take a small flat patch of both under its mean pressure: kind contact, wear or running-in "
+    "show what roughness does at start and stop."
 )
 _GREASE = (
-    "grease has no model of its own: its contacts are films of its base oil, starved of it. Take a scene of kind "
-    "traction, friction or point-film with the base oil's grade or viscosities as [oil], and a [supply]: layer, the "
-    "thickness of oil on the surfaces, or distance, where the gap begins to be full"
+    "Grease is not modelled; its contacts are films of its base oil, often starved. Use kind traction, friction or "
+    "point-film with the base oil's grade or viscosities in [oil], and [supply] with layer, the oil thickness on the "
+    "surfaces, or distance, where the filled inlet begins."
 )
-_CONFORMING_ELEMENTS = (
-    *("journal-bearing", "plain-bearing", "sleeve-bearing", "sliding-bearing"),
-    *("bush", "bushing", "bushes", "bushings"),
+_SEAL = (
+    "Seals are not modelled. Take a small flat patch of both surfaces under its mean pressure: kind contact shows "
+    "contact area and gap, kind flow-factors the resistance to flow through the gap."
 )
-NOT_HERE = {**dict.fromkeys(_CONFORMING_ELEMENTS, _CONFORM), "grease": _GREASE}
-"""Words for what the program does not model, and what it can do instead."""
+_SCUFFING = (
+    "Scuffing load capacity is not computed. Compare temperatures with that of a scuffing test with this oil: kind "
+    "surface-temperature shows the flash temperature, `bem element FILE --running` those of all contacts."
+)
+_RATING = (
+    "Rating life (ISO 281) is not computed. `bem new rolling-bearing` shows load distribution, Hertz pressure and "
+    "lambda ratio, from which it can be; kind running-in-life computes wear and micropitting."
+)
+_OTHER_GEARS = (
+    "Only external spur and helical gears are elements. Give load, radius and speeds along the path of contact to "
+    "kind traction as [along], from a .csv file."
+)
+NOT_HERE = {
+    **dict.fromkeys(("journal-bearing", "plain-bearing", "sleeve-bearing", "sliding-bearing"), _CONFORM),
+    **dict.fromkeys(("bush", "bushing", "bushes", "bushings"), _CONFORM),
+    **dict.fromkeys(("seal", "seals", "lip-seal"), _SEAL),
+    **dict.fromkeys(("scuffing", "scoring"), _SCUFFING),
+    **dict.fromkeys(("bearing-life", "rating-life", "l10"), _RATING),
+    **dict.fromkeys(("worm-gear", "bevel-gear", "hypoid-gear", "internal-gear", "planetary-gear"), _OTHER_GEARS),
+    "grease": _GREASE,
+}
+"""Words for what the program does not model: what it can do instead."""
 TITLES = {
     "rolling-bearing": "ball or roller bearing: load distribution, contacts and films of both rings",
     "gear-pair": "spur or helical gears: load, speeds and film along the path of contact",
@@ -270,13 +290,14 @@ class Element:
         }
         if kind == "point-film":
             if contact.length is not None:
-                raise InputError(f"{contact.name}: a line contact, no point; allowed: kind traction or contact")
+                others = ", ".join(one for one in KINDS if one != "point-film")
+                raise InputError(f"{contact.name}: a line contact has no film of kind point-film; allowed: {others}")
             return {**shared, "ball": {"radius": contact.radius, "radius_y": contact.across, "load": contact.load}}
         line_load = contact.line_load(self.modulus)
         width = contact.load / line_load
         known = all(one.thermal_diffusivity for one in self._bodies())
         return {
-            **({} if known else {"thermal": "off"}),  # heat needs the constants of both materials
+            "thermal": self.model.thermal if known else "off",  # heat needs the constants of both materials
             **shared,
             "roller": {"radius": contact.radius, "width": width, "load": contact.load},
         }
@@ -344,7 +365,7 @@ def load_element(source: str | Path | Mapping[str, Any]) -> Element:
             "`bem run`."
         )
     if kind in NOT_HERE:
-        raise InputError(f'element = "{kind}": not here: {NOT_HERE[kind]}')
+        raise InputError(f'element = "{kind}": {NOT_HERE[kind]}')
     if kind not in MODELS:
         listed = ", ".join(f'"{name}"' for name in MODELS)
         found = show(table.get("element"))
@@ -384,7 +405,7 @@ def element_template(name: str) -> str:
     word = name.strip().lower().replace("_", "-").replace(" ", "-")
     word = _SHORT.get(word, word)
     if word in NOT_HERE:
-        raise InputError(f'"{word}": not here: {NOT_HERE[word]}')
+        raise InputError(NOT_HERE[word])
     if word not in MODELS:
         raise InputError(f'"{name}": no machine element{nearest(word, MODELS)}; allowed: {", ".join(MODELS)}')
     return without_description((resources.files("bem.elements") / "templates" / f"{word}.toml").read_text("utf-8"))

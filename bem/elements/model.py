@@ -5,7 +5,7 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Annotated
+from typing import Annotated, Literal
 
 from pydantic import Field
 
@@ -38,11 +38,12 @@ class Contacts:
 
 
 class ElementModel(Table):
-    """Both materials, the oil, and the rms roughness of both surfaces together, for the film over it.
+    """Both materials, the oil, and the rms roughness of both surfaces together, for the lambda ratio.
 
-    `specific_wear_rate`: Archard's, under this lubrication. `permissible_film_ratio`: the smallest film over roughness
-    at which a test with this oil and finish showed no micropitting. `mean_particle_volume`: of the particles that come
-    off, counted (AFM, or kinds wear and running-in), for how many do so by hour.
+    `thermal`: frictional heat of the films, as in kind traction. `specific_wear_rate`: Archard's, under this
+    lubrication. `permissible_film_ratio`: the smallest lambda ratio at which a test with this oil and finish showed no
+    micropitting. `mean_particle_volume`: mean volume of wear particles, measured (AFM) or of kinds wear and running-in,
+    for their number per hour.
     """
 
     element: str
@@ -51,6 +52,7 @@ class ElementModel(Table):
     first: MaterialScene
     second: MaterialScene
     oil: OilScene | None = None
+    thermal: Literal["off", "lumped", "full"] = "lumped"
     rms_roughness: PositiveLength | None = None
     specific_wear_rate: Annotated[WearCoefficient, Field(ge=0)] | None = None
     permissible_film_ratio: Annotated[Ratio, Field(gt=0)] | None = None

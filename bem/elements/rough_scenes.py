@@ -137,7 +137,7 @@ def mixed_scene(
         shape = {"radius": contact.radius, "width": contact.length}
     flat_speed = abs(contact.mean_speed) * (1 + 0.5 * ratio)
     made: dict[str, Any] = {
-        **({"thermal": "lumped"} if _conducts(model) else {}),
+        "thermal": _thermal(model, contact),
         **rough_bodies(model, bodies, patch),
         "contact": {**shape, "loads": [contact.load], "boundary_friction": BOUNDARY_FRICTION},
         "oil": dict(oil),
@@ -198,6 +198,13 @@ def rubbing_scene(
 def hardness_of(model: ElementModel) -> float | None:
     """Hardness of the softer material [Pa]; None where neither material has one."""
     return softer_hardness(Body(model.first.build()), Body(model.second.build()))
+
+
+def _thermal(model: ElementModel, contact: ElementContact) -> str:
+    """Heat of a film between rough surfaces; across the film it is known for line contacts alone."""
+    if not _conducts(model):
+        return "off"
+    return "lumped" if model.thermal == "full" and contact.length is None else model.thermal
 
 
 def _conducts(model: ElementModel) -> bool:

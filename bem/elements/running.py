@@ -1,4 +1,4 @@
-"""What a machine element does as it runs: films with their heat at all places, friction power, wear, micropitting.
+"""A machine element at operating conditions: thermal films at all positions, friction power, wear, micropitting.
 
 Film, friction and temperatures are those of kind traction, called; wear is Archard's law at each place, k p by distance
 slid, whose depth over one pass of the contact is closed: k W |u1 - u2| / |u_i|, W the load by length, since every
@@ -18,6 +18,7 @@ from bem.errors import InputError, Status
 from bem.notes import Note
 from bem.notes.merge import merge
 from bem.particles import particle_number
+from bem.quantities import plain_digits
 from bem.scenes.load import load_scene
 
 if TYPE_CHECKING:
@@ -30,7 +31,7 @@ POINTS = 500
 
 @dataclass(frozen=True)
 class Running:
-    """One place as it runs; None where it is not known.
+    """One contact at operating conditions; None where a value is not known.
 
     minimum_film : [m]. film_ratio : that over the rms roughness of both.
     friction : force over load. power : of friction [W].
@@ -57,7 +58,7 @@ class Running:
 
 
 def run_contact(element: Element, contact: ElementContact) -> Running:
-    """Solve the film of one contact, with lumped heat where both materials have its constants.
+    """Solve the film of one contact, with the heat of the element's `thermal` where both materials have its constants.
 
     Raises
     ------
@@ -155,11 +156,11 @@ def columns(element: Element, runs: Sequence[Running]) -> dict[str, list[float]]
 def notes(runs: Sequence[Running]) -> tuple[Note, ...]:
     """Return the notes of the films that converged, each once, with the number of places it applies to."""
     of_runs = [one.notes if one.converged else () for one in runs]
-    return tuple(merge(of_runs, lambda at: f"at {len(at)} of {len(runs)} places"))
+    return tuple(merge(of_runs, lambda at: f"at {len(at)} of {len(runs)} positions"))
 
 
 def summary(element: Element, solved: Sequence[Running]) -> tuple[tuple[str, str], ...]:
-    """What the element does as a whole, in words: power, thinnest film, micropitting, wear by hour, particles; of the
+    """What the element does as a whole, in words: power, thinnest film, micropitting, wear per hour, particles; of the
     films that converged."""
     lost, runs = [one for one in solved if not one.converged], [one for one in solved if one.converged]
     missed = [("not converged", f"{len(lost)} of {len(solved)} films, the first at {one.contact.name}") for one in lost]
@@ -177,7 +178,9 @@ def summary(element: Element, solved: Sequence[Running]) -> tuple[tuple[str, str
     hot = [one for one in runs if one.surface is not None]
     if hot:
         hottest = max(hot, key=lambda one: one.surface or 0.0)
-        rows.append(("hottest surface", f"{(hottest.surface or 0.0) - 273.15:.4g} degC at {hottest.contact.name}"))
+        rows.append(
+            ("highest surface temperature", f"{(hottest.surface or 0.0) - 273.15:.4g} degC at {hottest.contact.name}")
+        )
     thinnest = min(runs, key=lambda one: one.minimum_film)
     rows.append(("minimum film thickness", f"{1e9 * thinnest.minimum_film:.4g} nm at {thinnest.contact.name}"))
     thin = [one for one in runs if one.film_ratio is not None and one.film_ratio < 1]
@@ -185,13 +188,13 @@ def summary(element: Element, solved: Sequence[Running]) -> tuple[tuple[str, str
         rows.append(
             (
                 "mixed lubrication",
-                f"at {len(thin)} of {len(runs)} places the film is thinner than the roughness: friction and heat are "
-                "those of the film alone there; kind friction shares the load with rough surfaces",
+                f"lambda is below 1 at {len(thin)} of {len(runs)} positions; friction and heat above leave asperity "
+                "contact out. With it, position by position: --scene mixed.toml --kind friction --at NUMBER",
             )
         )
     rows.append(("micropitting", _micropitting(element, thinnest)))
-    rows.append(("wear by hour", _wear(element)))
-    rows.append(("particles by hour", _particles(element)))
+    rows.append(("wear per hour", _wear(element)))
+    rows.append(("particles per hour", _particles(element)))
     return (*rows, *missed[:1])
 
 
@@ -201,7 +204,9 @@ def _scatter_of_power(runs: Sequence[Running], places: int, at_once: float) -> s
         return ""
     slid = [one.contact.load * abs(one.contact.speeds[0] - one.contact.speeds[1]) / places * at_once for one in runs]
     down, up = (sum(s * one.scatter[k] for s, one in zip(slid, runs, strict=True) if one.scatter) for k in (0, 1))
-    return f" (-{down:.2g}, +{up:.2g} W by the oil's constants)"
+    if 0.0 in (down, up):  # pure rolling
+        return ""
+    return f" (-{plain_digits(down)}, +{plain_digits(up)} W between oils of this base)"
 
 
 def _of(runs: Sequence[Running], places: int) -> str:
@@ -219,7 +224,10 @@ def _micropitting(element: Element, thinnest: Running) -> str:
     ratio, permitted = thinnest.film_ratio, element.model.permissible_film_ratio
     said = f"smallest lambda {ratio:.3g}"
     if permitted is None:
-        return f"{said}; with permissible_film_ratio, of a test with this oil and finish, it becomes a safety"
+        return (
+            f"{said}; for a safety give permissible_film_ratio, the smallest lambda without micropitting in a test "
+            "with this oil and finish"
+        )
     return (
         f"{said} over {permitted:.3g} permitted: safety {ratio / permitted:.3g}. Concept of ISO/TS 6336-22, not its "
         "procedure: the film is solved with its heat instead of a film formula, and roughness is Sq instead of Ra"

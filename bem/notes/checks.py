@@ -334,6 +334,10 @@ HARDNESS_DECIDES = define(
     "Pressures are limited by the hardness that was given.",
     reasons={
         "reached": "{cells} are at the hardness, {cap:si Pa}; work hardening is left out.",
+        "area-is-load": (
+            "{cells} are at the hardness, {cap:si Pa}, without work hardening. The contact area is then load over "
+            "hardness and tells little of the surfaces."
+        ),
         "within-error": (
             "Nothing is at the hardness here, {cap:si Pa}, but it lies within the error of the highest pressure: on "
             "finer cells a part of the contact may be."

@@ -47,7 +47,7 @@ RING_AT_EDGE = define(
 FILM_BY_SQUEEZE = define(
     "film-by-squeeze",
     INFO,
-    "Where the speed turns round, the film lives on by squeeze.",
+    "Where the speed reverses, squeeze keeps a film.",
     "",
     "Follow it in time with kind film.",
     reasons={
@@ -63,5 +63,5 @@ FOLLOWER_PASSED_OFTEN = define(
     INFO,
     "Places of the follower are passed more than once in a turn.",
     "The contact wanders to and fro, slowly where it turns round: depths per pass have no limit there, and "
-    "wear by hour is not known.",
+    "wear per hour is not known.",
 )

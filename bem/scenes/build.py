@@ -199,11 +199,7 @@ def check_surfaces(grid: Grid, **surfaces: AnySurface) -> None:
             try:
                 check_statistics(_drawn_on(surface, grid), **_statistics(surface))
             except InputError as error:
-                hint = (
-                    f" (process {surface.process} sets what is not given: give that key, or a larger grid)"
-                    if surface.process
-                    else ""
-                )
+                hint = f' (set by process = "{surface.process}" unless given)' if surface.process else ""
                 messages += [f"{name}.surface: {m.removeprefix('generate_surface: ')}{hint}" for m in error.messages]
             try:
                 marks_of(surface, grid, 0)

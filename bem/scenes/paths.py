@@ -169,7 +169,10 @@ def what_is_wrong_with(path: str) -> tuple[str, str] | None:
     """Return the fault of a path of a surface file and the allowed values; None if the file can be read."""
     try:
         if not path or not Path(path).is_file():
-            return "no such file", "the path of a surface file, relative to the scene file"
+            return "no such file", (
+                "the path of a surface file, relative to the scene file, or one of the package's, "
+                "example/ground-disk.al3d and example/polished-pin.x3p"
+            )
         with open(path, "rb") as file:
             return None if file.read(1) else ("the file is empty", "the path of a surface file")
     except (OSError, ValueError) as error:

@@ -16,6 +16,7 @@ import numpy as np
 from bem.arguments import is_positive
 from bem.errors import InputError
 from bem.grid import Grid
+from bem.quantities import si
 
 AUTOCORRELATIONS = ("gaussian", "exponential")
 
@@ -110,14 +111,19 @@ def _check_lengths(grid: Grid, pair: tuple[Any, ...] | list[Any], messages: list
         return
     halves = [side / 2 for side in grid.lengths]
     wrong = [i for i in (0, 1) if grid.shape[i] > 1 and not grid.spacing[i] <= float(pair[i]) <= halves[i]]
-    if wrong:  # one mistake where it is of both axes
-        length, cell, half = (
-            " and ".join(dict.fromkeys(f"{values[i]:.4g} m" for i in wrong)) for values in (pair, grid.spacing, halves)
+    for short in (True, False):  # one mistake where it is of both axes
+        axes = [i for i in wrong if (float(pair[i]) < grid.spacing[i]) == short]
+        if not axes:
+            continue
+        length, limit = (
+            " and ".join(dict.fromkeys(si(float(values[i]), "m", digits=4) for i in axes))
+            for values in (pair, grid.spacing if short else halves)
         )
-        messages.append(
-            f"correlation_length {length} along {' and '.join('xy'[i] for i in wrong)} must lie between one cell "
-            f"({cell}) and half the grid ({half})"
+        along = " and ".join("xy"[i] for i in axes)
+        size, remedy = (
+            ("shorter than a cell", "more cells") if short else ("longer than half the grid", "a larger grid")
         )
+        messages.append(f"correlation_length {length} along {along} is {size} ({limit}): take {remedy}, or another one")
 
 
 def _check_band(grid: Grid, request: Request, messages: list[str]) -> None:

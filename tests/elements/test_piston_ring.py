@@ -114,8 +114,8 @@ def test_over_the_cycle():
     assert len(element.found.contacts) == 12
     runs = [run_contact(element, one) for one in element.found.contacts[:3]]
     said = dict(summary(element, runs))
-    assert "body 2 not known" in said["wear by hour"]
-    assert "of 0.1 um^3 each" in said["particles by hour"]
+    assert "body 2 not known" in said["wear per hour"]
+    assert "of 0.1 um^3 each" in said["particles per hour"]
     notes = element.notes()
     assert any((note.code, note.values.get("reason")) == ("film-by-squeeze", "ring") for note in notes)
     assert not any((note.code, note.values.get("reason")) == ("ring-at-edge", "film") for note in notes)

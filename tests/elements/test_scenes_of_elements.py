@@ -2,6 +2,7 @@
 
 import csv
 import math
+import re
 import subprocess
 import sys
 import tomllib
@@ -10,8 +11,10 @@ import pytest
 
 from bem import InputError, load_scene, plan_scene, run_scene
 from bem.elements.contact import CONFORMING
-from bem.elements.element import MODELS, element_template, load_element
+from bem.elements.element import KINDS, MODELS, element_template, load_element
+from bem.elements.scene_text import scene_text
 from bem.reference_solutions.hertz import PointContact
+from bem.scenes.load import scene_from_table, scene_table
 
 
 @pytest.fixture(params=MODELS)
@@ -122,11 +125,52 @@ def test_the_command_writes_scene_and_table(tmp_path):
     assert load_scene(tmp_path / "worst.toml").kind == "traction"
     assert (tmp_path / "path.csv").read_text().count("\n") == 42
     assert bem("element", "gears.toml", "--scene", "flank.toml", "--at", "path").returncode == 0
-    assert len(load_scene(tmp_path / "flank.toml").along.position) == 41
+    flank = load_scene(tmp_path / "flank.toml")
+    assert len(flank.along.position) == 41
+    assert flank.along.marks.C == 0
+    assert (tmp_path / "flank-path.csv").read_text() == (tmp_path / "path.csv").read_text()
     again = bem("element", "gears.toml", "--scene", "other.toml", "--at", "99")
     assert again.returncode == 2
     assert "a number from 1 to 41" in again.stderr
     assert not (tmp_path / "other.toml").exists()
     refused = bem("new", "journal-bearing")
     assert refused.returncode == 2
-    assert "not here" in refused.stderr
+    assert "small flat patch" in refused.stderr
+
+
+@pytest.mark.parametrize("kind", KINDS)
+def test_written_scenes_have_units_and_six_digits(element, kind):
+    """Every number with a dimension has its unit, and the scene is that of the element to the digits."""
+    place = element.found.contacts[9 if element.model.element == "cam-follower" else 0]
+    if kind == "point-film" and place.length is not None:
+        with pytest.raises(InputError, match="allowed: traction, contact, friction, running-in, surface-temperature"):
+            element.scene(place, kind)
+        return
+    table = element.scene(place, kind)
+    text = scene_text(table)
+    bare = {"slide_roll_ratio", "boundary_friction", "friction", "hurst", "shape", "count", "averaged", "settled"}
+    numbers = {name for name, _ in re.findall(r"\b(\w+) = (\[?-?\d)", text)}
+    assert numbers <= bare
+    written, own = (scene_table(scene_from_table(one)) for one in (tomllib.loads(text), table))
+    assert flat(written) == pytest.approx(flat(own), rel=6e-6)
+
+
+def flat(table, key=""):
+    """Numbers of a table of tables by their dotted keys."""
+    if isinstance(table, dict):
+        return {name: value for inner, one in table.items() for name, value in flat(one, f"{key}.{inner}").items()}
+    if isinstance(table, list):
+        return {name: value for i, one in enumerate(table) for name, value in flat(one, f"{key}.{i}").items()}
+    return {key: table} if isinstance(table, int | float) else {}
+
+
+def test_the_heat_of_an_elements_films_can_be_chosen():
+    table = tomllib.loads(element_template("gear-pair"))
+    whole = load_element(table | {"thermal": "full"})
+    assert {kind: whole.scene(whole.worst(), kind)["thermal"] for kind in ("traction", "friction")} == {
+        "traction": "full", "friction": "full",
+    }  # fmt: skip
+    plain = load_element(table)
+    assert plain.scene(plain.worst(), "traction")["thermal"] == "lumped"
+    balls = load_element(tomllib.loads(element_template("rolling-bearing")) | {"thermal": "full"})
+    assert balls.scene(balls.worst(), "friction")["thermal"] == "lumped"  # full heat is one of lines

@@ -140,6 +140,8 @@ def test_spellings_of_a_grade(spelling):
         ("35W-30", "no such W grade"),
         ("water", "isoviscous"),
         ("lithium grease", "base oil"),
+        ("PAG", 'base = "pag"'),
+        ("water-glycol", '"water-glycol 46"'),
         (68, "must be a name"),
     ],
 )

@@ -47,6 +47,19 @@ def test_generate_describe_plot(call, tmp_path):
     assert sorted(p.name for p in tmp_path.iterdir()) == ["a.npz", "a.png", "a.svg"]
 
 
+def test_spikes_are_counted_and_their_removal_named(call, tmp_path):
+    heights = np.random.default_rng(1).normal(0, 1e-8, (64, 64))
+    heights[5, 7] = heights[40, 50] = 1e-6
+    np.savez(tmp_path / "a.npz", heights=heights, spacing=(1e-6, 1e-6))
+    code, out, _ = call("surface", "describe", tmp_path / "a.npz", "--detrend", "none")
+    assert code == 0
+    assert "2 points stand out" in out
+    assert "--despike 6" in out
+    code, out, _ = call("surface", "describe", tmp_path / "a.npz", "--detrend", "none", "--despike", "6")
+    assert code == 0
+    assert "stand out" not in out
+
+
 def test_measured(call, measured, tmp_path):
     code, out, _ = call("surface", "describe", measured / "opd-1.opd")
     assert code == 0

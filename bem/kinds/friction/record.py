@@ -28,7 +28,7 @@ from bem.scenes.tables.sharing import BAR_OF_HEAT, BASELINE
 
 _curve, _shown = partial(Figure, dimensions=("speed",)), partial(Series, of="first")
 _LOADS = ("contact_load", "film_load")
-_OTHER = "they are to compare with, to a thousandth of the oil"
+_OTHER = "these values are for comparison only, within 0.1 % of the oil volume"
 _other_oil = partial(_curve, no_bar=_OTHER)
 _supplied = partial(_curve, optional=True, no_bar="it goes with the minimum film: look at that of it")
 _heated = partial(_curve, "C", optional=True)

@@ -10,9 +10,9 @@ from bem.grid import FloatArray
 from bem.scenes.records import LAMBDA_WHOLE, OIL, OIL_SCATTER, Figure, Record, Series
 
 _along = partial(Series, ("x",))
-_HOTTEST = "in pure rolling it stands at the spike of pressure and follows the mesh"
-_FORMULA = "it is a formula's"
-_ALGEBRA = "it closes by construction, to rounding"
+_HOTTEST = "in pure rolling the highest temperature lies at the pressure spike and follows the mesh"
+_FORMULA = "the value is that of a formula"
+_ALGEBRA = "the energy balance closes to rounding"
 _of_supply, _hot = partial(Figure, optional=True), partial(Figure, "C", part_of=("film_rise",))
 
 

@@ -148,18 +148,24 @@ def _squeezed(name: str) -> str:
     return re.sub(r"[^a-z0-9]", "", name.lower())
 
 
+_PAG = 'give an ISO grade with base = "pag", such as grade = "ISO VG 220", base = "pag"'
 _NO_OIL = {
     "grease": "grease has no entry: take its base oil, by grade or viscosities from the maker's sheet, and a table "
     "[supply] where the contact starves",
-    "water": 'water has no entry: give viscosity = "0.65 mPa*s" (at 40 degC) and pressure_viscosity = "0 1/GPa" in '
-    "[oil]; its films are isoviscous",
+    "water": 'water has no entry: give viscosity = "0.653 mPa*s" (at 40 degC) and pressure_viscosity = "0 1/GPa" in '
+    '[oil], its films are isoviscous; for heat also temperature = "40 degC", density = "992 kg/m^3", heat_capacity = '
+    '"4180 J/(kg*K)", thermal_conductivity = "0.63 W/(m*K)" and temperature_viscosity = "0.019 1/K"',
+    **dict.fromkeys(("pag", "polyglycol", "polyalkylene"), f"the grade is missing: {_PAG}"),
 }
 """Lubricants that are not in the catalogue, and what to give instead."""
 
 
 def _unknown(name: str) -> InputError:
+    words = re.findall("[a-z]+", name.lower())
+    if "glycol" in words:
+        return InputError(f'oil "{name[:60]}": the grade is missing; allowed: "water-glycol 46" and other ISO grades')
     for word, advice in _NO_OIL.items():
-        if word in re.findall("[a-z]+", name.lower()):
+        if word in words:
             return InputError(f'oil "{name[:60]}": {advice}')
     known = {_squeezed(one): one for one in oil_names()}
     close = difflib.get_close_matches(_squeezed(name), known, n=1, cutoff=0.6)

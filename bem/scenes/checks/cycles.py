@@ -54,7 +54,7 @@ def rougher_by_its_own_pieces(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     b, a = max(grown, key=lambda pair: pair[1] / pair[0])
     larger = max(numbers(outcome.summary.get("volume_mean_radius_nm")) or [0.0])
     holes = f" (mean radius by volume up to {si(1e-9 * larger, 'm')})" if larger > both else ""
-    still, (cells, cap) = _drifting(facts, outcome), at_the_cap(facts, outcome)
+    still, (cells, cap, _) = _drifting(facts, outcome), at_the_cap(facts, outcome)
     follows = [f"it had not settled ({joined(still)})"] if still else []
     if cells:
         follows.append(f"{cells}, are at the hardness, {si(cap, 'Pa')}")

@@ -150,25 +150,31 @@ def _share_above(pressure: NDArray[np.float64], limit: float) -> float:
 @outcome_check
 def contact_at_the_cap(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """Note that the pressure is the cap, an input and not a result, on at least a tenth of the contact."""
-    cells, cap = at_the_cap(facts, outcome)
+    cells, cap, share = at_the_cap(facts, outcome)
     if cells and not roughened(facts, outcome).grown:  # which says it too
-        yield HARDNESS_DECIDES(cells=cells, cap=cap, reason="reached")
+        yield HARDNESS_DECIDES(cells=cells, cap=cap, reason="area-is-load" if share > _PLASTIC else "reached")
 
 
-def at_the_cap(facts: Facts, outcome: Outcome) -> tuple[str, float]:
-    """Return the share of contact cells at the hardness in words, and the hardness [Pa]; nothing below a tenth."""
+_PLASTIC = 0.8
+"""Share of the load on cells at the hardness from which the contact area is that of load over hardness, within 25 %."""
+
+
+def at_the_cap(facts: Facts, outcome: Outcome) -> tuple[str, float, float]:
+    """Return the share of contact cells at the hardness in words, the hardness [Pa], and their share of the load.
+
+    Nothing below a tenth of the cells.
+    """
     case = _capped(facts, outcome)
     if case is None or case.cap is None or not facts.of_kind("contact", "wear", "running-in"):
-        return "", 0.0
+        return "", 0.0, 0.0
     for maps in _pressures(outcome)[:1]:
         plane = maps[-1]
         touching, capped = np.count_nonzero(plane > 0), plane >= case.cap * (1 - 1e-9)
         if touching and np.count_nonzero(capped) > _AT_CAP * touching:
-            return (
-                f"{percent(np.count_nonzero(capped) / touching)} of the cells in contact, with "
-                f"{percent(float(plane[capped].sum() / plane.sum()))} of the load"
-            ), case.cap
-    return "", 0.0
+            share = float(plane[capped].sum() / plane.sum())
+            cells = f"{percent(np.count_nonzero(capped) / touching)} of the cells in contact"
+            return f"{cells}, with {percent(share)} of the load", case.cap, share
+    return "", 0.0, 0.0
 
 
 @outcome_check

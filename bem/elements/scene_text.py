@@ -1,0 +1,44 @@
+"""Text of a scene that is made of a machine element: values with units, rounded to six digits."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from typing import Any
+
+from bem.quantities import si
+from bem.scenes.load import dumped
+
+_DIGITS = 6
+"""Digits of written values: the rounding of 1e-6 is far below every error of a model."""
+_UNITS = {
+    **dict.fromkeys(("lower_bulk", "upper_bulk"), "K"),
+    **dict.fromkeys(("load", "loads"), "N"),
+    **dict.fromkeys(("values", "mean_speed", "lower_speed", "upper_speed"), "m/s"),
+    **dict.fromkeys(("roughness", "rms_height", "rolloff_wavelength", "cutoff_wavelength"), "m"),
+    **dict.fromkeys(("radius", "radius_y", "radii", "width", "distance", "lengths", "spacing", *"ABCDE"), "m"),
+}
+"""SI units of the keys that `Element.scene` and `Element.path_scene` fill with numbers."""
+
+
+def scene_text(table: Mapping[str, Any]) -> str:
+    """Return the table of an element's scene as TOML text for a reader: tables under headings, values with units."""
+    tables = {key: value for key, value in table.items() if isinstance(value, Mapping)}
+    lines = [f"{key} = {_value(key, value)}" for key, value in table.items() if key not in tables]
+    for key, inner in tables.items():
+        lines += ["", f"[{key}]", *(f"{name} = {_value(name, value)}" for name, value in inner.items())]
+    return "\n".join(lines) + "\n"
+
+
+def _value(key: str, value: Any) -> str:
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{name} = {_value(name, inner)}" for name, inner in value.items()) + " }"
+    if isinstance(value, list | tuple):
+        return "[" + ", ".join(_value(key, one) for one in value) + "]"
+    if isinstance(value, bool) or not isinstance(value, int | float):
+        return dumped(value)
+    if key not in _UNITS or not math.isfinite(value):
+        return dumped(value if isinstance(value, int) else float(f"{value:.{_DIGITS}g}"))
+    if _UNITS[key] == "K":
+        return dumped(f"{value - 273.15:.{_DIGITS}g} degC")
+    return dumped(si(value, _UNITS[key], _DIGITS))
