@@ -17,6 +17,8 @@ Figures of one contact (`stress_summary.summarise_stress`): steps 1 to 3 at ever
 Mises stress between points and depths, its depth, and the yielded area and volume. No depth is omitted. Cost: a few
 passes over each plane.
 
+Highest stresses of coatings (`layer_stresses`): of each layer and interface, at depths of `with_layer_depths`.
+
 Two shorter ways to von Mises stress above a limit, which `bem.wear` uses:
 
 - `von_mises_bound.von_mises_upper_bound` proves that nothing yields at a depth, from the largest pressure and the load.
@@ -32,6 +34,7 @@ finite elements.
 
 from bem.stress.connected_regions import ConnectedStress, clear_other_rows, connected_stress
 from bem.stress.fields import subsurface_stress, von_mises, von_mises_field, von_mises_planes
+from bem.stress.layer_stresses import LayerStresses, highest_principal, layer_stresses, with_layer_depths
 from bem.stress.spectra import COUNT, set_stress_memory, stress_memory
 from bem.stress.stress_summary import StressSummary, summarise_stress
 from bem.stress.von_mises_bound import von_mises_upper_bound
@@ -39,9 +42,12 @@ from bem.stress.von_mises_bound import von_mises_upper_bound
 __all__ = [
     "COUNT",
     "ConnectedStress",
+    "LayerStresses",
     "StressSummary",
     "clear_other_rows",
     "connected_stress",
+    "highest_principal",
+    "layer_stresses",
     "set_stress_memory",
     "stress_memory",
     "subsurface_stress",
@@ -50,4 +56,5 @@ __all__ = [
     "von_mises_field",
     "von_mises_planes",
     "von_mises_upper_bound",
+    "with_layer_depths",
 ]

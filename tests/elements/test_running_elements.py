@@ -167,7 +167,7 @@ def test_a_ball_has_a_point_film(tmp_path):
     # an ellipse nine times as long across the rolling is nearly the line of its middle; 32 cells are coarse
     assert 1e-9 * found["central_thickness_nm"] == pytest.approx(line.central_thickness, rel=0.2)
     gear = element_of("gear-pair")
-    with pytest.raises(InputError, match="a line contact, no point"):
+    with pytest.raises(InputError, match="allowed: traction, contact, friction"):
         gear.scene(gear.worst(), "point-film")
 
 

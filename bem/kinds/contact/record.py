@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
+from functools import partial
 from typing import Annotated
 
 import numpy as np
@@ -10,6 +11,13 @@ from numpy.typing import NDArray
 
 from bem.grid import FloatArray
 from bem.scenes.records import Figure, GridRecord, Series, grid_map
+
+_NO_BAR = (
+    "the highest stress of the points of a layer or interface follows the grid; compare with one of half the spacing"
+)
+_coating = partial(Figure, optional=True, headline=True, no_bar=_NO_BAR)
+_interfaces = partial(_coating, dimensions=("interface",))
+_layers = partial(_coating, dimensions=("layer",))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -48,6 +56,16 @@ class ContactRecord(GridRecord):
     counted_yielded_volume: Annotated[
         float | None, Figure("m3", "that of whole cells", optional=True, unjudged=True)
     ] = None
+    interface_depth: Annotated[
+        FloatArray | None,
+        Figure("m", "depth of each interface", ("interface",), optional=True, headline=True, unjudged=True),
+    ] = None
+    interface_max_shear: Annotated[FloatArray | None, _interfaces("Pa", "maximum shear stress across interfaces")] = (
+        None
+    )
+    interface_max_tension: Annotated[FloatArray | None, _interfaces("Pa", "maximum tension across interfaces")] = None
+    layer_max_von_mises: Annotated[FloatArray | None, _layers("Pa", "maximum von Mises stress in each layer")] = None
+    layer_max_tension: Annotated[FloatArray | None, _layers("Pa", "maximum principal stress in each layer")] = None
     pressure: Annotated[FloatArray, grid_map("Pa", "contact pressure")]
     displacement: Annotated[FloatArray, grid_map("m", "normal displacement of both bodies together")]
     gap: Annotated[FloatArray, grid_map("m", "gap between the deformed surfaces")]

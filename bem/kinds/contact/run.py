@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import dataclasses
 import math
 from typing import TYPE_CHECKING, Any
 
@@ -57,6 +58,7 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
         lower_height=rough.get("lower"),
         upper_height=rough.get("upper"),
         **_stress_fields(below),
+        **_coating_fields(scene, below),
         residual=solution.residual,
         iterations=solution.iterations,
         convolutions=solution.convolutions,
@@ -91,6 +93,16 @@ def _stress_fields(below: StressSummary | None) -> dict[str, Any]:
         "component": None if below.stress is None else list(_STRESS_COMPONENTS),
         "stress": below.stress,
     }
+
+
+def _coating_fields(scene: ContactScene, below: StressSummary | None) -> dict[str, Any]:
+    """Fields of the record on layers and interfaces of the stressed body; none without layers or components."""
+    from bem.stress import layer_stresses
+
+    body, _ = scene.stressed()
+    if below is None or below.stress is None or not body.layers:
+        return {}
+    return dataclasses.asdict(layer_stresses(below.stress, below.von_mises, below.depths, body))
 
 
 def _cut_off(scene: ContactScene, grid: Grid, solution: ContactSolution) -> tuple[Note, ...]:

@@ -32,6 +32,12 @@ if TYPE_CHECKING:
     from bem.scenes.checks.hertz import SmoothContact
 
 
+_DEPTHS = 24
+"""Depths where none are given."""
+_BELOW_COATING = 2.0
+"""Deepest of them, over the thickness of all layers, at least."""
+
+
 class ContactControl(Table):
     """Control of the contact: load, mean pressure, normal approach or mean gap."""
 
@@ -167,7 +173,7 @@ class StressOutputs(Table):
         "Depths at which stresses are computed.",
         "basic",
         default=None,
-        reason="24 depths down to a quarter of the grid",
+        reason="24 depths down to a quarter of the grid, and 5 or more in each layer of a coating",
     )
     body: Literal["lower", "upper"] = key("Body in which stresses are computed.", "advanced", default="lower")
 
@@ -223,8 +229,18 @@ class StressedScene(PressedScene):
         scene = super().resolved()
         if scene.outputs.below and scene.outputs.depths is None:
             deepest = min(build.grid_of(scene.grid).lengths) / 4
-            scene = changed(scene, "outputs.depths", DepthsScene(deepest=deepest, count=24))
+            scene = changed(scene, "outputs.depths", self._usual_depths(deepest))
         return scene
+
+    def _usual_depths(self, deepest: float) -> DepthsScene:
+        """Graded depths [m]; of a coated body listed, with those that its layers and interfaces need."""
+        from bem.stress import with_layer_depths
+
+        body, _ = self.stressed()
+        if not body.layers:
+            return DepthsScene(deepest=deepest, count=_DEPTHS)
+        graded = DepthsScene(deepest=max(deepest, _BELOW_COATING * body.interfaces[-1]), count=_DEPTHS)
+        return DepthsScene(values=list(with_layer_depths(graded.build(), body)))
 
     def stressed(self) -> tuple[Body, float]:
         """The body whose stresses are wanted, and the sign of traction: on the lower body it acts along +x, on the
