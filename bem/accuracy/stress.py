@@ -122,7 +122,7 @@ def _of_highest_stress(
         return ErrorBars.unknown(NAMES, NoBar.SHALLOWEST_DEPTH)
     kept = depths[sorted({*range(k % 2, len(depths), 2), max(k - 1, 0), min(k + 1, len(depths) - 1)})]
     there = _highest_below(coarser.solution.pressure, coarser.grid, body, kept, rubbed)
-    rise, interval = (0.0, 0.0) if few else _between(below, k)
+    rise, interval = (0.0, 0.0) if few else _between(below, k, body)
     for interface in () if few else body.interfaces:
         above = _STEEPER * (_extrapolated(depths, highest, interface) - highest[k])
         if above > 0:
@@ -154,10 +154,17 @@ def _highest_below(
     return summarise_stress(pressure, grid, body, depths[max(k - 2, 0) : k + 3], **rubbed)
 
 
-def _between(below: StressSummary, k: int) -> tuple[float, float]:
-    """Return the errors of the highest stress [Pa] and of its depth [m] between the depths next to the k-th."""
+def _between(below: StressSummary, k: int, body: Body) -> tuple[float, float]:
+    """Return the errors of the highest stress [Pa] and of its depth [m] between the depths next to the k-th.
+
+    Next to an interface, where stress jumps, only depths of the same layer count; `_extrapolated` judges the rise
+    towards the interface.
+    """
     depths = below.depths
     if below.max_von_mises_depth == depths[k]:  # not interpolated
+        own = [i for i in (k - 1, k + 1) if i >= 0 and body.medium_at(depths[i]) == body.medium_at(depths[k])]
+        if k > 0 and len(own) < 2:
+            return 0.0, float(max((abs(depths[i] - depths[k]) for i in own), default=0.0)) / 2
         return _highest_between(depths, below.highest, k)
     interval = float(max(depths[k] - depths[k - 1], depths[k + 1] - depths[k]))
     order = min(interval / (_WIDE * float(depths[k])), 1.0) ** 2

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import os
+from collections.abc import Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -88,7 +89,7 @@ def element(
             key: value for key, value in made["along"].items() if key == "marks"
         }
     rows = None if path is None else found.path_csv()
-    notes = found.notes()
+    notes: Sequence[Note] = found.notes()
     more: dict[str, list[float]] = {}
     if running:
         more, notes = _operation(found)

@@ -10,7 +10,7 @@ from bem.accuracy import ContactCase, contact_bars, figures_of, solve_coarser, s
 from bem.errors import Status
 from bem.notes.accuracy import NoBar
 from bem.reference_solutions.hertz import ellipse_contact
-from bem.stress import summarise_stress
+from bem.stress import summarise_stress, with_layer_depths
 
 STEEL = Material("steel", youngs_modulus=200e9, poissons_ratio=0.3)
 
@@ -211,6 +211,23 @@ def test_a_stress_that_jumps_at_an_interface_may_be_higher_there():
     missed = truth.highest.max() - found.max_von_mises
     assert missed > 0.02 * truth.highest.max()
     assert missed <= bars.parts["depths"]["max_von_mises"]
+
+
+def test_depths_on_both_sides_of_an_interface_leave_little_open():
+    """The jump there is no slope of the stress: a parabola across it rose to twenty times the highest stress."""
+    coat = Layer(Material("coat", youngs_modulus=600e9, poissons_ratio=0.25), 3.7e-6)
+    body = Body(STEEL, layers=(coat,))
+    grid = Grid((48, 48), (1e-6, 1e-6))
+    gap = (grid.x[:, None] ** 2 + grid.y**2) / 1e-3
+    operator = displacement_operator(grid, body)
+    case = ContactCase(operator, gap, solve_contact(gap, operator, load=0.5), load=0.5)
+    few = np.array(with_layer_depths(tuple(np.linspace(0, 12e-6, 9)), body))
+    fine = np.array(with_layer_depths(tuple(np.linspace(0, 12e-6, 121)), body))
+    found, truth = (summarise_stress(case.solution.pressure, grid, body, depths) for depths in (few, fine))
+    bars = stress_bars(case, solve_coarser(case), body, found)
+    left = bars.parts["depths"]["max_von_mises"]
+    assert abs(truth.max_von_mises - found.max_von_mises) <= left + 1e-3 * found.max_von_mises
+    assert left < 0.02 * found.max_von_mises
 
 
 def bars_below(case, depths):

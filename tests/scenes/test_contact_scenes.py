@@ -10,11 +10,14 @@ from bem.convolution import displacement_operator
 from bem.errors import Status
 from bem.grid import Grid
 from bem.materials import Body, Layer, Material, contact_modulus
+from bem.notes import has_code
+from bem.notes.checks import DEPTHS_MISS_STRESS
 from bem.reference_solutions.hertz import cylinder_contact, sphere_contact
 from bem.reference_solutions.westergaard import crossed_full_contact_pressure
 from bem.runs import plan_scene
 from bem.scenes import PlainContext, get_kind
 from bem.scenes.build import traction_couples
+from bem.scenes.checks import examine, scene_warnings
 from bem.transforms import COUNT
 
 KIND = get_kind("contact")
@@ -286,3 +289,22 @@ def test_bodies_that_do_not_touch_say_so(asked):
     _, outcome, context = run(rough() | {"contact": asked})
     assert outcome.summary["load_N"] == 0
     assert any(note.code == "bodies-apart" for note in context.notes)
+
+
+COATED = ("grid.shape=32", "contact.friction=0.1", 'outputs={"stresses" = true, "errors" = false}')
+
+
+def test_coatings_have_depths_and_stresses_by_layer_and_interface():
+    layers = 'lower.layers=[{material="dlc",thickness="2 um"},{material="tungsten-carbide",thickness="0.5 um"}]'
+    settings = [*COATED, "lower.layer=", layers]
+    scene, outcome, _ = run("coated-sphere", settings)
+    depths = np.array(scene.outputs.depths.values)
+    told = outcome.summary
+    assert told["interface_depth_m"] == pytest.approx([2e-6, 2.5e-6])
+    for top, bottom in ((-1, 2e-6), (2e-6, 2.501e-6)):
+        assert np.count_nonzero((depths > top) & (depths <= bottom)) >= 5
+    assert len(told["interface_max_shear_Pa"]) == len(told["layer_max_tension_Pa"]) == 2
+    assert max(told["layer_max_von_mises_Pa"]) <= told["max_von_mises_Pa"] * (1 + 1e-9)
+    assert not has_code(scene_warnings(examine(scene)), DEPTHS_MISS_STRESS)
+    _, plain, _ = run("hertz-sphere", ["grid.shape=32", 'outputs={"stresses" = true, "errors" = false}'])
+    assert "interface_depth_m" not in plain.summary

@@ -53,14 +53,14 @@ def test_layers_and_interfaces_have_the_stresses_of_the_layered_kernels_there():
     """Each figure is the highest of the stresses that the kernels give at the depths of its layer alone, on either side
     of an interface."""
     body = Body(STEEL, layers=(Layer(HARD, 2e-6), Layer(STIFF, 0.5e-6)))
-    grid = Grid((32, 32), (20e-6, 20e-6))
+    grid = Grid((32, 32), (0.625e-6, 0.625e-6))
     x, y = np.meshgrid(grid.x, grid.y, indexing="ij")
     pressure = 2e9 * np.sqrt(np.clip(1 - (x**2 + y**2) / 5e-6**2, 0, None))
     depths = np.array(with_layer_depths(tuple(np.linspace(0, 10e-6, 6)), body))
     stress = subsurface_stress(pressure, grid, body, depths, friction=0.1)
     found = layer_stresses(stress, von_mises(stress), depths, body)
     np.testing.assert_allclose(found.interface_depth, [2e-6, 2.5e-6], rtol=1e-12)
-    for number, (top, bottom) in enumerate([(0.0, 2e-6), (2.0005e-6, 2.5e-6)]):
+    for number, (top, bottom) in enumerate([(0.0, body.interfaces[0]), (2.0005e-6, body.interfaces[1])]):
         own = np.linspace(top, bottom, 5)
         there = subsurface_stress(pressure, grid, body, own, friction=0.1)
         assert found.layer_max_von_mises[number] == pytest.approx(von_mises(there).max(), rel=1e-3)
@@ -81,7 +81,7 @@ def test_coatings_agree_with_finite_elements(case):
     stored = json.loads((files("bem.verification") / "fem_results" / f"{case}.json").read_text())
     ratio, poisson, thickness = stored["parameters"]["layer"]
     body = Body(material(1.0, stored["parameters"]["nu"]), layers=(Layer(material(ratio, poisson), thickness),))
-    grid = Grid((129, 129), (6.0, 6.0))
+    grid = Grid((129, 129), (6.0 / 129, 6.0 / 129))
     x, y = np.meshgrid(grid.x, grid.y, indexing="ij")
     pressure = np.sqrt(np.clip(1 - x**2 - y**2, 0, None))
     pressure *= 2 / 3 * np.pi / (pressure.sum() * grid.cell_area)
