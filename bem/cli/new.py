@@ -146,6 +146,6 @@ def _check_kind(word: str) -> None:
         raise InputError(f"{word}: the kind is missing; allowed: bem new KIND {word}, such as bem new contact {word}")
     raise InputError(
         f'"{word}": neither a kind of scene nor a machine element'
-        f"{did_you_mean(word, [*kinds, *TITLES, *kind_aliases(), *library()])}; allowed: kinds and elements that `bem new` "
-        f"lists ({', '.join([*kinds, *TITLES])}), or a scene of `bem scenes`"
+        f"{did_you_mean(word, [*kinds, *TITLES, *kind_aliases(), *library()])}; allowed: kinds and elements that "
+        f"`bem new` lists ({', '.join([*kinds, *TITLES])}), or a scene of `bem scenes`"
     )
