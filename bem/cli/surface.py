@@ -193,11 +193,10 @@ def _periodic(surface: Surface) -> tuple[bool, bool]:
 def _show(surface: Surface, name: str) -> None:
     import math
 
-    import numpy as np
-
     from bem.cli._terminal import table
     from bem.quantities import si
-    from bem.surfaces import describe_surface, despike
+    from bem.surfaces import describe_surface
+    from bem.surfaces.filter import count_spikes
 
     d = describe_surface(surface.heights, surface.spacing, periodic=_periodic(surface))
     told = surface.metadata.get("spacing_in_file")
@@ -225,9 +224,7 @@ def _show(surface: Surface, name: str) -> None:
         if surface.metadata.get(key):
             rows.append((words, str(surface.metadata[key])))
     table(("figure", "value"), rows, title=name)
-    spikes = (
-        0 if surface.metadata.get("spikes") else np.count_nonzero(np.isnan(despike(surface.heights, surface.spacing)))
-    )
+    spikes = 0 if surface.metadata.get("spikes") else count_spikes(surface.heights, surface.spacing)
     if spikes:
         print(
             f"{spikes} points stand out of their neighbourhood by more than 6 standard deviations: spikes of the "

@@ -97,6 +97,11 @@ def despike(heights: FloatArray, spacing: tuple[float, float], threshold: float 
     return np.where(spikes, np.nan, heights) if deviation > 0 else heights
 
 
+def count_spikes(heights: FloatArray, spacing: tuple[float, float], threshold: float = 6.0) -> int:
+    """Return the number of points that `despike` would make missing."""
+    return int(np.count_nonzero(np.isnan(despike(heights, spacing, threshold)) & ~np.isnan(heights)))
+
+
 def fill_missing(heights: FloatArray, spacing: tuple[float, float]) -> FloatArray:
     """Fill missing points (nan) with the harmonic surface through their neighbours: no new peak, no new valley.
 
