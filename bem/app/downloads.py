@@ -9,7 +9,7 @@ import zipfile
 from pathlib import Path
 from pprint import pformat
 
-from bem.errors import InputError
+from bem.errors import InputError, ResultsError
 from bem.results.directory import REPORT, RESULTS, SCENE
 from bem.results.read import open_run
 
@@ -31,10 +31,8 @@ def download(folder: Path, what: str) -> bytes:
     InputError : none of them.
     ResultsError : no finished run, or a damaged one.
     """
-    if what not in WHAT:
-        raise InputError(f"{what!r}: allowed: {', '.join(WHAT)}")
-    if what in (SCENE, RESULTS, REPORT):
-        return (folder / what).read_bytes()
+    if (file := stored_file(folder, what)) is not None:
+        return file.read_bytes()
     if what == "points.csv":
         from bem.results.export import points_of
 
@@ -42,6 +40,23 @@ def download(folder: Path, what: str) -> bytes:
     if what == "run.py":
         return script_of((folder / SCENE).read_text("utf-8"), folder.name).encode()
     return _figures(folder)
+
+
+def stored_file(folder: Path, what: str) -> Path | None:
+    """The file of a run that is one of `WHAT` as it lies there; None of those that are made.
+
+    Raises
+    ------
+    InputError : none of `WHAT`.
+    ResultsError : there is no such file.
+    """
+    if what not in WHAT:
+        raise InputError(f"{what!r}: allowed: {', '.join(WHAT)}")
+    if what not in (SCENE, RESULTS, REPORT):
+        return None
+    if not (folder / what).is_file():
+        raise ResultsError(f"{folder / what}: is missing; run the scene again")
+    return folder / what
 
 
 def script_of(scene: str, name: str) -> str:
@@ -71,14 +86,3 @@ def _figures(folder: Path) -> bytes:
             for path in item.paths:
                 archive.write(path, path.name, zipfile.ZIP_DEFLATED)
     return packed.getvalue()
-
-
-def overlay(folders: list[Path], labels: list[str]) -> str:
-    """Runs over each other, as `bem compare` draws them, as SVG; empty where they share nothing that can be drawn."""
-    from bem.plots.compare import draw_comparison
-
-    with tempfile.TemporaryDirectory(prefix="bem-app-") as temporary:
-        datasets = [open_run(folder).dataset for folder in folders]
-        drawn = draw_comparison(datasets, labels, Path(temporary) / "overlay", ("svg",))
-        text = drawn[0].read_text("utf-8") if drawn else ""
-    return text[text.index("<svg") :] if text else ""

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Awaitable, Callable, Mapping, Sequence
 from functools import partial
 from typing import Any
 
 from nicegui import ui
 
-from bem.app.layout import say
-from bem.errors import BemError
+from bem.app.scene_file import Change
 from bem.scenes.form import Entry, FormTable, table_at, text_of, with_kind, with_value
 from bem.scenes.keys import LEVELS
 from bem.scenes.paths import parse_key, value_at
@@ -26,7 +25,8 @@ class FormView:
     form : see `bem.scenes.form.form_of`.
     table : plain values.
     paths : surface files to choose from.
-    changed : told of the table whenever it changes.
+    edit : called with the key that was typed at and what changes a table so; it calls `update` with the table that
+        comes of it.
     """
 
     def __init__(
@@ -34,22 +34,46 @@ class FormView:
         form: FormTable,
         table: dict[str, Any],
         paths: Sequence[str],
-        changed: Callable[[dict[str, Any]], None],
+        edit: Callable[[str, Change], Awaitable[None]],
     ) -> None:
-        self.table = table
+        self._table = table
         self._form = form
         self._paths = list(paths)
-        self._changed = changed
+        self._edit = edit
         self._inputs: dict[str, Any] = {}
-        self._whole = ui.column().classes("w-full gap-1")
-        self.draw()
-
-    def draw(self) -> None:
-        """All of it anew, after the table was changed from elsewhere."""
-        self._inputs = {}
-        self._whole.clear()
-        with self._whole:
+        self._refresh: dict[str, Callable[[], None]] = {}
+        self._bodies: dict[str, tuple[Entry, str, Callable[[], None]]] = {}
+        self._from_file = False
+        with ui.column().classes("w-full gap-1"):
             self._entries(self._form.entries, top=True)
+
+    def update(self, table: dict[str, Any], typed: str = "") -> None:
+        """Show another table in the same fields; open sections stay open, and the field in use stays in use.
+
+        typed : key whose field shows the table's value already.
+        """
+        before, self._table = self._table, table
+        self._from_file = True
+        try:
+            for key, (entry, shape, draw) in list(self._bodies.items()):
+                if self._bodies[key][1] == shape != self._shape(entry):
+                    draw()
+            for key, refresh in list(self._refresh.items()):
+                parsed = parse_key(key)
+                changed = parsed is not None and value_at(before, parsed) != value_at(table, parsed)
+                if changed and key != typed and not self._inputs[key].is_deleted:
+                    refresh()
+        finally:
+            self._from_file = False
+
+    def refresh(self, key: str) -> None:
+        """Show the table's value in the field of a key again, whatever was typed there."""
+        if key in self._refresh and not self._inputs[key].is_deleted:
+            self._from_file = True
+            try:
+                self._refresh[key]()
+            finally:
+                self._from_file = False
 
     def show_mistakes(self, messages: Sequence[str]) -> None:
         """Each message at the key that it begins with."""
@@ -63,15 +87,31 @@ class FormView:
 
     def _value(self, key: str) -> Any:
         parsed = parse_key(key)
-        return None if parsed is None else value_at(self.table, parsed)
+        return None if parsed is None else value_at(self._table, parsed)
 
-    def _put(self, key: str, text: str) -> None:
-        try:
-            self.table = with_value(self.table, key, text)
-        except BemError as error:
-            say(error)
-            return
-        self._changed(self.table)
+    def _put(self, key: str, text: str) -> Awaitable[None] | None:
+        """What takes over a text that was typed; None of one that the table says already."""
+        return None if self._from_file else self._edit(key, lambda table: with_value(table, key, text))
+
+    def _field_of(self, key: str, item: Any, shown: Callable[[], Any]) -> None:
+        """Enter a field, and what it shows of the present table."""
+
+        def refresh() -> None:
+            value = shown()
+            if isinstance(item, ui.select) and value not in item.options:
+                item.set_options([*item.options, value])
+            item.set_value(value)
+
+        item.props["data-key"] = key
+        self._inputs[key] = item
+        self._refresh[key] = refresh
+
+    def _shape(self, entry: Entry) -> str:
+        """Which of several tables is shown at an entry: another one is drawn anew."""
+        if len(entry.tables) == 1 and not entry.tables[0].kind:
+            return ""
+        chosen = table_at(entry, self._value(entry.key))
+        return chosen.kind if chosen else ""
 
     def _entries(self, entries: Sequence[Entry], top: bool = False) -> None:
         """Keys of a table: its lowest level, and the others behind folds, open where a value is set."""
@@ -112,38 +152,43 @@ class FormView:
     def _leaf(self, entry: Entry) -> None:
         with ui.element("div"):
             self._field(entry)
-            ui.label(entry.meaning).classes("text-caption text-grey-8").style("line-height: 1.25")
+            ui.label(entry.meaning).classes("text-caption bem-soft").style("line-height: 1.25")
 
     def _field(self, entry: Entry) -> None:
-        value = self._value(entry.key)
         words = entry.name + (" *" if entry.required else "")
+
+        def value() -> Any:
+            return self._value(entry.key)
+
         if entry.switch:
             default = entry.default == "true"
             item: Any = ui.switch(
                 words,
-                value=default if value is None else bool(value),
+                value=default if value() is None else bool(value()),
                 on_change=lambda e, key=entry.key: self._put(key, str(e.value).lower()),
             )
+            self._field_of(entry.key, item, lambda: default if value() is None else bool(value()))
         elif entry.closed or entry.key.endswith(".path"):
             unset = f"{entry.default.strip(chr(34))} (default)" if entry.default else _UNSET
             options = [unset, *(entry.choices or self._paths)]
-            shown = text_of(value) or unset
+            shown = text_of(value()) or unset
             item = ui.select(
                 options if shown in options else [*options, shown],
                 label=words,
                 value=shown,
                 on_change=lambda e, key=entry.key: self._put(key, "" if e.value == unset else str(e.value)),
             ).props("dense outlined options-dense")
+            self._field_of(entry.key, item, lambda: text_of(value()) or unset)
         else:
             item = ui.input(
                 words,
-                value=text_of(value),
+                value=text_of(value()),
                 placeholder=entry.default or f"such as {entry.example.strip(chr(34))}",
                 on_change=lambda e, key=entry.key: self._put(key, e.value or ""),
                 autocomplete=list(entry.choices) or None,
             ).props("dense outlined debounce=400 stack-label")
-        item.classes("w-full").props["data-key"] = entry.key
-        self._inputs[entry.key] = item
+            self._field_of(entry.key, item, lambda: text_of(value()))
+        item.classes("w-full")
 
     def _inner(self, entry: Entry, top: bool) -> None:
         """Tables that may stand at a key: which one, and its keys."""
@@ -151,7 +196,7 @@ class FormView:
         is_open = (top or entry.typed or entry.level == LEVELS[0]) and (value is not None or entry.required)
         heading = entry.name + (" *" if entry.required else "")
         outer = ui.expansion(heading, value=is_open).classes("w-full").props("dense header-class=text-bold")
-        outer.style("border-left: 3px solid #bcd4de; background: white")
+        outer.classes("bem-box")
         outer.props["data-table"] = entry.key
         outer.props["caption"] = entry.description
         self._fill_when_open(outer, partial(self._inside, entry), is_open)
@@ -160,44 +205,44 @@ class FormView:
         body = ui.column().classes("w-full gap-1 q-pl-sm")
 
         def draw() -> None:
+            self._bodies[entry.key] = (entry, self._shape(entry), draw)
             body.clear()
             with body:
-                self._choice(entry, draw)
+                self._choice(entry)
+            for key in [key for key, item in self._inputs.items() if item.is_deleted]:
+                self._inputs.pop(key)
+                self._refresh.pop(key, None)
 
         draw()
 
-    def _choice(self, entry: Entry, again: Callable[[], None]) -> None:
+    def _choice(self, entry: Entry) -> None:
         value = self._value(entry.key)
         if len(entry.tables) == 1 and not entry.tables[0].kind:
             if entry.choices:
-                self._named(entry, value, again)
+                self._named(entry)
                 with ui.expansion("constants of its own").classes("w-full").props("dense"):
                     self._entries(entry.tables[0].entries)
                 return
             if value is None and not entry.required:
-                ui.label("not set; what is filled in here sets it").classes("text-caption text-grey")
+                ui.label("not set; what is filled in here sets it").classes("text-caption bem-soft")
             self._entries(entry.tables[0].entries)
             return
         chosen = table_at(entry, value)
         options = [*([] if entry.required else [_UNSET]), *([_VALUE] if entry.typed else [])]
         options += [one.kind for one in entry.tables]
 
-        def choose(kind: str) -> None:
-            if kind == _UNSET:
-                self._put(entry.key, "")
-            elif kind != _VALUE:
-                member = next(one for one in entry.tables if one.kind == kind)
-                if entry.typed and not member.entries:
-                    self._put(entry.key, kind)
-                else:
-                    self.table = with_kind(self.table, entry, kind)
-                    self._changed(self.table)
-            again()
+        def choose(kind: str) -> Awaitable[None] | None:
+            if self._from_file or kind == _VALUE:
+                return None
+            member = next((one for one in entry.tables if one.kind == kind), None)
+            if member is None or (entry.typed and not member.entries):
+                return self._put(entry.key, "" if member is None else kind)
+            return self._edit(entry.key, lambda table: with_kind(table, entry, kind))
 
         shown = chosen.kind if chosen else _VALUE if entry.typed and value is not None else None
         picker = ui.select(options, label="which", value=shown if shown in options else None)
-        picker.on_value_change(lambda e: choose(str(e.value))).props("dense outlined options-dense")
-        picker.classes("w-full").style("max-width: 16rem")
+        picker.on_value_change(lambda e: choose(str(e.value)))
+        picker.props("dense outlined options-dense").classes("w-full").style("max-width: 16rem")
         picker.props["data-key"] = f"{entry.key}.kind"
         if chosen is not None:
             self._about(chosen)
@@ -205,29 +250,30 @@ class FormView:
         elif entry.typed:
             self._leaf(entry)
 
-    def _named(self, entry: Entry, value: Any, again: Callable[[], None]) -> None:
+    def _named(self, entry: Entry) -> None:
         """A name of the catalogue, beside which constants may be given."""
-        table = value if isinstance(value, Mapping) else None
-        name = table.get("catalogue") if table is not None else value
-        key = entry.key if table is None else f"{entry.key}.catalogue"
 
-        def choose(name: str) -> None:
-            self._put(key, "" if name == _UNSET else name)
-            again()
+        def choose(name: str) -> Awaitable[None] | None:
+            key = f"{entry.key}.catalogue" if isinstance(self._value(entry.key), Mapping) else entry.key
+            return self._put(key, "" if name == _UNSET else name)
+
+        def shown() -> str:
+            value = self._value(entry.key)
+            name = value.get("catalogue") if isinstance(value, Mapping) else value
+            return name if name in entry.choices else _UNSET
 
         item = ui.select(
             [_UNSET, *entry.choices],
             label=entry.name,
-            value=name if name in entry.choices else _UNSET,
+            value=shown(),
             with_input=True,
             on_change=lambda e: choose(str(e.value)),
         ).props("dense outlined options-dense")
-        item.props["data-key"] = entry.key
-        self._inputs[entry.key] = item
+        self._field_of(entry.key, item, shown)
 
     def _about(self, table: FormTable) -> None:
         if table.about:
-            ui.label(table.about).classes("text-caption text-grey-8")
+            ui.label(table.about).classes("text-caption bem-soft")
 
 
 _GRID = "display: grid; grid-template-columns: repeat(auto-fill, minmax(230px, 1fr)); gap: 10px; padding: 0 0 14px"

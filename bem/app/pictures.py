@@ -54,7 +54,8 @@ def layers_of(arrays: Arrays, name: str) -> list[str]:
 def layer(arrays: Arrays, name: str, index: int) -> NDArray[np.float64]:
     """One map of a variable, (nx, ny)."""
     item = arrays[name]
-    return np.asarray(item.values, dtype=np.float64).reshape(-1, *item.shape[-2:])[index]
+    place = tuple(int(i) for i in np.unravel_index(index, item.shape[:-2])) if item.ndim > 2 else ()
+    return np.asarray(item.at(place), dtype=np.float64)
 
 
 def map_picture(
@@ -76,7 +77,7 @@ def map_picture(
     seen = values[steps[0] // 2 :: steps[0], steps[1] // 2 :: steps[1]]
     known = values[np.isfinite(values)]
     factor, shown = scaled(known, unit)
-    length, length_unit = prefix([float(np.ptp(side)) for side in sides], "m")
+    length, length_unit = _length_unit(sides)
     x, y = (side[step // 2 :: step] * length for side, step in zip(sides, steps, strict=True))
     low, high, said = _colours(seen[np.isfinite(seen)] * factor, known, factor)
     if (value := uniform_value(values)) is not None:
@@ -128,6 +129,24 @@ def _rows_picture(
     return _curves(data, words, label(names[0], length_unit), shown)
 
 
+def _length_unit(sides: tuple[NDArray[np.float64], NDArray[np.float64]]) -> tuple[float, str]:
+    """Factor and unit of both axes of a map."""
+    return prefix([float(np.ptp(side)) for side in sides], "m")
+
+
+def cell_at(sides: tuple[NDArray[np.float64], NDArray[np.float64]], place: tuple[float, float]) -> tuple[int, int]:
+    """The cell at a place of a map, which is given in the units of the picture."""
+    length, _ = _length_unit(sides)
+    first, second = (int(np.argmin(np.abs(side * length - at))) for side, at in zip(sides, place, strict=True))
+    return first, second
+
+
+def peak_cell(values: NDArray[np.float64]) -> tuple[int, int]:
+    """The cell with the largest value."""
+    at = np.unravel_index(int(np.nanargmax(np.where(np.isfinite(values), values, -np.inf))), values.shape)
+    return int(at[0]), int(at[1])
+
+
 def is_map(picture: Picture) -> bool:
     """Return True if a picture of `map_picture` is a map, not lines."""
     return bool(picture["data"][0]["type"] in ("heatmap", "surface"))
@@ -142,7 +161,7 @@ def sections_picture(
 ) -> Picture:
     """The map along x and along y through one cell."""
     factor, shown = scaled(values[np.isfinite(values)], unit)
-    length, length_unit = prefix([float(np.ptp(side)) for side in sides], "m")
+    length, length_unit = _length_unit(sides)
     lines = (
         ("along x", sides[0], values[:, at[1]], f"y = {sides[1][at[1]] * length:.4g}"),
         ("along y", sides[1], values[at[0], :], f"x = {sides[0][at[0]] * length:.4g}"),

@@ -6,20 +6,23 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
-from bem.errors import BemError
-from bem.notes.scenes import MEMORY_SHORT
+from bem.errors import BemError, InputError
 
 Rows = Sequence[Sequence[str]]
 
 
 @dataclass(frozen=True)
 class ShownPlan:
-    """`messages` say what is wrong; where nothing is: tables by title, warnings, and what it takes in a line."""
+    """`messages` say what is wrong; where nothing is: tables by title, warnings, and what it takes in a line.
+
+    `short` : why the scene cannot run on this machine now though nothing is wrong with it, "" if it can.
+    """
 
     messages: tuple[str, ...] = ()
     tables: tuple[tuple[str, Rows], ...] = ()
     warnings: tuple[str, ...] = ()
     takes: str = ""
+    short: str = ""
 
 
 def shown_plan(table: Mapping[str, Any]) -> ShownPlan:
@@ -27,7 +30,7 @@ def shown_plan(table: Mapping[str, Any]) -> ShownPlan:
     from bem.runs import plan_scene
     from bem.scenes.checks import examine, scene_warnings
     from bem.scenes.checks.overview import bodies, common, oil
-    from bem.scenes.planner import available_memory, machine_rate, show_bytes, show_seconds, step_seconds
+    from bem.scenes.planner import check_memory, machine_rate, show_bytes, show_seconds, step_seconds
     from bem.threads import get_threads
 
     try:
@@ -48,6 +51,23 @@ def shown_plan(table: Mapping[str, Any]) -> ShownPlan:
     tables.append(("steps", steps))
     tables.append(("precision of fields and transforms", plan.precision_rows))
     takes = f"about {show_seconds(plan.seconds(rate))} and {show_bytes(plan.memory)}"
-    if plan.memory > available_memory():
-        warnings = [MEMORY_SHORT(needed=show_bytes(plan.memory)), *warnings]
-    return ShownPlan((), tuple((title, rows) for title, rows in tables if rows), tuple(warnings), takes)
+    shown = tuple((title, rows) for title, rows in tables if rows)
+    short = ""
+    try:
+        check_memory(plan)
+    except InputError as error:
+        short = str(error)
+    return ShownPlan((), shown, tuple(map(str, warnings)), takes, short)
+
+
+def check_scene(table: Mapping[str, Any]) -> None:
+    """Refuse a scene that is wrong or does not fit into memory.
+
+    Raises
+    ------
+    InputError : what is wrong with it.
+    """
+    from bem.runs import plan_scene
+    from bem.scenes.planner import check_memory
+
+    check_memory(plan_scene(table)[1])

@@ -4,49 +4,70 @@ from __future__ import annotations
 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
+from inspect import isawaitable
 from pathlib import Path
 from typing import Any
 from urllib.parse import quote
 
-import numpy as np
-from nicegui import run, ui
+from nicegui import run as io
+from nicegui import ui
 
-from bem.app import pictures, solids
+from bem.app import pictures
+from bem.app.computing import compute, compute_if
 from bem.app.downloads import WHAT
-from bem.app.layout import badge, page, rows, say
+from bem.app.layout import asked, asked_name, badge, busy, can_undo, more_actions, page, rows, say, words_of, wrong
+from bem.app.run_view import RunView, check_number, comparison, map_view, overlay, run_view, solid_view
 from bem.app.workspace import RunState, Workspace
 from bem.errors import BemError
-from bem.notes import OUTSIDE, Level, of_summary
-from bem.plots.cases import case_shown
-from bem.plots.labels import in_celsius
-from bem.plots.report import with_error
-from bem.plots.tables import figure_tables, is_list
-from bem.results.compare import Difference, shown
-from bem.results.read import FinishedRun, open_run
-from bem.scenes.kind import get_kind
+from bem.notes import OUTSIDE
 
 _EVERY = 1.0  # seconds between two looks into the folder
 
 
-def actions(workspace: Workspace, state: RunState, after: Callable[[], Any]) -> None:
-    """Return the actions that a run allows now."""
+def actions(workspace: Workspace, state: RunState, after: Callable[[str], Any]) -> None:
+    """Show the actions that a run allows now; `after` is called with the run's name then, "" where it is gone."""
 
-    def act(what: Callable[[str], Any]) -> None:
+    async def act(what: Callable[[str], Any], name: str = state.name) -> None:
         try:
             what(state.name)
         except BemError as error:
             say(error)
-        after()
+            name = state.name
+        if isawaitable(done := after(name)):
+            await done
 
-    def button(words: str, icon: str, what: Callable[[str], Any]) -> None:
-        item = ui.button(words, icon=icon, on_click=lambda: act(what)).props("dense no-caps flat")
+    async def put_away() -> None:
+        if not state.finished and not await asked(
+            f"Cancel {state.name}? What it has computed is put away.", "cancel it"
+        ):
+            return
+
+        def take(name: str) -> None:
+            kept = workspace.cancel(name)
+
+            async def undo() -> None:
+                await act(lambda _: workspace.restore(kept))
+
+            can_undo(f"{name} is put away", undo)
+
+        await act(take, "")
+
+    async def rename() -> None:
+        wanted = await asked_name("name of the run", state.name)
+        if wanted is not None:
+            await act(lambda name: workspace.rename_run(name, wanted), wanted)
+
+    def button(words: str, icon: str, what: Callable[[], Any]) -> None:
+        item = ui.button(words, icon=icon, on_click=what).props("dense no-caps flat")
         item.props["data-action"] = words
 
     if state.state == "running":
-        button("pause", "pause", workspace.pause)
-    elif not state.finished:
-        button("resume", "play_arrow", workspace.go_on)
-        button("cancel", "close", workspace.cancel)
+        button("pause", "pause", lambda: act(workspace.pause))
+        return
+    if not state.finished:
+        button("resume", "play_arrow", lambda: act(workspace.go_on))
+        button("cancel", "close", put_away)
+    more_actions(state.name, {"rename": rename} | ({"delete": put_away} if state.finished else {}))
 
 
 class Progress:
@@ -87,12 +108,11 @@ class RunsPage:
             with ui.row().classes("items-center"):
                 ui.button("overlay the ticked ones", icon="stacked_line_chart", on_click=self._compare).props("no-caps")
             self._list = ui.column().classes("w-full gap-0")
-            self._look()
             ui.timer(_EVERY, self._look)
 
-    def _look(self) -> None:
-        found = self._workspace.runs()
-        if found == self._seen:
+    async def _look(self) -> None:
+        found = await io.io_bound(self._workspace.runs)
+        if found is None or found == self._seen or self._list.is_deleted:
             return
         before, self._seen = self._seen, found
         if before is not None and list(map(frame_of, before)) == list(map(frame_of, found)):
@@ -121,7 +141,7 @@ class RunsPage:
                 badge(OUTSIDE.rstrip(": ")).tooltip("; ".join(state.beyond)).props["data-beyond"] = state.name
             self._shown.append(Progress(state))
             ui.space()
-            actions(self._workspace, state, self._look)
+            actions(self._workspace, state, lambda _: self._look())
 
     def _tick(self, name: str, ticked: bool) -> None:
         (self._ticked.add if ticked else self._ticked.discard)(name)
@@ -152,9 +172,11 @@ class RunPage:
         try:
             state = self._workspace.state_of(self._workspace.run_path(self._name))
         except BemError as error:
-            self._head.clear()
+            self._seen = None
+            for place in (self._head, self._notes, self._body):
+                place.clear()
             with self._head:
-                ui.label(str(error)).classes("text-negative")
+                wrong(str(error))
             return
         if state is None or state == self._seen:
             return
@@ -167,7 +189,7 @@ class RunPage:
                 badge(state.state).props["data-state"] = state.name
                 ui.label(f"{state.scene}, {state.kind}").classes("text-subtitle1")
                 self._progress = Progress(state)
-                actions(self._workspace, state, self._look)
+                actions(self._workspace, state, self._moved)
         if not state.finished:
             self._notes.clear()
             with self._notes:
@@ -177,218 +199,209 @@ class RunPage:
             self._notes.clear()
             self._body.clear()
             with self._body:
-                self._results(state.path)
+                ui.timer(0.01, lambda: self._results(state), once=True)
 
-    def _results(self, path: Path) -> None:
+    def _moved(self, name: str) -> None:
+        """Something was done with the run; it may have another name now, or none."""
+        if name not in ("", self._name):
+            ui.navigate.to(f"/run/{name}")
+        self._look()
+
+    async def _results(self, state: RunState) -> None:
+        with self._body:
+            sign = busy("reading the results")
         try:
-            found = open_run(path)
-            found.arrays  # noqa: B018  a damaged file is told here
+            found = await compute(run_view, state.path)
         except BemError as error:
-            ui.label(str(error)).classes("text-negative")
+            found = None
+            with self._body:
+                for text in words_of(error):
+                    wrong(text)
+        sign.delete()
+        if found is None:
             return
-        with ui.row().classes("items-center"):
-            ui.label("take away:").classes("text-caption")
-            for what, words in WHAT.items():
-                if what == "report.html" and not (path / what).is_file():
-                    continue
-                link = ui.link(what, f"/download/{path.name}/{what}").classes("text-body2")
-                link.tooltip(words).props["data-download"] = what
-        _figures(found)
-        notes = of_summary(found.summary)
-        for note in (one for one in notes if one["level"] != Level.INFO):
-            ui.label(note["text"]).classes("text-body2").style("color: #9a5b00")
-        if remarks := [note for note in notes if note["level"] == Level.INFO]:
-            with ui.expansion(f"{len(remarks)} remark{'s' if len(remarks) > 1 else ''}").classes("w-full"):
-                for note in remarks:
-                    ui.label(note["text"]).classes("text-body2")
-        _over(found)
-        Maps(found)
-        _solids(found)
-        _curves(found)
+        with self._body:
+            _downloads(state.path)
+            _figures(found)
+            for text in found.cautions:
+                ui.label(text).classes("text-body2 bem-caution")
+            if found.remarks:
+                several = "s" if len(found.remarks) > 1 else ""
+                with ui.expansion(f"{len(found.remarks)} remark{several}").classes("w-full"):
+                    for text in found.remarks:
+                        ui.label(text).classes("text-body2")
+            _pictures(found.over)
+            if found.maps:
+                Maps(state, found)
+            if found.solids:
+                _solids(state.path, found)
+            _pictures(found.curves)
 
 
-def _figures(found: FinishedRun) -> None:
-    """Headline figures with their error bars, the others behind a click."""
-    summary = found.summary
-    first = [name for name in get_kind(summary["kind"]).headline if summary.get(name) is not None]
-    if summary["where"]:
-        ui.label(f"{summary['status']}: {summary['where']}").classes("text-negative")
-    if beyond := summary.get("outside_model"):
+def _downloads(path: Path) -> None:
+    with ui.row().classes("items-center"):
+        ui.label("take away:").classes("text-caption")
+        for what, words in WHAT.items():
+            if what == "report.html" and not (path / what).is_file():
+                continue
+            link = ui.link(what, f"/download/{path.name}/{what}").classes("text-body2")
+            link.tooltip(words).props["data-download"] = what
+
+
+def _figures(found: RunView) -> None:
+    """Headline figures with their error bars, and where the run went wrong or outside its model."""
+    if found.failed:
+        ui.label(found.failed).classes("bem-wrong")
+    if found.beyond:
         with ui.row().classes("items-center no-wrap"):
             badge(OUTSIDE.rstrip(": "))
-            ui.label("; ".join(beyond)).classes("text-body2 text-negative")
-    rows("figures", [with_error(name, summary) for name in first if not is_list(summary[name])])
-    for item in figure_tables(summary, first):
-        rows(item.title, item.rows, item.head)
+            ui.label("; ".join(found.beyond)).classes("text-body2 bem-wrong")
+    for table in found.tables:
+        rows(table.title, table.rows, table.head)
 
 
-_GRID = "display: grid; grid-template-columns: repeat(2, 1fr); gap: 8px"
+def _pictures(found: Sequence[pictures.Picture]) -> None:
+    """Pictures side by side."""
+    with ui.element("div").classes("w-full bem-pair"):
+        for picture in found:
+            ui.plotly(picture).classes("w-full").style("min-width: 0")
 
 
-def _over(found: FinishedRun) -> None:
-    """Headline figures over what the run goes over, with error bars."""
-    headline = get_kind(found.summary["kind"]).headline
-    with ui.element("div").classes("w-full").style(_GRID):
-        for name, along in [item for item in pictures.figures_over(found.summary) if item[0] in headline][:6]:
-            ui.plotly(pictures.figure_picture(found.summary, name, along)).classes("w-full")
-
-
-def _curves(found: FinishedRun) -> None:
-    """Show the quantities along an axis of their own."""
-    names = pictures.curve_names(found.arrays)
-    with ui.element("div").classes("w-full").style(_GRID):
-        for name in [item for item in names if found.arrays[item].dims[-1] not in ("speed", "load")][:6]:
-            case = case_shown(found.arrays, found.summary["kind"], [name])
-            ui.plotly(pictures.curve_picture(found.arrays, name, case)).classes("w-full")
-
-
-def _solids(found: FinishedRun) -> None:
+def _solids(path: Path, found: RunView) -> None:
     """Stresses below and particles in space, drawn when they are asked for."""
-    names = solids.solid_names(found.arrays)
-    if not names:
-        return
     with ui.expansion("in space: stresses below, particles").classes("w-full") as outer:
         outer.props["data-solids"] = "1"
         with ui.row().classes("items-center"):
-            which = ui.select(names, value=next(iter(names)), label="what").classes("w-96").props("dense outlined")
-            which.props["data-key"] = "solid"
+            first = next(iter(found.solids))
+            which = ui.select(found.solids, value=first, label="what").classes("w-96").style("max-width: 100%")
+            which.props("dense outlined").props["data-key"] = "solid"
             case = ui.select({0: ""}, value=0, label="of").classes("w-64").props("dense outlined")
         place = ui.column().classes("w-full")
 
-    def draw() -> None:
+    async def draw() -> None:
         place.clear()
         with place:
-            ui.plotly(solids.solid_picture(found.arrays, str(which.value), int(case.value or 0))).classes("w-full")
+            sign = busy("drawing")
+        picture = await compute(solid_view, path, str(which.value), int(case.value or 0))
+        sign.delete()
+        with place:
+            ui.plotly(picture).classes("w-full")
 
-    def other() -> None:
-        cases = solids.cases_of(found.arrays, str(which.value))
+    async def other() -> None:
+        cases = found.cases[str(which.value)]
+        changes = case.value != 0
         case.set_options(dict(enumerate(cases)) or {0: ""}, value=0)
         case.set_visibility(bool(cases))
-        draw()
+        if not changes:  # otherwise the change draws
+            await draw()
+
+    async def opened(event: Any) -> None:
+        if event.value and not place.default_slot.children:
+            await other()
 
     which.on_value_change(other)
     case.on_value_change(draw)
-    outer.on_value_change(lambda e: other() if e.value and not place.default_slot.children else None)
+    outer.on_value_change(opened)
 
 
 class Maps:
     """A map of the run that zooms; a click shows the sections through that place."""
 
-    def __init__(self, found: FinishedRun) -> None:
-        self._arrays, self._kind = found.arrays, str(found.summary["kind"])
-        names = pictures.map_names(found.arrays)
-        if not names:
-            return
-        words = {name: str(found.arrays[name].attrs.get("long_name", name)) for name in names}
-        self._at: tuple[int, int] | None = None
-        with ui.row().classes("items-center"):
-            first = next((name for name in names if "pressure" in name), names[0])
-            self._which = ui.select(words, value=first, label="map", on_change=self._other)
-            self._which.classes("w-80").props("dense outlined")
+    def __init__(self, state: RunState, found: RunView) -> None:
+        self._state, self._layers = state, found.layers
+        self._at: tuple[float, float] | None = None
+        self._round = 0
+        with ui.row().classes("items-center w-full"):
+            first = next((name for name in found.maps if "pressure" in name), next(iter(found.maps)))
+            self._which = ui.select(found.maps, value=first, label="map", on_change=self._other)
+            self._which.classes("w-80").style("max-width: 100%").props("dense outlined")
             self._which.props["data-key"] = "map"
             self._layer = ui.select({0: ""}, value=0, label="of", on_change=self._draw)
-            self._layer.classes("w-64").props("dense outlined")
+            self._layer.classes("w-64").style("max-width: 100%").props("dense outlined")
+            self._layer.props["data-key"] = "map.of"
             self._solid = ui.switch("in space", on_change=self._draw)
             self._solid.props["data-key"] = "map.solid"
-        self._place = ui.row().classes("w-full no-wrap items-start")
-        self._other()
+        self._place = ui.element("div").classes("w-full bem-pair")
+        self._offer_layers()
+        ui.timer(0.01, self._draw, once=True)
 
-    def _other(self) -> None:
-        layers = pictures.layers_of(self._arrays, str(self._which.value))
+    def _offer_layers(self) -> bool:
+        """Offer the maps that there are of the variable; return True if the choice changes by it."""
+        layers = self._layers[str(self._which.value)]
+        changes = self._layer.value != 0
         self._layer.set_options(dict(enumerate(layers)) or {0: ""}, value=0)
-        self._layer.set_visibility(bool(layers))
-        self._draw()
+        self._layer.set_visibility(len(layers) > 1)
+        return bool(changes)
 
-    def _draw(self) -> None:
-        name = str(self._which.value)
-        item = self._arrays[name]
-        layer = int(self._layer.value or 0)
-        values = pictures.layer(self._arrays, name, layer)
-        sides = tuple(np.asarray(self._arrays[axis].values, dtype=np.float64) for axis in ("x", "y"))
-        words, unit = str(item.attrs.get("long_name", name)), str(item.attrs.get("units", "")).removeprefix("1")
-        values, unit = in_celsius(values, unit, name, words)
-        layers = pictures.layers_of(self._arrays, name)
-        case = (layers[layer] if layers else "", case_shown(self._arrays, self._kind, [name]))
-        words = ", ".join(filter(None, (words, *case)))
-        self._at = self._at if self._at is not None else _peak(values)
+    async def _other(self) -> None:
+        if not self._offer_layers():
+            await self._draw()
+
+    def _asked(self) -> tuple[Path, str, str, int]:
+        return self._state.path, self._state.kind, str(self._which.value), int(self._layer.value or 0)
+
+    async def _draw(self) -> None:
+        self._round += 1
+        current = self._round
+        if not self._place.default_slot.children:
+            with self._place:
+                busy("drawing")
+        found = await compute_if(
+            lambda: current == self._round, map_view, *self._asked(), at=self._at, solid=bool(self._solid.value)
+        )
+        if found is None or current != self._round:
+            return
         self._place.clear()
         with self._place:
-            picture = pictures.map_picture(values, (sides[0], sides[1]), words, unit, solid=bool(self._solid.value))
-            shown = ui.plotly(picture).classes("w-full").style("flex: 3; min-width: 0")
-            if not pictures.is_map(picture):
+            shown = ui.plotly(found.picture).classes("w-full").style("min-width: 0")
+            if found.sections is None:
                 return
-            cut = ui.plotly(pictures.sections_picture(values, (sides[0], sides[1]), self._at, words, unit))
-            cut.classes("w-full").style("flex: 2; min-width: 0")
+            cut = ui.plotly(found.sections).classes("w-full").style("min-width: 0")
 
-        def clicked(event: Any) -> None:
+        async def clicked(event: Any) -> None:
             points = (event.args or {}).get("points") or [{}]
             picked = [points[0].get(axis) for axis in ("x", "y")]
             if all(isinstance(value, int | float) for value in picked):
-                at = [
-                    int(np.argmin(np.abs(_spread(side, picture["data"][0][axis]) - value)))
-                    for side, axis, value in zip(sides, ("x", "y"), picked, strict=True)
-                ]
-                self._at = (at[0], at[1])
-                cut.update_figure(pictures.sections_picture(values, (sides[0], sides[1]), self._at, words, unit))
+                self._at = (float(picked[0]), float(picked[1]))
+                found = await compute(map_view, *self._asked(), at=self._at)
+                if found.sections is not None and not cut.is_deleted:
+                    cut.update_figure(found.sections)
 
         shown.on("plotly_click", clicked)
 
 
-def _peak(values: np.ndarray) -> tuple[int, int]:
-    """Return the place of the first section: through the largest value."""
-    at = np.unravel_index(int(np.nanargmax(np.where(np.isfinite(values), values, -np.inf))), values.shape)
-    return int(at[0]), int(at[1])
-
-
-def _spread(side: np.ndarray, shown: list[float]) -> np.ndarray:
-    """The coordinates of all cells in the unit of those shown."""
-    factor = (shown[-1] - shown[0]) / (side[-1] - side[0]) if len(shown) == len(side) and len(side) > 1 else None
-    if factor is None:
-        step = max(1, -(-len(side) // pictures.MOST_CELLS))
-        own = side[step // 2 :: step]
-        factor = (shown[-1] - shown[0]) / (own[-1] - own[0])
-    return np.asarray(side * factor)
-
-
-def _side_by_side(difference: Difference, runs: Sequence[FinishedRun]) -> tuple[str, ...]:
-    """A figure of several runs, each with its error bar."""
-    cells = [
-        with_error(difference.key, run.summary)[1]
-        if isinstance(run.summary.get(difference.key), int | float)
-        else shown(value)
-        for run, value in zip(runs, difference.values, strict=True)
-    ]
-    return (difference.key, *cells)
-
-
 def compare_page(workspace: Workspace, names: list[str]) -> None:
     """Runs side by side: what differs in the scenes, what in the results, curves and sections overlaid."""
-    from bem.results.compare import beyond, figure_differences, headline_differences, run_labels, scene_differences
-
     with page("overlay"):
-        try:
-            runs = [open_run(workspace.run_path(name)) for name in names]
-        except BemError as error:
-            ui.label(str(error)).classes("text-negative")
-            return
-        different = scene_differences(*runs)
-        rows("scenes", [(d.key, *map(shown, d.values)) for d in different], ("key", *names))
-        headline = [key for kind in {r.summary["kind"] for r in runs} for key in get_kind(kind).headline]
-        found = headline_differences([d for d in figure_differences(*runs) if not d.equal], [*headline, "status"])
-        rows("results", [_side_by_side(d, runs) for d in found], ("figure", *names))
-        for text in beyond(runs, names):
-            ui.label(text).classes("text-body2 text-negative")
         place = ui.column().classes("w-full")
-        labels = run_labels(runs, names)
+        try:
+            check_number(names)
+            paths = [workspace.run_path(name) for name in names]
+        except BemError as error:
+            for text in words_of(error):
+                wrong(text)
+            return
 
         async def draw() -> None:
-            from bem.app.downloads import overlay
-
-            picture = await run.io_bound(overlay, [item.path for item in runs], labels)
             with place:
-                if picture:
-                    ui.html(picture, sanitize=False).classes("w-full").props["data-overlay"] = "1"
-                else:
-                    ui.label("These runs share nothing that can be drawn over each other.").classes("text-grey")
+                sign = busy("reading the runs")
+            try:
+                found = await compute(comparison, paths, names)
+                with place:
+                    for table in found.tables:
+                        rows(table.title, table.rows, table.head)
+                    for text in found.beyond:
+                        ui.label(text).classes("text-body2 bem-wrong")
+                picture = await compute(overlay, paths, names)
+                with place:
+                    if picture:
+                        ui.html(picture, sanitize=False).classes("w-full bem-overlay").props["data-overlay"] = "1"
+                    else:
+                        ui.label("These runs share nothing that can be drawn over each other.").classes("bem-soft")
+            except BemError as error:
+                with place:
+                    for text in words_of(error):
+                        wrong(text)
+            sign.delete()
 
         ui.timer(0.05, draw, once=True)

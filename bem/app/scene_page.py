@@ -2,16 +2,19 @@
 
 from __future__ import annotations
 
-import asyncio
+from contextlib import suppress
+from functools import partial
 from typing import Any
 
-from nicegui import run, ui
+from nicegui import ui
 
+from bem.app.computing import compute, compute_if
 from bem.app.form_view import FormView
-from bem.app.layout import page, rows, say
-from bem.app.planning import ShownPlan, shown_plan
+from bem.app.layout import asked, asked_name, can_undo, more_actions, page, rows, say, words_of, wrong
+from bem.app.planning import ShownPlan, check_scene, shown_plan
+from bem.app.scene_file import Change, Conflict, SceneFile
 from bem.app.workspace import Workspace
-from bem.errors import BemError, InputError
+from bem.errors import BemError
 from bem.scenes.form import form_of, library_scene, start_of
 from bem.scenes.kind import get_kind, kinds_by_task
 from bem.scenes.load import library
@@ -32,21 +35,14 @@ def scenes_page(workspace: Workspace) -> None:
         ui.navigate.to(f"/scene/{free}")
 
     with page("scenes"):
-        ui.label(str(workspace.folder)).classes("text-caption text-grey")
+        ui.label(str(workspace.folder)).classes("text-caption bem-soft")
         with ui.row().classes("w-full items-start gap-8"):
             with ui.column().classes("gap-1"):
-                ui.label("Your scenes").classes("text-h6")
-                found = workspace.scenes()
-                for name, kind in found.items():
-                    with ui.row().classes("items-center"):
-                        ui.link(name, f"/scene/{name}").classes("text-body1")
-                        ui.label(kind or "no kind").classes("text-caption text-grey")
-                if not found:
-                    ui.label("None yet: begin one of a kind, or copy a built-in one.").classes("text-grey")
+                _own_scenes(workspace)
             with ui.column().classes("gap-1"):
                 ui.label("New, of a kind").classes("text-h6")
                 for task, kinds in kinds_by_task().items():
-                    ui.label(task).classes("text-subtitle2 text-grey-8")
+                    ui.label(task).classes("text-subtitle2 bem-soft")
                     for name in kinds:
                         with ui.row().classes("items-center no-wrap"):
                             button = ui.button(name, on_click=lambda _, n=name: begin(n, start_of(n)))
@@ -60,83 +56,192 @@ def scenes_page(workspace: Workspace) -> None:
                 ).classes("w-96").props("dense outlined")
 
 
+def _own_scenes(workspace: Workspace) -> None:
+    """The scenes of the folder, which can be renamed and put away."""
+    ui.label("Your scenes").classes("text-h6")
+    shown = ui.column().classes("gap-0")
+
+    def draw() -> None:
+        shown.clear()
+        found = workspace.scenes()
+        with shown:
+            for name, kind in found.items():
+                with ui.row().classes("items-center"):
+                    ui.link(name, f"/scene/{name}").classes("text-body1").props["data-scene"] = name
+                    ui.label(kind or "no kind").classes("text-caption bem-soft")
+                    more_actions(name, {"rename": partial(rename, name), "delete": partial(remove, name)})
+            if not found:
+                ui.label("None yet: begin one of a kind, or copy a built-in one.").classes("bem-soft")
+
+    async def rename(name: str) -> None:
+        wanted = await asked_name("name of the scene", name)
+        try:
+            if wanted is not None:
+                workspace.rename_scene(name, wanted)
+        except BemError as error:
+            say(error)
+        draw()
+
+    def remove(name: str) -> None:
+        try:
+            kept = workspace.remove_scene(name)
+        except BemError as error:
+            say(error)
+            return
+        draw()
+
+        def undo() -> None:
+            workspace.restore(kept)
+            draw()
+
+        can_undo(f"{name} is put away", undo)
+
+    draw()
+
+
 class ScenePage:
-    """One scene: form or text, mistakes and plan as it is now, and what starts it."""
+    """One scene: form or text, mistakes and plan as it is now, and what starts it.
+
+    The file is the scene. What is typed in the form changes one key of what the file says then; what is typed as text
+    becomes the file. Where the file was changed elsewhere in the same place, it is asked which one counts.
+    """
 
     def __init__(self, workspace: Workspace, name: str) -> None:
         self._workspace, self._name = workspace, name
-        self._table: dict[str, Any] = {}
-        self._written = ""
+        self._file = SceneFile(workspace, name)
+        self._draft: str | None = None
+        self._asking = False
         self._round = 0
+        self._kind = ""
         self._view: FormView | None = None
         with page(name):
+            self._bar()
             with ui.row().classes("w-full items-start gap-6"):  # side by side where there is room for both
                 with ui.column().style("flex: 3 1 420px; min-width: 0"):
                     with ui.tabs().props("dense no-caps align=left") as tabs:
                         form, text = ui.tab("form"), ui.tab("TOML")
+                        text.props["data-action"] = "text"
                     with ui.tab_panels(tabs, value=form).classes("w-full"):
                         self._form = ui.tab_panel(form).classes("q-pa-sm")
                         with ui.tab_panel(text).classes("q-pa-sm"):
-                            self._editor = ui.codemirror("", line_wrapping=True).style("height: 70vh")
-                            ui.button("take over", on_click=self._take_text).props("no-caps")
-                with ui.column().style("flex: 2 1 320px; min-width: 0; position: sticky; top: 60px").classes("gap-1"):
-                    with ui.row().classes("items-center"):
-                        self._start = ui.button("run", icon="play_arrow", on_click=self._run).props("no-caps")
-                        self._start.props["data-action"] = "run"
-                        ui.button("TOML", icon="download", on_click=self._download).props("no-caps flat")
-                    self._plan = ui.column().classes("w-full gap-1")
+                            self._editor = ui.codemirror("", on_change=self._text_typed, line_wrapping=True)
+                            self._editor.style("height: 70vh").props["aria-label"] = "the scene as TOML"
+                self._plan = ui.column().classes("gap-1").style("flex: 2 1 320px; min-width: 0")
             self._waiting = ui.element()
             self._read()
             ui.timer(2.0, self._look)
+            ui.context.client.on_disconnect(self._keep_draft)
+
+    def _bar(self) -> None:
+        """What starts the scene, what it takes and what is wrong with it: in view wherever the form is scrolled to."""
+        with ui.column().classes("w-full gap-0 bem-bar"):
+            with ui.row().classes("items-center w-full"):
+                self._start = ui.button("run", icon="play_arrow", on_click=self._run).props("no-caps")
+                self._start.props["data-action"] = "run"
+                self._takes = ui.column().classes("gap-0").style("flex: 1 1 12rem")
+                ui.button("TOML", icon="download", on_click=self._download).props("no-caps flat")
+            self._mistakes = ui.column().classes("w-full gap-0").style("max-height: 30vh; overflow-y: auto")
 
     def _read(self) -> None:
         """Take the scene from its file."""
         try:
-            self._written = self._workspace.scene_text(self._name)
-            self._table = self._workspace.scene_table(self._name)
-            form = form_of(str(self._table.get("kind")))
+            table = self._file.read()
+            kind = str(table.get("kind"))
+            form = form_of(kind)
         except (BemError, KeyError) as error:
-            self._show(ShownPlan(getattr(error, "messages", None) or (f"kind: {error}: no such kind of scene",)))
-            self._editor.set_value(self._written)
+            self._show_text()
+            self._refuse(words_of(error) if isinstance(error, BemError) else (f"kind: {error}: no such kind of scene",))
             return
-        self._editor.set_value(self._written)
+        self._show_text()
+        if self._view is None or kind != self._kind:
+            self._kind = kind
+            self._form.clear()
+            with self._form:
+                ui.label(form.about).classes("text-body2 q-mb-sm")
+                self._view = FormView(form, table, self._workspace.surfaces(), self._edit)
+        else:
+            self._view.update(table)
+        self._again()
+
+    def _refuse(self, messages: tuple[str, ...]) -> None:
+        """Show why the file is no scene; nothing but the text can be changed then."""
+        self._round += 1  # a plan of what was there before is not shown
+        self._view = None
         self._form.clear()
         with self._form:
-            ui.label(form.about).classes("text-body2 q-mb-sm")
-            self._view = FormView(form, self._table, self._workspace.surfaces(), self._typed)
+            words = ui.label("The file cannot be read as a scene. Mend it in the tab TOML; nothing else changes it.")
+            words.classes("text-body2").props["data-broken"] = "1"
+        self._show(ShownPlan(messages))
+
+    def _show_text(self) -> None:
+        """Show the text of the file, unless other text has been typed."""
+        if self._draft is None and self._editor.value != self._file.text:
+            self._editor.set_value(self._file.text)
+
+    async def _edit(self, key: str, change: Change) -> None:
+        """Change one key of what the file says now."""
+        if self._asking:
+            return
+        try:
+            conflict = self._file.edit(key, change)
+            if conflict is not None:
+                if not await self._mine_counts(conflict):
+                    self._read()
+                    if self._view is not None:
+                        self._view.refresh(key)
+                    return
+                self._file.edit(key, change, mine=True)
+        except BemError as error:
+            say(error)
+            self._read()
+            return
+        self._show_text()
+        if self._view is not None:
+            self._view.update(self._file.table, typed=key)
         self._again()
 
-    def _typed(self, table: dict[str, Any]) -> None:
-        """Put what was typed into the file; read the file anew instead if it was written elsewhere meanwhile."""
+    async def _mine_counts(self, conflict: Conflict) -> bool:
+        self._asking = True
         try:
-            if self._workspace.scene_text(self._name) != self._written:
-                say(InputError(f"{self._name}: the file was changed elsewhere and is shown as it is now; type again"))
-                self._read()
-                return
-            self._workspace.save_scene(self._name, table)
-            self._written = self._workspace.scene_text(self._name)
+            return await asked(f"{conflict.words}\nWhich one counts?", "mine", "the other one")
+        finally:
+            self._asking = False
+
+    def _text_typed(self, event: Any) -> None:
+        """Text becomes the file a moment after it is typed, right or wrong."""
+        if event.value == self._file.text:
+            self._draft = None
+            return
+        self._draft = event.value or ""
+        with self._waiting:
+            ui.timer(_PAUSE, lambda draft=self._draft: self._save_draft(draft), once=True)
+
+    async def _save_draft(self, draft: str | None) -> None:
+        if draft is None or draft != self._draft or self._asking:
+            return  # typed on meanwhile
+        try:
+            conflict = self._file.write(draft)
+            if conflict is not None and await self._mine_counts(conflict):
+                self._file.write(draft, mine=True)
         except BemError as error:
             say(error)
             return
-        self._table = table
-        self._editor.set_value(self._written)
-        self._again()
-
-    def _take_text(self) -> None:
-        try:
-            self._workspace.save_scene(self._name, self._editor.value or "")
-        except BemError as error:
-            say(error)
+        self._draft = None
         self._read()
+
+    def _keep_draft(self) -> None:
+        """The page is left: text that was typed a moment ago is not lost."""
+        with suppress(BemError):
+            if self._draft is not None and self._file.write(self._draft) is None:
+                self._draft = None
 
     def _look(self) -> None:
         """Another tab, or an editor, may have written the file."""
-        try:
-            text = self._workspace.scene_text(self._name)
-        except BemError:
+        if self._asking or self._draft is not None:
             return
-        if text != self._written:
-            self._read()
+        with suppress(BemError):
+            if self._file.changed_elsewhere():
+                self._read()
 
     def _again(self) -> None:
         self._round += 1
@@ -146,36 +251,46 @@ class ScenePage:
     async def _make_plan(self, round_: int) -> None:
         if round_ != self._round:
             return  # changed again meanwhile
-        found = await run.io_bound(shown_plan, dict(self._table))
-        if round_ == self._round and found is not None:
+        try:
+            found = await compute_if(lambda: round_ == self._round, shown_plan, dict(self._file.table))
+        except BemError as error:
+            found = ShownPlan(words_of(error))
+        if round_ == self._round and found is not None and not self._plan.is_deleted:
             self._show(found)
 
     def _show(self, plan: ShownPlan) -> None:
         if self._view is not None:
             self._view.show_mistakes(plan.messages)
-        self._start.set_enabled(not plan.messages)
-        self._plan.clear()
-        with self._plan:
-            for text in plan.messages:
-                ui.label(text).classes("text-negative text-body2").props["data-mistake"] = "1"
+        self._start.set_enabled(not plan.messages and not plan.short)
+        for place in (self._takes, self._mistakes, self._plan):
+            place.clear()
+        with self._takes:
             if plan.takes:
                 ui.label(plan.takes).classes("text-subtitle1").props["data-plan"] = "1"
+            elif plan.messages:
+                several = "s" if len(plan.messages) > 1 else ""
+                ui.label(f"{len(plan.messages)} mistake{several}").classes("text-subtitle1 bem-wrong")
+        with self._mistakes:
+            for text in (*plan.messages, *filter(None, (plan.short,))):
+                wrong(text)
+        with self._plan:
             for text in plan.warnings:
-                ui.label(f"! {text}").classes("text-body2").style("color: #9a5b00")
+                ui.label(f"! {text}").classes("text-body2 bem-caution")
             for title, lines in plan.tables:
                 rows(title, lines)
 
     async def _run(self) -> None:
         self._start.disable()
+        await self._save_draft(self._draft)
         try:
-            await asyncio.sleep(0)
-            state = await run.io_bound(self._workspace.start, self._name)
+            table = self._workspace.scene_table(self._name)
+            await compute(check_scene, table)
+            state = self._workspace.begin(self._name, table)
         except BemError as error:
             say(error)
             self._start.enable()
             return
-        if state is not None:
-            ui.navigate.to(f"/run/{state.name}")
+        ui.navigate.to(f"/run/{state.name}")
 
     def _download(self) -> None:
-        ui.download(self._written.encode(), f"{self._name}.toml")
+        ui.download(self._workspace.scene_text(self._name).encode(), f"{self._name}.toml")

@@ -10,11 +10,14 @@ from pathlib import Path
 
 import uvicorn
 from fastapi import FastAPI, HTTPException, Request
-from fastapi.responses import Response
+from fastapi.responses import FileResponse, Response
+from nicegui import app as nicegui_app
 from nicegui import ui
 
 from bem.app.access import Guard
-from bem.app.downloads import WHAT, download
+from bem.app.computing import compute
+from bem.app.downloads import download, stored_file
+from bem.app.layout import page, words_of, wrong
 from bem.app.run_page import RunPage, RunsPage, compare_page
 from bem.app.scene_page import ScenePage, scenes_page
 from bem.app.surface_page import SurfacePage
@@ -60,13 +63,22 @@ def application(workspace: Workspace) -> FastAPI:
     app = FastAPI(docs_url=None, redoc_url=None, openapi_url=None)
 
     @app.get("/download/{name}/{what}")
-    def take_away(name: str, what: str) -> Response:
+    async def take_away(name: str, what: str) -> Response:
         try:
-            content = download(workspace.run_path(name), what)
+            folder = workspace.run_path(name)
+            if (file := stored_file(folder, what)) is not None:
+                return FileResponse(file, media_type="application/octet-stream", filename=f"{name}-{what}")
+            content = await compute(download, folder, what)
         except BemError as error:
             raise HTTPException(404, str(error)) from None
-        head = {"Content-Disposition": f'attachment; filename="{name}-{what}"'} if what in WHAT else {}
+        head = {"Content-Disposition": f'attachment; filename="{name}-{what}"'}
         return Response(content, media_type="application/octet-stream", headers=head)
+
+    @nicegui_app.on_page_exception
+    def failed(error: Exception) -> None:
+        with page("error"):
+            for text in words_of(error):
+                wrong(text)
 
     @ui.page("/")
     def scenes() -> None:
@@ -92,5 +104,5 @@ def application(workspace: Workspace) -> FastAPI:
     def compare(request: Request) -> None:
         compare_page(workspace, [name for name in request.query_params.get("runs", "").split(",") if name])
 
-    ui.run_with(app, title="bem", show_welcome_message=False, reconnect_timeout=30)
+    ui.run_with(app, title="bem", dark=None, language="en-US", show_welcome_message=False, reconnect_timeout=30)
     return app

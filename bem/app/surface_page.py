@@ -2,25 +2,22 @@
 
 from __future__ import annotations
 
-import dataclasses
-import math
+import asyncio
+import os
+import tempfile
 from pathlib import Path
 from typing import Any
 
-import numpy as np
-from nicegui import run, ui
+from nicegui import run as io
+from nicegui import ui
 from nicegui.events import UploadEventArguments
 
-from bem.app.layout import page, rows, say
-from bem.app.pictures import Picture, map_picture
+from bem.app.computing import compute_if
+from bem.app.layout import asked, asked_name, busy, can_undo, page, rows, say, words_of, wrong
+from bem.app.pictures import Picture
+from bem.app.treatment import Treated, treated
 from bem.app.workspace import MOST_BYTES, Workspace
-from bem.errors import BemError, InputError
-from bem.grid import Grid
-from bem.plots.report import spelled
-from bem.scenes.common import GridScene, MeasuredSurface
-from bem.scenes.maps import fitted, read_map
-from bem.scenes.paths import absolute
-from bem.scenes.validate import validate
+from bem.errors import BemError, InputError, ResultsError
 from bem.scenes.values import dumped, plain_value
 
 _TREATMENTS = (
@@ -37,53 +34,6 @@ _TREATMENTS = (
 )
 
 
-@dataclasses.dataclass(frozen=True)
-class Treated:
-    """A surface after its treatment: picture, statistics, what was done, and the tables of a scene that say all this.
-
-    `grid` is that of the cells that were asked for, None where the scene's own decides.
-    """
-
-    picture: Picture
-    solid: Picture
-    figures: tuple[tuple[str, str], ...]
-    notes: tuple[str, ...]
-    surface: dict[str, Any]
-    grid: dict[str, Any] | None
-
-
-def treated(path: str, asked: dict[str, Any]) -> Treated:
-    """Read and treat a surface as a scene would.
-
-    Raises
-    ------
-    InputError : a file that cannot be read, or a treatment that cannot be made.
-    """
-    from bem.surfaces import describe_surface
-
-    keys = {key: value for key, value in asked.items() if value != "" and key != "cells"}
-    table = validate({"kind": "measured", "path": absolute(path, Path()), **keys}, MeasuredSurface)
-    found = read_map(table)
-    cells = asked.get("cells") or found.shape
-    notes: list[str] = []
-    wanted = validate({"shape": cells, "lengths": list(found.lengths)}, GridScene)
-    assert wanted.shape is not None
-    lengths = found.lengths
-    grid = Grid(wanted.shape, (lengths[0] / wanted.shape[0], lengths[1] / wanted.shape[1]))
-    heights = fitted(table, found, grid, notes.append)
-    described = describe_surface(heights, grid.spacing)
-    figures = [("cells", f"{grid.shape[0]} x {grid.shape[1]}")]
-    figures += [(f"cell along {axis}", spelled("cell_m", d)[1]) for axis, d in zip("xy", grid.spacing, strict=True)]
-    for name, value in dataclasses.asdict(described).items():
-        unit = "" if name in ("Ssk", "Sku", "Sdq", "slope_x", "slope_y") else "_m"
-        figures.append((name.replace("_", " "), "-" if math.isnan(value) else spelled(name + unit, value)[1]))
-    surface = {"kind": "measured", "path": path, **keys}
-    own = {"shape": list(grid.shape), "lengths": [_length(side) for side in lengths]} if asked.get("cells") else None
-    sides = (np.asarray(grid.x), np.asarray(grid.y))
-    pictures = [map_picture(heights, sides, Path(path).name, "m", solid=solid) for solid in (False, True)]
-    return Treated(pictures[0], pictures[1], tuple(figures), tuple(notes), surface, own)
-
-
 class SurfacePage:
     """Choose or drop a file; every change of a treatment is seen at once."""
 
@@ -92,8 +42,9 @@ class SurfacePage:
         self._asked: dict[str, Any] = {key: default for key, _, default in _TREATMENTS}
         self._round = 0
         self._done: Treated | None = None
-        with page("surfaces"), ui.row().classes("w-full no-wrap items-start gap-6"):
-            with ui.column().style("flex: 1; min-width: 300px").classes("gap-2"):
+        self._settled = asyncio.Event()
+        with page("surfaces"), ui.row().classes("w-full items-start gap-6"):
+            with ui.column().style("flex: 1 1 300px; min-width: 0").classes("gap-2"):
                 ui.upload(
                     label="drop a surface file here (any format that bem reads)",
                     auto_upload=True,
@@ -103,6 +54,11 @@ class SurfacePage:
                 options = self._files()
                 self._file = ui.select(options, label="file", value=next(iter(options)), on_change=self._again)
                 self._file.classes("w-full").props("dense outlined").props["data-key"] = "file"
+                with ui.row().classes("items-center gap-1"):
+                    for words, icon, act in (("rename", "edit", self._rename), ("delete", "delete", self._remove)):
+                        button = ui.button(words, icon=icon, on_click=act).props("flat dense no-caps")
+                        button.bind_enabled_from(self._file, "value", lambda path: not str(path).startswith("example/"))
+                        button.props["data-action"] = f"{words} surface"
                 for key, hint, default in _TREATMENTS:
                     item = ui.input(
                         key.replace("_", " "), value=default, on_change=lambda e, k=key: self._type(k, e.value or "")
@@ -110,7 +66,9 @@ class SurfacePage:
                     item.props("dense outlined debounce=400 stack-label").classes("w-full")
                     item.props["hint"], item.props["data-key"] = hint, key
                 self._scenes()
-            self._shown = ui.column().style("flex: 3; min-width: 0")
+            with ui.column().style("flex: 3 1 420px; min-width: 0"):
+                self._state = ui.column().classes("w-full")
+                self._shown = ui.column().classes("w-full")
         self._again()
 
     def _scenes(self) -> None:
@@ -125,12 +83,47 @@ class SurfacePage:
                 )
 
     async def _take(self, event: UploadEventArguments) -> None:
+        handle, name = tempfile.mkstemp(prefix=".upload-", dir=self._workspace.surfaces_folder)
+        os.close(handle)
         try:
-            path = self._workspace.add_surface(event.file.name, await event.file.read())
+            await event.file.save(name)
+            path = await io.io_bound(self._workspace.add_surface, event.file.name, Path(name))
+        except (BemError, OSError) as error:
+            say(error if isinstance(error, BemError) else ResultsError(f"{event.file.name}: cannot be kept ({error})"))
+            return
+        finally:
+            Path(name).unlink(missing_ok=True)
+        self._file.set_options(self._files(), value=str(path))
+
+    async def _rename(self) -> None:
+        path = str(self._file.value)
+        wanted = await asked_name("name of the file", Path(path).name)
+        if wanted is None:
+            return
+        try:
+            path = str(self._workspace.rename_surface(path, wanted))
+        except BemError as error:
+            say(error)
+        self._file.set_options(self._files(), value=path)
+
+    async def _remove(self) -> None:
+        path = str(self._file.value)
+        users = self._workspace.users_of(path)
+        if users and not await asked(f"{Path(path).name} is used by {', '.join(users)}. Delete it?", "delete it"):
+            return
+        try:
+            kept = self._workspace.remove_surface(path)
         except BemError as error:
             say(error)
             return
-        self._file.set_options(self._files(), value=str(path))
+        options = self._files()
+        self._file.set_options(options, value=next(iter(options)))
+
+        def undo() -> None:
+            self._workspace.restore(kept)
+            self._file.set_options(self._files(), value=path)
+
+        can_undo(f"{Path(path).name} is put away", undo)
 
     def _files(self) -> dict[str, str]:
         return {path: path if path.startswith("example/") else Path(path).name for path in self._workspace.surfaces()}
@@ -141,32 +134,40 @@ class SurfacePage:
 
     def _again(self) -> None:
         self._round += 1
+        self._settled.clear()
         ui.timer(0.05, lambda round_=self._round: self._show(round_), once=True)
 
     async def _show(self, round_: int) -> None:
         if round_ != self._round:
             return
+        self._done = None
+        self._state.clear()
+        with self._state:
+            busy("reading the surface")
+        mistakes: tuple[str, ...] = ()
+        found = None
         try:
-            found = await run.io_bound(treated, str(self._file.value), dict(self._asked))
+            found = await compute_if(lambda: round_ == self._round, treated, str(self._file.value), dict(self._asked))
         except BemError as error:
-            found, wrong = None, getattr(error, "messages", None) or (str(error),)
-        else:
-            wrong = ()
-        if round_ != self._round:
+            mistakes = words_of(error)
+        if round_ != self._round or self._shown.is_deleted:
             return
         self._done = found
+        self._settled.set()
+        self._state.clear()
         self._shown.clear()
-        with self._shown:
-            for text in wrong:
-                ui.label(text).classes("text-negative").props["data-mistake"] = "1"
-            if found is not None:
+        with self._state:
+            for text in mistakes:
+                wrong(text)
+        if found is not None:
+            with self._shown:
                 self._draw(found)
 
     def _draw(self, found: Treated) -> None:
-        with ui.row().classes("w-full no-wrap items-start"):
-            with ui.column().style("flex: 2; min-width: 0"):
+        with ui.row().classes("w-full items-start"):
+            with ui.column().style("flex: 2 1 360px; min-width: 0"):
                 ui.plotly(found.picture).classes("w-full")
-            with ui.column().style("flex: 1"):
+            with ui.column().style("flex: 1 1 240px; min-width: 0"):
                 rows("statistics", found.figures)
         with ui.expansion("in space").classes("w-full") as space:
             space.on_value_change(lambda e: _once(space, found.solid) if e.value else None)
@@ -178,8 +179,9 @@ class SurfacePage:
             lines.insert(0, f"grid = {_inline(found.grid)}")
         ui.code("\n".join(lines), language="toml").classes("w-full")
 
-    def _put(self, scene: str, body: str) -> None:
+    async def _put(self, scene: str, body: str) -> None:
         """Write the surface, and the grid of the cells that are asked for, into a scene's file; other keys stay."""
+        await self._settled.wait()
         try:
             if self._done is None or scene == "None":
                 raise InputError("a scene and a surface without mistakes are needed")
@@ -199,11 +201,6 @@ class SurfacePage:
 def _inline(table: dict[str, Any]) -> str:
     """A table in a line, its keys without quotes."""
     return "{ " + ", ".join(f"{key} = {dumped(value)}" for key, value in table.items()) + " }"
-
-
-def _length(value: float) -> str:
-    """A length [m] as scenes are written by hand."""
-    return f"{1e6 * value:.10g} um"
 
 
 def _once(place: Any, picture: Picture) -> None:

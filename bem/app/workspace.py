@@ -2,10 +2,10 @@
 
 from __future__ import annotations
 
+import filecmp
 import json
 import os
 import re
-import shutil
 import signal
 import subprocess
 import sys
@@ -26,7 +26,8 @@ from bem.surfaces.examples import example_names
 OWN = ".app"
 """Folder inside a run's folder: the scene as it was asked for, progress, what the process printed."""
 ASKED, PROGRESS, LOG, PID = "scene.toml", "progress.json", "log.txt", "pid"
-CANCELLED = ".cancelled"
+CANCELLED, REMOVED = ".cancelled", ".removed"
+"""Folders of runs, and of scenes and surfaces, that were put out of the lists."""
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
 MOST_BYTES = 1 << 30
 """Largest surface file that is taken."""
@@ -86,10 +87,7 @@ class Workspace:
 
     def scene_path(self, name: str) -> Path:
         """The file of a scene; InputError for a name that is none of a file in the folder."""
-        if not _NAME.fullmatch(name):
-            raise InputError(
-                f"scene {name!r}: allowed: letters, digits and _ . - (64 at most, a letter or digit first)"
-            )
+        _check_name("scene", name)
         return self.folder / f"{name}.toml"
 
     def scene_text(self, name: str) -> str:
@@ -136,16 +134,23 @@ class Workspace:
         own = (str(item) for item in sorted(self.surfaces_folder.iterdir()) if item.is_file() and item.name[0] != ".")
         return (*own, *example_names())
 
-    def add_surface(self, name: str, content: bytes) -> Path:
-        """Keep a file; one of the same name and other content gets a number, nothing is overwritten."""
+    def add_surface(self, name: str, content: bytes | Path) -> Path:
+        """Keep a file; one of the same name and other content gets a number, nothing is overwritten.
+
+        content : of the file, or a file that has it, which is moved.
+        """
         clean = re.sub(r"[^A-Za-z0-9_.-]+", "-", Path(name).name).lstrip("-.") or "surface"
-        if not content or len(content) > MOST_BYTES:
-            raise InputError(f"{clean}: {len(content)} bytes; allowed: a surface file of at most {MOST_BYTES} bytes")
+        size = len(content) if isinstance(content, bytes) else content.stat().st_size
+        if not 0 < size <= MOST_BYTES:
+            raise InputError(f"{clean}: {size} bytes; allowed: a surface file of at most {MOST_BYTES} bytes")
         path, number = self.surfaces_folder / clean, 1
-        while path.exists() and path.read_bytes() != content:
+        while path.exists() and not _holds_content(path, content):
             number += 1
             path = self.surfaces_folder / f"{Path(clean).stem}-{number}{Path(clean).suffix}"
-        write_bytes(path, content)
+        if isinstance(content, bytes):
+            write_bytes(path, content)
+        else:
+            os.replace(content, path)
         return path
 
     # --- runs
@@ -215,17 +220,21 @@ class Workspace:
         ------
         InputError : a bad scene; nothing is left behind.
         """
-        from bem.runs import plan_scene
-        from bem.scenes.planner import check_memory
+        from bem.app.planning import check_scene
 
         table = self.scene_table(name)
-        check_memory(plan_scene(table)[1])
+        check_scene(table)
+        return self.begin(name, table)
+
+    def begin(self, name: str, table: Mapping[str, Any]) -> RunState:
+        """Run a scene that was found right, under that name, in a process of its own, in the next free folder."""
         number = 1
         while True:
             path = self.runs_folder / f"{name}-{number:03d}"
-            with suppress(FileExistsError):
-                path.mkdir()
-                break
+            if not (self.runs_folder / CANCELLED / path.name).exists():  # an address stays that of one run
+                with suppress(FileExistsError):
+                    path.mkdir()
+                    break
             number += 1
         (path / OWN).mkdir()
         write_text(path / OWN / ASKED, table_text(table))
@@ -259,22 +268,122 @@ class Workspace:
             with suppress(ProcessLookupError):
                 os.kill(process, signal.SIGTERM)
 
-    def cancel(self, name: str) -> None:
+    def cancel(self, name: str) -> Path:
         """Put a run that is not running out of the list, into `runs/.cancelled`; nothing is deleted.
+
+        Returns
+        -------
+        Path : where it is now, for `restore`.
 
         Raises
         ------
         ResultsError : it still runs.
         """
         path = self.run_path(name)
+        self._check_still(path)
+        return _put_away(path, CANCELLED)
+
+    def rename_run(self, name: str, wanted: str) -> None:
+        """Give a run that is not running another name; InputError for one that is taken or cannot be."""
+        path = self.run_path(name)
+        self._check_still(path)
+        _check_name("run", wanted)
+        _move(path, self.runs_folder / wanted)
+
+    def _check_still(self, path: Path) -> None:
         if self.process_of(path) is not None:
             raise ResultsError(f"{path}: is still running; pause it first")
-        (self.runs_folder / CANCELLED).mkdir(exist_ok=True)
-        target, number = self.runs_folder / CANCELLED / name, 1
-        while target.exists():
-            number += 1
-            target = self.runs_folder / CANCELLED / f"{name}-{number}"
-        shutil.move(path, target)
+
+    # --- what is taken out of the lists
+
+    def remove_scene(self, name: str) -> Path:
+        """Put the file of a scene into `.removed`; returns where it is now, for `restore`."""
+        return _put_away(self._there(self.scene_path(name)), REMOVED)
+
+    def rename_scene(self, name: str, wanted: str) -> None:
+        """Give the file of a scene another name; InputError for one that is taken or cannot be."""
+        _check_name("scene", wanted)
+        _move(self._there(self.scene_path(name)), self.scene_path(wanted))
+
+    def remove_surface(self, path: str) -> Path:
+        """Put a surface file into `surfaces/.removed`; returns where it is now, for `restore`."""
+        return _put_away(self._own_surface(path), REMOVED)
+
+    def rename_surface(self, path: str, wanted: str) -> Path:
+        """Give a surface file another name, in the scenes that take it, too; InputError for one that cannot be."""
+        old = self._own_surface(path)
+        _check_name("surface file", wanted)
+        new = self.surfaces_folder / (wanted if Path(wanted).suffix else f"{wanted}{old.suffix}")
+        users = self.users_of(path)
+        _move(old, new)
+        for name in users:
+            text = self.scene_text(name)
+            for before, after in zip(self._paths_in_scenes(old), self._paths_in_scenes(new), strict=True):
+                text = text.replace(before, after)
+            self.save_scene(name, text)
+        return new
+
+    def users_of(self, path: str) -> list[str]:
+        """Names of the scenes that take a surface file."""
+        words = self._paths_in_scenes(Path(path))
+        return [name for name in self.scenes() if any(word in self.scene_text(name) for word in words)]
+
+    def restore(self, kept: Path) -> None:
+        """Put back what was put away; InputError where there is another of its name now."""
+        _move(kept, kept.parent.parent / kept.name)
+
+    def _paths_in_scenes(self, path: Path) -> tuple[str, ...]:
+        """How scenes may name a file in `surfaces/`, as text of TOML."""
+        names = (str(path), f"{self.surfaces_folder.name}/{path.name}")
+        return tuple(f"{quote}{name}{quote}" for name in names for quote in "\"'")
+
+    def _own_surface(self, path: str) -> Path:
+        found = Path(path)
+        if found.parent != self.surfaces_folder or found.name.startswith("."):
+            raise InputError(f"{path}: is not in {self.surfaces_folder}")
+        return self._there(found)
+
+    def _there(self, path: Path) -> Path:
+        if not path.is_file():
+            raise InputError(f"{path}: there is no such file")
+        return path
+
+
+def _check_name(what: str, name: str) -> None:
+    if not _NAME.fullmatch(name):
+        raise InputError(f"{what} {name!r}: allowed: letters, digits and _ . - (64 at most, a letter or digit first)")
+
+
+def _move(path: Path, target: Path) -> None:
+    """Give a file or folder another name, which must be free."""
+    if target.exists():
+        raise InputError(f"{target.name}: there is one of that name; allowed: another name")
+    try:
+        path.rename(target)
+    except OSError as error:
+        raise ResultsError(f"{path}: cannot be moved ({error.strerror})") from error
+
+
+def _put_away(path: Path, into: str) -> Path:
+    """Move a file or folder into a hidden folder beside it, under a name that is free there."""
+    folder = path.parent / into
+    try:
+        folder.mkdir(exist_ok=True)
+    except OSError as error:
+        raise ResultsError(f"{folder}: cannot be made ({error.strerror})") from error
+    target, number = folder / path.name, 1
+    while target.exists():
+        number += 1
+        target = folder / f"{path.stem}-{number}{path.suffix}"
+    _move(path, target)
+    return target
+
+
+def _holds_content(path: Path, content: bytes | Path) -> bool:
+    """Return True if a file has that content."""
+    if isinstance(content, Path):
+        return filecmp.cmp(path, content, shallow=False)
+    return path.stat().st_size == len(content) and path.read_bytes() == content
 
 
 def _begun(folder: Path) -> float:

@@ -57,23 +57,41 @@ def draw_comparison(
 
 
 def _groups(datasets: Sequence[Any]) -> list[list[Panel]]:
-    """For each variable that is drawn, its panel of each run; what varies among cases before sections of one field."""
+    """For each variable that is drawn, its panel of each run; what varies among cases before sections of one field.
+
+    Values are read of variables that are drawn, and of those before them that turn out not to be lines.
+    """
     first = datasets[0]
     row = cut_at(first) if {"x", "y"} <= set(first.sizes) else None
-    found = []
+    rows = [row if row is not None and row < dataset.sizes.get("y", 0) else None for dataset in datasets]
+    found: list[list[Panel]] = []
+    for name in _ranked(datasets):
+        group: list[Panel] = []
+        for dataset, at in zip(datasets, rows, strict=True):
+            item = panel(dataset, name, row=at)
+            if item is None:
+                break
+            group.append(item)
+        else:
+            found.append(group)
+        if len(found) == _MOST_PANELS:
+            break
+    return found
+
+
+def _ranked(datasets: Sequence[Any]) -> list[str]:
+    """Variables that all runs hold over the same axes, those that are drawn first before the others."""
+    first = datasets[0]
+    ranked = []
     for name in first.data_vars:
         if any(name not in other or other[name].dims != first[name].dims for other in datasets[1:]):
             continue
         if str(name).partition("_error")[0] in {*first.data_vars} - {name}:
             continue  # the error of another
-        rows = [row if row is not None and row < dataset.sizes.get("y", 0) else None for dataset in datasets]
-        group = [panel(dataset, str(name), row=at) for dataset, at in zip(datasets, rows, strict=True)]
-        panels = [item for item in group if item is not None]
-        if len(panels) == len(group):
-            section = bool({"x", "film_x", "iteration"} & set(first[name].dims)) and "depth" not in first[name].dims
-            rank = min((i for i, part in enumerate(_FIRST) if part in str(name)), default=len(_FIRST))
-            found.append(((section and name != "pressure", name not in _FIRST, rank), panels))
-    return [panels for _, panels in sorted(found, key=lambda item: item[0])[:_MOST_PANELS]]
+        section = bool({"x", "film_x", "iteration"} & set(first[name].dims)) and "depth" not in first[name].dims
+        rank = min((i for i, part in enumerate(_FIRST) if part in str(name)), default=len(_FIRST))
+        ranked.append(((section and name != "pressure", name not in _FIRST, rank), str(name)))
+    return [name for _, name in sorted(ranked, key=lambda item: item[0])]
 
 
 def _draw(axes: Any, group: Sequence[Panel], dashes: dict[str, str]) -> None:

@@ -55,7 +55,14 @@ def read_arrays(path: Path) -> Arrays:
 
     def entry(name: str, item: Any) -> Variable:
         units, description = (str(item.attrs.get(key, "")) for key in ("units", "long_name"))
-        return Variable(item.dimensions, lambda: _values(path, name), units, description, shape=tuple(item.shape))
+        return Variable(
+            item.dimensions,
+            lambda: _values(path, name),
+            units,
+            description,
+            shape=tuple(item.shape),
+            read_at=lambda place: _values(path, name, place),
+        )
 
     try:
         with h5netcdf.File(path, "r") as file:
@@ -78,14 +85,17 @@ def left_out(path: Path) -> list[str]:
         raise ResultsError(f"{path}: cannot be read ({str(error).splitlines()[0]})") from error
 
 
-def _values(path: Path, name: str) -> NDArray[Any]:
+def _values(path: Path, name: str, place: tuple[int, ...] = ()) -> NDArray[Any]:
+    """The values of a stored array, of the `place` along its first axes."""
     import h5py
+
+    here = (*place, ...)
 
     try:
         with h5py.File(path, "r") as file:
             stored = file.get(f"_nc4_non_coord_{name}", file[name])  # one named like a dimension that is not its own
             if h5py.check_string_dtype(stored.dtype) is not None:
-                return np.asarray(stored.asstr()[...]).astype(str)
-            return np.asarray(stored[...])
+                return np.asarray(stored.asstr()[here]).astype(str)
+            return np.asarray(stored[here])
     except (OSError, RuntimeError, ValueError, KeyError, TypeError) as error:
         raise ResultsError(f"{path}: {name} cannot be read ({str(error).splitlines()[0]})") from error

@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 import io
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -92,11 +93,33 @@ class _Sink(io.RawIOBase):
 
 def read_dataset(path: Path) -> xarray.Dataset:
     """The dataset in the file, loaded; ResultsError if it is missing or damaged."""
+    with _readable(path), opened_dataset(path) as dataset:
+        return dataset.load()
+
+
+@contextmanager
+def opened_dataset(path: Path) -> Iterator[xarray.Dataset]:
+    """The dataset in the file; of its arrays, only what is asked for is read, each time anew.
+
+    Raises
+    ------
+    ResultsError : the file is missing or damaged.
+    """
     import xarray
 
+    with _readable(path):
+        found = xarray.open_dataset(path, engine="h5netcdf", cache=False)
+    with found:
+        yield found
+
+
+@contextmanager
+def _readable(path: Path) -> Iterator[None]:
+    """Raise errors of reading a file as ResultsError."""
     try:
-        with xarray.open_dataset(path, engine="h5netcdf") as dataset:
-            return dataset.load()
+        yield
+    except ResultsError:
+        raise
     except OSError as error:
         raise ResultsError(f"{path}: cannot be read ({reason(error)})") from error
     except (RuntimeError, ValueError, KeyError, TypeError) as error:

@@ -44,14 +44,17 @@ class FinishedRun:
     @cached_property
     def dataset(self) -> xarray.Dataset:
         """All arrays, with units and coordinates; ResultsError if the file is missing or damaged."""
-        _check(self.path, RESULTS)
-        return read_dataset(self.path / RESULTS)
+        return read_dataset(self.checked_results())
 
     @cached_property
     def arrays(self) -> Arrays:
         """The same arrays without xarray, each read when first asked for: what figures are drawn from."""
+        return read_arrays(self.checked_results())
+
+    def checked_results(self) -> Path:
+        """The file of the arrays, found whole; ResultsError if it is missing or damaged."""
         _check(self.path, RESULTS)
-        return read_arrays(self.path / RESULTS)
+        return self.path / RESULTS
 
     def __repr__(self) -> str:
         figures = _figures(self.summary)

@@ -84,6 +84,7 @@ class Variable:
     units : SI, such as "Pa"; "1" for none.
     description : long name for axes and for readers of the file.
     shape : of values that are still to be read.
+    read_at : function that reads the values at one place along the first axes.
     """
 
     def __init__(
@@ -94,8 +95,10 @@ class Variable:
         description: str,
         *,
         shape: tuple[int, ...] | None = None,
+        read_at: Callable[[tuple[int, ...]], NDArray[Any]] | None = None,
     ) -> None:
         self.dimensions = tuple(dimensions)
+        self._read_at = read_at
         self.units = units
         self.description = description
         self._read = values if callable(values) and shape is not None else None
@@ -112,6 +115,12 @@ class Variable:
         """The numbers."""
         assert self._read is not None
         return self._read()
+
+    def at(self, place: tuple[int, ...]) -> NDArray[Any]:
+        """Return the numbers at one place along the first axes; of a stored array, only these are read."""
+        if self._read_at is None or "values" in vars(self):
+            return np.asarray(self.values[place])
+        return self._read_at(place)
 
     @property
     def dims(self) -> tuple[str, ...]:

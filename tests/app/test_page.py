@@ -279,9 +279,162 @@ def test_a_killed_server_and_a_pause_lose_nothing(serve, chrome, tmp_path):
     assert tab.look("window.kept.isConnected")  # a button that is drawn anew under the mouse loses its click
     tab.click("[data-action=pause]")
     tab.click("[data-action=cancel]")
+    tab.click("[data-answer=no]")
+    tab.wait("!document.querySelector('[data-answer=no]')")
+    tab.click("[data-action=cancel]")
+    tab.click("[data-answer=yes]")
+    tab.wait_text("No runs yet")
+    tab.click("[data-action=undo]")
+    tab.wait("document.querySelector('[data-state=long-001]').innerText === 'paused'")
+    tab.wait("!document.querySelector('[data-answer=yes]')")
+    tab.click("[data-action=cancel]")
+    tab.click("[data-answer=yes]")
     tab.wait_text("No runs yet")
     assert (work / "runs" / ".cancelled" / "long-001" / "scene.toml").is_file()  # nothing is deleted
     assert tab.errors == []
+
+
+def test_too_many_cells_are_refused_and_the_server_goes_on(serve, chrome):
+    """The mistake stands on the page without an old picture; nothing that is asked for ends the server."""
+    server, tab = serve(), chrome.tab()
+    tab.go(server.address)
+    tab.go(f"{server.base}/surfaces")
+    tab.wait("document.querySelector('.main-svg')")
+    tab.type("cells", "60000")
+    tab.wait("document.querySelector('[data-mistake]').innerText.startsWith('cells: 60000 x 60000')")
+    assert tab.look("document.querySelector('.main-svg') === null")
+    tab.type("cells", "0")
+    tab.wait("document.querySelector('[data-mistake]').innerText.startsWith('cells = 0')")
+    tab.type("cells", "32")
+    tab.wait_text("32 x 32")
+    assert server.process.poll() is None
+    assert tab.errors == []
+
+
+def test_errors_of_the_server_are_told_on_the_page(serve, chrome, tmp_path):
+    """Of what is asked for in an address: a run that is not there, too many runs, a file that is gone."""
+    server, tab = serve(), chrome.tab()
+    tab.go(server.address)
+    many = ",".join(f"x-{i:03d}" for i in range(300))
+    for path, words in (
+        ("/run/none-001", "there is none"),
+        ("/compare", "allowed: 2 to"),
+        (f"/compare?runs={many}", "300 to compare"),
+        ("/compare?runs=a-001,b-001", "there is none"),
+    ):
+        tab.go(server.base + path)
+        tab.wait(f"document.querySelector('[data-mistake]').innerText.includes({json.dumps(words)})")
+    folder = tmp_path / "work" / "runs" / "gone-001"
+    folder.mkdir()
+    assert tab.look("fetch('/download/gone-001/results.nc').then(a => a.status)") == 404
+    assert tab.errors == []
+
+
+EDITED = """kind = "contact"
+seed = 3
+lower = { material = "steel-disk", surface = { kind = "generated", rms_height = "100 nm", correlation_length = "2 um" }}
+upper = { material = "steel-52100" }
+
+[grid]
+shape = 16
+spacing = "0.5 um"
+periodic = true
+
+[contact]
+mean_pressure = "80 MPa"
+behaviour = "capped"
+
+[outputs]
+errors = false
+"""
+FIELD = "document.querySelector('input[data-key=\"contact.{}\"]').value"
+
+
+def write_in_editor(tab, text):
+    """The whole text of the tab TOML, as a person would type it."""
+    tab.click("[data-action=text]")
+    tab.wait("document.querySelector('.cm-content')")
+    tab._do("Page.bringToFront")
+    tab.look("document.querySelector('.cm-content').focus()")
+    select = {"key": "a", "code": "KeyA", "modifiers": 2, "windowsVirtualKeyCode": 65, "commands": ["selectAll"]}
+    tab._do("Input.dispatchKeyEvent", type="keyDown", **select)
+    tab.wait("document.getSelection().toString().length > 100")
+    tab._do("Input.insertText", text=text)
+
+
+def test_text_that_was_typed_is_what_runs(serve, chrome, tmp_path):
+    server, tab = serve(), chrome.tab()
+    file = tmp_path / "work" / "own.toml"
+    file.write_text(EDITED)
+    tab.go(server.address)
+    tab.go(f"{server.base}/scene/own")
+    tab.wait("document.querySelector('[data-plan]')")
+    text = EDITED.replace("80 MPa", "70 MPa").replace("[contact]", "# by hand\n[contact]")
+    write_in_editor(tab, text)
+    tab.click("[data-action=run]")  # at once: nothing has to be taken over
+    tab.wait("location.pathname === '/run/own-001'")
+    asked = tomllib.loads((tmp_path / "work" / "runs" / "own-001" / ".app" / "scene.toml").read_text())
+    assert asked["contact"]["mean_pressure"] == "70 MPa"
+    assert file.read_text() == text
+    assert tab.errors == []
+
+
+def test_a_file_broken_by_hand_is_left_alone(serve, chrome, tmp_path):
+    """What is typed into the form before the page knows it writes nothing; the text can be mended on the page."""
+    server, tab = serve(), chrome.tab()
+    file = tmp_path / "work" / "own.toml"
+    file.write_text(EDITED)
+    tab.go(server.address)
+    tab.go(f"{server.base}/scene/own")
+    tab.wait("document.querySelector('[data-plan]')")
+    broken = EDITED.replace('"80 MPa"', '"80 MPa')
+    file.write_text(broken)
+    tab.type("contact.mean_pressure", "60 MPa")
+    tab.wait("document.querySelector('[data-broken]')")
+    assert file.read_text() == broken
+    assert tab.look("document.querySelector('[data-action=run]').disabled")
+    write_in_editor(tab, EDITED.replace("80 MPa", "50 MPa"))
+    tab.wait("document.querySelector('[data-plan]')")
+    assert tomllib.loads(file.read_text())["contact"]["mean_pressure"] == "50 MPa"
+    assert tab.errors == []
+
+
+def test_two_tabs_keep_each_others_edits(serve, chrome, tmp_path):
+    """Different keys at once: both stay. The same key: it is asked. Open sections and the focus stay as they are."""
+    server, one, two = serve(), chrome.tab(), chrome.tab()
+    file = tmp_path / "work" / "own.toml"
+    file.write_text(EDITED)
+    for tab in (one, two):
+        tab.go(server.address)
+        tab.go(f"{server.base}/scene/own")
+        tab.wait("document.querySelector('[data-plan]')")
+    two.click("[data-level='lower:advanced'] .q-item")
+    opened = "document.querySelector('[data-table=\"lower.layer\"]').checkVisibility()"
+    two.wait(opened)
+    two._do("Page.bringToFront")
+    file.write_text(file.read_text().replace("80 MPa", "81 MPa"))
+    two.type("seed", "7")  # perhaps before it has seen the other
+    wait(lambda: "seed = 7" in file.read_text() and '"81 MPa"' in file.read_text())
+    for tab in (one, two):
+        tab.wait(FIELD.format("mean_pressure") + " === '81 MPa'")
+    assert two.look("document.activeElement.dataset.key") == "seed"
+    assert two.look(opened)
+    assert two.look("document.querySelector('input[data-key=\"seed\"]').value") == "7"
+
+    asks = "document.querySelector('[data-answer=no]') !== null"
+    for number in range(20):  # until it is typed before the page has looked into the file
+        text = re.sub(r"8\d+ MPa", f"8{number:02d} MPa", file.read_text())
+        file.write_text(text)
+        two.type("contact.mean_pressure", f"9{number:02d} MPa")
+        mine = f'"9{number:02d} MPa"'
+        wait(lambda mine=mine: mine in file.read_text() or two.look(asks))
+        if mine not in file.read_text():
+            break
+        file.write_text(file.read_text().replace(mine, '"80 MPa"'))
+    two.click("[data-answer=no]")
+    two.wait(FIELD.format("mean_pressure") + f" === '8{number:02d} MPa'")
+    assert file.read_text() == text
+    assert one.errors + two.errors == []
 
 
 def wait(what):

@@ -10,8 +10,9 @@ import pytest
 from small_scenes import CONTACT
 
 from bem import InputError, ResultsError, load_scene
-from bem.app.downloads import WHAT, download, overlay
+from bem.app.downloads import WHAT, download
 from bem.app.planning import shown_plan
+from bem.app.run_view import overlay
 from bem.app.workspace import OWN, PID, Workspace
 from bem.results.directory import LOCK
 
@@ -184,6 +185,51 @@ def test_states_are_read_from_files(workspace):
     workspace.cancel("x-001")
     assert workspace.runs() == []
     assert (workspace.runs_folder / ".cancelled" / "x-001" / "scene.toml").is_file()
+
+
+def test_what_is_put_away_comes_back_and_names_stay_single(workspace):
+    for name in ("one", "two"):
+        workspace.save_scene(name, SMALL)
+    kept = workspace.remove_scene("one")
+    assert list(workspace.scenes()) == ["two"]
+    workspace.save_scene("one", SMALL)
+    again = workspace.remove_scene("one")  # both are kept
+    assert kept.is_file()
+    assert again.is_file()
+    workspace.restore(kept)
+    assert list(workspace.scenes()) == ["one", "two"]
+    with pytest.raises(InputError, match="another name"):
+        workspace.rename_scene("one", "two")
+    with pytest.raises(InputError, match="allowed"):
+        workspace.rename_scene("one", "../two")
+    workspace.rename_scene("one", "three")
+    assert list(workspace.scenes()) == ["three", "two"]
+
+    folder = workspace.runs_folder / "x-001"
+    folder.mkdir()
+    (folder / "scene.toml").write_text('kind = "contact"\n')
+    workspace.rename_run("x-001", "first-try")
+    assert [one.name for one in workspace.runs()] == ["first-try"]
+    workspace.restore(workspace.cancel("first-try"))
+    assert [one.name for one in workspace.runs()] == ["first-try"]
+
+
+def test_a_surface_that_is_renamed_stays_that_of_its_scenes(workspace):
+    path = workspace.add_surface("map.npz", b"one")
+    surface = {"kind": "measured", "path": str(path)}
+    workspace.save_scene("rough", {**SMALL, "lower": {"surface": surface}})
+    workspace.save_scene("other", SMALL)
+    assert workspace.users_of(str(path)) == ["rough"]
+    new = workspace.rename_surface(str(path), "disk")
+    assert (new.name, new.read_bytes()) == ("disk.npz", b"one")
+    assert workspace.scene_table("rough")["lower"]["surface"]["path"] == str(new)
+    kept = workspace.remove_surface(str(new))
+    assert str(new) not in workspace.surfaces()
+    workspace.restore(kept)
+    assert str(new) in workspace.surfaces()
+    for foreign in ("example/ground-disk.al3d", str(workspace.folder / "rough.toml")):
+        with pytest.raises(InputError, match="is not in"):
+            workspace.remove_surface(foreign)
 
 
 def test_a_run_outside_its_model_says_so_in_the_list(workspace):
