@@ -43,6 +43,10 @@ body.body--dark .bem-table td { border-color: #3a4146 }
 :focus-visible { outline: 3px solid #d97706 !important; outline-offset: 2px }
 .q-field--focused .q-field__control { box-shadow: 0 0 0 2px #d97706 }
 .bem-pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 420px), 1fr)); gap: 8px }
+.bem-cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 220px), 1fr)); gap: 10px }
+.bem-start { text-align: left; padding: 10px 12px; color: inherit; font: inherit; cursor: pointer; height: 100% }
+.bem-start { display: flex; flex-direction: column; justify-content: flex-start }
+.bem-start:hover { border-color: #0b5a8a; box-shadow: 0 1px 4px rgba(0, 0, 0, 0.2) }
 .bem-bar { position: sticky; top: 52px; z-index: 5; padding: 6px 0 }
 body.body--light .bem-bar { background: #fafaf8 }
 body.body--dark .bem-bar { background: #14181b }
@@ -70,6 +74,12 @@ def page(title: str) -> Iterator[None]:
     ui.context.client.on_connect(lambda: body.props(remove="inert"))
     with body:
         yield
+
+
+def heading(words: str) -> None:
+    """The heading of a part of a page."""
+    with ui.element("h2").classes("text-h6").style("margin: 0; line-height: 1.4"):
+        ui.label(words)
 
 
 def say(error: BaseException) -> None:

@@ -88,7 +88,7 @@ class Progress:
         if running:
             words = f"{state.what} {state.done} of {state.total}" if state.total else "starting"
         self._words.set_text(words)
-        self._words.classes(add="" if running else "text-negative", remove="text-negative" if running else "")
+        self._words.classes(add="" if running else "bem-wrong", remove="bem-wrong" if running else "")
 
 
 def frame_of(state: RunState) -> RunState:
@@ -123,19 +123,19 @@ class RunsPage:
         self._shown = []
         with self._list:
             if not found:
-                ui.label("No runs yet: open a scene and run it.").classes("text-grey")
+                ui.label("No runs yet: open a scene and run it.").classes("bem-soft")
             for state in found:
                 self._row(state)
 
     def _row(self, state: RunState) -> None:
-        with ui.row().classes("w-full items-center no-wrap").style("border-bottom: 1px solid #ddd"):
+        with ui.row().classes("w-full items-center gap-2 bem-line"):
             box = ui.checkbox(
                 value=state.name in self._ticked, on_change=lambda e, n=state.name: self._tick(n, e.value)
             )
             box.set_enabled(state.finished)
-            box.props["data-tick"] = state.name
-            ui.link(state.name, f"/run/{state.name}").classes("text-body1").style("min-width: 16em")
-            ui.label(state.kind).classes("text-caption text-grey").style("min-width: 8em")
+            box.props["data-tick"], box.props["aria-label"] = state.name, f"overlay {state.name}"
+            ui.link(state.name, f"/run/{state.name}").classes("text-body1").style("min-width: min(16em, 60vw)")
+            ui.label(state.kind).classes("text-caption bem-soft").style("min-width: 8em")
             badge(state.state).props["data-state"] = state.name
             if state.beyond:
                 badge(OUTSIDE.rstrip(": ")).tooltip("; ".join(state.beyond)).props["data-beyond"] = state.name

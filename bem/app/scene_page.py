@@ -2,63 +2,118 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
 from contextlib import suppress
 from functools import partial
 from typing import Any
 
+from nicegui import run as io
 from nicegui import ui
 
 from bem.app.computing import compute, compute_if
 from bem.app.form_view import FormView
-from bem.app.layout import asked, asked_name, can_undo, more_actions, page, rows, say, words_of, wrong
+from bem.app.layout import asked, asked_name, badge, can_undo, heading, more_actions, page, rows, say, words_of, wrong
 from bem.app.planning import ShownPlan, check_scene, shown_plan
 from bem.app.scene_file import Change, Conflict, SceneFile
+from bem.app.starts import TASKS, BuiltIn, built_in_scenes, kinds_with_titles, start_text
 from bem.app.workspace import Workspace
 from bem.errors import BemError
-from bem.scenes.form import form_of, library_scene, start_of
-from bem.scenes.kind import get_kind, kinds_by_task
-from bem.scenes.load import library
+from bem.scenes.form import form_of
 
 _PAUSE = 0.4  # seconds without a change before a plan is made
+_LAST = 6
+"""Runs that the first page shows."""
 
 
 def scenes_page(workspace: Workspace) -> None:
-    """The scenes of the folder, and new ones: of a kind, or a copy of a built-in one."""
+    """What to start with, the scenes of the folder, and its last runs."""
 
-    def begin(name: str, table: dict[str, Any]) -> None:
+    async def begin(name: str, source: str) -> None:
+        kind, _, where = source.partition(" ")
+        if kind == "page":
+            ui.navigate.to(where)
+            return
         free = workspace.free_scene_name(name)
         try:
-            workspace.save_scene(free, {**table, "name": free})
+            workspace.save_scene(free, await compute(start_text, source))
         except BemError as error:
             say(error)
             return
         ui.navigate.to(f"/scene/{free}")
 
-    with page("scenes"):
-        ui.label(str(workspace.folder)).classes("text-caption bem-soft")
-        with ui.row().classes("w-full items-start gap-8"):
-            with ui.column().classes("gap-1"):
-                _own_scenes(workspace)
-            with ui.column().classes("gap-1"):
-                ui.label("New, of a kind").classes("text-h6")
-                for task, kinds in kinds_by_task().items():
-                    ui.label(task).classes("text-subtitle2 bem-soft")
-                    for name in kinds:
-                        with ui.row().classes("items-center no-wrap"):
-                            button = ui.button(name, on_click=lambda _, n=name: begin(n, start_of(n)))
-                            button.props("dense outline no-caps").classes("q-px-sm").props["data-new"] = name
-                            ui.label(get_kind(name).title).classes("text-caption").style("max-width: 26em")
-            with ui.column().classes("gap-1"):
-                ui.label("A copy of a built-in scene").classes("text-h6")
-                names = {name: f"{name}: {table.get('description', '')[:70]}" for name, table in library().items()}
-                ui.select(
-                    names, with_input=True, on_change=lambda e: begin(str(e.value), library_scene(str(e.value)))
-                ).classes("w-96").props("dense outlined")
+    with page("scenes"), ui.row().classes("w-full items-start gap-8"):
+        with ui.column().classes("gap-3").style("flex: 3 1 480px; min-width: 0"):
+            ui.label(
+                "Contact, lubrication, friction and wear of rough bodies: start with a task, change its values, run."
+            )
+            heading("Start with a task")
+            with ui.element("div").classes("w-full bem-cards"):
+                for start in TASKS:
+                    card = _card(start.title, start.words, partial(begin, start.name, start.source))
+                    card.props["data-start"] = start.name
+            heading("All kinds of calculation")
+            for task, kinds in kinds_with_titles().items():
+                ui.label(task).classes("text-subtitle2 bem-soft")
+                with ui.element("div").classes("w-full bem-cards"):
+                    for name, title in kinds:
+                        _card(name, title, partial(begin, name, f"kind {name}")).props["data-new"] = name
+            heading("Built-in scenes")
+            _built_in(begin)
+        with ui.column().classes("gap-3").style("flex: 1 1 260px; min-width: 0"):
+            _own_scenes(workspace)
+            heading("Last runs")
+            _last_runs(workspace)
+            ui.label(str(workspace.folder)).classes("text-caption bem-soft").style("overflow-wrap: anywhere")
+
+
+def _card(title: str, words: str, act: Callable[[], Any]) -> Any:
+    """A button with a title and a sentence."""
+    with ui.element("button").classes("bem-card bem-start").on("click", act) as card:
+        ui.label(title).classes("text-bold")
+        ui.label(words).classes("text-caption")
+    return card
+
+
+def _built_in(begin: Callable[[str, str], Any]) -> None:
+    """Built-in scenes as cards, with a field that leaves those with all of its words."""
+    cards: list[tuple[BuiltIn, Any]] = []
+
+    def leave(text: str) -> None:
+        wanted = text.lower().split()
+        for item, card in cards:
+            card.set_visibility(all(word in item.found_by for word in wanted))
+
+    field = ui.input("filter, such as coating or stribeck", on_change=lambda e: leave(e.value or ""))
+    field.props("dense outlined clearable debounce=200").classes("w-full").props["data-key"] = "filter"
+    with ui.element("div").classes("w-full bem-cards"):
+        for item in built_in_scenes():
+            card = _card(item.name, item.words, partial(begin, item.name, f"scene {item.name}"))
+            card.props["data-scene-card"] = item.name
+            cards.append((item, card))
+
+
+def _last_runs(workspace: Workspace) -> None:
+    """The runs that were begun last."""
+    place = ui.column().classes("gap-1 w-full")
+
+    async def draw() -> None:
+        found = await io.io_bound(workspace.runs)
+        if found is None or place.is_deleted:
+            return
+        with place:
+            for state in found[:_LAST]:
+                with ui.row().classes("items-center"):
+                    ui.link(state.name, f"/run/{state.name}")
+                    badge(state.state)
+            if not found:
+                ui.label("None yet.").classes("bem-soft")
+
+    ui.timer(0.01, draw, once=True)
 
 
 def _own_scenes(workspace: Workspace) -> None:
     """The scenes of the folder, which can be renamed and put away."""
-    ui.label("Your scenes").classes("text-h6")
+    heading("Your scenes")
     shown = ui.column().classes("gap-0")
 
     def draw() -> None:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import secrets
 import socket
+import threading
 import webbrowser
 from collections.abc import Callable
 from pathlib import Path
@@ -20,6 +21,7 @@ from bem.app.downloads import download, stored_file
 from bem.app.layout import page, words_of, wrong
 from bem.app.run_page import RunPage, RunsPage, compare_page
 from bem.app.scene_page import ScenePage, scenes_page
+from bem.app.starts import kinds_with_titles
 from bem.app.surface_page import SurfacePage
 from bem.app.workspace import Workspace
 from bem.errors import BemError, ResultsError
@@ -53,6 +55,7 @@ def serve(folder: Path, port: int = 0, *, show: bool = True, say: Callable[[str]
     say(f"bem app: {address}\nscenes and runs: {workspace.folder}\nctrl-c ends the page; runs go on")
     if show:
         webbrowser.open(address)
+    threading.Thread(target=kinds_with_titles, daemon=True).start()  # takes a second, which no page should wait for
     guarded = Guard(application(workspace), token, port)
     config = uvicorn.Config(guarded, log_level="warning", lifespan="on", ws="websockets-sansio")
     uvicorn.Server(config).run(sockets=[listening])

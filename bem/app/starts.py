@@ -1,0 +1,112 @@
+"""What the first page offers to start from: tasks as users name them, kinds of scene, built-in scenes.
+
+Verified in tests/app/test_starts.py.
+"""
+
+from __future__ import annotations
+
+import tomllib
+from contextlib import suppress
+from dataclasses import dataclass
+from typing import Any
+
+from bem.elements.element import Element, element_template, load_element
+from bem.errors import InputError
+from bem.scenes.edit import table_text
+from bem.scenes.kind import get_kind, kinds_by_task
+from bem.scenes.load import library, library_text
+from bem.scenes.template import scene_template
+
+
+@dataclass(frozen=True)
+class Start:
+    """A task to start with.
+
+    Attributes
+    ----------
+    name : of the scene that comes of it.
+    title, words : what it is called, and what it computes.
+    source : of the scene's text: "kind contact", "scene coated-sphere", "element gear-pair"; or "page /surfaces".
+    """
+
+    name: str
+    title: str
+    words: str
+    source: str
+
+
+TASKS = (
+    Start("contact", "Dry contact", "Pressure, real contact area, approach and stresses of two bodies", "kind contact"),
+    Start("stribeck", "Stribeck curve", "Friction and load share over speed in mixed lubrication", "kind friction"),
+    Start("surfaces", "My own surfaces", "Read a measured map, level it, take it into a scene", "page /surfaces"),
+    Start("running-in", "Wear and running-in", "Friction, roughness and wear particles over cycles", "kind running-in"),
+    Start("coating", "Coating", "Stresses in a coated body under a ball", "scene coated-sphere"),
+    Start("tribofilm", "Tribofilm", "Growth and wear of a film such as ZDDP's", "kind tribofilm"),
+    Start("film", "EHL film", "Film thickness and pressure between a ball and a disc", "kind point-film"),
+    Start("bearing", "Bearing", "Film and friction where a rolling bearing is loaded most", "element rolling-bearing"),
+    Start("gear", "Gear", "Film and friction along the path of contact of a gear pair", "element gear-pair"),
+    Start("cam", "Cam", "Film and friction between a cam and its follower", "element cam-follower"),
+    Start("ring", "Piston ring", "Film and friction between a piston ring and its liner", "element piston-ring"),
+)
+
+
+def start_text(source: str) -> str:
+    """The text of a scene to start from, with its comments.
+
+    Parameters
+    ----------
+    source : as in `Start`; of an element, the scene of its path or of its most loaded contact.
+
+    Raises
+    ------
+    InputError : a source that is none.
+    """
+    what, _, name = source.partition(" ")
+    if what == "kind":
+        return scene_template(name)
+    if what == "scene":
+        return library_text(name)
+    element = load_element(tomllib.loads(element_template(name)))
+    scene = element.path_scene() if name == "gear-pair" else _most_loaded(element)
+    note = f"# From an example of a machine element; `bem new {name}` and `bem element` make one of your own.\n"
+    return note + table_text(scene)
+
+
+def _most_loaded(element: Element) -> dict[str, Any]:
+    """The film of the contact with the highest pressure, of those that a steady film can have."""
+    contacts = element.found.contacts
+    for contact in sorted(contacts, key=lambda one: -one.hertz(element.modulus).maximum_pressure):
+        with suppress(InputError):
+            return element.scene(contact, "traction")
+    raise InputError(f"{element.model.name}: no contact has a steady film")
+
+
+@dataclass(frozen=True)
+class BuiltIn:
+    """A built-in scene; `task` is that of its kind, `found_by` what a filter looks into."""
+
+    name: str
+    kind: str
+    task: str
+    words: str
+
+    @property
+    def found_by(self) -> str:
+        """Text to look for words in."""
+        return f"{self.name} {self.kind} {self.task} {self.words}".lower()
+
+
+def built_in_scenes() -> list[BuiltIn]:
+    """The built-in scenes, by task and name."""
+    task_of = {name: task for task, names in kinds_by_task().items() for name in names}
+    order = list(task_of)
+    found = [
+        BuiltIn(name, str(table["kind"]), task_of[str(table["kind"])], str(table.get("description", "")))
+        for name, table in library().items()
+    ]
+    return sorted(found, key=lambda item: (order.index(item.kind), item.name))
+
+
+def kinds_with_titles() -> dict[str, list[tuple[str, str]]]:
+    """Name and title of each kind, by task."""
+    return {task: [(name, get_kind(name).title) for name in names] for task, names in kinds_by_task().items()}
