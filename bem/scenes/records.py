@@ -75,7 +75,8 @@ class Figure:
 
     def __post_init__(self) -> None:
         if self.unit not in UNITS:
-            raise ValueError(f"unit {self.unit!r}: unknown; allowed: {', '.join(UNITS)}")
+            known = ", ".join(UNITS)
+            raise ValueError(f"unit {self.unit!r}: unknown; allowed: {known}, or a new entry of {__name__}.UNITS")
 
     @property
     def si(self) -> str:

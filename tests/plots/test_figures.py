@@ -14,6 +14,7 @@ from bem.plots.report import spelled, write_report
 from bem.plots.style import BLUE, ORANGE, SKY, VERMILION, prefix
 from bem.results.arrays import Arrays
 from bem.results.directory import RunDirectory
+from bem.scenes import get_kind, kind_names
 from bem.scenes.context import Variable
 
 pytestmark = pytest.mark.internal
@@ -290,3 +291,10 @@ def test_a_picture_is_drawn_once_after_its_layout(tmp_path, monkeypatch):
     with Image.open(path) as image:
         assert image.size == (round(200 * width), round(200 * height))
         assert image.info["dpi"] == pytest.approx((200, 200), rel=1e-3)  # stored per metre, in whole numbers
+
+
+def test_every_figure_of_the_package_is_drawn_by_a_kind():
+    """A figure that no kind names is never drawn, in silence."""
+    named = {name for kind in kind_names() for name in get_kind(kind).figures}
+    of_campaigns = {"figures-over-keys"}
+    assert set(all_figures()) == named | of_campaigns
