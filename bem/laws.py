@@ -134,6 +134,8 @@ class Law(metaclass=ABCMeta):  # noqa: B024 - its families say what is abstract
 
     family: ClassVar[str] = ""
     name: ClassVar[str] = ""
+    cites: ClassVar[tuple[str, ...]] = ()
+    """Keys of the law's sources in `references.bib`."""
 
     def __post_init__(self) -> None:
         messages = []

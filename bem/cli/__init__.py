@@ -38,6 +38,7 @@ ORDER = (
     "export",
     "plot",
     "compare",
+    "cite",
     "new",
     "element",
     "schema",

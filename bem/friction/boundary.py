@@ -124,6 +124,7 @@ class PressureDependentShear(BoundaryFriction):
     """
 
     name: ClassVar[str] = "pressure_dependent"
+    cites: ClassVar[tuple[str, ...]] = ("briscoe1978",)
     shear_strength: float = parameter("shear strength tau_0 without pressure", "Pa", at_least=0)
     pressure_coefficient: float = parameter("pressure coefficient a of the shear strength", at_least=0, at_most=2)
 
@@ -142,6 +143,7 @@ class PressureLimitedShear(PressureDependentShear):
     """
 
     name: ClassVar[str] = "pressure_limited"
+    cites: ClassVar[tuple[str, ...]] = ("bowden1950",)
     largest_shear_stress: float = parameter(
         "largest shear stress: the shear strength of the softer body, about hardness / 4.8", "Pa", above=0
     )
@@ -161,6 +163,7 @@ class SpeedDependentFriction(BoundaryFriction):
     """
 
     name: ClassVar[str] = "speed_dependent"
+    cites: ClassVar[tuple[str, ...]] = ("armstrong1991",)
     static_friction: float = parameter("static friction coefficient f_s", at_least=0, at_most=2)
     kinetic_friction: float = parameter("kinetic friction coefficient f_k at high speed", at_least=0, at_most=2)
     speed_scale: float = parameter("sliding speed u_s over which friction falls from static to kinetic", "m/s", above=0)
@@ -199,6 +202,7 @@ class ActivatedShear(BoundaryFriction):
     """
 
     name: ClassVar[str] = "activated"
+    cites: ClassVar[tuple[str, ...]] = ("briscoe1982",)
     needs_temperature: ClassVar[bool] = True
     activation_energy: float = parameter("activation energy Q without pressure and shear", "J", at_least=0)
     pressure_volume: float = parameter("activation volume W of the pressure", "m^3", at_least=0)

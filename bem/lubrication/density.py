@@ -45,6 +45,7 @@ class DowsonHigginson(DensityLaw):
     (1966)."""
 
     name: ClassVar[str] = "dowson_higginson"
+    cites: ClassVar[tuple[str, ...]] = ("dowson1966",)
 
     def density_ratio(self, pressure: FloatArray) -> tuple[FloatArray, FloatArray]:
         """The ratio above."""

@@ -156,6 +156,7 @@ class LimitedShear(ShearLaw):
     """Newtonian up to tau_a + Lambda p."""
 
     name: ClassVar[str] = "limited"
+    cites: ClassVar[tuple[str, ...]] = ("bair1979",)
     limiting_shear_coefficient: float = parameter(
         "limiting shear stress coefficient: slope of the limiting shear stress with pressure",
         default=0.08,
@@ -183,6 +184,7 @@ class Eyring(LimitedShear):
     """tau = tau0 asinh(mu du/h / tau0), tau0 the Eyring stress; Eyring (1936), Johnson and Tevaarwerk (1977)."""
 
     name: ClassVar[str] = "eyring"
+    cites: ClassVar[tuple[str, ...]] = ("eyring1936", "johnson1977")
     shear_stress_limit: float = parameter("Eyring stress, where shear thinning begins", "Pa", above=0)
 
     def unlimited(self, newtonian: FloatArray) -> FloatArray:
@@ -236,6 +238,7 @@ class Carreau(LimitedShear):
     one Yasuda's; Bair (2007)."""
 
     name: ClassVar[str] = "carreau"
+    cites: ClassVar[tuple[str, ...]] = ("bair2007",)
     shear_stress_limit: float = parameter("critical shear stress, where shear thinning begins", "Pa", above=0)
     carreau_exponent: float = parameter(
         "power-law exponent of stress over shear rate, far above the critical stress", default=0.5, above=0, at_most=1

@@ -68,6 +68,7 @@ class Barus(ViscosityLaw):
     *Fundamentals of fluid film lubrication*, 1994)."""
 
     name: ClassVar[str] = "barus"
+    cites: ClassVar[tuple[str, ...]] = ("barus1893",)
     largest_pressure: ClassVar[float] = 0.5e9
 
     def log_viscosity_ratio(
@@ -84,6 +85,7 @@ class Roelands(ViscosityLaw):
     measurements up to 1 GPa (ASME 1953)."""
 
     name: ClassVar[str] = "roelands"
+    cites: ClassVar[tuple[str, ...]] = ("roelands1966",)
     largest_pressure: ClassVar[float] = 1.0e9
 
     def log_viscosity_ratio(

@@ -174,9 +174,14 @@ def kind_aliases() -> dict[str, str]:
     return {word: name for name, part in _of_the_package().items() for word in getattr(part, "ALSO", ())}
 
 
+def sources_of_kind(name: str) -> dict[str, str]:
+    """Return the sources of the methods of a kind: key in `references.bib` and method; none of kinds from outside."""
+    return dict(getattr(_of_the_package().get(name), "CITES", {}))
+
+
 @cache
 def _of_the_package() -> dict[str, Any]:
-    """Folders of the package's kinds by name: modules with TASK, PLACE among the kinds of the task, and ALSO."""
+    """Folders of the package's kinds by name: modules with TASK, PLACE among the kinds of the task, ALSO and CITES."""
     folders = sorted(module.name for module in pkgutil.iter_modules([str(KINDS)]) if module.ispkg)
     return {name.replace("_", "-"): importlib.import_module(f"bem.kinds.{name}") for name in folders}
 

@@ -48,6 +48,7 @@ class StressActivatedGrowth(GrowthLaw):
     """
 
     name: ClassVar[str] = "stress_activated"
+    cites: ClassVar[tuple[str, ...]] = ("gosvami2015", "akchurin2017")
     prefactor: float = parameter("pre-exponential factor: growth rate without a barrier", "m/s", above=0)
     activation_energy: float = parameter("activation energy without stress", "J", above=0)
     activation_volume: float = parameter(

@@ -38,7 +38,7 @@ default_role = "literal"
 myst_enable_extensions = ["dollarmath", "amsmath", "colon_fence", "deflist", "attrs_inline", "attrs_block"]
 myst_heading_anchors = 3
 nb_execution_mode = "off"
-bibtex_bibfiles = ["references.bib"]
+bibtex_bibfiles = ["../../bem/references.bib"]
 bibtex_default_style = "plain"
 bibtex_reference_style = "author_year"
 

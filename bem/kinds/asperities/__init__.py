@@ -9,3 +9,7 @@ ALSO: tuple[str, ...] = (
     "greenwood-williamson",
     "asperity",
 )
+CITES = {
+    "kalker1977": "contact as a quadratic program",
+    "greenwood1966": "uncoupled asperities",
+}

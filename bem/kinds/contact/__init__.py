@@ -14,3 +14,8 @@ ALSO: tuple[str, ...] = (
     "rough-contact",
     "stress",
 )
+CITES = {
+    "kalker1977": "contact as a quadratic program",
+    "polonsky1999": "conjugate gradients of the contact",
+    "love1929": "influence functions and stresses",
+}

@@ -10,3 +10,8 @@ ALSO: tuple[str, ...] = (
     "lubrication",
     "oil-film",
 )
+CITES = {
+    "reynolds1886": "Reynolds equation",
+    "dowson1966": "elastohydrodynamic line contact",
+    "elrod1974": "mass-conserving cavitation",
+}

@@ -9,3 +9,9 @@ ALSO: tuple[str, ...] = (
     "flow-factor",
     "patir-cheng",
 )
+CITES = {
+    "patir1978": "flow factors",
+    "patir1979": "shear flow factors",
+    "bayada1989": "homogenisation",
+    "almqvist2007": "homogenisation",
+}

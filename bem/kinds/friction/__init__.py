@@ -12,3 +12,9 @@ ALSO: tuple[str, ...] = (
     "mixed-lubrication",
     "boundary",
 )
+CITES = {
+    "johnson1972": "load sharing of film and asperities",
+    "reynolds1886": "Reynolds equation",
+    "polonsky1999": "conjugate gradients of the contact",
+    "akchurin2017": "balance of the oil volume",
+}

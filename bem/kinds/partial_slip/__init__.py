@@ -10,3 +10,8 @@ ALSO: tuple[str, ...] = (
     "cattaneo",
     "stick-slip",
 )
+CITES = {
+    "kalker1990": "partial slip as a convex program",
+    "kalker1977": "contact as a quadratic program",
+    "love1929": "influence functions",
+}

@@ -9,3 +9,6 @@ ALSO: tuple[str, ...] = (
     "afm",
     "particle",
 )
+CITES = {
+    "akchurin2017": "wear particles of height maps",
+}

@@ -13,3 +13,9 @@ ALSO: tuple[str, ...] = (
     "ball-on-disc",
     "interferogram",
 )
+CITES = {
+    "reynolds1886": "Reynolds equation",
+    "brandt1990": "multilevel integration",
+    "venner2000": "multigrid",
+    "nijenbanning1994": "start of the film",
+}

@@ -11,3 +11,8 @@ ALSO: tuple[str, ...] = (
     "waviness",
     "impact",
 )
+CITES = {
+    "reynolds1886": "Reynolds equation",
+    "brandt1990": "multilevel integration",
+    "venner2000": "multigrid",
+}

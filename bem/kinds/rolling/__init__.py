@@ -11,3 +11,8 @@ ALSO: tuple[str, ...] = (
     "wheel-rail",
     "rolling-contact",
 )
+CITES = {
+    "kalker1990": "rolling contact",
+    "carter1926": "creepage",
+    "love1929": "influence functions",
+}

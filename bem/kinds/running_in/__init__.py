@@ -9,3 +9,9 @@ ALSO: tuple[str, ...] = (
     "run-in",
     "runningin",
 )
+CITES = {
+    "johnson1972": "load sharing of film and asperities",
+    "akchurin2017": "running-in in mixed lubrication",
+    "reynolds1886": "Reynolds equation",
+    "polonsky1999": "conjugate gradients of the contact",
+}

@@ -11,3 +11,10 @@ ALSO: tuple[str, ...] = (
     "life",
     "cycle-jumps",
 )
+CITES = {
+    "johnson1972": "load sharing of film and asperities",
+    "morales2011": "micropitting",
+    "dangvan1973": "fatigue",
+    "reynolds1886": "Reynolds equation",
+    "polonsky1999": "conjugate gradients of the contact",
+}

@@ -10,3 +10,9 @@ ALSO: tuple[str, ...] = (
     "temperature",
     "heat",
 )
+CITES = {
+    "carslaw1959": "moving sources of heat",
+    "jaeger1942": "moving sources of heat",
+    "blok1937": "heat partition",
+    "polonsky1999": "conjugate gradients of the contact",
+}

@@ -12,3 +12,7 @@ ALSO: tuple[str, ...] = (
     "thermal-ehl",
     "traction-curve",
 )
+CITES = {
+    "reynolds1886": "Reynolds equation",
+    "dowson1966": "elastohydrodynamic line contact",
+}

@@ -9,3 +9,8 @@ ALSO: tuple[str, ...] = (
     "zddp",
     "antiwear",
 )
+CITES = {
+    "gosvami2015": "growth of tribofilms",
+    "akchurin2017": "tribofilms of rough contacts",
+    "polonsky1999": "conjugate gradients of the contact",
+}

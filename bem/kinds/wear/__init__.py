@@ -12,3 +12,8 @@ ALSO: tuple[str, ...] = (
     "debris",
     "archard",
 )
+CITES = {
+    "akchurin2017": "wear particles of yielded regions",
+    "polonsky1999": "conjugate gradients of the contact",
+    "love1929": "influence functions and stresses",
+}

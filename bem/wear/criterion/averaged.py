@@ -22,6 +22,7 @@ class AveragedVonMises(VonMises):
     """
 
     name: ClassVar[str] = "averaged_von_mises"
+    cites: ClassVar[tuple[str, ...]] = ()
     length_key: ClassVar[str] = "averaging_length"
     averaging_length: float = parameter(
         "diameter of the disc over which stresses are averaged",

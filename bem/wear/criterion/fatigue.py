@@ -30,6 +30,7 @@ class LowCycleFatigue(VonMises):
     """
 
     name: ClassVar[str] = "low_cycle_fatigue"
+    cites: ClassVar[tuple[str, ...]] = ("baumel1990",)
     length_key: ClassVar[str] = "averaging_length"
     ductility: float = parameter(
         "fatigue ductility: plastic strain that breaks the material in one reversal (Coffin, Manson)",

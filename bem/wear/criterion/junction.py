@@ -28,6 +28,7 @@ class Junction(Detachment):
     """
 
     name: ClassVar[str] = "junction"
+    cites: ClassVar[tuple[str, ...]] = ("aghababaei2016", "frerot2018", "phamba2020")
     surface_energy: float = parameter(
         "fracture energy w of the crack per area, both faces",
         "J/m^2",

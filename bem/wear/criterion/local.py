@@ -111,6 +111,7 @@ class Archard(LocalWear):
     """h = k p s, k the specific wear rate (Archard 1953)."""
 
     name: ClassVar[str] = "archard"
+    cites: ClassVar[tuple[str, ...]] = ("archard1953",)
     specific_wear_rate: float = parameter(
         "specific wear rate k: worn volume per load and sliding distance", "m^2/N", at_least=0
     )
@@ -126,6 +127,7 @@ class ArchardOverHardness(LocalWear):
     """h = K p s / H, K without dimension, H the hardness of the body that wears (Archard 1953)."""
 
     name: ClassVar[str] = "archard_over_hardness"
+    cites: ClassVar[tuple[str, ...]] = ("archard1953",)
     archard_coefficient: float = parameter("Archard's wear coefficient K, without dimension", at_least=0)
 
     def rate(self, body: Body, friction: float) -> float:
@@ -142,6 +144,7 @@ class EnergyWear(LocalWear):
     """h = alpha |f| p s: in proportion to the work of friction (Fouvry, Liskiewicz, Kapsa, Hannel and Sauger 2003)."""
 
     name: ClassVar[str] = "energy"
+    cites: ClassVar[tuple[str, ...]] = ("fouvry2003",)
     energy_wear_rate: float = parameter(
         "energy wear rate alpha: worn volume per friction work, m^3/J", "m^2/N", at_least=0
     )

@@ -18,6 +18,7 @@ class Sphere(VonMises):
     """Pieces above von Mises yield that can hold a sphere of a given diameter; smaller pieces stay."""
 
     name: ClassVar[str] = "sphere"
+    cites: ClassVar[tuple[str, ...]] = ()
     length_key: ClassVar[str] = "diameter"
     diameter: float = parameter(
         "diameter of the sphere that a wear particle must hold",

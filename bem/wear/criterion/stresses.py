@@ -37,6 +37,7 @@ class VonMises(WearCriterion):
     """Von Mises stress; equals the yield stress at yield."""
 
     name: ClassVar[str] = "von_mises"
+    cites: ClassVar[tuple[str, ...]] = ("akchurin2017",)
 
     @property
     def is_von_mises(self) -> bool:

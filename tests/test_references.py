@@ -1,0 +1,68 @@
+"""Sources: every key that a law or a method cites has an entry, and scenes cite what they use."""
+
+import pytest
+from typer.testing import CliRunner
+
+from bem.campaigns import cited
+from bem.cli import build
+from bem.laws import FAMILIES, laws_of
+from bem.references import references
+from bem.runs import plan_scene, run_scene
+from bem.scenes.kind import kind_names, sources_of_kind
+
+
+def sources(name, *settings):
+    return cited.sources_of(plan_scene(name, settings)[0])
+
+
+def test_every_entry_is_read_whole():
+    known = references()
+    assert len(known) > 50
+    for key, one in known.items():
+        assert {"author", "title", "year"} <= set(one.fields), key
+        assert one.bibtex.count("{") == one.bibtex.count("}")
+        assert not set("{}\\") & set(one.text), key
+    assert known["briscoe1978"].text == (
+        "Briscoe, B. J. and Tabor, D. (1978). Shear properties of thin polymeric films. Journal of Adhesion 9, 145-155."
+    )
+
+
+def test_every_key_that_is_cited_has_an_entry():
+    keys = {key for family in FAMILIES for law in laws_of(family).values() for key in law.cites}
+    keys |= {key for kind in kind_names() for key in sources_of_kind(kind)}
+    keys |= {
+        key for table in (*cited._HEAT.values(), cited._GENERATED, cited._MOMENTS, cited._LAYERED) for key in table
+    }
+    assert keys <= set(references())
+    assert all(sources_of_kind(kind) for kind in kind_names())
+
+
+def test_scenes_cite_the_laws_and_methods_that_they_use():
+    found = sources("traction-curve")
+    assert found["eyring1936"] == ["shear law eyring"]
+    assert "density law dowson_higginson" in found["dowson1966"]
+    assert "roelands1966" in found
+    assert "barus1893" in sources("traction-curve", "oil.viscosity_law=barus")
+    assert "cheng1965" not in found
+    assert "cheng1965" in sources("traction-curve", "thermal=full")
+    assert not {"crook1961", "cheng1965"} & set(sources("traction-curve", "thermal=off"))
+    assert "burmister1945" in sources("coated-sphere")
+    assert "burmister1945" not in sources("hertz-sphere")
+    assert "hu1992" in sources("rough-contact")
+    assert "fouvry2003" in sources(
+        "wear-cylinder-scar", 'wear.criterion={kind="energy",energy_wear_rate="1e-15 m^2/N",distance="1 mm"}'
+    )
+
+
+@pytest.mark.parametrize("finished", [False, True])
+def test_the_command_prints_text_and_bibtex(finished, tmp_path):
+    name = "hertz-sphere"
+    if finished:
+        name = str(run_scene(name, tmp_path / "run", settings=("grid.shape=16",), figures=False).path)
+    done = CliRunner().invoke(build(), ["cite", name])
+    assert done.exit_code == 0
+    assert "Kalker, J. J. (1977)" in done.output
+    alone = CliRunner().invoke(build(), ["cite", name, "--bibtex"]).output.splitlines()
+    assert alone
+    assert all(line.startswith("@") and line.endswith("}") for line in alone)
+    assert set(alone) <= {one.bibtex for one in references().values()}
