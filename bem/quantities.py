@@ -20,6 +20,12 @@ _BY_POWER = {power: letter for letter, power in PREFIXES.items()}
 _IN_TEXT = range(-9, 10, 3)
 
 
+def with_prefixes(unit: str, letters: str) -> dict[str, int]:
+    """Return a unit and its multiples by the prefixes of these letters, in all ways of writing, with powers of ten."""
+    ways = {letter: MICRO if letter == "u" else (letter,) for letter in letters}
+    return {unit: 0} | {f"{way}{unit}": PREFIXES[letter] for letter, same in ways.items() for way in same}
+
+
 def prefix_for(largest: float, unit: str) -> tuple[float, str]:
     """Return factor and unit that bring the largest absolute value of numbers in `unit` between 1 and 1000.
 

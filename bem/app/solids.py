@@ -12,9 +12,9 @@ from bem.plots.labels import beyond_ends, label, prefix
 from bem.results.arrays import Arrays
 
 PARTICLES = "particles"
-"""What particles are called beside the names of fields."""
+"""Name of particles beside the names of fields."""
 MOST_POINTS = 32_000
-"""Of a field in space: every n-th along x and y of larger ones, which the title then says."""
+"""Most points of a field in space; of larger fields every n-th along x and y, which the title then says."""
 MOST_PARTICLES = 150
 _PER_PARTICLE = ("x", "y", "length", "width", "thickness")
 _LEVELS = 5

@@ -18,7 +18,7 @@ from bem.app.pictures import Picture
 from bem.app.treatment import Treated, treated
 from bem.app.workspace import MOST_BYTES, Workspace
 from bem.errors import BemError, InputError, ResultsError
-from bem.scenes.values import dumped, plain_value
+from bem.scenes.values import plain_value, typed
 
 _TREATMENTS = (
     ("detrend", "levelling: plane, curvature or none", "plane"),
@@ -174,9 +174,9 @@ class SurfacePage:
         for text in found.notes:
             ui.label(text).classes("text-body2")
         ui.label("In a scene:").classes("text-subtitle2")
-        lines = [f"surface = {_inline(found.surface)}"]
+        lines = [f"surface = {typed(found.surface)}"]
         if found.grid is not None:
-            lines.insert(0, f"grid = {_inline(found.grid)}")
+            lines.insert(0, f"grid = {typed(found.grid)}")
         ui.code("\n".join(lines), language="toml").classes("w-full")
 
     async def _put(self, scene: str, body: str) -> None:
@@ -196,11 +196,6 @@ class SurfacePage:
             return
         also = "" if self._done.grid is None else f", the grid has its {self._done.figures[0][1]} cells"
         ui.notify(f"{scene}: {body}.surface is this one{also}", type="positive")
-
-
-def _inline(table: dict[str, Any]) -> str:
-    """A table in a line, its keys without quotes."""
-    return "{ " + ", ".join(f"{key} = {dumped(value)}" for key, value in table.items()) + " }"
 
 
 def _once(place: Any, picture: Picture) -> None:

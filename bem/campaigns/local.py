@@ -27,12 +27,12 @@ if TYPE_CHECKING:
     from bem.campaigns.job import Sent
 
 ATTEMPTS = 3
-"""How often a job may take its process down (memory, a crash) before it is given up."""
+"""Deaths of a job's process (memory, a crash) after which the job is given up."""
 _SERVE = "from bem.campaigns.local import serve; serve({descriptor})"
 
 
 Tell = Callable[[int], Watcher]
-"""Who hears of the progress and the notes of the job with that index."""
+"""Function that returns the watcher of the job with an index."""
 
 
 class _Worker:

@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 _COLOURS = 256
-"""Of a GIF."""
+"""Colours of a GIF."""
 
 
 def write_animation(

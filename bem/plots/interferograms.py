@@ -14,9 +14,9 @@ _FRINGES = 5
 _LIGHT = (630e-9, 532e-9, 465e-9)
 """Wavelengths of red, green and blue [m]."""
 _DOTS = 700
-"""Of an interferogram along each axis, at least."""
+"""Fewest dots of an interferogram along each axis."""
 _SHADES = 1 << 14
-"""Of a table of colours up to where fringes have faded: neighbours differ by less than one of 255."""
+"""Entries of a table of colours up to where fringes have faded: neighbours differ by less than one of 255."""
 _FADED = 3.0
 """Times `_FRINGES` of the longest wave, where the light is what it stays."""
 

@@ -25,7 +25,7 @@ PLACED = {"asked": "separation_over_Sq"}
 COUNTED = ("particle",)
 """Dimensions without an order of their own: a line counts them up by size."""
 CASES = (*TELLING, "model", "variant")
-"""What tells cases apart, beside dimensions of their own; any of them may be a case's place on the axis."""
+"""Figures that tell cases apart, beside dimensions of their own; any of them may be a case's place on the axis."""
 _LEFT_OUT = ("sample", "component", "frame")
 _PLACES = ("x", "film_x")
 _MOST_CASES = 4

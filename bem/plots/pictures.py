@@ -36,7 +36,7 @@ class PlainPowers(LogFormatterSciNotation):
 
 
 _BLANK = 0.15
-"""Of a figure's height, from which what maps leave empty is taken off."""
+"""Fraction of a figure's height from which the blank rows beside maps are removed."""
 _LOWEST = 2.2
 """Height [inch] that is left to each row of maps: the words along its colour bar."""
 

@@ -326,7 +326,7 @@ def logarithmic_axis(axes: Axes, values: NDArray[Any]) -> None:
 
 
 _LETTERS = 15
-"""Of eight points on an inch: half as wide as high, and a tenth of the line left free."""
+"""Letters of eight points on an inch: half as wide as high, and a tenth of the line left free."""
 
 
 def said_above(figure: Any, words: str) -> None:

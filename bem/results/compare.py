@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import Any
 
 from bem.notes import OUTSIDE
+from bem.quantities import PREFIXED, si
 from bem.results.differing import leaves
 from bem.results.directory import SCENE
 from bem.results.read import FinishedRun
@@ -109,6 +110,8 @@ def shown(value: Any, unit: str = "", digits: int = 5) -> str:
             return f"{shown(min(numbers), '', digits)} to {shown(max(numbers), unit, digits)}"
         text = ", ".join(shown(item, "", digits) for item in value)
     elif isinstance(value, float):
+        if unit in PREFIXED:
+            return si(value, unit, digits)
         text = f"{value:.{digits}g}"
     else:
         text = str(value)

@@ -24,7 +24,7 @@ _SAID = "outside_model"
 _FAILED = "failed"
 """Status of a point that has no result, beside those of solvers."""
 Summaries = Sequence[Mapping[str, Any] | None]
-"""Of the points in the order of the swept values' product; None where there is no result."""
+"""Summaries of the points in the order of the swept values' product; None where there is no result."""
 
 
 def dataset_variables(

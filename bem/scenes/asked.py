@@ -59,7 +59,7 @@ AskedAccuracy = Annotated[
 
 
 Asked = str | float | Mapping[str, str | float]
-"""What may be asked for: `"1 %"`, 0.01 or a table of figures."""
+"""Requested accuracy: `"1 %"`, 0.01 or a table of figures."""
 
 
 def with_accuracy(settings: Sequence[str], accuracy: Asked | None) -> list[str]:

@@ -13,7 +13,7 @@ _HEAT = {
     "lumped": ("inlet heating of each film and its oil's temperature" + _IN_CONTACT, 1.0),
     "full": ("temperature along and across each film" + _IN_CONTACT, 5.0),
 }
-"""What is found, and seconds at a speed, whatever the grid."""
+"""Reason of the step, and seconds at a speed on any grid."""
 
 _HELD = 1e4
 """Bytes a node of a line film's weights and of its equations taken apart, 500 to 8000 nodes."""

@@ -14,7 +14,7 @@ from pydantic_core import PydanticUndefined
 
 Level = Literal["basic", "advanced", "expert"]
 LEVELS: tuple[Level, ...] = ("basic", "advanced", "expert")
-"""Who sets a key: every user of the kind; one who chooses another model; one who looks at the numerics."""
+"""Users of a key: every user of the kind; a user who chooses another model; a user who examines the numerics."""
 
 
 def key(

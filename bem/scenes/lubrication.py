@@ -228,7 +228,7 @@ class MixedScene(SceneModel):
     )
 
     cell_may_repeat: ClassVar[bool] = False
-    """Whether the rough patch of a ball may be a cell that repeats all over the contact."""
+    """True if the rough patch of a ball may be a cell that repeats all over the contact."""
 
     @model_validator(mode="before")
     @classmethod

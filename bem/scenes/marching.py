@@ -25,7 +25,7 @@ if TYPE_CHECKING:
 
 _CHECKPOINTS = 20  # of a march
 JUMPS = "a film is often nearly as thin at several times, and other steps may pick another of them"
-"""Why the time of the thinnest film has no error bar."""
+"""Reason why the time of the thinnest film has no error bar."""
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)

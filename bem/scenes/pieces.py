@@ -112,11 +112,11 @@ def _reported(quantity: str) -> Figure:
 
 
 FOLLOWS_CELL = "it follows the mesh, or was not shown to converge with it: most pieces are one cell or a few cells wide"
-"""Why a mean by number, and a count, has no error bar."""
+"""Reason why a mean by number, and a count, has no error bar."""
 
 
 FEW_LARGEST = "the few largest pieces decide it: light scattering weights a radius R with its sixth power"
-"""Why a mean by light scattering has no error bar."""
+"""Reason why a mean by light scattering has no error bar."""
 
 
 def _by(weight: str, quantity: str) -> Figure:

@@ -19,7 +19,8 @@ _PROCESS = 1.3e8  # bytes of the interpreter and the libraries of a run, compile
 SEARCHED_IN_SINGLE = (
     "pressure, gap and residual in double; transforms of the search for a better pressure in single: no accuracy lost"
 )
-"""What is said of contacts: tests/frugality/test_plans.py compares them with those searched in double."""
+"""Error of contacts searched in single precision: tests/frugality/test_plans.py compares them with those searched in
+double."""
 _START = 0.8  # seconds until libraries and compiled loops are loaded
 
 

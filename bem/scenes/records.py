@@ -37,7 +37,7 @@ UNITS: dict[str, tuple[str, float, float, float]] = {
     "rad": ("rad", 1, 1, 0),
     "W": ("W", 1, 1, 0), "mm3_Nm": ("m^2/N", 1e9, 1, 0),
 }  # fmt: skip
-"""How units end the names of figures: the SI unit, and factor, divisor and offset from it."""
+"""Units at the end of figures' names: the SI unit, and factor, divisor and offset from it."""
 _WRITTEN = {"C": "degC", "nm_s": "nm/s", "m_s": "m/s", "N_m": "N/m", "Nm": "N m", "per_m": "1/m", "m2": "m^2",
             "m3": "m^3", "um3": "um^3", "mm3": "mm^3", "mm3_Nm": "mm^3/(N m)", "percent": "%"}  # fmt: skip
 
@@ -137,7 +137,7 @@ class Series:
 
 
 MINIMUM_FILM = "minimum film thickness under the film's part of the load"
-"""What the minimum film of mixed lubrication is; over Sq it is the ratio `LAMBDA_MIXED`, not `LAMBDA_WHOLE`."""
+"""Meaning of the minimum film of mixed lubrication; over Sq it is the ratio `LAMBDA_MIXED`, not `LAMBDA_WHOLE`."""
 LAMBDA_WHOLE = "lambda ratio: minimum film thickness under the whole load over the combined roughness Sq"
 LAMBDA_MIXED = "lambda ratio of the film under its part of the load, over the combined roughness Sq"
 """The two lambda ratios. Where film and contact share the load, the film that carries its part alone is thicker than

@@ -353,7 +353,7 @@ def of_loop(
 _MOST_SHIFT = 10_000
 """Cells that a scene may slide in a cycle."""
 _LOOP_FALLS = (0.4, 1.0)
-"""Of loops with four to eight cells to a correlation length, and of first order."""
+"""Ratios of the errors of loops with four to eight cells to a correlation length, and of first order."""
 
 
 def first_domain(scene: Any) -> Any:

@@ -19,11 +19,11 @@ if TYPE_CHECKING:
     from bem.wear import RunningIn
 
 _TRANSFORMS = 3 * 6.0 * 22
-"""Of a cycle: three steps as those of kind partial-slip."""
+"""Transforms of a cycle: three steps as those of kind partial-slip."""
 _RUBBING_CYCLE = 0.015
 """Processor time of the slip solver besides its transforms in one cycle [s]."""
 FIRST_ORDER = "of first order in the cell at the edges of contact and stick; compare with the grid of twice the cell"
-"""Why figures of a loop have no error bar."""
+"""Reason why figures of a loop have no error bar."""
 _told = partial(Figure, optional=True, headline=True, no_bar=FIRST_ORDER)
 _map = partial(grid_map, of="last")
 

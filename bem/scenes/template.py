@@ -15,7 +15,7 @@ from bem.scenes.kind import get_kind, kind_aliases, kind_names
 from bem.scenes.load import library, library_text
 from bem.scenes.starts import start_scene
 from bem.scenes.validate import nearest, show
-from bem.scenes.values import dumped
+from bem.scenes.values import dumped, typed
 
 _MOST_CHOICES = 12
 _WIDEST, _WIDTH = 42, 118
@@ -98,7 +98,7 @@ class _Writer:
                 inner.append((one, value))
                 continue
             if value is not None:
-                lines.append((f"{one.last} = {_typed(value)}", _meaning(one, short=not self._everything)))
+                lines.append((f"{one.last} = {typed(value)}", _meaning(one, short=not self._everything)))
             elif one.typed and not one.rows and (self._everything or one.level == "basic"):
                 lines.append((f"# {one.last} = {one.example}", _meaning(one, short=not self._everything)))
             if self._everything and (one.tables or one.rows) and not _beside(table, one):
@@ -209,10 +209,3 @@ def _aligned(lines: list[tuple[str, str]]) -> Iterator[str]:
         first, *more = textwrap.wrap(about, _WIDTH - column) or [""]
         yield f"{text:<{column}}  # {first}"
         yield from (f"{'#' * text.startswith('#'):<{column}}  # {line}" for line in more)
-
-
-def _typed(value: Any) -> str:
-    """A value as it would be typed, tables on one line."""
-    if isinstance(value, Mapping):
-        return "{ " + ", ".join(f"{key} = {_typed(item)}" for key, item in value.items()) + " }"
-    return dumped(value)

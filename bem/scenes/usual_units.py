@@ -8,7 +8,7 @@ from __future__ import annotations
 import re
 from decimal import Decimal, localcontext
 
-from bem.quantities import MICRO, PREFIXES
+from bem.quantities import with_prefixes
 
 Dimensionality = tuple[tuple[str, float], ...]
 
@@ -21,8 +21,7 @@ _POWER = {_LENGTH: 2, _MASS: 1, _TIME: -3}
 
 def _with_prefixes(unit: str, letters: str, dimensions: dict[str, int]) -> dict[str, tuple[dict[str, int], str]]:
     """Return a unit and its multiples by the prefixes of these letters, with their factors to SI."""
-    spelt = {"": 0} | {way: PREFIXES[letter] for letter in letters for way in (MICRO if letter == "u" else letter)}
-    return {f"{way}{unit}": (dimensions, f"1e{power}") for way, power in spelt.items()}
+    return {name: (dimensions, f"1e{power}") for name, power in with_prefixes(unit, letters).items()}
 
 
 _UNITS: dict[str, tuple[dict[str, int], str]] = {

@@ -57,3 +57,10 @@ def dumped(value: Any) -> str:
     if isinstance(value, Mapping):
         return "{" + ", ".join(f"{json.dumps(str(key))} = {dumped(item)}" for key, item in value.items()) + "}"
     raise TypeError(f"no TOML for {type(value).__name__}")
+
+
+def typed(value: Any) -> str:
+    """A plain value as a user would type it: as `dumped`, with keys of tables without quotes."""
+    if isinstance(value, Mapping):
+        return "{ " + ", ".join(f"{key} = {typed(item)}" for key, item in value.items()) + " }"
+    return dumped(value)

@@ -176,7 +176,7 @@ def grid_keys(scene: Any, factor: float, across: float | None = None) -> dict[st
 
 
 _FEWEST_POINTS, _FEWEST_FILM_CELLS = 100, 32
-"""That a film is solved on."""
+"""Fewest points or cells on which a film is solved."""
 
 
 def film_keys(scene: Any, factor: float) -> dict[str, Any]:

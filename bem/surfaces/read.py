@@ -26,15 +26,20 @@ import numpy as np
 from bem.errors import InputError, ResultsError, SurfaceFileError
 from bem.grid import FloatArray
 from bem.memory import available_memory
+from bem.quantities import with_prefixes
 from bem.surfaces.examples import example_path
 from bem.surfaces.filter import DETRENDINGS, LEAST_SPIKE, despike, detrend, fill_missing
 from bem.surfaces.formats import SurfaceFormat, format_of
 from bem.surfaces.surface import Surface
 
-METRES = {
-    "km": 1e3, "m": 1.0, "dm": 1e-1, "cm": 1e-2, "mm": 1e-3, "µm": 1e-6, "μm": 1e-6, "um": 1e-6, "nm": 1e-9, "Å": 1e-10,
-    "pm": 1e-12, "fm": 1e-15, "in": 0.0254, "mil": 25.4e-6,
-}  # fmt: skip
+METRES = {name: float(f"1e{power}") for name, power in with_prefixes("m", "pnumk").items()} | {
+    "dm": 1e-1,
+    "cm": 1e-2,
+    "Å": 1e-10,
+    "fm": 1e-15,
+    "in": 0.0254,
+    "mil": 25.4e-6,
+}
 MOST_POINTS = 2**28
 """Largest map that is read; a damaged header may claim anything."""
 

@@ -56,13 +56,14 @@ def test_a_list_of_numbers_is_one_figure():
     assert change == pytest.approx((-0.5, 0.1))  # nothing is said of a change from zero
     assert Difference("friction", ([0.1], [0.1, 0.2])).relative(1) is None
     assert shown([3.0, 1.0, 2.0, 5.0], "N") == "1 to 5 N"
+    assert shown(1.25e-7, "m") == "125 nm"
     assert shown([3.0, 1.0]) == "3, 1"
     assert leaves({"a": {"b": [1, {"c": 2}]}, "d": [3, 4]}) == {"a.b[0]": 1, "a.b[1].c": 2, "d": [3, 4]}
 
 
 @pytest.mark.internal
 def test_runs_are_labelled_by_what_differs_with_its_unit(pair):
-    assert run_labels(pair, ["a", "b"]) == ["a: mean pressure = 8e+07 Pa", "b: mean pressure = 1.6e+08 Pa"]
+    assert run_labels(pair, ["a", "b"]) == ["a: mean pressure = 80 MPa", "b: mean pressure = 160 MPa"]
     assert run_labels([pair[0], pair[0]], ["a", "b"]) == ["a", "b"]
 
 
@@ -71,7 +72,7 @@ def test_a_run_outside_its_model_says_so_where_it_is_compared(pair, monkeypatch)
     beyond = {**pair[1].summary, "outside_model": ["half of it is beside"]}
     runs = [pair[0], dataclasses.replace(pair[1], summary=beyond)]
     labels = run_labels(runs, ["a", "b"])
-    assert labels == ["a: mean pressure = 8e+07 Pa", "b (outside the model): mean pressure = 1.6e+08 Pa"]
+    assert labels == ["a: mean pressure = 80 MPa", "b (outside the model): mean pressure = 160 MPa"]
     monkeypatch.setattr("bem.results.open_run", lambda path: runs[path.name == "b"])
     told = CliRunner().invoke(build(), ["compare", str(pair[0].path), str(pair[1].path), "--no-figures"])
     assert told.output.count("outside the model") == 1

@@ -17,7 +17,7 @@ if TYPE_CHECKING:
 
 
 _SHARES = {"mean_plane": "load_over_hertz", "from_flat": "load_over_hertz_finite_array"}
-"""Of the deepest load over that of an asperity alone."""
+"""Ratios of the deepest load to that of an asperity alone."""
 
 
 def bars_of(scene: AsperitiesScene, grid: Grid, found: ArrayLoads) -> ErrorBars:
@@ -36,4 +36,4 @@ def bars_of(scene: AsperitiesScene, grid: Grid, found: ArrayLoads) -> ErrorBars:
 
 
 RESOLUTIONS = (cell_at("array.cell"),)
-"""What is refined where an accuracy is asked for."""
+"""Resolutions that are refined to a requested accuracy."""

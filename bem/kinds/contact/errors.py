@@ -42,4 +42,4 @@ def bars_of(
 
 
 RESOLUTIONS = (CELLS, DEPTHS)
-"""What is refined where an accuracy is asked for."""
+"""Resolutions that are refined to a requested accuracy."""

@@ -20,4 +20,4 @@ def bars_of(case: MarchCase, width: float) -> ErrorBars:
 
 
 RESOLUTIONS = (counted("march.points", POINTS, 201, 5000), counted("march.steps", STEPS, 50, 100_000))
-"""What is refined where an accuracy is asked for."""
+"""Resolutions that are refined to a requested accuracy."""

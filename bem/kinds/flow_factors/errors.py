@@ -21,4 +21,4 @@ def bars_of(found: FlowFactors, heights: FloatArray, grid: Grid, pair: float) ->
 
 
 RESOLUTIONS = (CELLS,)
-"""What is refined where an accuracy is asked for."""
+"""Resolutions that are refined to a requested accuracy."""

@@ -31,4 +31,4 @@ _LINE, _POINT = counted("film.points", POINTS, 400, 20000), counted("film.cells"
 _FILM = of_either(POINTS, lambda scene: _LINE if scene.contact.point_radii is None else _POINT)
 
 RESOLUTIONS = (CELLS, _FILM)
-"""What is refined where an accuracy is asked for."""
+"""Resolutions that are refined to a requested accuracy."""

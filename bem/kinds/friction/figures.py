@@ -40,7 +40,7 @@ _MODEL_NAMES = {
     "uncoupled_elastic": "uncoupled asperities, elastic",
 }
 _ALIKE = 0.01
-"""Of the highest friction: a curve that stays closer to an earlier one hides it."""
+"""Fraction of the highest friction: a curve that stays closer to an earlier one hides it."""
 Array = NDArray[Any]
 _CELSIUS = 273.15
 

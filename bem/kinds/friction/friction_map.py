@@ -16,13 +16,13 @@ from bem.plots.labels import colour_ends
 from bem.plots.style import OPEN, colour_bar, field_axes, label, prefix, thinned
 
 _BEYOND = 1.15
-"""Of the half-axes of what carries friction, what is shown."""
+"""Half-axes shown over those of the area that carries friction."""
 _WIDE, _WIDTH = 2.0, 6.0
 """Length along x over that along y from which maps are one below the other, and the figure's width then [inch]."""
 _AROUND, _NARROW = (1.6, 1.0), 3.0
-"""Of one map, what its axes, bar and title take along both, and the width of its title [inch]."""
+"""Space of a map's axes, bar and title along both directions, and the width of its title [inch]."""
 _SOME = 0.02
-"""Of the largest stress, what counts as carrying friction."""
+"""Fraction of the largest stress from which a cell counts as carrying friction."""
 
 
 def _shares(run: Any) -> tuple[float, float]:

@@ -9,8 +9,8 @@ from bem.scenes.planner import Plan, Step
 _CONVOLUTIONS = 30  # of the contacts of one speed: 11 to 21 were counted, and those that tell of the oil beside them
 _SEPARATIONS = 10  # of the flow factors' table
 _FILMS_AGAIN, _BALL_FILMS_AGAIN, _HEAT_AGAIN = 1.2, 0.7, 0.6
-"""Of the time of films, and of that of their heat, for both balances of error bars: 0.8 to 2 of a cylinder's films was
-measured, 0.7 of a ball's, 0.4 to 0.8 of both with heat."""
+"""Fractions of the time of films, and of the time of their heat, for both balances of error bars: 0.8 to 2 of a
+cylinder's films was measured, 0.7 of a ball's, 0.4 to 0.8 of both with heat."""
 
 
 def plan(scene: FrictionScene) -> Plan:

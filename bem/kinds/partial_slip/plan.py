@@ -9,8 +9,8 @@ from bem.scenes import sticking
 from bem.scenes.planner import SEARCHED_IN_SINGLE, Plan, Step
 
 _TRANSFORMS = 6.0 * 22
-"""Of a step: 15 to 23 convolutions were counted on 128 to 512 cells a side, first steps and later ones alike, each of
-four transforms and vector passes worth two more."""
+"""Transforms of a step: 15 to 23 convolutions were counted on 128 to 512 cells a side, first steps and later ones
+alike, each of four transforms and vector passes worth two more."""
 _ANSWERED = 4.0
 """Times as much where the pressure follows the tractions: six to nine rounds, each from the one before."""
 

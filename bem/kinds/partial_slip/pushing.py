@@ -23,11 +23,12 @@ if TYPE_CHECKING:
     from bem.tangential import CoupledSolution, TangentialSolution
 
 PRESSING_STEPS = 16
-"""Of bodies that differ: the stick radius of a ball is then 4 % small, of first order in the steps (Spence, tests)."""
+"""Steps of dissimilar bodies: the stick radius of a ball is then 4 % small, of first order in the steps (Spence,
+tests)."""
 
 COLUMNS = ("force", "shift", "stick", "counted_stick", "energy", "residual", "rotation", "moment")
-"""Of the table of steps: force along x [N], shift along x [m], shares of the contact that stick, energy [J], residual,
-rotation [rad] and moment [N m] about the grid's centre."""
+"""Columns of the table of steps: force along x [N], shift along x [m], shares of the contact that stick, energy [J],
+residual, rotation [rad] and moment [N m] about the grid's centre."""
 
 
 @dataclass(frozen=True, eq=False)

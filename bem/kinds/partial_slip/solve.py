@@ -14,7 +14,7 @@ from bem.scenes import build
 from bem.scenes.sticking import Site
 
 _PROBE = 1e-3
-"""Of the approach from first touch, or of the range of gaps: how far the bodies are moved for the normal stiffness."""
+"""Displacement for the normal stiffness, as a fraction of the approach from first touch, or of the range of gaps."""
 
 
 def stiffness(

@@ -25,4 +25,4 @@ def _first(scene: PointFilmScene) -> PointFilmScene:
 CELLS = replace(Resolution("cells", _first, _finer, lambda scene: "{} x {} cells".format(*scene.film.cells)), part=GRID)
 
 RESOLUTIONS = (CELLS,)
-"""What is refined where an accuracy is asked for."""
+"""Resolutions that are refined to a requested accuracy."""

@@ -15,7 +15,7 @@ from bem.plots.interferograms import finely_coloured
 from bem.plots.style import BLUE, OPEN, VERMILION, field_axes, label, map_of, prefix
 
 _TICKS = 6
-"""Of the longer horizontal axis of a surface, at most."""
+"""Most ticks of the longer horizontal axis of a surface."""
 _THICK = 3.0
 """Central films at which a map's colours end."""
 

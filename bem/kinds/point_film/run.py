@@ -25,7 +25,7 @@ if TYPE_CHECKING:
     from bem.reference_solutions.hertz import PointContact
 
 _SHOWN = np.linspace(-2.0, 1.5, 281)
-"""Where sections are given, in half-axes of Hertz' ellipse."""
+"""Places of sections in half-axes of Hertz' ellipse."""
 _CENTRAL = (("central_thickness", "thickness"), ("central_pressure", "pressure"))
 
 

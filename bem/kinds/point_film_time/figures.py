@@ -16,7 +16,7 @@ _SECTIONS = 6
 _MOST = 3.0
 """Median films of the loaded middle that a section shows."""
 _BRIGHT = 0.6
-"""Of that, where colours of the film over time end."""
+"""Fraction of the largest film at which the colours of the film over time end."""
 _DOTS = 90
 """Per inch of an animation."""
 _WIDE = 4.6

@@ -77,4 +77,4 @@ def _film_shown(scene: RunningInScene) -> str:
 
 
 RESOLUTIONS = (of_loop(CELLS.first, lambda scene: build.grid_of(scene.grid).shape, at_resolution, _film_shown),)
-"""What is refined where an accuracy is asked for."""
+"""Resolutions that are refined to a requested accuracy."""

@@ -5,4 +5,4 @@ from __future__ import annotations
 from bem.scenes.resolutions import CELLS
 
 RESOLUTIONS = (CELLS,)
-"""What is refined where an accuracy is asked for."""
+"""Resolutions that are refined to a requested accuracy."""

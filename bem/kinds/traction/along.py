@@ -30,7 +30,7 @@ _NUMBER = re.compile(r"[+-]?(?:\d+\.?\d*|\.\d+)(?:[eE][+-]?\d{1,3})?")
 _Positive = Annotated[Length, Field(gt=0)]
 _Rows = Field(min_length=2, max_length=_MOST_ROWS)
 _ROUNDED = 1e-3
-"""Of the way, by which a mark may lie beyond its ends: positions of tables are rounded."""
+"""Fraction of the way by which a mark may lie beyond its ends: positions of tables are rounded."""
 _ANY = (1e-2, 1.0, 1.0, 0.0)
 COLUMNS = ("position", "radius", "load", "lower_speed", "upper_speed")
 

@@ -6,4 +6,4 @@ from bem.accuracy.bars import POINTS
 from bem.scenes.resolutions import counted
 
 RESOLUTIONS = (counted("film.points", POINTS, 400, 20000),)
-"""What is refined where an accuracy is asked for."""
+"""Resolutions that are refined to a requested accuracy."""

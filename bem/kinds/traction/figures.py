@@ -197,7 +197,7 @@ def _along(run: Any, figure: Figure) -> None:
 
 
 _CLOSE = 0.035
-"""Of the way, below which letters of two places would overlap: they share one label."""
+"""Fraction of the way below which letters of two places would overlap: they share one label."""
 
 
 def _mark_places(run: Any, top: Axes, below: Sequence[Axes]) -> None:

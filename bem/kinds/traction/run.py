@@ -20,7 +20,7 @@ if TYPE_CHECKING:
     from bem.accuracy import TractionCase
 
 _SHOWN = np.linspace(-2.5, 1.5, 401)
-"""Where curves are given, in half-widths of the Hertz contact along the entrainment."""
+"""Places of curves in half-widths of the Hertz contact along the entrainment."""
 
 
 def run(scene: TractionScene, context: Context) -> TractionRecord:

@@ -9,4 +9,4 @@ _REUSED = tolerance_at("reuse_tolerance", REUSE, lambda scene: scene.film.feedba
 _LOCAL = tolerance_at("film.local_tolerance", STEPS, lambda scene: scene.film.feedback == "local")
 
 RESOLUTIONS = (CELLS, _REUSED, _LOCAL)
-"""What is refined where an accuracy is asked for."""
+"""Resolutions that are refined to a requested accuracy."""

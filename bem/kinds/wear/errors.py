@@ -38,4 +38,4 @@ def at_resolution(scene: WearScene, factor: float, across: float | None = None) 
 
 
 RESOLUTIONS = (of_loop(first_domain, lambda scene: scene.domain.cells, at_resolution),)
-"""What is refined where an accuracy is asked for."""
+"""Resolutions that are refined to a requested accuracy."""

@@ -170,4 +170,4 @@ _VARIED = {
     "lower_rms_height": "lower.surface.rms_height",
     "upper_rms_height": "upper.surface.rms_height",
 }
-"""Where the keys of a variant stand in the scene, if not in `wear`."""
+"""Places of a variant's keys in the scene, if not in `wear`."""

@@ -253,7 +253,7 @@ def steps_of_wear_in_oil_that_overshoot(facts: Facts, outcome: Outcome) -> Itera
 
 
 _STEPS = 0.1
-"""Of the mean depth: below that the error of the steps is beside those that bars have."""
+"""Fraction of the mean depth below which the error of the steps is small beside the error bars."""
 
 
 @outcome_check

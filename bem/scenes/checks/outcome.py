@@ -37,7 +37,7 @@ _AT_CAP = 0.1
 _CONTACT = 0.5
 _WIDE = 0.5
 _MOST = 0.5
-"""Of the load, beyond which a contact is not the bodies' own."""
+"""Fraction of the load beyond which a contact is not the bodies' own."""
 _DRY = ("contact", "partial-slip", "rolling", "surface-temperature")
 """Kinds of dry contacts, elastic where no cap is set."""
 

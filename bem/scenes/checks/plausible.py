@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from functools import lru_cache
-from typing import Annotated, Any, get_args, get_origin
+from typing import Any
 
 from bem.notes import Note
 from bem.plausibility import BY_NAME, UsualRange, notes_on, range_of_key
@@ -17,7 +17,7 @@ from bem.scenes.checks.registry import scene_check
 from bem.scenes.common import MaterialScene, SceneModel
 from bem.scenes.load import scenes_over
 from bem.scenes.table import Table
-from bem.scenes.units import Dimension
+from bem.scenes.walk import own_keys
 
 _MOST_SCENES = 256
 """Scenes of a key `over` that are looked at."""
@@ -56,7 +56,7 @@ def values_of(value: Any, key: str = "", unit: str | None = None) -> Values:
     if isinstance(value, Table):
         rigid = isinstance(value, MaterialScene) and "rigid" in value.name.lower()
         units = _units(type(value))
-        for name in type(value).model_fields:
+        for name in units:
             if rigid and name == "youngs_modulus":  # a stand-in for a rigid body
                 continue
             yield from values_of(getattr(value, name), f"{key}.{name}" if key else name, units[name])
@@ -82,16 +82,4 @@ def _derived(facts: Facts) -> Values:
 @lru_cache(maxsize=256)
 def _units(table: type[Table]) -> dict[str, str | None]:
     """SI units of the keys of a table; None of keys without one dimension."""
-    units = {}
-    for name, field in table.model_fields.items():
-        dimensions = {one.unit for one in field.metadata if isinstance(one, Dimension)} | _dimensions(field.annotation)
-        units[name] = dimensions.pop() if len(dimensions) == 1 else None
-    return units
-
-
-def _dimensions(annotation: Any) -> set[str]:
-    """Units of the dimensions in a type annotation."""
-    if get_origin(annotation) is Annotated:
-        inner, *metadata = get_args(annotation)
-        return {one.unit for one in metadata if isinstance(one, Dimension)} | _dimensions(inner)
-    return {unit for one in get_args(annotation) for unit in _dimensions(one)}
+    return {key.name: None if key.dimension is None else key.dimension.unit for key in own_keys(table)}

@@ -13,10 +13,10 @@ OutcomeCheck = Callable[[Facts, Outcome], Iterator[str]]
 C = TypeVar("C", bound=Callable[..., Iterator[str]])
 
 SCENE_CHECKS: dict[str, SceneCheck] = {}
-"""What can be known before any work, by the function's name, in the order of definition."""
+"""Checks before any work by the function's name, in the order of definition."""
 
 OUTCOME_CHECKS: dict[str, OutcomeCheck] = {}
-"""What only the results tell."""
+"""Checks of results."""
 
 
 def scene_check(check: SceneCheck) -> SceneCheck:

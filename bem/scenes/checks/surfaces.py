@@ -17,7 +17,7 @@ from bem.scenes.checks.words import times
 _FILLED = 0.03
 _POINTS = 32
 _ROUND_OFF = 1e-9
-"""Of points that are a length divided by a spacing."""
+"""Rounding error of a count of points, a length divided by a spacing."""
 
 
 @scene_check

@@ -1,0 +1,59 @@
+"""Prefixes of units and numbers with units: one table for texts, tables and axes."""
+
+import pytest
+
+from bem.quantities import plain_digits, prefix_for, si, with_prefixes, with_signs, with_unit
+
+pytestmark = pytest.mark.internal
+
+
+@pytest.mark.parametrize(
+    ("largest", "unit", "factor", "shown"),
+    [
+        (3e-6, "m", 1e6, "µm"),
+        (999.96, "m", 1e-3, "km"),  # four digits show 1000
+        (0.2, "m/s", 1e3, "mm/s"),
+        (2e9, "Pa", 1e-9, "GPa"),
+        (3e-12, "m²", 1e12, "µm²"),
+        (4.0, "m³", 1.0, "m³"),
+        (4e6, "m²", 1.0, "m²"),  # no prefix above one
+        (450.0, "nm", 1.0, "nm"),
+        (4500.0, "nm", 1e-3, "µm"),
+        (2e-15, "N", 1e12, "pN"),
+        (0.0, "m", 1.0, "m"),
+        (5e5, "1", 1.0, ""),
+        (5e5, "1/s", 1.0, "1/s"),
+    ],
+)
+def test_the_largest_value_decides_the_prefix(largest, unit, factor, shown):
+    found = prefix_for(largest, unit)
+    assert found == (pytest.approx(factor), shown)
+
+
+@pytest.mark.parametrize(
+    ("value", "unit", "text"),
+    [
+        (45e-9, "m", "45 nm"),
+        (1e9, "Pa", "1 GPa"),
+        (999.9, "N", "1 kN"),
+        (-2.5e-6, "m", "-2.5 um"),
+        (1e-12, "m", "1e-12 m"),
+        (0.0, "m", "0 m"),
+        (float("inf"), "Pa", "inf Pa"),
+    ],
+)
+def test_a_text_has_a_prefix_from_nano_to_giga(value, unit, text):
+    assert si(value, unit) == text
+
+
+def test_units_without_prefixes_are_written_as_they_are():
+    assert with_unit(1234.5, "kg/m^3") == "1.23e+03 kg/m^3"
+    assert with_unit(0.36, "Pa*s") == "360 mPa*s"
+    assert with_unit(0.3, "") == "0.3"
+    assert with_signs("um^2") == "µm²"
+    assert (plain_digits(110.4), plain_digits(float("nan")), plain_digits(1234.5, 3)) == ("110", "–", "1230")
+
+
+def test_all_ways_of_writing_micro_are_one_unit():
+    found = with_prefixes("m", "uk")
+    assert found == {"m": 0, "um": -6, "µm": -6, "μm": -6, "km": 3}
