@@ -52,10 +52,8 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> Generator[None]:
             item.add_marker(pytest.mark.slow)
     yield
     if "PYTEST_XDIST_WORKER" in os.environ:
-        files = {item.nodeid.partition("::")[0]: 0.0 for item in items}
-        for function in {durations.function_of(item.nodeid) for item in items} & seconds.keys():
-            files[function.partition("::")[0]] += seconds[function][0]
-        place = {file: number for number, file in enumerate(durations.deal_files(files))}
+        chosen = durations.file_seconds((durations.function_of(item.nodeid) for item in items), seconds)
+        place = {file: number for number, file in enumerate(durations.deal_files(chosen))}
         items.sort(key=lambda item: place[item.nodeid.partition("::")[0]])
 
 

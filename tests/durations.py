@@ -60,6 +60,21 @@ def slow_functions(seconds: Mapping[str, tuple[float, float]], kept: set[str]) -
     }
 
 
+def file_seconds(functions: Iterable[str], seconds: Mapping[str, tuple[float, float]]) -> dict[str, float]:
+    """Return the seconds of each file: of those of its functions that are given, once each.
+
+    Parameters
+    ----------
+    functions : functions that will run, once for each case.
+    seconds : of all cases of a function, and of its longest case.
+    """
+    found: dict[str, float] = {}
+    for function in dict.fromkeys(functions):
+        file = function.partition("::")[0]
+        found[file] = found.get(file, 0.0) + seconds.get(function, (0.0, 0.0))[0]
+    return found
+
+
 def deal_files(seconds: Mapping[str, float]) -> list[str]:
     """Return the files in the order in which two workers take them, each half with its longest files first.
 

@@ -1,6 +1,6 @@
 """Stored durations: what they make slow, how they deal files to workers, and how they are read."""
 
-from durations import deal_files, function_of, killers, read_log, slow_functions, stored
+from durations import deal_files, file_seconds, function_of, killers, read_log, slow_functions, stored
 
 SECONDS = {"a.py::one": (0.6, 0.6), "a.py::two": (2.0, 0.1), "b.py::three": (0.3, 0.3), "b.py::four": (9.0, 9.0)}
 
@@ -14,6 +14,11 @@ def test_no_killer_of_a_mutant_is_slow():
     kept = killers()
     assert len(kept) > 50
     assert not slow_functions(stored(), kept) & kept
+
+
+def test_a_file_has_the_seconds_of_the_functions_that_will_run():
+    chosen = ["b.py::four", "b.py::four", "a.py::one", "c.py::short"]
+    assert file_seconds(chosen, SECONDS) == {"b.py": 9.0, "a.py": 0.6, "c.py": 0.0}
 
 
 def test_workers_get_halves_that_end_with_short_files():
