@@ -12,7 +12,7 @@ from __future__ import annotations
 import math
 import tempfile
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any, ClassVar
 
@@ -24,7 +24,7 @@ from bem.elements.running import POINTS, run_contact
 from bem.errors import InputError, Status
 from bem.grid import FloatArray
 from bem.lubrication.oil_scatter import oil_scatter
-from bem.lubrication.oils.catalogue import oil_from_viscosities
+from bem.lubrication.oils.catalogue import correlation, oil_from_viscosities
 from bem.lubrication.oils.oil import Oil
 from bem.lubrication.results import FilmSolution
 from bem.lubrication.viscosity import ViscosityLaw
@@ -50,9 +50,9 @@ SEEDS = ((11, 12), (21, 22))
 DISC_RADIUS, DISC_PRESSURE, DISC_INLET = 0.02, 1e9, 60.0
 """Twin discs of 80 mm diameter [m], Hertz pressure [Pa], oil [degC]: Mann (1995) in Arana et al. (2019)."""
 SPEEDS, SLIPS = (2.0, 4.0, 8.0, 16.0), (0.02, 0.05, 0.1)
-OTHER_ALPHA = (("pag", 1.46), ("ester", 1.25))
-"""Factors of the pressure-viscosity coefficient: 17.6 1/GPa of an ethylene and propylene oxide copolymer of 0.204 Pa s
-at 30 degC (Stachowiak and Batchelor, table 2.3) over 12.0 of the catalogue's correlation; of esters assumed."""
+OTHER_ALPHA = (("pag", 17.6 / 15.24), ("ester", 1.0))
+"""Largest factor of the pressure-viscosity coefficient: 17.6 1/GPa of a copolymer of ethylene and propylene oxide of
+0.204 Pa s at 30 degC (Stachowiak and Batchelor, table 2.3) over the catalogue's correlation."""
 BALL = ("speeds.first=0.001 m/s", "speeds.count=5", "film.cells=64")
 """Settings of the ball's scene: slower than it begins, so that the curve has its boundary end."""
 TEMPERATURES = (40.0, 60.0, 80.0, 100.0)
@@ -357,12 +357,15 @@ def pressure_coefficient(base: str, alpha: float) -> dict[str, Any]:
 
 
 def pressure_coefficients() -> list[dict[str, Any]]:
-    """Polyglycol and ester with alpha of the catalogue and larger."""
+    """Polyglycol and ester with the secant at 0.2 GPa as alpha, with alpha of the catalogue, and larger."""
     rows = []
     for base, factor in OTHER_ALPHA:
-        own = Lubricant.of("ISO VG 100", temperature=DISC_INLET + CELSIUS, base=base).pressure_viscosity
-        rows += [pressure_coefficient(base, share * own) for share in (1.0, factor)]
-        print("alpha", rounded(rows[-2:]), flush=True)
+        own = Lubricant.of("ISO VG 100", temperature=DISC_INLET + CELSIUS, base=base)
+        assert own.density is not None
+        secant = replace(correlation(base), pressure=0.0).at(own.viscosity, own.density, 0.0)
+        alphas = {secant, own.pressure_viscosity, factor * own.pressure_viscosity}
+        rows += [pressure_coefficient(base, alpha) for alpha in sorted(alphas)]
+    print("alpha", rounded(rows), flush=True)
     return rows
 
 

@@ -3,6 +3,7 @@ over temperature, messages where an oil is no liquid."""
 
 import math
 
+import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
@@ -11,6 +12,7 @@ import bem
 from bem import InputError, Lubricant, find_oil
 from bem.lubrication.oils.catalogue import bases, correlation, correlations, oil_from_viscosities, oil_names
 from bem.lubrication.oils.over_temperature import Andrade, ViscosityTable, Vogel, Walther
+from bem.lubrication.oils.pressure import ambient_slope
 from bem.lubrication.oils.viscosity_index import reference_oils, viscosity_at_40, viscosity_at_100, viscosity_index
 
 T40, T60, T100 = 313.15, 333.15, 373.15
@@ -242,6 +244,35 @@ def test_pressure_viscosity_of_mineral_oils_against_measurements(name):
             (6 + 9.65 * math.log10(mu)) * 1e-9, rel=1e-12
         )
     assert oil.viscosity.kinematic(333.15) == pytest.approx(points[333.15], rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("name", "viscosity", "density", "measured", "within"),
+    [
+        # jet oils in the oil data of Gupta, Advanced Dynamics of Rolling Elements (1984): MIL-L-23699 at 38 and 94 degC,
+        # MIL-L-7808 at 38 degC
+        ("ester", 27.7e-3, 959.0, 14.4e-9, 0.03),
+        ("ester", 5.68e-3, 922.0, 11.25e-9, 0.03),
+        ("ester", 12.4e-3, 954.0, 12.0e-9, 0.08),
+        # copolymer of ethylene and propylene oxide at 30 degC, Stachowiak and Batchelor, table 2.3
+        ("pag", 0.204, 1050.0, 17.6e-9, 0.15),
+    ],
+)
+def test_correlations_of_a_secant_are_those_of_the_slope_at_ambient_pressure(
+    name, viscosity, density, measured, within
+):
+    law = correlation(name)
+    assert within <= law.error
+    assert law.at(viscosity, density, 0.0) == pytest.approx(measured, rel=within)
+
+
+def test_roelands_law_of_the_slope_goes_through_the_secant():
+    secant, pressure, viscosity = 11.6e-9, 0.2e9, 27.7e-3
+    slope = ambient_slope(secant, pressure, viscosity)
+    rise = Lubricant(viscosity, pressure_viscosity=slope).log_viscosity_ratio(np.array([pressure]))[0][0]
+    assert rise == pytest.approx(secant * pressure, rel=1e-12)
+    assert slope > 1.15 * secant
+    assert ambient_slope(secant, pressure, 1e-5) == secant
 
 
 @pytest.mark.internal

@@ -140,6 +140,7 @@ def correlation(name: str) -> PressureViscosity:
         logarithm=tuple(table["logarithm"]) if "logarithm" in table else None,
         viscosity=tuple(table["viscosity"]),
         temperature=(cold + CELSIUS, hot + CELSIUS),
+        pressure=1e9 * table.get("pressure", 0.0),
         error=table["error"],
     )
 

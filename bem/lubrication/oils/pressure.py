@@ -1,10 +1,15 @@
-"""Pressure-viscosity coefficient over viscosity: named correlations, each with what it was measured on."""
+"""Pressure-viscosity coefficient over viscosity: named correlations, each with what it was measured on.
+
+The coefficient of this package is the slope of ln(viscosity) at ambient pressure. A correlation of the secant
+ln(mu/mu0)/p at a higher pressure gives the slope of Roelands' law through that secant.
+"""
 
 from __future__ import annotations
 
 import math
 from dataclasses import dataclass
 
+from bem.lubrication.viscosity import ROELANDS_PRESSURE, ROELANDS_VISCOSITY
 from bem.notes import Note
 from bem.notes.lubrication import OIL_DATA_SHORT
 
@@ -20,6 +25,7 @@ class PressureViscosity:
 
     name : of the correlation, or "given". dynamic : whether the viscosity is dynamic [mPa s], else kinematic [mm^2/s].
     logarithm : (a, b) in place of the powers. viscosity, temperature : ranges that it was made from [the unit, K].
+    pressure : of the secant ln(mu/mu0)/p that the formula gives [Pa]; 0 where it gives the slope at ambient pressure.
     error : the largest that was seen, relative. source : in words.
     """
 
@@ -32,6 +38,7 @@ class PressureViscosity:
     logarithm: tuple[float, float] | None = None
     viscosity: tuple[float, float] = (0.0, math.inf)
     temperature: tuple[float, float] = (0.0, math.inf)
+    pressure: float = 0.0
     error: float = 0.0
 
     @classmethod
@@ -47,7 +54,8 @@ class PressureViscosity:
         value = self._argument(dynamic, density)
         if self.logarithm is not None:
             return GPA * max(self.logarithm[0] + self.logarithm[1] * math.log10(value), 0.0)
-        return float(GPA * self.factor * value**self.exponent * walther_slope**self.slope_exponent)
+        secant = float(GPA * self.factor * value**self.exponent * walther_slope**self.slope_exponent)
+        return secant if self.pressure == 0.0 else ambient_slope(secant, self.pressure, dynamic)
 
     def note(self, dynamic: float, density: float, temperature: float) -> Note | None:
         """Return a note on a state [Pa s, kg/m^3, K] that the correlation was not made for, else None."""
@@ -62,3 +70,16 @@ class PressureViscosity:
         return OIL_DATA_SHORT(
             correlation=self.name, thin=thin, thick=thick, unit=unit, at=at, reason="pressure-viscosity"
         )
+
+
+def ambient_slope(secant: float, pressure: float, viscosity: float) -> float:
+    """Return the slope of ln(viscosity) at ambient pressure [1/Pa] of Roelands' law through a secant.
+
+    secant : ln(mu/mu0)/p [1/Pa] at the pressure p [Pa]. viscosity : mu0 [Pa s]; that of Roelands' pole or less leaves
+    the secant as it is.
+    """
+    span = math.log(viscosity / ROELANDS_VISCOSITY)
+    if span <= 0:
+        return secant
+    exponent = math.log1p(secant * pressure / span) / math.log1p(pressure / ROELANDS_PRESSURE)
+    return exponent * span / ROELANDS_PRESSURE
