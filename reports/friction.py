@@ -8,63 +8,39 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from dataclasses import dataclass
 from typing import TYPE_CHECKING, Any
 
 from bem.lubrication.oils.catalogue import bases
 from bem.lubrication.rheology import rheology_of
+from reports import published
 from reports.builder import COLOURS, Page, Section, figure, table, text
+from reports.experiments.friction_measured import viscosity_at_pressure
 from reports.experiments.kept import age, found
+from reports.measurement import MOST, Row
 from reports.prose import prose
 
 if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 NAME = "friction_measured"
-HEADERS = ("what", "measured", "ours", "oil", "numerical", "inside", "middle", "source", "remark")
+HEADERS = ("what", "published", "ours", "scatter", "numerical", "inside", "middle", "source", "remark")
 FORMULA_ERROR = 0.005
 """Within which the formula of Arana et al. (2019) has the coefficients that Mann measured, as they say."""
+THROUGH_FORMULA = ("mann", "gupta", "clarke")
+"""Sources whose measurements are known by a formula that describes them."""
 AT_LIMIT = 0.89
 """Mean shear stress over limit from which a contact counts as at its limit."""
-MOST = math.inf
-"""Upper end of what is only known to be larger than something."""
+ROELANDS_HEADERS = (
+    "oil", "degC", "alpha measured (1/GPa)", "alpha ours", "ln(mu/mu0) at 1 GPa, measured", "ours",
+    "viscosity over measured",
+)  # fmt: skip
 BASE_NAMES = {"mineral": "mineral oil", "pao": "PAO", "ester": "ester", "pag": "polyglycol"}
 
 
-@dataclass(frozen=True)
-class Row:
-    """A measurement and what is computed for it.
-
-    group : its table. what : quantity and conditions. low, high : interval of the measurement, its uncertainty in it.
-    ours : computed. down, up : its scatter from the oil's constants. numerical : of its numerical error. source : key
-    of the sources in `reports/prose/friction.toml`. remark : conditions that were assumed, or why it is missed.
-    """
-
-    group: str
-    what: str
-    low: float
-    high: float
-    ours: float
-    down: float
-    up: float
-    numerical: float
-    source: str
-    remark: str = ""
-
-    @property
-    def inside(self) -> bool:
-        """Return True if the interval of the measurement and that of the computed value overlap."""
-        return self.ours - self.down - self.numerical <= self.high and self.ours + self.up + self.numerical >= self.low
-
-    @property
-    def middle_inside(self) -> bool:
-        """Return True if the computed value itself is within the interval of the measurement."""
-        return self.low <= self.ours <= self.high
-
-
 def rows(stored: Mapping[str, Any]) -> list[Row]:
-    """All measurements, from a stored result of the experiment."""
-    return [*_gear_rows(stored), *_disc_rows(stored["discs"]), *_base_rows(stored["base_oils"]), *_trend_rows(stored)]
+    """All published values, from the stored result of the experiment on oils; those of films are read here."""
+    oils = (_gear_rows(stored), _disc_rows(stored["discs"]), _base_rows(stored["base_oils"]), _trend_rows(stored))
+    return [row for part in (*oils, *published.rows()) for row in part]
 
 
 def _ratio(one: Mapping[str, float], other: Mapping[str, float]) -> tuple[float, float, float, float]:
@@ -170,14 +146,22 @@ def _trend_rows(stored: Mapping[str, Any]) -> Iterator[Row]:
     yield Row("trends", "peak traction at 50 m/s over that at 5 m/s", 0.0, 1.0, fall, 0.0, 0.0, 0.01, "santotrac")
 
 
-def verdict(measured: list[Row]) -> str:
-    """The head of the page: how many measurements, from how many sources, and the shares inside."""
-    inside, middle = (sum(getattr(row, name) for row in measured) for name in ("inside", "middle_inside"))
-    sources, fitted = len({row.source for row in measured}), sum(row.source == "mann" for row in measured)
+def verdict(shown: list[Row]) -> str:
+    """The head of the page: how many measured and computed values, from how many sources, and the shares inside."""
+    measured, computed = ([row for row in shown if row.computed is kind] for kind in (False, True))
+    sources, fitted = len({row.source for row in shown}), sum(row.source in THROUGH_FORMULA for row in shown)
     return (
-        f"{len(measured)} measured values from {sources} sources, {fitted} of them through a formula that describes "
-        f"the measurement: {inside} ({inside / len(measured):.0%}) are inside both uncertainties, {middle} "
-        f"({middle / len(measured):.0%}) have our value inside the measurement's alone. No constant is fitted to them."
+        f"{len(shown)} published values from {sources} sources. Of {len(measured)} measured ones, {fitted} of them "
+        f"through a formula that describes the measurement, {_counts(measured)}. Of {len(computed)} that others "
+        f"computed, {_counts(computed)}. No constant is fitted to them."
+    )
+
+
+def _counts(shown: list[Row]) -> str:
+    inside, middle = (sum(getattr(row, name) for row in shown) for name in ("inside", "middle_inside"))
+    return (
+        f"{inside} ({inside / len(shown):.0%}) are inside both uncertainties, {middle} ({middle / len(shown):.0%}) "
+        "have our value inside theirs alone"
     )
 
 
@@ -193,19 +177,24 @@ def build() -> Page:
         if group == "discs":
             body += figure(_drawing(own), "Computed over measured coefficients; bars: scatter of the oil, and 0.005.")
         sections.append(Section(title, body + table(HEADERS, map(_cells, own))))
-    sections += [_missed(stored), _ball(stored), _constants(), _sources()]
-    return Page("friction", "Friction against measurements", verdict(measured), sections)
+    sections += [_missed(stored), *published.sections(), _ball(stored), _constants(), _sources()]
+    return Page("friction", "Friction and films against measurements", verdict(measured), sections)
 
 
 def _cells(row: Row) -> tuple[Any, ...]:
     """A row of the tables."""
-    high = "" if math.isinf(row.high) else f" to {row.high:.3g}"
-    measured = f"{'above ' if math.isinf(row.high) else ''}{row.low:.3g}{high}"
-    oil = f"-{row.down:.2g} +{row.up:.2g}" if row.down or row.up else "-"
-    numerical = f"{row.numerical:.1g}" if row.numerical else "-"
+    high = "" if math.isinf(row.high) else f" to {_short(row.high)}"
+    published_range = f"{'above ' if math.isinf(row.high) else ''}{_short(row.low)}{high}"
+    scatter = f"-{_short(row.down, 2)} +{_short(row.up, 2)}" if row.down or row.up else "-"
+    numerical = _short(row.numerical, 1) if row.numerical else "-"
     source = prose("friction")["sources"][row.source]["short"]
     verdicts = ("yes" if row.inside else "no", "yes" if row.middle_inside else "no")
-    return row.what, measured, f"{row.ours:.3g}", oil, numerical, *verdicts, source, row.remark
+    return row.what, published_range, _short(row.ours), scatter, numerical, *verdicts, source, row.remark
+
+
+def _short(value: float, digits: int = 3) -> str:
+    """A number with so many digits, or whole from ten on where these are fewer."""
+    return f"{value:.{digits}g}" if abs(value) < 10**digits else f"{value:.0f}"
 
 
 def _drawing(own: list[Row]) -> Figure:
@@ -259,14 +248,21 @@ def _missed(stored: Mapping[str, Any]) -> Section:
         (row["oil"], f"{row['speed']:g}", f"{row['slip']:g}", *(_number(row[key]) for key in ("off", "lumped", "full")))
         for row in stored["full_heat"]
     ]
+    roelands = [
+        (name, f"{row['temperature']:g}", f"{row['alpha_measured']:.1f}", f"{row['alpha']:.1f}",
+         f"{row['measured']:.1f}", f"{row['ours']:.1f}", f"{math.exp(row['ours'] - row['measured']):.2g}")
+        for name, row in viscosity_at_pressure()
+    ]  # fmt: skip
     return Section(
-        "What is missed, and why",
+        "What is missed in oils and gears, and why",
         text(words["roughness"])
         + table(("oil", *(f"Sq {rms} nm" for rms in heights)), ratios)
         + text(words["film"])
         + table(("oil", "film alone (W)", "coefficient", "oil", "over mineral oil"), alone)
         + text(words["viscosity"])
         + table(("oil", "slide/roll", "measured", "ours", "ours, viscosity as measured"), viscosity)
+        + text(words["roelands"])
+        + table(ROELANDS_HEADERS, roelands)
         + text(words["alpha"])
         + table(("oil", "1/GPa at 60 degC", "friction", "over mineral oil"), alpha)
         + text(words["heat"])
@@ -303,7 +299,8 @@ def _constants() -> Section:
         "Constants of the base oils",
         text(prose("friction")["constants"])
         + table(("base", "constant", "value", "range", "source"), shown)
-        + age(NAME),
+        + age(NAME)
+        + published.ages(),
     )
 
 

@@ -358,6 +358,54 @@ def _friction_measured(module: Any, stored: Any) -> Rows:
         yield f"gears {base}", _again(row, partial(module.film_loss, base), allowed)
 
 
+def _traction_measured(module: Any, stored: Any) -> Rows:
+    allowed = within(relative=2e-3, numerical=(1.0, 1e-4), temperature=(1e-3, 0.05), fitted=(2e-3, 0.0))
+    for row in stored:
+        given = (row["oil"], row["slip"], row["inlet"])
+        yield "{}, {:g}, {:g}".format(*given), _again(row, partial(module.traction, *given), allowed)
+
+
+def _bearing_measured(module: Any, stored: Any) -> Rows:
+    allowed = within(relative=2e-3, numerical=(1.0, 10.0))
+    for row in stored["torque"]:
+        given = (row["radial"], row["speed"], row["temperature"])
+        yield "{:g} N, {:g} rpm, {:g} degC".format(*given), _again(row, partial(module.torque, *given), allowed)
+    for row in stored["starved"]:
+        yield f"starved, {row['speed']:g} rpm", _again(row, partial(module.starved, row["speed"]), allowed)
+
+
+def _film_measured(module: Any, stored: Any) -> Rows:
+    allowed = within(relative=2e-3, numerical=(0.5, 1e-3), down=(0.1, 0.0), up=(0.1, 0.0))
+    for row in stored["waves"]:
+        given = (row["wavelength"], row["amplitude"])
+        bars = within(relative=2e-3, numerical=(0.5, 1e-3), ours=(2e-3, row["numerical"]))
+        yield "wave {:g}, height {:g}".format(*given), _again(row, partial(module.line_wave, *given), bars)
+    yield "point wave", _again(stored["point_wave"], module.point_wave, allowed)
+    for row in stored["transverse"]:
+        given = (row["alpha"], row["film"])
+        # the speed is sought to 0.1 %
+        bars = within(relative=5e-3, numerical=(0.5, 0.0), down=(0.1, 0.0), up=(0.1, 0.0))
+        yield f"transverse, alpha {row['alpha']:.3g}", _again(row, partial(module.transverse_row, *given), bars)
+    for row in stored["rolling"]:
+        given = (row["M"], row["L"])
+        bars = within(relative=2e-3, numerical=(0.5, 1e-12))
+        yield "rolling, M {:g}, L {:g}".format(*given), _again(row, partial(module.rolling, *given), bars)
+    for row in stored["dimples"]:
+        given = (row["kind"], row["place"])
+        bars = within(relative=2e-3, numerical=(0.5, 0.5))
+        yield f"dimple, {row['kind']}, {row['place']}", _again(row, partial(module.dimple_row, *given), bars)
+
+
+def _pitting_measured(module: Any, stored: Any) -> Rows:
+    for row in stored["smooth"]:
+        compute = partial(module.smooth, row["criterion"])
+        yield f"smooth, {row['criterion']}", _again(row, compute, within(relative=1e-3))
+    for row in stored["pairs"]:
+        given = tuple(row[name] for name in ("roller", "disc", "elongation", "body", "reading"))
+        label = "roller {:g}, disc {:g}, elongation {:g}, {}, {}".format(*given)
+        yield label, _again(row, partial(module.pair, *given), within(absolute=0.02))
+
+
 def _point_films(module: Any, stored: Any) -> Rows:
     names = ("cells", "status", "maximum_pressure_GPa")
     for number, row in enumerate(stored["contacts"]):
@@ -596,6 +644,8 @@ RESULTS: dict[str, Result] = {
         experiment("contact_area", _contact_area, 60, "area within 1e-4, its errors within 1e-3"),
         experiment("contact_convolutions", _contact_convolutions, 10, _COUNTS),
         experiment("film_regimes", _film_regimes, 1, "the difference to half the points"),
+        experiment("bearing_measured", _bearing_measured, 4, "2e-3, ten times what half the points change"),
+        experiment("film_measured", _film_measured, 20, "2e-3 besides the difference between meshes"),
         experiment("friction_measured", _friction_measured, 5, "2e-3, ten times what half the points change"),
         experiment(
             "independent_figures", _independent_figures, 20, "the difference to half the points; area within 1e-4"
@@ -606,6 +656,7 @@ RESULTS: dict[str, Result] = {
         experiment("lumped_heat", _lumped_heat, 6, "1e-4 of a film or a friction, ten times Newton's tolerance"),
         experiment("patch_length", _patch_length, 6, _MIXED),
         experiment("piece_shapes", _piece_shapes, 15, "three times what rounding moves wear loops by"),
+        experiment("pitting_measured", _pitting_measured, 8, "0.02 of the surface, what a few drawn ridges decide"),
         experiment("point_films", _point_films, 4, "status and grid equal, pressure within 1 % of so few cells"),
         experiment("point_table", _point_table, 40, "the film's own error bar on the finest grid"),
         experiment("preconditioned_spectrum", _preconditioned_spectrum, 5, "2 %, what one cell at the edge changes"),
@@ -617,6 +668,7 @@ RESULTS: dict[str, Result] = {
         experiment("stribeck_effects", _stribeck_effects, 10, _MIXED),
         experiment("touching_cells", _touching_cells, 10, "the film's own error bar and 1 %"),
         experiment("touching_films", _touching_films, 15, "the film's own error bars; load sharing: " + _MIXED),
+        experiment("traction_measured", _traction_measured, 2, "2e-3, as of friction_measured"),
         experiment("tribofilm_hardness", _tribofilm_hardness, 120, "1 %, less than either bound is known to"),
         experiment("waviness_reduction", _waviness_reduction, 60, "2e-3, the difference between grids"),
         experiment("wear_lengths", _wear_lengths, 20, "the scatter over the three pairs of surfaces and by rounding"),

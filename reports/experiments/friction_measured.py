@@ -385,6 +385,25 @@ class Modulus(ViscosityLaw):
         return pressure / whole, self.first / whole**2
 
 
+def viscosity_at_pressure(pressure: float = 1e9) -> list[tuple[str, dict[str, float]]]:
+    """ln(mu/mu0) at a pressure [Pa] of Mann's oils, as measured and by Roelands' law with the catalogue's alpha, at 60
+    and 90 degC; alpha [1/GPa]."""
+    rows = []
+    for name, own in MANN.items():
+        for inlet in (60.0, 90.0):
+            lubricant = own.oil(name).at(inlet + CELSIUS)
+            first, second = own.modulus(inlet + CELSIUS)
+            row = {
+                "temperature": inlet,
+                "alpha_measured": 1e9 / first,
+                "alpha": 1e9 * lubricant.pressure_viscosity,
+                "measured": pressure / (first + second * pressure),
+                "ours": float(lubricant.log_viscosity_ratio(np.array([pressure]))[0][0]),
+            }
+            rows.append((name, row))
+    return rows
+
+
 def measured_viscosity(name: str, slip: float) -> dict[str, Any]:
     """Twin discs at 4 m/s with the viscosity over pressure as Mann measured it, in place of Roelands' law."""
     own = MANN[name]

@@ -76,18 +76,19 @@ def line_matrices(line: Line) -> tuple[FloatArray, FloatArray, FloatArray, Float
     fluid = rho * h**3 * np.exp(-log)
     by_p, by_h = fluid * (rho_slope / rho - slope), 3 * fluid / h
     flow_p, flow_h, flow = np.zeros((n + 1, n)), np.zeros((n + 1, n)), np.zeros(n + 1)
-    for f in range(1, n):
-        a, b = f - 1, f
-        mean, gradient = 0.5 * (fluid[a] + fluid[b]), (p[b] - p[a]) / dx
-        flow[f] = -mean * gradient
-        flow_p[f, a] = mean / dx - 0.5 * by_p[a] * gradient
-        flow_p[f, b] = -mean / dx - 0.5 * by_p[b] * gradient
-        flow_h[f, a], flow_h[f, b] = -0.5 * by_h[a] * gradient, -0.5 * by_h[b] * gradient
-        # two cells upstream: second order
-        for cell, share in ((a, 1.5), (a - 1, -0.5)) if a > 0 else ((a, 1.0),):
-            flow[f] += 6 * share * rho[cell] * h[cell]
-            flow_p[f, cell] += 6 * share * rho_slope[cell] * h[cell]
-            flow_h[f, cell] += 6 * share * rho[cell]
+    face, before, behind = np.arange(1, n), np.arange(n - 1), np.arange(1, n)
+    mean, gradient = 0.5 * (fluid[:-1] + fluid[1:]), np.diff(p) / dx
+    flow[1:n] = -mean * gradient
+    flow_p[face, before] = mean / dx - 0.5 * by_p[:-1] * gradient
+    flow_p[face, behind] = -mean / dx - 0.5 * by_p[1:] * gradient
+    flow_h[face, before] = -0.5 * by_h[:-1] * gradient
+    flow_h[face, behind] = -0.5 * by_h[1:] * gradient
+    # two cells upstream: second order; at the first face one
+    near = np.where(face == 1, 1.0, 1.5)
+    for faces, cells, share in ((face, before, near), (face[1:], before[:-1], np.full(n - 2, -0.5))):
+        flow[faces] += 6 * share * rho[cells] * h[cells]
+        flow_p[faces, cells] += 6 * share * rho_slope[cells] * h[cells]
+        flow_h[faces, cells] += 6 * share * rho[cells]
     return np.diff(flow) / dx, np.diff(flow_p, axis=0) / dx, np.diff(flow_h, axis=0) / dx, rho * h
 
 

@@ -249,8 +249,8 @@ def test_pressure_viscosity_of_mineral_oils_against_measurements(name):
 @pytest.mark.parametrize(
     ("name", "viscosity", "density", "measured", "within"),
     [
-        # jet oils in the oil data of Gupta, Advanced Dynamics of Rolling Elements (1984): MIL-L-23699 at 38 and 94 degC,
-        # MIL-L-7808 at 38 degC
+        # jet oils in the oil data of Gupta, Advanced Dynamics of Rolling Elements (1984): MIL-L-23699 at 38 and 94
+        # degC, MIL-L-7808 at 38 degC
         ("ester", 27.7e-3, 959.0, 14.4e-9, 0.03),
         ("ester", 5.68e-3, 922.0, 11.25e-9, 0.03),
         ("ester", 12.4e-3, 954.0, 12.0e-9, 0.08),

@@ -63,6 +63,34 @@ def test_a_curve_over_the_slide_to_roll_ratio(tmp_path):
         assert (run.path / "figures" / f"{name}.png").exists()
 
 
+def test_traction_and_mixed_friction_of_one_smooth_hot_contact_agree(tmp_path):
+    """Summits of nanometres touch no film: mixed lubrication is the film with its heat, by another solver of loads."""
+    oil = {"grade": "ISO VG 68", "temperature": "60 degC", "shear_law": "base_oil"}
+    rolled = run_scene(
+        scene(oil=oil, rolling={"mean_speed": "5 m/s", "slide_roll_ratio": 0.1}), tmp_path / "traction", figures=False
+    ).summary
+    mixed = {
+        "kind": "friction",
+        "lower": {
+            "material": "steel-52100",
+            "surface": {"kind": "generated", "rms_height": "1 nm", "correlation_length": "12 um"},
+        },
+        "upper": {"material": "steel-52100"},
+        "contact": {"radius": "10 mm", "width": "8 mm", "hertz_pressures": ["0.7 GPa"], "boundary_friction": 0.1},
+        "oil": oil,
+        "speeds": {"values": ["5.25 m/s"], "cylinder": 4.75 / 5.25},
+        "grid": {"shape": [64, 16], "spacing": "5 um", "periodic": [False, True]},
+        "film": {"points": 200},
+        "thermal": "lumped",
+    }
+    shared = run_scene(mixed, tmp_path / "friction", figures=False).summary
+    assert shared["status"] == rolled["status"] == "converged"
+    assert shared["contact_load_N"][0] == 0.0
+    apart = abs(shared["friction"][0] - rolled["traction_coefficient"])
+    assert apart <= shared["friction_error"][0] + rolled["traction_coefficient_error"]
+    assert shared["friction_error"][0] + rolled["traction_coefficient_error"] < 0.1 * rolled["traction_coefficient"]
+
+
 def test_bars_cover_the_mesh(tmp_path):
     """The same on eight times the points, which leave a sixtieth of the error."""
     rolling = {"mean_speed": "5 m/s", "slide_roll_ratio": 0.3}
