@@ -37,9 +37,9 @@ class FatigueLimit:
 
     The paper's constants of hardened 52100 are B 1220 MPa, A -43 MPa (Morales-Espejel and Brizmer 2011, after Shimizu;
     the sign of A is lost in print). A is taken per decade here: 833 MPa at 1e9 cycles, where rotating bending of
-    hardened bearing steel has 858 MPa (Li, Sakai et al. 2011, Mater. Sci. Eng. A 528). Per factor e it would be 329, and
-    a smooth contact at 1.5 GPa, which ISO 281 lets last for ever, would be damaged after 10^5.8 (Crossland) or 10^7.4
-    cycles (Dang Van).
+    hardened bearing steel has 858 MPa (Li, Sakai et al. 2011, Mater. Sci. Eng. A 528). Per factor e it would be 329,
+    and a smooth contact at 1.5 GPa, which ISO 281 lets last for ever, would be damaged after 10^5.8 (Crossland) or
+    10^7.4 cycles (Dang Van).
     """
 
     criterion: str = "dang_van"

@@ -1,5 +1,7 @@
 """Friction against measurements: every row shown, verdicts that can flip, stored figures anew, what has to come out."""
 
+import html
+
 import numpy as np
 import pytest
 
@@ -28,7 +30,7 @@ def test_every_measurement_is_shown_with_a_source(rows, stored):
     page = friction.build()
     body = "".join(section.body for section in page.sections)
     for row in rows:
-        assert row.what in body
+        assert html.escape(row.what) in body
     known = friction.prose("friction")
     assert {row.source for row in rows} == set(known["sources"])
     assert {row.group for row in rows} == set(known["groups"]) == set(known["introductions"])
@@ -90,7 +92,7 @@ def by_group(rows, group):
 
 def test_films_agree_with_solutions_of_others(rows):
     """Waves of the table, both ripples of both oils, and the resistance of a ball with its inlet."""
-    waves = by_group(rows, "waves")
+    waves = [row for row in by_group(rows, "waves") if row.what.startswith("line")]
     assert all(row.ours == pytest.approx(0.5 * (row.low + row.high), rel=0.09) for row in waves)
     assert all(row.inside for row in waves if "0.5 films" not in row.what)
     assert all(row.inside for row in by_group(rows, "transverse"))
@@ -100,9 +102,10 @@ def test_films_agree_with_solutions_of_others(rows):
 
 
 def test_asperities_carry_what_contact_resistance_measured(rows):
-    shares = [row for row in by_group(rows, "share") if row.low > 0.05]
-    assert len(shares) >= 5
-    assert all(row.inside for row in shares)
+    shares = by_group(rows, "share")
+    assert len(shares) >= 7
+    assert all(row.inside for row in shares if row.low < 0.9)
+    assert all(row.ours == pytest.approx(row.high, abs=0.03) for row in shares if row.low >= 0.9)
 
 
 def test_a_bearings_torque_rises_with_speed_as_measured(rows):
