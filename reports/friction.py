@@ -1,4 +1,4 @@
-"""The page "Friction against measurements": measured, ours, both uncertainties, inside or not, with sources.
+"""The page "Friction and films against measurements": published, ours, both uncertainties, inside or not, with sources.
 
 Ours are stored in `reports/results/friction_measured.json` (`reports.experiments.friction_measured`); the measurements
 stand here, each with how it was read. No constant of an oil is fitted to them.

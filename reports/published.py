@@ -99,7 +99,7 @@ def _traction(stored: list[dict[str, Any]]) -> Iterator[Row]:
             math.hypot(row["up"], row["pressure_up"]),
             row["numerical"],
             "gupta",
-            _remark("gupta_ester") if row["oil"].startswith("MIL") else "",
+            _remark("gupta_ester") if row["oil"].startswith("MIL") else _remark("gupta_limit") if fitted > 0.12 else "",
         )
 
 
