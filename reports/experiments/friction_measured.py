@@ -53,8 +53,11 @@ SPEEDS, SLIPS = (2.0, 4.0, 8.0, 16.0), (0.02, 0.05, 0.1)
 OTHER_ALPHA = (("pag", 17.6 / 15.24), ("ester", 1.0))
 """Largest factor of the pressure-viscosity coefficient: 17.6 1/GPa of a copolymer of ethylene and propylene oxide of
 0.204 Pa s at 30 degC (Stachowiak and Batchelor, table 2.3) over the catalogue's correlation."""
-BALL = ("speeds.first=0.001 m/s", "speeds.count=5", "film.cells=64")
-"""Settings of the ball's scene: slower than it begins, so that the curve has its boundary end."""
+BALL = (
+    *("speeds.count=5", "film.cells=64", "grid.lengths=320 um"),
+    *("oil.grade=ISO VG 68", "contact.hertz_pressures=[0.8e9]"),
+)
+"""Settings of the ball's scene: a mineral oil under more pressure than the scene has."""
 TEMPERATURES = (40.0, 60.0, 80.0, 100.0)
 
 
