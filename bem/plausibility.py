@@ -93,7 +93,7 @@ class UsualRange:
             likely = next((unit for unit, factor in self.meant if self.contains(value * factor)), None)
         if likely is None:
             return "check its unit"
-        return f'a number without a unit is in {self.unit}: write "{value:g} {likely}" if that is meant'
+        return f'if the unit is wrong or missing (a number alone is in {self.unit}), write "{value:g} {likely}"'
 
 
 _LENGTHS = (("mm", 1e-3), ("um", 1e-6), ("nm", 1e-9))

@@ -160,7 +160,7 @@ def bars_step(scene: Any, grid: Grid, convolutions: int, solves: float) -> Step:
     )
 
 
-_SCATTER_ALONE = "cycles.coarser_grid is false: what repetitions scatter is all that is told of errors"
+_SCATTER_ALONE = "cycles.coarser_grid is false: error bars are the scatter of repetitions alone"
 
 
 def grid_keys(scene: Any, factor: float, across: float | None = None) -> dict[str, Any]:
