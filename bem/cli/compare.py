@@ -38,16 +38,15 @@ def register(app: typer.Typer) -> None:
         """
         from bem.cli._terminal import print_text, table
         from bem.results import open_run
-        from bem.results.compare import beyond, run_labels, scene_differences, scene_units, shown
+        from bem.results.compare import beyond, run_labels, scene_differences, shown, unit_of_key
 
         paths = [first, *others]
         runs = [open_run(path) for path in paths]
         names = _names(paths)
         scenes = scene_differences(*runs)
         if scenes:
-            units = [scene_units(run.path) for run in runs]
             rows = [
-                (d.key, *(shown(v, u.get(d.key.split("[")[0], "")) for v, u in zip(d.values, units, strict=True)))
+                (d.key, *(shown(value, unit_of_key(run, d.key)) for value, run in zip(d.values, runs, strict=True)))
                 for d in scenes
             ]
             table(("key", *names), rows, title="scenes")

@@ -6,14 +6,15 @@ import math
 import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
-from pathlib import Path
+from functools import cache
 from typing import Any
 
 from bem.notes import OUTSIDE
 from bem.quantities import PREFIXED, si
 from bem.results.differing import leaves
-from bem.results.directory import SCENE
 from bem.results.read import FinishedRun
+from bem.scenes.kind import get_kind, kind_names
+from bem.scenes.walk import walk
 
 _NO_FIGURES = (
     *("scene", "kind", "version", "notes", "outside_model", "over", "seconds_by_stage", "wall_time_s", "where"),
@@ -79,24 +80,27 @@ def run_labels(runs: Sequence[FinishedRun], names: Sequence[str]) -> list[str]:
     ]
     if not 0 < len(found) <= _MOST_IN_A_LABEL:
         return names
-    units = [scene_units(run.path) for run in runs]
     return [
         f"{name}: "
-        + ", ".join(
-            f"{_words(item.key)} = {shown(item.values[i], units[i].get(item.key.split('[')[0], ''))}" for item in found
-        )
-        for i, name in enumerate(names)
+        + ", ".join(f"{_words(item.key)} = {shown(item.values[i], unit_of_key(run, item.key))}" for item in found)
+        for i, (name, run) in enumerate(zip(names, runs, strict=True))
     ]
 
 
-def scene_units(folder: Path) -> dict[str, str]:
-    """Unit of each key of a run's scene file, which says it in a comment behind the number."""
-    units, table = {}, ""
-    for line in (folder / SCENE).read_text("utf-8").splitlines():
-        if head := re.fullmatch(r"\[+([\w.]+)\]+", line):
-            table = head[1] + "."
-        elif entry := re.fullmatch(r"(\w+) = [^#\"]*  # (\S.*)", line):
-            units[table + entry[1]] = entry[2]
+def unit_of_key(run: FinishedRun, key: str) -> str:
+    """SI unit of a key of a run's scene, such as `lower.layers[0].thickness`; "" for none."""
+    return _units(str(run.summary.get("kind"))).get(re.sub(r"\[\d+\]", "", key), "")
+
+
+@cache
+def _units(kind: str) -> dict[str, str]:
+    """Units of a kind's keys by their dotted paths."""
+    if kind not in kind_names():
+        return {}
+    units: dict[str, str] = {}
+    for key in walk(get_kind(kind).model):
+        if key.unit:
+            units.setdefault(".".join(key.path), key.unit)
     return units
 
 

@@ -20,7 +20,15 @@ from bem.cli import build
 from bem.errors import ResultsError
 from bem.plots.compare import _groups
 from bem.plots.overlay import panel
-from bem.results.compare import Difference, figure_differences, leaves, run_labels, scene_differences, shown
+from bem.results.compare import (
+    Difference,
+    figure_differences,
+    leaves,
+    run_labels,
+    scene_differences,
+    shown,
+    unit_of_key,
+)
 from bem.results.directory import checksum
 from bem.runs import run_scene
 from bem.scenes import kind_names
@@ -65,6 +73,8 @@ def test_a_list_of_numbers_is_one_figure():
 def test_runs_are_labelled_by_what_differs_with_its_unit(pair):
     assert run_labels(pair, ["a", "b"]) == ["a: mean pressure = 80 MPa", "b: mean pressure = 160 MPa"]
     assert run_labels([pair[0], pair[0]], ["a", "b"]) == ["a", "b"]
+    units = {key: unit_of_key(pair[0], key) for key in ("lower.layers[0].thickness", "contact.mean_pressure", "seed")}
+    assert units == {"lower.layers[0].thickness": "m", "contact.mean_pressure": "Pa", "seed": ""}
 
 
 @pytest.mark.internal
