@@ -77,7 +77,6 @@ def solved(name, size):
     return timed.judge(timed.solve())
 
 
-@pytest.mark.slow
 def test_errors_of_closed_forms_fall_with_the_mesh():
     for name in ("hertz-sphere", "hertz-cylinder", "sinusoid"):
         coarse, fine = (next(iter(solved(name, n).errors.values())) for n in (32, 128))
