@@ -123,12 +123,6 @@ class EquivalentGradient:
     by_pressure: FloatArray
 
 
-def newtonian(gradient: FloatArray) -> EquivalentGradient:
-    """Return the gradient itself: a Newtonian oil."""
-    none = np.zeros_like(gradient)
-    return EquivalentGradient(gradient, np.ones_like(gradient), none, none, none)
-
-
 @dataclass(frozen=True)
 class ShearFlow:
     """A shear law in similarity units.

@@ -33,6 +33,24 @@ def rolling_part(thickness: FloatArray, pressure: FloatArray) -> float:
     return 0.25 * float(np.sum((thickness[1:] + thickness[:-1]) * np.diff(pressure)))
 
 
+def trapezoid(position: FloatArray, values: FloatArray) -> float:
+    """Return the trapezoidal integral of values (n,) at positions (n,)."""
+    return float(np.sum(0.5 * np.diff(position) * (values[1:] + values[:-1])))
+
+
+def sliding_stress(
+    lubricant: Lubricant, position: FloatArray, thickness: FloatArray, pressure: FloatArray, sliding: float
+) -> FloatArray:
+    """Return the shear stress in the middle of the film [Pa], of walls that slide at u1 - u2 [m/s]; arrays (n,), SI."""
+    newtonian = lubricant.viscosity_at(pressure) * sliding / thickness
+    return middle_stress(lubricant, newtonian, pressure, thickness, np.gradient(pressure, position))
+
+
+def streamer_stress(lubricant: Lubricant, thickness: FloatArray, sliding: float, cover: FloatArray) -> FloatArray:
+    """Return the mean shear stress of oil at ambient pressure that covers a fraction (n,) of the surface [Pa]."""
+    return lubricant.shear_stress(lubricant.viscosity * sliding / thickness, 0.0) * cover
+
+
 def rolling_upstream(state: LineState) -> float:
     """Return the integral of h/2 dp/dx upstream of the mesh, in units of pressure times film; zero upstream of a
     meniscus.
@@ -68,10 +86,8 @@ def friction_forces(
     position = x * scales.length
 
     tail_1 = upstream_of_mesh(state)[0]
-    viscosity = lubricant.viscosity_at(pressure * scales.pressure)
-    newtonian, own = viscosity * difference / thickness, pressure * scales.pressure
-    sliding = middle_stress(lubricant, newtonian, own, thickness, np.gradient(own, position))
-    couette = float(np.sum(0.5 * np.diff(position) * (sliding[1:] + sliding[:-1])))
+    sliding = sliding_stress(lubricant, position, thickness, pressure * scales.pressure, difference)
+    couette = trapezoid(position, sliding)
     couette += lubricant.viscosity * difference * tail_1 * scales.length / scales.film
     rolling = (rolling_part(film, pressure) + rolling_upstream(state)) * scales.film * scales.pressure
     full = couette + rolling
@@ -85,7 +101,6 @@ def friction_forces(
         + 0.5 * (state.exit + reach) ** 2
         - DEFLECTION * logarithmic_integral(reach, state.offset, state.pressure)
     )
-    ambient = lubricant.shear_stress(lubricant.viscosity * difference / (behind * scales.film), 0.0)
-    ambient = ambient * film[-1] / behind
+    ambient = streamer_stress(lubricant, behind * scales.film, difference, film[-1] / behind)
     streamers = near * ambient[0] + 0.5 * span * float(np.sum(_WEIGHTS * ambient[1:] * reach[1:]))
     return Friction(full, rolling, full + streamers * scales.length)

@@ -14,13 +14,12 @@ from bem.lubrication import time_stepping
 from bem.lubrication.cavitation import Cavitation
 from bem.lubrication.checks import Case, notes_on, why_no_line_film
 from bem.lubrication.line.cavitation import Nodes
-from bem.lubrication.line.friction import rolling_part
+from bem.lubrication.line.friction import rolling_part, sliding_stress, streamer_stress, trapezoid
 from bem.lubrication.line.problem import Problem, Scales
 from bem.lubrication.line.steady import parabolic_minimum
 from bem.lubrication.line.time_step import FixedMesh, StepOutcome, TransientState, build_step, elastic_film, time_step
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.results import FilmSolution
-from bem.lubrication.shear_profile import middle_stress
 from bem.lubrication.time_stepping import Derivative, Reached
 from bem.notes.lubrication import FIRST_FILM
 
@@ -202,7 +201,7 @@ def build_solution_at(
         thickness=thickness,
         minimum_thickness=parabolic_minimum(march.mesh.position, film.film) * scales.film,
         central_thickness=float(np.interp(0.0, x, thickness)),
-        load=_integral(x, pressure),
+        load=trapezoid(x, pressure),
         shear_force=force,
         rolling_force=rolling,
         striated_shear_force=force + streamers,
@@ -220,23 +219,16 @@ def build_solution_at(
     )
 
 
-def _integral(x: FloatArray, values: FloatArray) -> float:
-    """Return the trapezoidal integral."""
-    return float(np.sum(0.5 * np.diff(x) * (values[1:] + values[:-1])))
-
-
 def _friction_force(case: Case, *, flooded: bool) -> tuple[float, float]:
     """Return the friction force on the flat in the full film, along -x [N/m], and its rolling part, half of h dp/dx; a
     flooded film reaches far upstream of the mesh."""
     x, lubricant, (first, second) = case.position, case.lubricant, case.speeds
-    newtonian = lubricant.viscosity_at(case.pressure) * (first - second) / case.thickness
-    gradient = np.gradient(case.pressure, x)
-    sliding = middle_stress(lubricant, newtonian, case.pressure, case.thickness, gradient)
+    sliding = sliding_stress(lubricant, x, case.thickness, case.pressure, first - second)
     stress = np.where(case.pressure > 0, sliding, 0.0)
     # upstream of the mesh h = x^2/2R: integrals of mu (u1 - u2)/h and, as h p' = 6 mu (u1 + u2)/h there, of h p'/2
     tail = 2 * case.radius / float(x[-1]) * lubricant.viscosity if flooded else 0.0
     rolling = rolling_part(case.thickness, case.pressure) + 3 * tail * (first + second)
-    return _integral(x, stress) + tail * (first - second) + rolling, rolling
+    return trapezoid(x, stress) + tail * (first - second) + rolling, rolling
 
 
 def _exit_and_streamers(march: March, film: TransientState, case: Case) -> tuple[float, float]:
@@ -257,5 +249,4 @@ def _exit_and_streamers(march: March, film: TransientState, case: Case) -> tuple
         # the layer that a supply brings lies on either surface, and nothing shears it
         dry = full if math.isinf(march.layer) else full | ~behind
         cover = np.where(dry, 0.0, film.fraction)
-    newtonian = case.lubricant.viscosity * (first - second) / thickness
-    return exit_, _integral(x, case.lubricant.shear_stress(newtonian, 0.0) * cover)
+    return exit_, trapezoid(x, streamer_stress(case.lubricant, thickness, first - second, cover))

@@ -22,16 +22,13 @@ from bem.lubrication.line.problem import Problem
 
 
 @dataclass(frozen=True)
-class FluxTerms:
-    """Terms that residual and derivatives share.
+class PoiseuilleFlow:
+    """Poiseuille flow rho H^3/(6 m) P' through n cells, and its derivatives (n,).
 
-    flow : (n,) Poiseuille flow through the cells.
-    by_film, mobility, left, right : (n,) its derivatives with the films at both ends, with the gradient, and by way of
-        viscosity and shear law with the pressures at both ends.
-    mean_density : (n,) of the cells.
-    mass_slope : (n+1,) derivative of the Couette mass flow with the pressure.
-    couette_slope : (n+1,) derivative of the Couette flow with the film.
-    density, density_slope : (n+1,) density ratio and its derivative with the pressure.
+    flow : through the cells.
+    by_film : half of its derivative with the film, that of the film at either end.
+    mobility : derivative with the gradient.
+    left, right : derivatives with the pressures at both ends by way of viscosity and shear law.
     """
 
     flow: FloatArray
@@ -39,6 +36,20 @@ class FluxTerms:
     mobility: FloatArray
     left: FloatArray
     right: FloatArray
+
+
+@dataclass(frozen=True)
+class FluxTerms:
+    """Terms that residual and derivatives share.
+
+    poiseuille : flow through the cells.
+    mean_density : (n,) of the cells.
+    mass_slope : (n+1,) derivative of the Couette mass flow with the pressure.
+    couette_slope : (n+1,) derivative of the Couette flow with the film.
+    density, density_slope : (n+1,) density ratio and its derivative with the pressure.
+    """
+
+    poiseuille: PoiseuilleFlow
     mean_density: FloatArray
     mass_slope: FloatArray
     couette_slope: FloatArray
@@ -92,7 +103,9 @@ class Flow:
         density, density_slope = self.problem.density(positive)
         density_slope = np.where(loaded, density_slope, 0.0)
         mean_density = 0.5 * (density[1:] + density[:-1])
-        flow, by_film, mobility, left, right = self._poiseuille(pressure, film, mean_density)
+        log_viscosity, slope = self.problem.flowing(positive)
+        viscosity = log_viscosity, np.where(loaded, slope, 0.0)
+        poiseuille = poiseuille_flow(self.problem, pressure, film, self.width, mean_density, viscosity)
         couette_film, couette_slope = self.problem.couette_film(film)
         mass_slope = couette_film * density_slope
         leaving = float(self.problem.couette_film(np.array([exit_film]))[0][0])
@@ -105,13 +118,9 @@ class Flow:
         couette = mass[:-1].copy()
         couette[1:] += self.extrapolation[1:] * (mass[1:-1] - mass[:-2])
         couette[0] = 0.5 * (mass[0] + mass[1])
-        error = (flow - (couette - leaving)) / self.scale
+        error = (poiseuille.flow - (couette - leaving)) / self.scale
         return error, FluxTerms(
-            flow=flow,
-            by_film=by_film,
-            mobility=mobility,
-            left=left,
-            right=right,
+            poiseuille=poiseuille,
             mean_density=mean_density,
             mass_slope=mass_slope,
             couette_slope=couette_slope,
@@ -119,56 +128,14 @@ class Flow:
             density_slope=density_slope,
         )
 
-    def _poiseuille(self, pressure: FloatArray, film: FloatArray, mean_density: FloatArray) -> tuple[FloatArray, ...]:
-        """Return the Poiseuille flow (n,) and its derivatives: half of that with the film, that with the gradient, and
-        those with the pressures at both ends by way of viscosity and shear law."""
-        positive = np.maximum(pressure, 0.0)
-        log_viscosity, slope = self.problem.flowing(positive)
-        slope = np.where(pressure > 0, slope, 0.0)
-        thickness = 0.5 * (film[1:] + film[:-1])
-        fluid, left, right = mean_fluidity(log_viscosity)
-        fluidity = mean_density * fluid / 6
-        gradient = np.diff(pressure) / self.width
-        poiseuille_cube, half_slope = self.problem.poiseuille_cube(thickness)
-        left, right = left * slope[:-1] * mean_density / 6, right * slope[1:] * mean_density / 6
-        mobility, by_film = poiseuille_cube * fluidity, half_slope * fluidity
-        if self.problem.shear is None:
-            steep = poiseuille_cube * gradient
-            return mobility * gradient, by_film * gradient, mobility, steep * left, steep * right
-        middle, layers = 0.5 * (positive[1:] + positive[:-1]), self._layers(positive, pressure > 0)
-        own = fluid if layers is None else layers.fluidity
-        equivalent = self.problem.shear.equivalent_gradient(gradient, thickness, own, middle)
-        flow = mobility * equivalent.gradient
-        by_film = by_film * equivalent.gradient + 0.5 * mobility * equivalent.by_film
-        by_limit, by_fluidity = 0.5 * mobility * equivalent.by_pressure, mobility * equivalent.by_fluidity
-        mobility = mobility * equivalent.by_gradient
-        if layers is None:
-            steep = poiseuille_cube * (equivalent.gradient + fluid * equivalent.by_fluidity)
-            return flow, by_film, mobility, steep * left + by_limit, steep * right + by_limit
-        steep = poiseuille_cube * equivalent.gradient
-        left = layers.share * (steep * left + by_fluidity * layers.left + by_limit)
-        right = layers.share * (steep * right + by_fluidity * layers.right + by_limit)
-        flow, by_film, mobility = (layers.share * value for value in (flow, by_film, mobility))
-        return flow, by_film, mobility, left, right
-
-    def _layers(self, pressure: FloatArray, loaded: NDArray[np.bool_]) -> _Layers | None:
-        """Return the shear-thinning layers; None for a uniform oil."""
-        layered = self.problem.layered
-        if layered is None:
-            return None
-        logarithm, slope = layered.log_sliding_viscosity(pressure)
-        slope, thinning = np.where(loaded, slope, 0.0), layered.thinning
-        fluidity, left, right = mean_fluidity(logarithm)
-        share = np.exp(0.5 * (thinning[1:] + thinning[:-1]))
-        return _Layers(share, fluidity, left * slope[:-1], right * slope[1:])
-
     def derivatives(self, parts: FluxTerms) -> tuple[FloatArray, ...]:
         """Return the derivatives of the residual of cell i, (n,) each: with the films at nodes i - 1, i, i + 1, then
         with the pressures there."""
         cells, row = len(self.width), 1 / self.scale
         density, density_slope, extrapolation = parts.density, parts.density_slope, self.extrapolation
         density = density * parts.couette_slope
-        through_film = parts.by_film
+        poiseuille = parts.poiseuille
+        through_film = poiseuille.by_film
         before = np.zeros(cells)
         before[1:] = extrapolation[1:] * density[:-2]
         here = through_film - (1 + extrapolation) * density[:-1]
@@ -176,9 +143,9 @@ class Flow:
         here[0] = through_film[0] - 0.5 * density[0]
         after[0] = through_film[0] - 0.5 * density[1]
 
-        mobility, flow = parts.mobility, parts.flow
-        from_left = -mobility / self.width + flow * 0.5 * density_slope[:-1] / parts.mean_density + parts.left
-        from_right = mobility / self.width + flow * 0.5 * density_slope[1:] / parts.mean_density + parts.right
+        mobility, flow = poiseuille.mobility, poiseuille.flow
+        from_left = -mobility / self.width + flow * 0.5 * density_slope[:-1] / parts.mean_density + poiseuille.left
+        from_right = mobility / self.width + flow * 0.5 * density_slope[1:] / parts.mean_density + poiseuille.right
         mass_slope = parts.mass_slope
         from_left -= (1 + extrapolation) * mass_slope[:-1]
         from_left[0] += 0.5 * mass_slope[0]
@@ -186,6 +153,63 @@ class Flow:
         from_before = np.zeros(cells)
         from_before[1:] = extrapolation[1:] * mass_slope[:-2]
         return before * row, here * row, after * row, from_before * row, from_left * row, from_right * row
+
+
+def poiseuille_flow(
+    problem: Problem,
+    pressure: FloatArray,
+    film: FloatArray,
+    width: FloatArray,
+    mean_density: FloatArray,
+    viscosity: tuple[FloatArray, FloatArray],
+) -> PoiseuilleFlow:
+    """Return the Poiseuille flow of steady and of transient films.
+
+    Parameters
+    ----------
+    problem : walls, shear law and layers.
+    pressure, film : (n+1,) at the nodes.
+    width, mean_density : (n,) of the cells.
+    viscosity : (n+1,) ln of the viscosity ratio at the nodes, and its slope with the pressure.
+    """
+    positive = np.maximum(pressure, 0.0)
+    log_viscosity, slope = viscosity
+    thickness = 0.5 * (film[1:] + film[:-1])
+    fluid, left, right = mean_fluidity(log_viscosity)
+    fluidity = mean_density * fluid / 6
+    gradient = np.diff(pressure) / width
+    poiseuille_cube, half_slope = problem.poiseuille_cube(thickness)
+    left, right = left * slope[:-1] * mean_density / 6, right * slope[1:] * mean_density / 6
+    mobility, by_film = poiseuille_cube * fluidity, half_slope * fluidity
+    if problem.shear is None:
+        steep = poiseuille_cube * gradient
+        return PoiseuilleFlow(mobility * gradient, by_film * gradient, mobility, steep * left, steep * right)
+    middle, layers = 0.5 * (positive[1:] + positive[:-1]), _layers(problem, positive, pressure > 0)
+    own = fluid if layers is None else layers.fluidity
+    equivalent = problem.shear.equivalent_gradient(gradient, thickness, own, middle)
+    flow = mobility * equivalent.gradient
+    by_film = by_film * equivalent.gradient + 0.5 * mobility * equivalent.by_film
+    by_limit, by_fluidity = 0.5 * mobility * equivalent.by_pressure, mobility * equivalent.by_fluidity
+    mobility = mobility * equivalent.by_gradient
+    if layers is None:
+        steep = poiseuille_cube * (equivalent.gradient + fluid * equivalent.by_fluidity)
+        return PoiseuilleFlow(flow, by_film, mobility, steep * left + by_limit, steep * right + by_limit)
+    steep = poiseuille_cube * equivalent.gradient
+    left = layers.share * (steep * left + by_fluidity * layers.left + by_limit)
+    right = layers.share * (steep * right + by_fluidity * layers.right + by_limit)
+    return PoiseuilleFlow(layers.share * flow, layers.share * by_film, layers.share * mobility, left, right)
+
+
+def _layers(problem: Problem, pressure: FloatArray, loaded: NDArray[np.bool_]) -> _Layers | None:
+    """Return the shear-thinning layers; None for a uniform oil."""
+    layered = problem.layered
+    if layered is None:
+        return None
+    logarithm, slope = layered.log_sliding_viscosity(pressure)
+    slope, thinning = np.where(loaded, slope, 0.0), layered.thinning
+    fluidity, left, right = mean_fluidity(logarithm)
+    share = np.exp(0.5 * (thinning[1:] + thinning[:-1]))
+    return _Layers(share, fluidity, left * slope[:-1], right * slope[1:])
 
 
 def longest_step(film: FloatArray, change: FloatArray, share: float) -> float:

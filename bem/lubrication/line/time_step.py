@@ -30,8 +30,7 @@ from bem.lubrication.line.cavitation import CAVITATION_MODELS, CavitationModel, 
 from bem.lubrication.line.deflection import DEFLECTION, logarithmic_weights
 from bem.lubrication.line.mesh import trapezoidal_weights, upwind_extrapolation
 from bem.lubrication.line.problem import Problem
-from bem.lubrication.line.reynolds import longest_step, mean_fluidity
-from bem.lubrication.shear_profile import EquivalentGradient, newtonian
+from bem.lubrication.line.reynolds import PoiseuilleFlow, longest_step, poiseuille_flow
 
 
 @dataclass(frozen=True)
@@ -151,23 +150,15 @@ class Step:
 class VolumeBalance:
     """Terms of the balances at an iterate.
 
-    On nodes (n+1,): density, its slope, slope of ln viscosity, mass, mass of a full gap, excess of each volume, its
-    scale, and their ratio.
-    On faces (n,): film, density, fluidity and its derivatives, equivalent gradient, H^3/6, speed of the Couette flow
-    times theta, mass on the face, flux.
+    On nodes (n+1,): density, its slope, mass, mass of a full gap, excess of each volume, its scale, and their ratio.
+    On faces (n,): density, Poiseuille flow, speed of the Couette flow times theta, mass on the face, flux.
     load_error : relative error of the load. largest_pressure : of the iterate.
     """
 
     density: FloatArray
     density_slope: FloatArray
-    slope: FloatArray
-    thickness: FloatArray
     mean_density: FloatArray
-    fluidity: FloatArray
-    left: FloatArray
-    right: FloatArray
-    equivalent: EquivalentGradient
-    poiseuille_cube: FloatArray
+    poiseuille: PoiseuilleFlow
     mass: FloatArray
     full_mass: FloatArray
     face_speed: FloatArray
@@ -231,37 +222,23 @@ def time_step(
 def balance_of(step: Step, at: Iterate) -> VolumeBalance:
     """Return flux and balances at an iterate."""
     mesh, positive = step.mesh, np.maximum(at.pressure, 0.0)
-    log_viscosity, slope = step.problem.log_viscosity(positive)
     density, density_slope = step.problem.density(positive)
-    thickness = 0.5 * (at.film[1:] + at.film[:-1])
     mean_density = 0.5 * (density[1:] + density[:-1])
-    fluidity, left, right = mean_fluidity(log_viscosity)
-    gradient = np.diff(at.pressure) / mesh.spacing
-    poiseuille_cube = thickness**3 / 6
+    viscosity = step.problem.log_viscosity(positive)
+    poiseuille = poiseuille_flow(step.problem, at.pressure, at.film, mesh.spacing, mean_density, viscosity)
     mass = at.fraction * density * at.film
     face_speed = step.entrainment * at.fraction[step.upstream]
     full_mass = density * at.film
     face_mass = full_mass[step.upstream] + step.extrapolation * (full_mass[step.upstream] - full_mass[step.farther])
-    equivalent = newtonian(gradient)
-    if step.problem.shear is not None:
-        equivalent = step.problem.shear.equivalent_gradient(
-            gradient, thickness, fluidity, 0.5 * (positive[1:] + positive[:-1])
-        )
-    flux = face_speed * face_mass - poiseuille_cube * mean_density * fluidity * equivalent.gradient
+    flux = face_speed * face_mass - poiseuille.flow
     excess = np.diff(flux, prepend=0.0, append=0.0) + mesh.volume * (step.leading * mass + step.history)
     # one flux to measure by: what is entrained or squeezed through the contact
     scale = (mesh.volume * step.leading + abs(step.entrainment)) * step.cavitation.reference_film(at.film)
     return VolumeBalance(
         density=density,
         density_slope=density_slope,
-        slope=slope,
-        thickness=thickness,
         mean_density=mean_density,
-        fluidity=fluidity,
-        left=left,
-        right=right,
-        equivalent=equivalent,
-        poiseuille_cube=poiseuille_cube,
+        poiseuille=poiseuille,
         mass=mass,
         full_mass=full_mass,
         face_speed=face_speed,
@@ -298,25 +275,16 @@ def _next_active_set(
 
 def _derivatives(step: Step, at: Iterate, balance: VolumeBalance) -> tuple[FloatArray, FloatArray, FloatArray]:
     """Return the derivatives of the scaled excess with film, pressure and fraction, as bands (5, n+1)."""
-    b, volume = balance, step.mesh.volume
-    equivalent = b.equivalent
-    through_film = 0.5 * b.thickness**2 * b.mean_density * b.fluidity * equivalent.gradient
-    steep = b.poiseuille_cube * equivalent.gradient * b.mean_density
-    mobility = b.poiseuille_cube * b.mean_density * b.fluidity / step.mesh.spacing
-    dense = 0.5 * b.poiseuille_cube * b.fluidity * equivalent.gradient
-    if step.problem.shear is not None:
-        through_film = through_film + b.poiseuille_cube * b.mean_density * b.fluidity * equivalent.by_film
-        steep = steep + b.poiseuille_cube * b.mean_density * b.fluidity * equivalent.by_fluidity
-        mobility = mobility * equivalent.by_gradient
+    b, volume, poiseuille = balance, step.mesh.volume, balance.poiseuille
     stored = at.film * b.density_slope
     faces = _couette_coefficients(b.face_speed, b.density, step.extrapolation, step.entrainment)
-    faces[1:3] -= 0.5 * through_film
+    faces[1:3] -= poiseuille.by_film
     by_film = _bands(faces, volume * step.leading * at.fraction * b.density / b.scale, b.scale)
     faces = _couette_coefficients(b.face_speed, stored, step.extrapolation, step.entrainment)
-    faces[1] += mobility - steep * b.left * b.slope[:-1] - dense * b.density_slope[:-1]
-    faces[2] -= mobility + steep * b.right * b.slope[1:] + dense * b.density_slope[1:]
-    if step.problem.shear is not None:
-        faces[1:3] -= 0.5 * b.poiseuille_cube * b.mean_density * b.fluidity * equivalent.by_pressure
+    mobility = poiseuille.mobility / step.mesh.spacing
+    dense = 0.5 * poiseuille.flow / b.mean_density
+    faces[1] += mobility - poiseuille.left - dense * b.density_slope[:-1]
+    faces[2] -= mobility + poiseuille.right + dense * b.density_slope[1:]
     by_pressure = _bands(faces, volume * step.leading * at.fraction * stored / b.scale, b.scale)
     faces = np.zeros_like(faces)
     faces[1 if step.entrainment >= 0 else 2] = step.entrainment * b.face_mass

@@ -23,7 +23,7 @@ from typing import Any
 
 import numpy as np
 
-from bem.compiled import compiled
+from bem.compiled import compiled, inlined
 from bem.grid import FloatArray
 from bem.lubrication.point.reynolds import jacobian_row
 
@@ -47,6 +47,12 @@ def _neighbour_weights(spacing: tuple[float, float]) -> tuple[float, float]:
     """Return the weights of a distributed change on each neighbour along x and along y."""
     dx, dy = spacing
     return 0.5 * dy * dy / (dx * dx + dy * dy), 0.5 * dx * dx / (dx * dx + dy * dy)
+
+
+@inlined
+def _kind_in_line(kinds: Any, along_y: int, i: int, j: int) -> int:
+    """Return the kind of cell i of line j."""
+    return kinds[j, i] if along_y else kinds[i, j]
 
 
 @compiled
@@ -187,7 +193,7 @@ def factorise(
     line = np.zeros(cells + 2 * BAND, np.int64)
     for j in range(1, count - 1):
         for i in range(cells):
-            line[BAND + i] = kinds[j, i] if along_y else kinds[i, j]
+            line[BAND + i] = _kind_in_line(kinds, along_y, i, j)
         _eliminate_line(derivatives, spacing, entrainment, storage_rate, along_y, tables, line, j, factors[j])
 
 
@@ -252,7 +258,7 @@ def relax(
         j = count - 1 - number if backward else number
         for i in range(cells):
             e, f = (j, i) if along_y else (i, j)
-            kind = kinds[e, f]
+            kind = _kind_in_line(kinds, along_y, i, j)
             right[i] = 0.0
             if kind >= CONTACT:
                 right[i] = residual[e, f] - (film[j, i] if couple_films else 0.0)
@@ -265,7 +271,7 @@ def relax(
                     right[i] = residual[e, f] - before
         _solve_line(factors[j], right)
         for i in range(1, cells - 1):
-            kind = kinds[j, i] if along_y else kinds[i, j]
+            kind = _kind_in_line(kinds, along_y, i, j)
             changes[:, BAND + i] = 0.0
             if kind in (OWN, CONTACT):
                 changes[0, BAND + i] = damping[0] * right[i]
@@ -280,7 +286,7 @@ def relax(
                 pressure[j + 1, i] -= weights[1] * change
         for m in range(j - 1, j + 2):
             for i in range(cells):
-                kind = kinds[m, i] if along_y else kinds[i, m]
+                kind = _kind_in_line(kinds, along_y, i, m)
                 oil[m, i] = 0.0 if kind >= CONTACT else pressure[m, i]
         for across in range(COUPLED_LINES + 1):
             m = j - across if backward else j + across

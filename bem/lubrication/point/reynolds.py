@@ -40,7 +40,7 @@ from typing import Any
 
 import numpy as np
 
-from bem.compiled import compiled
+from bem.compiled import compiled, inlined
 from bem.grid import FloatArray
 
 DOWNSTREAM, UPSTREAM, SECOND_UPSTREAM = 0.375, 0.75, 0.125
@@ -162,6 +162,20 @@ def _add_couette(entrainment: tuple[float, float], flux: FloatArray, derivatives
             flux[axis] += derivatives[11 + axis]
 
 
+@inlined
+def _add_couette_of(
+    couette_film: FloatArray,
+    oil: FloatArray,
+    entrainment: tuple[float, float],
+    flux: FloatArray,
+    derivatives: FloatArray,
+) -> None:
+    """Add the Couette flux of a Couette film (nx, ny), and store the mass and its relative change with pressure."""
+    derivatives[8] = oil[2] * couette_film
+    derivatives[10] = oil[3] / oil[2]
+    _add_couette(entrainment, flux, derivatives)
+
+
 @compiled
 def smooth_wall_flux(
     p: FloatArray,
@@ -175,10 +189,8 @@ def smooth_wall_flux(
     """Compute the flux (2, nx, ny) through all faces between smooth walls, and its derivatives."""
     _poiseuille_flux(p, h, oil, spacing[0], 0, flux[0], derivatives[0:4])
     _poiseuille_flux(p, h, oil, spacing[1], 1, flux[1], derivatives[4:8])
-    derivatives[8] = oil[2] * h
     derivatives[9] = 1.0 / h
-    derivatives[10] = oil[3] / oil[2]
-    _add_couette(entrainment, flux, derivatives)
+    _add_couette_of(h, oil, entrainment, flux, derivatives)
 
 
 @compiled
@@ -197,10 +209,20 @@ def rough_wall_flux(
     _apply_flow_factors(walls[0], walls[1], 0, flux[0], derivatives[0:4])
     _poiseuille_flux(p, h, oil, spacing[1], 1, flux[1], derivatives[4:8])
     _apply_flow_factors(walls[2], walls[3], 1, flux[1], derivatives[4:8])
-    derivatives[8] = oil[2] * walls[4]
     derivatives[9] = walls[5] / walls[4]
-    derivatives[10] = oil[3] / oil[2]
-    _add_couette(entrainment, flux, derivatives)
+    _add_couette_of(walls[4], oil, entrainment, flux, derivatives)
+
+
+@inlined
+def _poiseuille_change(
+    s: FloatArray, first: int, i: int, j: int, k: int, n: int, dp: FloatArray, dh: FloatArray
+) -> float:
+    """Return the change of the Poiseuille flux through the face between cells [i, j] and [k, n].
+
+    first : index of the axis' first derivative in `s`; see the module.
+    """
+    by_film = s[first + 2, i, j] * dh[i, j] + s[first + 3, i, j] * dh[k, n]
+    return s[first, i, j] * dp[i, j] + s[first + 1, i, j] * dp[k, n] + by_film
 
 
 @compiled
@@ -220,11 +242,9 @@ def apply_jacobian(
     for i in range(nx):
         for j in range(ny):
             if i < nx - 1:
-                by_film = s[2, i, j] * dh[i, j] + s[3, i, j] * dh[i + 1, j]
-                flux[0, i, j] = s[0, i, j] * dp[i, j] + s[1, i, j] * dp[i + 1, j] + by_film
+                flux[0, i, j] = _poiseuille_change(s, 0, i, j, i + 1, j, dp, dh)
             if j < ny - 1:
-                by_film = s[6, i, j] * dh[i, j] + s[7, i, j] * dh[i, j + 1]
-                flux[1, i, j] = s[4, i, j] * dp[i, j] + s[5, i, j] * dp[i, j + 1] + by_film
+                flux[1, i, j] = _poiseuille_change(s, 4, i, j, i, j + 1, dp, dh)
     relative = s[9] * dh + s[10] * dp
     for axis in range(2):
         if entrainment[axis] != 0.0:
