@@ -8,13 +8,15 @@ worn bodies (`worn_film`). Load sharing knows nothing else of a film.
 from __future__ import annotations
 
 from dataclasses import dataclass, replace
-from typing import Protocol
+from typing import TYPE_CHECKING, Protocol
 
 from bem.errors import Status
 from bem.friction.smooth import SmoothContact
 from bem.grid import FloatArray
-from bem.lubrication import FilmSolution, PointFilmSolution
 from bem.notes import Note
+
+if TYPE_CHECKING:
+    from bem.lubrication import FilmSolution, PointFilmSolution
 
 
 @dataclass(frozen=True, eq=False)

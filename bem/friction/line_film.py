@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from collections.abc import Sequence
 from dataclasses import dataclass, replace
+from typing import TYPE_CHECKING
 
 import numpy as np
 
@@ -17,7 +18,7 @@ from bem.errors import InputError
 from bem.friction.film import PatchFilm, smooth_gap
 from bem.friction.smooth import LineContact
 from bem.grid import FloatArray
-from bem.lubrication import FilmSolution, PointFilmSolution
+from bem.lubrication import FilmSolution
 from bem.lubrication.checks import THINNEST_FILM
 from bem.lubrication.inlet_heating import hertz_over_modulus, inlet_heating_factor
 from bem.lubrication.line.case import MOES_LOADS, LineCase, load_range
@@ -25,6 +26,9 @@ from bem.lubrication.line.problem import line_scales
 from bem.lubrication.line.state import interpolate_to_mesh, without_factors
 from bem.lubrication.line.steady import film_at_positions
 from bem.lubrication.solve import solve_case
+
+if TYPE_CHECKING:
+    from bem.lubrication import PointFilmSolution
 
 BALANCE_POINTS = 400
 """Nodes of the coarse mesh, on which the balance is first looked for."""

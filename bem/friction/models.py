@@ -19,11 +19,12 @@ from bem.friction.rough_contact import (
 from bem.friction.setup import MixedSetup
 from bem.friction.smooth import PointContact
 from bem.grid import FloatArray
-from bem.lubrication import FilmSolution, PointFilmSolution
+from bem.lubrication import FilmSolution
 from bem.lubrication.line.case import check_entrainment
 
 if TYPE_CHECKING:
     from bem.friction.point_film import SolvedPointFilm
+    from bem.lubrication import PointFilmSolution
 
 SolvedFilms: TypeAlias = "SolvedLineFilm | SolvedPointFilm"
 """Film models that solve every film when it is requested."""

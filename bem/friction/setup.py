@@ -19,8 +19,7 @@ from bem.grid import FloatArray, Grid
 from bem.heat.bodies import conductors_of
 from bem.lubrication import Lubricant
 from bem.lubrication.flow_factors import WallFactors
-from bem.lubrication.point.starved import checked_layer
-from bem.lubrication.supply import InletDistance, Supply, checked_supply, inside_hertz
+from bem.lubrication.supply import InletDistance, Supply, checked_layer, checked_supply, inside_hertz
 from bem.lubrication.thermal.model import HEAT, FilmHeat
 from bem.materials import Body, contact_modulus
 

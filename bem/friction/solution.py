@@ -15,12 +15,13 @@ from bem.friction.boundary import BoundaryFrictionGiven, boundary_law, filled_pa
 from bem.friction.film import PatchFilm, middle_line
 from bem.friction.oil_sensitivity import OilVolumeSensitivity
 from bem.grid import FloatArray, Grid
-from bem.lubrication import FilmSolution, PointFilmSolution
+from bem.lubrication import FilmSolution
 from bem.notes import Note
 from bem.representation import readable
 
 if TYPE_CHECKING:
     from bem.friction.rough_contact import SpreadContact
+    from bem.lubrication import PointFilmSolution
 
 
 @readable

@@ -9,7 +9,7 @@ import dataclasses
 import difflib
 import inspect
 from collections.abc import Sequence
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
@@ -29,7 +29,7 @@ from bem.friction.result_notes import coupling_notes, covered_notes, oil_notes, 
 from bem.friction.setup import FILM_CELLS, MixedSetup
 from bem.friction.solution import MixedSolution
 from bem.grid import FloatArray, Grid
-from bem.lubrication import FilmSolution, Lubricant, PointFilmSolution
+from bem.lubrication import FilmSolution, Lubricant
 from bem.lubrication.flow_factors import WallFactors
 from bem.lubrication.line.case import check_entrainment
 from bem.lubrication.line.state import without_factors
@@ -37,6 +37,9 @@ from bem.lubrication.supply import Supply
 from bem.materials import Body
 from bem.notes import Note
 from bem.plausibility import body_arguments, lubricant_arguments, notes_on_arguments
+
+if TYPE_CHECKING:
+    from bem.lubrication import PointFilmSolution
 
 
 def solve_mixed(

@@ -81,6 +81,30 @@ def checked_supply(supply: object) -> Supply | None:
     )
 
 
+def checked_layer(
+    supply: object, flow_factors: object, entrainment: tuple[float, float] = (1.0, 0.0)
+) -> OilLayer | None:
+    """Return the layer that reaches a point contact; None of a flooded one.
+
+    Raises
+    ------
+    InputError : no supply, or one that point contacts do not have.
+    """
+    checked: Supply | None = checked_supply(supply)
+    if checked is None:
+        return None
+    if not isinstance(checked, OilLayer):
+        raise InputError(
+            "supply: an InletDistance is a line contact's; the meniscus of a point contact is curved and comes out of "
+            "the solve: give an OilLayer"
+        )
+    if not (isinstance(flow_factors, str) and flow_factors == "off"):
+        raise InputError('supply: not there with flow_factors for point contacts; leave one out, flow_factors="off"')
+    if 0.0 not in entrainment:
+        raise InputError("supply: entrainment at an angle has none yet; let both speeds point along x or along y")
+    return checked
+
+
 def inside_hertz(supply: InletDistance, half_width: float) -> str:
     """Return the message about a meniscus inside the Hertz half-width [m]."""
     return (

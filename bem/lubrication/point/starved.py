@@ -18,7 +18,6 @@ from dataclasses import replace
 
 import numpy as np
 
-from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.lubrication.point.certificate import central_film
 from bem.lubrication.point.grid import GridLevel
@@ -32,36 +31,12 @@ from bem.lubrication.point.start import (
     interpolate,
     solve_nested,
 )
-from bem.lubrication.supply import OilLayer, Starvation, Supply, checked_supply
+from bem.lubrication.supply import OilLayer, Starvation
 
 LEAST_STEP = 1 / 8
 """Smallest step of the continuation, over the way from the flooded film in the logarithm of the layer."""
 SAMPLES = 8
 """Samples a cell along the line on which the meniscus is looked for."""
-
-
-def checked_layer(
-    supply: object, flow_factors: object, entrainment: tuple[float, float] = (1.0, 0.0)
-) -> OilLayer | None:
-    """Return the layer that reaches a point contact; None of a flooded one.
-
-    Raises
-    ------
-    InputError : no supply, or one that point contacts do not have.
-    """
-    checked: Supply | None = checked_supply(supply)
-    if checked is None:
-        return None
-    if not isinstance(checked, OilLayer):
-        raise InputError(
-            "supply: an InletDistance is a line contact's; the meniscus of a point contact is curved and comes out of "
-            "the solve: give an OilLayer"
-        )
-    if not (isinstance(flow_factors, str) and flow_factors == "off"):
-        raise InputError('supply: not there with flow_factors for point contacts; leave one out, flow_factors="off"')
-    if 0.0 not in entrainment:
-        raise InputError("supply: entrainment at an angle has none yet; let both speeds point along x or along y")
-    return checked
 
 
 def solve_starved(

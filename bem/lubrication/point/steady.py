@@ -32,9 +32,9 @@ from bem.lubrication.point.certificate import (
 from bem.lubrication.point.film import PointFilmSolution
 from bem.lubrication.point.problem import ScaledCase, scale_case
 from bem.lubrication.point.start import NestedSolution, solve_nested
-from bem.lubrication.point.starved import checked_layer, solve_starved, starvation
+from bem.lubrication.point.starved import solve_starved, starvation
 from bem.lubrication.point.validity import notes_on_point
-from bem.lubrication.supply import Starvation, Supply
+from bem.lubrication.supply import Starvation, Supply, checked_layer
 from bem.materials import Body
 from bem.plausibility import body_arguments, lubricant_arguments, notes_on_arguments
 from bem.threads import one_blas_thread
