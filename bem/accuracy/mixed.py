@@ -23,6 +23,7 @@ from bem.accuracy.richardson import Regime, Table, at, cover_parts, follow, rela
 from bem.contact.nested_iteration import sample
 from bem.errors import Status
 from bem.friction import MixedSolution
+from bem.friction.asperities import AsperityContact
 from bem.friction.balance import BalanceStart
 from bem.friction.balance import Regime as LubricationRegime
 from bem.friction.forces import lambda_ratio, oil_temperature
@@ -57,7 +58,12 @@ RULES = Table(
     ),
     rows("film_part", 0.8, "As friction, whose other part it is.", edge=(0.004, 0.005)),
     rows("film_load", (1.0, 0.8), "The load less that of the contact.", edge=(0.001, 0.0005)),
-    rows("minimum_film", (0.5, 0.4), "It follows the film's load weakly.", edge=(0.0005, 0.0)),
+    rows(
+        "minimum_film",
+        (0.5, 0.4),
+        "It follows the film's load: weakly between elastic walls, in proportion between rigid ones (`_thinning`).",
+        edge=(0.0005, 0.0),
+    ),
     rows("lambda_ratio", 1.0, "The roughness on every second cell is another sample: first order.", order=1),
     rows(
         "contact_area_fraction",
@@ -79,11 +85,20 @@ FILM_RULES = Table(
 minimum film times the figure (film)."""
 HOT_FILM_RULES = Table(
     "hot_mixed_error_bars heated_mixed_error_bars",
-    FILM_RULES,
-    rows("friction minimum_film lambda_ratio", 0.6, "They follow the film, whose heat is of first order.", film=1.0),
-    rows("film_part", 0.6, "As friction; differences of the shear and of the rolling force may cancel.", film=1.4),
+    rows(" ".join(RULES), 1.2, "First order: columns and layers of heat; 1.2 times Richardson.", order=1),
+    rows("friction", 1.0, "First order; it follows the film.", order=1, film=0.7),
+    rows("minimum_film lambda_ratio", 0.6, "The film, whose heat is of first order, in the floor.", film=1.0),
+    rows(
+        "film_part",
+        1.0,
+        "First order; differences of the shear and of the rolling force may cancel.",
+        order=1,
+        film=1.0,
+    ),
 )
-"""Film's part of a line contact with heat."""
+"""Film's part of a line contact with heat; factors as of `FILM_RULES`."""
+_LOCAL_THINNING = 1.5
+"""Thinning of a film by its own load over the mean thinning from there to the whole load."""
 _SUMMITS = 2.2
 """Factor on the contact's part for uncoupled summits, whose radii are second differences between cells."""
 _CONTINUING = 1.5
@@ -164,6 +179,8 @@ def mixed_bars(case: MixedCase, coarser: CoarserShares) -> ErrorBars:
     resolved, uncoupled = surface_is_resolved(case.height, case.setup.grid), case.setup.contact_model == "uncoupled"
     if uncoupled and not resolved and not case.solution.full_film:
         return ErrorBars.unknown(found, NoBar.OTHER_SUMMITS)
+    if uncoupled and _border_touches(case):
+        return ErrorBars.unknown(found, NoBar.FREE_EDGE)
     parts = {
         GRID: _contact_part(case, found, coarser.contact, resolved=resolved),
         POINTS: _film_part(case, found, coarser.contact, coarser.both, coarser.ratio),
@@ -172,8 +189,12 @@ def mixed_bars(case: MixedCase, coarser: CoarserShares) -> ErrorBars:
     for part in parts.values():
         share_error(part, _LOADS)
     follow(parts[GRID], "boundary_part", "contact_load", found)
+    thinning = _thinning(case, found)
     for part in (parts[GRID], parts[POINTS]):
         cover_parts(part, "friction", _PARTS)
+        if thinning > 0:
+            thinner = thinning * part["film_load"] / found["film_load"] * found["minimum_film"]
+            part["minimum_film"] = max(part["minimum_film"], thinner)
         # temperatures are linear in the heat of friction
         for name in TEMPERATURES:
             if name in found:
@@ -228,6 +249,38 @@ def _extrapolated_difference(load: float, solved: float, other: float) -> float:
     """
     beyond = math.log(max(load / solved, 1.0))
     return _CONTINUING * beyond / abs(beyond - math.log(max(load / other, 1.0))) if beyond > 0 else 0.0
+
+
+def _thinning(case: MixedCase, found: dict[str, float]) -> float:
+    """Return -d ln(minimum film) / d ln(film load), an upper estimate; 0 in full film, and beside uncoupled summits,
+    where `_SUMMITS` covers the film as well.
+
+    It falls from one between rigid walls to a tenth between elastic ones. That of the film's own load is larger than
+    the mean one from this load to the whole load.
+    """
+    if not found["contact_load"] > 0 < found["film_load"] or case.setup.contact_model == "uncoupled":
+        return 0.0
+    lighter = math.log1p(found["contact_load"] / found["film_load"])
+    whole = found["lambda_ratio"] * float(case.height.std())
+    thicker = math.log(found["minimum_film"] / whole) if found["minimum_film"] > whole > 0 else 0.0
+    return min(_LOCAL_THINNING * thicker / lighter, 1.0)
+
+
+def _border_touches(case: MixedCase) -> bool:
+    """Return True if a cell on the border of a free axis lies within the opposite surface.
+
+    Whether it is a summit is decided by heights beyond the patch; uncoupled asperities leave it out.
+    """
+    contact = case.solution.contact
+    if not isinstance(contact, AsperityContact):
+        return False
+    rough = case.height - case.height.mean()
+    overlap = rough + contact.approach - np.broadcast_to(case.solution.patch_film.thickness, rough.shape)
+    border = np.zeros(rough.shape, dtype=np.bool_)
+    for axis, periodic in enumerate(case.setup.grid.periodic):
+        if not periodic:
+            np.moveaxis(border, axis, 0)[[0, -1]] = True
+    return bool((overlap[border] > 0).any())
 
 
 def _edge_fraction(solution: MixedSolution) -> float:

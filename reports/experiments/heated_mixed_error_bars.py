@@ -50,7 +50,7 @@ def _conducting(body: Body) -> Body:
     return Body(Material(body.material.name, **elastic, **dict(zip(names, heat, strict=True))))
 
 
-EXPERIMENT = Experiment("heated_mixed_error_bars", draw, mixed_error_bars.solve, cases=9, seed=2618)
+EXPERIMENT = Experiment("heated_mixed_error_bars", draw, mixed_error_bars.solve, cases=20, seed=2618)
 
 if __name__ == "__main__":
     main(EXPERIMENT)

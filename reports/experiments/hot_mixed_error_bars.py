@@ -19,7 +19,7 @@ import numpy as np
 from bem import Body, Grid, Lubricant
 from bem.accuracy import MixedCase, mixed_bars, mixed_figures, solve_coarser_mixed
 from bem.accuracy.bars import POINTS
-from bem.accuracy.mixed import BALANCE
+from bem.accuracy.mixed import BALANCE, TEMPERATURES
 from bem.errors import InputError, Status
 from bem.friction.setup import MixedSetup
 from bem.friction.solve import solve_setup
@@ -30,6 +30,8 @@ from reports.experiments.judging import Comparison, Experiment, main
 FINER = 2.5
 LEFT = 1 / (1 - 1 / FINER)
 """Of the difference to the reference: columns and layers are of first order."""
+OF_CONTACT = ("boundary_part", "contact_load", "film_load", "contact_area_fraction", *TEMPERATURES)
+"""Figures of the contact, and of the load that it takes from the film."""
 GRADES = ("ISO VG 10", "ISO VG 32", "ISO VG 100", "ISO VG 320")
 
 
@@ -76,11 +78,17 @@ def solve(drawn: tuple[MixedSetup, Any, tuple[float, float]]) -> Comparison | No
     if {solution.status, reference.status} != {Status.CONVERGED}:
         return None
     case = MixedCase(setup, heights, solution)
-    bars = mixed_bars(case, solve_coarser_mixed(case))
+    coarser = solve_coarser_mixed(case)
+    bars = mixed_bars(case, coarser)
     found, finest = mixed_figures(solution), mixed_figures(reference)
     truth = {name: found[name] + LEFT * (finest[name] - found[name]) for name in found}
+    # balances on the coarser cells that do not touch tell nothing of the contact: its bar is then that of the cells
+    touches = solution.contact_load > 0
+    apart = touches and coarser.contact is not None and coarser.contact.figures["contact_load"] == 0
     of_film = {
-        name: None if bar is None else bars.parts[POINTS][name] + bars.parts[BALANCE][name]
+        name: bars.parts[POINTS][name] + bars.parts[BALANCE][name]
+        if bar is not None and not (apart and name in OF_CONTACT)
+        else None
         for name, bar in bars.values.items()
     }
     return Comparison(found, truth, of_film)

@@ -73,6 +73,38 @@ def test_in_boundary_lubrication_the_film_has_no_bar():
 
 
 @pytest.mark.internal
+def test_a_film_that_carries_little_is_as_uncertain_as_its_load():
+    """Between rigid walls a film is in proportion to one over its load: differences of both may pass zero apart."""
+    case = case_of(0.01, rms=200e-9)
+    solution = case.solution
+    assert 0 < solution.film_load < 0.1 * solution.load
+    coarser = solve_coarser_mixed(case)
+    same = replace(coarser.contact, figures={**coarser.contact.figures, "minimum_film": solution.minimum_film})
+    bars = mixed_bars(case, CoarserShares(same, coarser.both, coarser.ratio))
+    for origin in ("grid", "film points"):
+        part = bars.parts[origin]
+        lighter = part["film_load"] / solution.film_load
+        assert 0.3 * lighter < part["minimum_film"] / solution.minimum_film, origin
+    full = case_of(20.0, rms=20e-9)
+    part = mixed_bars(full, solve_coarser_mixed(full)).parts["grid"]
+    assert part["minimum_film"] < 1e-9 * full.solution.minimum_film
+
+
+@pytest.mark.internal
+def test_a_summit_on_the_border_of_the_patch_may_be_one_or_not():
+    case = case_of(0.05, cells=(96, 48), contact_model="uncoupled")
+    assert not case.solution.full_film
+    assert mixed_bars(case, solve_coarser_mixed(case)).values["friction"] > 0
+    # a ridge on the border that reaches the flat, 230 nm below the cylinder there
+    grid = case.setup.grid
+    height = case.height + 1e-6 * np.exp(-(((grid.x - grid.x[0]) / 15e-6) ** 2))[:, None]
+    touching = MixedCase(case.setup, height, solve_setup(case.setup, height, (0.05, 0.0)))
+    bars = mixed_bars(touching, solve_coarser_mixed(touching))
+    assert set(bars.values.values()) == {None}
+    assert bars.notes[0].values["reason"] == "free-edge"
+
+
+@pytest.mark.internal
 def test_what_has_no_coarser_balance_has_no_bars():
     few = case_of(0.5, cells=(14, 7))
     bars = mixed_bars(few, solve_coarser_mixed(few))
