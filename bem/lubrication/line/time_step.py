@@ -32,6 +32,9 @@ from bem.lubrication.line.mesh import trapezoidal_weights, upwind_extrapolation
 from bem.lubrication.line.problem import Problem
 from bem.lubrication.line.reynolds import PoiseuilleFlow, longest_step, poiseuille_flow
 
+_DIVERGED = 1e12
+"""Film in similarity variables beyond which Newton's method has diverged: steps that converge stay below 1e6."""
+
 
 @dataclass(frozen=True)
 class FixedMesh:
@@ -294,7 +297,7 @@ def _derivatives(step: Step, at: Iterate, balance: VolumeBalance) -> tuple[Float
 
 def _newton(step: Step, at: Iterate, balance: VolumeBalance, full: Nodes) -> Iterate | None:
     """Take a Newton step for the pressures of full nodes, the fractions of the others and H0, shortened to positive
-    films; None where the equations have no solution."""
+    films; None where the equations have no solution, or the step diverges."""
     mesh, largest_pressure = step.mesh, balance.largest_pressure
     by_film, by_pressure, by_fraction = _derivatives(step, at, balance)
     index, balanced, empty = (
@@ -337,9 +340,12 @@ def _newton(step: Step, at: Iterate, balance: VolumeBalance, full: Nodes) -> Ite
     rigid_separation = change[-1] * unit
     thicker: FloatArray = rigid_separation - DEFLECTION * (mesh.weights @ dropped)
     length = longest_step(at.film, thicker, 0.8)
+    film = at.film + length * thicker
+    if float(np.abs(film).max()) > _DIVERGED:
+        return None
     return Iterate(
         pressure=at.pressure + length * dropped,
-        film=at.film + length * thicker,
+        film=film,
         rigid_separation=at.rigid_separation + length * rigid_separation,
         fraction=at.fraction + length * filled,
     )
