@@ -38,11 +38,12 @@ body.body--dark .bem-line { border-color: #3a4146 }
 body.body--dark .bem-box, body.body--dark .bem-card { background: #1d2327; border-color: #3a4146 }
 body.body--dark a:not(.text-white) { color: #8ec7ee }
 body.body--light a:not(.text-white) { color: #0b5a8a }
-body.body--dark .q-btn.text-primary, body.body--dark .q-tab--active { color: #8ec7ee !important }
+body.body--dark :is(.q-btn--flat, .q-btn--outline):not(.text-amber-4) :is(.block, .q-icon) { color: #8ec7ee }
+body.body--dark .q-tab--active { color: #8ec7ee }
 body.body--dark .bem-table td { border-color: #3a4146 }
 :focus-visible { outline: 3px solid #d97706 !important; outline-offset: 2px }
 .q-field--focused .q-field__control { box-shadow: 0 0 0 2px #d97706 }
-.bem-pair { display: grid; grid-template-columns: repeat(auto-fit, minmax(min(100%, 420px), 1fr)); gap: 8px }
+.bem-pair { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 560px), 1fr)); gap: 8px }
 .bem-cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 220px), 1fr)); gap: 10px }
 .bem-start { text-align: left; padding: 10px 12px; color: inherit; font: inherit; cursor: pointer; height: 100% }
 .bem-start { display: flex; flex-direction: column; justify-content: flex-start }
@@ -53,6 +54,14 @@ body.body--dark .bem-bar { background: #14181b }
 .bem-table { overflow-x: auto; max-width: 100% }
 """
 
+_NAMES = """new MutationObserver(() => {
+  for (const a of document.querySelectorAll('.q-uploader a.q-btn')) ['role', 'tabindex'].map(n => a.removeAttribute(n))
+  for (const input of document.querySelectorAll('.q-uploader__input')) {
+    input.setAttribute('aria-label', 'surface file'); input.removeAttribute('tabindex')
+  }
+}).observe(document.documentElement, {childList: true, subtree: true})"""
+"""The library's field for files is one control in another, without a name: the inner one gets it and the focus."""
+
 
 @contextmanager
 def page(title: str) -> Iterator[None]:
@@ -60,6 +69,7 @@ def page(title: str) -> Iterator[None]:
     ui.page_title(f"{title} - bem")
     ui.colors(primary="#0b5a8a", negative="#b00020", positive="#1b5e20")
     ui.add_css(_STYLE)
+    ui.add_body_html(f"<script>{_NAMES}</script>")
     ui.on_exception(say)
     with ui.header().classes("items-center q-py-xs").style("background: #0b3954; height: 52px; flex-wrap: nowrap"):
         ui.link("bem", "/").classes("text-h6 text-bold text-white").style("text-decoration: none")
@@ -69,7 +79,7 @@ def page(title: str) -> Iterator[None]:
         ui.space()
         with ui.element("h1").classes("text-subtitle1 ellipsis").style("margin: 0; line-height: 1.5"):
             ui.label(title)
-    body = ui.element("main").classes("w-full column q-pa-md gap-4").style("max-width: 1500px; margin: 0 auto")
+    body = ui.element("div").classes("w-full column q-pa-md gap-4").style("max-width: 1500px; margin: 0 auto")
     body.props("inert")
     ui.context.client.on_connect(lambda: body.props(remove="inert"))
     with body:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import textwrap
 from collections.abc import Mapping
 from typing import Any
 
@@ -30,7 +31,11 @@ MOST_CELLS = 384
 MOST_CURVES = 24
 _LONGEST = 5.0
 """Ratio of a map's sides up to which both have one scale."""
-_MARGIN = {"l": 60, "r": 10, "t": 36, "b": 46}
+_MARGIN = {"l": 60, "r": 10, "t": 66, "b": 46}
+_BAR = {"orientation": "h", "thickness": 14, "y": -0.2, "yanchor": "top"}
+"""Below the map: on a narrow screen a bar beside it would take its width."""
+_LINE = 52
+"""Letters of a title's line."""
 COLOURS = "Viridis"
 
 
@@ -82,9 +87,9 @@ def map_picture(
     low, high, said = _colours(seen[np.isfinite(seen)] * factor, known, factor)
     if (value := uniform_value(values)) is not None:
         seen = np.where(np.isfinite(seen), value, np.nan)
-    thinned = f" (every {max(steps)}th cell)" if max(steps) > 1 else ""
+    thinned = f" (every {ordinal(max(steps))} cell)" if max(steps) > 1 else ""
     common = {"x": numbers(x), "y": numbers(y), "z": numbers((seen * factor).T), "colorscale": COLOURS}
-    bar = {"colorbar": {"title": {"text": f"{shown}<br>{said}" if said else shown}}}
+    bar = {"colorbar": _BAR | {"title": {"text": f"{shown}; {said}" if said else shown, "side": "top"}}}
     title = {"title": heading(words + thinned)}
     axes = {"xaxis": axis_title(label("x", length_unit)), "yaxis": axis_title(label("y", length_unit))}
     if solid:
@@ -95,7 +100,7 @@ def map_picture(
     if _LONGEST > float(np.ptp(x)) / max(float(np.ptp(y)), 1e-300) > 1 / _LONGEST:
         axes["yaxis"] |= {"scaleanchor": "x", "constrain": "domain"}
         axes["xaxis"] |= {"constrain": "domain"}
-    return {"data": [trace], "layout": {**title, **axes, "margin": _MARGIN, "height": 460}, "config": _CONFIG}
+    return {"data": [trace], "layout": {**title, **axes, "margin": _MARGIN, "height": 520}, "config": _CONFIG}
 
 
 def _colours(shown: NDArray[np.float64], known: NDArray[np.float64], factor: float) -> tuple[float, float, str]:
@@ -256,8 +261,16 @@ _CONFIG = {"displaylogo": False, "modeBarButtonsToRemove": ["sendDataToCloud"]}
 
 
 def heading(words: str) -> Picture:
-    """The title of a picture, beside the buttons that come with the mouse."""
-    return {"text": words, "font": {"size": 14}, "x": 0.01, "xanchor": "left"}
+    """The title of a picture, below the buttons that come with the mouse."""
+    lines = "<br>".join(textwrap.wrap(words, _LINE))
+    place = {"x": 0.01, "xanchor": "left", "y": 1, "yref": "container", "yanchor": "top", "pad": {"t": 30}}
+    return {"text": lines, "font": {"size": 14}, **place}
+
+
+def ordinal(number: int) -> str:
+    """A number as 1st, 2nd, 3rd, 4th."""
+    ending = "th" if 10 < number % 100 < 14 else {1: "st", 2: "nd", 3: "rd"}.get(number % 10, "th")
+    return f"{number}{ending}"
 
 
 def axis_title(words: str) -> Picture:

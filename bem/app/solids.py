@@ -7,7 +7,19 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.app.pictures import COLOURS, Picture, axis_title, heading, layer, layers_of, numbers, scaled, stood_up, unit_of
+from bem.app.pictures import (
+    COLOURS,
+    Picture,
+    axis_title,
+    heading,
+    layer,
+    layers_of,
+    numbers,
+    ordinal,
+    scaled,
+    stood_up,
+    unit_of,
+)
 from bem.plots.labels import beyond_ends, label, prefix
 from bem.results.arrays import Arrays
 
@@ -79,7 +91,7 @@ def field_picture(values: NDArray[np.float64], axes: Sequence[NDArray[np.float64
         "colorscale": COLOURS,
         "colorbar": {"title": {"text": "<br>".join(part for part in (shown, said) if part)}},
     }
-    thinned = f" (every {step}th cell)" if step > 1 else ""
+    thinned = f" (every {ordinal(step)} cell)" if step > 1 else ""
     return {"data": [trace], "layout": _space(words + thinned, length_unit)}
 
 
@@ -140,4 +152,4 @@ def _space(words: str, unit: str) -> Picture:
         "zaxis": axis_title(label("z", unit)),
         "aspectmode": "data",
     }
-    return {"title": heading(words), "scene": scene, "height": 520, "margin": {"t": 40}}
+    return {"title": heading(words), "scene": scene, "height": 520, "margin": {"t": 66}}

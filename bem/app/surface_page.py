@@ -21,7 +21,7 @@ from bem.errors import BemError, InputError, ResultsError
 from bem.scenes.values import plain_value, typed
 
 _TREATMENTS = (
-    ("detrend", "levelling: plane, curvature or none", "plane"),
+    ("detrend", "what is taken off: a plane, a plane with curvature, or nothing", "plane"),
     ("despike", "standard deviations of a spike, such as 6", ""),
     ("crop", 'lengths, such as "50 um" or ["50 um", "20 um"]', ""),
     ("centre", 'of the crop from the middle, such as ["5 um", "0 um"]', ""),
@@ -32,6 +32,8 @@ _TREATMENTS = (
     ("height_unit", "where the file does not say it, such as nm", ""),
     ("cells", "resample to so many cells, such as 256", ""),
 )
+
+_LEVELLINGS = ("plane", "curvature", "none")
 
 
 class SurfacePage:
@@ -60,6 +62,9 @@ class SurfacePage:
                         button.bind_enabled_from(self._file, "value", lambda path: not str(path).startswith("example/"))
                         button.props["data-action"] = f"{words} surface"
                 for key, hint, default in _TREATMENTS:
+                    if key == "detrend":
+                        self._levelling(hint, default)
+                        continue
                     item = ui.input(
                         key.replace("_", " "), value=default, on_change=lambda e, k=key: self._type(k, e.value or "")
                     )
@@ -70,6 +75,14 @@ class SurfacePage:
                 self._state = ui.column().classes("w-full")
                 self._shown = ui.column().classes("w-full")
         self._again()
+
+    def _levelling(self, hint: str, default: str) -> None:
+        """The field of the levelling, with what may stand there."""
+        item = ui.select(
+            list(_LEVELLINGS), label="levelling", value=default, on_change=lambda e: self._type("detrend", str(e.value))
+        )
+        item.props("dense outlined").classes("w-full").props["hint"] = hint
+        item.props["data-key"] = "detrend"
 
     def _scenes(self) -> None:
         """Show the scenes that can take the treated surface."""
@@ -177,7 +190,8 @@ class SurfacePage:
         lines = [f"surface = {typed(found.surface)}"]
         if found.grid is not None:
             lines.insert(0, f"grid = {typed(found.grid)}")
-        ui.code("\n".join(lines), language="toml").classes("w-full")
+        code = ui.code("\n".join(lines), language="toml").classes("w-full")
+        code.copy_button.props["aria-label"] = "copy"
 
     async def _put(self, scene: str, body: str) -> None:
         """Write the surface, and the grid of the cells that are asked for, into a scene's file; other keys stay."""

@@ -141,6 +141,32 @@ class Tab:
             self.look(f"{items}.filter(one => one.innerText.trim() === {json.dumps(name)}).forEach(one => one.click())")
             time.sleep(1)
 
+    def pick(self, key, name):
+        """One of a list that opens on a click."""
+        where = f"[data-key={json.dumps(key)}]"
+        items = "[...document.querySelectorAll('.q-menu .q-item')]"
+        one = f"{items}.find(one => one.innerText.trim() === {json.dumps(name)})"
+        self._do("Page.bringToFront")
+        self.click(where)
+        self.wait(one)
+        self.look(f"{one}.click()")
+        self.wait(f"document.querySelector({json.dumps(where)}).innerText.trim() === {json.dumps(name)}")
+
+    def unnamed(self):
+        """Role and place of every control that a screen reader has no name for."""
+        self._do("Accessibility.enable")
+        controls = ("button", "link", "textbox", "combobox", "checkbox", "switch", "tab", "spinbutton", "searchbox")
+        found = []
+        for node in self._do("Accessibility.getFullAXTree")["nodes"]:
+            role = node.get("role", {}).get("value")
+            if role in controls and not node["ignored"] and not node.get("name", {}).get("value", "").strip():
+                found.append((role, self._do("DOM.describeNode", backendNodeId=node["backendDOMNodeId"])["node"]))
+        return found
+
+    def narrow(self, width=390, height=844):
+        """A window as narrow as a telephone."""
+        self._do("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=True)
+
     def drop(self, path):
         """A file into the page's field for files."""
         self.wait("document.querySelector('input[type=file]') !== null")

@@ -113,13 +113,13 @@ def test_from_a_file_to_results_and_back(serve, chrome, tmp_path):
     tab.type("crop", "60 um")
     tab.wait_text("75 x 75")
     for detrend in ("none", "curvature"):  # levelled anew, and the statistics are those of the same from Python
-        tab.type("detrend", detrend)
+        tab.pick("detrend", detrend)
         direct = crop(read_surface(own, despike=6, detrend=detrend), (60e-6, 60e-6))
         tab.wait(f"/Sq\\s+{describe_surface(direct).Sq * 1e9:.4g} nm/.test(document.body.innerText)")
-    tab.type("detrend", "curved")
-    tab.wait("document.querySelector('[data-mistake]').innerText.includes('allowed: \"plane\", \"curvature\"')")
-    tab.type("detrend", "curvature")
-    tab.wait("!document.querySelector('[data-mistake]')")
+    tab.type("high_pass", "many")
+    tab.wait("document.querySelector('[data-mistake]').innerText.startsWith('high_pass')")
+    tab.type("high_pass", "")
+    tab.wait("!document.querySelector('[data-mistake]') && document.querySelector('.main-svg')")
     put = "[...document.querySelectorAll('button')].find(b => b.innerText.includes('as lower')).click()"
     tab.look(put)
     tab.wait_text("lower.surface is this one")
@@ -435,6 +435,34 @@ def test_two_tabs_keep_each_others_edits(serve, chrome, tmp_path):
     two.wait(FIELD.format("mean_pressure") + f" === '8{number:02d} MPa'")
     assert file.read_text() == text
     assert one.errors + two.errors == []
+
+
+def test_every_page_has_names_for_its_controls_and_fits_a_telephone(serve, chrome, tmp_path):
+    runs = tmp_path / "work" / "runs"
+    run_scene("hertz-sphere", runs / "ball-001", settings=["grid.shape=16", "outputs.errors=false"], figures=False)
+    (tmp_path / "work" / "own.toml").write_text(EDITED)
+    server, tab = serve(), chrome.tab()
+    tab.narrow()
+    tab.go(server.address)
+    for path, there in (
+        ("/", "document.querySelector('[data-start=gear]')"),
+        ("/scene/own", "document.querySelector('[data-plan]')"),
+        ("/surfaces", "document.querySelector('.main-svg')"),
+        ("/runs", "document.querySelector('[data-tick]')"),
+        ("/run/ball-001", "document.querySelectorAll('.main-svg').length > 2"),
+    ):
+        tab.go(server.base + path)
+        tab.wait(there)
+        assert tab.unnamed() == [], path
+        assert tab.look("document.documentElement.scrollWidth") == 390, path
+        assert tab.look("document.documentElement.lang"), path
+        assert tab.look("document.querySelectorAll('h1').length") == 1, path
+    tab.go(f"{server.base}/scene/own")
+    tab.wait("document.querySelector('[data-plan]')")
+    tab.look("window.scrollTo(0, document.body.scrollHeight)")  # the button stays in view, and on top
+    box = "document.querySelector('[data-action=run]').getBoundingClientRect()"
+    tab.wait(f"document.elementFromPoint({box}.x + 5, {box}.y + 5).closest('[data-action=run]')")
+    assert tab.errors == []
 
 
 def wait(what):
