@@ -32,7 +32,7 @@ BALL = {
     "bodies": (Body(STEEL), Body(STEEL)),
     "radii": (0.01, 0.01),
     "load": 20.0,  # 0.79 GPa on 110 um
-    "lubricant": Lubricant(0.03, pressure_viscosity=18e-9),
+    "lubricant": Lubricant(0.03, pressure_viscosity=18e-9, density_law="incompressible"),
     "boundary_friction": 0.12,
     "film_cells": 48,
     "oil_volume": "loaded",

@@ -125,7 +125,7 @@ def test_an_element_is_told_of_its_own_keys():
 
 
 ROLLER = {"load": 1e5, "radius": 0.01, "contact_modulus": 115e9, "speeds": (1.0, 1.0), "points": 200}
-OIL = Lubricant(0.08, pressure_viscosity=20e-9)
+OIL = Lubricant(0.08, pressure_viscosity=20e-9, density_law="incompressible")
 
 
 def told(film):
@@ -135,7 +135,9 @@ def told(film):
 def test_a_film_of_centistokes_at_a_thousand_metres_a_second_is_told():
     """It was a converged film of 2.27 mm without a word."""
     assert told(solve_line_film(**ROLLER, lubricant=OIL)) == []
-    film = solve_line_film(**ROLLER | {"speeds": (1000.0, 1000.0)}, lubricant=Lubricant(80.0))
+    film = solve_line_film(
+        **ROLLER | {"speeds": (1000.0, 1000.0)}, lubricant=Lubricant(80.0, density_law="incompressible")
+    )
     assert film.status is Status.CONVERGED
     assert told(film) == ["speeds", "lubricant.viscosity"]
     assert any(note.startswith(OUTSIDE) and "radius" in note for note in film.notes)
@@ -156,7 +158,7 @@ STEADY = {"load": lambda t: 1e5, "speeds": lambda t: (1.0, 1.0)}
 def test_a_march_of_a_line_film_is_told_of_centistokes_given_as_pascal_seconds():
     case = {"times": np.array([0.0, 1e-3]), **STEADY, "radius": 0.01, "contact_modulus": 115e9, "points": 151}
     assert [told(film) for film in march_line_film(**case, lubricant=OIL)] == [[], []]
-    films = march_line_film(**case, lubricant=Lubricant(80.0))
+    films = march_line_film(**case, lubricant=Lubricant(80.0, density_law="incompressible"))
     assert [told(film) for film in films] == [["lubricant.viscosity"]] * 2
     assert all("mPa*s" in film.notes[0] for film in films)
 
@@ -234,14 +236,16 @@ def test_a_friction_beyond_any_bound_is_outside_the_model():
     height = generate_surface(grid, rms_height=50e-9, correlation_length=3e-6, seed=1)
     case = {"height": height, "grid": grid, "bodies": Body(Material("steel", youngs_modulus=210e9, poissons_ratio=0.3))}
     case |= {"radius": 2e-3, "width": 6e-3, "load": 5.5, "boundary_friction": 0.12, "film_points": 200}
-    thick = Lubricant(1.0, pressure_viscosity=20e-9)
+    thick = Lubricant(1.0, pressure_viscosity=20e-9, density_law="incompressible")
     found = solve_mixed(**case | {"load": 0.01}, speeds=(1.0, 0.0), lubricant=thick)
     assert found.friction > 1
     assert any("Friction" in said for said in outside(found.notes))
     status = next(line for line in repr(found).splitlines() if "status=" in line)
     assert "outside the model" in status
     assert "Friction" in status
-    usual = solve_mixed(**case, speeds=(0.2, 0.0), lubricant=Lubricant(0.08, pressure_viscosity=20e-9))
+    usual = solve_mixed(
+        **case, speeds=(0.2, 0.0), lubricant=Lubricant(0.08, pressure_viscosity=20e-9, density_law="incompressible")
+    )
     assert usual.friction < 1
     assert not any("Friction" in said and "bound" in said for said in outside(usual.notes))
     assert not told(usual)

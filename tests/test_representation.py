@@ -33,7 +33,7 @@ def test_arrays_show_as_shape_and_range(solution):
 def test_film_shows_without_its_state():
     film = bem.solve_line_film(
         load=1e5, radius=2e-3, contact_modulus=115e9, speeds=(0.1, 0.0), points=400,
-        lubricant=Lubricant(0.36, pressure_viscosity=25e-9),
+        lubricant=Lubricant(0.36, pressure_viscosity=25e-9, density_law="incompressible"),
     )  # fmt: skip
     text = repr(film)
     assert "minimum_thickness=" in text

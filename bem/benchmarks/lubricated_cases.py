@@ -25,7 +25,7 @@ def line_film(points: float, dense: bool = False) -> Timed:
     from bem.lubrication import Lubricant, solve_line_film
     from bem.lubrication.line import deflection
 
-    oil = Lubricant(0.36, pressure_viscosity=25e-9)
+    oil = Lubricant(0.36, pressure_viscosity=25e-9, density_law="incompressible")
 
     def solve() -> FilmSolution:
         usual = deflection.HIERARCHICAL_FROM
@@ -76,7 +76,7 @@ def _film_reference() -> tuple[float, float, float]:
     """Richardson's limit of 2000 and 4000 points, second order."""
     from bem.lubrication import Lubricant, solve_line_film
 
-    oil = Lubricant(0.36, pressure_viscosity=25e-9)
+    oil = Lubricant(0.36, pressure_viscosity=25e-9, density_law="incompressible")
     values = []
     for points in (2000, 4000):
         film = solve_line_film(**FILM, lubricant=oil, points=points)  # type: ignore[arg-type]
@@ -107,7 +107,7 @@ def mixed_case(cells: int, film_points: int, tolerance: float) -> dict[str, Any]
         "radius": 2e-3,
         "width": 6e-3,
         "load": 5.5,
-        "lubricant": Lubricant(0.36, pressure_viscosity=25e-9),
+        "lubricant": Lubricant(0.36, pressure_viscosity=25e-9, density_law="incompressible"),
         "boundary_friction": 0.15,
         "hardness": 6e9,
         "film_points": film_points,

@@ -150,7 +150,7 @@ def film(code: float) -> Timed:
     from bem.lubrication import Lubricant, solve_line_film
 
     points, digits = size_and_digits(code)
-    oil = Lubricant(0.36, pressure_viscosity=25e-9)
+    oil = Lubricant(0.36, pressure_viscosity=25e-9, density_law="incompressible")
 
     def solve() -> FilmSolution:
         return solve_line_film(**FILM, lubricant=oil, points=points, tolerance=10.0**-digits)  # type: ignore[arg-type]

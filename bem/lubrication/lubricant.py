@@ -39,7 +39,7 @@ class Lubricant:
     viscosity : dynamic viscosity at ambient pressure [Pa s], positive.
     pressure_viscosity : alpha, slope of ln(viscosity) with pressure at ambient pressure [1/Pa]; 0 is isoviscous.
     viscosity_law : "roelands", "barus" or "isoviscous", the name of a law of your own, or a law.
-    density_law : "incompressible", "dowson_higginson", another name or a law.
+    density_law : "dowson_higginson", "incompressible", another name or a law.
     shear_law : "limited", "newtonian", "eyring", "carreau", "base_oil", another name or a law. All of these but
         "newtonian" carry no more than a limiting shear stress in proportion to pressure; below that "limited" is
         Newtonian. "base_oil" is Eyring's law under a limit that falls with temperature, with the constants of the
@@ -80,7 +80,7 @@ class Lubricant:
         *,
         pressure_viscosity: float = 0.0,
         viscosity_law: str | ViscosityLaw = "roelands",
-        density_law: str | DensityLaw = "incompressible",
+        density_law: str | DensityLaw = "dowson_higginson",
         shear_law: str | ShearLaw = "limited",
         temperature: float | None = None,
         density: float | None = None,

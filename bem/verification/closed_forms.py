@@ -352,7 +352,7 @@ def martin() -> list[Curve]:
         radius=radius,
         contact_modulus=math.inf,
         speeds=speeds,
-        lubricant=Lubricant(viscosity=viscosity, viscosity_law="isoviscous"),
+        lubricant=Lubricant(viscosity=viscosity, viscosity_law="isoviscous", density_law="incompressible"),
     )
     exact = MartinFilm(load, radius, viscosity, sum(speeds) / 2)
     reason = "2000 points; the inlet reaches far but not to infinity"
@@ -376,7 +376,7 @@ def hertz_film() -> list[Curve]:
         radius=radius,
         contact_modulus=modulus,
         speeds=(0.001, 0.001),
-        lubricant=Lubricant(viscosity=0.01, viscosity_law="isoviscous"),
+        lubricant=Lubricant(viscosity=0.01, viscosity_law="isoviscous", density_law="incompressible"),
     )
     exact = cylinder_contact(radius=radius, contact_modulus=modulus, load=load)
     inside = np.abs(found.position) < 0.7 * exact.half_width

@@ -26,7 +26,7 @@ def rigid_ball() -> list[Curve]:
         radii=(radius, radius),
         contact_modulus=math.inf,
         speeds=speeds,
-        lubricant=Lubricant(viscosity, viscosity_law="isoviscous"),
+        lubricant=Lubricant(viscosity, viscosity_law="isoviscous", density_law="incompressible"),
         shape=(128, 128),
     )
     exact = radius**3 * (RIGID_BALL * viscosity * sum(speeds) / film.load) ** 2
@@ -44,7 +44,7 @@ def hertz_ball() -> list[Curve]:
         radii=(radius, radius),
         contact_modulus=modulus,
         speeds=(0.01, 0.01),
-        lubricant=Lubricant(0.05, pressure_viscosity=20e-9),
+        lubricant=Lubricant(0.05, pressure_viscosity=20e-9, density_law="incompressible"),
         shape=(96, 96),
     )
     exact = ellipse_contact(radii=(radius, radius), contact_modulus=modulus, load=load)

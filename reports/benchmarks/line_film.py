@@ -67,7 +67,9 @@ def similarity_case(load: float, piezo: float) -> tuple[dict[str, object], float
         "radius": RADIUS,
         "contact_modulus": reduced / 2,
         "speeds": (ENTRAINMENT, 0.0),
-        "lubricant": Lubricant(VISCOSITY, pressure_viscosity=PRESSURE_VISCOSITY if piezo > 0 else 0.0),
+        "lubricant": Lubricant(
+            VISCOSITY, pressure_viscosity=PRESSURE_VISCOSITY if piezo > 0 else 0.0, density_law="incompressible"
+        ),
     }
     return case, RADIUS * math.sqrt(speed)
 

@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 from scipy.optimize import brentq
 
-from bem import InletDistance, solve_line_film, solve_point_film
+from bem import InletDistance, Lubricant, solve_line_film, solve_point_film
 from bem.errors import Status
 from bem.lubrication.oil_scatter import oil_scatter
 from reports.experiments.friction_measured import CELSIUS, MANN, MODULUS, STEEL
@@ -65,12 +65,17 @@ def semi_angle() -> float:
     return float(brentq(lambda nu: math.sin(nu) - DIAMETER / PITCH * math.sin(CUP_ANGLE - nu), 0.0, 0.1))
 
 
+def bearing_oil(temperature: float) -> Lubricant:
+    """FVA 3 at a temperature [degC], sheared by the constants of its base."""
+    oil = MANN["M100"].oil("FVA 3")
+    return oil.at(temperature + CELSIUS, shear_law="base_oil", density_law="incompressible")
+
+
 def rolling_force(load: float, radius: float, speed: float, temperature: float, points: int) -> float:
     """Rolling resistance of one roller on one ring [N]."""
     film = solve_line_film(
         load=load / LENGTH, radius=radius, contact_modulus=MODULUS, speeds=(speed, speed),
-        lubricant=MANN["M100"].oil("FVA 3").at(temperature + CELSIUS, shear_law="base_oil"),
-        bodies=(STEEL, STEEL), thermal="lumped", points=points,
+        lubricant=bearing_oil(temperature), bodies=(STEEL, STEEL), thermal="lumped", points=points,
     )  # fmt: skip
     if film.status is not Status.CONVERGED:
         raise ArithmeticError(f"no film at {load:g} N, {speed:g} m/s")
@@ -84,7 +89,7 @@ def rib(load: float, radius: float, speed: float, temperature: float) -> tuple[f
     apex = PITCH / 2 / math.sin(CUP_ANGLE - nu)
     # both surfaces at the height of the contact; the raceway rolls
     surfaces = (speed * (1 + RIB_HEIGHT[0] / radius), speed * (1 - RIB_HEIGHT[0] / (DIAMETER / 2)))
-    lubricant = MANN["M100"].oil("FVA 3").at(temperature + CELSIUS, shear_law="base_oil")
+    lubricant = bearing_oil(temperature)
     film = solve_point_film(
         load=force, radii=(RIB_RADIUS * apex, RIB_RADIUS * apex), contact_modulus=MODULUS, speeds=surfaces,
         lubricant=lubricant, shape=(48, 48),
@@ -140,7 +145,7 @@ def starved(speed: float) -> dict[str, Any]:
         "radius": radius,
         "contact_modulus": MODULUS,
         "speeds": (rolling, rolling),
-        "lubricant": MANN["M100"].oil("FVA 3").at(50.0 + CELSIUS, shear_law="base_oil"),
+        "lubricant": bearing_oil(50.0),
         "points": POINTS,
     }
     flooded = solve_line_film(**asked)

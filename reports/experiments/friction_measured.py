@@ -272,7 +272,7 @@ def arana(oil: MannOil, film: FilmSolution, lubricant: Lubricant, speed: float, 
 def disc(name: str, speed: float, slip: float, inlet: float) -> dict[str, Any]:
     """Twin discs with one of Mann's oils, beside the formula that describes them; inlet [degC]."""
     oil = MANN[name]
-    lubricant = oil.oil(name).at(inlet + CELSIUS, shear_law="base_oil")
+    lubricant = oil.oil(name).at(inlet + CELSIUS, shear_law="base_oil", density_law="incompressible")
     film = roller(lubricant, speed, slip)
     formula = arana(oil, film, lubricant, speed, slip, inlet + CELSIUS)
     ours = traction(lubricant, speed, slip)
@@ -292,7 +292,7 @@ def discs() -> list[dict[str, Any]]:
 
 def base_oil(base: str) -> dict[str, Any]:
     """Twin discs with an oil of VG 100 of a base at 8 m/s and 10 % sliding, film alone; HFC 46 for water-glycol."""
-    asked: dict[str, Any] = {"shear_law": "base_oil"}
+    asked: dict[str, Any] = {"shear_law": "base_oil", "density_law": "incompressible"}
     if base == "water-glycol":
         asked |= {"temperature": 40 + CELSIUS, "pressure_viscosity": 3e-9, "viscosity_index": 200.0}
         return traction(Lubricant.of("water-glycol 46", **asked), 8.0, 0.1)
@@ -340,7 +340,7 @@ def full_heat() -> list[dict[str, Any]]:
     """Lumped beside full heat at some of the discs' conditions: what the model of heat is worth."""
     rows = []
     for name, speed, slip in (("M100", 2.0, 0.05), ("M100", 8.0, 0.1), ("PAO100", 8.0, 0.1), ("M100", 4.0, 0.5)):
-        lubricant = MANN[name].oil(name).at(DISC_INLET + CELSIUS, shear_law="base_oil")
+        lubricant = MANN[name].oil(name).at(DISC_INLET + CELSIUS, shear_law="base_oil", density_law="incompressible")
         row: dict[str, Any] = {"oil": name, "speed": speed, "slip": slip}
         for heat in ("off", "lumped", "full"):
             try:
@@ -354,7 +354,8 @@ def full_heat() -> list[dict[str, Any]]:
 
 def pressure_coefficient(base: str, alpha: float) -> dict[str, Any]:
     """Twin discs with an oil of VG 100 of a base at 8 m/s and 10 % sliding and another alpha at 60 degC [1/Pa]."""
-    asked = {"temperature": DISC_INLET + CELSIUS, "shear_law": "base_oil", "pressure_viscosity": alpha}
+    asked: dict[str, Any] = {"shear_law": "base_oil", "density_law": "incompressible"}
+    asked |= {"temperature": DISC_INLET + CELSIUS, "pressure_viscosity": alpha}
     found = traction(Lubricant.of("ISO VG 100", base=base, **asked), 8.0, 0.1)
     return {"base": base, "alpha": alpha, "coefficient": found["coefficient"]}
 
@@ -394,7 +395,7 @@ def viscosity_at_pressure(pressure: float = 1e9) -> list[tuple[str, dict[str, fl
     rows = []
     for name, own in MANN.items():
         for inlet in (60.0, 90.0):
-            lubricant = own.oil(name).at(inlet + CELSIUS)
+            lubricant = own.oil(name).at(inlet + CELSIUS, density_law="incompressible")
             first, second = own.modulus(inlet + CELSIUS)
             row = {
                 "temperature": inlet,
@@ -412,7 +413,7 @@ def measured_viscosity(name: str, slip: float) -> dict[str, Any]:
     own = MANN[name]
     first, second = own.modulus(DISC_INLET + CELSIUS)
     laws = {"viscosity_law": Modulus(first, second), "pressure_viscosity": 1 / first, "shear_law": "base_oil"}
-    lubricant = own.oil(name).at(DISC_INLET + CELSIUS, **laws)
+    lubricant = own.oil(name).at(DISC_INLET + CELSIUS, density_law="incompressible", **laws)
     return {"oil": name, "slip": slip, "coefficient": oil_scatter(roller(lubricant, 4.0, slip), lubricant).friction}
 
 

@@ -28,7 +28,9 @@ def draw(rng: np.random.Generator) -> Problem:
     hot = replace(
         cold.setup,
         bodies=(_conducting(bodies[0]), _conducting(bodies[-1])),
-        lubricant=Lubricant.of(str(rng.choice(GRADES)), temperature=float(rng.uniform(320, 370))),
+        lubricant=Lubricant.of(
+            str(rng.choice(GRADES)), temperature=float(rng.uniform(320, 370)), density_law="incompressible"
+        ),
         thermal="lumped",
     )
 

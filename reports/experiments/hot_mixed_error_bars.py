@@ -57,7 +57,9 @@ def draw(rng: np.random.Generator) -> tuple[MixedSetup, Any, tuple[float, float]
         radius=radius,
         width=1e-3,
         load=math.pi * radius * hertz**2 / modulus * 1e-3,
-        lubricant=Lubricant.of(str(rng.choice(GRADES)), temperature=float(rng.uniform(313, 373))),
+        lubricant=Lubricant.of(
+            str(rng.choice(GRADES)), temperature=float(rng.uniform(313, 373)), density_law="incompressible"
+        ),
         boundary_friction=0.12,
         hardness=6e9,
         film_points=int(rng.integers(200, 401)),

@@ -50,7 +50,7 @@ def draw(rng: np.random.Generator) -> MarchCase:
 
     steps, points = int(rng.integers(16, 49)), int(rng.integers(101, 161))
     cavitation = str(rng.choice(["swift_stieber", "mass_conserving"]))
-    oil = Lubricant(viscosity, pressure_viscosity=pressure_viscosity)
+    oil = Lubricant(viscosity, pressure_viscosity=pressure_viscosity, density_law="incompressible")
     times = np.linspace(0.0, duration, steps + 1)
     return MarchCase((), times, loads, speeds, radius, modulus, oil, points | 1, None, cavitation)
 

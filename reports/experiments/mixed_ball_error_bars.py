@@ -48,7 +48,9 @@ def draw(rng: np.random.Generator) -> Problem:
     # slopes of more than 0.2 are none of rolled or ground surfaces
     slope = float(np.sqrt(np.mean((np.diff(heights, axis=0) / spacing[0]) ** 2)))
     heights = waves_through(heights * min(1.0, 0.2 / slope), 1)
-    lubricant = Lubricant(10 ** rng.uniform(-1.7, -0.5), pressure_viscosity=rng.uniform(0.8, 2.2) * 1e-8)
+    lubricant = Lubricant(
+        10 ** rng.uniform(-1.7, -0.5), pressure_viscosity=rng.uniform(0.8, 2.2) * 1e-8, density_law="incompressible"
+    )
     counted = str(rng.choice(["loaded", "patch"]))
     setup = MixedSetup(
         grid=grid,

@@ -68,12 +68,14 @@ class Case:
 CASES = {
     ROLLER: Case(
         Material("steel", youngs_modulus=207e9, poissons_ratio=0.3, hardness=7e9), 6e-3, 10e-3, 1.5e9,
-        Lubricant(0.02, pressure_viscosity=21e-9), 0.12, 7e9, 3.2e-6, (102, 128, 160, 224), 128, (1e-4, 1e-2),
+        Lubricant(0.02, pressure_viscosity=21e-9, density_law="incompressible"), 0.12,
+        7e9, 3.2e-6, (102, 128, 160, 224), 128, (1e-4, 1e-2),
         {"rms_height": 100e-9, "seed": 4, "correlation_length": 15e-6},
     ),
     CYLINDER: Case(
         Material("steel", youngs_modulus=210e9, poissons_ratio=0.3), 2e-3, 6e-3,
-        math.sqrt(5.5 / 6e-3 * 115.385e9 / (math.pi * 2e-3)), Lubricant(0.36, pressure_viscosity=25e-9), 0.09, 6e9,
+        math.sqrt(5.5 / 6e-3 * 115.385e9 / (math.pi * 2e-3)),
+        Lubricant(0.36, pressure_viscosity=25e-9, density_law="incompressible"), 0.09, 6e9,
         0.45e-6, (60, 100, 200, 400), 200, (1e-3, 5e-2),
         {"rms_height": 100e-9, "seed": 1, "hurst": 0.8, "rolloff_wavelength": 20e-6, "cutoff_wavelength": 1.8e-6},
     ),

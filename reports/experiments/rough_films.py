@@ -34,7 +34,9 @@ from reports.experiments.line_films import Line, line_film, roughened
 RESULT = Path(__file__).resolve().parents[1] / "results" / "rough_films.json"
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
 MODULUS = contact_modulus(STEEL, STEEL)
-OIL = Lubricant(0.03, pressure_viscosity=18e-9, shear_law="eyring", shear_stress_limit=5e6)
+OIL = Lubricant(
+    0.03, pressure_viscosity=18e-9, shear_law="eyring", shear_stress_limit=5e6, density_law="incompressible"
+)
 RADIUS, BOUNDARY, CUT_OFF = 10e-3, 0.12, 1e-9
 """[m], coefficient of friction where surfaces touch, and film [m] below which they are said to."""
 LAMBDAS = (3.0, 2.0, 1.4, 1.0, 0.7, 0.5, 0.35, 0.25, 0.18, 0.125, 0.1)

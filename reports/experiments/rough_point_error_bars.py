@@ -54,7 +54,11 @@ def draw(rng: np.random.Generator) -> tuple[RoughPointCase, tuple[int, int], flo
         contact_modulus=MODULUS,
         speeds=((0.0, 0.0), (speed, 0.0)),
         lubricant=Lubricant(
-            viscosity, pressure_viscosity=pressure_viscosity, shear_law="eyring", shear_stress_limit=5e6
+            viscosity,
+            pressure_viscosity=pressure_viscosity,
+            shear_law="eyring",
+            shear_stress_limit=5e6,
+            density_law="incompressible",
         ),
         heights=isotropic(rng, rms, share * half),
         least_film=1e-9,

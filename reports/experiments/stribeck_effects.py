@@ -39,8 +39,8 @@ SOURCE, LIMIT = "as in the source", "limiting shear stress"
 LAYER = 0.5e-6
 CAPPED, RADIUS, WIDTH = 6e9, 2e-3, 6e-3
 MODULUS = STEEL.plane_strain_modulus / 2
-NEWTONIAN: dict[str, Any] = {"viscosity": 0.36, "pressure_viscosity": 25e-9, "shear_law": "newtonian"}
-LIMITED: dict[str, Any] = {"viscosity": 0.36, "pressure_viscosity": 25e-9}
+LIMITED: dict[str, Any] = {"viscosity": 0.36, "pressure_viscosity": 25e-9, "density_law": "incompressible"}
+NEWTONIAN: dict[str, Any] = LIMITED | {"shear_law": "newtonian"}
 EYRING: dict[str, Any] = NEWTONIAN | {"shear_law": "eyring", "shear_stress_limit": 5e6}
 WARM: dict[str, Any] = {
     "temperature": 296.15, "density": 880.0, "heat_capacity": 1900.0, "thermal_conductivity": 0.13,

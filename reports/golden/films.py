@@ -146,7 +146,7 @@ def _line(number: int, special: dict[str, Any], trial: Trial, folder: Path) -> R
 def _warm_oil(softening: float | None) -> Lubricant:
     """An oil of the catalogue; with a softening [1/K] one that is known at its own temperature alone."""
     if softening is None:
-        return Lubricant.of("ISO VG 68", temperature=333.15)
+        return Lubricant.of("ISO VG 68", temperature=333.15, density_law="incompressible")
     return Lubricant(
         0.03,
         pressure_viscosity=18e-9,

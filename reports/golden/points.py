@@ -79,7 +79,7 @@ def _cylinder(number: int, special: dict[str, Any], trial: Trial, folder: Path) 
     if "supply" in special:
         given["supply"] = OilLayer(special["supply"] * 200e-9)
     if "thermal" in special:
-        given["lubricant"] = Lubricant.of("ISO VG 46", temperature=SUPPLY)
+        given["lubricant"] = Lubricant.of("ISO VG 46", temperature=SUPPLY, density_law="incompressible")
     point = solve_mixed(radius=radius, width=width, bodies=(flat, Body(STEEL)), film_points=FILM_POINTS, **given)
     return _record(point)
 
@@ -107,7 +107,8 @@ def _common(rng: np.random.Generator, special: dict[str, Any], grid: Grid, load:
     height = generate_surface(
         whole, rms_height=rms_height, correlation_length=5 * grid.spacing[0], seed=int(rng.integers(1000))
     )
-    laws = {key: special[key] for key in ("shear_law", "shear_stress_limit") if key in special}
+    laws = {"density_law": "incompressible"}
+    laws |= {key: special[key] for key in ("shear_law", "shear_stress_limit") if key in special}
     oil = Lubricant(10 ** rng.uniform(-1.6, -0.6), pressure_viscosity=float(rng.uniform(12e-9, 24e-9)), **laws)
     speed = 10 ** rng.uniform(-2.0, 0.0)
     speeds = ((speed, 0.0), (speed, 0.8 * speed), (0.3 * speed, speed))[rng.integers(3)]

@@ -28,7 +28,13 @@ def case_of(points=400, lubricant=OIL, tolerance=1e-8, speeds=(1.0, 0.2), load=5
 
 
 def test_bars_of_a_rigid_film_cover_martin():
-    given = {"load": 10.0, "radius": 0.01, "speeds": (1.0, 1.0), "lubricant": Lubricant(0.01), "points": 300}
+    given = {
+        "load": 10.0,
+        "radius": 0.01,
+        "speeds": (1.0, 1.0),
+        "lubricant": Lubricant(0.01, density_law="incompressible"),
+        "points": 300,
+    }
     case = FilmCase(solve_line_film(contact_modulus=np.inf, **given), contact_modulus=np.inf, **given)
     bars = film_bars(case, solve_coarser_film(case)).values
     # Martin (1916): h_min = 4.8950 mu u R / w with u the mean speed, to the digits given

@@ -26,7 +26,7 @@ def case_of(speed, cells=(48, 24), rms=100e-9, **changes):
         "radius": 5e-3,
         "width": 1e-3,
         "load": 20.0,
-        "lubricant": Lubricant(0.05, pressure_viscosity=1.5e-8),
+        "lubricant": Lubricant(0.05, pressure_viscosity=1.5e-8, density_law="incompressible"),
         "boundary_friction": 0.12,
         "film_points": 300,
     }
@@ -139,7 +139,11 @@ def test_bars_of_a_ball_hold_how_far_its_film_goes_on():
     friction's bar fell short, and the minimum, of half the thickness, had a bar of a tenth. Since thin cells hold the
     pressure flow back it is 16 % off (112 cells; 8 % of 160), as lambda is, still without a bar."""
     grid = Grid((40, 40), (14e-6, 20e-6))
-    ball = {"radii": (0.01, 0.025), "load": 110.0, "lubricant": Lubricant(0.03, pressure_viscosity=8e-9)}
+    ball = {
+        "radii": (0.01, 0.025),
+        "load": 110.0,
+        "lubricant": Lubricant(0.03, pressure_viscosity=8e-9, density_law="incompressible"),
+    }
     ball |= {"boundary_friction": 0.12, "film_cells": 32, "oil_volume": "loaded"}
     height = 40e-9 * np.sin(2 * np.pi * grid.x / 60e-6)[:, None] * np.sin(2 * np.pi * grid.y / 60e-6)
     setup, speeds = MixedSetup(**steel_line(grid, **ball, radius=None, width=None)), (0.05, 0.035)

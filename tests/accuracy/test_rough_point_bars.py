@@ -30,7 +30,9 @@ CASE = RoughPointCase(
     radii=(RADIUS, RADIUS),
     contact_modulus=MODULUS,
     speeds=((0.0, 0.0), (1e-3, 0.0)),
-    lubricant=Lubricant(0.03, pressure_viscosity=18e-9, shear_law="eyring", shear_stress_limit=5e6),
+    lubricant=Lubricant(
+        0.03, pressure_viscosity=18e-9, shear_law="eyring", shear_stress_limit=5e6, density_law="incompressible"
+    ),
     heights=lambda x, y: 80e-9 * np.cos(8 * x / HALF) * np.cos(8 * y / HALF),
     least_film=1e-9,
     boundary_friction=0.12,

@@ -96,18 +96,20 @@ def bem_run(folder, text, *more, settings=(), **environment):
 
 
 def test_a_viscosity_law_in_python(outside):
-    oil = Lubricant(0.2, pressure_viscosity=20e-9, viscosity_law="two_slopes", bend=1e8)
-    assert oil == Lubricant(0.2, pressure_viscosity=20e-9, viscosity_law=outside.TwoSlopes(bend=1e8))
+    oil = Lubricant(0.2, pressure_viscosity=20e-9, viscosity_law="two_slopes", bend=1e8, density_law="incompressible")
+    assert oil == Lubricant(
+        0.2, pressure_viscosity=20e-9, viscosity_law=outside.TwoSlopes(bend=1e8), density_law="incompressible"
+    )
     assert oil.bend == 1e8
     assert oil.viscosity_at(np.array([3e8]))[0] == pytest.approx(0.2 * np.exp(2 + 2), rel=1e-14)
     with pytest.raises(InputError, match=r"bend is missing.*two_slopes.*\[Pa\]"):
-        Lubricant(0.2, viscosity_law="two_slopes")
+        Lubricant(0.2, viscosity_law="two_slopes", density_law="incompressible")
     with pytest.raises(InputError, match=r"two_slope' is unknown - did you mean 'two_slopes'"):
-        Lubricant(0.2, viscosity_law="two_slope")
+        Lubricant(0.2, viscosity_law="two_slope", density_law="incompressible")
     with pytest.raises(InputError, match=r"bent is unknown - did you mean 'bend'"):
-        Lubricant(0.2, viscosity_law="two_slopes", bend=1e8, bent=1e8)
+        Lubricant(0.2, viscosity_law="two_slopes", bend=1e8, bent=1e8, density_law="incompressible")
     with pytest.raises(InputError, match=r"bend 0 must be positive and finite \[Pa\]"):
-        Lubricant(0.2, viscosity_law="two_slopes", bend=0)
+        Lubricant(0.2, viscosity_law="two_slopes", bend=0, density_law="incompressible")
 
 
 def test_a_viscosity_law_in_a_scene(outside):

@@ -39,13 +39,13 @@ GRID = Grid((64, 32), (0.8e-6, 0.8e-6), periodic=(False, True))
 HEIGHT = generate_surface(GRID, rms_height=100e-9, correlation_length=2e-6, seed=3)
 CASE = steel_line(
     GRID,
-    lubricant=Lubricant(0.36, pressure_viscosity=25e-9),
+    lubricant=Lubricant(0.36, pressure_viscosity=25e-9, density_law="incompressible"),
     boundary_friction=0.15,
     hardness=1.08e9,
     tolerance=5e-4,
     contact_tolerance=1e-4,
 )
-THIN_OIL = Lubricant(0.005, pressure_viscosity=25e-9)
+THIN_OIL = Lubricant(0.005, pressure_viscosity=25e-9, density_law="incompressible")
 
 
 def both(height, speeds, **changes):
@@ -138,7 +138,13 @@ def test_where_the_films_end_first_the_slope_is_not_one_between_two_places_that_
         Grid(grid.shape, grid.spacing, periodic=(True, True)), rms_height=50e-9, correlation_length=150e-6, seed=8
     )
     case = steel_line(
-        grid, radius=15e-3, load=6e3, film_points=150, lubricant=Lubricant(0.5), boundary_friction=0.1, hardness=6e9
+        grid,
+        radius=15e-3,
+        load=6e3,
+        film_points=150,
+        lubricant=Lubricant(0.5, density_law="incompressible"),
+        boundary_friction=0.1,
+        hardness=6e9,
     )
     speeds = (1e-7, 3e-7, 6e-7)
     curve = stribeck_curve(speeds, height=height, **case | {"oil_volume": "loaded"})
@@ -331,7 +337,7 @@ def test_boundary_where_the_films_model_ends_in_a_film_thinner_than_molecules():
     grid = Grid((64, 16), (9e-6, 9e-6), periodic=(False, True))
     height = generate_surface(grid, rms_height=180e-9, correlation_length=27e-6, seed=34)
     case = {"grid": grid, "radius": 5e-3, "width": 10e-3, "load": 1300.0, "hardness": 6e9}
-    case["lubricant"] = Lubricant(0.086, pressure_viscosity=20e-9)
+    case["lubricant"] = Lubricant(0.086, pressure_viscosity=20e-9, density_law="incompressible")
     step, outcome, point = both(height, (2.7e-7, 0.0), **case)
     assert outcome.status is point.status is Status.CONVERGED
     assert point.regime is Regime.BOUNDARY
@@ -423,7 +429,8 @@ def test_a_slow_soft_roller_has_no_hole_in_its_friction_curve():
     height = generate_surface(grid, rms_height=20e-9, correlation_length=200e-6, seed=1)
     found = solve_mixed(
         height=height, grid=grid, bodies=(Body(CATALOGUE["peek"].material), Body(STEEL)), radius=10e-3, width=10e-3,
-        load=6e3, speeds=(2e-4, 1.8e-4), lubricant=Lubricant(0.05, pressure_viscosity=15e-9), boundary_friction=0.1,
+        load=6e3, speeds=(2e-4, 1.8e-4),
+        lubricant=Lubricant(0.05, pressure_viscosity=15e-9, density_law="incompressible"), boundary_friction=0.1,
         oil_volume="loaded", contact_tolerance=1e-5, tolerance=1e-3, film_points=400,
     )  # fmt: skip
     assert found.status is Status.CONVERGED

@@ -30,7 +30,7 @@ from bem.wear.mixed import MixedContact
 pytestmark = pytest.mark.internal
 
 POLYMER = Material("polymer", youngs_modulus=3e9, poissons_ratio=0.4)
-OIL = Lubricant(0.01, pressure_viscosity=20e-9, shear_law=Newtonian())
+OIL = Lubricant(0.01, pressure_viscosity=20e-9, shear_law=Newtonian(), density_law="incompressible")
 CASE = mixed_case(64, 1.5e-6, 6e-6, lubricant=OIL, speeds=(0.003, 0.0))
 GRID, HEIGHT = CASE["grid"], CASE["height"]
 LAW = PressureDependentShear(shear_strength=50e6, pressure_coefficient=0.08)

@@ -20,7 +20,7 @@ from bem.scenes import load_scene
 
 CASE = mixed_case(48, 2e-6, 6e-6, speeds=(0.003, 0.0))
 GRID = CASE["grid"]
-OIL = Lubricant(0.01, pressure_viscosity=20e-9, shear_law=Newtonian(), temperature=333.15)
+OIL = Lubricant(0.01, pressure_viscosity=20e-9, shear_law=Newtonian(), temperature=333.15, density_law="incompressible")
 P = np.array([1e6, 3e8, 5e9])
 
 
@@ -115,7 +115,7 @@ def test_a_table_of_a_constant_is_the_coefficient_and_temperature_reaches_the_co
     total = warm.boundary_shear_stress.sum() * GRID.cell_area * 6e-3 / GRID.lengths[1]
     assert total == pytest.approx(warm.boundary_force, rel=1e-9)
     with pytest.raises(InputError, match="needs the temperature of the oil") as caught:
-        solve_mixed(**CASE, lubricant=Lubricant(0.01), boundary_friction=law)
+        solve_mixed(**CASE, lubricant=Lubricant(0.01, density_law="incompressible"), boundary_friction=law)
     assert len(caught.value.messages) == 1
 
 

@@ -19,7 +19,7 @@ from bem.lubrication.line.case import LineCase
 from bem.lubrication.line.state import interpolate_to_mesh, without_factors
 from bem.lubrication.line.steady import line_film
 
-OIL = Lubricant(0.36, pressure_viscosity=25e-9)
+OIL = Lubricant(0.36, pressure_viscosity=25e-9, density_law="incompressible")
 CASE = mixed_case(48, 90e-6 / 48, 4e-6, lubricant=OIL, boundary_friction=0.15, film_points=800)
 SPEEDS = np.geomspace(0.003, 0.2, 8)
 FILM = {"load": 300.0, "radius": 2e-3, "contact_modulus": 115.4e9, "lubricant": OIL}
@@ -60,7 +60,7 @@ def test_next_to_full_film_no_film_of_next_to_no_load_is_tried():
         radius=radius,
         width=width,
         load=np.pi * pressure**2 * radius * width / modulus,
-        lubricant=Lubricant(0.06, pressure_viscosity=20e-9),
+        lubricant=Lubricant(0.06, pressure_viscosity=20e-9, density_law="incompressible"),
         boundary_friction=0.12,
         film_points=800,
     )

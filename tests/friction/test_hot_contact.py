@@ -37,7 +37,9 @@ from bem.runs import run_scene
 
 ELASTIC = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
 STEEL = Body(Material("steel", **ELASTIC, thermal_conductivity=46.0, density=7800.0, heat_capacity=470.0))
-OIL = Lubricant.of("ISO VG 68", temperature=333.15, shear_law="eyring", shear_stress_limit=5e6)
+OIL = Lubricant.of(
+    "ISO VG 68", temperature=333.15, shear_law="eyring", shear_stress_limit=5e6, density_law="incompressible"
+)
 FALLING = {"kind": "table_over_temperature", "temperatures": [300.0, 500.0], "coefficients": [0.2, 0.02]}
 CASE = mixed_case(64, 0.8e-6, 3e-6, lubricant=OIL, boundary_friction=0.1, bodies=(STEEL, STEEL), film_points=250)
 ROLLING = (0.8, 0.2)
@@ -196,7 +198,7 @@ def test_a_speed_at_which_inlet_heating_leaves_no_film_fails_alone(monkeypatch):
     were the largest M 1.5e4."""
     for module in (line_case, line_film):
         monkeypatch.setattr(module, "MOES_LOADS", (1e-5, 1.5e4))
-    thin, radius, modulus = Lubricant.of("ISO VG 10", temperature=373.15), 10e-3, 1e9
+    thin, radius, modulus = Lubricant.of("ISO VG 10", temperature=373.15, density_law="incompressible"), 10e-3, 1e9
     heat = {"thermal_conductivity": 0.3, "density": 1100.0, "heat_capacity": 1500.0}
     polymer = Body(Material("polymer", youngs_modulus=1.68e9, poissons_ratio=0.4, **heat))
     heavy = 5000 * math.sqrt(2 * modulus * radius * thin.viscosity * 100)
@@ -290,7 +292,7 @@ def test_unknown_friction_does_not_depend_on_the_volume_of_oil(oil_volume, monke
 def test_what_heat_needs_is_said():
     bare = Body(Material("bare", **ELASTIC))
     for changes, words in (
-        ({"lubricant": Lubricant(0.03)}, "the lubricant lacks temperature, density"),
+        ({"lubricant": Lubricant(0.03, density_law="incompressible")}, "the lubricant lacks temperature, density"),
         ({"bodies": (bare, STEEL)}, "needs thermal_conductivity"),
         ({"bodies": STEEL}, "heat enters both bodies; give a pair"),
         ({"thermal": "warm"}, "'warm' is unknown; choose from off, lumped, full"),

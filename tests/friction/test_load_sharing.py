@@ -21,7 +21,13 @@ from bem.notes import has_code
 from bem.notes.friction import LAMBDA_UNCERTAIN
 from bem.notes.lubrication import FILM_NOT_FOUND, HEAT_NOT_FOUND
 
-CASE = mixed_case(100, 0.9e-6, 4e-6, lubricant=Lubricant(0.36, pressure_viscosity=25e-9), boundary_friction=0.15)
+CASE = mixed_case(
+    100,
+    0.9e-6,
+    4e-6,
+    lubricant=Lubricant(0.36, pressure_viscosity=25e-9, density_law="incompressible"),
+    boundary_friction=0.15,
+)
 GRID, ROUGH = CASE["grid"], CASE["height"]
 SPEEDS = [0.001, 0.01, 0.03, 0.1, 0.3]
 

@@ -9,7 +9,13 @@ from bem.friction.result_notes import MATTERS, covered_notes
 from bem.notes import Level
 from bem.notes.friction import OIL_ON_CONTACT
 
-CASE = mixed_case(100, 0.9e-6, 4e-6, lubricant=Lubricant(0.36, pressure_viscosity=25e-9), boundary_friction=0.15)
+CASE = mixed_case(
+    100,
+    0.9e-6,
+    4e-6,
+    lubricant=Lubricant(0.36, pressure_viscosity=25e-9, density_law="incompressible"),
+    boundary_friction=0.15,
+)
 
 
 def said(point):

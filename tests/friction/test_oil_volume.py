@@ -42,7 +42,7 @@ def bearing(cells, **changes):
         "radius": RADIUS,
         "width": WIDTH,
         "load": math.pi * PRESSURE**2 * RADIUS * WIDTH / MODULUS,
-        "lubricant": Lubricant(0.02, pressure_viscosity=21e-9),
+        "lubricant": Lubricant(0.02, pressure_viscosity=21e-9, density_law="incompressible"),
         "boundary_friction": 0.12,
         "hardness": 7e9,
         "film_points": 400,
@@ -415,7 +415,7 @@ def test_the_default_counts_oil_where_the_film_is_loaded_and_pays_no_second_bala
 @pytest.mark.parametrize("cells", [7, 20, 33])
 def test_cells_that_the_hertz_boundary_cuts_count_by_their_fraction(cells):
     """The fractions sum to the Hertz area on every grid, and their mean of x^2 is that of the area itself."""
-    oil, modulus = Lubricant(0.02), MODULUS
+    oil, modulus = Lubricant(0.02, density_law="incompressible"), MODULUS
     line, ball = LineContact(RADIUS, WIDTH, modulus, oil), PointContact((6e-3, 9e-3), modulus, oil)
     for contact, load in ((line, 5e3), (ball, 40.0)):
         a, b = contact.half_axes(load)

@@ -48,7 +48,9 @@ def random_case(seed):
         radius=radius,
         width=width,
         load=load,
-        lubricant=Lubricant(viscosity, pressure_viscosity=pressure_viscosity, viscosity_law=law),
+        lubricant=Lubricant(
+            viscosity, pressure_viscosity=pressure_viscosity, viscosity_law=law, density_law="incompressible"
+        ),
         boundary_friction=float(draw.choice([0, 0.1, 0.3])),
         hardness=caps[draw.integers(len(caps))],
         film_points=150,

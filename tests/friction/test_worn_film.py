@@ -11,7 +11,7 @@ from bem.friction.line_film import SolvedLineFilm
 from bem.friction.smooth import LineContact
 from bem.friction.worn_film import LATTICE_STEP, SearchedWornFilms, ShapeSolver, neighbours
 
-OIL = Lubricant(0.36, pressure_viscosity=25e-9)
+OIL = Lubricant(0.36, pressure_viscosity=25e-9, density_law="incompressible")
 POSITION = (np.arange(100) - 49.5) * 0.9e-6
 SPEEDS = (0.05, 0.0)
 
@@ -38,7 +38,11 @@ def test_without_changes_the_films_are_the_unworn_ones(deforming):
 @pytest.mark.parametrize(("load", "deforming"), [(500.0, None), (350.0, 600.0)])
 def test_the_shape_of_another_radius_makes_its_films(load, deforming):
     """Under a load that makes a film within some half-widths, beyond which the shape does not go on."""
-    oil, speeds, x = Lubricant(0.05, pressure_viscosity=25e-9), (1.0, 0.5), (np.arange(120) - 59.5) * 5e-6
+    oil, speeds, x = (
+        Lubricant(0.05, pressure_viscosity=25e-9, density_law="incompressible"),
+        (1.0, 0.5),
+        (np.arange(120) - 59.5) * 5e-6,
+    )
 
     def table(radius):
         contact = LineContact(radius, 6e-3, 115.5e9, oil, deforming_load=deforming)

@@ -111,7 +111,13 @@ def test_a_layer_of_the_base_material_is_computed_as_layered_and_agrees_with_the
     assert np.abs(layered.pressure - plain.pressure).max() <= 1e-5 * plain.pressure.max()
 
 
-CASE = mixed_case(60, 1.5e-6, 6e-6, lubricant=Lubricant(0.36, pressure_viscosity=25e-9), boundary_friction=0.15)
+CASE = mixed_case(
+    60,
+    1.5e-6,
+    6e-6,
+    lubricant=Lubricant(0.36, pressure_viscosity=25e-9, density_law="incompressible"),
+    boundary_friction=0.15,
+)
 
 
 @pytest.mark.internal

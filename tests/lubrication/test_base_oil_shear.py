@@ -37,7 +37,9 @@ FILM = small_scenes.FILM | {
 
 
 def oil(**laws):
-    return Lubricant.of("ISO VG 68", temperature=333.15, **({"shear_law": "base_oil"} | laws))
+    return Lubricant.of(
+        "ISO VG 68", temperature=333.15, **({"shear_law": "base_oil", "density_law": "incompressible"} | laws)
+    )
 
 
 def line(lubricant, slide=0.3, solve=solve_line_film, **asked):

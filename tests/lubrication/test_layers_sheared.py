@@ -105,7 +105,8 @@ def test_couette_flow_of_a_thinning_oil_that_its_own_heat_thins(law, rate):
     tau X(tau) = 8 k mu0/(beta h^2) asinh(r)^2/(1 + r^2) and X(tau) S = mu0 U/h, S = r sqrt(1 + r^2)/asinh(r)."""
     softening, conductivity, viscosity, thickness = 0.04, 0.13, 7e-5, 1e-6
     oil = Lubricant(
-        viscosity, viscosity_law="isoviscous", temperature=333.15, density=850.0, heat_capacity=2000.0,
+        viscosity, viscosity_law="isoviscous", density_law="incompressible", temperature=333.15,
+        density=850.0, heat_capacity=2000.0,
         thermal_conductivity=conductivity, temperature_viscosity=softening,
         **(law | ({"film_rheology": "shear_law", "limiting_shear_coefficient": 1.0, "ambient_shear_strength": 1e9}
                   if law["shear_law"] == "eyring" else {})),

@@ -26,8 +26,8 @@ from bem.scenes import PlainContext, get_kind
 MODULUS = 115.5e9
 ROLLER = {"radius": 10e-3, "contact_modulus": MODULUS, "load": math.pi * 10e-3 * 1.2e9**2 / MODULUS, "points": 500}
 THESIS = {"radius": 2e-3, "contact_modulus": MODULUS, "load": 5.5 / 6e-3, "points": 500}
-SPINDLE_OIL = {"viscosity": 0.01, "pressure_viscosity": 18e-9}
-THESIS_OIL = {"viscosity": 0.36, "pressure_viscosity": 25e-9}
+SPINDLE_OIL = {"viscosity": 0.01, "pressure_viscosity": 18e-9, "density_law": "incompressible"}
+THESIS_OIL = {"viscosity": 0.36, "pressure_viscosity": 25e-9, "density_law": "incompressible"}
 
 
 def roller(speed, ratio=0.95, **law):
@@ -54,7 +54,7 @@ def test_a_spike_alone_is_not_the_middle_of_the_contact():
     """At 0.6 GPa by Hertz a spike of some GPa, as high as the mesh is fine, had viscosities in the middle extrapolated.
     Half an ellipse of pressure above p_c holds 10 % of a line's load from p0 = 1.003 p_c on."""
     light = ROLLER | {"load": math.pi * 10e-3 * 0.6e9**2 / MODULUS}
-    oil = Lubricant(viscosity=0.04, pressure_viscosity=20e-9)
+    oil = Lubricant(viscosity=0.04, pressure_viscosity=20e-9, density_law="incompressible")
     film = solve_line_film(**light, speeds=(3.0, 3.0), lubricant=oil)
     assert film.pressure.max() > 1e9
     assert film.status == "converged"
@@ -70,7 +70,7 @@ def test_a_spike_beyond_the_law_does_not_hide_a_glass():
     pressure[90] = 3e9
     words = {}
     for alpha in (20e-9, 80e-9):
-        oil = Lubricant(viscosity=0.04, pressure_viscosity=alpha, viscosity_law="barus")
+        oil = Lubricant(viscosity=0.04, pressure_viscosity=alpha, viscosity_law="barus", density_law="incompressible")
         case = SimpleNamespace(
             lubricant=oil, pressure=pressure, integral=np.sum, contact_modulus=MODULUS, not_found=None
         )
@@ -91,7 +91,8 @@ def test_a_newtonian_oil_by_name_says_that_it_is_none():
 def test_wall_shear_by_pressure_is_no_friction_beyond_measurements():
     """With heat across the film the stress beside its middle is that of the pressure gradient, too."""
     hot = SimpleNamespace(
-        lubricant=Lubricant(viscosity=0.04, pressure_viscosity=20e-9), pressure=np.array([1e8, 1e9]),
+        lubricant=Lubricant(viscosity=0.04, pressure_viscosity=20e-9, density_law="incompressible"),
+        pressure=np.array([1e8, 1e9]),
         hot_stress=np.array([-4e7, 9e7]), newtonian_stress=np.array([4e7, 9e7]),
     )  # fmt: skip
     limit = hot.lubricant.limiting_stress(hot.pressure)
@@ -120,7 +121,9 @@ def test_nothing_of_the_thesis_curves_is_cut(speed):
 @given(stress=st.floats(-1e300, 1e300), pressure=st.floats(0, 5e9), coefficient=st.floats(0.01, 0.2))
 @settings(max_examples=50, deadline=None, derandomize=True)
 def test_the_cut_is_sharp_and_odd(stress, pressure, coefficient):
-    oil = Lubricant(0.1, limiting_shear_coefficient=coefficient, ambient_shear_strength=2e6)
+    oil = Lubricant(
+        0.1, limiting_shear_coefficient=coefficient, ambient_shear_strength=2e6, density_law="incompressible"
+    )
     carried = oil.shear_stress(np.array([stress, -stress]), np.array([pressure, pressure]))
     limit = 2e6 + coefficient * pressure
     assert carried[0] == -carried[1] == (stress if abs(stress) <= limit else math.copysign(limit, stress))
@@ -178,7 +181,11 @@ def test_reversed_and_in_time_the_same_limit_holds():
 def test_each_note_where_it_belongs_and_not_beside(speeds, oil, kind, reason):
     heavy = solve_line_film(**ROLLER, speeds=speeds, lubricant=Lubricant(**{**SPINDLE_OIL, **oil}))
     assert has_code(heavy.notes, kind, reason=reason)
-    light = solve_line_film(**{**ROLLER, "load": 1e4}, speeds=(0.2, 0.18), lubricant=Lubricant(**SPINDLE_OIL))
+    light = solve_line_film(
+        **{**ROLLER, "load": 1e4},
+        speeds=(0.2, 0.18),
+        lubricant=Lubricant(**SPINDLE_OIL),
+    )
     assert not has_code(light.notes, kind, reason=reason)
 
 
@@ -186,7 +193,7 @@ def test_each_note_where_it_belongs_and_not_beside(speeds, oil, kind, reason):
 @pytest.mark.parametrize("value", [0.0, -1.0, math.nan, math.inf, "5 MPa"])
 def test_refusals(key, value):
     with pytest.raises(InputError, match=key):
-        Lubricant(0.1, **{key: value})
+        Lubricant(0.1, **{"density_law": "incompressible", **{key: value}})
 
 
 SCENE = {

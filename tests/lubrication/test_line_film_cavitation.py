@@ -12,7 +12,11 @@ from bem.lubrication import Cavitation
 from bem.lubrication.line.problem import Problem
 from bem.lubrication.line.time_step import TransientState, build_step, mesh_from_nodes, time_step
 
-OIL = {"radius": 2e-3, "contact_modulus": 115.5e9, "lubricant": Lubricant(0.36, pressure_viscosity=25e-9)}
+OIL = {
+    "radius": 2e-3,
+    "contact_modulus": 115.5e9,
+    "lubricant": Lubricant(0.36, pressure_viscosity=25e-9, density_law="incompressible"),
+}
 LOAD = 5.5 / 6e-3
 
 

@@ -29,7 +29,7 @@ THESIS = {
     "load": 5.5 / 6e-3,
     "radius": 2e-3,
     "contact_modulus": 115.5e9,
-    "lubricant": Lubricant(0.36, pressure_viscosity=25e-9),
+    "lubricant": Lubricant(0.36, pressure_viscosity=25e-9, density_law="incompressible"),
 }
 
 
@@ -54,7 +54,7 @@ def similarity_case(load, piezo, *, law="roelands", density="incompressible", ra
 def test_a_film_that_is_not_found_says_why(slope):
     """Roelands' z of 2 and 6 under 0.4 GPa: the second stalled with nothing said at all."""
     steel = {"load": 5e4, "radius": 0.01, "contact_modulus": 115e9, "speeds": (1.0, 1.0)}
-    oil = Lubricant(0.1, pressure_viscosity=slope)
+    oil = Lubricant(0.1, pressure_viscosity=slope, density_law="incompressible")
     film = solve_line_film(**steel, lubricant=oil, points=400, max_iterations=20)
     assert film.status is Status.STALLED
     (said,) = [note for note in film.notes if note.code == FILM_NOT_FOUND.code]
@@ -63,7 +63,7 @@ def test_a_film_that_is_not_found_says_why(slope):
 
 
 def test_rigid_isoviscous_film_is_martins():
-    case = {**THESIS, "contact_modulus": math.inf, "lubricant": Lubricant(0.36)}
+    case = {**THESIS, "contact_modulus": math.inf, "lubricant": Lubricant(0.36, density_law="incompressible")}
     film = solve_line_film(**case, speeds=(0.02, 0.08), points=800)
     martin = MartinFilm(case["load"], case["radius"], 0.36, 0.05)
     # second order, 5e-4 at 400 points, so 1.2e-4 at 800: 3e-4 in the film and in the pressure
@@ -228,7 +228,7 @@ def test_both_bodies_feel_the_same_force():
 
 def test_shear_force_near_rolling_has_the_sign_of_the_entrainment():
     """Sliding adds a part that is odd in u1 - u2 to the rolling part, -1/(2R) integral p x by parts of h/2 dp/dx."""
-    oil = Lubricant(0.04, pressure_viscosity=2e-8, shear_law="newtonian")
+    oil = Lubricant(0.04, pressure_viscosity=2e-8, shear_law="newtonian", density_law="incompressible")
 
     def force(difference, direction=1):
         speeds = tuple(direction * 0.5 * (1 + side * difference) for side in (1, -1))
@@ -255,7 +255,7 @@ def test_shear_force_of_rigid_sliding_by_quadrature():
     """Couette and Poiseuille parts of Martin's film by scipy, from -infinity to the exit."""
     from scipy.integrate import quad
 
-    case = {**THESIS, "contact_modulus": math.inf, "lubricant": Lubricant(0.36)}
+    case = {**THESIS, "contact_modulus": math.inf, "lubricant": Lubricant(0.36, density_law="incompressible")}
     film = solve_line_film(**case, speeds=(0.1, 0.0), points=800)
     martin = MartinFilm(case["load"], case["radius"], 0.36, 0.05)
     scale = math.sqrt(2 * case["radius"] * martin.minimum_thickness)
@@ -277,7 +277,13 @@ def test_shear_force_of_rigid_sliding_by_quadrature():
 def test_shear_thinning_lowers_friction_only():
     newtonian = solve_line_film(**THESIS, speeds=(0.3, 0.0), points=200)
     for law, extra in (("eyring", {}), ("carreau", {"carreau_exponent": 0.5})):
-        oil = Lubricant(0.36, pressure_viscosity=25e-9, shear_law=law, shear_stress_limit=1e5, **extra)
+        oil = Lubricant(
+            0.36,
+            pressure_viscosity=25e-9,
+            shear_law=law,
+            shear_stress_limit=1e5,
+            **{"density_law": "incompressible", **extra},
+        )
         thinned = solve_line_film(**{**THESIS, "lubricant": oil}, speeds=(0.3, 0.0), points=200)
         assert thinned.minimum_thickness == newtonian.minimum_thickness
         assert thinned.shear_force < 0.95 * newtonian.shear_force
@@ -479,7 +485,14 @@ def test_compressible_oil_has_a_bounded_spike():
         ({"speeds": 0.1}, "pair"),
         ({"speeds": (math.inf, 0.0)}, "finite"),
         ({"lubricant": 0.36}, "Lubricant"),
-        ({"lubricant": Lubricant(0.36, pressure_viscosity=20.0, viscosity_law="barus")}, "20 1/GPa are 20e-9"),
+        (
+            {
+                "lubricant": Lubricant(
+                    0.36, pressure_viscosity=20.0, viscosity_law="barus", density_law="incompressible"
+                )
+            },
+            "20 1/GPa are 20e-9",
+        ),
         ({"points": 10}, "points"),
         ({"tolerance": 0.0}, "tolerance"),
         ({"load": 1e12}, "cannot carry"),
@@ -499,7 +512,13 @@ def test_refusals(changes, word):
 
 def test_all_mistakes_are_told_at_once():
     with pytest.raises(InputError) as caught:
-        solve_line_film(load=-1, radius=0, contact_modulus=1e11, speeds=(1, 0), lubricant=Lubricant(0.1))
+        solve_line_film(
+            load=-1,
+            radius=0,
+            contact_modulus=1e11,
+            speeds=(1, 0),
+            lubricant=Lubricant(0.1, density_law="incompressible"),
+        )
     assert len(caught.value.messages) == 2
 
 
@@ -517,7 +536,7 @@ def test_all_mistakes_are_told_at_once():
 )
 def test_lubricant_refusals(arguments, word):
     with pytest.raises(InputError, match=word):
-        Lubricant(**arguments)
+        Lubricant(**{"density_law": "incompressible", **arguments})
 
 
 @given(pressure=st.floats(0, 3e9))
@@ -539,7 +558,7 @@ def test_what_did_not_converge_is_no_start(spoilt):
     """A film that stalled without any pressure ended in an empty mesh, and the run with it; it begins anew now."""
     case = {
         "load": 2e4, "radius": 2e-3, "contact_modulus": 115e9, "speeds": (0.1, 0.0), "points": 800,
-        "lubricant": Lubricant(0.36, pressure_viscosity=25e-9),
+        "lubricant": Lubricant(0.36, pressure_viscosity=25e-9, density_law="incompressible"),
     }  # fmt: skip
     good = solve_line_film(**case)
     state = good.state.state
@@ -592,7 +611,12 @@ def test_rolling_upstream_of_the_mesh_is_the_integral_of_its_flow(contact_modulu
     """Half of h dp/dx is 3 (H - H_e)/H^2 in units of the film, from far upstream to the first node, where the gap
     H = X^2/2 + c is a parabola and H_e is that of the exit."""
     film = solve_line_film(
-        load=1e3, radius=6e-3, contact_modulus=contact_modulus, speeds=(1.0, 0.9), points=400, lubricant=Lubricant(0.02)
+        load=1e3,
+        radius=6e-3,
+        contact_modulus=contact_modulus,
+        speeds=(1.0, 0.9),
+        points=400,
+        lubricant=Lubricant(0.02, density_law="incompressible"),
     )
     state = film.state.state
     first, left = state.position[0], state.film[-1]

@@ -10,9 +10,13 @@ from bem.notes import has_code
 from bem.notes.lubrication import FIRST_FILM
 from bem.reference_solutions.line_film import squeeze_load, squeeze_thickness
 
-OIL = {"radius": 2e-3, "contact_modulus": 115.5e9, "lubricant": Lubricant(0.36, pressure_viscosity=25e-9)}
+OIL = {
+    "radius": 2e-3,
+    "contact_modulus": 115.5e9,
+    "lubricant": Lubricant(0.36, pressure_viscosity=25e-9, density_law="incompressible"),
+}
 LOAD = 5.5 / 6e-3
-RIGID = {"radius": 0.01, "contact_modulus": math.inf, "lubricant": Lubricant(0.1)}
+RIGID = {"radius": 0.01, "contact_modulus": math.inf, "lubricant": Lubricant(0.1, density_law="incompressible")}
 
 
 def test_rigid_squeeze_film_is_the_closed_form():
@@ -193,7 +197,7 @@ def test_the_first_film_carries_its_load_on_the_mesh_of_the_march(points, cavita
             speeds=lambda t, speeds=speeds: speeds,
             radius=radius,
             contact_modulus=113e9,
-            lubricant=Lubricant(viscosity, pressure_viscosity=25e-9),
+            lubricant=Lubricant(viscosity, pressure_viscosity=25e-9, density_law="incompressible"),
             points=points,
             cavitation=cavitation,
         )[0]
@@ -203,7 +207,7 @@ def test_the_first_film_carries_its_load_on_the_mesh_of_the_march(points, cavita
 
 
 def test_a_given_first_film_says_by_how_much_it_misses_the_load():
-    oil = Lubricant(0.36, pressure_viscosity=25e-9)
+    oil = Lubricant(0.36, pressure_viscosity=25e-9, density_law="incompressible")
     contact = {"radius": 2e-3, "contact_modulus": 113e9, "lubricant": oil}
     steady = solve_line_film(load=800.0, speeds=(0.1, 0.0), **contact)
     films = march_line_film(

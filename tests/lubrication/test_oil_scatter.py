@@ -23,7 +23,7 @@ LINE = {
 
 
 def oil(**laws):
-    return Lubricant.of("ISO VG 68", temperature=333.15, shear_law="base_oil", **laws)
+    return Lubricant.of("ISO VG 68", temperature=333.15, shear_law="base_oil", density_law="incompressible", **laws)
 
 
 def test_without_heat_it_is_the_change_of_films_solved_anew():
@@ -91,7 +91,7 @@ def test_of_a_coefficient_it_is_the_films_own_relative_scatter():
     assert friction_scatter(film, oil(), math.nan) is None
     rolling = solve_line_film(**(LINE | {"speeds": (2.0, 2.0)}), lubricant=oil())
     assert friction_scatter(rolling, oil(), 0.001) == 0.0
-    limited = Lubricant.of("ISO VG 68", temperature=333.15)
+    limited = Lubricant.of("ISO VG 68", temperature=333.15, density_law="incompressible")
     assert friction_scatter(solve_line_film(**LINE, lubricant=limited), limited, 0.05) is None
     missing = replace(film, status=Status.STALLED)
     assert friction_scatter(missing, oil(), 0.05) is None
@@ -100,6 +100,7 @@ def test_of_a_coefficient_it_is_the_films_own_relative_scatter():
 @pytest.mark.parametrize("base", ["mineral", "pao", "traction"])
 def test_of_an_oil_without_a_name_it_has_the_ranges_of_its_base(base):
     named = {"viscosity": 0.02, "pressure_viscosity": 18e-9, "shear_law": "base_oil", "base": base}
+    named["density_law"] = "incompressible"
     found = oil_scatter(solve_line_film(**LINE, lubricant=Lubricant(**named)))
     expected = oil_scatter(solve_line_film(**LINE, lubricant=Lubricant(**named)), rheology=rheology_of(base))
     assert set(found.parts) == set(rheology_of(base).constants())

@@ -2,6 +2,7 @@
 over temperature, messages where an oil is no liquid."""
 
 import math
+from functools import partial
 
 import numpy as np
 import pytest
@@ -165,7 +166,7 @@ def test_unknown_oils_are_refused_with_the_nearest(name, words):
 )
 def test_no_liquid_is_a_message(name, celsius, words):
     with pytest.raises(InputError) as caught:
-        Lubricant.of(name, temperature=celsius + 273.15)
+        Lubricant.of(name, temperature=celsius + 273.15, density_law="incompressible")
     assert words in str(caught.value)
     glycol = find_oil("water-glycol 46", viscosity_index=200)
     with pytest.raises(InputError, match="boils above 100 degC"):
@@ -183,23 +184,25 @@ def test_no_liquid_is_a_message(name, celsius, words):
     ],
 )
 def test_outside_its_range_is_a_note_of_the_film(name, celsius, words):
-    oil = Lubricant.of(name, temperature=celsius + 273.15)
+    oil = Lubricant.of(name, temperature=celsius + 273.15, density_law="incompressible")
     assert any(words in note for note in oil.notes)
-    assert Lubricant.of("ISO VG 68", temperature=T60).notes == ()
+    assert Lubricant.of("ISO VG 68", temperature=T60, density_law="incompressible").notes == ()
     film = bem.solve_line_film(
         load=1e4,
         radius=0.01,
         contact_modulus=115e9,
         speeds=(0.01, 0.01),
-        lubricant=Lubricant.of("ISO VG 68", temperature=453.15),
+        lubricant=Lubricant.of("ISO VG 68", temperature=453.15, density_law="incompressible"),
         points=200,
     )
     assert any("extrapolated" in note for note in film.notes)
 
 
 def test_a_lubricant_of_an_oil_has_its_heat_and_slope():
-    oil, step = Lubricant.of("ISO VG 68", temperature=T60), 0.05
-    around = [Lubricant.of("ISO VG 68", temperature=T60 + d).viscosity for d in (-step, step)]
+    oil, step = Lubricant.of("ISO VG 68", temperature=T60, density_law="incompressible"), 0.05
+    around = [
+        Lubricant.of("ISO VG 68", temperature=T60 + d, density_law="incompressible").viscosity for d in (-step, step)
+    ]
     slope = math.log(around[0] / around[1]) / (2 * step)
     # central difference of a smooth law
     assert oil.temperature_viscosity == pytest.approx(slope, rel=1e-5)
@@ -210,13 +213,13 @@ def test_a_lubricant_of_an_oil_has_its_heat_and_slope():
     assert 1800 < oil.heat_capacity < 2300
     assert 0.11 < oil.thermal_conductivity < 0.16
     assert 15e-9 < oil.pressure_viscosity < 25e-9
-    assert Lubricant.of("VG 68", temperature=T60, pressure_viscosity=18e-9, shear_law="newtonian").shear_law.name == (
-        "newtonian"
-    )
-    plain = Lubricant(0.02, pressure_viscosity=20e-9)
+    assert Lubricant.of(
+        "VG 68", temperature=T60, pressure_viscosity=18e-9, shear_law="newtonian", density_law="incompressible"
+    ).shear_law.name == ("newtonian")
+    plain = Lubricant(0.02, pressure_viscosity=20e-9, density_law="incompressible")
     assert (plain.density, plain.oil, plain.notes) == (None, None, ())
     with pytest.raises(InputError, match="density -1 must be positive"):
-        Lubricant(0.02, density=-1)
+        Lubricant(0.02, density=-1, density_law="incompressible")
 
 
 TABLE_2_3 = {  # mPa s at 30, 60, 100 degC; alpha [1/GPa] there: Stachowiak and Batchelor, Engineering Tribology
@@ -269,7 +272,9 @@ def test_correlations_of_a_secant_are_those_of_the_slope_at_ambient_pressure(
 def test_roelands_law_of_the_slope_goes_through_the_secant():
     secant, pressure, viscosity = 11.6e-9, 0.2e9, 27.7e-3
     slope = ambient_slope(secant, pressure, viscosity)
-    rise = Lubricant(viscosity, pressure_viscosity=slope).log_viscosity_ratio(np.array([pressure]))[0][0]
+    rise = Lubricant(viscosity, pressure_viscosity=slope, density_law="incompressible").log_viscosity_ratio(
+        np.array([pressure])
+    )[0][0]
     assert rise == pytest.approx(secant * pressure, rel=1e-12)
     assert slope > 1.15 * secant
     assert ambient_slope(secant, pressure, 1e-5) == secant
@@ -308,5 +313,16 @@ def test_every_entry_has_a_source():
 def test_a_slip_of_units_in_the_pressure_coefficient_is_said():
     """20 1/Pa for 20 1/GPa: films of it had no finite residual."""
     with pytest.raises(InputError, match="20 1/GPa are 20e-9"):
-        Lubricant(0.1, pressure_viscosity=20.0)
-    assert Lubricant(0.1, pressure_viscosity=20e-9).pressure_viscosity == 20e-9
+        Lubricant(0.1, pressure_viscosity=20.0, density_law="incompressible")
+    assert Lubricant(0.1, pressure_viscosity=20e-9, density_law="incompressible").pressure_viscosity == 20e-9
+
+
+@pytest.mark.parametrize(
+    "oil",
+    [partial(Lubricant, 0.1, pressure_viscosity=2e-8), partial(Lubricant.of, "ISO VG 68", temperature=333.15)],
+)
+def test_an_oil_gives_way_to_pressure_unless_it_is_told_not_to(oil):
+    """Dowson and Higginson's density at 1 GPa: 1 + 0.6 / (1 + 1.7)."""
+    pressure = np.array([1e9])
+    assert oil().density_ratio(pressure)[0][0] == pytest.approx(1 + 0.6 / 2.7, rel=1e-9)
+    assert oil(density_law="incompressible").density_ratio(pressure)[0][0] == 1.0

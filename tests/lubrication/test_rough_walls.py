@@ -29,7 +29,7 @@ def table():
 
 
 def film(viscosity=0.05, speeds=(1.0, 0.5), factors="off", alpha=1.5e-8, **changes):
-    oil = Lubricant(viscosity, pressure_viscosity=alpha, viscosity_law="barus")
+    oil = Lubricant(viscosity, pressure_viscosity=alpha, viscosity_law="barus", density_law="incompressible")
     return solve_line_film(**CASE | changes, speeds=speeds, lubricant=oil, flow_factors=factors)
 
 
@@ -100,8 +100,8 @@ def test_load_sharing_with_factors(table):
     height = generate_surface(grid, rms_height=1e-7, seed=4, correlation_length=2e-6)
     case = {
         "height": height, "grid": grid, "bodies": STEEL, "radius": 2e-3, "width": 1e-3, "load": 5.0,
-        "speeds": (0.3, 0.0), "lubricant": Lubricant(0.1, pressure_viscosity=1.5e-8), "boundary_friction": 0.1,
-        "film_points": 300,
+        "speeds": (0.3, 0.0), "lubricant": Lubricant(0.1, pressure_viscosity=1.5e-8, density_law="incompressible"),
+        "boundary_friction": 0.1, "film_points": 300,
     }  # fmt: skip
     plain, off, rough = (solve_mixed(**case, **more) for more in ({}, {"flow_factors": "off"}, {"flow_factors": table}))
     assert off.friction == plain.friction
@@ -132,7 +132,7 @@ def test_notes_on_the_table_stay_with_heat():
     class Far(EvenWalls):
         separations = np.array([1e-5])
 
-    hot = Lubricant.of("ISO VG 68", temperature=333.15)
+    hot = Lubricant.of("ISO VG 68", temperature=333.15, density_law="incompressible")
     asked = CASE | {"points": 150, "speeds": (1.0, 0.9), "lubricant": hot, "flow_factors": Far(1.0)}
     for heat in ({}, {"thermal": "lumped", "bodies": (STEEL, STEEL)}):
         assert has_code(solve_line_film(**asked, **heat).notes, FLOW_FACTORS_LIMIT, reason="extrapolated")

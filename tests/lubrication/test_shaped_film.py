@@ -8,7 +8,7 @@ from bem.lubrication.line.case import LineCase
 from bem.lubrication.line.shaped import ShapedContact
 from bem.lubrication.line.steady import line_film
 
-OIL = Lubricant(0.36, pressure_viscosity=25e-9)
+OIL = Lubricant(0.36, pressure_viscosity=25e-9, density_law="incompressible")
 HALF_LENGTH = 45e-6
 
 

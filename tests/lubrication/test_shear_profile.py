@@ -210,8 +210,8 @@ def test_sliding_either_way_and_motion_either_way_are_the_same():
 
 def test_strong_thinning_that_fails_at_once_arrives_step_by_step():
     """M 1.37, L 7.9 with G = 50 kPa and n = 0.45 had stalled before thinning was let in little by little."""
-    oil = Lubricant(0.05, pressure_viscosity=18e-9, film_rheology="shear_law", shear_law="carreau",
-                    shear_stress_limit=2e4, carreau_exponent=0.45)  # fmt: skip
+    oil = Lubricant(0.05, pressure_viscosity=18e-9, density_law="incompressible", film_rheology="shear_law",
+                    shear_law="carreau", shear_stress_limit=2e4, carreau_exponent=0.45)  # fmt: skip
     case = ROLLER | {"load": math.pi * 10e-3 * 0.8e9**2 / MODULUS}
     found = solve_line_film(**case, speeds=(100.0, 20.0), lubricant=oil)
     assert found.status.name == "CONVERGED"

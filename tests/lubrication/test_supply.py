@@ -17,7 +17,7 @@ RIGID = {
     "radius": 0.01,
     "contact_modulus": math.inf,
     "speeds": (1.0, 0.0),
-    "lubricant": Lubricant(0.05),
+    "lubricant": Lubricant(0.05, density_law="incompressible"),
     "points": 200,
 }
 BEARING = {
@@ -25,7 +25,7 @@ BEARING = {
     "radius": 6e-3,
     "contact_modulus": 113.7e9,
     "speeds": (1.0, 0.9),
-    "lubricant": Lubricant(0.02, pressure_viscosity=21e-9),
+    "lubricant": Lubricant(0.02, pressure_viscosity=21e-9, density_law="incompressible"),
     "points": 300,
 }
 POLYMER = BEARING | {"load": 2e4, "contact_modulus": 3e9, "speeds": (0.1, 0.0)}
@@ -190,7 +190,11 @@ def test_a_starved_neighbour_is_a_start():
     assert flooded.minimum_thickness == pytest.approx(solve_line_film(**BEARING).minimum_thickness, rel=2e-3)
 
 
-MARCHED = {"radius": 2e-3, "contact_modulus": 115e9, "lubricant": Lubricant(0.36, pressure_viscosity=25e-9)}
+MARCHED = {
+    "radius": 2e-3,
+    "contact_modulus": 115e9,
+    "lubricant": Lubricant(0.36, pressure_viscosity=25e-9, density_law="incompressible"),
+}
 
 
 def marched(speeds, steps=20, duration=4e-3, **more):

@@ -33,7 +33,7 @@ from bem.reference_solutions.hertz import ellipse_contact
 ELASTIC = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
 STEEL = Body(Material("steel", **ELASTIC, thermal_conductivity=46.0, density=7800.0, heat_capacity=470.0))
 MODULUS = 210e9 / 2 / (1 - 0.3**2)
-OIL = Lubricant.of("ISO VG 68", temperature=333.15)
+OIL = Lubricant.of("ISO VG 68", temperature=333.15, density_law="incompressible")
 HEAT = FilmHeat("lumped", (STEEL, STEEL))
 LONG = PointContact((5e-3, 0.25), MODULUS, OIL, heat=HEAT)
 
@@ -189,7 +189,7 @@ def test_a_ball_at_rest_has_its_own_heat():
     ("wrong", "said"),
     [
         ({"thermal": "full"}, "not there for the film of a ball"),
-        ({"lubricant": Lubricant(0.03, pressure_viscosity=18e-9)}, "the lubricant lacks"),
+        ({"lubricant": Lubricant(0.03, pressure_viscosity=18e-9, density_law="incompressible")}, "the lubricant lacks"),
         ({"bodies": STEEL}, "give a pair"),
         ({"grid": Grid((16, 16), (2e-6, 2e-6), periodic=(True, True))}, "a cell that repeats has no heat"),
     ],

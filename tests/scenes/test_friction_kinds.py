@@ -27,7 +27,7 @@ from bem.scenes.context import notes_over
 from bem.surfaces import generate_surface
 from bem.wear.mixed import MixedContact
 
-OIL = Lubricant(0.36, pressure_viscosity=25e-9)
+OIL = Lubricant(0.36, pressure_viscosity=25e-9, density_law="incompressible")
 FRICTION = {"kind": "friction", "speeds": ["0.003 m/s", "0.5 m/s"], "film": {"points": 300}, **PATCH}
 RUNNING_IN = {
     "kind": "running-in",

@@ -21,7 +21,11 @@ class Stranger:
 
 
 def test_records_come_back_from_a_file_and_given_things_are_not_stored(tmp_path):
-    grid, oil, own = Grid((4, 8), (1e-6, 2e-6), periodic=(False, True)), Lubricant(0.1), Stranger(3)
+    grid, oil, own = (
+        Grid((4, 8), (1e-6, 2e-6), periodic=(False, True)),
+        Lubricant(0.1, density_law="incompressible"),
+        Stranger(3),
+    )
     operator = LineOperator.of(np.array([0.0, 0.1, 1 / 3])).rescale(1.7)
     tree = {"all": packed((grid, [Status.STALLED, None, "text"], operator, oil, own), given=(oil, own))}
     save_checkpoint(tmp_path / "state", tree)

@@ -49,7 +49,7 @@ def test_any_film_is_converged_and_right_or_says_no(log_load, piezo):
 
 @pytest.mark.parametrize("speeds", [(-0.1, 0.0), (0.1, -0.0999999), (1e-9, 0.0), (1e4, 0.0)])
 def test_extreme_speeds_end_in_a_film_or_a_clear_answer(speeds):
-    oil = Lubricant(0.36, pressure_viscosity=25e-9)
+    oil = Lubricant(0.36, pressure_viscosity=25e-9, density_law="incompressible")
     try:
         film = solve_line_film(load=900.0, radius=2e-3, contact_modulus=115e9, speeds=speeds, lubricant=oil, points=200)
     except InputError:  # a film that no equation of this kind describes is refused before any work
@@ -68,7 +68,7 @@ def test_speed_and_load_reversed_in_time():
         speeds=lambda t: (0.1 * math.cos(2 * math.pi * t / 4e-3), 0.0),
         radius=2e-3,
         contact_modulus=115e9,
-        lubricant=Lubricant(0.36, pressure_viscosity=15e-9),
+        lubricant=Lubricant(0.36, pressure_viscosity=15e-9, density_law="incompressible"),
     )
     assert len(films) == times.size
     for film in films:
@@ -90,7 +90,7 @@ def mixed(**change):
         "width": 6e-3,
         "load": 5.5,
         "speeds": (0.03, 0.0),
-        "lubricant": Lubricant(0.36, pressure_viscosity=25e-9),
+        "lubricant": Lubricant(0.36, pressure_viscosity=25e-9, density_law="incompressible"),
         "boundary_friction": 0.15,
         "hardness": 6e9,
         "film_points": 200,

@@ -38,7 +38,7 @@ def rubbed(speeds):
 
 @pytest.mark.internal
 def test_surfaces_carry_what_load_sharing_leaves_them():
-    speeds, oil = (0.2, 0.1), Lubricant(0.03, pressure_viscosity=18e-9)
+    speeds, oil = (0.2, 0.1), Lubricant(0.03, pressure_viscosity=18e-9, density_law="incompressible")
     given = rubbed(speeds)
     contact, _ = under_oil(given, HEIGHT, RADII, oil, 48)
     same = solve_mixed(
@@ -56,7 +56,9 @@ def test_surfaces_carry_what_load_sharing_leaves_them():
 @pytest.mark.internal
 def test_an_oil_next_to_none_leaves_the_dry_contact():
     given = rubbed((1e-5, 0.0))
-    contact, _ = under_oil(given, HEIGHT, RADII, Lubricant(1e-3, pressure_viscosity=18e-9), 48)
+    contact, _ = under_oil(
+        given, HEIGHT, RADII, Lubricant(1e-3, pressure_viscosity=18e-9, density_law="incompressible"), 48
+    )
     assert contact.load == pytest.approx(20.0, rel=3e-4)  # as tests/friction/test_ball.py
     cold = {"speeds": None}  # temperatures of spots are not looked at
     one, dry = (solve_film_contact(FilmContact(**vars(c) | cold), 5e-9) for c in (contact, given))
@@ -66,7 +68,13 @@ def test_an_oil_next_to_none_leaves_the_dry_contact():
 @pytest.mark.internal
 def test_a_film_that_carries_everything_grows_nothing():
     with pytest.raises(InfeasibleError, match="carries all of the load"):
-        under_oil(rubbed((3.0, 3.0)), HEIGHT * 0.02, RADII, Lubricant(0.03, pressure_viscosity=18e-9), 48)
+        under_oil(
+            rubbed((3.0, 3.0)),
+            HEIGHT * 0.02,
+            RADII,
+            Lubricant(0.03, pressure_viscosity=18e-9, density_law="incompressible"),
+            48,
+        )
 
 
 OIL = {"grade": "ISO VG 68", "temperature": "80 degC"}

@@ -21,7 +21,7 @@ pytestmark = pytest.mark.internal
 
 ELASTIC = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
 SOFT, HARD = (Body(Material(str(h), **ELASTIC, hardness=h)) for h in (2e9, 6e9))
-OIL = Lubricant(0.36, pressure_viscosity=25e-9)
+OIL = Lubricant(0.36, pressure_viscosity=25e-9, density_law="incompressible")
 CASE = mixed_case(64, 0.8e-6, 3e-6, lubricant=OIL, boundary_friction=0.1, bodies=(SOFT, HARD), hardness=2e9)
 ROUGH = CASE.pop("height")
 D = 600e-9

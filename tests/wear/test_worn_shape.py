@@ -21,7 +21,7 @@ from bem.wear.worn_shape import smoothed
 
 GRID = Grid((64, 32), (0.7e-6, 0.7e-6), periodic=(False, True))
 BODIES = (Body(CATALOGUE["steel-disk-110HV"].material), Body(CATALOGUE["steel-cylinder"].material))
-OIL = Lubricant(0.36, pressure_viscosity=25e-9)
+OIL = Lubricant(0.36, pressure_viscosity=25e-9, density_law="incompressible")
 CASE = {
     "grid": GRID,
     "bodies": BODIES,

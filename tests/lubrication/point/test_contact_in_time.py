@@ -8,7 +8,7 @@ from bem.notes import has_code
 from bem.notes.lubrication import FILM_CELLS_FEW
 
 MODULUS = 1.15e11
-OIL = Lubricant(0.03, pressure_viscosity=18e-9)
+OIL = Lubricant(0.03, pressure_viscosity=18e-9, density_law="incompressible")
 HALF = (0.75 * 20 * 0.01 / MODULUS) ** (1 / 3)
 EXTENT = tuple(edge * HALF for edge in (-2.5, 1.7, -1.8, 1.8))
 SHAPE = (48, 40)

@@ -285,7 +285,7 @@ def test_any_contact_converges_from_nothing(seed):
 def test_light_loads_on_oils_that_thicken_steeply_are_led_there_through_milder_ones(load):
     """L 22: from the dry contact Newton's method creeps for 170 to 720 cycles, and what comes of it is up to last bits.
     It is left where errors do not halve in four short steps."""
-    oil = Lubricant(0.04, pressure_viscosity=55.1e-9)
+    oil = Lubricant(0.04, pressure_viscosity=55.1e-9, density_law="incompressible")
     film = solve_point_film(
         load=load,
         radii=(0.01, 0.0466),
@@ -307,7 +307,7 @@ def test_a_start_whose_errors_rest_while_steps_are_long_is_not_given_up(load):
         radii=(0.01, 0.04),
         contact_modulus=210e9 / 1.82,
         speeds=((-0.3, 0.7), (0.2, -0.1)),
-        lubricant=Lubricant(0.1, pressure_viscosity=22e-9),
+        lubricant=Lubricant(0.1, pressure_viscosity=22e-9, density_law="incompressible"),
         shape=(96, 96),
     )
     assert film.status == "converged"
@@ -395,7 +395,7 @@ def test_an_error_that_no_coarser_grid_gives_is_said_to_be_unknown(monkeypatch):
     monkeypatch.setattr(starts_of_films, "newton", without)
     film = solve_point_film(
         load=20.0, radii=(12.7e-3, 12.7e-3), contact_modulus=115e9, speeds=(0.004, 0.004),
-        lubricant=Lubricant(0.02, pressure_viscosity=20e-9), shape=(112, 112),
+        lubricant=Lubricant(0.02, pressure_viscosity=20e-9, density_law="incompressible"), shape=(112, 112),
     )  # fmt: skip
     assert film.status == "converged"
     assert film.minimum_thickness_error is None
@@ -421,7 +421,9 @@ def test_cells_too_few_to_halve_are_said_with_those_that_tell_the_error(shape, w
 def test_errors_cover_films_that_are_far_from_second_order():
     """A third of the difference to half as many cells, 0.05 nm, was said to be left of 0.23 nm."""
     case = {"load": 20.0, "radii": (12.7e-3,) * 2, "contact_modulus": 115e9, "speeds": (0.006, 0.006)}
-    film = solve_point_film(**case, lubricant=Lubricant(0.02, pressure_viscosity=20e-9), shape=(128, 128))
+    film = solve_point_film(
+        **case, lubricant=Lubricant(0.02, pressure_viscosity=20e-9, density_law="incompressible"), shape=(128, 128)
+    )
     assert film.status == "converged"
     # of 512 x 512 cells
     assert abs(film.minimum_thickness - 1.368e-9) < film.minimum_thickness_error
@@ -511,7 +513,7 @@ def test_notes_say_where_the_model_ends():
 
 def test_an_ellipse_not_found_on_long_cells_is_found_on_those_that_are_named():
     """Isoviscous, M 2400, along its long axis: on 160 x 160 cells there was no film either."""
-    oil = Lubricant(0.03, viscosity_law="isoviscous")
+    oil = Lubricant(0.03, viscosity_law="isoviscous", density_law="incompressible")
     barrel = {"load": 20.93, "radii": (0.01, 0.01 / 11.727), "contact_modulus": 1e9, "speeds": (0.05, 0.05)}
     barrel |= {"lubricant": oil}
     film = solve_point_film(**barrel, shape=(80, 80))
@@ -526,12 +528,12 @@ def test_an_ellipse_not_found_on_long_cells_is_found_on_those_that_are_named():
     ("changes", "reason"),
     [
         ({"contact_modulus": math.inf}, "rigid-spike"),
-        ({"lubricant": Lubricant(0.03, pressure_viscosity=3e-7)}, "glass"),
+        ({"lubricant": Lubricant(0.03, pressure_viscosity=3e-7, density_law="incompressible")}, "glass"),
     ],
 )
 def test_where_more_cells_do_not_help_it_is_not_said_that_they_do(changes, reason):
     """Rigid bodies under 20 N on 128 cells a side, and an oil of z = 9.5 under 0.8 GPa."""
-    oil = Lubricant(0.03, pressure_viscosity=20e-9)
+    oil = Lubricant(0.03, pressure_viscosity=20e-9, density_law="incompressible")
     ball = {"load": 20.0, "radii": (0.01, 0.01), "contact_modulus": 115e9, "speeds": (1.0, 1.0), "shape": (64, 64)}
     film = solve_point_film(**ball | {"lubricant": oil} | changes)
     assert film.status is not Status.CONVERGED
@@ -544,7 +546,7 @@ def test_rigid_bodies_that_steel_would_not_be_say_so():
     """5 N on a thick oil between rigid bodies were `converged` at 27 GPa, with a film of 0.11 um; steel flattens by
     0.5 um as Hertz has it. Under 10 mN, M 0.03, the film of steel is that of rigid bodies."""
     ball = {"radii": (0.01, 0.01), "speeds": (0.5, 0.5), "shape": (64, 64)}
-    ball |= {"lubricant": Lubricant(0.1, pressure_viscosity=10e-9)}
+    ball |= {"lubricant": Lubricant(0.1, pressure_viscosity=10e-9, density_law="incompressible")}
     film = solve_point_film(**ball, load=5.0, contact_modulus=math.inf)
     (said,) = [note for note in film.notes if note.code == BODIES_NOT_RIGID.code]
     drive = 0.1 * 1.0 / 0.01 / 230e9  # with E' = 2 E* of steel
@@ -562,7 +564,7 @@ def test_cells_that_a_rigid_film_falls_between_are_said():
     """Cells as wide as the film is (sqrt(2 R h) is 7 um) or more make 0.5 to 9 times the film, with `converged` and no
     word of the centre; finer ones make it to 1 %."""
     ball = {"radii": (0.01, 0.01), "speeds": (0.5, 0.5), "shape": (48, 48), "contact_modulus": math.inf}
-    ball |= {"lubricant": Lubricant(0.04), "load": 5.0}
+    ball |= {"lubricant": Lubricant(0.04, density_law="incompressible"), "load": 5.0}
     right = solve_point_film(**ball)
     assert not has_code(right.notes, FILM_CELLS_FEW, reason="contact")
     for half in (1e-5, 3e-4):
@@ -587,7 +589,10 @@ def test_cells_that_a_rigid_film_falls_between_are_said():
         ({"lubricant": 0.1}, "is not a Lubricant"),
         # slips of units: a film of a millimetre was converged, and one of 0.9 m had no finite residual
         ({"contact_modulus": 115.0}, "times as large as the radius of the body"),
-        ({"lubricant": Lubricant(0.1, pressure_viscosity=20.0, viscosity_law="barus")}, "20 1/GPa are 20e-9"),
+        (
+            {"lubricant": Lubricant(0.1, pressure_viscosity=20.0, viscosity_law="barus", density_law="incompressible")},
+            "20 1/GPa are 20e-9",
+        ),
         ({"extent": (-0.1, 0.1, -0.1, 0.1)}, "larger than the contact and the film around it"),
     ],
 )

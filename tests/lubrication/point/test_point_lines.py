@@ -104,7 +104,7 @@ def rolling(drag, cells):
         radii=(0.01, 0.01),
         contact_modulus=1.15e11,
         speeds=((0.5 * drag[0], 0.5 * drag[1]),) * 2,
-        lubricant=Lubricant(0.04, pressure_viscosity=22e-9),
+        lubricant=Lubricant(0.04, pressure_viscosity=22e-9, density_law="incompressible"),
         shape=(cells, cells),
     )
 

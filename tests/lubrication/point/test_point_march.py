@@ -42,8 +42,8 @@ def squeezed(steps, shape):
     time = 6 * math.pi * viscosity * radius**2 / load
     films = march_point_film(
         np.linspace(0, 0.5 * time, steps + 1), load=lambda t: load, speeds=lambda t: (0.0, 0.0),
-        radii=(radius, radius), contact_modulus=math.inf, lubricant=Lubricant(viscosity), shape=shape,
-        initial_thickness=gap,
+        radii=(radius, radius), contact_modulus=math.inf, shape=shape,
+        lubricant=Lubricant(viscosity, density_law="incompressible"), initial_thickness=gap,
     )  # fmt: skip
     return all_found(films), gap * math.exp(-0.5)
 
@@ -171,7 +171,7 @@ def test_a_long_ellipse_squeezes_like_a_line():
     response the film of either grows alike."""
     from bem import march_line_film, solve_point_film
 
-    radii, modulus, oil = (10e-3, 10.0), 1e11, Lubricant(0.05, pressure_viscosity=15e-9)
+    radii, modulus, oil = (10e-3, 10.0), 1e11, Lubricant(0.05, pressure_viscosity=15e-9, density_law="incompressible")
     times = np.linspace(0, 2e-3, 9)
 
     def speeds(t):
@@ -394,7 +394,7 @@ def test_a_ball_that_falls_onto_cells_larger_than_the_contact_says_so_and_its_ce
         speeds=lambda t: (0.0, 0.0),
         radii=(0.01, 0.01),
         contact_modulus=1.154e11,
-        lubricant=Lubricant(0.04, pressure_viscosity=20e-9),
+        lubricant=Lubricant(0.04, pressure_viscosity=20e-9, density_law="incompressible"),
         shape=(48, 48),
         initial_thickness=50e-6,
         mass=0.01,

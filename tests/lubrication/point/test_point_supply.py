@@ -11,7 +11,7 @@ from bem.lubrication import Lubricant
 from bem.lubrication.supply import InletDistance, OilLayer
 from bem.reference_solutions.hertz import ellipse_contact
 
-OIL = Lubricant(0.05, pressure_viscosity=18e-9)
+OIL = Lubricant(0.05, pressure_viscosity=18e-9, density_law="incompressible")
 BALL = {
     "load": 30.0, "radii": (0.01, 0.01), "contact_modulus": 115e9, "speeds": (1.0, 1.0), "lubricant": OIL,
     "shape": (64, 64),

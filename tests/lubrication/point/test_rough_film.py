@@ -22,7 +22,9 @@ from bem.notes.lubrication import FILM_NOT_FOUND, OIL_CREATED
 
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
 MODULUS = contact_modulus(STEEL, STEEL)
-OIL = Lubricant(0.03, pressure_viscosity=18e-9, shear_law="eyring", shear_stress_limit=5e6)
+OIL = Lubricant(
+    0.03, pressure_viscosity=18e-9, shear_law="eyring", shear_stress_limit=5e6, density_law="incompressible"
+)
 HALF = (0.75 * 20 * 0.01 / MODULUS) ** (1 / 3)
 EXTENT = tuple(edge * HALF for edge in (-2.5, 1.7, -1.8, 1.8))
 BALL = {"load": 20.0, "radii": (0.01, 0.01), "contact_modulus": MODULUS, "lubricant": OIL, "extent": EXTENT}

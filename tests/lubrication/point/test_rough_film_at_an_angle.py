@@ -17,7 +17,7 @@ from bem import (
 from bem.reference_solutions.hertz import ellipse_contact
 
 MODULUS = 115e9
-OIL = Lubricant(0.03, pressure_viscosity=18e-9)
+OIL = Lubricant(0.03, pressure_viscosity=18e-9, density_law="incompressible")
 HALF = (0.75 * 20 * 0.01 / MODULUS) ** (1 / 3)
 EXTENT = tuple(edge * HALF for edge in (-2.3, 2.3, -2.3, 2.3))
 BALL = {"load": 20.0, "radii": (0.01, 0.01), "contact_modulus": MODULUS, "lubricant": OIL, "extent": EXTENT}
@@ -115,7 +115,7 @@ def test_other_contacts_keep_load_oil_and_least_film(radii, load, modulus, rms, 
         radii=radii,
         contact_modulus=modulus,
         speeds=((0.0, 0.0), (0.8 * speed, 0.6 * speed)),
-        lubricant=Lubricant(viscosity, pressure_viscosity=16e-9),
+        lubricant=Lubricant(viscosity, pressure_viscosity=16e-9, density_law="incompressible"),
         heights=lambda x, y: (
             rms / np.sqrt(32) * np.cos(number * (np.cos(angle) * x + np.sin(angle) * y) + phase).sum(0)
         ),

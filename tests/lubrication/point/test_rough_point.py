@@ -27,7 +27,7 @@ def table():
 
 
 def film(viscosity=0.03, speeds=(1.0, 0.5), factors="off", **changes):
-    oil = Lubricant(viscosity, pressure_viscosity=1.5e-8, viscosity_law="barus")
+    oil = Lubricant(viscosity, pressure_viscosity=1.5e-8, viscosity_law="barus", density_law="incompressible")
     return solve_point_film(**CASE | changes, speeds=speeds, lubricant=oil, flow_factors=factors)
 
 
@@ -52,7 +52,7 @@ def test_constant_pressure_factors_are_a_thinner_oil():
 def test_flow_across_alone_is_another_radius():
     """div(h^3 (p_x, 4 p_y)): with y = 2 y' the film of smooth rigid bodies of Ry/4 under half the load, cell by cell.
     1 % of the load is far away. At the centre, between cells, these grids resolve no film."""
-    oil = Lubricant(0.03, viscosity_law="isoviscous")
+    oil = Lubricant(0.03, viscosity_law="isoviscous", density_law="incompressible")
     case = {"contact_modulus": math.inf, "speeds": (1.0, 0.5), "lubricant": oil, "shape": (48, 48)}
     edges = (-2e-3, 2e-3, -4e-3, 4e-3)
     rough = solve_point_film(load=2.0, radii=(0.01, 0.01), extent=edges, flow_factors=EvenWalls(1.0, 4.0), **case)
@@ -117,7 +117,7 @@ def test_long_ellipse_is_the_line_contact(table, share):
     """Half-axes 1 : 12: central films 0.04 and 0.08 % from the line contact's between the same walls."""
     factors = replace(table, wall_share=share)
     radii, modulus, speeds = (5e-3, 0.25), CASE["contact_modulus"], (0.4, 0.1)
-    oil = Lubricant(0.03, pressure_viscosity=18e-9)
+    oil = Lubricant(0.03, pressure_viscosity=18e-9, density_law="incompressible")
     case = {"contact_modulus": modulus, "speeds": speeds, "lubricant": oil}
     peak = ellipse_contact(radii=radii, contact_modulus=modulus, load=40.0).maximum_pressure
     long = solve_point_film(load=40.0, radii=radii, shape=(128, 64), flow_factors=factors, **case)
