@@ -516,7 +516,7 @@ def test_what_is_not_met_is_not_converged(monkeypatch):
 def test_a_spike_without_limit_does_not_keep_heat_from_its_film(monkeypatch):
     """What is tried first: rolling at 1 GPa with the law of density that oils have where none is asked for. The heat of
     its flank was more than there is, and no field was found; where one is still not, the note says what helps."""
-    plain = Lubricant.of("ISO VG 68", temperature=333.15)
+    plain = Lubricant.of("ISO VG 68", temperature=333.15, density_law="incompressible")
     found, blunt = (film(5.0, 0.0, hertz=1e9, lubricant=one) for one in (plain, oil()))
     assert found.status is Status.CONVERGED
     thinner = [one.central_thickness / one.isothermal.central_thickness for one in (found, blunt)]
@@ -548,7 +548,7 @@ def test_the_spike_without_limit_does_not_jump(mean, slide, hertz):
     """Sliding of the default oil: the film was solved with the densities that its last pressure made, which a spike
     answered each round with another pressure; and columns warmed each other to and fro without end. What is found is
     where oils of ever less compression tend to."""
-    plain = Lubricant.of("ISO VG 68", temperature=333.15)
+    plain = Lubricant.of("ISO VG 68", temperature=333.15, density_law="incompressible")
     found = film(mean, slide, hertz, plain, points=400)
     assert found.status is Status.CONVERGED
     assert found.rounds <= 40  # both had 80, and were not found
