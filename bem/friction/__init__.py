@@ -6,10 +6,11 @@ together by the rest. Their mean opening must equal the mean film thickness, bot
 counted. The parts of one point of a Stribeck curve, `solve.solve_mixed`; in code the warm start (4) comes before the
 contact model (3):
 
-1. `setup.MixedSetup` checks the arguments. `smooth` has the contact of the smooth bodies: half-axes and undeformed gap.
-   `oil_volume` averages film and opening over the patch weighted by the film pressure (default), over the patch (the
-   thesis), or over the Hertz contact. With the default the whole load deforms the film's bodies: their modulus is
-   E* F_film / F, and the surfaces are pressed into the film pressure's part of that deflection.
+1. `setup.MixedSetup` checks the arguments, `solve` the heights, speeds and start. `smooth` has the contact of the
+   smooth bodies: half-axes and undeformed gap. `oil_volume` averages film and opening over the patch weighted by the
+   film pressure (default), over the patch (the thesis), or over the Hertz contact. With the default the whole load
+   deforms the film's bodies: their modulus is E* F_film / F, and the surfaces are pressed into the film pressure's part
+   of that deflection.
 2. `models` chooses the film model and the contact model. A film model gives the film under any load, at a coarse and at
    the wanted accuracy (protocol `film.Film`): `line_film` and `point_film` solve films when they are requested,
    `film_table` interpolates them in load, `worn_film` corrects them for worn bodies. With `thermal` every film of the
@@ -35,7 +36,8 @@ contact model (3):
    conductions.
 8. `oil_sensitivity` repeats the balance with the default area of oil, only where another one was asked for. Cost: a
    third of the convolutions of step 6, up to as many.
-9. `result_notes` reports what is outside the models' validity; `solution.MixedSolution` is the result.
+9. `solve` gathers the notes of film (`lubrication.checks`), contact and balance; `result_notes` adds those on friction,
+   lambda ratio, coatings and oil. `solution.MixedSolution` is the result.
 
 `curves` collects the speeds of a curve, and `share_fit` fits the contact share over the lambda ratio. `asperity_array`
 (figures 3 and 4 of paper A) presses an array of equal asperities and has no film.
@@ -43,8 +45,8 @@ contact model (3):
 Terms: the *whole* film is the film under the whole load; the *opening* is the mean gap between the rough surfaces where
 oil is counted; the *rest* is the load less the film load; the *odds* of a film load are film load over rest. *Coarse*
 without more is a film on `line_film.BALANCE_POINTS` = 400 nodes, the first level of the balance (residual 1e-5; with
-heat 1e-8 on both levels). Inside one film `lubrication` has coarse meshes of its own: 250 cells for starts in
-`line.continuation` (residual 1e-4), on which lumped heat also finds the viscosity of the thinned film and with it the
+heat 1e-8 on both levels). Inside one film `lubrication` has coarse meshes of its own: 160 to 400 cells for starts in
+`line.continuation` (residual 1e-4), 250 on which lumped heat finds the viscosity of the thinned film and with it the
 thickness (to 5e-3), and 400 cells for the coupling with full heat in `thermal.coupling` (residual 1e-3).
 
 Names are loaded at first use, so that laws of boundary friction need no solver. The package knows films, contacts and

@@ -51,7 +51,7 @@ from bem.numerics.bracketed_root import find_decreasing_root
 MAX_TRIALS = 60
 LOAD_RESOLUTION = 0.1
 """Two film loads closer than this fraction of the tolerance count as equal."""
-COARSE_TRIALS, FINEST_CONTACT = 20, 1e-9
+TRIALS_PER_TOLERANCE, FINEST_CONTACT = 20, 1e-9
 """Trials after which the contact's tolerance is tightened, and the tightest one."""
 CONTACT_SHARE = 0.1
 """Error of the opening that a contact on coarse levels may have, as a fraction of the goal of the balance."""
@@ -153,7 +153,8 @@ class Balance:
     oil_imbalance : (mean opening - mean film thickness) / mean film thickness where oil is counted; not evaluated at
         the ends, where it is set to 0.
     refinement : change of the log odds of the film load from the coarse to the fine level.
-    film_neglected : whether the film model ends before the balance, with a film so thin that it is neglected.
+    film_neglected : whether the film model ends before the balance, with a film so thin that it carries no load; its
+        shear force is part of friction.
     """
 
     film: PatchFilm
@@ -307,8 +308,8 @@ class _LevelSearch:
     def starting_contact_tolerance(self) -> float:
         """Tolerance of the contact at the start of the search; `_SearchHistory.contact_tolerance` is the current one.
 
-        On the finest level the tolerance that was asked for. On coarse levels only what the balance needs: the goal
-        times the film thickness, relative to the gap that the contact flattens.
+        On the finest level the tolerance that was asked for. On coarse levels only what the balance needs:
+        `CONTACT_SHARE` of the goal, times the film thickness over the gap that the contact flattens, at most one.
         """
         asked, film = self.rough.tolerance, self.history.films_known[-1]
         if self.is_finest or asked == 0:
@@ -337,7 +338,7 @@ class _LevelSearch:
         while True:
             can_tighten = self.history.contact_tolerance > FINEST_CONTACT
             rest = -math.expm1(at - math.log(self.load))  # slope over ln(film load) times rest: slope over the log odds
-            trials = COARSE_TRIALS if can_tighten else MAX_TRIALS
+            trials = TRIALS_PER_TOLERANCE if can_tighten else MAX_TRIALS
             root = find_decreasing_root(evaluate, self.log_odds(at), slope * rest, ends, trials)
             ((trial, met),) = last
             assert trial.contact is not None
@@ -416,7 +417,7 @@ class _LevelSearch:
             return self.mismatch(last[0]), _volumes_agree(last[0], self.rough, self.goal)
 
         slope = self.mismatch(thick) - self.mismatch(thin)
-        find_decreasing_root(evaluate, 0.5, slope, (0.0, 1.0), COARSE_TRIALS)
+        find_decreasing_root(evaluate, 0.5, slope, (0.0, 1.0), TRIALS_PER_TOLERANCE)
         return last[0]
 
     def solve_trial(self, log_load: float | None = None) -> _Trial:

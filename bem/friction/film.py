@@ -29,8 +29,8 @@ class PatchFilm:
     thickness : film thickness [m].
     pressure : film pressure [Pa].
     shear_stress : shear stress on the flat [Pa].
-    shear_force : of the whole film [N], signed like `FilmSolution.shear_force`.
-    minimum_thickness : of the whole film [m].
+    shear_force : of the film, beyond the patch too [N], signed like `FilmSolution.shear_force`.
+    minimum_thickness : of the film, beyond the patch too [m].
     status : outcome of the solution.
     notes : on the validity of the film's model.
     solution : solution that the film was sampled from; None of an interpolated film.

@@ -32,7 +32,7 @@ class Forces:
     coefficient : boundary part over contact load. A constant law has its constant without contact or sliding too; other
         laws then have 0.
     heat : temperatures of the contact; None without heat, contact or sliding.
-    covered : shear force of the film on cells in contact [N], which is not in `film`.
+    covered : shear force of the film on the parts of cells in contact [N], which is not in `film`.
     """
 
     boundary: float

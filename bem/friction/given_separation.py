@@ -13,7 +13,7 @@ the mean mode of a convolution with the half-space kernel cut at the patch. The 
 that of the deformed ones less s(p). The load of the coupled contact at a given separation therefore depends on the
 size of the patch; uncoupled asperities do not sink. The film carries the rest of the load:
 
-    F_H + F_C = F_T,   separation under F_C = central film thickness under F_H.
+    F_film + F_contact = F,   separation under F_contact = central film thickness under F_film.
 
 The nominal area of the rough contact is the patch, under the load of as much of the cylinder's width as the patch is
 wide. Verified in tests/friction/test_given_separation.py.

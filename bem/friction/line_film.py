@@ -44,7 +44,7 @@ _LEAST_EXPONENT = 0.6
 by a factor is at most as thin as factor^(1/0.6)."""
 _SEARCHED_BEYOND = 0.97
 """Margin for oils that the search for the thinned oil tries beyond its result."""
-COARSE_FILM = 1e-3
+COARSE_ERROR = 1e-3
 """Relative error of films on `BALANCE_POINTS` nodes; the balance is not solved more accurately with them."""
 TOLERANCE, COARSE_TOLERANCE = 1e-8, 1e-5
 """Largest residual of films without heat on the wanted and on the coarse mesh; the latter is a hundredth of the mesh's
@@ -131,7 +131,7 @@ class SolvedLineFilm:
     @property
     def errors(self) -> tuple[float, ...]:
         """Errors of the coarse and the wanted mesh, or of the latter alone if it is no finer; see `Film`."""
-        return (COARSE_FILM, 0.0) if self.points > BALANCE_POINTS else (0.0,)
+        return (COARSE_ERROR, 0.0) if self.points > BALANCE_POINTS else (0.0,)
 
     def coarse_alone(self) -> SolvedLineFilm:
         """Return the same films at the coarse level alone."""

@@ -51,7 +51,8 @@ class OilVolumeSensitivity:
     share : fraction of the film's oil on the patch that lies beside the Hertz contact under the whole load.
     contact_share, friction : contact load over load, and coefficient of friction, of the result.
     loaded_contact_share, loaded_friction : the same with `OilVolume.LOADED`; equal to those of the result at either end
-        of the balance and where oil was counted so; not-a-number where the second balance did not converge.
+        of the balance and where oil was counted so; not-a-number where the first balance did not converge or the second
+        did not.
     slope : of the second balance, a warm start for the next speed; None without a second balance.
     counted : area over which oil was counted in the result.
     """

@@ -8,8 +8,8 @@ The answer depends on the area of the two means:
   beside the contact is at ambient pressure; it comes and leaves freely, and no volume of it is conserved. For the
   deflection of the film's bodies, film and surfaces are taken to share the pressure in one proportion everywhere, so
   that the whole load deforms them; the contact pressure itself is solved without this assumption. The film is that
-  under its load F_H between bodies of the modulus E* F_H / F_T, as flat as the Hertz contact under F_T. Both means are
-  taken over the patch, weighted by the film pressure. The answer converges with the length of the patch.
+  under its load F_film between bodies of the modulus E* F_film / F, as flat as the Hertz contact under F. Both means
+  are taken over the patch, weighted by the film pressure. The answer converges with the length of the patch.
 - `PATCH`: the whole rough patch, the choice of the thesis (total area A of eq. 7 in its paper A). Where the film is far
   thinner than the roughness, nearly all of that oil lies in the opening gap beside the Hertz contact. The load share
   then follows the length of the patch.

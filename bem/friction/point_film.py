@@ -37,7 +37,7 @@ if TYPE_CHECKING:
 
 BALANCE_CELLS = 64
 """Cells along an axis of the coarse grid, on which the balance is first looked for."""
-COARSE_FILM = 0.03
+COARSE_ERROR = 0.03
 """Relative error of films on `BALANCE_CELLS` cells."""
 LARGEST_MOES_LOAD, GROWTH = 2500.0, 1.25
 """Moes' load M up to which a film is solved on `BALANCE_CELLS`, and its power of the number of cells. Above it the
@@ -101,7 +101,7 @@ class SolvedPointFilm:
     @property
     def errors(self) -> tuple[float, ...]:
         """Errors of the coarse and the wanted grid, or of the latter alone if it is no finer; see `Film`."""
-        return (COARSE_FILM, 0.0) if self.cells > BALANCE_CELLS else (0.0,)
+        return (COARSE_ERROR, 0.0) if self.cells > BALANCE_CELLS else (0.0,)
 
     def coarse_alone(self) -> SolvedPointFilm:
         """Return the same films at the coarse level alone."""

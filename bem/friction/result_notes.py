@@ -30,8 +30,8 @@ LARGEST_FRICTION = 1.0
 MATTERS = 0.05
 """Fraction of friction that oil on cells in contact would add, from which a note reports it.
 
-The film model counts no shear stress on cells in contact, as in the thesis. The comparison with the roughness in
-Reynolds' equation itself is in `reports/experiments/rough_films.py`.
+The film model counts no shear stress on the part of a cell that is in contact, as in the thesis. The comparison with
+the roughness in Reynolds' equation itself is in `reports/experiments/rough_films.py`.
 """
 DECIDES = 0.2
 """Fraction of friction that oil on cells in contact would add, from which the note is a caution."""

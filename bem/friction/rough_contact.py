@@ -78,7 +78,7 @@ class Pressed:
     convolutions : applications of the displacement operator.
     status : outcome.
     solution : of the patch.
-    separation : (nx,) distance of the undeformed mean planes on the middle line [m].
+    separation : (nx,) distance of the mean planes on the middle line, deformed by film pressure alone [m].
     covered : fraction in contact of each cell of the film's grid.
     notes : of the contact solver.
     opening_error : error of the opening that the contact's tolerance leaves [m].

@@ -34,13 +34,13 @@ class MixedSolution:
     speeds : (u1, u2) of flat and cylinder or ball [m/s].
     friction : coefficient, (boundary part + film part) / load, positive where it resists the sliding.
     boundary_force, film_force : parts of the friction force [N]; without sliding the boundary part is zero.
-    load, contact_load, film_load : [N].
+    load, contact_load : [N]. film_load : under which the film was solved [N].
     film : smooth film under `film_load`.
     contact : rough contact of one slice as long as the grid is wide (`SpreadContact` of a repeated cell); None in full
         film.
-    separation : (nx,) distance [m] between the mean planes of the undeformed surfaces at the grid's abscissae: gap of
-        the smooth bodies under film pressure (`PatchFilm.gap`) less the approach that keeps the volume of oil; of a
-        ball on y = 0. In full film the film thickness, without the shift at which rough surfaces hold that oil.
+    separation : (nx,) distance [m] between the mean planes, deformed by film pressure alone, at the grid's abscissae:
+        gap of the smooth bodies under film pressure (`PatchFilm.gap`) less the approach that keeps the volume of oil;
+        of a ball on y = 0. In full film the film thickness, without the shift at which rough surfaces hold that oil.
     lambda_ratio : minimum of the smooth film under the whole load over the rms height of the patch. Of a cylinder whose
         film on the coarse mesh does not clear the roughness it is that film; where the film model ends below the load,
         it is the film under the largest load of the model.
@@ -69,8 +69,9 @@ class MixedSolution:
     regime : "full film", "mixed" or "boundary".
     contact_temperature, flash_temperature : of the surfaces in contact [K], mean weighted by pressure, and maximum;
         None without heat, contact or sliding. Temperatures of the film are in `film`.
-    oil_on_contact : friction that the film's shear stress on cells in contact would add; `friction` is without it.
-    notes : on the validity of the models and on the end of the balance.
+    oil_on_contact : friction that the film's shear stress on the part of cells in contact would add; `friction` is
+        without it.
+    notes : on unusual arguments, on the oil, on the validity of the models and on the end of the balance.
     """
 
     speeds: tuple[float, float]

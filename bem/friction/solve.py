@@ -90,9 +90,9 @@ def solve_mixed(
         table such as {"kind": "pressure_dependent", "shear_strength": 1e6, "pressure_coefficient": 0.1}.
     hardness : cap of the contact pressure [Pa]; None is elastic.
     tolerance : largest imbalance of the oil, mean opening over mean film thickness less one where oil is counted, and
-        of the load, (F_H + F_C - load) / load. A trial of the search shares the load exactly, up to the solvers'
-        tolerances, unless surfaces at the hardness cannot carry the rest or two gaps carry one load; the search closes
-        the imbalance of the oil.
+        of the load, (F_film + F_contact - load) / load. A trial of the search shares the load exactly, up to the
+        solvers' tolerances, unless surfaces at the hardness cannot carry the rest or two gaps carry one load; the
+        search closes the imbalance of the oil.
     film_points : nodes of the line film's mesh.
     film_cells : cells of a ball's film along an axis.
     contact_model : "coupled" (rough half-space), or "uncoupled" (every summit a Hertz sphere), the usual baseline.
@@ -112,7 +112,7 @@ def solve_mixed(
     oil_volume : area over which the mean opening of the rough surfaces equals the mean film thickness
         (`bem.friction.oil_volume`). "loaded": where the film carries load, weighted by its pressure; it conserves the
         flow through the loaded zone and converges with the patch's length. The whole load then deforms the film's
-        bodies: their modulus is E* F_H / F, and the rough surfaces are pressed into the film pressure's part of that
+        bodies: their modulus is E* F_film / F, and the rough surfaces are pressed into the film pressure's part of that
         deflection. "patch": the whole patch, the thesis' choice; it follows the patch's length where nearly all oil
         lies beside the Hertz contact. "hertz": the nominal Hertz contact under the total load. With the last two a
         second balance is solved at every mixed speed whose first one converged (not with `separation` "film"):

@@ -150,7 +150,8 @@ def shear_at_the_limit(case: Case) -> Note | None:
         return None
     law = case.lubricant.shear_law
     limit = (
-        f", {law.ambient_shear_strength / 1e6:g} MPa + {law.limiting_shear_coefficient:g} p,"
+        f", {law.ambient_shear_strength / 1e6:g} MPa + {law.limiting_shear_coefficient:g} p"
+        + (" at 40 degC," if law.softens else ",")
         if isinstance(law, LimitedShear)
         else ""
     )

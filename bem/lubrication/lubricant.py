@@ -40,21 +40,23 @@ class Lubricant:
     pressure_viscosity : alpha, slope of ln(viscosity) with pressure at ambient pressure [1/Pa]; 0 is isoviscous.
     viscosity_law : "roelands", "barus" or "isoviscous", the name of a law of your own, or a law.
     density_law : "dowson_higginson", "incompressible", another name or a law.
-    shear_law : "limited", "newtonian", "eyring", "carreau", "base_oil", another name or a law. All of these but
-        "newtonian" carry no more than a limiting shear stress in proportion to pressure; below that "limited" is
-        Newtonian. "base_oil" is Eyring's law under a limit that falls with temperature, with the constants of the
-        oil's base.
+    shear_law : of the friction, and of the film's flow where `film_rheology` says so: "limited", "newtonian", "eyring",
+        "carreau", "base_oil", another name or a law. All of these but "newtonian" carry no more than a limiting shear
+        stress that rises linearly with pressure; below that "limited" is Newtonian. "base_oil" is Eyring's law under
+        a limit that falls with temperature, with the constants of the oil's base.
     film_rheology : "newtonian": the shear law acts on the friction and not on the film; "shear_law": on both, through
         the profile of stress and speed across the film (`bem.lubrication.shear_profile`).
-    temperature : that of the oil [K], for a reader; None where it is not known, as the next four.
+    temperature : that of the oil [K], from which heat, the limit of "base_oil" and laws of boundary friction over
+        temperature start; None where it is not known, as the next four. "base_oil" then has its limit at 40 degC.
     density : at ambient pressure [kg/m^3].
     heat_capacity : per mass [J/(kg K)].
     thermal_conductivity : [W/(m K)].
     temperature_viscosity : beta, -d ln(viscosity)/dT at ambient pressure [1/K].
     oil : the oil it is of at that temperature, which knows it at others; see `of` and `bem.lubrication.oils`.
     base : base of an oil that is not given, for the constants of "base_oil": "mineral" where it is left out.
-    **parameters : of the laws, by name: `shear_stress_limit` [Pa] of eyring and carreau, `carreau_exponent`,
-        `limiting_shear_coefficient`, `ambient_shear_strength` [Pa], those of your own laws. They are attributes, too.
+    **parameters : of the laws, by name: `shear_stress_limit` [Pa] of eyring and carreau (the stress at which thinning
+        sets in, no limit), `carreau_exponent`, `limiting_shear_coefficient`, `ambient_shear_strength` [Pa], those of
+        your own laws. They are attributes, too.
 
     Raises
     ------

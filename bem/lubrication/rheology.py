@@ -44,7 +44,7 @@ class ShearRheology:
     """Constants of an oil in shear.
 
     shear_stress_limit : Eyring stress [Pa].
-    limiting_shear_coefficient : limiting shear stress over pressure at 40 degC [-].
+    limiting_shear_coefficient : slope of the limiting shear stress with pressure, at 40 degC [-].
     limiting_shear_softening : its relative fall with temperature [1/K].
     ambient_shear_strength : limiting shear stress at ambient pressure and 40 degC [Pa].
     """

@@ -28,7 +28,7 @@ _HALVINGS = 60
 REFERENCE_TEMPERATURE = 313.15
 """Temperature at which limiting coefficients are given [K]: 40 degrees Celsius."""
 SHARPNESS = 6.0
-"""Exponent that joins a law to its limit smoothly: 11 % below where the law reaches the limit, 1 % at 0.68 of it."""
+"""Exponent that joins a law to its limit smoothly: 11 % below where the law reaches the limit, 1 % at 0.63 of it."""
 
 
 @dataclass(frozen=True)
@@ -88,7 +88,7 @@ class ShearLaw(Law):
         return self
 
     softens: ClassVar[bool] = False
-    """Whether the limit depends on temperature."""
+    """Whether the limit depends on temperature; such a law also joins its limit smoothly (`under_limit`)."""
 
     @property
     def thins(self) -> bool:

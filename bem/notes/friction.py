@@ -70,7 +70,9 @@ OIL_COUNTED = define(
             "of {friction:.3g}; with oil_volume loaded they have {loaded_contact_share:%} at "
             "{loaded_friction:.3g}{most}."
         ),
-        "unknown": "By how much is unknown: {count} balances with oil counted where the film carries failed.",
+        "unknown": (
+            "By how much is unknown: {count} balances, or those with the oil counted where the film carries, failed."
+        ),
         "particles": (
             "By how much is unknown: particles bear load, and the balance with the oil counted where the film carries "
             "is one without particles."
@@ -85,8 +87,8 @@ BOUNDARY_LUBRICATION = define(
     reasons={
         "load": "The film is left with less than {share:.1g} of the load.",
         "thin": (
-            "A film below {limit:si m} is counted as none; friction may jump at the speed from which thicker films are "
-            "found."
+            "A film below {limit:si m} is taken to carry no load; friction may jump at the speed from which thicker "
+            "films are found."
         ),
     },
 )

@@ -107,7 +107,7 @@ SHEAR_LIMITED = define(
     reasons={
         "friction": (
             "The oil is at that limit{limit} in much of the contact; limiting shear stress over pressure of oils is "
-            "0.03 to 0.1."
+            "0.03 to 0.12."
         ),
         "film": Reason(
             "The oil is at its limiting shear stress in much of the contact, at a slide-to-roll ratio above 1: the "

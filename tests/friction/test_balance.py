@@ -496,7 +496,7 @@ def test_trials_at_two_tolerances_of_the_contact_bracket_no_jump():
         rough = ClosedFormContact(opening, tolerance=1e-2)
         balance = balanced(FlatFilm(1e-6), rough, tolerance=1e-8)
         assert balance.status is Status.CONVERGED
-        assert balance.contacts > balance_model.COARSE_TRIALS
+        assert balance.contacts > balance_model.TRIALS_PER_TOLERANCE
         assert rough.approached == 0
 
 

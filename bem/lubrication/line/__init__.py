@@ -9,8 +9,8 @@ All solvers work in Moes' similarity variables (`problem`), in which load M and 
 
 The steady film, `steady.line_film`, in order:
 
-1. `case` checks the arguments and scales them. Without a neighbour the film of a small load M = 0.3 is Martin's rigid
-   isoviscous one.
+1. `case` checks the arguments and scales them. Without a neighbour the solver starts at a small load M = 0.3 from
+   Martin's rigid isoviscous film.
 2. `newton` solves the discrete problem: second-order cells between graded nodes (`mesh`) that are tied to the free
    exit, where p = dp/dx = 0 (Swift and Stieber). Unknowns are the pressures, the rigid-body separation H0 and the exit
    X_e (Okamura 1982; Houpert and Hamrock 1986). `reynolds` has the flux and its derivatives, `deflection` the elastic

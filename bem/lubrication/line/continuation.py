@@ -50,7 +50,7 @@ MEDIUM_CELLS = 400
 COARSE_TOLERANCE = 1e-4
 """Tolerance on the way to the final mesh; the discretisation errors there are larger."""
 START_LOAD = 0.3
-"""Load M of Martin's film."""
+"""Load M at which Martin's rigid isoviscous film is the first iterate."""
 LEAST_SHARE = 1e-3
 """Share of all stresses with which continuation in shear thinning begins."""
 FIRST_FACTOR, SMALLEST_THINNING_FACTOR = 4.0, 1.02
@@ -97,9 +97,9 @@ class Neighbour:
 def solve_from_neighbour(problem: Problem, near: Neighbour, cells: int, tolerance: float, limit: int) -> Outcome:
     """Solve from the film of another case.
 
-    The mesh of that film stays as long as a sharp spike stays on its fine cells. Otherwise the film is solved anew from
-    a coarse mesh upwards, which finds a spike that has moved in few and cheap steps. A coarse film of the same case is
-    refined directly.
+    The mesh of that film stays as long as a sharp spike stays on its fine cells; a film without a sharp spike is
+    remeshed to `cells`. Otherwise the film is solved anew from a coarse mesh upwards, which finds a spike that has
+    moved in few and cheap steps. A film of `COARSE_CELLS` cells of the same case (`near.coarse`) is refined directly.
     """
     if near.coarse and near.load == problem.load and near.pressure_ratio == 1:
         return _refine_from_coarse(problem, near.state, cells, tolerance, limit)

@@ -71,7 +71,7 @@ class Friction:
     striated: float
 
 
-def friction_forces(
+def film_friction(
     state: LineState,
     scales: Scales,
     speeds: Sequence[float],

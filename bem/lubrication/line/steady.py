@@ -25,7 +25,7 @@ from bem.lubrication.line.continuation import (
     solve_from_martin,
     solve_from_neighbour,
 )
-from bem.lubrication.line.friction import friction_forces
+from bem.lubrication.line.friction import film_friction
 from bem.lubrication.line.newton import LineState, Outcome, is_usable_start
 from bem.lubrication.line.problem import Problem, Scales
 from bem.lubrication.line.starved import LayerCondition, MeniscusCondition, SupplyCondition, mass_flow, solve_starved
@@ -215,7 +215,7 @@ def build_solution(
     pressure = np.maximum(state.pressure, 0.0)
     central = float(MonotoneCubic(x, film)(0.0))
     status = Status.CONVERGED if outcome.converged else Status.STALLED
-    friction = friction_forces(state, scales, speeds, reversed_, case.lubricant)
+    friction = film_friction(state, scales, speeds, reversed_, case.lubricant)
     sign = -1.0 if reversed_ else 1.0
 
     own_x = x * scales.length
