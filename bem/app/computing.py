@@ -57,6 +57,7 @@ class Computing:
         ----------
         wanted : asked once a process is free; if it returns False, nothing is computed and None is returned.
         function : found by its name; arguments and result travel by `pickle`.
+        *given, **named : its arguments.
 
         Raises
         ------
