@@ -1,8 +1,11 @@
 """The one driver of load sharing: balance, friction forces and derived figures of one pair of surfaces.
 
-`LoadSharing.solve` serves a Stribeck curve (`solve`), the comparison of oil volumes (`oil_sensitivity`), error bars
-(`bem.accuracy.mixed`), and the cycles of wear loops and lives (`bem.wear.mixed`). They differ in the film model, in the
-rough contact and in the warm start that they hand over. Verified in tests/friction/test_load_sharing.py.
+`LoadSharing.solve` serves a Stribeck curve (`solve`), the comparison of oil volumes (`oil_sensitivity`) and error bars
+(`bem.accuracy.mixed`). The cycles of wear loops and lives (`bem.wear.mixed`) call its two steps, `LoadSharing.balance`
+and `LoadSharing.with_forces`, since they repeat the balance with films of the worn shape. The callers differ in the
+film model, in the rough contact and in the warm start that they hand over.
+
+Verified in tests/friction/test_load_sharing.py.
 """
 
 from __future__ import annotations
@@ -69,7 +72,7 @@ class SharedLoad:
 
     @property
     def lambda_ratio(self) -> float:
-        """Minimum thickness of the film under the whole load over the rms height."""
+        """Minimum thickness of `whole` over the rms height."""
         return lambda_ratio(self.whole, self.heights)
 
     @property

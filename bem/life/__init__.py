@@ -4,13 +4,14 @@
    as a compliance (`bem.wear.ContactStep`, dry or lubricated), wear both bodies, grow and wear the tribofilm
    (surfaces.py).
 2. A step is a round in which each position stands for many cycles. Its error is controlled by step doubling (march.py).
-3. After each step, monitors count the pieces that a wear criterion would find, and the fatigue damage below the surface
-   (monitors.py, fatigue.py, criteria.py).
+3. After each step, monitors estimate the number of pieces, the worn volume over the mean volume of the pieces that a
+   wear criterion would find, and the fatigue damage below the surface (monitors.py, fatigue.py, criteria.py).
 4. Errors of jumps, positions, cells and films add up to error bars (`bem.accuracy.life`, sampling.py).
 
 Source: Archard (1953) at each place; tribofilm of the thesis, paper E; fatigue of Morales-Espejel and Brizmer (2011).
-Cost: three rounds per step, a contact per position. Sees wear, tribofilms, load sharing, contacts and stresses; no
-scene, no file.
+Cost: three rounds per step, a contact per position, two with a film defect.
+
+Sees wear, tribofilms, load sharing, contacts and stresses; no scene, no file.
 
 Verified in tests/life: volume, closed forms of wear, cycle by cycle, order in the tolerance, resuming, criteria on
 closed stress paths.

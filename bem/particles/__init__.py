@@ -5,7 +5,8 @@ Algorithm for a measured height map (thesis, paper B, section 2.6):
 1. Level the plate by a plane or second-order surface through the points that are no particle (height_map.py).
 2. Label what stands out by more than a threshold, by a watershed where touching particles are separated
    (height_map.py).
-3. Measure each particle: volume, rectangle, thickness (particle.py).
+3. Measure each particle: volume, rectangle, thickness (`_measure` in height_map.py); particle.py is the record.
+   Pieces of a wear loop are measured in `bem.wear.segmentation.describe_pieces`.
 4. Compute means and distributions weighted by number, area, volume or light scattering (statistics.py).
 
 Wear volumes and numbers of particles after Archard: archard.py. Settling in a centrifuge: sedimentation.py. Synthetic

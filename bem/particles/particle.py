@@ -23,7 +23,8 @@ class Particle:
     column_thickness : (n,) thickness of each of those columns [m].
     position : (x, y) of its centre of volume [m], in the grid's coordinates; wrapped into the grid on periodic axes.
     cycle : sliding cycle in which it came off; 0 for measured particles.
-    truncated : True where the data end before the particle does (deepest depth yields, or it lies on the map's border).
+    truncated : True where the data end before the particle does: a simulated one leaves down to the deepest depth, a
+        measured one lies on the map's border.
     """
 
     volume: float

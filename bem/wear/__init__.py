@@ -3,16 +3,17 @@
 Algorithm of `run_in` (running_in.py), one cycle after the other:
 
 1. Move one body through the contact, not before the first cycle, and take the rows of both that face each other
-   (running_in.py, state.py).
-2. Solve the contact: dry (contact_step.py) or shared with a film (mixed.py, worn_shape.py); particles between the
-   surfaces are a step around either (third_bodies.py).
+   (running_in.py).
+2. Solve the contact: dry (contact_step.py), or shared with a film by `bem.friction` (mixed.py), whose shape follows
+   wear (worn_shape.py); particles between the surfaces are a step around either (third_bodies.py).
 3. Shear tractions: friction x pressure, or a loop of partial slip (traction/).
 4. Removal by the criterion (criterion/) on each wearing body (cycle.py). Stress criteria: equivalent stress from the
    first depth (the skin, 100 nm by default) down; von Mises only where yielding material is connected to the surface,
    other stresses in whole planes to one below the first without yield (yielding.py); then runs above yield joined to
-   pieces (segmentation.py, yielded_runs.py), of which the removal law says what leaves (removal.py). Others: averaged
-   stress (lengths.py), fatigue damage (damage.py), junctions (junctions.py), a depth by pressure and distance
-   (criterion/local.py).
+   pieces (segmentation.py, yielded_runs.py), of which the removal law says what leaves (removal.py). Averaged von
+   Mises: the same, from a pressure averaged over a disc (criterion/averaged.py, lengths.py). Sphere: of the
+   pieces, those that can hold a sphere (criterion/sphere.py, lengths.py). Others: fatigue damage (damage.py), junctions
+   (junctions.py), a depth by pressure and distance (criterion/local.py).
 5. Lower the surfaces; append the cycle and its particles to the tables (running_in.py).
 
 Heights change by removal and by cuts of third bodies only. Where the pressure is at the hardness, the overlap of the

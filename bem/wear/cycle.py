@@ -7,6 +7,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
+from bem.errors import Status
 from bem.grid import FloatArray
 from bem.wear.contact_step import ContactOutcome, ContactStart, ContactStep
 from bem.wear.loads import BodyCycle, Removal, SurfaceLoad, stress_range_loads
@@ -39,10 +40,15 @@ def wear_cycle(
 
     Returns
     -------
-    Contact, and the removal of each wearing body.
+    Contact, and the removal of each wearing body; no removal where the contact or its loop of partial slip did not
+    converge, since stresses of such a pressure or traction mean nothing.
     """
     contact = contact_step(heights[LOWER] + heights[UPPER], start, compliance)
+    if contact.status is not Status.CONVERGED:
+        return contact, []
     rubbing = model.tractions.rub(contact.pressure, contact.friction, setup)
+    if rubbing is not None and rubbing.status is not Status.CONVERGED:
+        return replace(contact, rubbing=rubbing), []
     acting = SurfaceLoad(contact.pressure, contact.friction, None if rubbing is None else rubbing.traction)
     slid = None if rubbing is None else model.tractions.loops_per_cycle * rubbing.slid
     slide = abs(model.shift) * setup.grid.spacing[0]

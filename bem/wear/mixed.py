@@ -70,8 +70,11 @@ MIXED_FIELDS = np.dtype(
     ]
 )
 """A cycle's load sharing as a row of a table: SI units, forces, loads and area on the whole width, while those of
-`bem.wear.state.CYCLE_FIELDS` are on the grid; regime is an index;
-rms_height is that of both surfaces together without the worn shape of the film, by which the lambda ratio divides.
+`bem.wear.state.CYCLE_FIELDS` are on the grid; regime is an index.
+`friction` is the total coefficient, film and boundary; `CYCLE_FIELDS` has the signed boundary traction coefficient.
+`rms_height` is that of both surfaces together on the patch, without the worn shape of the film, by which the lambda
+ratio divides; `CYCLE_FIELDS` has that of the wearing surface in the contact strip.
+`shift` is the approach of the rough contact [m] (`Pressed.approach`), 0 without a contact.
 Temperatures are those of the surfaces in contact, mean by pressure and highest; the oil's without contact,
 0 where no heat was asked for."""
 
@@ -166,7 +169,7 @@ class MixedContact:
         return self.follower.films(worn)
 
     def film_under_load(self, worn: WornShape) -> PatchFilm:
-        """Return the film of a worn shape under the whole load."""
+        """Return the film of a worn shape under the whole load, or under the largest load of the films."""
         if worn.shape is None:
             return self._unworn_film_under_load
         films = self.films(worn)
@@ -181,12 +184,12 @@ class MixedContact:
     ) -> ContactOutcome:
         """Share the load of one cycle; see `ContactStep`."""
         memory, pressure = self.begin(start)
-        heights = memory.worn.left(heights)
+        heights = memory.worn.with_groove_filled(heights)
         rough = rough_contact(self.setup, heights, self.speeds)
         if compliance > 0:
             assert isinstance(rough, CoupledContact)
             rough = replace(rough, compliance=compliance)
-        shared, memory = self.share_load(heights, rough, memory, pressure)
+        shared, memory = self.share_load_on_worn_film(heights, rough, memory, pressure)
         return self.outcome(shared, memory, compliance=compliance)
 
     def begin(self, start: ContactStart | None) -> tuple[MixedMemory, FloatArray | None]:
@@ -200,7 +203,7 @@ class MixedContact:
             memory = replace(memory, worn=self.follower.followed(memory.worn, start.standing_profile, last))
         return memory, start.pressure
 
-    def share_load(
+    def share_load_on_worn_film(
         self, heights: FloatArray, rough: RoughContact, memory: MixedMemory, pressure: FloatArray | None
     ) -> tuple[SharedLoad, MixedMemory]:
         """Return the load shared between film and rough contact, and what the next cycle starts from.
@@ -214,7 +217,7 @@ class MixedContact:
         while True:
             balance = self._sharing(worn).balance(rough, self.film_under_load(worn), start)
             known = len(worn.changes)
-            # the last balance of the cycle decides whether its film load lies outside the loads that were solved
+            # the last balance of the cycle decides whether a film next to its film load is missing
             worn = self.follower.completed(replace(worn, clamped=memory.worn.clamped), balance)
             if len(worn.changes) == known:
                 break
@@ -346,7 +349,10 @@ class MixedCycles:
 
     @property
     def notes(self) -> tuple[Note, ...]:
-        """Notes on the cycles: those in boundary lubrication, and models outside their validity."""
+        """Notes on the cycles: those in boundary lubrication, and models outside their validity.
+
+        May solve one more balance (`oil`).
+        """
         setup, last, rows = self.contact.setup, self.last, self.rows
         notes: list[Note] = []
         left = BOUNDARY_LUBRICATION(share=NEGLIGIBLE * setup.tolerance, reason="load")

@@ -151,7 +151,8 @@ class WearModel:
 
         Raises
         ------
-        InputError : a wearing body without yield stress; lengths, depths or a friction that a law cannot use.
+        InputError : a wearing body without yield stress; lengths, depths or a friction that a law cannot use; a skin or
+            a layer that leaves fewer than two depths.
         """
         self.law.check_length(setup.grid)
         self.tractions.check(setup.friction)
@@ -159,4 +160,9 @@ class WearModel:
         if self.law.needs_strength and any(not np.isfinite(setup.yield_stress(body)) for body in bodies):
             raise InputError("the body that wears has no yield_stress and no hardness: give its material one of them")
         self.law.check_depths(setup.depths)
+        from bem.wear.yielding import StressCriterion, check_usable_depths  # transforms are not loaded for a name
+
+        if isinstance(self.law, StressCriterion):
+            for body in bodies:
+                check_usable_depths(setup, self, body)
         return bodies

@@ -55,9 +55,9 @@ class _ByColumns(RemovalLaw):
 
     def remove(self, runs: Runs, parent: NDArray[np.int64], labels: NDArray[np.int32], thickness: FloatArray) -> int:
         """Remove runs; see `RemovalLaw`."""
-        from bem.wear.yielded_runs import remove  # compiled loops are not loaded for a name
+        from bem.wear.yielded_runs import select_runs  # compiled loops are not loaded for a name
 
-        return remove(runs, parent, self.takes_along, labels, thickness)
+        return select_runs(runs, parent, self.takes_along, labels, thickness)
 
 
 @register

@@ -75,7 +75,8 @@ class RunningIn:
     status : CONVERGED, since `run_in` raises where a contact or a loop of partial slip did not converge: every contact
         was solved. Whether the surface still changes is not part of it (`wear.outcome.drift`).
     wearing : indices of the bodies that wear. moving : index of the body that moves through the contact.
-    notes : on where the result is outside its model, or uncertain.
+    notes : on where the result is outside its model, or uncertain; those of a lubricated contact are
+        `wear.mixed.MixedCycles.notes`.
     step_error : estimated error of the depth worn in the last cycle by a local law [m]; None for other laws.
     """
 
@@ -132,9 +133,9 @@ def run_in(
     Parameters
     ----------
     lower_heights, upper_heights : (nx, ny) heights out of each body [m]. Before each cycle but the first, the moving
-        body (`model.frame`) slides by `model.shift` cells over the other one: the upper body along +x and the lower one
-        along -x for positive friction (`sliding_direction`). It may have more rows than the grid, which then pass
-        through the contact, and is taken as periodic along x.
+        body (`model.frame`) slides by `model.shift` cells over the other one: along +x if it is the upper body, along
+        -x if it is the lower one, for positive friction (`sliding_direction`). It may have more rows than
+        the grid, which then pass through the contact, and is taken as periodic along x.
     grid : of the contact, usually free in x and periodic in y.
     bodies : (lower, upper).
     load : on the grid [N]; a contact step that is given has its own.
@@ -283,7 +284,9 @@ def advance(
     pressure = None if state.pressure is None else _slide(state.pressure, offset - state.offset, setup.grid.periodic[0])
     last = _last_loads(state, moving, offset) if model.stress_range else (None, None)
     began = time.perf_counter()
-    facing_memories = [_facing(state.memories[body], offset if body == moving else 0, rows) for body in (LOWER, UPPER)]
+    facing_memories = [
+        _memory_window(state.memories[body], offset if body == moving else 0, rows) for body in (LOWER, UPPER)
+    ]
     memories = (facing_memories[LOWER], facing_memories[UPPER])
     start = _contact_start(state, model, pressure)
     contact, removals = wear_cycle(
@@ -379,7 +382,7 @@ def _remove_from_window(heights: FloatArray, thickness: FloatArray, offset: int)
     return lowered
 
 
-def _facing(memory: FloatArray | None, offset: int, rows: int) -> FloatArray | None:
+def _memory_window(memory: FloatArray | None, offset: int, rows: int) -> FloatArray | None:
     """Return the memory (planes, rows, ny) of the rows that face the grid."""
     return None if memory is None else np.take(memory, np.arange(rows) - offset, axis=1, mode="wrap")
 

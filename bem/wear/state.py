@@ -29,7 +29,8 @@ PARTICLE_FIELDS = np.dtype(
         ("truncated", np.bool_),
     ]
 )
-"""A particle as a row of a table: SI units, the fields of `Particle` without its columns."""
+"""A particle as a row of a table, in SI units: fields of `bem.particles.Particle` of the same names, and the body that
+it left. `columns` is the number of its grid columns; x and y are its position."""
 
 CYCLE_FIELDS = np.dtype(
     [
@@ -53,15 +54,24 @@ CYCLE_FIELDS = np.dtype(
         ("third_bodies_per_area", np.float64),
     ]
 )
-"""A cycle as a row of a table: SI units. `contact_area`, `plastic_area` and `contact_load` are on the grid (columns of
-the same name of `bem.wear.mixed.MIXED_FIELDS` are on the whole width). `volume` and `depths_computed` are sums over the
-wearing bodies. `rms_height` is Sq of the (first) wearing surface inside the contact strip. `converged` is True in every
-row of a loop, which stops at a contact that did not converge.
+"""A cycle as a row of a table, in SI units.
+
+`volume` is the sum of pieces and local wear of the wearing bodies and of cuts by third bodies in both bodies.
+`depths_computed` is the sum over the wearing bodies. `contact_area`, `plastic_area` and `contact_load` are on the grid.
+`friction` is the boundary traction over the pressure, on the lower body along +x where positive. `rms_height` is Sq of
+the (first) wearing surface inside the contact strip, over all rows without a contact. `converged` is True in every row
+of a loop, which stops at a contact that did not converge.
+
+Columns of the same name in `bem.wear.mixed.MIXED_FIELDS` differ: `contact_area` and `contact_load` are there on the
+whole width, `friction` is the total coefficient, and `rms_height` is that of both surfaces on the patch without the
+films' worn shape.
+
 `stick_share`, `loop_energy` and `loop_way` are of the cycle's `Rubbing`, 0 in gross sliding."""
 
 TIME_FIELDS = np.dtype([("contact", np.float64), ("stress", np.float64), ("particles", np.float64)])
-"""Time of a cycle [s]: `stress` in stresses, `particles` in segmentation or in the removal of a criterion without
-stress, `contact` all the rest of the cycle, partial slip and third bodies included."""
+"""Time of a cycle [s]: `stress` in stresses; `particles` in segmentation or in the removal of a criterion without
+stress; `contact` in all other steps from the contact's start to the lowered surfaces, partial slip and third bodies
+included. The move of the body before them, and the strip and rows of the tables after them, are not timed."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -79,7 +89,7 @@ class RunningInState:
         None for none.
     rubbing : loop of partial slip of the last cycle; None in gross sliding.
     strip : fraction (nx,) of each row within the strip in contact of the last cycle; None takes whole rows by pressure.
-    contact : memory of the contact step.
+    contact : memory of the contact step; `memories` are those of the criterion.
     sharing : rows that a lubricated contact step gave, one per cycle; None for a dry one.
     """
 

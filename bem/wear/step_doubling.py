@@ -22,7 +22,7 @@ from dataclasses import replace
 
 import numpy as np
 
-from bem.errors import ConvergenceError, InputError, Status
+from bem.errors import ConvergenceError, InputError
 from bem.grid import FloatArray
 from bem.wear.contact_step import ContactStart, ContactStep
 from bem.wear.criterion import LocalWear
@@ -43,8 +43,8 @@ def step_error(
 ) -> float | None:
     """Estimate the largest error of the depth that the (first) wearing body lost in the last cycle [m].
 
-    None for laws that wear in pieces, before the first cycle, and where a half cannot be taken: its contact does not
-    converge, or slides so far that the law refuses the step.
+    None for laws that wear in pieces, before the first cycle, and where a half cannot be taken: its contact or loop
+    of partial slip does not converge, or it slides so far that the law refuses the step.
 
     Parameters
     ----------
@@ -71,7 +71,7 @@ def step_error(
             )
         except (ConvergenceError, InputError):
             return None
-        if contact.status is not Status.CONVERGED:
+        if not removals:  # the contact or its loop of partial slip did not converge
             return None
         start = ContactStart(contact.pressure, contact.memory, last_cycle=start.last_cycle)
         for removal in removals:

@@ -1,7 +1,8 @@
 """Third bodies: particles between the surfaces, which carry load, roll and cut; a model of our own, off by default.
 
 An example of an extension: a contact step around another one (`bem.wear.contact_step`), in one file.
-`with_third_bodies` is its only door; the dry and the lubricated contact know nothing of it.
+Its only entry is `with_third_bodies`. The solvers of both contacts know nothing of it: the row of a lubricated cycle
+counts its load apart (`bem.wear.mixed.MixedContact.outcome`), and the loop lowers both surfaces by its cuts.
 
 Model. Equal spheres lie evenly spread in the gap. A sphere larger than the gap at its place indents both surfaces with
 the same force on either side: hardness times the projected area of the cap. It yields itself where it is the softer
@@ -379,14 +380,14 @@ class MixedContactWithParticles:
         if particles.number_per_area == 0:
             return mixed(heights, start, compliance)
         memory, pressure = mixed.begin(start)
-        heights = memory.worn.left(heights)
+        heights = memory.worn.with_groove_filled(heights)
         patch: RoughContact = rough_contact(setup, heights, speeds)
         if not isinstance(patch, CoupledContact):
             raise InputError('third bodies share the load of a contact_model "coupled"')
         if compliance > 0:
             patch = replace(patch, compliance=compliance)
         rough = RoughContactWithParticles(patch, particles, self.hardnesses)
-        shared, memory = mixed.share_load(heights, rough, memory, pressure)
+        shared, memory = mixed.share_load_on_worn_film(heights, rough, memory, pressure)
         load = rough.particle_load(shared.balance.contact)
         if speeds[0] != speeds[1]:
             shared = replace(shared, forces=rough.with_rolling_friction(shared.forces, load))

@@ -55,7 +55,7 @@ class WornShape:
     updates : number of shapes that films were solved for. solves : solutions of the film's equations, with
         continuation.
     kept : number of cycles with an earlier shape, since no film of the new one was found.
-    clamped : number of cycles whose film load lies outside the loads that were solved.
+    clamped : number of cycles in which a lattice load next to the film load has no film of the shape.
     retry : change of the worn depth over the gap below which a shape without a film is not tried again.
     behind : change of the worn depth over the gap since the films' shape.
     """
@@ -71,8 +71,8 @@ class WornShape:
     retry: float = 0.0
     behind: float = 0.0
 
-    def left(self, heights: FloatArray) -> FloatArray:
-        """Return heights (nx, ny) [m] for the rough contact, without the shape that the film has."""
+    def with_groove_filled(self, heights: FloatArray) -> FloatArray:
+        """Return heights (nx, ny) [m] for the rough contact: the worn depth that the film's gap has is added back."""
         return heights if self.shape is None else heights + self.shape[:, None]
 
 

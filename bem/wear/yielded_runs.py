@@ -223,8 +223,8 @@ def connect(runs, shape, periodic, connectivity):
 
 
 @compiled
-def remove(runs, parent, cap, labels, thickness):
-    """Fill labels and thickness (columns of the map,) in place; return the number of pieces.
+def select_runs(runs, parent, cap, labels, thickness):
+    """Select the runs that leave, and return the number of pieces; labels and thickness (columns,) are filled in place.
 
     cap : True if all material above a run leaves with it.
     """

@@ -28,6 +28,7 @@ from typing import Protocol, runtime_checkable
 import numpy as np
 from numpy.typing import NDArray
 
+from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.stress import clear_other_rows, connected_stress, subsurface_stress, von_mises_planes, von_mises_upper_bound
 from bem.wear.loads import Removal, SurfaceLoad
@@ -122,17 +123,52 @@ def depths_for(setup: WearSetup, model: WearChoices, body: int) -> FloatArray:
     refinement is exact. Segmentation counts the stress above the first depth as that at the first depth. In a layer
     that is thinner than two skins, the skin is half of the layer.
     """
-    interfaces = setup.bodies[body].interfaces
-    layered = bool(interfaces) and model.within_layer
-    skin = model.law.skin_depth if isinstance(model.law, StressCriterion) else 0.0
-    # depths closer to the skin or to the interface than a tenth of an interval are dropped
-    sliver = 0.1 * float(np.diff(setup.depths).min())
-    depths = _below_skin(setup.depths, min(skin, 0.5 * interfaces[0]) if layered else skin, sliver)
-    if layered:
-        depths = np.append(depths[depths < interfaces[0] - sliver], interfaces[0])
+    depths = _usable_depths(setup, model, body)
     if model.refinement == "exact":
         depths = refine_depths(depths, model.refine)
     return depths
+
+
+def check_usable_depths(setup: WearSetup, model: WearChoices, body: int) -> None:
+    """Raise InputError unless skin and layer leave at least two depths at which stress is computed in a body."""
+    depths = _usable_depths(setup, model, body)
+    if depths.size >= 2:
+        return
+    interface = _layer_thickness(setup, model, body)
+    if interface is not None:
+        raise InputError(
+            f"depths: the layer of {interface:g} m leaves one depth, its interface, and pieces need two; give a first "
+            f"depth of at most {0.5 * interface:g} m, spaced by no more than the layer, or turn off within_layer"
+        )
+    skin = _skin_depth(model)
+    raise InputError(
+        f"depths: skin_depth {skin:g} m leaves one depth, the skin itself, and pieces need two; give a depth below "
+        f"{skin + _smallest_interval(setup):g} m or a thinner skin"
+    )
+
+
+def _usable_depths(setup: WearSetup, model: WearChoices, body: int) -> FloatArray:
+    """Return the depths (nz,) [m] that skin and outermost interface leave, with both."""
+    interface, skin, smallest = _layer_thickness(setup, model, body), _skin_depth(model), _smallest_interval(setup)
+    if interface is None:
+        return _below_skin(setup.depths, skin, smallest)
+    depths = _below_skin(setup.depths, min(skin, 0.5 * interface), smallest)
+    return np.append(depths[depths < interface - smallest], interface)
+
+
+def _layer_thickness(setup: WearSetup, model: WearChoices, body: int) -> float | None:
+    """Return the depth of the interface at which pieces of a body end [m]; None where no interface ends them."""
+    interfaces = setup.bodies[body].interfaces
+    return float(interfaces[0]) if interfaces and model.within_layer else None
+
+
+def _skin_depth(model: WearChoices) -> float:
+    return float(model.law.skin_depth) if isinstance(model.law, StressCriterion) else 0.0
+
+
+def _smallest_interval(setup: WearSetup) -> float:
+    """Return a tenth of the smallest interval [m]: depths closer to the skin or to the interface are dropped."""
+    return 0.1 * float(np.diff(setup.depths).min())
 
 
 def _below_skin(depths: FloatArray, skin: float, sliver: float) -> FloatArray:

@@ -372,6 +372,44 @@ def test_a_contact_that_does_not_converge_is_said_with_its_cycle():
         run_in(lower, upper, cycles=5, contact_step=contact, **ARGUMENTS)
 
 
+def test_a_contact_that_ends_without_numbers_is_not_blamed_on_its_stress():
+    def contact(heights, start, compliance):
+        return ContactOutcome(np.full(GRID.shape, np.nan), 0.0, 0.0, LOAD, 0.16, np.nan, 0, Status.MAX_ITERATIONS)
+
+    lower, upper = surfaces()
+    with pytest.raises(ConvergenceError, match="cycle 1: the contact"):
+        run_in(lower, upper, cycles=5, contact_step=contact, **ARGUMENTS)
+
+
+@pytest.mark.parametrize("criterion", ["von_mises", "averaged_von_mises", "tresca", "low_cycle_fatigue"])
+@pytest.mark.parametrize(
+    ("depths", "layer", "remedy", "mended"),
+    [
+        ((0, 50, 104), None, "below 1.05e-07 m", (0, 50, 106)),
+        ((0, 30, 102), None, "below 1.03e-07 m", (0, 30, 102, 200)),
+        ((95, 190, 285), 100, "at most 5e-08 m", (50, 145, 240)),
+        ((95, 190, 285), 90, "at most 4.5e-08 m", (45, 135, 225)),
+        ((0, 1000, 2000), 100, "no more than the layer", (0, 100, 200)),
+    ],
+)
+def test_a_single_depth_is_refused_before_the_contact_and_the_remedy_helps(criterion, depths, layer, remedy, mended):
+    contacts = []
+
+    def contact(heights, start, compliance):
+        contacts.append(heights)
+        return ContactOutcome(np.full(GRID.shape, 8e9), 0.0, 0.0, LOAD, 0.16, 0.0, 0, Status.CONVERGED)
+
+    coating = Material("coating", youngs_modulus=210e9, poissons_ratio=0.3, hardness=8e9, yield_stress=1e9)
+    body = SOFT if layer is None else Body(SOFT.material, layers=(Layer(coating, layer * 1e-9),))
+    arguments = ARGUMENTS | {"bodies": (body, HARD), "contact_step": contact, "criterion": criterion, "cycles": 1}
+    lower, upper = surfaces()
+    with pytest.raises(InputError, match=remedy):
+        run_in(lower, upper, **arguments | {"depths": np.array(depths) * 1e-9})
+    assert not contacts
+    model = WearModel(criterion=criterion)
+    assert model.wearing(setup(bodies=(body, HARD), depths=np.array(mended) * 1e-9)) == (0,)
+
+
 def test_periodic_in_both_axes_runs_and_particles_do_not_depend_on_the_origin():
     grid = Grid(GRID.shape, GRID.spacing, periodic=(True, True))
     lower, upper = surfaces()

@@ -120,7 +120,7 @@ def test_the_worn_depth_holds_the_volume_that_left():
 def test_the_rough_contact_sees_what_the_film_does_not():
     shared, result = worn_loop()
     heights = result.lower_heights + UPPER
-    left = shared.worn.left(heights)
+    left = shared.worn.with_groove_filled(heights)
     assert left - heights == pytest.approx(np.broadcast_to(shared.worn.shape[:, None], GRID.shape), abs=1e-18)
 
 
@@ -201,7 +201,7 @@ def test_a_cycle_counts_once_where_one_of_two_films_is_missing(monkeypatch):
     monkeypatch.setattr(ShapeSolver, "film", only_first)
     worn = replace(memory.worn, changes={0: memory.worn.changes[0]}, starts={0: memory.worn.starts[0]}, clamped=3)
     rough = rough_contact(step.setup, whole.last.heights, step.speeds)
-    _, after = step.share_load(whole.last.heights, rough, replace(memory, worn=worn), result.pressure)
+    _, after = step.share_load_on_worn_film(whole.last.heights, rough, replace(memory, worn=worn), result.pressure)
     assert set(after.worn.changes) == {0, *found}
     assert after.worn.clamped == 4
 
