@@ -138,7 +138,7 @@ def check_usable_depths(setup: WearSetup, model: WearChoices, body: int) -> None
     if interface is not None:
         raise InputError(
             f"depths: the layer of {interface:g} m leaves one depth, its interface, and pieces need two; give a first "
-            f"depth of at most {0.5 * interface:g} m, spaced by no more than the layer, or turn off within_layer"
+            f"depth of at most {0.5 * interface:g} m, or turn off within_layer"
         )
     skin = _skin_depth(model)
     raise InputError(
@@ -152,6 +152,7 @@ def _usable_depths(setup: WearSetup, model: WearChoices, body: int) -> FloatArra
     interface, skin, smallest = _layer_thickness(setup, model, body), _skin_depth(model), _smallest_interval(setup)
     if interface is None:
         return _below_skin(setup.depths, skin, smallest)
+    smallest = min(smallest, 0.1 * interface)
     depths = _below_skin(setup.depths, min(skin, 0.5 * interface), smallest)
     return np.append(depths[depths < interface - smallest], interface)
 
@@ -167,7 +168,8 @@ def _skin_depth(model: WearChoices) -> float:
 
 
 def _smallest_interval(setup: WearSetup) -> float:
-    """Return a tenth of the smallest interval [m]: depths closer to the skin or to the interface are dropped."""
+    """Return a tenth of the smallest interval [m]; depths closer than that to the skin or to the interface are
+    dropped. In a layer the limit is at most a tenth of the layer, so that coarse depths leave skin and interface."""
     return 0.1 * float(np.diff(setup.depths).min())
 
 

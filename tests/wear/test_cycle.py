@@ -389,7 +389,6 @@ def test_a_contact_that_ends_without_numbers_is_not_blamed_on_its_stress():
         ((0, 30, 102), None, "below 1.03e-07 m", (0, 30, 102, 200)),
         ((95, 190, 285), 100, "at most 5e-08 m", (50, 145, 240)),
         ((95, 190, 285), 90, "at most 4.5e-08 m", (45, 135, 225)),
-        ((0, 1000, 2000), 100, "no more than the layer", (0, 100, 200)),
     ],
 )
 def test_a_single_depth_is_refused_before_the_contact_and_the_remedy_helps(criterion, depths, layer, remedy, mended):
@@ -408,6 +407,18 @@ def test_a_single_depth_is_refused_before_the_contact_and_the_remedy_helps(crite
     assert not contacts
     model = WearModel(criterion=criterion)
     assert model.wearing(setup(bodies=(body, HARD), depths=np.array(mended) * 1e-9)) == (0,)
+
+
+def test_a_layer_much_thinner_than_the_depths_wears_down_to_its_interface():
+    film = Material("film", youngs_modulus=210e9, poissons_ratio=0.3, hardness=8e9, yield_stress=1e9)
+    coated = Body(HARD.material, layers=(Layer(film, 100e-9),))
+    pressure = np.zeros(GRID.shape)
+    pressure[20:28, 16:24] = 8e9
+    found = yielded_pieces(
+        pressure, setup(bodies=(coated, HARD), depths=np.arange(4) * 1e-6), WearModel(wears="lower"), 0
+    )
+    assert found.pieces.count == 1
+    assert found.pieces.thickness.max() == pytest.approx(100e-9, rel=1e-12)
 
 
 def test_periodic_in_both_axes_runs_and_particles_do_not_depend_on_the_origin():
