@@ -117,6 +117,10 @@ def within(name: str, value: float, error: float, factor: float = 1.0, sign: str
     return f"({plain_digits(low, 3)}{sign} to {plain_digits(high, 3)}{sign})"
 
 
+_LEAST_SCATTER = 1e-6
+"""Scatter of a friction coefficient below which it is shown as zero: no measurement resolves it."""
+
+
 def with_scatter(shown: str, scatter: Any, *, numerical: bool) -> str:
     """Return a friction coefficient as it is shown with its scatter from the constants of the oil behind its error:
     `0.046 ± 0.0004 (numerical), ± 0.012 (oil)`.
@@ -126,7 +130,7 @@ def with_scatter(shown: str, scatter: Any, *, numerical: bool) -> str:
     """
     if not isinstance(scatter, int | float) or not np.isfinite(scatter):
         return shown
-    oil = f"± {plain_digits(scatter)} (oil)"
+    oil = f"± {plain_digits(scatter if scatter >= _LEAST_SCATTER else 0.0)} (oil)"
     return f"{shown} (numerical), {oil}" if numerical else f"{shown} {oil}"
 
 

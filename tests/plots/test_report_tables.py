@@ -41,7 +41,7 @@ def test_friction_has_its_scatter_from_the_oil_behind_its_error():
         "speed_m_s": [0.01, 0.1, 1.0],
         "friction": [0.1, 0.05, 0.046],
         "friction_error": [0.002, None, 0.0004],
-        "friction_oil_scatter": [0.0, 0.007, 0.012],
+        "friction_oil_scatter": [2.6e-16, 0.007, 0.012],
     }
     (table,) = figure_tables(friction, list(friction))
     assert table.head == ("speed (m/s)", "friction coefficient")
