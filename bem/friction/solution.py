@@ -34,7 +34,7 @@ class MixedSolution:
     speeds : (u1, u2) of flat and cylinder or ball [m/s].
     friction : coefficient, (boundary part + film part) / load, positive where it resists the sliding.
     boundary_force, film_force : parts of the friction force [N]; without sliding the boundary part is zero.
-    load, contact_load : [N]. film_load : under which the film was solved [N].
+    load, contact_load, film_load : [N]; the last is that under which the film was solved.
     film : smooth film under `film_load`.
     contact : rough contact of one slice as long as the grid is wide (`SpreadContact` of a repeated cell); None in full
         film.
