@@ -39,7 +39,10 @@ def test_every_key_that_is_cited_has_an_entry():
 
 def test_scenes_cite_the_laws_and_methods_that_they_use():
     found = sources("traction-curve")
-    assert found["eyring1936"] == ["shear law eyring"]
+    assert found["eyring1936"] == ["shear law base_oil"]
+    assert sources("traction-curve", "oil.shear_law=eyring", 'oil.shear_stress_limit="5 MPa"')["eyring1936"] == [
+        "shear law eyring"
+    ]
     assert "density law dowson_higginson" in found["dowson1966"]
     assert "roelands1966" in found
     assert "barus1893" in sources("traction-curve", "oil.viscosity_law=barus")

@@ -457,7 +457,10 @@ def test_curves_have_the_speed_as_a_dimension_and_overlay_by_the_swept_value(tmp
     assert labels == ["friction coefficient", "minimum film thickness (under the film's load) (µm)"], "above 1000 nm"
     for axes in figure.axes:
         assert len(axes.lines) == 2
-        assert [line.get_label() for line in axes.lines] == ["oil.viscosity = 0.18 Pa*s", "oil.viscosity = 0.36 Pa*s"]
+        assert [line.get_label() for line in axes.lines] == [
+            "oil.viscosity = 180 mPa*s",
+            "oil.viscosity = 360 mPa*s",
+        ]
         np.testing.assert_array_equal(
             axes.lines[0].get_xdata() / axes.lines[0].get_xdata()[0], [1, 0.05 / 0.003, 0.5 / 0.003]
         )

@@ -102,7 +102,10 @@ def test_the_highest_stress_of_a_ball_is_hertzs():
     assert highest_mises("periodic") == pytest.approx(max(field), rel=1e-4)
 
 
+ROOT = Path(__file__).resolve().parents[2]
 OURS = """
+import sys
+sys.path.insert(0, {root!r})
 from bem.benchmarks.contact_cases import UNIT
 from reports.benchmarks.peer_cases import ball_depths, ball_grid
 from bem.stress import summarise_stress, subsurface_stress
@@ -117,7 +120,9 @@ keep(stresses, mises=highest)
 
 def stub(monkeypatch, change="", **times):
     """bem in place of tamaas, and points that are not measured: errors fall with the square of the cells."""
-    monkeypatch.setattr(peer_stresses, "SCRIPTS", {"tamaas": OURS.format(axes="periodic", change=change)})
+    monkeypatch.setattr(
+        peer_stresses, "SCRIPTS", {"tamaas": OURS.format(axes="periodic", change=change, root=str(ROOT))}
+    )
     monkeypatch.setattr(peer_stresses, "_ORDERED", {"tamaas": lambda stress: stress})
     asked = []
 

@@ -127,7 +127,7 @@ def test_mistakes_are_said(surface, message):
 @pytest.mark.internal
 def test_a_grid_too_small_for_a_process_is_said_before_any_work():
     surface = scene_of(process="ground").lower.surface
-    with pytest.raises(InputError, match=r"correlation_length .*\(process ground sets"):
+    with pytest.raises(InputError, match=r'correlation_length .*\(set by process = "ground"'):
         check_surfaces(Grid((64, 64), (1e-6, 1e-6)), lower=surface)
 
 
