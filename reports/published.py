@@ -156,7 +156,7 @@ def _near(value: float, error: float) -> tuple[float, float]:
 
 
 def _waves(stored: Mapping[str, Any]) -> Iterator[Row]:
-    """What is left of waves in the centre of rolling contacts."""
+    """Rows of the remaining amplitude of waves in the centre of rolling contacts."""
     ours = {(row["wavelength"], row["amplitude"]): row for row in stored["waves"]}
     solution = partial(Row, "waves", down=0.0, up=0.0, computed=True)
     for key, left in WAVES_LEFT.items():

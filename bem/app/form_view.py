@@ -90,7 +90,7 @@ class FormView:
         return None if parsed is None else value_at(self._table, parsed)
 
     def _put(self, key: str, text: str) -> Awaitable[None] | None:
-        """What takes over a text that was typed; None of one that the table says already."""
+        """Take over a text that was typed; return what to wait for, None if the text came from the file itself."""
         return None if self._from_file else self._edit(key, lambda table: with_value(table, key, text))
 
     def _field_of(self, key: str, item: Any, shown: Callable[[], Any]) -> None:
@@ -257,7 +257,7 @@ class FormView:
             key = f"{entry.key}.catalogue" if isinstance(self._value(entry.key), Mapping) else entry.key
             return self._put(key, "" if name == _UNSET else name)
 
-        def shown() -> str:
+        def catalogue_name() -> str:
             value = self._value(entry.key)
             name = value.get("catalogue") if isinstance(value, Mapping) else value
             return name if name in entry.choices else _UNSET
@@ -265,11 +265,11 @@ class FormView:
         item = ui.select(
             [_UNSET, *entry.choices],
             label=entry.name,
-            value=shown(),
+            value=catalogue_name(),
             with_input=True,
             on_change=lambda e: choose(str(e.value)),
         ).props("dense outlined options-dense")
-        self._field_of(entry.key, item, shown)
+        self._field_of(entry.key, item, catalogue_name)
 
     def _about(self, table: FormTable) -> None:
         if table.about:

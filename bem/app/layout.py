@@ -141,7 +141,7 @@ def can_undo(words: str, undo: Callable[[], Any]) -> None:
             ui.timer(_UNDO, bar.delete, once=True)
 
 
-async def asked(question: str, yes: str, no: str = "no") -> bool:
+async def confirm(question: str, yes: str, no: str = "no") -> bool:
     """Ask before something is done; closing the question means no."""
     with ui.context.client.content, ui.dialog() as dialog, ui.card():
         ui.label(question).style("white-space: pre-wrap; max-width: 32rem")

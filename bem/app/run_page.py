@@ -15,7 +15,7 @@ from nicegui import ui
 from bem.app import pictures
 from bem.app.computing import compute, compute_if
 from bem.app.downloads import WHAT
-from bem.app.layout import asked, asked_name, badge, busy, can_undo, more_actions, page, rows, say, words_of, wrong
+from bem.app.layout import asked_name, badge, busy, can_undo, confirm, more_actions, page, rows, say, words_of, wrong
 from bem.app.run_view import RunView, check_number, comparison, map_view, overlay, run_view, solid_view
 from bem.app.workspace import RunState, Workspace
 from bem.errors import BemError
@@ -37,7 +37,7 @@ def actions(workspace: Workspace, state: RunState, after: Callable[[str], Any]) 
             await done
 
     async def put_away() -> None:
-        if not state.finished and not await asked(
+        if not state.finished and not await confirm(
             f"Cancel {state.name}? What it has computed is put away.", "cancel it"
         ):
             return
@@ -337,7 +337,7 @@ class Maps:
         if not self._offer_layers():
             await self._draw()
 
-    def _asked(self) -> tuple[Path, str, str, int]:
+    def _chosen_map(self) -> tuple[Path, str, str, int]:
         return self._state.path, self._state.kind, str(self._which.value), int(self._layer.value or 0)
 
     async def _draw(self) -> None:
@@ -347,7 +347,7 @@ class Maps:
             with self._place:
                 busy("drawing")
         found = await compute_if(
-            lambda: current == self._round, map_view, *self._asked(), at=self._at, solid=bool(self._solid.value)
+            lambda: current == self._round, map_view, *self._chosen_map(), at=self._at, solid=bool(self._solid.value)
         )
         if found is None or current != self._round:
             return
@@ -363,7 +363,7 @@ class Maps:
             picked = [points[0].get(axis) for axis in ("x", "y")]
             if all(isinstance(value, int | float) for value in picked):
                 self._at = (float(picked[0]), float(picked[1]))
-                found = await compute(map_view, *self._asked(), at=self._at)
+                found = await compute(map_view, *self._chosen_map(), at=self._at)
                 if found.sections is not None and not cut.is_deleted:
                     cut.update_figure(found.sections)
 

@@ -19,7 +19,7 @@ Change = Callable[[dict[str, Any]], dict[str, Any]]
 
 @dataclass(frozen=True)
 class Conflict:
-    """What was changed here and, meanwhile, elsewhere; in words."""
+    """A key that was changed here and, meanwhile, elsewhere; `words` name it with both values."""
 
     words: str
 
@@ -72,7 +72,7 @@ class SceneFile:
             table = self._workspace.scene_table(self._name)
             theirs, own = _value(table, key), _value(change(self.table), key)
             if not mine and theirs not in (_value(self.table, key), own):
-                words = f"{key} was changed elsewhere to {_shown(theirs)}, and here to {_shown(own)}."
+                words = f"{key} was changed elsewhere to {_value_in_words(theirs)}, and here to {_value_in_words(own)}."
                 return Conflict(words)
         table = change(table)
         self._workspace.save_scene(self._name, table)
@@ -97,10 +97,10 @@ class SceneFile:
 
 
 def _value(table: dict[str, Any], key: str) -> Any:
-    """What a table says at a dotted key."""
+    """Return the value of a table at a dotted key; None if there is none."""
     parsed = parse_key(key)
     return None if parsed is None else value_at(table, parsed)
 
 
-def _shown(value: Any) -> str:
+def _value_in_words(value: Any) -> str:
     return text_of(value) or "nothing"

@@ -12,7 +12,7 @@ from nicegui import ui
 
 from bem.app.computing import compute, compute_if
 from bem.app.form_view import FormView
-from bem.app.layout import asked, asked_name, badge, can_undo, heading, more_actions, page, rows, say, words_of, wrong
+from bem.app.layout import asked_name, badge, can_undo, confirm, heading, more_actions, page, rows, say, words_of, wrong
 from bem.app.planning import ShownPlan, check_scene, shown_plan
 from bem.app.scene_file import Change, Conflict, SceneFile
 from bem.app.starts import TASKS, BuiltIn, built_in_scenes, kinds_with_titles, start_text
@@ -26,7 +26,7 @@ _LAST = 6
 
 
 def scenes_page(workspace: Workspace) -> None:
-    """What to start with, the scenes of the folder, and its last runs."""
+    """Show tasks to start with, the scenes of the folder, and its last runs."""
 
     async def begin(name: str, source: str) -> None:
         kind, _, where = source.partition(" ")
@@ -188,7 +188,7 @@ class ScenePage:
             ui.context.client.on_disconnect(self._keep_draft)
 
     def _bar(self) -> None:
-        """What starts the scene, what it takes and what is wrong with it: in view wherever the form is scrolled to."""
+        """Add the bar with the run button, the plan and the mistakes; it stays in view while the form scrolls."""
         with ui.column().classes("w-full gap-0 bem-bar"):
             with ui.row().classes("items-center w-full"):
                 self._start = ui.button("run", icon="play_arrow", on_click=self._run).props("no-caps")
@@ -258,7 +258,7 @@ class ScenePage:
     async def _mine_counts(self, conflict: Conflict) -> bool:
         self._asking = True
         try:
-            return await asked(f"{conflict.words}\nWhich one counts?", "mine", "the other one")
+            return await confirm(f"{conflict.words}\nWhich one counts?", "mine", "the other one")
         finally:
             self._asking = False
 

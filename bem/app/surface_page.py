@@ -13,7 +13,7 @@ from nicegui import ui
 from nicegui.events import UploadEventArguments
 
 from bem.app.computing import compute_if
-from bem.app.layout import asked, asked_name, busy, can_undo, page, rows, say, words_of, wrong
+from bem.app.layout import asked_name, busy, can_undo, confirm, page, rows, say, words_of, wrong
 from bem.app.pictures import Picture
 from bem.app.treatment import Treated, treated
 from bem.app.workspace import MOST_BYTES, Workspace
@@ -122,7 +122,7 @@ class SurfacePage:
     async def _remove(self) -> None:
         path = str(self._file.value)
         users = self._workspace.users_of(path)
-        if users and not await asked(f"{Path(path).name} is used by {', '.join(users)}. Delete it?", "delete it"):
+        if users and not await confirm(f"{Path(path).name} is used by {', '.join(users)}. Delete it?", "delete it"):
             return
         try:
             kept = self._workspace.remove_surface(path)

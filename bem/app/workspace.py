@@ -333,7 +333,7 @@ class Workspace:
         _move(kept, kept.parent.parent / kept.name)
 
     def _paths_in_scenes(self, path: Path) -> tuple[str, ...]:
-        """How scenes may name a file in `surfaces/`, as text of TOML."""
+        """Return the quoted paths by which scenes may name a file in `surfaces/`."""
         names = (str(path), f"{self.surfaces_folder.name}/{path.name}")
         return tuple(f"{quote}{name}{quote}" for name in names for quote in "\"'")
 

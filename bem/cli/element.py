@@ -157,7 +157,7 @@ def _operation(found: Element) -> tuple[dict[str, list[float]], list[Note]]:
             continue
         cells = [_spelled(name, value) for name, value in zip(solved, row, strict=True)]
         pressure = _spelled("hertz_pressure [Pa]", by_formula["hertz_pressure [Pa]"][i])
-        lines.append((str(i + 1), _place(found, i), pressure, f"{contact.slide_roll_ratio:.3g}", *cells))
+        lines.append((str(i + 1), _contact_name(found, i), pressure, f"{contact.slide_roll_ratio:.3g}", *cells))
     head = (
         *("", "where", "Hertz pressure", "slide-roll", "minimum film thickness (solved)", "lambda ratio (solved)"),
         *("friction coefficient", "friction power", "oil temperature", "surface temperature"),
@@ -200,7 +200,7 @@ def _show(found: Element, chosen: ElementContact) -> None:
         if "film_over_roughness" in columns:
             cells.append(f"{columns['film_over_roughness'][i]:.3g}")
         number = f"{i + 1} <" if one is chosen else str(i + 1)
-        rows.append((number, _place(found, i), *cells))
+        rows.append((number, _contact_name(found, i), *cells))
     head = ["", "where", *(name for name, _, _ in shown), "entrainment speed", "slide-roll"]
     head += [_BY_FORMULA[name] for name in _BY_FORMULA if name in columns]
     title = f"{found.model.name}: {found.model.element}"
@@ -209,7 +209,7 @@ def _show(found: Element, chosen: ElementContact) -> None:
         print_text(sentence)
 
 
-def _place(found: Element, index: int) -> str:
+def _contact_name(found: Element, index: int) -> str:
     """Name of a contact in a table: its position along the path, with the letter of a marked point nearest to it."""
     from bem.elements.element import degrees
 

@@ -160,7 +160,7 @@ def notes(runs: Sequence[Running]) -> tuple[Note, ...]:
 
 
 def summary(element: Element, solved: Sequence[Running]) -> tuple[tuple[str, str], ...]:
-    """What the element does as a whole, in words: power, thinnest film, micropitting, wear per hour, particles; of the
+    """Sum up the element as a whole, in words: power, thinnest film, micropitting, wear per hour, particles; of the
     films that converged."""
     lost, runs = [one for one in solved if not one.converged], [one for one in solved if one.converged]
     missed = [("not converged", f"{len(lost)} of {len(solved)} films, the first at {one.contact.name}") for one in lost]

@@ -19,7 +19,7 @@ _LONG_KEY = re.compile(rf"(?<![\w\"'-])[\w\"'-]++(?:[ \t]*\.[ \t]*[\w\"'-]++){{{
 
 
 def parse_toml(text: str) -> dict[str, Any]:
-    """As `tomllib.loads`, which takes minutes over a key of very many parts; ValueError for that too."""
+    """Read TOML by `tomllib.loads`; raise ValueError for a key of very many parts, which would take it minutes."""
     if _LONG_KEY.search(text):
         raise ValueError(f"a key of more than {MOST_PARTS} parts")
     return tomllib.loads(text)

@@ -98,7 +98,7 @@ class ContactOutcome:
 
     @property
     def failure(self) -> str:
-        """What did not converge, how far it came, and the meaning of the status, for an error message."""
+        """Name the part that did not converge, with its residual and the meaning of its status."""
         part = self.unsolved or f"the contact, of residual {self.residual:.1e},"
         return f"{part} ended with status {self.status.value!r}; {self.status.message}"
 

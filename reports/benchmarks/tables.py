@@ -48,7 +48,7 @@ FLOOR_HEADERS = ("case", "cells a side", "CPU ms", "convolutions", "FFTW pair, m
 
 
 def thread_rows(run: Run) -> list[tuple[str, ...]]:
-    """What a second thread gained, the share of the work that it did not help with, and what four and eight would gain.
+    """Rows of the gain of a second thread, the serial share of the work, and the gains that four and eight would have.
 
     By Amdahl (*AFIPS Conf. Proc.* 30, 1967): with the share s, n threads take s + (1 - s)/n of the time of one. s is
     what follows from two, so that memory that both wait for counts as serial.

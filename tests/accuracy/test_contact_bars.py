@@ -198,13 +198,19 @@ def test_plastic_area_has_the_error_of_its_own_edge():
     assert plastic > 2 * area
 
 
-def test_a_stress_that_jumps_at_an_interface_may_be_higher_there():
+def ball_on_coat():
+    """Contact of a ball with a stiff coat of 3.7 um, its grid and the coated body."""
     coat = Layer(Material("coat", youngs_modulus=600e9, poissons_ratio=0.25), 3.7e-6)
     body = Body(STEEL, layers=(coat,))
     grid = Grid((48, 48), (1e-6, 1e-6))
     gap = (grid.x[:, None] ** 2 + grid.y**2) / 1e-3
     operator = displacement_operator(grid, body)
     case = ContactCase(operator, gap, solve_contact(gap, operator, load=0.5), load=0.5)
+    return case, grid, body
+
+
+def test_a_stress_that_jumps_at_an_interface_may_be_higher_there():
+    case, grid, body = ball_on_coat()
     coarse, fine = np.linspace(0, 12e-6, 9), np.linspace(0, 12e-6, 121)
     found, truth = (summarise_stress(case.solution.pressure, grid, body, depths) for depths in (coarse, fine))
     bars = stress_bars(case, solve_coarser(case), body, found)
@@ -215,12 +221,7 @@ def test_a_stress_that_jumps_at_an_interface_may_be_higher_there():
 
 def test_depths_on_both_sides_of_an_interface_leave_little_open():
     """The jump there is no slope of the stress: a parabola across it rose to twenty times the highest stress."""
-    coat = Layer(Material("coat", youngs_modulus=600e9, poissons_ratio=0.25), 3.7e-6)
-    body = Body(STEEL, layers=(coat,))
-    grid = Grid((48, 48), (1e-6, 1e-6))
-    gap = (grid.x[:, None] ** 2 + grid.y**2) / 1e-3
-    operator = displacement_operator(grid, body)
-    case = ContactCase(operator, gap, solve_contact(gap, operator, load=0.5), load=0.5)
+    case, grid, body = ball_on_coat()
     few = np.array(with_layer_depths(tuple(np.linspace(0, 12e-6, 9)), body))
     fine = np.array(with_layer_depths(tuple(np.linspace(0, 12e-6, 121)), body))
     found, truth = (summarise_stress(case.solution.pressure, grid, body, depths) for depths in (few, fine))

@@ -6,13 +6,14 @@ import math
 import numpy as np
 import pyfftw
 import pytest
+from benchmark_point import point
 
 import bem.benchmarks.measure
 from bem import InputError, ResultsError, displacement_operator, solve_contact
 from bem.benchmarks.cases import CASES
 from bem.benchmarks.contact_cases import UNIT, common_residual, rough_gap
 from bem.benchmarks.floor import bandwidth, transform_pair
-from bem.benchmarks.measure import Point, growth, measure, measure_apart, watched
+from bem.benchmarks.measure import growth, measure, measure_apart, watched
 from bem.benchmarks.record import INTERRUPTED, new_run, write_runs
 from bem.benchmarks.run import check_names, check_sizes, run_cases, sizes_of
 from bem.benchmarks.show import draw_run
@@ -22,23 +23,6 @@ from bem.grid import Grid
 from bem.transforms import PaddedTransform
 
 pytestmark = pytest.mark.internal
-
-
-def point(**change):
-    settings = {
-        "case": "contact-periodic",
-        "size": 256,
-        "threads": 1,
-        "first_cpu": 0.1,
-        "cpu": (0.010, 0.011, 0.012),
-        "wall": (0.01, 0.01, 0.01),
-        "memory": 1e6,
-        "errors": {"residual": 1e-9},
-        "counts": {"convolutions": 30.0},
-        "values": {},
-        "split": {"whole": 0.01},
-    }
-    return Point(**(settings | change))
 
 
 @pytest.mark.parametrize(

@@ -3,10 +3,10 @@
 import dataclasses
 
 import pytest
+from benchmark_point import point
 
 from bem import InputError, ResultsError
 from bem.benchmarks.floor import Floor
-from bem.benchmarks.measure import Point
 from bem.benchmarks.record import new_run
 from reports import performance as report
 from reports.benchmarks import __main__ as command
@@ -15,23 +15,6 @@ from reports.benchmarks.point import measure_beside
 from reports.benchmarks.tables import memory_rows, thread_rows
 
 pytestmark = pytest.mark.internal
-
-
-def point(**change):
-    settings = {
-        "case": "contact-periodic",
-        "size": 256,
-        "threads": 1,
-        "first_cpu": 0.1,
-        "cpu": (0.010, 0.011, 0.012),
-        "wall": (0.01, 0.01, 0.01),
-        "memory": 1e6,
-        "errors": {"residual": 1e-9},
-        "counts": {"convolutions": 30.0},
-        "values": {},
-        "split": {"whole": 0.01},
-    }
-    return Point(**(settings | change))
 
 
 def run_of(points, floor=None):

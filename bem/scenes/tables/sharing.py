@@ -158,7 +158,7 @@ class CurveScene(HotMixedScene):
 
     @property
     def can_be_hot(self) -> bool:
-        """As `HotMixedScene`; oil streamers behind the exit have no heat."""
+        """Return False where oil streamers behind the exit leave no model of heat; else as `HotMixedScene` does."""
         return super().can_be_hot and not self.sharing.striated_exit
 
     @model_validator(mode="after")
