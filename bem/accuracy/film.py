@@ -34,7 +34,7 @@ FILM_RULES = Table(
     rows("central_thickness minimum_thickness", 0.6, "Second order: 1.8 times Richardson.", film=0.02),
     rows("load", 0.6, "As thicknesses; the load is prescribed, and its residual counts besides."),
     rows(
-        "shear_force striated_shear_force",
+        "shear_force",
         0.8,
         "The sliding and the rolling part cancel in differences: their changes were up to forty times that of the sum.",
         film=0.004,
@@ -98,7 +98,6 @@ def film_figures(solution: FilmSolution) -> dict[str, float]:
         "minimum_thickness": solution.minimum_thickness,
         "load": solution.load,
         "shear_force": solution.shear_force,
-        "striated_shear_force": solution.striated_shear_force,
         "rolling_force": solution.rolling_force,
         "maximum_pressure": float(solution.pressure.max()),
     }
@@ -114,7 +113,7 @@ def film_bars(case: FilmCase, other: OtherFilm) -> ErrorBars:
     rolling = changed * abs(found["rolling_force"])
     indicators = {
         "film": relative(changed, found),
-        "rolling": {"shear_force": rolling, "striated_shear_force": rolling},
+        "rolling": {"shear_force": rolling},
         "peak": {"maximum_pressure": _above_highest_node(case.solution)},
     }
     residual = residual_errors(case.solution.residual, found)

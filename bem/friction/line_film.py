@@ -103,7 +103,6 @@ class SolvedLineFilm:
     speeds : (u1, u2) of flat and cylinder [m/s].
     position : (nx,) abscissae of the patch [m].
     points : nodes of the wanted mesh; a coarse mesh has `BALANCE_POINTS`.
-    striated_exit : whether the oil behind the exit adds to the shear force.
     initial : film of a similar case, whose mesh the first film takes (not with heat) and which it may start from.
     tolerance : largest residual on the wanted mesh; with heat `TOLERANCE` on both levels.
     """
@@ -112,7 +111,6 @@ class SolvedLineFilm:
     speeds: tuple[float, float]
     position: FloatArray
     points: int
-    striated_exit: bool = False
     initial: FilmSolution | None = None
     tolerance: float = TOLERANCE
 
@@ -170,7 +168,7 @@ class SolvedLineFilm:
 
     def sampled(self, film: FilmSolution, load: float, stretch: float = 1.0) -> PatchFilm:
         """Sample a film at stretched abscissae of the patch; see `TabulatedFilms`."""
-        return sampled(film, stretch * self.position, load, self.contact, striated_exit=self.striated_exit)
+        return sampled(film, stretch * self.position, load, self.contact)
 
     def resampled(self, film: PatchFilm, position: FloatArray, *, negligible: bool) -> FilmSolution:
         """Return a film's solution at other abscissae [m]; a negligible film may reach beyond them.
@@ -249,19 +247,16 @@ def _load_of_least_film(contact: LineContact, speeds: Sequence[float]) -> float:
     return max((1.98 * films) ** 5, (0.98 * material**0.75 * films) ** 8)
 
 
-def sampled(
-    film: FilmSolution, position: FloatArray, load: float, contact: LineContact, *, striated_exit: bool = False
-) -> PatchFilm:
+def sampled(film: FilmSolution, position: FloatArray, load: float, contact: LineContact) -> PatchFilm:
     """Sample a solved film at the abscissae (nx,) [m] of a patch; `load` and forces are on the whole width [N]."""
     pressure, thickness = film.at(position)
-    force = film.striated_shear_force if striated_exit else film.shear_force
     sliding = None if film.sliding_stress is None else np.where(film.pressure > 0, film.sliding_stress, 0.0)
     return PatchFilm(
         load=load,
         thickness=thickness[:, None],
         pressure=pressure[:, None],
         shear_stress=film.shear_stress(position)[:, None],
-        shear_force=force * contact.width,
+        shear_force=film.shear_force * contact.width,
         minimum_thickness=film.minimum_thickness,
         status=film.status,
         notes=film.notes,

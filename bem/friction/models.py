@@ -62,7 +62,7 @@ def films_of(
 
         return SolvedPointFilm(contact, pair, x, y, fine)
     initial = initial if isinstance(initial, FilmSolution) else None
-    return SolvedLineFilm(contact, pair, x, fine, striated_exit=setup.striated_exit, initial=initial)
+    return SolvedLineFilm(contact, pair, x, fine, initial=initial)
 
 
 def rough_contact(setup: MixedSetup, height: FloatArray, speeds: Sequence[float]) -> RoughContact:

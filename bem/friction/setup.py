@@ -65,7 +65,6 @@ class MixedSetup:
     separation: str = "volume"
     contact_tolerance: float = 1e-6
     film_position: FloatArray | None = None
-    striated_exit: bool = False
     flow_factors: WallFactors | str = "off"
     oil_volume: OilVolume | str = OilVolume.LOADED
     supply: Supply | float | None = None
@@ -115,11 +114,8 @@ class MixedSetup:
         if len(radii) != 2:
             return [f"radii: {self.radii!r} must be two positive, finite radii (Rx, Ry) [m]"]
         messages = _not_positive({"radii": radii[0]}) or _not_positive({"radii": radii[1]})
-        left = {"striated_exit": self.striated_exit or "off"}
-        left |= {"film_position": "off" if self.film_position is None else "given"}
-        for name, value in left.items():
-            if not (isinstance(value, str) and value == "off"):
-                messages.append(f"{name}: the film of a ball has none; leave it out, or take a cylinder")
+        if self.film_position is not None:
+            messages.append("film_position: the film of a ball has none; leave it out, or take a cylinder")
         if isinstance(self.lubricant, Lubricant) and self.lubricant.shears_film:
             messages.append('lubricant: film_rheology "shear_law" is not there for a ball; use "newtonian"')
         return messages + self._patch_of_a_ball()
@@ -193,8 +189,6 @@ class MixedSetup:
             ]
         if self.thermal == "full" and self.supply is not None:
             return ['supply: not there with thermal "full"; take "lumped" or "off" with it, or no supply']
-        if self.striated_exit:
-            return ['striated_exit: not there with heat; leave it out, or take thermal "off"']
         if isinstance(self.bodies, Body) or len(self.bodies) != 2:
             return ["thermal: heat enters both bodies; give a pair"]
         missing = [name for name in HEAT_NEEDS if getattr(self.lubricant, name, None) is None]

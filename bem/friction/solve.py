@@ -63,7 +63,6 @@ def solve_mixed(
     separation: str = "volume",
     contact_tolerance: float = 1e-6,
     film_position: FloatArray | None = None,
-    striated_exit: bool = False,
     initial: MixedSolution | None = None,
     flow_factors: WallFactors | str = "off",
     oil_volume: OilVolume | str = OilVolume.LOADED,
@@ -104,8 +103,6 @@ def solve_mixed(
         periodic along x and y.
     contact_tolerance : of the rough contact.
     film_position : ascending abscissae [m] on which `film` is returned; the film's own mesh by default.
-    striated_exit : whether the oil behind the exit adds to the friction (`FilmSolution.striated_shear_force`); not with
-        heat.
     initial : solution of a similar case, a warm start.
     flow_factors : "off", or a table of `bem.flow_factors`: roughness then changes the film too, see `solve_line_film`;
         `lambda_ratio` is that of the film between rough walls.
@@ -169,7 +166,6 @@ def solve_mixed(
         separation=separation,
         contact_tolerance=contact_tolerance,
         film_position=film_position,
-        striated_exit=striated_exit,
         flow_factors=flow_factors,
         oil_volume=oil_volume,
         supply=supply,

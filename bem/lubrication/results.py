@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import dataclass, field, replace
 from typing import TYPE_CHECKING, Protocol
 
@@ -41,11 +40,9 @@ class FilmSolution:
     shear_force : friction force per unit length [N/m], integral of `shear_stress` over the full film: on the cylinder
         along +x and, by equilibrium, on the flat along -x. Its sliding part has the sign of u1 - u2. Its rolling part,
         integral h/2 dp/dx = -1/(2R) integral p x, has the sign of u1 + u2 and is the larger part near pure rolling, in
-        rigid films far beyond. The full film ends where the pressure does (Swift-Stieber exit); `striated_shear_force`
-        adds the streamers behind it.
+        rigid films far beyond. The full film ends where the pressure does (Swift-Stieber exit); oil streamers behind
+        it are left out.
     rolling_force : its rolling part [N/m], upstream of the positions included, with the sign of u1 + u2.
-    striated_shear_force : shear force with the oil behind the exit, which covers the fraction h_exit/h of the surface;
-        NaN with heat, which ends at the exit.
     exit_position : where the film ruptures [m].
     inlet_load_fraction : share of the load that lies upstream of the first position.
     iterations : Newton steps in total, continuation and chord steps included.
@@ -74,7 +71,6 @@ class FilmSolution:
     load: float
     shear_force: float
     rolling_force: float
-    striated_shear_force: float
     exit_position: float
     inlet_load_fraction: float
     iterations: int
@@ -224,7 +220,6 @@ class HeatedFilm:
         return replace(
             self.film,
             shear_force=self.shear_force,
-            striated_shear_force=math.nan,
             sliding_stress=self.stress_at_nodes,
             mean_temperature=self.mean_film_temperature,
             maximum_temperature=self.highest_oil_temperature,

@@ -70,7 +70,7 @@ def solve_line_film(
         inlet both rupture where p = dp/dx = 0, and behind a cylinder the gap only opens, so no film forms again. In
         time (`march_line_film`) the two differ.
     flow_factors : "off", or a table of `bem.flow_factors`: pressure flow is then phi_x times, Couette flow h + k s
-        phi_s (`bem.lubrication.flow_factors`). Shear stress and streamers behind the exit are those of smooth walls.
+        phi_s (`bem.lubrication.flow_factors`). The shear stress is that of smooth walls.
     supply : oil that reaches the contact, an `OilLayer` or an `InletDistance` (`bem.lubrication.supply`), or the
         thickness of a layer [m]; None is flooded. `FilmSolution.starvation` has the meniscus, the oil that
         passes, and the reduction of the film. Upstream of the meniscus there is no pressure and no

@@ -18,6 +18,11 @@ from bem.scenes.walk import fields_of_table, literals, members_of, unwrap, witho
 
 _BARE = re.compile(r"[A-Za-z0-9_-]{1,64}")
 MOST_MESSAGES = 20
+REMOVED_KEYS = {
+    "sharing.striated_exit": "removed; leave it out: the film's friction ends at its exit, without the 2 to 8 % of oil "
+    "streamers behind it",
+}
+"""Keys that scenes of earlier versions had, and what to write in their place."""
 Model = TypeVar("Model", bound=BaseModel)
 
 
@@ -74,6 +79,8 @@ def _message(mistake: Any, data: Any, model: type[BaseModel]) -> str:
     where = f"{key} = {show(value)}" if key else "scene"
     dimension = next((item for item in _spread(metadata) if isinstance(item, Dimension)), None)
     allowed = f"; allowed: {dimension.allowed}" if dimension else ""
+    if kind == "extra_forbidden" and key in REMOVED_KEYS:
+        return f"{key}: {REMOVED_KEYS[key]}"
     if kind == "extra_forbidden":
         parent, _, last = key.rpartition(".")
         names = sorted(_names_at(mistake["loc"][:-1], data, model))

@@ -409,7 +409,6 @@ def shared_film_table(setup: MixedSetup, speeds: Sequence[float]) -> FilmTable:
         setup.film_resolution,
         film_grid.shape,
         film_grid.spacing,
-        setup.striated_exit,
     )
     for known, table in _LAST_TABLES:
         if known == key:

@@ -38,7 +38,7 @@ CYLINDERS: tuple[dict[str, Any], ...] = (
     {"thermal": "full"},
     {"boundary_friction": {"kind": "pressure_dependent", "shear_strength": 5e6, "pressure_coefficient": 0.08}},
     {"supply": 0.4},
-    {"striated_exit": True, "shear_law": "eyring", "shear_stress_limit": 5e6},
+    {"shear_law": "eyring", "shear_stress_limit": 5e6},
 )
 """Cylinders: what is special about each; the rest is drawn."""
 
@@ -112,7 +112,7 @@ def _common(rng: np.random.Generator, special: dict[str, Any], grid: Grid, load:
     oil = Lubricant(10 ** rng.uniform(-1.6, -0.6), pressure_viscosity=float(rng.uniform(12e-9, 24e-9)), **laws)
     speed = 10 ** rng.uniform(-2.0, 0.0)
     speeds = ((speed, 0.0), (speed, 0.8 * speed), (0.3 * speed, speed))[rng.integers(3)]
-    names = ("hardness", "oil_volume", "contact_model", "asperity_separation", "separation", "thermal", "striated_exit")
+    names = ("hardness", "oil_volume", "contact_model", "asperity_separation", "separation", "thermal")
     return {
         "height": height,
         "grid": grid,

@@ -297,9 +297,6 @@ def test_what_heat_needs_is_said():
         ({"bodies": STEEL}, "heat enters both bodies; give a pair"),
         ({"thermal": "warm"}, "'warm' is unknown; choose from off, lumped, full"),
         ({"thermal": "full", "supply": 1e-7}, 'supply: not there with thermal "full"'),
-        # films with heat have no such force: friction was not a number, and called converged
-        ({"thermal": "full", "striated_exit": True}, "striated_exit: not there with heat"),
-        ({"striated_exit": True}, "striated_exit: not there with heat"),
         # refused after the balance, at the first speed with contact
         ({"grid": Grid((64, 64), (0.8e-6, 0.8e-6), periodic=(True, True))}, "thermal: on a grid periodic along x"),
     ):
@@ -330,8 +327,6 @@ def test_a_scene_with_heat_reports_its_temperatures(tmp_path):
     np.testing.assert_allclose(full["contact_temperature_C"], means, atol=0.05 * (means[1] - 60))
     with pytest.raises(InputError, match=r"a supply of oil with thermal = \"full\""):
         load_scene(scene | {"thermal": "full", "supply": {"layer": "100 nm"}})
-    with pytest.raises(InputError, match=r"sharing.striated_exit with thermal = \"lumped\""):
-        load_scene(scene | {"sharing": {"striated_exit": True}})
     with pytest.raises(InputError, match=r"thermal = \"lumped\" on a grid periodic along x"):
         load_scene(scene | {"grid": PATCH["grid"] | {"periodic": [True, True]}, "sharing": {"separation": "film"}})
     off = run_scene(scene | {"thermal": "off"}, tmp_path / "off", figures=False).summary

@@ -229,12 +229,6 @@ def test_shear_stress_fields(curve):
     assert 0.4 * point.film_force < within < point.film_force
 
 
-def test_striated_exit_adds_a_little():
-    plain = solve_mixed(**CASE, speeds=(0.3, 0.0))
-    striated = solve_mixed(**CASE, speeds=(0.3, 0.0), striated_exit=True)
-    assert 1.02 < striated.friction / plain.friction < 1.2
-
-
 @pytest.mark.internal
 def test_the_point_shown_shares_most_evenly(curve):
     found = Curve()

@@ -110,7 +110,6 @@ def test_nothing_of_the_thesis_curves_is_cut(speed):
         for law in ({}, {"shear_law": "newtonian"})
     )
     assert limited.shear_force == newtonian.shear_force
-    assert limited.striated_shear_force == newtonian.striated_shear_force
     np.testing.assert_array_equal(limited.shear_stress(), newtonian.shear_stress())
     assert limited.notes == newtonian.notes == ()
     stress = limited.lubricant.viscosity_at(limited.pressure) * speed / limited.thickness

@@ -223,7 +223,6 @@ def test_both_bodies_feel_the_same_force():
     on_slope = -np.sum(0.5 * (p[1:] + p[:-1]) * np.diff(h))
     # what lies upstream of the mesh is in `shear_force` and not here: below a per cent
     assert cylinder_shear + on_slope == pytest.approx(film.shear_force, rel=2e-2)
-    assert film.striated_shear_force > film.shear_force
 
 
 def test_shear_force_near_rolling_has_the_sign_of_the_entrainment():
@@ -269,9 +268,6 @@ def test_shear_force_of_rigid_sliding_by_quadrature():
 
     force = quad(integrand, -np.inf, end)[0]
     assert film.shear_force == pytest.approx(force, rel=5e-4)  # second order on 800 points
-
-    streamers = quad(lambda s: scale * 0.36 * 0.1 * exit_film / (low * (1 + s * s)) ** 2, end, np.inf)[0]
-    assert film.striated_shear_force - film.shear_force == pytest.approx(streamers, rel=5e-3)  # 400 panels
 
 
 def test_shear_thinning_lowers_friction_only():
@@ -358,7 +354,6 @@ def test_film_behind_the_exit_does_not_remember_the_start(factor):
     behind = cold.exit_position * np.array([1.0001, 1.5, 3.0])
     # meshes differ, each within 0.1 %
     np.testing.assert_allclose(warm.at(behind)[1], cold.at(behind)[1], rtol=1e-3)
-    assert warm.striated_shear_force == pytest.approx(cold.striated_shear_force, rel=1e-3)
 
 
 @pytest.mark.internal
@@ -661,7 +656,7 @@ def test_a_start_under_several_times_the_load_between_bodies_as_much_stiffer(rat
 
 
 def test_a_film_makes_no_quadrature_rule(monkeypatch):
-    """The rule of the striated exit's friction was made anew in each film: a tenth of a point in mixed lubrication."""
+    """A quadrature rule made anew in each film cost a tenth of a point in mixed lubrication."""
     orders, rule = [], np.polynomial.legendre.leggauss
     monkeypatch.setattr(np.polynomial.legendre, "leggauss", lambda order: orders.append(order) or rule(order))
     assert solve_line_film(**THESIS, speeds=(0.1, 0.0), points=400).status is Status.CONVERGED

@@ -62,7 +62,6 @@ def test_slide_roll_ratio_is_that_of_both_surfaces(ratio, other):
         ({"grid": {"shape": 64, "lengths": "320 um", "periodic": [False, True]}}, "patch holds the contact of a ball"),
         ({"grid": {"shape": 64, "lengths": ["320 um", "100 um"]}}, "half-axis along y"),
         ({"thermal": "full", "oil": {"grade": "ISO VG 68", "temperature": "60 degC"}}, "thermal"),
-        ({"sharing": {"striated_exit": True}}, "striated_exit"),
         ({"oil": {"viscosity": 0.03, "film_rheology": "shear_law"}}, "film of a point contact"),
         ({"supply": {"thickness": "1 um"}}, "supply"),
         ({"speeds": {"values": [0.1], "cylinder": 0.5, "slide_roll_ratio": 1}}, "they say the same"),

@@ -103,6 +103,17 @@ def test_one_mistake_one_message(data, parts):
     assert "allowed" in found[0] or "must" in found[0] or "should" in found[0], found[0]
 
 
+@pytest.mark.parametrize(
+    ("name", "setting", "said"),
+    [("stribeck-mineral-oil", "sharing.striated_exit=true", "sharing.striated_exit: removed; leave it out")],
+)
+def test_a_removed_key_says_what_to_do_instead(name, setting, said):
+    with pytest.raises(InputError) as refused:
+        load_scene(name, [setting])
+    (message,) = refused.value.messages
+    assert message.startswith(said)
+
+
 def test_all_mistakes_at_once():
     data = changed(sead=1, contact__load="1 m", contact__behaviour="plastic", lower__material="stee", grid__shape=-1)
     found = messages(data)

@@ -57,7 +57,6 @@ def test_films_without_a_model_of_heat_are_cold():
     table = start("friction") | {"contact": {"radius": "10 mm", "width": "8 mm", "loads": ["200 N"]}}
     table["contact"]["boundary_friction"] = 0.12
     assert load_scene(table).thermal == "lumped"
-    assert load_scene(table | {"sharing": {"striated_exit": True}}).thermal == "off"
     endless = {"sharing": {"separation": "film"}, "grid": table["grid"] | {"periodic": [True, True]}}
     assert load_scene(table | endless).thermal == "off"
     cell = start("friction") | {"grid": {"shape": 32, "lengths": "40 um", "periodic": True}}

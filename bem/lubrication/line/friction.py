@@ -1,23 +1,17 @@
-"""Friction force of a steady line film: Couette and rolling part, the inlet upstream of the mesh and the streamers
-behind the exit."""
+"""Friction force of a steady line film: Couette and rolling part, with the inlet upstream of the mesh."""
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
 import numpy as np
 
 from bem.grid import FloatArray
-from bem.lubrication.line.deflection import logarithmic_integral
-from bem.lubrication.line.linear import DEFLECTION
 from bem.lubrication.line.newton import LineState
 from bem.lubrication.line.problem import Scales
 from bem.lubrication.lubricant import Lubricant
 from bem.lubrication.shear_profile import middle_stress
-
-_NODES, _WEIGHTS = np.polynomial.legendre.leggauss(64)
 
 
 def upstream_of_mesh(state: LineState) -> tuple[float, float]:
@@ -46,11 +40,6 @@ def sliding_stress(
     return middle_stress(lubricant, newtonian, pressure, thickness, np.gradient(pressure, position))
 
 
-def streamer_stress(lubricant: Lubricant, thickness: FloatArray, sliding: float, cover: FloatArray) -> FloatArray:
-    """Return the mean shear stress of oil at ambient pressure that covers a fraction (n,) of the surface [Pa]."""
-    return lubricant.shear_stress(lubricant.viscosity * sliding / thickness, 0.0) * cover
-
-
 def rolling_upstream(state: LineState) -> float:
     """Return the integral of h/2 dp/dx upstream of the mesh, in units of pressure times film; zero upstream of a
     meniscus.
@@ -63,12 +52,10 @@ def rolling_upstream(state: LineState) -> float:
 
 @dataclass(frozen=True)
 class Friction:
-    """Forces per unit length of a film with positive entrainment [N/m]: in the full film, its rolling part, and with
-    the streamers behind the exit."""
+    """Forces per unit length of a film with positive entrainment [N/m]: in the full film, and its rolling part."""
 
     full: float
     rolling: float
-    striated: float
 
 
 def film_friction(
@@ -92,15 +79,4 @@ def film_friction(
     rolling = (rolling_part(film, pressure) + rolling_upstream(state)) * scales.film * scales.pressure
     full = couette + rolling
 
-    # streamers behind the exit cover the fraction h_e/h: integral of (h_e/h) tau(h), out to where it no longer counts
-    span = math.log(1e3) - math.log(1e-6)
-    near, far = 1e-6 * max(state.exit, math.sqrt(2 * film[-1])), 0.5 * span * (_NODES + 1)
-    reach = np.concatenate([[0.0], near * np.exp(far)])
-    behind = (
-        state.rigid_separation
-        + 0.5 * (state.exit + reach) ** 2
-        - DEFLECTION * logarithmic_integral(reach, state.offset, state.pressure)
-    )
-    ambient = streamer_stress(lubricant, behind * scales.film, difference, film[-1] / behind)
-    streamers = near * ambient[0] + 0.5 * span * float(np.sum(_WEIGHTS * ambient[1:] * reach[1:]))
-    return Friction(full, rolling, full + streamers * scales.length)
+    return Friction(full, rolling)

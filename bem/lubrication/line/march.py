@@ -14,7 +14,7 @@ from bem.lubrication import time_stepping
 from bem.lubrication.cavitation import Cavitation
 from bem.lubrication.checks import Case, notes_on, why_no_line_film
 from bem.lubrication.line.cavitation import Nodes
-from bem.lubrication.line.friction import rolling_part, sliding_stress, streamer_stress, trapezoid
+from bem.lubrication.line.friction import rolling_part, sliding_stress, trapezoid
 from bem.lubrication.line.problem import Problem, Scales
 from bem.lubrication.line.steady import parabolic_minimum
 from bem.lubrication.line.time_step import FixedMesh, StepOutcome, TransientState, build_step, elastic_film, time_step
@@ -194,7 +194,6 @@ def build_solution_at(
     case = Case(x, pressure, thickness, (first, second), oil, radius, modulus, not_found=why)
     upstream = 1 if first + second >= 0 else -2
     force, rolling = _friction_force(case, flooded=math.isinf(march.layer) or bool(film.full[upstream]))
-    exit_, streamers = _exit_and_streamers(march, film, case)
     return FilmSolution(
         position=x,
         pressure=pressure,
@@ -204,8 +203,7 @@ def build_solution_at(
         load=trapezoid(x, pressure),
         shear_force=force,
         rolling_force=rolling,
-        striated_shear_force=force + streamers,
-        exit_position=exit_,
+        exit_position=_exit_position(film, case),
         inlet_load_fraction=0.0,
         iterations=outcome.iterations if outcome else 0,
         residual=outcome.residual if outcome else 0.0,
@@ -231,22 +229,9 @@ def _friction_force(case: Case, *, flooded: bool) -> tuple[float, float]:
     return trapezoid(x, stress) + tail * (first - second) + rolling, rolling
 
 
-def _exit_and_streamers(march: March, film: TransientState, case: Case) -> tuple[float, float]:
-    """Return the place where the film ruptures [m], and the force of the streamers behind it [N/m].
-
-    Streamers cover h_rupture / h of the surface, or the filled fraction of the gap.
-    """
-    x, thickness, (first, second) = case.position, case.thickness, case.speeds
-    full = film.pressure > 0
-    ends = np.flatnonzero(full)
+def _exit_position(film: TransientState, case: Case) -> float:
+    """Return the place where the film ruptures [m]; 0 without a full film."""
+    ends = np.flatnonzero(film.pressure > 0)
     if not len(ends):
-        return 0.0, 0.0
-    last = ends[-1] if first + second >= 0 else ends[0]
-    exit_ = float(x[last])
-    behind = (x > exit_) if first + second >= 0 else (x < exit_)
-    cover = np.where(behind, thickness[last] / thickness, 0.0)
-    if march.cavitation is Cavitation.MASS_CONSERVING:
-        # the layer that a supply brings lies on either surface, and nothing shears it
-        dry = full if math.isinf(march.layer) else full | ~behind
-        cover = np.where(dry, 0.0, film.fraction)
-    return exit_, trapezoid(x, streamer_stress(case.lubricant, thickness, first - second, cover))
+        return 0.0
+    return float(case.position[ends[-1] if sum(case.speeds) >= 0 else ends[0]])

@@ -241,7 +241,6 @@ def build_solution(
         load=float(np.sum(0.5 * np.diff(own_x) * (own_p[1:] + own_p[:-1])) + beyond * scales.pressure * scales.length),
         shear_force=sign * friction.full,
         rolling_force=sign * friction.rolling,
-        striated_shear_force=sign * friction.striated,
         exit_position=sign * state.exit * scales.length,
         inlet_load_fraction=upstream,
         iterations=outcome.iterations,

@@ -50,12 +50,6 @@ class SharingScene(Table):
         default="volume",
         reason="volume; film needs a patch that is periodic along x and y",
     )
-    striated_exit: bool = key(
-        "Add the shear stress of oil streamers behind the exit, 2 to 8 % of the friction; isothermal line contacts.",
-        "advanced",
-        default=False,
-        strict=True,
-    )
     flow_factors: Literal["off", "surfaces"] = key(
         "Flow between the rough surfaces with flow factors computed from them, or between smooth walls (off).",
         "advanced",
@@ -156,26 +150,10 @@ class CurveScene(HotMixedScene):
 
     cell_may_repeat = True
 
-    @property
-    def can_be_hot(self) -> bool:
-        """Return False where oil streamers behind the exit leave no model of heat; else as `HotMixedScene` does."""
-        return super().can_be_hot and not self.sharing.striated_exit
-
-    @model_validator(mode="after")
-    def _cold_exit(self) -> Self:
-        if self.sharing.striated_exit and self.thermal != "off":
-            raise problem(
-                f'sharing.striated_exit with thermal = "{self.thermal}", whose films know no oil behind the exit',
-                "one without the other",
-            )
-        return self
-
     @model_validator(mode="after")
     def _point_film(self) -> Self:
         if self.contact.point_radii is None:
             return self
-        if self.sharing.striated_exit:
-            raise problem(_of_a_ball("sharing.striated_exit"), _NOT_OF_A_BALL)
         if self.sharing.flow_factors != "off" and self.supply is not None:
             raise problem(
                 f'{_of_a_ball("a supply")} with sharing.flow_factors = "{self.sharing.flow_factors}"',
