@@ -243,6 +243,18 @@ def laws_of(family: str) -> Mapping[str, type[Law]]:
     return dict(sorted(_laws[family].items()))
 
 
+REMOVED_LAWS = {
+    ("criterion", "sphere"): ("averaged_von_mises", "junction"),
+}
+"""Laws of earlier versions by family and name, and the laws to use in their place."""
+
+
+def unknown_law(family: str, word: object) -> str:
+    """`is unknown`, as `unknown` says it of the laws of a family, or `was removed` and what to use instead."""
+    instead = REMOVED_LAWS.get((family, str(word)))
+    return unknown(word, laws_of(family)) if instead is None else f"was removed; use {' or '.join(map(repr, instead))}"
+
+
 def unknown(word: object, names: Iterable[str]) -> str:
     """`is unknown - did you mean "..."?; choose from ...`."""
     listed = sorted(names)
@@ -279,7 +291,7 @@ def make_laws(owner: str, chosen: Mapping[str, object], given: Mapping[str, obje
         elif isinstance(value, str) and value in laws_of(family):
             classes[family] = laws_of(family)[value]
         else:
-            messages.append(f"{owner}: {family} {value!r} {unknown(value, laws_of(family))}")
+            messages.append(f"{owner}: {family} {value!r} {unknown_law(family, value)}")
     known = {key for family in chosen for law in laws_of(family).values() for key in law.parameters()}
     known |= {key for law in classes.values() for key in law.parameters()}
     asked = {*given, *(key for table in tables.values() for key in table)}

@@ -15,7 +15,7 @@ from pydantic.fields import FieldInfo
 from pydantic_core import InitErrorDetails, PydanticCustomError, core_schema
 
 from bem.errors import InputError
-from bem.laws import Law, Parameter, laws_of
+from bem.laws import REMOVED_LAWS, Law, Parameter, laws_of
 from bem.scenes import units
 from bem.scenes.common import Table, problem
 from bem.scenes.units import Dimension
@@ -101,6 +101,9 @@ class LawKey:
         if "kind" not in value:
             raise problem("kind is missing", "kind = " + ", ".join(f'"{name}"' for name in self.names()))
         law = self.law_class(value)
+        instead = REMOVED_LAWS.get((self.family, str(value["kind"])))
+        if law is None and instead is not None:
+            raise problem(f'the law "{value["kind"]}" was removed', " or ".join(f'"{name}"' for name in instead))
         if law is None:
             raise _errors(
                 [_mistake("literal_error", "not allowed", value["kind"], ("kind",) if len(value) > 1 else ())]

@@ -11,9 +11,8 @@ Algorithm of `run_in` (running_in.py), one cycle after the other:
    first depth (the skin, 100 nm by default) down; von Mises only where yielding material is connected to the surface,
    other stresses in whole planes to one below the first without yield (yielding.py); then runs above yield joined to
    pieces (segmentation.py, yielded_runs.py), of which the removal law says what leaves (removal.py). Averaged von
-   Mises: the same, from a pressure averaged over a disc (criterion/averaged.py, lengths.py). Sphere: of the
-   pieces, those that can hold a sphere (criterion/sphere.py, lengths.py). Others: fatigue damage (damage.py), junctions
-   (junctions.py), a depth by pressure and distance (criterion/local.py).
+   Mises: the same, from a pressure averaged over a disc (criterion/averaged.py, lengths.py). Others: fatigue damage
+   (damage.py), junctions (junctions.py), a depth by pressure and distance (criterion/local.py).
 5. Lower the surfaces; append the cycle and its particles to the tables (running_in.py).
 
 Heights change by removal and by cuts of third bodies only. Where the pressure is at the hardness, the overlap of the

@@ -1,6 +1,6 @@
-"""Lengths of the material: pressures averaged over a disc, pieces that can hold a sphere.
+"""A length of the material: pressures and tractions averaged over a disc along the surface.
 
-Knows grids, pressures and pieces. Verified in tests/wear/test_criteria_with_length.py.
+Knows grids and loads. Verified in tests/wear/test_criteria_with_length.py.
 """
 
 from __future__ import annotations
@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 from bem.compiled import compiled, inlined
 from bem.grid import FloatArray, Grid
 from bem.wear.loads import SurfaceLoad
-from bem.wear.segmentation import Segmentation
 
 _PARTS = 16
 """Points per side by which the part of a cell within the disc is counted: areas to a thousandth of a cell."""
@@ -84,45 +83,3 @@ def _spread(field, offsets, wraps):
                 if inside:
                     out[k, m] += offsets.value[n] * value
     return out
-
-
-def pieces_holding_sphere(pieces: Segmentation, grid: Grid, diameter: float) -> Segmentation:
-    """Return the pieces that can hold a sphere of a diameter [m] below the surface, renumbered.
-
-    A piece is all material above a depth in each column, so a sphere that fits anywhere fits where it touches the
-    surface: for a radius r, every column at a distance d < r from the centre must be r + sqrt(r^2 - d^2) thick.
-    """
-    radius = 0.5 * diameter
-    reach = [int(np.ceil(radius / h)) for h in grid.spacing]
-    x, y = (np.arange(-n, n + 1) * h for n, h in zip(reach, grid.spacing, strict=True))
-    room = radius**2 - x[:, None] ** 2 - y[None, :] ** 2
-    i, j = np.nonzero(room > 0)
-    needed = Offsets(i - reach[0], j - reach[1], radius + np.sqrt(room[i, j]))
-    holds = np.zeros(pieces.count + 1, np.bool_)
-    _find_room(pieces.labels, pieces.thickness, needed, grid.periodic, holds)
-    names = np.where(holds, np.cumsum(holds), 0).astype(np.int32)
-    labels = names[pieces.labels]
-    return Segmentation(
-        labels,
-        np.where(labels > 0, pieces.thickness, 0.0),
-        int(holds.sum()),
-        np.concatenate([np.zeros(1, np.bool_), pieces.reaches_bottom[holds]]),
-    )
-
-
-@compiled
-def _find_room(labels, thickness, needed, wraps, holds):
-    nx, ny = labels.shape
-    deepest = needed.value.max()
-    for i in range(nx):
-        for j in range(ny):
-            own = labels[i, j]
-            if own == 0 or holds[own] or thickness[i, j] < deepest:
-                continue
-            room = True
-            for n in range(needed.x.size):
-                k, m, inside = _neighbour(i, j, needed, n, labels.shape, wraps)
-                if not inside or labels[k, m] != own or thickness[k, m] < needed.value[n]:
-                    room = False
-                    break
-            holds[own] = room

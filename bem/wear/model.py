@@ -32,7 +32,7 @@ class WearModel:
         is checked to be. A `WearCriterion` is a `Detachment` that compares an equivalent stress with the yield stress
         (`bem.wear.yielding.StressCriterion` is the protocol of that comparison). "von_mises" is the source's; "tresca"
         and "maximum_tension", too, let material leave where an equivalent stress exceeds the yield stress. These have
-        no length but the cell and a skin at the surface; "averaged_von_mises", "sphere", "junction" have one of the
+        no length but the cell and a skin at the surface; "averaged_von_mises" and "junction" have one of the
         material, "low_cycle_fatigue" counts passes. "archard", "archard_over_hardness" and "energy" wear by pressure
         and distance, without pieces.
     stress_range : judge half the change of stress that each body's material has seen since the last cycle instead of

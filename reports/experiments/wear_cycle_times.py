@@ -28,7 +28,6 @@ RESULT = Path(__file__).resolve().parents[1] / "results" / "wear_cycle_times.jso
 CRITERIA: dict[str, Any] = {
     "von_mises": "von_mises",
     "averaged_von_mises": "averaged_von_mises",
-    "sphere": "sphere",
     "junction": "junction",
     "low_cycle_fatigue": "low_cycle_fatigue",
     "averaged_fatigue": {"kind": "low_cycle_fatigue", "averaging_length": 300e-9},

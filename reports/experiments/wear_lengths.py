@@ -38,7 +38,6 @@ CYCLES, LAST = 60, 30
 CRITERIA: dict[str, tuple[Any, int, int]] = {
     "von_mises": ("von_mises", CYCLES, LAST),
     "averaged_von_mises": ("averaged_von_mises", CYCLES, LAST),
-    "sphere": ("sphere", CYCLES, LAST),
     "junction": ("junction", CYCLES, LAST),
     # a voxel bears some thousand passes: the steady state is reached later
     "low_cycle_fatigue": ("low_cycle_fatigue", 2 * CYCLES, 2 * LAST),

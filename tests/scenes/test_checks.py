@@ -201,8 +201,8 @@ CASES = {
         wear("wear.criterion=low_cycle_fatigue"),
     ),
     "few_cells_per_length_of_the_criterion": (
-        (wear('wear.criterion={kind="sphere", diameter="100 nm"}'), "100 nm, is 2 cells."),
-        wear('wear.criterion={kind="sphere", diameter="400 nm"}'),
+        (wear('wear.criterion={kind="averaged_von_mises", averaging_length="100 nm"}'), "100 nm, is 2 cells."),
+        wear('wear.criterion={kind="averaged_von_mises", averaging_length="400 nm"}'),
     ),
     "layer_of_one_depth": (
         (("wear-brass-transfer-film", 'depths.spacing="150 nm"'), "100 nm"),
@@ -699,7 +699,7 @@ def test_nothing_comes_off_and_why(criterion, words):
 @pytest.mark.internal
 def test_the_variant_of_which_nothing_comes_off_is_named():
     facts, check = facts_of("wear-criteria"), OUTCOME_CHECKS["nothing_comes_off"]
-    (told,) = check(facts, wear_outcome([CELL], particles_per_cycle=[3.0, 2.0, 1.0, 0.0, 1.0, 1.0]))
+    (told,) = check(facts, wear_outcome([CELL], particles_per_cycle=[3.0, 2.0, 0.0, 1.0, 1.0]))
     assert "A junction must be 426 nm wide" in told
 
 

@@ -103,15 +103,29 @@ def test_one_mistake_one_message(data, parts):
     assert "allowed" in found[0] or "must" in found[0] or "should" in found[0], found[0]
 
 
+SPHERE_REMOVED = 'the law "sphere" was removed; allowed: "averaged_von_mises" or "junction"'
+
+
 @pytest.mark.parametrize(
-    ("name", "setting", "said"),
-    [("stribeck-mineral-oil", "sharing.striated_exit=true", "sharing.striated_exit: removed; leave it out")],
+    ("name", "setting", "key", "said"),
+    [
+        ("stribeck-mineral-oil", "sharing.striated_exit=true", "sharing.striated_exit: ", "removed; leave it out"),
+        ("wear-steel-steel", "wear.criterion=sphere", "wear.criterion", SPHERE_REMOVED),
+        ("wear-steel-steel", 'wear.criterion={kind="sphere"}', "wear.criterion", SPHERE_REMOVED),
+        (
+            "wear-steel-steel",
+            'variants=[{name="one", criterion={kind="sphere", diameter="1 um"}}]',
+            "variants[0].criterion",
+            SPHERE_REMOVED,
+        ),
+    ],
 )
-def test_a_removed_key_says_what_to_do_instead(name, setting, said):
+def test_a_removed_key_says_what_to_do_instead(name, setting, key, said):
     with pytest.raises(InputError) as refused:
         load_scene(name, [setting])
     (message,) = refused.value.messages
-    assert message.startswith(said)
+    assert message.startswith(key)
+    assert said in message
 
 
 def test_all_mistakes_at_once():

@@ -157,7 +157,6 @@ def test_killed_several_times_it_ends_in_the_same_bits(scene_file, tmp_path):
         ('{ kind = "low_cycle_fatigue", passes = 30000 }', False),
         ('{ kind = "averaged_von_mises", averaging_length = "200 nm" }', True),
         ('{ kind = "averaged_von_mises", averaging_length = "100 nm" }', False),  # one and a half cells
-        ('{ kind = "sphere", diameter = "100 nm" }', False),
         ('{ kind = "junction", surface_energy = "0.045 J/m^2" }', True),
         ('{ kind = "junction", surface_energy = "0.02 J/m^2" }', False),  # d* is two cells
     ],
@@ -198,7 +197,6 @@ def test_one_variant_without_a_length_leaves_no_bars(tmp_path):
     ("criterion", "key"),
     [
         ('{ kind = "averaged_von_mises", averaging_length = "1 mm" }', "averaging_length"),
-        ('{ kind = "sphere", diameter = "1 m" }', "diameter"),
         ('{ kind = "low_cycle_fatigue", averaging_length = "1 mm" }', "averaging_length"),
     ],
 )
@@ -212,7 +210,7 @@ def test_a_criterion_that_is_not_one_is_named_before_any_work(scene_file):
     for text, words in (
         ('{ kind = "junction", surface_energy = "-1 J/m^2" }', "surface_energy"),
         ('{ kind = "junction", surface_energy = "1 N" }', "surface_energy"),
-        ('{ kind = "sphere", length = "1 nm" }', "length"),
+        ('{ kind = "averaged_von_mises", length = "1 nm" }', "length"),
         ('"grain"', "junction"),
     ):
         with pytest.raises(InputError, match=words):

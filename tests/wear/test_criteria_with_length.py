@@ -10,12 +10,12 @@ from bem import Body, Grid, InputError, Layer, Material, Status, generate_surfac
 from bem.contact.regions import count_spots, label_spots
 from bem.tangential import tangential_operator
 from bem.transforms import COUNT
-from bem.wear import Segmentation, WearModel
+from bem.wear import WearModel
 from bem.wear.contact_step import ContactOutcome
-from bem.wear.criterion import AveragedVonMises, Junction, LowCycleFatigue, Sphere
+from bem.wear.criterion import AveragedVonMises, Junction, LowCycleFatigue
 from bem.wear.damage import move_up
 from bem.wear.junctions import half_spheres, junctions
-from bem.wear.lengths import averaged, disc, pieces_holding_sphere
+from bem.wear.lengths import averaged, disc
 from bem.wear.loads import BodyCycle, SurfaceLoad
 from bem.wear.setup import WearSetup
 from bem.wear.yielding import YieldedStress
@@ -28,7 +28,6 @@ ARGUMENTS = dict(grid=GRID, bodies=(SOFT, HARD), load=2.2e-3, depths=DEPTHS, fri
 FATIGUE = {"kind": "low_cycle_fatigue", "passes": 2e4}
 CRITERIA = [
     {"kind": "averaged_von_mises", "averaging_length": 150e-9},
-    {"kind": "sphere", "diameter": 100e-9},
     {"kind": "junction", "surface_energy": 0.02},
     FATIGUE,
     FATIGUE | {"averaging_length": 150e-9, "passes": 2e5},
@@ -98,9 +97,7 @@ def test_pieces_of_a_film_end_at_its_interface(chosen):
     film = Material("film", youngs_modulus=88e9, poissons_ratio=0.3, hardness=1.8e9, yield_stress=0.5e9)
     coated = Body(HARD.material, layer=Layer(film, 100e-9))
     lower, upper = surfaces()
-    criterion = (
-        chosen | ({"passes": 1e6} if "passes" in chosen else {}) | ({"diameter": 9e-8} if "diameter" in chosen else {})
-    )
+    criterion = chosen | ({"passes": 1e6} if "passes" in chosen else {})
     result = run_in(lower, upper, cycles=4, criterion=criterion, **(ARGUMENTS | {"bodies": (coated, HARD)}))
     assert result.particles.size > 0
     assert result.particles["thickness"].max() <= 100e-9 * (1 + 1e-12)
@@ -112,7 +109,8 @@ def test_pieces_of_a_film_end_at_its_interface(chosen):
         ({"kind": "junction", "surface_energy": -1}, "surface_energy"),
         ({"kind": "averaged_von_mises", "averaging_length": 0.0}, "length"),
         ({"kind": "low_cycle_fatigue", "exponent": 1.5}, "exponent"),
-        ({"kind": "sphere", "radius": 1e-7}, "radius"),
+        ({"kind": "averaged_von_mises", "radius": 1e-7}, "radius"),
+        ({"kind": "sphere", "diameter": 1e-7}, "'sphere' was removed; use 'averaged_von_mises'"),
         ("junctions", "did you mean 'junction'"),
     ],
 )
@@ -125,9 +123,8 @@ def test_bad_parameters_are_named(chosen, words):
 @pytest.mark.internal
 def test_a_length_larger_than_the_grid_is_refused():
     lower, upper = surfaces()
-    for law in (AveragedVonMises(averaging_length=1e-3), Sphere(diameter=1e-3)):
-        with pytest.raises(InputError, match="more than half of the grid"):
-            run_in(lower, upper, cycles=1, criterion=law, **ARGUMENTS)
+    with pytest.raises(InputError, match="more than half of the grid"):
+        run_in(lower, upper, cycles=1, criterion=AveragedVonMises(averaging_length=1e-3), **ARGUMENTS)
 
 
 # averaged over a disc
@@ -174,72 +171,6 @@ def test_an_average_over_less_than_a_cell_changes_nothing():
     plain = run_in(lower, upper, cycles=3, **ARGUMENTS)
     tiny = run_in(lower, upper, cycles=3, criterion=AveragedVonMises(averaging_length=1e-9), **ARGUMENTS)
     assert np.array_equal(plain.lower_heights, tiny.lower_heights)
-
-
-# a sphere has room
-
-
-@pytest.mark.internal
-@settings(deadline=None, max_examples=25)
-@given(seed=st.integers(0, 10**6), diameter=st.floats(0.6, 4.5))
-def test_pieces_that_hold_a_sphere_are_those_of_a_search_over_every_place(seed, diameter):
-    """Every cell is tried as the middle of a sphere at several depths, cell by cell of the sphere."""
-    rng, shape = np.random.default_rng(seed), (16, 12)
-    labels = np.zeros(shape, np.int32)
-    labels[1:9, 1:8], labels[10:15, 6:12], labels[10:15, 0:2] = 1, 2, 2  # the second goes on across the edge along y
-    thickness = np.where(labels > 0, rng.uniform(0.3, 1.6, shape) * diameter, 0.0)
-    thickness[3:7, 2:7] *= 1.5
-    pieces = Segmentation(labels, thickness, 2, np.array([False, True, False]))
-    found = pieces_holding_sphere(pieces, Grid(shape, (1.0, 1.0), periodic=(False, True)), diameter)
-    radius, expected = diameter / 2, []
-    for name in (1, 2):
-        x, y = np.arange(-3, 4)[:, None], np.arange(-3, 4)[None, :]
-        half = np.sqrt(np.maximum(radius**2 - x**2 - y**2, 0))
-        inside = x**2 + y**2 < radius**2
-        room = False
-        for i, j in np.argwhere(labels == name):
-            rows, columns = i + x, (j + y) % shape[1]
-            outside = (rows < 0) | (rows >= shape[0])
-            there = np.where(outside | (labels[rows % 16, columns] != name), -1.0, thickness[rows % 16, columns])
-            room |= any((there - depth - half)[inside].min() >= 0 for depth in (radius, 1.2 * radius, 1.5 * radius))
-        expected.append(room)
-    assert found.count == sum(expected)
-    assert [bool((found.thickness[labels == name] > 0).all()) for name in (1, 2)] == expected
-    assert list(found.reaches_bottom[1:]) == [
-        bottom for bottom, kept in zip((True, False), expected, strict=True) if kept
-    ]
-
-
-@pytest.mark.internal
-@pytest.mark.parametrize("axis", [0, 1])
-@pytest.mark.parametrize("end", [slice(0, 6), slice(-6, None)], ids=["first cells", "last cells"])
-def test_a_sphere_does_not_reach_beyond_a_free_edge(axis, end):
-    """A sphere of 8 cells across needs 7 cells of full depth: a strip of 6 at an edge holds it only with a seventh,
-    beside it or, on a periodic grid, behind the edge."""
-    shape = (16, 16)
-
-    def holds(periodic, *more):
-        labels = np.zeros(shape, np.int32)
-        for part in (end, *more):
-            np.moveaxis(labels, axis, 0)[part] = 1
-        pieces = Segmentation(labels, 8.0 * labels, 1, np.zeros(2, np.bool_))
-        wraps = (periodic, True) if axis == 0 else (True, periodic)
-        return pieces_holding_sphere(pieces, Grid(shape, (1.0, 1.0), periodic=wraps), 8.0).count == 1
-
-    beside, behind = (slice(6, 7), slice(-1, None)) if end.start == 0 else (slice(-7, -6), slice(0, 1))
-    assert [holds(periodic) for periodic in (False, True)] == [False, False]
-    assert [holds(periodic, beside) for periodic in (False, True)] == [True, True]
-    assert [holds(periodic, behind) for periodic in (False, True)] == [False, True]
-
-
-@pytest.mark.internal
-def test_small_pieces_stay_and_large_ones_leave_as_they_are():
-    lower, upper = surfaces()
-    every = run_in(lower, upper, cycles=1, **ARGUMENTS).particles
-    large = run_in(lower, upper, cycles=1, criterion=Sphere(diameter=220e-9), **ARGUMENTS).particles
-    assert 0 < large.size < every.size
-    assert set(large["volume"]) < set(every["volume"])
-    assert large["thickness"].min() >= 220e-9
 
 
 # junctions

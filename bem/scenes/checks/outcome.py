@@ -333,14 +333,12 @@ def _how_far(case: Case, stress: float) -> str:
 def _what_it_takes(case: Case) -> str:
     if case.wear is None:
         return ""
-    from bem.wear.criterion import Junction, LowCycleFatigue, Sphere
+    from bem.wear.criterion import Junction, LowCycleFatigue
 
     law = case.wear.criterion
     if isinstance(law, Junction):
         size = min(law.critical_size(material) for material in case.wearing)
         return f"A junction must be {si(size, 'm')} wide, d* of its surface_energy and strength_ratio."
-    if isinstance(law, Sphere):
-        return f"A piece must hold a sphere of {si(law.diameter, 'm')}."
     if isinstance(law, LowCycleFatigue):
         return "Voxels still have life left: take more cycles.count or passes."
     return ""

@@ -2,7 +2,7 @@
 
 To add a criterion of stress, derive from `WearCriterion`, define its `equivalent_stress` and register it, here or in a
 file of your own. A criterion that needs more than the stress point by point, or has a memory, defines its own `detach`:
-`averaged`, `sphere`, `fatigue`. A criterion without stress derives from `Detachment`: `junction`, and `local` wear,
+`averaged`, `fatigue`. A criterion without stress derives from `Detachment`: `junction`, and `local` wear,
 which has no pieces. The compiled loops are in `bem.wear` and are loaded when they run. Knows bodies, stresses and
 grids; no contact, no cycle.
 
@@ -14,7 +14,6 @@ from bem.wear.criterion.base import Detachment, WearCriterion
 from bem.wear.criterion.fatigue import LowCycleFatigue
 from bem.wear.criterion.junction import Junction
 from bem.wear.criterion.local import Archard, ArchardOverHardness, EnergyWear, LocalWear
-from bem.wear.criterion.sphere import Sphere
 from bem.wear.criterion.stresses import MaximumTension, Tresca, VonMises, principal_stresses
 
 __all__ = [
@@ -27,7 +26,6 @@ __all__ = [
     "LocalWear",
     "LowCycleFatigue",
     "MaximumTension",
-    "Sphere",
     "Tresca",
     "VonMises",
     "WearCriterion",
