@@ -59,9 +59,9 @@ lint: setup
 	$(BIN)/numpydoc lint $$(git ls-files 'bem/*.py')
 
 # Renews the stored figures of tests/golden and prints what moved beyond its tolerance. The commit must say why it moved.
-# One group only: make golden GROUP=films. How far figures follow rounding: $(BIN)/python -m reports.golden --spread.
+# One group only: make golden GROUP=films, one case of it: CASE=name. How far figures follow rounding: $(BIN)/python -m reports.golden --spread.
 golden: setup
-	$(BIN)/python -m reports.golden $(if $(GROUP),--only $(GROUP))
+	$(BIN)/python -m reports.golden $(if $(GROUP),--only $(GROUP)) $(if $(CASE),--case $(CASE))
 
 bench: setup
 	$(BIN)/bem bench

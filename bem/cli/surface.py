@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
-    from bem.surfaces import Surface
+    from bem.surfaces import SelfAffineFit, Surface
 
 FileArgument = Annotated[
     Path,
@@ -129,10 +129,19 @@ def describe(
         import json as writer
         import math
 
-        from bem.surfaces import describe_surface
+        from bem.surfaces import describe_asperities, describe_surface, material_ratio
 
         described = describe_surface(surface.heights, surface.spacing, periodic=_periodic(surface))
-        figures = {k: None if math.isnan(v) else v for k, v in dataclasses.asdict(described).items()}
+        values = dataclasses.asdict(described)
+        curve = material_ratio(surface.heights)
+        values |= {name: getattr(curve, name) for name in ("Sk", "Spk", "Svk", "Smr1", "Smr2")}
+        fit = _self_affine(surface)
+        if fit is not None:
+            values |= {f"spectrum_{name}": value for name, value in dataclasses.asdict(fit).items()}
+        if min(surface.shape) >= 3:
+            asperities = describe_asperities(surface, periodic=_periodic(surface))
+            values |= {f"asperity_{name}": value for name, value in dataclasses.asdict(asperities).items()}
+        figures = {k: None if math.isnan(v) else v for k, v in values.items()}
         shape = {"file": str(file), "shape": surface.shape, "spacing": surface.spacing}
         print(writer.dumps({**shape, **figures, "metadata": dict(surface.metadata)}, default=str, ensure_ascii=False))
         return
@@ -219,6 +228,7 @@ def _show(surface: Surface, name: str) -> None:
         ("Sdq, rms slope", f"{d.Sdq:.4g}"),
         ("autocorrelation length, x", metres(d.autocorrelation_length_x)),
         ("autocorrelation length, y", metres(d.autocorrelation_length_y)),
+        *_functional_rows(surface),
     ]
     for key, words in (("missing_points", "points filled"), ("spikes", "spikes taken out")):
         if surface.metadata.get(key):
@@ -230,3 +240,53 @@ def _show(surface: Surface, name: str) -> None:
             f"{spikes} points stand out of their neighbourhood by more than 6 standard deviations: spikes of the "
             "instrument? --despike 6 removes them."
         )
+
+
+def _self_affine(surface: Surface) -> SelfAffineFit | None:
+    """Return the self-affine fit of a surface's spectrum; None of maps too small or too smooth for one."""
+    from bem.errors import InputError
+    from bem.surfaces import fit_self_affine, radial_spectrum
+
+    try:
+        return fit_self_affine(radial_spectrum(surface.heights, surface.spacing, periodic=_periodic(surface)))
+    except InputError:
+        return None
+
+
+def _functional_rows(surface: Surface) -> list[tuple[str, str]]:
+    """Return rows on the material ratio curve, the asperities and the spectrum."""
+    import math
+
+    from bem.quantities import si
+    from bem.surfaces import describe_asperities, material_ratio
+
+    if surface.heights.size < 10 or not float(surface.heights.max()) > float(surface.heights.min()):
+        return []
+    curve = material_ratio(surface.heights)
+    rows = [
+        ("Sk, core height", si(curve.Sk, "m", digits=4)),
+        ("Spk, reduced peak height", si(curve.Spk, "m", digits=4)),
+        ("Svk, reduced valley depth", si(curve.Svk, "m", digits=4)),
+        ("Smr1, Smr2, material ratios of the core", f"{curve.Smr1:.1%}, {curve.Smr2:.1%}"),
+    ]
+    if min(surface.shape) >= 3:
+        asperities = describe_asperities(surface, periodic=_periodic(surface))
+        if math.isfinite(asperities.radius):
+            rows += [
+                ("asperities per mm² (summits of cells)", f"{asperities.density * 1e-6:.4g}"),
+                ("asperity radius, mean", si(asperities.radius, "m", digits=4)),
+                ("asperity heights, standard deviation", si(asperities.rms_height, "m", digits=4)),
+            ]
+        rows.append(("bandwidth, Nayak's alpha", f"{asperities.bandwidth:.4g}"))
+    fit = _self_affine(surface)
+    if fit is not None:
+        decades = f"{fit.misfit:.2f} decades off at rms"
+        between = f"{si(fit.shortest_wavelength, 'm', digits=3)} to {si(fit.longest_wavelength, 'm', digits=3)}"
+        if 0 < fit.hurst < 1:
+            rows.append(("Hurst exponent", f"{fit.hurst:.2f} ± {fit.hurst_error:.2f} ({between}; {decades})"))
+        else:
+            slope = -2 * (1 + fit.hurst)
+            rows.append(("spectrum", f"not self-affine: falls with wavenumber to the power {slope:.1f} ({between})"))
+        if math.isfinite(fit.rolloff_wavelength):
+            rows.append(("roll-off wavelength", si(fit.rolloff_wavelength, "m", digits=3)))
+    return rows

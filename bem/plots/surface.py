@@ -1,4 +1,4 @@
-"""A surface on one sheet: heights, their distribution, autocorrelation, spectrum."""
+"""A surface on one sheet: heights, their distribution, material ratio, autocorrelation, spectrum."""
 
 from __future__ import annotations
 
@@ -6,9 +6,19 @@ from pathlib import Path
 
 import numpy as np
 
+from bem.errors import InputError
 from bem.plots.style import BLACK, BLUE, VERMILION, label, map_of_heights, prefix, style
 from bem.results.atomic import replacing
-from bem.surfaces import Surface, autocorrelation, describe_surface, radial_spectrum
+from bem.surfaces import (
+    RadialSpectrum,
+    SelfAffineFit,
+    Surface,
+    autocorrelation,
+    describe_surface,
+    fit_self_affine,
+    material_ratio,
+    radial_spectrum,
+)
 
 
 def draw_surface(surface: Surface, path: Path, *, periodic: tuple[bool, bool] = (False, False)) -> Path:
@@ -25,9 +35,10 @@ def draw_surface(surface: Surface, path: Path, *, periodic: tuple[bool, bool] = 
     grid = surface.grid()
     described = describe_surface(heights, surface.spacing, periodic=periodic)
     with style():
-        figure = Figure(figsize=(8.0, 6.0), layout="constrained")
+        figure = Figure(figsize=(11.0, 6.0), layout="constrained")
         FigureCanvasAgg(figure)
-        map_axes, height_axes, correlation_axes, spectrum_axes = figure.subplots(2, 2).ravel()
+        sheet = figure.subplots(2, 3).ravel()
+        map_axes, height_axes, ratio_axes, correlation_axes, spectrum_axes, text_axes = sheet
         map_of_heights(figure, map_axes, grid.x, grid.y, heights)
         map_axes.set_title(str(surface.metadata.get("file", "")))
 
@@ -42,10 +53,20 @@ def draw_surface(surface: Surface, path: Path, *, periodic: tuple[bool, bool] = 
             height_axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0))
         height_axes.set_xlabel(label("height", unit))
         height_axes.set_ylabel(f"probability density (1/{unit or 'm'})")
-        shown = f"Sq {described.Sq * factor:.3g} {unit}\nSsk {described.Ssk:.2f}\nSku {described.Sku:.2f}"
-        height_axes.text(
-            0.98, 0.97, f"{shown}\nSdq {described.Sdq:.3g}", transform=height_axes.transAxes, ha="right", va="top"
-        )
+
+        ratio = material_ratio(heights)
+        ratios, sorted_heights = ratio.thinned()
+        ratio_axes.plot(100 * ratios, sorted_heights * factor, color=BLUE)
+        if ratio.Sk > 0:
+            ratio_axes.plot([0, 100], [z * factor for z in ratio.core], color=VERMILION, linewidth=0.9, label="core")
+            ratio_axes.legend()
+        ratio_axes.set_xlim(0, 100)
+        ratio_axes.set_xlabel("material ratio (%)")
+        ratio_axes.set_ylabel(label("height", unit))
+        shown = [f"{name} = {getattr(described, name) * factor:.3g} {unit}" for name in ("Sq", "Sa", "Sz")]
+        shown += [f"{name} = {getattr(described, name):.3g}" for name in ("Ssk", "Sku", "Sdq")]
+        shown += [f"{name} = {getattr(ratio, name) * factor:.3g} {unit}" for name in ("Sk", "Spk", "Svk")]
+        shown += [f"{name} = {getattr(ratio, name):.1%}" for name in ("Smr1", "Smr2")]
 
         factor, unit = prefix([0.5 * side for side in surface.lengths], "m")
         for axis, colour in ((0, BLUE), (1, VERMILION)):
@@ -62,10 +83,25 @@ def draw_surface(surface: Surface, path: Path, *, periodic: tuple[bool, bool] = 
             spectrum = radial_spectrum(heights, surface.spacing, periodic=periodic)
             seen = spectrum.density > 1e-20 * spectrum.density.max()
             spectrum_axes.loglog(spectrum.wavenumber[seen] * 1e-6, spectrum.density[seen] * 1e24, color=BLUE)
+            fit = _self_affine(spectrum)
+            if fit is not None:
+                q = spectrum.wavenumber[spectrum.wavenumber <= 2 * np.pi / fit.shortest_wavelength * (1 + 1e-9)]
+                name = f"H = {fit.hurst:.2f} ± {fit.hurst_error:.2f}" if 0 < fit.hurst < 1 else "not self-affine"
+                spectrum_axes.loglog(q * 1e-6, fit.at(q) * 1e24, "--", color=VERMILION, linewidth=1.0, label=name)
+                spectrum_axes.legend()
             spectrum_axes.set_xlabel("wavenumber (rad/µm)")
             spectrum_axes.set_ylabel("power spectral density (µm⁴)")
         else:
             spectrum_axes.set_axis_off()
+        text_axes.set_axis_off()
+        text_axes.text(0.05, 0.97, "\n".join(shown), transform=text_axes.transAxes, va="top")
         with replacing(path) as temporary:
             figure.savefig(temporary, format=path.suffix[1:].lower())
     return path
+
+
+def _self_affine(spectrum: RadialSpectrum) -> SelfAffineFit | None:
+    try:
+        return fit_self_affine(spectrum)
+    except InputError:  # too few rings for a slope
+        return None

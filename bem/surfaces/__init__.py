@@ -2,7 +2,8 @@
 
 `generate` makes heights of a `spectrum` (`request` checks what is asked, `moments` imposes skewness and kurtosis),
 `processes` are statistics by how a surface is made, `marks` what a tool leaves, `read` opens an instrument's file by
-its `formats`, `filter` levels, despikes, fills, cuts and resamples, `seams` makes a map periodic, `describe` measures;
+its `formats`, `filter` levels, despikes, fills, cuts and resamples, `seams` makes a map periodic, `describe` measures,
+with `material_ratio` (Abbott curve), `self_affine` (Hurst exponent) and `asperities` (summits, plasticity indices);
 `examples` are two maps of our own.
 Names are loaded when first used: planning a contact of smooth bodies costs no transforms and no splines.
 
@@ -15,6 +16,12 @@ from typing import TYPE_CHECKING
 from bem.startup.lazy import loader
 
 if TYPE_CHECKING:
+    from bem.surfaces.asperities import (
+        AsperityStatistics,
+        describe_asperities,
+        plasticity_index,
+        slope_plasticity_index,
+    )
     from bem.surfaces.describe import (
         RadialSpectrum,
         SurfaceDescription,
@@ -37,16 +44,21 @@ if TYPE_CHECKING:
     from bem.surfaces.formats import SurfaceFormat
     from bem.surfaces.generate import generate_surface
     from bem.surfaces.marks import cross_hatch, feed_marks, hatch_angle
+    from bem.surfaces.material_ratio import MaterialRatio, material_ratio
     from bem.surfaces.processes import PROCESSES, Process
     from bem.surfaces.read import read_surface, write_surface
     from bem.surfaces.seams import close_seams
+    from bem.surfaces.self_affine import SelfAffineFit, fit_self_affine
     from bem.surfaces.surface import Surface
 
 __all__ = [
     "PROCESSES",
+    "AsperityStatistics",
+    "MaterialRatio",
     "MirrorWarning",
     "Process",
     "RadialSpectrum",
+    "SelfAffineFit",
     "Surface",
     "SurfaceDescription",
     "SurfaceFormat",
@@ -54,26 +66,34 @@ __all__ = [
     "close_seams",
     "crop",
     "cross_hatch",
+    "describe_asperities",
     "describe_surface",
     "despike",
     "detrend",
     "feed_marks",
     "fill_missing",
+    "fit_self_affine",
     "generate_surface",
     "hatch_angle",
     "high_pass",
     "low_pass",
+    "material_ratio",
     "mirror_to_periodic",
+    "plasticity_index",
     "radial_spectrum",
     "read_surface",
     "resample",
     "scale_to_rms",
+    "slope_plasticity_index",
     "write_surface",
 ]
 
 __getattr__ = loader(
     __name__,
     {
+        "asperities": ["AsperityStatistics", "describe_asperities", "plasticity_index", "slope_plasticity_index"],
+        "material_ratio": ["MaterialRatio", "material_ratio"],
+        "self_affine": ["SelfAffineFit", "fit_self_affine"],
         "describe": ["RadialSpectrum", "SurfaceDescription", "autocorrelation", "describe_surface", "radial_spectrum"],
         "filter": [
             "MirrorWarning",

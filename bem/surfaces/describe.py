@@ -79,7 +79,7 @@ def describe_surface(
         deviation = np.zeros_like(heights)
         rms = 0.0
     unit = deviation if flat else deviation / rms
-    slopes = [_rms_slope(deviation, spacing, periodic, axis) for axis in (0, 1)]
+    slopes = rms_slopes(deviation, spacing, periodic)
     lengths = [_decay(unit, spacing, periodic, axis, level) for level in (math.exp(-1), 0.2) for axis in (0, 1)]
     return SurfaceDescription(
         Sq=rms,
@@ -87,7 +87,7 @@ def describe_surface(
         Sz=float(np.ptp(heights)),
         Ssk=math.nan if flat else float(np.mean(unit**3)),
         Sku=math.nan if flat else float(np.mean(unit**4)),
-        Sdq=math.sqrt(sum(s * s for s in slopes if not math.isnan(s))),
+        Sdq=rms_slope(slopes),
         slope_x=slopes[0],
         slope_y=slopes[1],
         autocorrelation_length_x=lengths[0],
@@ -95,6 +95,18 @@ def describe_surface(
         decay_length_x=lengths[2],
         decay_length_y=lengths[3],
     )
+
+
+def rms_slopes(
+    heights: FloatArray, spacing: tuple[float, float], periodic: tuple[bool, bool] = (False, False)
+) -> tuple[float, float]:
+    """Return the rms slopes along x and y from differences of neighbouring cells; nan where an axis has one cell."""
+    return _rms_slope(heights, spacing, periodic, 0), _rms_slope(heights, spacing, periodic, 1)
+
+
+def rms_slope(slopes: tuple[float, float]) -> float:
+    """Return the rms gradient sqrt(slope_x^2 + slope_y^2); an axis of one cell (nan) does not count."""
+    return math.sqrt(sum(slope * slope for slope in slopes if not math.isnan(slope)))
 
 
 def autocorrelation(heights: FloatArray, axis: int, *, periodic: bool = False) -> FloatArray:

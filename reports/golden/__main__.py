@@ -10,7 +10,7 @@ from collections.abc import Sequence
 from reports.golden import memory
 from reports.golden.groups import GROUPS, run_case
 from reports.golden.record import Record, Trial
-from reports.golden.stored import Difference, store
+from reports.golden.stored import Difference, store, stored
 from reports.golden.tolerances import allowed
 
 TRIALS = {"last digits": Trial(nudge=1e-12), "tolerance / 10": Trial(tighter=0.1)}
@@ -25,8 +25,16 @@ def main(arguments: Sequence[str] | None = None) -> None:
     """Run the command; see `python -m reports.golden --help`."""
     parser = argparse.ArgumentParser(prog="python -m reports.golden", description=__doc__)
     parser.add_argument("--only", action="append", choices=[*GROUPS, MEMORY], help="a group; all where none is given")
+    parser.add_argument(
+        "--case", action="append", help="a case of the one group that --only names; all if none is given"
+    )
     parser.add_argument("--spread", action="store_true", help="measure how far figures follow rounding; store nothing")
     given = parser.parse_args(arguments)
+    if given.case and (not given.only or len(given.only) > 1 or given.only == [MEMORY]):
+        parser.error("--case needs the one group that it is of: --only GROUP")
+    unknown = [case for case in given.case or () if case not in GROUPS[given.only[0]]()]
+    if unknown:
+        parser.error(f"--case: {', '.join(unknown)} is not in group {given.only[0]}")
     for group in given.only or [*GROUPS, MEMORY]:
         if group == MEMORY:
             if not given.spread:
@@ -34,14 +42,14 @@ def main(arguments: Sequence[str] | None = None) -> None:
         elif given.spread:
             show_spread(group)
         else:
-            renew(group)
+            renew(group, given.case)
 
 
-def renew(group: str) -> None:
-    """Run the cases of a group, store what moved and print it."""
+def renew(group: str, cases: Sequence[str] | None = None) -> None:
+    """Run cases of a group, all if none are named, store what moved and print it."""
     start = time.process_time()
-    records = {case: _run(group, case, Trial()) for case in GROUPS[group]()}
-    moved = store(group, records)
+    records = {case: _run(group, case, Trial()) for case in cases or GROUPS[group]()}
+    moved = store(group, records if cases is None else stored(group) | records)
     print(f"{group}: {len(records)} cases, {time.process_time() - start:.0f} s of processor time, {len(moved)} moved")
     print_table(moved)
 

@@ -308,3 +308,23 @@ def test_coatings_have_depths_and_stresses_by_layer_and_interface():
     assert not has_code(scene_warnings(examine(scene)), DEPTHS_MISS_STRESS)
     _, plain, _ = run("hertz-sphere", ["grid.shape=32", 'outputs={"stresses" = true, "errors" = false}'])
     assert "interface_depth_m" not in plain.summary
+
+
+def test_an_elastic_patch_lies_between_the_theories_of_contact_area():
+    """Area over reduced pressure: above Persson's sqrt(8/pi), below sqrt(2 pi) of Bush, Gibson and Thomas."""
+    surface = {"kind": "generated", "rms_height": "100 nm", "hurst": 0.8, "rolloff_wavelength": "8 um"}
+    surface["cutoff_wavelength"] = "4 um"  # eight cells a wave
+    data = rough(lower={"surface": surface}, contact={"behaviour": "elastic", "mean_pressure": "60 MPa"})
+    data["outputs"] = {"von_mises": False}
+    scene, outcome, _ = run(data)
+    summary, bodies = outcome.summary, (scene.lower.build(), scene.upper.build())
+    modulus, slope = contact_modulus(bodies[0].material, bodies[1].material), summary["combined_Sdq"]
+    hardness = min(body.material.indentation_hardness for body in bodies)
+    assert summary["slope_plasticity_index"] == pytest.approx(modulus / hardness * slope, rel=1e-9)
+    ratio = summary["contact_area_fraction"] / summary["reduced_pressure"]
+    assert np.sqrt(8 / np.pi) < ratio < np.sqrt(2 * np.pi)
+
+
+def test_smooth_bodies_have_no_roughness_figures():
+    _, outcome, _ = run("hertz-sphere", ["grid.shape=48", "outputs.stresses=false"])
+    assert not {"combined_Sdq", "reduced_pressure", "plasticity_index"} & set(outcome.summary)

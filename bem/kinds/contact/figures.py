@@ -2,14 +2,17 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
 from matplotlib.colors import BoundaryNorm, ListedColormap
 from matplotlib.figure import Figure
 from matplotlib.patches import Patch
-from matplotlib.ticker import MaxNLocator
+from matplotlib.ticker import MaxNLocator, NullFormatter
 
+from bem.contact.regions import label_spots
+from bem.grid import Grid
 from bem.numerics.blocks import deviation
 from bem.plots.figures import FigureKind, wide_enough
 from bem.plots.figures.pressure import in_contact
@@ -132,6 +135,71 @@ def _convergence(run: Any, figure: Figure) -> None:
     axes.xaxis.set_major_locator(MaxNLocator(integer=True))
 
 
+def _area_over_load(run: Any, figure: Figure) -> None:
+    """All cases, over the nominal pressure made dimensionless; a bar ends at the case's own error."""
+    pressure = np.ravel(_array(run, "reduced_pressure"))
+    area = np.ravel(_array(run, "contact_area_fraction"))
+    axes = figure.add_subplot()
+    known = np.isfinite(pressure) & (area > 0)
+    reach = np.geomspace(0.3 * pressure[known].min(), 3.0 * pressure[known].max(), 200)
+    persson = [math.erf(math.sqrt(2.0) * value) for value in reach]
+    axes.loglog(reach, persson, color=BLACK, label="Persson: erf(√2 p / (E* h′))")
+    bush = math.sqrt(2 * math.pi) * reach
+    axes.loglog(reach[bush < 1], bush[bush < 1], "--", color="0.5", label="Bush, Gibson, Thomas: √(2π) p / (E* h′)")
+    error = (
+        np.ravel(_array(run, "contact_area_fraction_error")) if "contact_area_fraction_error" in run.dataset else None
+    )
+    axes.errorbar(
+        pressure[known],
+        area[known],
+        yerr=None if error is None else np.nan_to_num(error[known]),
+        fmt="o",
+        markersize=4,
+        capsize=2,
+        color=BLUE,
+        label="this run",
+    )
+    axes.set_xlabel("nominal pressure p / (E* × rms slope h′)")
+    axes.set_ylabel("contact area fraction")
+    axes.set_ylim(top=1.5)
+    axes.legend(loc="upper left")
+
+
+def _has_pressures(run: Any) -> bool:
+    return bool(np.any(np.isfinite(_array(run, "reduced_pressure")) & (_array(run, "contact_area_fraction") > 0)))
+
+
+_FEWEST_SPOTS = 10
+
+
+def _spot_sizes(run: Any, figure: Figure) -> None:
+    """Number of spots of at least an area over that area, for all spots of contact."""
+    x, y = _array(run, "x"), _array(run, "y")
+    cell = float(x[1] - x[0]) * float(y[1] - y[0])
+    periodic = run.scene.get("grid", {}).get("periodic", False)
+    sides = tuple(periodic) if isinstance(periodic, list | tuple) else (bool(periodic), bool(periodic))
+    labels = label_spots(_array(run, "pressure"), Grid((len(x), len(y)), (1.0, 1.0), periodic=sides))
+    areas = np.sort(np.bincount(labels.ravel())[1:]) * cell
+    factor, unit = (1e12, "µm²") if areas[-1] < 1e-6 else (1e6, "mm²")
+    axes = figure.add_subplot()
+    axes.step(areas * factor, np.arange(areas.size, 0, -1), where="pre", color=BLUE)
+    axes.axvspan(0.5 * cell * factor, 12 * cell * factor, color="0.9", label="under four cells across")
+    axes.set_xscale("log")
+    axes.set_yscale("log")
+    axes.set_xlim(left=0.8 * cell * factor)
+    for axis in (axes.xaxis, axes.yaxis):
+        axis.set_minor_formatter(NullFormatter())
+    axes.set_xlabel(label("area of a spot", unit))
+    axes.set_ylabel("spots at least as large")
+    axes.legend(loc="upper right")
+
+
+def _many_spots(run: Any) -> bool:
+    """Return True if there are spots enough for a distribution."""
+    spots = run.summary.get("contact_spots")
+    return wide_enough(run) and (max(spots) if isinstance(spots, list) else spots or 0) >= _FEWEST_SPOTS
+
+
 def _surfaces(run: Any, figure: Figure) -> None:
     names = [name for name in ("lower_height", "upper_height") if name in run.dataset]
     figure.set_size_inches(3.9 * len(names), figure.get_figheight())  # of one the other half was empty
@@ -179,6 +247,25 @@ FIGURES = (
     ),
     FigureKind(
         "convergence", "Residual of the contact solver.", ("iteration", "residual_history"), _convergence, (5.0, 3.2)
+    ),
+    FigureKind(
+        "area-over-load",
+        "Contact area over the nominal pressure, divided by contact modulus and rms slope of both surfaces together, "
+        "beside the theories of Persson (J. Chem. Phys. 115, 2001) and of Bush, Gibson and Thomas (Wear 35, 1975) for "
+        "elastic bodies. The slope is that of neighbouring cells. Contact at the hardness lies below the lines.",
+        ("reduced_pressure", "contact_area_fraction"),
+        _area_over_load,
+        (5.4, 4.2),
+        _has_pressures,
+        all_cases=True,
+    ),
+    FigureKind(
+        "spot-sizes",
+        "Sizes of the separate spots of contact: how many are at least as large. The smallest follow the grid.",
+        ("x", "y", "pressure"),
+        _spot_sizes,
+        (5.0, 3.6),
+        _many_spots,
     ),
     FigureKind(
         "surface-maps",

@@ -28,6 +28,8 @@ KIND = Kind(
         "pressure-histogram",
         "von-mises-section",
         "von-mises-depth",
+        "area-over-load",
+        "spot-sizes",
         "convergence",
         "surface-maps",
     ),

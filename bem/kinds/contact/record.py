@@ -45,6 +45,19 @@ class ContactRecord(GridRecord):
     convolutions: Annotated[float, Figure("", "convolutions", unjudged=True)]
     lower_Sq: Annotated[float | None, Figure("m", "Sq of the lower surface", optional=True, unjudged=True)] = None
     upper_Sq: Annotated[float | None, Figure("m", "Sq of the upper surface", optional=True, unjudged=True)] = None
+    combined_Sdq: Annotated[
+        float | None, Figure("", "rms slope of both surfaces together", optional=True, unjudged=True)
+    ] = None
+    reduced_pressure: Annotated[
+        float | None,
+        Figure("", "nominal pressure over contact modulus and rms slope", optional=True, unjudged=True),
+    ] = None
+    plasticity_index: Annotated[
+        float | None, Figure("", "plasticity index of Greenwood and Williamson", optional=True, unjudged=True)
+    ] = None
+    slope_plasticity_index: Annotated[
+        float | None, Figure("", "plasticity index of Mikic, by the rms slope", optional=True, unjudged=True)
+    ] = None
     max_von_mises: Annotated[float | None, Figure("Pa", "maximum von Mises stress", optional=True, headline=True)] = (
         None
     )

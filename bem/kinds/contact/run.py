@@ -14,6 +14,7 @@ from bem.kinds.contact.errors import bars_of
 from bem.kinds.contact.record import ContactRecord
 from bem.kinds.contact.scene import ContactScene
 from bem.kinds.contact.solve import solve_scene
+from bem.materials import softer_hardness
 from bem.notes import Level, Note, has_code
 from bem.notes.contact import CONTACT_AT_EDGE
 from bem.notes.scenes import BODIES_APART
@@ -39,6 +40,7 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
     undeformed = build.undeformed_gap(scene, grid, lower, upper)
     rough = {name: heights for name, heights in (("lower", lower), ("upper", upper)) if heights.any()}
     roughness: dict[str, Any] = {f"{name}_Sq": deviation(heights) for name, heights in rough.items()}
+    roughness |= _combined_roughness(scene, grid, lower, upper)
     rough = {name: set_aside(context, heights) for name, heights in rough.items()}
     del lower, upper
     with context.timer("contact"):
@@ -50,6 +52,9 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
         with context.timer("stresses"):
             below = _stresses(scene, grid, solution.pressure, context)
     wanted = scene.outputs.errors and solution.status is Status.CONVERGED
+    if "combined_Sdq" in roughness and scene.shape.kind == "flat":
+        pressed = build.modulus_of(scene) * roughness["combined_Sdq"] * grid.area
+        roughness["reduced_pressure"] = float(solution.load) / pressed
     errors = error_bars(context, wanted, lambda: bars_of(scene, undeformed, solution, below, rough, context))
     figures: dict[str, Any] = figures_of(solution, grid.area) | counted_figures(solution, grid)
     return ContactRecord(
@@ -76,6 +81,29 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
         status=solution.status,
         where=f"contact solve: {solution.status.message}, residual {solution.residual:.2g}",
     )
+
+
+def _combined_roughness(scene: ContactScene, grid: Grid, lower: FloatArray, upper: FloatArray) -> dict[str, Any]:
+    """Return slope and plasticity indices of both surfaces' roughness together; none of smooth or single-row surfaces.
+
+    Coatings do not enter: the modulus is that of the substrates.
+    """
+    from bem.surfaces.asperities import describe_asperities, plasticity_index, slope_plasticity_index
+    from bem.surfaces.describe import rms_slope, rms_slopes
+
+    if min(grid.shape) < 3 or not (lower.any() or upper.any()):
+        return {}
+    combined = lower + upper if lower.any() and upper.any() else lower if lower.any() else upper
+    slope = rms_slope(rms_slopes(combined, grid.spacing, grid.periodic))
+    found: dict[str, Any] = {"combined_Sdq": slope}
+    hardness = scene.contact.hardness or softer_hardness(scene.lower.build(), scene.upper.build())
+    if hardness is not None and slope > 0:
+        modulus = build.modulus_of(scene)
+        asperities = describe_asperities(combined, grid.spacing, periodic=grid.periodic)
+        index = plasticity_index(asperities, modulus, hardness)
+        found["plasticity_index"] = index if math.isfinite(index) else None
+        found["slope_plasticity_index"] = slope_plasticity_index(slope, modulus, hardness)
+    return found
 
 
 def _stress_fields(below: StressSummary | None) -> dict[str, Any]:

@@ -1,0 +1,99 @@
+"""Self-affine spectrum fitted to the measured one of a surface: Hurst exponent, roll-off wavelength, misfit.
+
+Takes a `RadialSpectrum` of `describe`. Verified in tests/surfaces/test_self_affine.py on surfaces generated with a
+known exponent and roll-off.
+"""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+import numpy as np
+
+from bem.errors import InputError
+from bem.grid import FloatArray
+from bem.surfaces.describe import RadialSpectrum
+
+_SHORTEST = 0.5
+"""Upper end of the fit as a fraction of the highest wavenumber: above it, instruments filter and cells alias."""
+_LEAST_DENSITY = 1e-12
+"""Densities below this fraction of the highest are round-off or a filter, and end the fit."""
+_FEWEST_RINGS = 6
+"""Rings that the sloping part of the fit needs at least."""
+
+
+@dataclass(frozen=True)
+class SelfAffineFit:
+    """Spectrum C0 below the roll-off wavenumber q_r and C0 (q / q_r)^(-2 (1 + H)) above it, fitted to a measured one.
+
+    Attributes
+    ----------
+    hurst : H; outside 0 to 1 the surface is not self-affine.
+    hurst_error : its standard error from the scatter of the rings about the fit.
+    rolloff_wavelength : 2 pi / q_r [m]; nan if the spectrum rises up to the longest waves of the map.
+    shortest_wavelength, longest_wavelength : range of the sloping part [m].
+    misfit : rms deviation of the measured density from the fit, in decades, over the range of the fit.
+    density : C0 [m^4].
+    """
+
+    hurst: float
+    hurst_error: float
+    rolloff_wavelength: float
+    shortest_wavelength: float
+    longest_wavelength: float
+    misfit: float
+    density: float
+
+    def at(self, wavenumber: FloatArray) -> FloatArray:
+        """Return the fitted density [m^4] at wavenumbers [rad/m]."""
+        bend = 2 * math.pi / self.longest_wavelength
+        return np.asarray(self.density * (np.maximum(wavenumber, bend) / bend) ** (-2 * (1 + self.hurst)))
+
+
+def fit_self_affine(spectrum: RadialSpectrum) -> SelfAffineFit:
+    """Fit a self-affine spectrum with a flat part below the roll-off by least squares of the logarithm.
+
+    A ring of m waves has a density that scatters by 1 / sqrt(m); half the waves of a ring mirror the others. Rings are
+    weighted with m. For each ring as the bend the two constants follow from a linear system; the bend of the least
+    squares is taken. Waves shorter than four cells are left out, and those that a filter has removed.
+
+    Raises
+    ------
+    InputError : too few rings for a slope, or a flat surface.
+    """
+    q, density = spectrum.wavenumber, spectrum.density
+    highest = float(density.max(initial=0.0))
+    used = (q <= _SHORTEST * q.max(initial=0.0)) & (density > _LEAST_DENSITY * highest)
+    if not used.all():
+        # a filter takes all waves beyond its cut-off: the fit ends before the ring that it cuts through
+        used[max(int(np.argmin(used)) - 1, 0) :] = False
+    q, density, weight = q[used], density[used], spectrum.modes[used]
+    if q.size < _FEWEST_RINGS or highest == 0.0:
+        raise InputError(f"spectrum: {q.size} rings of waves must be at least {_FEWEST_RINGS} for a self-affine fit")
+    x, y = np.log(q), np.log(density)
+    best = min(range(q.size - _FEWEST_RINGS + 1), key=lambda bend: _bent_line(x, y, weight, bend)[2])
+    level, slope, squares = _bent_line(x, y, weight, best)
+    steep = np.maximum(x - x[best], 0.0)
+    mean = np.average(steep, weights=weight)
+    spread = float(np.sum(weight * (steep - mean) ** 2))
+    scatter = squares / (q.size - 3)
+    residual = y - (level + slope * steep)
+    return SelfAffineFit(
+        hurst=-slope / 2 - 1,
+        hurst_error=math.sqrt(scatter / spread) / 2,
+        rolloff_wavelength=float(2 * math.pi / q[best]) if best > 0 else math.nan,
+        shortest_wavelength=float(2 * math.pi / q[-1]),
+        longest_wavelength=float(2 * math.pi / q[best]),
+        misfit=float(np.sqrt(np.average(residual**2, weights=weight))) / math.log(10),
+        density=math.exp(level),
+    )
+
+
+def _bent_line(x: FloatArray, y: FloatArray, weight: FloatArray, bend: int) -> tuple[float, float, float]:
+    """Return level, slope and weighted sum of squares of a line that is flat up to x[bend]."""
+    steep = np.maximum(x - x[bend], 0.0)
+    mean_x, mean_y = np.average(steep, weights=weight), np.average(y, weights=weight)
+    slope = float(np.sum(weight * (steep - mean_x) * (y - mean_y)) / np.sum(weight * (steep - mean_x) ** 2))
+    level = float(mean_y - slope * mean_x)
+    return level, slope, float(np.sum(weight * (y - level - slope * steep) ** 2))
