@@ -5,6 +5,7 @@ from typer.testing import CliRunner
 
 from bem.campaigns import cited
 from bem.cli import build
+from bem.elements.element import element_template
 from bem.laws import FAMILIES, laws_of
 from bem.references import references
 from bem.runs import plan_scene, run_scene
@@ -69,3 +70,13 @@ def test_the_command_prints_text_and_bibtex(finished, tmp_path):
     assert alone
     assert all(line.startswith("@") and line.endswith("}") for line in alone)
     assert set(alone) <= {one.bibtex for one in references().values()}
+
+
+@pytest.mark.parametrize(("name", "own"), [("gear-pair", "blok1937"), ("rolling-bearing", "iso281")])
+def test_a_machine_element_cites_its_ratings_and_its_film(name, own, tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(element_template(name))
+    done = CliRunner().invoke(build(), ["cite", str(path), "--bibtex"])
+    assert done.exit_code == 0
+    for key in (own, "zhou1991", "roelands1966"):
+        assert references()[key].bibtex in done.output

@@ -12,23 +12,25 @@ def register(app: typer.Typer) -> None:
 
     @app.command(short_help="Sources of the laws and methods of a run, as text and BibTeX.")
     def cite(
-        scene: Annotated[str, typer.Argument(metavar="RUN", help="Folder of a run, scene file or built-in scene.")],
+        scene: Annotated[
+            str, typer.Argument(metavar="RUN", help="Folder of a run, file of a scene or element, or built-in scene.")
+        ],
         bibtex: Annotated[bool, typer.Option("--bibtex", help="Print the BibTeX entries alone.")] = False,
     ) -> None:
-        """Print the papers of the laws and methods that a run or scene uses, as text and as BibTeX.
+        """Print the papers of the laws and methods that a run, scene or machine element uses, as text and as BibTeX.
 
         \b
         Examples:
           bem cite runs/traction-001
           bem cite stribeck-ball-on-disc --bibtex > references.bib
+          bem cite gears.toml
         """
         from bem.campaigns.cited import sources_of
         from bem.cli._terminal import print_text
         from bem.references import references
         from bem.runs import plan_scene
 
-        resolved, _ = plan_scene(scene)
-        found, known = sources_of(resolved), references()
+        found, known = _of_element(scene) or sources_of(plan_scene(scene)[0]), references()
         keys = sorted(found, key=lambda key: known[key].text)
         if not bibtex:
             for key in keys:
@@ -36,3 +38,30 @@ def register(app: typer.Typer) -> None:
             print()
         for key in keys:
             print(known[key].bibtex)
+
+
+def _of_element(name: str) -> dict[str, list[str]]:
+    """Return the sources of a machine element's file and of the film of its most loaded contact; none of others."""
+    from pathlib import Path
+
+    if not name.endswith(".toml") or not Path(name).is_file():
+        return {}
+    from contextlib import suppress
+
+    from bem.campaigns.cited import sources_of
+    from bem.elements.element import load_element, read_element
+    from bem.elements.running import operating_places
+    from bem.elements.sources import sources_of_element
+    from bem.errors import InputError
+    from bem.scenes.load import load_scene
+
+    table = read_element(name)
+    if "element" not in table:
+        return {}
+    element = load_element(table)
+    found = sources_of_element(element)
+    with suppress(InputError):
+        film = load_scene(element.scene(operating_places(element)[0], "traction"))
+        for key, methods in sources_of(film).items():
+            found[key] = [*found.get(key, []), *methods]
+    return found

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import os
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from pathlib import Path
 from typing import TYPE_CHECKING, Annotated
 
@@ -13,6 +13,7 @@ import typer
 if TYPE_CHECKING:
     from bem.elements.contact import ElementContact
     from bem.elements.element import Element
+    from bem.elements.running import Running
     from bem.notes import Note
 
 
@@ -32,35 +33,49 @@ def element(
         ),
     ] = "traction",
     at: Annotated[
-        str, typer.Option(help="Which contact: worst, thinnest, a row number; path: all along a gear's path.")
+        str,
+        typer.Option(help="Which contact: worst, thinnest, a mark such as C, a row number; path: all along a path."),
     ] = "worst",
     path: Annotated[
         Path | None,
         typer.Option(metavar="FILE", help="Write the path of contact as .csv, for `along` of kind traction."),
     ] = None,
     table: Annotated[Path | None, typer.Option(metavar="FILE", help="Write all contacts as .csv.")] = None,
+    figure: Annotated[
+        Path | None, typer.Option(metavar="FILE", help="Draw all contacts, with A to E of gears: .png, .pdf or .svg.")
+    ] = None,
+    contacts: Annotated[
+        bool, typer.Option("--contacts", help="Show the table of all contacts in place of the answer; solves no film.")
+    ] = False,
     running: Annotated[
-        bool, typer.Option("--running", help="Solve the thermal film at every position: friction, power loss, wear.")
+        bool, typer.Option("--running", help="Solve the film at every position, for the answer, table and figure.")
     ] = False,
     cases: Annotated[
         Path | None, typer.Option(metavar="FILE", help="Rows of keys to change, .csv with units: a line for each.")
     ] = None,
     remarks: Annotated[bool, typer.Option("--remarks", help="Show the whole text of remarks, too.")] = False,
 ) -> None:
-    """Show the contacts of a machine element: load, radii, speeds, Hertz contact and film; marks the critical contact
-    and reports contacts for which the half-space or line-contact assumption is not valid.
+    """Answer for a machine element on one screen: critical contact, lambda ratio, friction power, temperatures, and
+    safety: rating life of bearings, scuffing and micropitting of gears, wear. Films are solved at about a dozen places,
+    with --running at all.
 
     \b
     Examples, of the file that `bem new gear-pair gears.toml` writes:
+      bem element gears.toml
+      bem element gears.toml --running --table gears.csv --figure gears.png
+      bem element gears.toml --contacts
       bem element gears.toml --scene flank.toml --at path
       bem element gears.toml --scene worst.toml --at thinnest
       bem element gears.toml --scene mixed.toml --kind friction --at 20
-      bem element gears.toml --running --table gears.csv
       bem element bearing.toml --cases loads.csv --table worst.csv
     """
     from bem.cli._quantity import new_file
-    from bem.cli._terminal import print_written, show_remarks, show_warnings
+    from bem.cli._terminal import print_text, print_written, show_remarks, show_warnings
+    from bem.elements.answer import balance_heat, contact_words
     from bem.elements.element import load_element
+    from bem.elements.figure import draw_element
+    from bem.elements.running import columns
+    from bem.elements.running import notes as notes_of
     from bem.elements.scene_text import scene_text
     from bem.errors import InputError
     from bem.results.atomic import write_text
@@ -70,12 +85,14 @@ def element(
         new_file(table, "--table", (".csv",))
     if path is not None:
         new_file(path, "--path", (".csv",))
+    if figure is not None:
+        new_file(figure, "--figure", (".png", ".pdf", ".svg"))
     if scene is not None:
         new_file(scene, "--scene", (".toml",))
     if cases is not None:
-        _cases(file, cases, table, (scene, path, running))
+        _cases(file, cases, table, (scene, path, running, contacts, figure))
         return
-    found = load_element(file)
+    found = balance_heat(load_element(file))
     whole = at == "path"
     chosen = found.worst() if whole else _chosen(found, at)
     if scene is not None and whole and kind != "traction":
@@ -89,12 +106,17 @@ def element(
             key: value for key, value in made["along"].items() if key == "marks"
         }
     rows = None if path is None else found.path_csv()
-    notes: Sequence[Note] = found.notes()
-    more: dict[str, list[float]] = {}
-    if running:
-        more, notes = _operation(found)
+    runs: Sequence[Running] = ()
+    if running or not (contacts or made is not None or found.model.oil is None):
+        runs = _solve(found, whole=running or table is not None)
+    if contacts:
+        _show(found, chosen, runs)
+    elif made is None or running:
+        _answer(found, runs)
     else:
-        _show(found, chosen)
+        for sentence in (contact_words(found, chosen), *found.found.geometry):
+            print_text(sentence)
+    notes: Sequence[Note] = [*found.notes(), *notes_of(runs)]
     show_warnings(notes, remarks="--remarks shows them")
     if remarks:
         show_remarks(notes)
@@ -102,8 +124,11 @@ def element(
         write_text(path, rows)
         print_written(path)
     if table is not None:
-        write_text(table, found.csv(more))
+        write_text(table, found.csv(columns(found, runs) if runs else {}))
         print_written(table)
+    if figure is not None:
+        draw_element(found, runs, figure)
+        print_written(figure)
     if scene is not None and made is not None:
         write_text(scene, scene_text(made))
         print_written(scene)
@@ -119,7 +144,9 @@ def _cases(file: Path, rows: Path, out: Path | None, others: tuple[object, ...])
     from bem.results.atomic import write_text
 
     if any(others):
-        raise InputError("--cases: goes with --table alone; allowed: no --scene, --path or --running beside it")
+        raise InputError(
+            "--cases: goes with --table alone; allowed: no --scene, --path, --figure, --contacts or --running beside it"
+        )
     found = columns(load_cases(file, rows))
     lines = [
         tuple(one if isinstance(one, str) else _spelled(name, one) for name, one in zip(found, row, strict=True))
@@ -138,37 +165,34 @@ def _spelled(name: str, value: float) -> str:
 
     unit = name.partition(" [")[2].removesuffix("]")
     if unit == "K":
-        return "" if math.isnan(value) else f"{value - 273.15:.4g} degC"
+        return "" if math.isnan(value) else f"{value - 273.15:.4g} °C"
     return "" if math.isnan(value) else spelled(f"x_{unit}" if unit else "x", value)[1]
 
 
-def _operation(found: Element) -> tuple[dict[str, list[float]], list[Note]]:
-    """Show the element with the solved film of every contact; return the columns of these films and all notes."""
-    from bem.cli._terminal import Terminal, print_text, table
-    from bem.elements.running import columns, notes, run_all, summary
+def _solve(found: Element, *, whole: bool) -> Sequence[Running]:
+    """Solve the films of an element, of all its places or of a selection."""
+    from bem.cli._terminal import Terminal
+    from bem.elements.answer import PLACES
+    from bem.elements.running import run_all
 
     with Terminal() as terminal:
-        runs = run_all(found, lambda done, total: terminal.progress(done, total, "films", {}))
-    solved = columns(found, runs)
-    by_formula = found.columns()
-    lines = []
-    for i, (contact, *row) in enumerate(zip(found.found.contacts, *solved.values(), strict=True)):
-        if all(map(math.isnan, row)):
-            continue
-        cells = [_spelled(name, value) for name, value in zip(solved, row, strict=True)]
-        pressure = _spelled("hertz_pressure [Pa]", by_formula["hertz_pressure [Pa]"][i])
-        lines.append((str(i + 1), _contact_name(found, i), pressure, f"{contact.slide_roll_ratio:.3g}", *cells))
-    head = (
-        *("", "where", "Hertz pressure", "slide-roll", "minimum film thickness (solved)", "lambda ratio (solved)"),
-        *("friction coefficient", "friction power", "oil temperature", "surface temperature"),
-        *("wear 1 per pass", "wear 2 per pass"),
-    )
-    title = f"{found.model.name}: {found.model.element}, at operating conditions"
-    table(head, lines, title=title, right=range(2, len(head)), leading=2)
+        return run_all(
+            found, lambda done, total: terminal.progress(done, total, "films", {}), most=None if whole else PLACES
+        )
+
+
+def _answer(found: Element, runs: Sequence[Running]) -> None:
+    from bem.cli._terminal import print_text, table
+    from bem.elements.answer import answer
+
+    described = f", {found.model.description}" if found.model.description else ""
+    table(("", ""), answer(found, runs), title=f"{found.model.name}: {found.model.element}{described}")
     for sentence in found.found.geometry:
         print_text(sentence)
-    table(("", ""), summary(found, runs))
-    return solved, [*found.notes(), *notes(runs)]
+    count = len(found.found.contacts)
+    solved = f", {len(runs)} of them with a solved film" if runs else ""
+    options = "--contacts shows them, --table FILE.csv and --figure FILE.png write them"
+    print_text(f"{count} contacts{solved}: {options}.")
 
 
 def _chosen(found: Element, at: str) -> ElementContact:
@@ -178,35 +202,54 @@ def _chosen(found: Element, at: str) -> ElementContact:
         return found.worst()
     if at == "thinnest":
         return found.thinnest()
-    contacts = found.found.contacts
+    contacts, marks = found.found.contacts, "".join(f"{name}, " for name in found.found.marks)
+    if at in found.found.marks:
+        return min(found.found.contacts, key=lambda one: abs(one.place - found.found.marks[at]))
     if at.isdigit() and 1 <= int(at) <= len(contacts):
         return contacts[int(at) - 1]
-    raise InputError(f'--at "{at}": allowed: worst, thinnest, path, or a number from 1 to {len(contacts)}')
+    raise InputError(f'--at "{at}": allowed: worst, thinnest, path, {marks}or a number from 1 to {len(contacts)}')
 
 
-def _show(found: Element, chosen: ElementContact) -> None:
+def _show(found: Element, chosen: ElementContact, runs: Sequence[Running]) -> None:
+    """Show all contacts as a table, with the solved films where there are any."""
     from bem.cli._terminal import print_text, table
-    from bem.plots.report import spelled
+    from bem.elements.running import columns
 
-    columns = found.columns()
-    shown = (("load", "load [N]", "N"), ("radius", "radius [m]", "m"), ("Hertz pressure", "hertz_pressure [Pa]", "Pa"))
+    contacts = found.found.contacts
+    mine = found.columns() | (columns(found, runs) if runs else {})
+    mine["entrainment_speed [m/s]"] = [one.mean_speed for one in contacts]
+    mine["slide_roll_ratio"] = [one.slide_roll_ratio for one in contacts]
+    shown = [key for key in _HEADS if key in mine and not (runs and key in _BY_FORMULA)]
+    shown = [key for key in shown if not all(map(math.isnan, mine[key]))]
+    units = {key: _unit(key, mine[key]) for key in shown}
     rows = []
-    for i, one in enumerate(found.found.contacts):
-        cells = [spelled(f"x_{unit}", columns[key][i])[1] for _, key, unit in shown]
-        ratio = one.slide_roll_ratio
-        cells += [f"{one.mean_speed:.3g} m/s", f"{ratio:.3g}"]
-        if "minimum_film [m]" in columns:
-            cells.append(spelled("x_m", columns["minimum_film [m]"][i])[1])
-        if "film_over_roughness" in columns:
-            cells.append(f"{columns['film_over_roughness'][i]:.3g}")
-        number = f"{i + 1} <" if one is chosen else str(i + 1)
-        rows.append((number, _contact_name(found, i), *cells))
-    head = ["", "where", *(name for name, _, _ in shown), "entrainment speed", "slide-roll"]
-    head += [_BY_FORMULA[name] for name in _BY_FORMULA if name in columns]
+    for i, one in enumerate(contacts):
+        cells = ["" if math.isnan(mine[key][i]) else units[key][1](mine[key][i]) for key in shown]
+        rows.append((f"{i + 1} <" if one is chosen else str(i + 1), _contact_name(found, i), *cells))
+    heads = [f"{_HEADS[key]} ({units[key][0]})" if units[key][0] else _HEADS[key] for key in shown]
+    head = ["", "where", *heads]
     title = f"{found.model.name}: {found.model.element}"
     table(head, rows, title=title, right=range(2, len(head)), leading=2)
+    if "friction" in shown or any(one.slide_roll_ratio < 0 for one in contacts):
+        print_text(
+            "Slide-to-roll ratio and friction coefficient are those of body 1: negative where its surface is the "
+            "slower one, as before the pitch point of a driving pinion. Friction power is positive everywhere."
+        )
     for sentence in found.found.geometry:
         print_text(sentence)
+
+
+def _unit(key: str, values: Sequence[float]) -> tuple[str, Callable[[float], str]]:
+    """Return the unit of a column's head and how its numbers are written: one prefix for all."""
+    from bem.plots.labels import prefix
+    from bem.quantities import with_signs
+
+    unit = key.partition(" [")[2].removesuffix("]")
+    if unit == "K" and "flash" not in key:
+        return "°C", lambda value: f"{value - 273.15:.4g}"
+    known = [value for value in values if not math.isnan(value)]
+    factor, shown = prefix(known, unit)
+    return with_signs(shown), lambda value: f"{value * factor:.3g}"
 
 
 def _contact_name(found: Element, index: int) -> str:
@@ -232,3 +275,21 @@ _BY_FORMULA = {
     "film_over_roughness": "lambda ratio (formula)",
 }
 """Heads of the columns that follow from a film formula; those of a solved film are other values."""
+_HEADS = {
+    "load [N]": "load",
+    "radius [m]": "radius",
+    "hertz_pressure [Pa]": "Hertz pressure",
+    "entrainment_speed [m/s]": "entrainment speed",
+    "slide_roll_ratio": "slide-roll",
+    **_BY_FORMULA,
+    "solved_minimum_film [m]": "minimum film thickness",
+    "solved_film_over_roughness": "lambda ratio",
+    "friction": "friction coefficient",
+    "friction_power [W]": "friction power",
+    "oil_temperature [K]": "oil",
+    "surface_temperature [K]": "surface",
+    "flash_temperature [K]": "flash",
+    "wear_per_pass_1 [m]": "wear 1 per pass",
+    "wear_per_pass_2 [m]": "wear 2 per pass",
+}
+"""Columns of the table of contacts with their heads."""

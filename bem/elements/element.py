@@ -22,7 +22,7 @@ from bem.elements.gear_pair import GearModel
 from bem.elements.model import Contacts, ElementModel
 from bem.elements.piston_ring import PistonRingModel
 from bem.elements.rolling_bearing import BearingModel
-from bem.elements.rough_scenes import BOUNDARY_FRICTION, mixed_scene, rubbing_scene
+from bem.elements.rough_scenes import mixed_scene, rubbing_scene
 from bem.errors import InputError
 from bem.materials import Body, Material, contact_modulus
 from bem.notes import Note
@@ -31,6 +31,7 @@ from bem.notes.elements import NO_HEAT
 from bem.notes.scenes import FILM_THINNER_THAN_ROUGHNESS
 from bem.scenes.checks.hertz import smooth_contact
 from bem.scenes.checks.plausible import notes_on_table
+from bem.scenes.oil import OilScene
 from bem.scenes.template import without_description
 from bem.scenes.validate import nearest, show, validate
 
@@ -54,14 +55,6 @@ _SEAL = (
     "Seals are not modelled. Take a small flat patch of both surfaces under its mean pressure: kind contact shows "
     "contact area and gap, kind flow-factors the resistance to flow through the gap."
 )
-_SCUFFING = (
-    "Scuffing load capacity is not computed. Compare temperatures with that of a scuffing test with this oil: kind "
-    "surface-temperature shows the flash temperature, `bem element FILE --running` those of all contacts."
-)
-_RATING = (
-    "Rating life (ISO 281) is not computed. `bem new rolling-bearing` shows load distribution, Hertz pressure and "
-    "lambda ratio, from which it can be; kind running-in-life computes wear and micropitting."
-)
 _OTHER_GEARS = (
     "Only external spur and helical gears are elements. Give load, radius and speeds along the path of contact to "
     "kind traction as [along], from a .csv file."
@@ -70,17 +63,15 @@ NOT_HERE = {
     **dict.fromkeys(("journal-bearing", "plain-bearing", "sleeve-bearing", "sliding-bearing"), _CONFORM),
     **dict.fromkeys(("bush", "bushing", "bushes", "bushings"), _CONFORM),
     **dict.fromkeys(("seal", "seals", "lip-seal"), _SEAL),
-    **dict.fromkeys(("scuffing", "scoring"), _SCUFFING),
-    **dict.fromkeys(("bearing-life", "rating-life", "l10"), _RATING),
     **dict.fromkeys(("worm-gear", "bevel-gear", "hypoid-gear", "internal-gear", "planetary-gear"), _OTHER_GEARS),
     "grease": _GREASE,
 }
 """Words for what the program does not model: what it can do instead."""
 TITLES = {
-    "rolling-bearing": "ball or roller bearing: load distribution, contacts and films of both rings",
-    "gear-pair": "spur or helical gears: load, speeds and film along the path of contact",
-    "cam-follower": "cam under a flat-faced follower: load, curvature and film over the cam's angle",
-    "piston-ring": "piston ring on its liner: load and film over the crank's angle",
+    "rolling-bearing": "ball or roller bearing: film, friction, rating life (ISO 281), contacts of both rings",
+    "gear-pair": "spur or helical gears: film, losses, temperatures, scuffing along the path of contact",
+    "cam-follower": "cam under a flat-faced follower: film, friction and wear over the cam's angle",
+    "piston-ring": "piston ring on its liner: film, friction and wear over the crank's angle",
 }
 """A line about each element."""
 _SHORT = {
@@ -88,6 +79,8 @@ _SHORT = {
     "gear": "gear-pair",
     "gears": "gear-pair",
     "helical-gear": "gear-pair",
+    **dict.fromkeys(("scuffing", "scoring"), "gear-pair"),
+    **dict.fromkeys(("bearing-life", "rating-life", "l10"), "rolling-bearing"),
     "cam": "cam-follower",
     "ring": "piston-ring",
 }
@@ -112,7 +105,7 @@ class Element:
     @cached_property
     def modulus(self) -> float:
         """Contact modulus of both materials [Pa]."""
-        return contact_modulus(*self._bodies())
+        return contact_modulus(*self.bodies)
 
     def worst(self) -> ElementContact:
         """That with the highest pressure.
@@ -125,6 +118,21 @@ class Element:
             raise self._no_contact()
         return max(self.found.contacts, key=lambda one: one.hertz(self.modulus).maximum_pressure)
 
+    def at_bulk(self, temperature: float) -> Element:
+        """Return the element with bodies of a temperature [K], in place of its bulk temperature or heat balance."""
+        table = {key: value for key, value in self.table.items() if key not in ("bulk_temperature", "heat_balance")}
+        changes = {"bulk_temperature": temperature, "heat_balance": None}
+        return Element(self.model.model_copy(update=changes), table | {"bulk_temperature": temperature})
+
+    def _film_oil(self) -> OilScene:
+        assert self.model.film_oil is not None
+        return self.model.film_oil
+
+    def _oil_table(self) -> dict[str, Any]:
+        """Table of the oil that comes into the contacts."""
+        table, given = dict(self.table["oil"]), self.model.bulk_temperature
+        return table if given is None or "viscosity" in table else table | {"temperature": given}
+
     def _no_contact(self) -> InputError:
         return InputError(f"{self.model.name}: no contact is left: {'; '.join(self.found.notes[:1])}")
 
@@ -134,7 +142,7 @@ class Element:
             raise InputError(f"{self.model.name}: no oil is given, so no film is the thinnest; allowed: a table [oil]")
         if not self.found.contacts:
             raise self._no_contact()
-        oil = self.model.oil.build()
+        oil = self._film_oil().build()
         return min(self.found.contacts, key=lambda one: one.minimum_film(self.modulus, oil))
 
     def columns(self) -> dict[str, list[float]]:
@@ -153,7 +161,7 @@ class Element:
             "half_width [m]": [one.half_width(modulus) for one in contacts],
         }
         if self.model.oil is not None:
-            oil = self.model.oil.build()
+            oil = self._film_oil().build()
             films = [one.minimum_film(modulus, oil) for one in contacts]
             found["minimum_film [m]"] = films
             if self.model.rms_roughness is not None:
@@ -212,7 +220,7 @@ class Element:
             notes.append(SLOPES_LARGE(places=len(conforming), first=conforming[0], limit=CONFORMING, reason="element"))
         if (soft := self._yielding()) is not None:
             notes.append(soft)
-        cold = [one.name for one in self._bodies() if not one.thermal_diffusivity]
+        cold = [one.name for one in self.bodies if not one.thermal_diffusivity]
         if self.model.oil is not None and cold:
             notes.append(NO_HEAT(bodies=" and ".join(dict.fromkeys(cold))))
         ratios = self.columns().get("film_over_roughness", [])
@@ -222,7 +230,7 @@ class Element:
 
     def _yielding(self) -> Note | None:
         """Return a note where Hertz' pressure is beyond what the softer material carries elastically."""
-        bodies = [Body(one) for one in self._bodies()]
+        bodies = [Body(one) for one in self.bodies]
         found = []
         for one in self.found.contacts:
             force = one.load if one.length is None else one.load / one.length
@@ -237,7 +245,9 @@ class Element:
         everywhere = len(self.found.contacts)
         return YIELDS(places=len(found), all=everywhere, ratio=ratio, onset=onset, place=one.name, reason="element")
 
-    def _bodies(self) -> tuple[Material, Material]:
+    @cached_property
+    def bodies(self) -> tuple[Material, Material]:
+        """Materials of both bodies."""
         return self.model.first.build(), self.model.second.build()
 
     def scene(self, contact: ElementContact, kind: str) -> dict[str, Any]:
@@ -253,7 +263,8 @@ class Element:
             )
         assumed = []
         if kind in (*MIXED, "surface-temperature"):
-            assumed.append(f"boundary friction {BOUNDARY_FRICTION:g} is assumed")
+            if "boundary_friction" not in self.model.model_fields_set:
+                assumed.append(f"boundary friction {self.model.boundary_friction:g} is assumed")
             if self.model.rms_roughness is not None:
                 assumed.append("surfaces are random ones of its rms_roughness")
         base = {
@@ -280,10 +291,10 @@ class Element:
                 f"a place of the table where they do not: {self._with_film()}"
             )
         if kind in MIXED:
-            return mixed_scene(self.model, contact, bodies, self.table["oil"], kind, self.modulus)
+            return mixed_scene(self.model, contact, bodies, self._oil_table(), kind, self.modulus)
         shared = {
             **bodies,
-            "oil": dict(self.table["oil"]),
+            "oil": self._oil_table(),
             **({} if self.model.rms_roughness is None else {"roughness": self.model.rms_roughness}),
             "rolling": {"mean_speed": abs(contact.mean_speed), "slide_roll_ratio": ratio},
             **({"supply": {"distance": contact.inlet}} if math.isfinite(contact.inlet) else {}),
@@ -295,7 +306,7 @@ class Element:
             return {**shared, "ball": {"radius": contact.radius, "radius_y": contact.across, "load": contact.load}}
         line_load = contact.line_load(self.modulus)
         width = contact.load / line_load
-        known = all(one.thermal_diffusivity for one in self._bodies())
+        known = all(one.thermal_diffusivity for one in self.bodies)
         return {
             "thermal": self.model.thermal if known else "off",  # heat needs the constants of both materials
             **shared,
@@ -303,7 +314,7 @@ class Element:
         }
 
     def _check_heat(self) -> None:
-        cold = dict.fromkeys(one.name for one in self._bodies() if not one.thermal_diffusivity)
+        cold = dict.fromkeys(one.name for one in self.bodies if not one.thermal_diffusivity)
         if cold:
             raise InputError(
                 f"{self.model.name}: kind surface-temperature needs thermal_conductivity, heat_capacity and density of "

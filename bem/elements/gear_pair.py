@@ -20,6 +20,7 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Annotated, Literal, Self
 
 import numpy as np
@@ -29,7 +30,8 @@ from bem.elements.contact import ElementContact
 from bem.elements.model import Contacts, ElementModel
 from bem.errors import InputError
 from bem.grid import FloatArray
-from bem.scenes.common import PositiveLength, problem
+from bem.materials import contact_modulus
+from bem.scenes.common import PositiveLength, PositivePressure, problem
 from bem.scenes.units import Angle, Dimension, Ratio, RotationSpeed
 
 Torque = Annotated[float, Dimension("N*m", "a torque", "30 N*m")]
@@ -45,7 +47,9 @@ class GearModel(ElementModel):
     """A pair of external gears: module, teeth, torque and speed of the pinion, which drives and is body 1.
 
     Tips are at the module times 1 + x over the reference circle where `tip_diameters` does not say otherwise. Module,
-    pressure angle and profile shifts of helical gears are those of the normal section.
+    pressure angle and profile shifts of helical gears are those of the normal section. The load is the pinion's
+    `torque`, or the one that gives `hertz_pressure` at the pitch point. For scuffing: `scuffing_load_stage`, at which
+    the oil fails the FZG test A/8.3/90, and `structure_factor`, 1 for case-hardened steels.
     """
 
     element: Literal["gear-pair"] = "gear-pair"
@@ -56,12 +60,18 @@ class GearModel(ElementModel):
     profile_shifts: tuple[Ratio, Ratio] = (0.0, 0.0)
     tip_diameters: tuple[PositiveLength, PositiveLength] | None = None
     face_width: PositiveLength
-    torque: Annotated[Torque, Field(gt=0)]
+    torque: Annotated[Torque, Field(gt=0)] | None = None
+    hertz_pressure: PositivePressure | None = None
     speed: Annotated[RotationSpeed, Field(gt=0)]
     points: Annotated[int, Field(strict=True, ge=5, le=2001)] = 41
+    scuffing_load_stage: Annotated[Ratio, Field(ge=1, le=20)] | None = None
+    structure_factor: Annotated[Ratio, Field(gt=0, lt=3)] = 1.0
 
     @model_validator(mode="after")
     def _meshes(self) -> Self:
+        if (self.torque is None) == (self.hertz_pressure is None):
+            given = "neither torque nor" if self.torque is None else "both torque and"
+            raise problem(f"{given} hertz_pressure given", 'one of them: torque = "30 N*m"')
         try:
             path = path_of_contact(self)
         except InputError as error:
@@ -77,11 +87,25 @@ class GearModel(ElementModel):
             raise problem(f"{said}: below 1 the teeth lose each other", "1 and more, both together")
         return self
 
+    @cached_property
+    def pinion_torque(self) -> float:
+        """Torque of the pinion [N m]: the one given, or the one that gives the Hertz pressure at the pitch point."""
+        if self.torque is not None:
+            return self.torque
+        assert self.hertz_pressure is not None
+        path = path_of_contact(self)
+        inclined = math.cos(path.base_helix)
+        radius = path.pitch * (path.line - path.pitch) / path.line / inclined
+        modulus = contact_modulus(self.first.build(), self.second.build())
+        line_load = math.pi * radius * self.hertz_pressure**2 / modulus
+        normal = line_load * self.face_width / inclined / path.share(path.pitch)
+        return normal * path.base_radii[0] * inclined
+
     def contacts(self) -> Contacts:
         """By distance from the pitch point C: from A, where the wheel's tip comes in, to E, the end of the pinion's."""
         path = path_of_contact(self)
         inclined = math.cos(path.base_helix)
-        normal = self.torque / (path.base_radii[0] * inclined)
+        normal = self.pinion_torque / (path.base_radii[0] * inclined)
         omega = (self.speed, self.speed * self.teeth[0] / self.teeth[1])
         found = []
         for i in range(self.points):

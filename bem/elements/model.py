@@ -5,15 +5,19 @@ from __future__ import annotations
 from abc import abstractmethod
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Annotated, Literal
+from typing import Annotated, Literal, Self
 
-from pydantic import Field
+from pydantic import Field, model_validator
 
 from bem.elements.contact import ElementContact
 from bem.notes import Note
-from bem.scenes.common import MaterialScene, PositiveLength, Table
+from bem.scenes.common import MaterialScene, PositiveLength, Table, problem
 from bem.scenes.oil import OilScene
-from bem.scenes.units import Ratio, Volume, WearCoefficient
+from bem.scenes.units import Dimension, Ratio, Temperature, Volume, WearCoefficient
+
+BOUNDARY_FRICTION = 0.12
+"""Friction coefficient of asperity contacts without one of the element; steel in mineral oil has 0.10 to 0.15."""
+Conductance = Annotated[float, Dimension("W/K", "a heat conductance", "30 W/K")]
 
 
 @dataclass(frozen=True)
@@ -37,13 +41,25 @@ class Contacts:
     geometry: tuple[str, ...] = ()
 
 
+class HeatBalanceScene(Table):
+    """Heat balance of the bodies: they are warmer than `ambient` by friction power over `conductance`.
+
+    Without `ambient` the heat goes to the oil at its temperature.
+    """
+
+    conductance: Annotated[Conductance, Field(gt=0)]
+    ambient: Temperature | None = None
+
+
 class ElementModel(Table):
     """Both materials, the oil, and the rms roughness of both surfaces together, for the lambda ratio.
 
     `thermal`: frictional heat of the films, as in kind traction. `specific_wear_rate`: Archard's, under this
     lubrication. `permissible_film_ratio`: the smallest lambda ratio at which a test with this oil and finish showed no
     micropitting. `mean_particle_volume`: mean volume of wear particles, measured (AFM) or of kinds wear and running-in,
-    for their number per hour.
+    for their number per hour. `boundary_friction`: friction coefficient of asperity contacts. `bulk_temperature`: of
+    both bodies below their surfaces, at which films are solved, or `heat_balance`, from which it follows; without both
+    the bodies are as warm as the oil.
     """
 
     element: str
@@ -57,6 +73,24 @@ class ElementModel(Table):
     specific_wear_rate: Annotated[WearCoefficient, Field(ge=0)] | None = None
     permissible_film_ratio: Annotated[Ratio, Field(gt=0)] | None = None
     mean_particle_volume: Annotated[Volume, Field(gt=0)] | None = None
+    boundary_friction: Annotated[Ratio, Field(gt=0, lt=1)] = BOUNDARY_FRICTION
+    bulk_temperature: Temperature | None = None
+    heat_balance: HeatBalanceScene | None = None
+
+    @model_validator(mode="after")
+    def _one_temperature(self) -> Self:
+        if self.bulk_temperature is not None and self.heat_balance is not None:
+            raise problem("bulk_temperature and heat_balance are given", "one of both: the balance gives the other")
+        if self.heat_balance is not None and (self.oil is None or self.oil.temperature is None):
+            raise problem("heat_balance without the temperature of an oil", "oil.temperature beside heat_balance")
+        return self
+
+    @property
+    def film_oil(self) -> OilScene | None:
+        """The oil as it comes into the contacts: as warm as the bodies where their temperature is given."""
+        if self.oil is None or self.bulk_temperature is None or self.oil.viscosity is not None:
+            return self.oil
+        return self.oil.model_copy(update={"temperature": self.bulk_temperature})
 
     @abstractmethod
     def contacts(self) -> Contacts:

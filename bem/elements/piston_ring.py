@@ -145,14 +145,14 @@ class PistonRingModel(ElementModel):
         return tuple(notes)
 
     def _film(self, one: ElementContact) -> InletFilm:
-        assert self.oil is not None
-        return one.rigid_film(self.oil.build().viscosity)
+        assert self.film_oil is not None
+        return one.rigid_film(self.film_oil.build().viscosity)
 
     def _lags(self, one: ElementContact, film: float) -> bool:
         """Return True if a flooded film under this load sinks more slowly than the speed changes, both by time in
         proportion: 1 / sqrt(h) grows linearly (`squeeze_thickness`)."""
-        assert self.oil is not None
-        viscosity, load = self.oil.build().viscosity, self.line_load(one.place)
+        assert self.film_oil is not None
+        viscosity, load = self.film_oil.build().viscosity, self.line_load(one.place)
         sinks = 2 * math.sqrt(film) * load / (6 * math.pi * viscosity * one.radius * math.sqrt(2 * one.radius))
         step = 1e-4
         slope = (self.piston_speed(one.place + step) - self.piston_speed(one.place - step)) / (2 * step)

@@ -15,16 +15,18 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
+from functools import cached_property
 from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
 from bem.elements.contact import ElementContact
 from bem.elements.model import Contacts, ElementModel
+from bem.elements.rating_life import BearingGeometry, Cleanliness
 from bem.materials import contact_modulus
 from bem.reference_solutions.hertz import ellipse_contact
-from bem.scenes.common import PositiveLength, problem
-from bem.scenes.units import Force, Length, Ratio, RotationSpeed
+from bem.scenes.common import PositiveLength, PositivePressure, problem
+from bem.scenes.units import Angle, Force, Length, Ratio, RotationSpeed
 
 _STEEL_DENSITY = 7800.0  # kg/m^3, of elements whose material says none
 
@@ -32,7 +34,11 @@ _STEEL_DENSITY = 7800.0  # kg/m^3, of elements whose material says none
 class BearingModel(ElementModel):
     """A radial bearing with a turning inner ring: dimensions of a catalogue or measured, load, clearance, speed.
 
-    Body 1 is the ring, body 2 the ball or roller. Without `pitch_diameter` it is the mean of bore and outside.
+    Body 1 is the ring, body 2 the ball or roller. Without `pitch_diameter` it is the mean of bore and outside. The load
+    is `radial_load`, or the one that gives `hertz_pressure` under the most loaded rolling element of the inner ring.
+    For the rating life: `dynamic_load_rating`, `static_load_rating` and `fatigue_load_limit` of a catalogue, which
+    follow from the geometry where they are left out; `cleanliness`, or `contamination_factor` itself; `reliability` in
+    per cent. Of rollers `profile` and `tilt` of the rings against each other.
     """
 
     element: Literal["rolling-bearing"] = "rolling-bearing"
@@ -44,9 +50,18 @@ class BearingModel(ElementModel):
     count: Annotated[int, Field(strict=True, ge=3, le=200)]
     length: PositiveLength | None = None
     groove: Annotated[Ratio, Field(gt=0.5, lt=1)] = 0.52
-    radial_load: Annotated[Force, Field(gt=0)]
+    radial_load: Annotated[Force, Field(gt=0)] | None = None
+    hertz_pressure: PositivePressure | None = None
     clearance: Annotated[Length, Field(ge=0)] = 0.0
     speed: Annotated[RotationSpeed, Field(gt=0)]
+    dynamic_load_rating: Annotated[Force, Field(gt=0)] | None = None
+    static_load_rating: Annotated[Force, Field(gt=0)] | None = None
+    fatigue_load_limit: Annotated[Force, Field(gt=0)] | None = None
+    cleanliness: Cleanliness | None = None
+    contamination_factor: Annotated[Ratio, Field(ge=0, le=1)] | None = None
+    reliability: Literal[90, 95, 96, 97, 98, 99] = 90
+    profile: Literal["logarithmic", "straight"] = "logarithmic"
+    tilt: Annotated[Angle, Field(ge=0, lt=0.05)] = 0.0
 
     @model_validator(mode="after")
     def _fits(self) -> Self:
@@ -61,6 +76,13 @@ class BearingModel(ElementModel):
             raise problem("the rolling elements do not fit between bore and outside", "a smaller diameter")
         if self.count * math.asin(self.diameter / pitch) > math.pi:
             raise problem(f"{self.count} elements do not fit on the pitch circle", "fewer, or smaller ones")
+        if (self.radial_load is None) == (self.hertz_pressure is None):
+            given = "neither radial_load nor" if self.radial_load is None else "both radial_load and"
+            raise problem(f"{given} hertz_pressure given", 'one of them: radial_load = "4 kN"')
+        if self.cleanliness is not None and self.contamination_factor is not None:
+            raise problem("both cleanliness and contamination_factor given", "one of them")
+        if self.tilt and self.rolling == "ball":
+            raise problem("tilt of a ball bearing", 'no tilt, or rolling = "roller"')
         return self
 
     @property
@@ -68,13 +90,50 @@ class BearingModel(ElementModel):
         """Diameter of the circle of their middles [m]."""
         return 0.5 * (self.bore + self.outside) if self.pitch_diameter is None else self.pitch_diameter
 
+    @property
+    def geometry(self) -> BearingGeometry:
+        """Internal geometry, for load ratings and lives."""
+        return BearingGeometry(self.rolling, self.diameter, self.pitch, self.count, self.length, self.groove)
+
+    @cached_property
+    def load(self) -> float:
+        """Radial load [N]: the one given, or the one that gives the Hertz pressure."""
+        if self.radial_load is not None:
+            return self.radial_load
+        assert self.hertz_pressure is not None
+        highest = self._load_under(self.hertz_pressure)
+        stiffness, power = self._stiffness()
+        shift = (highest / stiffness) ** (1 / power) + 0.5 * self.clearance
+        pressed = [max(shift * math.cos(a) - 0.5 * self.clearance, 0.0) for a in self._angles]
+        return stiffness * sum(one**power * math.cos(a) for one, a in zip(pressed, self._angles, strict=True))
+
+    def _load_under(self, pressure: float) -> float:
+        """Return the load of a rolling element [N] that presses on the inner ring with a Hertz pressure [Pa]."""
+        modulus = contact_modulus(self.first.build(), self.second.build())
+        inner = _races(self)[0]
+        along = 1 / (1 / inner.radius + 2 / self.diameter)
+        if self.length is not None:
+            return math.pi * along * pressure**2 / modulus * self.length
+        unit = ellipse_contact(radii=(along, inner.across), contact_modulus=modulus, load=1.0)
+        return (pressure / unit.maximum_pressure) ** 3
+
+    def _stiffness(self) -> tuple[float, float]:
+        modulus = contact_modulus(self.first.build(), self.second.build())
+        return _stiffness(self, _races(self), modulus)
+
+    @property
+    def _angles(self) -> list[float]:
+        return [2 * math.pi * i / self.count for i in range(self.count)]
+
+    @cached_property
+    def shared(self) -> list[float]:
+        """Loads of all rolling elements [N], without centrifugal force, from the most loaded one round."""
+        return share(self.load, *self._stiffness(), self.clearance, self._angles)
+
     def contacts(self) -> Contacts:
         """All that carry, inner and outer, by their angle from the load."""
         races = _races(self)
-        modulus = contact_modulus(self.first.build(), self.second.build())
-        stiffness, power = _stiffness(self, races, modulus)
-        angles = [2 * math.pi * i / self.count for i in range(self.count)]
-        shared = share(self.radial_load, stiffness, power, self.clearance, angles)
+        angles, shared = self._angles, self.shared
         gamma = self.diameter / self.pitch
         rolling = 0.25 * self.speed * self.pitch * (1 - gamma**2)
         pressed_out = _centrifugal(self)
@@ -171,7 +230,7 @@ def _load_sharing(model: BearingModel, shared: Sequence[float], pressed_out: flo
     highest = max(shared)
     said = [
         f"{sum(q > 0 for q in shared)} of {model.count} elements carry; the most loaded one {highest:.4g} N, "
-        f"{highest * model.count / model.radial_load:.3g} times radial load over number of elements."
+        f"{highest * model.count / model.load:.3g} times radial load over number of elements."
     ]
     if pressed_out > 0.05 * highest:
         said.append(

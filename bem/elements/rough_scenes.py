@@ -18,8 +18,6 @@ from bem.materials import Body, softer_hardness
 if TYPE_CHECKING:
     from bem.elements.model import ElementModel
 
-BOUNDARY_FRICTION = 0.12
-"""Assumed friction coefficient of asperity contacts; steel in mineral oil has about 0.10 to 0.15."""
 ROOM = 293.15
 """Bulk temperature of both bodies without an oil [K]."""
 
@@ -139,7 +137,7 @@ def mixed_scene(
     made: dict[str, Any] = {
         "thermal": _thermal(model, contact),
         **rough_bodies(model, bodies, patch),
-        "contact": {**shape, "loads": [contact.load], "boundary_friction": BOUNDARY_FRICTION},
+        "contact": {**shape, "loads": [contact.load], "boundary_friction": model.boundary_friction},
         "oil": dict(oil),
         "speeds": {"values": [flat_speed], "slide_roll_ratio": ratio},
         **({"supply": {"distance": contact.inlet}} if math.isfinite(contact.inlet) else {}),
@@ -176,7 +174,8 @@ def rubbing_scene(
     curved: dict[str, Any] = {"kind": "ellipsoid", "radius": contact.radius, "radius_y": contact.across}
     if contact.length is not None:
         curved = {"kind": "cylinder", "radius": contact.radius}
-    bulk = ROOM if model.oil is None or model.oil.temperature is None else model.oil.temperature
+    oil = model.film_oil
+    bulk = model.bulk_temperature or (ROOM if oil is None or oil.temperature is None else oil.temperature)
     return {
         "grid": patch.table(),
         **rough_bodies(model, bodies, patch),
@@ -184,7 +183,7 @@ def rubbing_scene(
         "contact": {
             "load": load,
             "behaviour": "elastic" if hardness_of(model) is None else "capped",
-            "friction": BOUNDARY_FRICTION,
+            "friction": model.boundary_friction,
         },
         "heat": {
             "lower_speed": contact.speeds[0],
@@ -212,8 +211,8 @@ def _conducts(model: ElementModel) -> bool:
     constants."""
     from bem.friction.setup import HEAT_NEEDS
 
-    assert model.oil is not None
-    lubricant = model.oil.build()
+    assert model.film_oil is not None
+    lubricant = model.film_oil.build()
     materials = (model.first.build(), model.second.build())
     return all(one.thermal_diffusivity for one in materials) and all(
         getattr(lubricant, key) is not None for key in HEAT_NEEDS

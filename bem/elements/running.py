@@ -9,22 +9,23 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 from bem.elements.contact import ElementContact
 from bem.elements.element import Element
+from bem.elements.scuffing import flash_temperature
 from bem.errors import InputError, Status
 from bem.notes import Note
 from bem.notes.merge import merge
-from bem.particles import particle_number
-from bem.quantities import plain_digits
 from bem.scenes.load import load_scene
 
 if TYPE_CHECKING:
     from bem.lubrication import FilmSolution, Lubricant
 
-_ROLLS = "none by sliding: both surfaces roll at one speed"
+CITES = ("zhou1991",)
+"""Source of the estimated load share of asperities, a key of `bem/references.bib`."""
+_SHARE_FACTOR, _SHARE_POWER = 1.8, 1.2
 POINTS = 500
 """Of each film: of the templates' elements figures are within 0.1 % of those on 2000, and places are many."""
 
@@ -38,6 +39,8 @@ class Running:
     oil : mean temperature in the contact [K]. surface : the hotter surface at its hottest, flash included [K].
     notes : what the film says of its own limits.
     scatter : of the friction to smaller and larger values from the oil's constants; None but with shear_law "base_oil".
+    asperity_share : estimated share of the load on asperities; None without roughness. flash : flash temperature under
+    the film's friction [K]; None without the bodies' thermal constants.
     """
 
     contact: ElementContact
@@ -50,6 +53,8 @@ class Running:
     surface: float | None
     notes: tuple[Note, ...] = ()
     scatter: tuple[float, float] | None = None
+    asperity_share: float | None = None
+    flash: float | None = None
 
     @property
     def converged(self) -> bool:
@@ -85,7 +90,20 @@ def run_contact(element: Element, contact: ElementContact) -> Running:
         hottest,
         tuple(found.notes),
         _scatter(found, scene.oil.build()),
+        _asperity_share(element, figures["central_thickness"]),
+        flash_temperature(contact, figures["traction_coefficient"], modulus=element.modulus, bodies=element.bodies),
     )
+
+
+def _asperity_share(element: Element, central_film: float) -> float | None:
+    """Estimate the share of the load on asperities, exp(-B Lambda^C) of ground surfaces after running-in.
+
+    Zhou and Hoeprich (1991), Lambda the central film over the rms roughness; None without roughness.
+    """
+    roughness = element.model.rms_roughness
+    if roughness is None:
+        return None
+    return math.exp(-_SHARE_FACTOR * (central_film / roughness) ** _SHARE_POWER)
 
 
 def _scatter(film: FilmSolution, oil: Lubricant) -> tuple[float, float] | None:
@@ -110,22 +128,56 @@ def wear_per_pass(element: Element, contact: ElementContact) -> tuple[float | No
     return first, second
 
 
-def run_all(element: Element, told: Callable[[int, int], None] = lambda done, total: None) -> tuple[Running, ...]:
-    """All places with a steady film, in their order; `told` how many are done.
+def operating_places(element: Element, most: int | None = None) -> tuple[ElementContact, ...]:
+    """Return the contacts with a steady film, in their order: all, or about `most` of them.
+
+    A selection is even along the path, and holds the contacts nearest to marks, the one of highest pressure and the
+    one of the thinnest film.
+
+    Raises
+    ------
+    InputError : no place with a steady film.
+    """
+    contacts = element.found.contacts
+    steady = [i for i, one in enumerate(contacts) if abs(one.slide_roll_ratio) <= 2]
+    if not steady:
+        raise InputError(
+            f"{element.model.name}: nowhere do the surfaces go the same way, so no place has a steady film"
+        )
+    if most is None or len(steady) <= most:
+        return tuple(contacts[i] for i in steady)
+    even = {steady[round(i * (len(steady) - 1) / (most - 1))] for i in range(most)}
+    named = {min(steady, key=lambda i: abs(contacts[i].place - place)) for place in element.found.marks.values()}
+    films, modulus = element.columns().get("minimum_film [m]"), element.modulus
+    extreme = {max(steady, key=lambda i: contacts[i].hertz(modulus).maximum_pressure)}
+    if films is not None:
+        extreme.add(min(steady, key=lambda i: films[i]))
+    return tuple(contacts[i] for i in sorted(even | named | extreme))
+
+
+def run_all(
+    element: Element,
+    told: Callable[[int, int], None] = lambda done, total: None,
+    *,
+    most: int | None = None,
+) -> tuple[Running, ...]:
+    """Solve the films of all places with a steady one, or of about `most`, in their order; `told` how many are done.
+
+    Contacts that differ in their place alone, as on both sides of a bearing's load, are solved once.
 
     Raises
     ------
     InputError : no oil, or no place with a steady film.
     """
-    steady = [one for one in element.found.contacts if abs(one.slide_roll_ratio) <= 2]
-    if not steady:
-        raise InputError(
-            f"{element.model.name}: nowhere do the surfaces go the same way, so no place has a steady film"
-        )
+    steady = operating_places(element, most)
+    solved: dict[ElementContact, Running] = {}
     found = []
     for done, one in enumerate(steady):
         told(done, len(steady))
-        found.append(run_contact(element, one))
+        alike = replace(one, name="", place=0.0, load=float(f"{one.load:.12g}"))
+        if alike not in solved:
+            solved[alike] = run_contact(element, one)
+        found.append(replace(solved[alike], contact=one))
     return tuple(found)
 
 
@@ -136,6 +188,8 @@ _COLUMNS: dict[str, Callable[[Running], float | None]] = {
     "friction_power [W]": lambda one: one.power,
     "oil_temperature [K]": lambda one: one.oil,
     "surface_temperature [K]": lambda one: one.surface,
+    "flash_temperature [K]": lambda one: one.flash,
+    "asperity_load_share": lambda one: one.asperity_share,
 }
 
 
@@ -157,115 +211,3 @@ def notes(runs: Sequence[Running]) -> tuple[Note, ...]:
     """Return the notes of the films that converged, each once, with the number of places it applies to."""
     of_runs = [one.notes if one.converged else () for one in runs]
     return tuple(merge(of_runs, lambda at: f"at {len(at)} of {len(runs)} positions"))
-
-
-def summary(element: Element, solved: Sequence[Running]) -> tuple[tuple[str, str], ...]:
-    """Sum up the element as a whole, in words: power, thinnest film, micropitting, wear per hour, particles; of the
-    films that converged."""
-    lost, runs = [one for one in solved if not one.converged], [one for one in solved if one.converged]
-    missed = [("not converged", f"{len(lost)} of {len(solved)} films, the first at {one.contact.name}") for one in lost]
-    if not runs:
-        return tuple(missed[:1])
-    found, places = element.found, len(element.found.contacts)
-    power = sum(one.power for one in runs) / places * found.at_once
-    rows = [
-        (
-            "friction power",
-            f"{power:.4g} W{_scatter_of_power(runs, places, found.at_once)}: mean of one contact{_of(runs, places)} x "
-            f"{found.at_once:.4g} contacts at once",
-        )
-    ]
-    hot = [one for one in runs if one.surface is not None]
-    if hot:
-        hottest = max(hot, key=lambda one: one.surface or 0.0)
-        rows.append(
-            ("highest surface temperature", f"{(hottest.surface or 0.0) - 273.15:.4g} degC at {hottest.contact.name}")
-        )
-    thinnest = min(runs, key=lambda one: one.minimum_film)
-    rows.append(("minimum film thickness", f"{1e9 * thinnest.minimum_film:.4g} nm at {thinnest.contact.name}"))
-    thin = [one for one in runs if one.film_ratio is not None and one.film_ratio < 1]
-    if thin:
-        rows.append(
-            (
-                "mixed lubrication",
-                f"lambda is below 1 at {len(thin)} of {len(runs)} positions; friction and heat above leave asperity "
-                "contact out. With it, position by position: --scene mixed.toml --kind friction --at NUMBER",
-            )
-        )
-    rows.append(("micropitting", _micropitting(element, thinnest)))
-    rows.append(("wear per hour", _wear(element)))
-    rows.append(("particles per hour", _particles(element)))
-    return (*rows, *missed[:1])
-
-
-def _scatter_of_power(runs: Sequence[Running], places: int, at_once: float) -> str:
-    """Scatter of the power from the oil's constants, which are those of one oil at all places; nothing without one."""
-    if any(one.scatter is None for one in runs):
-        return ""
-    slid = [one.contact.load * abs(one.contact.speeds[0] - one.contact.speeds[1]) / places * at_once for one in runs]
-    down, up = (sum(s * one.scatter[k] for s, one in zip(slid, runs, strict=True) if one.scatter) for k in (0, 1))
-    if 0.0 in (down, up):  # pure rolling
-        return ""
-    return f" (-{plain_digits(down)}, +{plain_digits(up)} W between oils of this base)"
-
-
-def _of(runs: Sequence[Running], places: int) -> str:
-    return (
-        ""
-        if len(runs) == places
-        else f" (those {places - len(runs)} of {places} without a steady film that converged count none)"
-    )
-
-
-def _micropitting(element: Element, thinnest: Running) -> str:
-    """Safety of the film ratio, as ISO/TS 6336-22 judges: the smallest over what a test permits."""
-    if thinnest.film_ratio is None:
-        return "not known: give rms_roughness, of both surfaces together"
-    ratio, permitted = thinnest.film_ratio, element.model.permissible_film_ratio
-    said = f"smallest lambda {ratio:.3g}"
-    if permitted is None:
-        return (
-            f"{said}; for a safety give permissible_film_ratio, the smallest lambda without micropitting in a test "
-            "with this oil and finish"
-        )
-    return (
-        f"{said} over {permitted:.3g} permitted: safety {ratio / permitted:.3g}. Concept of ISO/TS 6336-22, not its "
-        "procedure: the film is solved with its heat instead of a film formula, and roughness is Sq instead of Ra"
-    )
-
-
-def _wear(element: Element) -> str:
-    contacts, rates = element.found.contacts, element.found.passes
-    if element.model.specific_wear_rate is None:
-        return "not known: give specific_wear_rate, measured with this oil and load share"
-    if worn_volume_rate(element) == 0:
-        return _ROLLS
-    said = []
-    for body, rate in enumerate(rates):
-        if rate is None:
-            said.append(f"body {body + 1} not known: how often a place is passed, and how fast, is not one number")
-            continue
-        depth, where = max((wear_per_pass(element, one)[body] or 0.0, one.name) for one in contacts)
-        said.append(f"body {body + 1} {3600 * rate * depth * 1e6:.3g} um at {where}")
-    return ", ".join(said) + "; Archard's law with the whole load, the rate being that of this lubrication"
-
-
-def worn_volume_rate(element: Element) -> float:
-    """Of both bodies together [m^3/s]: Archard's rate x load x sliding speed on each, the mean over the places times
-    how many there are at once; 0 without a wear rate."""
-    found = element.found
-    slid = [one.load * abs(one.speeds[0] - one.speeds[1]) for one in found.contacts]
-    return 2 * (element.model.specific_wear_rate or 0.0) * sum(slid) / len(slid) * found.at_once
-
-
-def _particles(element: Element) -> str:
-    """How many come off, of a worn volume and their mean one; a smooth contact has neither."""
-    rate, one = 3600 * worn_volume_rate(element), element.model.mean_particle_volume
-    if element.model.specific_wear_rate is None:
-        return "not known: give specific_wear_rate, and mean_particle_volume"
-    if rate == 0:
-        return _ROLLS
-    worn = f"{1e9 * rate:.3g} mm^3 of both bodies"
-    if one is None:
-        return f"{worn}; with mean_particle_volume, measured or of kinds wear and running-in, it becomes a number"
-    return f"{worn}, {particle_number(rate, one):.3g} of {1e18 * one:.3g} um^3 each"

@@ -12,7 +12,7 @@ from bem.scenes.load import dumped
 _DIGITS = 6
 """Digits of written values: the rounding of 1e-6 is far below every error of a model."""
 _UNITS = {
-    **dict.fromkeys(("lower_bulk", "upper_bulk"), "K"),
+    **dict.fromkeys(("lower_bulk", "upper_bulk", "temperature"), "K"),
     **dict.fromkeys(("load", "loads"), "N"),
     **dict.fromkeys(("values", "mean_speed", "lower_speed", "upper_speed"), "m/s"),
     **dict.fromkeys(("roughness", "rms_height", "rolloff_wavelength", "cutoff_wavelength"), "m"),

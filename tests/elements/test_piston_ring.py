@@ -9,8 +9,9 @@ import pytest
 from scipy.integrate import quad
 
 from bem import InputError, load_scene, run_scene
+from bem.elements.answer import answer
 from bem.elements.element import element_template, load_element
-from bem.elements.running import run_contact, summary
+from bem.elements.running import run_contact
 from bem.reference_solutions.line_film import InletFilm, MartinFilm, squeeze_thickness
 
 TABLE = tomllib.loads(element_template("piston-ring")) | {"points": 12}
@@ -113,7 +114,7 @@ def test_over_the_cycle():
     assert element.model.cycle == pytest.approx(4 * math.pi)
     assert len(element.found.contacts) == 12
     runs = [run_contact(element, one) for one in element.found.contacts[:3]]
-    said = dict(summary(element, runs))
+    said = dict(answer(element, runs))
     assert "body 2 not known" in said["wear per hour"]
     assert "of 0.1 um^3 each" in said["particles per hour"]
     notes = element.notes()

@@ -7,7 +7,8 @@ import pytest
 
 from bem import InputError, load_scene, plan_scene, run_scene
 from bem.elements.element import KINDS, MIXED, MODELS, element_template, load_element
-from bem.elements.rough_scenes import BOUNDARY_FRICTION, patch_over
+from bem.elements.model import BOUNDARY_FRICTION
+from bem.elements.rough_scenes import patch_over
 from bem.scenes import get_kind
 
 ROUGH = (*MIXED, "surface-temperature")

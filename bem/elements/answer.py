@@ -1,0 +1,252 @@
+"""What `bem element` answers on one screen: critical contact, film, friction, temperatures and safety.
+
+Rows of words from numbers that other modules compute: `running` the films, `bearing_life` and `gear_scuffing` the
+ratings, `element_wear` wear. A friction power with asperity contact is an estimate from the load share of Zhou and
+Hoeprich; kind friction computes it for a contact.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from functools import partial
+
+from bem.elements.bearing_life import life_rows
+from bem.elements.contact import ElementContact
+from bem.elements.element import Element
+from bem.elements.element_wear import particles_per_hour, wear_per_hour
+from bem.elements.gear_pair import GearModel
+from bem.elements.gear_scuffing import CELSIUS, friction_of_gear_tests, scuffing_of, sliding_power
+from bem.elements.rolling_bearing import BearingModel
+from bem.elements.running import Running, run_all
+from bem.quantities import plain_digits, with_unit
+
+Rows = tuple[tuple[str, str], ...]
+
+PLACES = 11
+"""Films that are solved for an answer on one screen, beside marked and extreme contacts; `--running` solves all."""
+_LEAST_SCATTER = 0.005
+"""Scatter of the friction power, over it, below which it is left out."""
+_BALANCE_ROUNDS, _BALANCE_STEP = 8, 0.2
+"""Rounds of a heat balance at most, and the change of temperature [K] at which it is found."""
+
+
+@dataclass(frozen=True)
+class FrictionPower:
+    """Friction power of an element [W].
+
+    film : of the oil films. with_asperities : estimate with asperity contact; None without roughness.
+    down, up : scatter of `film` from the oil's constants; None but with the law of base oils.
+    counted : share of the places that have a steady film.
+    """
+
+    film: float
+    with_asperities: float | None
+    down: float | None
+    up: float | None
+    counted: float
+
+
+def friction_power(element: Element, runs: Sequence[Running]) -> FrictionPower:
+    """Sum up the friction power of all contacts at a time; places without a solved film between others interpolate.
+
+    runs : solved films; those that did not converge are left out.
+    """
+    import numpy as np
+
+    found = element.found
+    known = sorted((one for one in runs if one.converged), key=lambda one: one.contact.place)
+    steady = [one for one in found.contacts if abs(one.slide_roll_ratio) <= 2]
+
+    def mean(value: Callable[[Running], float]) -> float:
+        """Mean over all places of value per load times load; places on both rings of a bearing keep their own."""
+        own = {one.contact: value(one) for one in known}
+        at = np.array([one.contact.place for one in known])
+        per_load = np.array([value(one) / one.contact.load for one in known])
+        total = sum(own[one] if one in own else one.load * float(np.interp(one.place, at, per_load)) for one in steady)
+        return float(total) / len(found.contacts) * found.at_once
+
+    mixed = None
+    if all(one.asperity_share is not None for one in known):
+        boundary = element.model.boundary_friction
+        mixed = mean(lambda one: one.power + (one.asperity_share or 0.0) * (boundary * _slid(one) - one.power))
+        mixed = max(mixed, 0.0)
+    down = up = None
+    if all(one.scatter is not None for one in known):
+        down, up = (mean(partial(_scattered, k)) for k in (0, 1))
+    return FrictionPower(mean(lambda one: one.power), mixed, down, up, len(steady) / len(found.contacts))
+
+
+def _slid(one: Running) -> float:
+    """Return load times sliding speed [W]."""
+    return one.contact.load * abs(one.contact.speeds[0] - one.contact.speeds[1])
+
+
+def _scattered(side: int, one: Running) -> float:
+    """Return the scatter of a contact's friction power [W]: side 0 down, 1 up."""
+    return _slid(one) * (one.scatter or (0.0, 0.0))[side]
+
+
+def balance_heat(element: Element, *, most: int = PLACES) -> Element:
+    """Return the element with the bulk temperature of its heat balance; the element itself without one.
+
+    The bulk temperature is that of the surroundings plus friction power over conductance. Rounds are damped by the
+    secant of the last two.
+    """
+    balance = element.model.heat_balance
+    if balance is None or element.model.oil is None or element.model.oil.temperature is None:
+        return element
+    around = element.model.oil.temperature if balance.ambient is None else balance.ambient
+
+    def excess(temperature: float) -> float:
+        at = element.at_bulk(temperature)
+        power = friction_power(at, run_all(at, most=most))
+        return around + (power.with_asperities or power.film) / balance.conductance - temperature
+
+    low, error = around, excess(around)
+    high = low + error
+    for _ in range(_BALANCE_ROUNDS):
+        if abs(error) < _BALANCE_STEP:
+            break
+        now = excess(high)
+        low, high, error = high, high - now * (high - low) / (now - error), now
+    return element.at_bulk(high)
+
+
+def answer(element: Element, solved: Sequence[Running]) -> Rows:
+    """Return the answer in rows of name and words.
+
+    solved : films of all places or of a selection.
+    """
+    runs = [one for one in solved if one.converged]
+    rows: list[tuple[str, str]] = [("critical contact", contact_words(element, element.worst()))]
+    if runs:
+        rows += [
+            ("lambda ratio", _film(element, runs)),
+            *_friction_rows(element, runs),
+            ("temperatures", _temperatures(element, runs)),
+        ]
+    if isinstance(element.model, GearModel) and runs:
+        rows.append(("scuffing", _scuffing(element, runs)))
+    if isinstance(element.model, BearingModel):
+        rows += life_rows(element)
+    if runs and (not isinstance(element.model, BearingModel) or element.model.permissible_film_ratio is not None):
+        rows.append(("micropitting", _micropitting(element, runs)))
+    rows.append(("wear per hour", wear_per_hour(element)))
+    if element.model.specific_wear_rate is not None:
+        rows.append(("particles per hour", particles_per_hour(element)))
+    lost = [one for one in solved if not one.converged]
+    if lost:
+        rows.append(("not converged", f"{len(lost)} of {len(solved)} films, the first at {lost[0].contact.name}"))
+    return tuple(rows)
+
+
+def contact_words(element: Element, one: ElementContact) -> str:
+    """Return a contact's pressure, load, radius and speeds in words."""
+    hertz = one.hertz(element.modulus)
+    sliding = abs(one.speeds[0] - one.speeds[1])
+    moves = f"entrainment {one.mean_speed:.3g} m/s" + (f", sliding {sliding:.3g} m/s" if sliding else ", pure rolling")
+    return (
+        f"{one.name}: Hertz pressure {with_unit(hertz.maximum_pressure, 'Pa')}, load {with_unit(one.load, 'N')}, "
+        f"radius {with_unit(one.radius, 'm')}, {moves}"
+    )
+
+
+def _film(element: Element, runs: Sequence[Running]) -> str:
+    thinnest = min(runs, key=lambda one: one.minimum_film)
+    film = f"minimum film {1e9 * thinnest.minimum_film:.3g} nm at {thinnest.contact.name}"
+    if thinnest.film_ratio is None:
+        return f"not known: give rms_roughness, of both surfaces together; {film}"
+    ratio = thinnest.film_ratio
+    regime = "full film" if ratio >= 3 else "mixed lubrication" if ratio < 1 else "thin film, some asperities touch"
+    share = max(one.asperity_share or 0.0 for one in runs)
+    touching = f"; asperities carry up to {share:.0%} (estimate)" if share >= 0.01 else ""
+    return f"{ratio:.3g} ({regime}{touching}), {film}"
+
+
+def _friction_rows(element: Element, runs: Sequence[Running]) -> list[tuple[str, str]]:
+    power = friction_power(element, runs)
+    said = f"{power.film:.3g} W by the oil films"
+    if power.down and power.up and max(power.down, power.up) > _LEAST_SCATTER * power.film:
+        said += f" (-{plain_digits(power.down)}, +{plain_digits(power.up)} W between oils of this base)"
+    losses = [power.film]
+    if power.with_asperities is not None and power.with_asperities > 1.01 * power.film:
+        losses.append(power.with_asperities)
+        said += (
+            f"; {power.with_asperities:.3g} W with asperity contact at boundary friction "
+            f"{element.model.boundary_friction:g} (estimate; kind friction computes it)"
+        )
+    if power.counted < 1:
+        said += f"; {1 - power.counted:.0%} of the places have no steady film and count none"
+    rows = [("friction power", said)]
+    model = element.model
+    if isinstance(model, GearModel):
+        tests = friction_of_gear_tests(element)
+        if tests is not None:
+            losses.append(sliding_power(element, tests.power))
+            rows[0] = (
+                "friction power",
+                f"{said}; {losses[-1]:.3g} W by a fit to gear tests (Schlenk, mean coefficient {tests.power:.3g})",
+            )
+        given = model.pinion_torque * model.speed
+        least, most = (100 * (1 - loss / given) for loss in (max(losses), min(losses)))
+        span = f"{least:.2f} to {most:.2f} %" if f"{least:.2f}" != f"{most:.2f}" else f"{least:.2f} %"
+        rows.append(("efficiency", f"{span} of {with_unit(given, 'W')}, friction of the teeth alone"))
+    elif isinstance(model, BearingModel):
+        rows.append(("friction moment", f"{1e3 * power.film / model.speed:.3g} N mm, without cage, churning and seals"))
+    return rows
+
+
+def _temperatures(element: Element, runs: Sequence[Running]) -> str:
+    model = element.model
+    assert model.oil is not None
+    if model.oil.temperature is None:
+        return "not known: give oil.temperature"
+    oil = model.oil.temperature - CELSIUS
+    said = f"oil {oil:.4g} °C, "
+    if model.bulk_temperature is None:
+        said += "bodies as warm as the oil (give bulk_temperature or heat_balance)"
+    else:
+        said += f"bodies {model.bulk_temperature - CELSIUS:.4g} °C, at which films are solved"
+    hot = [one for one in runs if one.flash is not None]
+    if not hot:
+        return f"{said}; flash temperature not known: thermal constants of a body are missing"
+    hottest = max(hot, key=lambda one: one.flash or 0.0)
+    if not hottest.flash:
+        return f"{said}; no flash temperature, as the surfaces roll without sliding"
+    return f"{said}; flash {hottest.flash:.3g} K at {hottest.contact.name} (Blok, friction of the film)"
+
+
+def _scuffing(element: Element, runs: Sequence[Running]) -> str:
+    model = element.model
+    assert isinstance(model, GearModel)
+    found = scuffing_of(element, runs)
+    if found is None:
+        return "not known: give oil.temperature and thermal constants of both materials"
+    bulk = f"bulk {found.bulk - CELSIUS:.3g} °C"
+    if found.estimated:
+        bulk += " (estimate: oil + 0.7 x mean flash)"
+    said = f"contact temperature {found.contact - CELSIUS:.3g} °C at {found.flash_at}, {bulk}"
+    if found.integral is not None:
+        said += f"; integral temperature {found.integral - CELSIUS:.3g} °C (friction of gear tests)"
+    if found.contact_safety is None:
+        return f"{said}. For a safety give scuffing_load_stage, the FZG load stage (A/8.3/90) that the oil fails"
+    safety = f"{found.contact_safety:.3g} by contact temperature"
+    if found.integral_safety is not None:
+        safety += f", {found.integral_safety:.3g} by integral temperature"
+    return f"safety {safety}; {said}. Concepts of ISO/TS 6336-20 and -21"
+
+
+def _micropitting(element: Element, runs: Sequence[Running]) -> str:
+    """Safety of the lambda ratio, as ISO/TS 6336-22 judges: the smallest over what a test permits."""
+    thinnest = min(runs, key=lambda one: one.minimum_film)
+    if thinnest.film_ratio is None:
+        return "not known: give rms_roughness, of both surfaces together"
+    ratio, permitted = thinnest.film_ratio, element.model.permissible_film_ratio
+    said = f"smallest lambda {ratio:.3g}"
+    if permitted is None:
+        return f"{said}; for a safety give permissible_film_ratio, of a test with this oil and finish"
+    return (
+        f"{said} over {permitted:.3g} permitted: safety {ratio / permitted:.3g}. Concept of ISO/TS 6336-22, not its "
+        "procedure: the film is solved with its heat, and roughness is Sq instead of Ra"
+    )

@@ -1,0 +1,173 @@
+"""Rating life of a bearing of an element's file: the ratings of the file or of its geometry, its oil and its loads."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import dataclass
+
+from bem.elements.element import Element
+from bem.elements.rating_life import (
+    CONTAMINATION,
+    LEAST_KAPPA,
+    RELIABILITY,
+    RatingLife,
+    contamination_factor,
+    dynamic_rating,
+    fatigue_limit,
+    hours,
+    life_modification_factor,
+    rating_life,
+    reference_viscosity,
+    static_rating,
+)
+from bem.elements.reference_life import (
+    ReferenceLife,
+    ball_reference_life,
+    roller_reference_life,
+    slice_rollers,
+)
+from bem.elements.rolling_bearing import BearingModel
+
+DEFAULT_CLEANLINESS = "normal"
+"""Cleanliness of a bearing whose file says none."""
+
+
+@dataclass(frozen=True)
+class BearingLife:
+    """Lives of a bearing.
+
+    rating : basic and modified life of ISO 281. reference : life of ISO/TS 16281 with the loads of all elements.
+    modified_reference : the latter with a_ISO at its reference load [revolutions]; None where a_ISO is not known.
+    static_rating : C_0 [N]. reference_viscosity : nu1 [m^2/s].
+    slice_pressure : highest Hertz pressure of a slice of a roller on the inner ring [Pa]; None for balls.
+    """
+
+    rating: RatingLife
+    reference: ReferenceLife
+    modified_reference: float | None
+    static_rating: float
+    reference_viscosity: float
+    slice_pressure: float | None = None
+
+
+def bearing_life(element: Element) -> BearingLife:
+    """Return the lives of a rolling bearing."""
+    model = element.model
+    assert isinstance(model, BearingModel)
+    geometry, load = model.geometry, model.load
+    rating = model.dynamic_load_rating or dynamic_rating(geometry)
+    static = model.static_load_rating or static_rating(geometry)
+    limit = model.fatigue_load_limit or fatigue_limit(static, geometry)
+    dirt = model.contamination_factor
+    if dirt is None:
+        dirt = contamination_factor(model.cleanliness or DEFAULT_CLEANLINESS, model.pitch)
+    needed = reference_viscosity(model.pitch, model.speed)
+    kinematic = kinematic_viscosity(element)
+    kappa = None if kinematic is None else kinematic / needed
+    found = rating_life(
+        model.rolling,
+        rating=rating,
+        load=load,
+        viscosity_ratio=kappa,
+        contamination=dirt,
+        limit=limit,
+        reliability=model.reliability,
+    )
+    pressure = None
+    if model.length is None:
+        reference = ball_reference_life(geometry, rating, model.shared)
+    else:
+        rollers = slice_rollers(
+            geometry, load, clearance=model.clearance, tilt=model.tilt, profiled=model.profile == "logarithmic"
+        )
+        reference = roller_reference_life(geometry, rating, rollers)
+        inner = element.found.contacts[0]
+        assert reference.highest_slice is not None
+        pressure = math.sqrt(reference.highest_slice * element.modulus / (math.pi * inner.radius))
+    modified = None
+    if kappa is not None:
+        factor = life_modification_factor(
+            model.rolling, viscosity_ratio=kappa, contamination=dirt, limit_over_load=limit / reference.load
+        )
+        if factor is not None:
+            modified = RELIABILITY[model.reliability] * factor * reference.basic
+    return BearingLife(found, reference, modified, static, needed, pressure)
+
+
+def kinematic_viscosity(element: Element) -> float | None:
+    """Return the kinematic viscosity of the element's oil [m^2/s]; None without an oil or its density."""
+    if element.model.film_oil is None:
+        return None
+    oil = element.model.film_oil.build()
+    return None if oil.density is None else oil.viscosity / oil.density
+
+
+def life_rows(element: Element) -> list[tuple[str, str]]:
+    """Return the lives of a rolling bearing in words."""
+    model = element.model
+    assert isinstance(model, BearingModel)
+    life = bearing_life(element)
+    rating, speed = life.rating, model.speed
+    source = "of the file" if model.dynamic_load_rating else "from the geometry by ISO 281; a catalogue's may be higher"
+    rows = [
+        (
+            "basic rating life",
+            f"L10 = {_life(rating.basic, speed)}; C = {1e-3 * rating.dynamic_rating:.4g} kN ({source}), "
+            f"P = {1e-3 * rating.load:.4g} kN, C/P = {rating.dynamic_rating / rating.load:.3g}",
+        )
+    ]
+    rows.append(("modified rating life", _modified(model, life)))
+    said = f"L10r = {_life(life.reference.basic, speed)}"
+    if life.modified_reference is not None:
+        said += f", modified {_life(life.modified_reference, speed)}"
+    said += "; ISO/TS 16281, from the load of every rolling element at this clearance"
+    if life.slice_pressure is not None:
+        tilt = f"tilt {1e3 * model.tilt:.3g} mrad" if model.tilt else "no tilt"
+        said += (
+            f" and slice by slice ({model.profile} profile, {tilt}; highest slice {1e-9 * life.slice_pressure:.3g} GPa)"
+        )
+    rows.append(("reference rating life", said))
+    rows.append(
+        (
+            "static safety",
+            f"C0 / P0 = {life.static_rating / rating.load:.3g}; C0 = {1e-3 * life.static_rating:.4g} kN "
+            f"({'of the file' if model.static_load_rating else 'from the geometry by ISO 76'})",
+        )
+    )
+    return rows
+
+
+def _modified(model: BearingModel, life: BearingLife) -> str:
+    rating = life.rating
+    if rating.viscosity_ratio is None:
+        return "not known: the kinematic viscosity is missing; give an oil by its grade or viscosities, or its density"
+    needed = f"nu1 = {1e6 * life.reference_viscosity:.3g} mm²/s"
+    if rating.a_iso is None or rating.modified is None:
+        return (
+            f"not defined: kappa = {rating.viscosity_ratio:.3g} is below {LEAST_KAPPA} ({needed}); take a thicker oil"
+        )
+    if model.contamination_factor is not None:
+        dirt = ""
+    else:
+        chosen = model.cleanliness or DEFAULT_CLEANLINESS
+        low, high = CONTAMINATION[chosen][0 if model.pitch < 0.1 else 1]
+        assumed = "" if model.cleanliness else ", assumed"
+        dirt = f" ({chosen} cleanliness{assumed}: {low:g} to {high:g})"
+    return (
+        f"L{100 - model.reliability}m = {_life(rating.modified, model.speed)}; a_ISO = {rating.a_iso:.3g} with "
+        f"kappa = {rating.viscosity_ratio:.3g} ({needed}), e_C = {rating.contamination:.3g}{dirt}, "
+        f"C_u = {1e-3 * rating.fatigue_limit:.3g} kN"
+    )
+
+
+def _life(revolutions: float, speed: float) -> str:
+    """Return a life in million revolutions and hours, in words."""
+    return f"{_plain(1e-6 * revolutions)} million revolutions ({_plain(hours(revolutions, speed))} h)"
+
+
+def _plain(value: float) -> str:
+    """Return a number with three digits, and powers of ten from a million on."""
+    if value >= 1e6:
+        return f"{value:.3g}"
+    rounded = float(f"{value:.3g}")
+    return f"{rounded:,.0f}".replace(",", " ") if rounded >= 100 else f"{value:.3g}"

@@ -1,0 +1,49 @@
+"""Wear of machine elements by Archard's law: depth per hour, worn volume, number of particles."""
+
+from __future__ import annotations
+
+from bem.elements.element import Element
+from bem.elements.running import wear_per_pass
+from bem.particles import particle_number
+
+CITES = ("archard1953",)
+"""Source of the wear law, a key of `bem/references.bib`."""
+_ROLLS = "none by sliding: both surfaces roll at one speed"
+
+
+def wear_per_hour(element: Element) -> str:
+    """Return the depth that an hour takes off each body, in words."""
+    contacts, rates = element.found.contacts, element.found.passes
+    if element.model.specific_wear_rate is None:
+        return "not known: give specific_wear_rate, measured with this oil and load share"
+    if worn_volume_rate(element) == 0:
+        return _ROLLS
+    said = []
+    for body, rate in enumerate(rates):
+        if rate is None:
+            said.append(f"body {body + 1} not known: how often a place is passed, and how fast, is not one number")
+            continue
+        depth, where = max((wear_per_pass(element, one)[body] or 0.0, one.name) for one in contacts)
+        said.append(f"body {body + 1} {3600 * rate * depth * 1e6:.3g} um at {where}")
+    return ", ".join(said) + "; Archard's law with the whole load, the rate being that of this lubrication"
+
+
+def worn_volume_rate(element: Element) -> float:
+    """Of both bodies together [m^3/s]: Archard's rate x load x sliding speed on each, the mean over the places times
+    how many there are at once; 0 without a wear rate."""
+    found = element.found
+    slid = [one.load * abs(one.speeds[0] - one.speeds[1]) for one in found.contacts]
+    return 2 * (element.model.specific_wear_rate or 0.0) * sum(slid) / len(slid) * found.at_once
+
+
+def particles_per_hour(element: Element) -> str:
+    """How many come off, of a worn volume and their mean one; a smooth contact has neither."""
+    rate, one = 3600 * worn_volume_rate(element), element.model.mean_particle_volume
+    if element.model.specific_wear_rate is None:
+        return "not known: give specific_wear_rate, and mean_particle_volume"
+    if rate == 0:
+        return _ROLLS
+    worn = f"{1e9 * rate:.3g} mm^3 of both bodies"
+    if one is None:
+        return f"{worn}; with mean_particle_volume, measured or of kinds wear and running-in, it becomes a number"
+    return f"{worn}, {particle_number(rate, one):.3g} of {1e18 * one:.3g} um^3 each"

@@ -1,0 +1,142 @@
+"""Figure of all contacts of a machine element: load and pressure, film, friction and temperatures over the path.
+
+Marked points, A to E of a gear pair, are lines through all panels.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+from bem.elements.element import Element
+from bem.elements.running import Running
+
+if TYPE_CHECKING:
+    from matplotlib.figure import Figure
+
+_CELSIUS = 273.15
+
+
+def draw_element(element: Element, runs: Sequence[Running], path: Path) -> None:
+    """Write the figure of an element: .png, .pdf or .svg.
+
+    runs : solved films; points of the lower panels, none where it is empty.
+    """
+    figure = element_figure(element, runs)
+    figure.savefig(path, format=path.suffix[1:].lower(), dpi=150)
+
+
+def element_figure(element: Element, runs: Sequence[Running]) -> Figure:
+    """Return the figure of an element; parameters as in `draw_element`."""
+    from bem.plots.backend import load_matplotlib
+    from bem.plots.style import style
+
+    load_matplotlib()
+    from matplotlib.figure import Figure
+
+    known = [one for one in runs if one.converged]
+    with style():
+        figure = Figure(figsize=(7.2, 7.8 if known else 4.6), layout="constrained")
+        panels = figure.subplots(4 if known else 2, 1, sharex=True)
+        _loads(element, panels[0])
+        _films(element, known, panels[1])
+        if known:
+            _friction(element, known, panels[2])
+            _temperatures(element, known, panels[3])
+        degrees = element.found.along_unit == "rad"
+        panels[-1].set_xlabel("angle (deg)" if degrees else f"{element.found.along} from C (mm)")
+        for panel in panels:
+            for place in element.found.marks.values():
+                panel.axvline(1e3 * place, color="0.6", linewidth=0.7, zorder=0)
+        for name, place in element.found.marks.items():
+            panels[0].annotate(
+                name, (1e3 * place, 1.0), xycoords=("data", "axes fraction"), xytext=(0, 3),
+                textcoords="offset points", ha="center",
+            )  # fmt: skip
+        figure.suptitle(
+            f"{element.model.name}: {element.model.description or element.model.element}", fontsize="medium"
+        )
+    return figure
+
+
+def _place(element: Element, value: float) -> float:
+    return math.degrees(value) if element.found.along_unit == "rad" else 1e3 * value
+
+
+def _branches(element: Element, contacts: Sequence[Any]) -> dict[str, list[int]]:
+    """Return indices of contacts by ring of a bearing, or all under one empty name, in the order of their places."""
+    found: dict[str, list[int]] = {}
+    for i, one in enumerate(contacts):
+        ring = one.name.partition(",")[0] if one.name.endswith("deg") and "," in one.name else ""
+        found.setdefault(ring, []).append(i)
+    return {name: sorted(rows, key=lambda i: contacts[i].place) for name, rows in found.items()}
+
+
+def _loads(element: Element, axes: Any) -> None:
+    contacts = element.found.contacts
+    right = axes.twinx()
+    for number, (ring, rows) in enumerate(_branches(element, contacts).items()):
+        x = [_place(element, contacts[i].place) for i in rows]
+        dash = ("-", "--")[number % 2]
+        axes.plot(x, [1e-9 * contacts[i].hertz(element.modulus).maximum_pressure for i in rows], dash, color="C0",
+                  label=ring or None)  # fmt: skip
+        right.plot(x, [1e-3 * contacts[i].load for i in rows], dash, color="C1")
+    axes.set_ylabel("Hertz pressure (GPa)", color="C0")
+    right.set_ylabel("load (kN)", color="C1")
+    axes.set_ylim(bottom=0)
+    right.set_ylim(bottom=0)
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(frameon=False, fontsize="small")
+
+
+def _films(element: Element, known: Sequence[Running], axes: Any) -> None:
+    columns, contacts = element.columns(), element.found.contacts
+    if "minimum_film [m]" not in columns:
+        axes.set_ylabel("no oil is given")
+        return
+    scale = element.model.rms_roughness
+    key, factor = ("minimum_film [m]", 1e9) if scale is None else ("film_over_roughness", 1.0)
+    for number, rows in enumerate(_branches(element, contacts).values()):
+        x = [_place(element, contacts[i].place) for i in rows]
+        axes.plot(x, [factor * columns[key][i] for i in rows], ("-", "--")[number % 2], color="0.5",
+                  label=None if number else "formula")  # fmt: skip
+    if known:
+        x = [_place(element, one.contact.place) for one in known]
+        axes.plot(x, [one.minimum_film * (1e9 if scale is None else 1 / scale) for one in known], ".", color="C0",
+                  label="solved")  # fmt: skip
+    axes.set_ylabel("minimum film (nm)" if scale is None else "lambda ratio")
+    axes.set_ylim(bottom=0)
+    axes.legend(frameon=False, fontsize="small")
+
+
+def _friction(element: Element, known: Sequence[Running], axes: Any) -> None:
+    right = axes.twinx()
+    contacts = [one.contact for one in known]
+    for number, rows in enumerate(_branches(element, contacts).values()):
+        x = [_place(element, contacts[i].place) for i in rows]
+        dash = ("-", "--")[number % 2]
+        axes.plot(x, [abs(known[i].friction) for i in rows], dash, marker=".", color="C0")
+        right.plot(x, [known[i].power for i in rows], dash, marker=".", color="C1")
+    axes.set_ylim(bottom=0)
+    axes.set_ylabel("friction coefficient\n(magnitude)", color="C0")
+    right.set_ylabel("friction power (W)", color="C1")
+    right.set_ylim(bottom=0)
+
+
+def _temperatures(element: Element, known: Sequence[Running], axes: Any) -> None:
+    contacts = [one.contact for one in known]
+    for number, rows in enumerate(_branches(element, contacts).values()):
+        x = [_place(element, contacts[i].place) for i in rows]
+        dash = ("-", "--")[number % 2]
+        for name, values, colour in (
+            ("oil, mean in the contact", [known[i].oil for i in rows], "C0"),
+            ("surface, highest", [known[i].surface for i in rows], "C3"),
+        ):
+            if all(value is not None for value in values):
+                axes.plot(x, [value - _CELSIUS for value in values if value is not None], dash, marker=".",
+                          color=colour, label=None if number else name)  # fmt: skip
+    axes.set_ylabel("temperature (°C)")
+    if axes.get_legend_handles_labels()[0]:
+        axes.legend(frameon=False, fontsize="small")

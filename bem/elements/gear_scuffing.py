@@ -1,0 +1,147 @@
+"""Scuffing and friction of a gear pair of an element's file, by the formulas of `bem.elements.scuffing`."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from bem.elements.element import Element
+from bem.elements.gear_pair import GearModel, path_of_contact
+from bem.elements.running import Running
+from bem.elements.scuffing import (
+    BULK_WEIGHT,
+    flash_temperature,
+    gear_test_friction,
+    integral_temperature,
+    lubricant_factor,
+    permissible_contact_temperature,
+    permissible_integral_temperature,
+    scuffing_test_friction,
+)
+
+CELSIUS = 273.15
+_AT_40 = 313.15
+_RA_OVER_SQ = math.sqrt(2 / math.pi)
+"""Mean roughness Ra over rms roughness Sq of Gaussian heights."""
+
+
+@dataclass(frozen=True)
+class TestFriction:
+    """Mean friction coefficients of a gear pair by fits to gear tests.
+
+    power : of the formula for power loss. scuffing : of the formula for the integral temperature.
+    """
+
+    power: float
+    scuffing: float
+
+
+@dataclass(frozen=True)
+class Scuffing:
+    """Temperatures of a gear pair [K], flash temperatures as differences, and safeties against scuffing.
+
+    bulk : of the gears. estimated : True if it follows from the mean flash temperature. flash, flash_at : highest flash
+    temperature under the film's friction, and where. contact : highest contact temperature. mean_flash : mean over the
+    path under the friction of gear tests; None without roughness, as then `integral`.
+    contact_safety, integral_safety : None without a load stage of the oil.
+    """
+
+    bulk: float
+    estimated: bool
+    flash: float
+    flash_at: str
+    contact: float
+    mean_flash: float | None
+    integral: float | None
+    contact_safety: float | None
+    integral_safety: float | None
+
+
+def base_of(element: Element) -> str:
+    """Return the base of the element's oil, mineral where none is known."""
+    assert element.model.film_oil is not None
+    oil = element.model.film_oil
+    built = oil.build()
+    return built.oil.base if built.oil is not None else oil.base or "mineral"
+
+
+def friction_of_gear_tests(element: Element) -> TestFriction | None:
+    """Return the mean friction coefficients by fits to gear tests; None without roughness or an oil."""
+    model = element.model
+    assert isinstance(model, GearModel)
+    if model.rms_roughness is None or model.oil is None:
+        return None
+    path = path_of_contact(model)
+    omega = (model.speed, model.speed * model.teeth[0] / model.teeth[1])
+    sum_speed = omega[0] * path.pitch + omega[1] * (path.line - path.pitch)
+    given = {
+        "line_load": model.pinion_torque / (path.base_radii[0] * model.face_width),
+        "sum_speed": sum_speed,
+        "radius": path.pitch * (path.line - path.pitch) / path.line / math.cos(path.base_helix),
+        "viscosity": model.oil.build().viscosity,
+        "roughness": _RA_OVER_SQ * model.rms_roughness / math.sqrt(2),
+        "factor": lubricant_factor(base_of(element), sum_speed),
+    }
+    return TestFriction(gear_test_friction(**given), scuffing_test_friction(**given))
+
+
+def scuffing_of(element: Element, runs: Sequence[Running]) -> Scuffing | None:
+    """Return temperatures and safeties against scuffing; None without the bodies' thermal constants or a temperature.
+
+    runs : solved films; contacts that did not converge are left out.
+    """
+    model = element.model
+    assert isinstance(model, GearModel)
+    flashes = [(one.flash, one.contact.name) for one in runs if one.converged and one.flash is not None]
+    oil = None if model.oil is None else model.oil.temperature
+    if not flashes or oil is None:
+        return None
+    flash, where = max(flashes)
+    friction = friction_of_gear_tests(element)
+    mean = None if friction is None else mean_flash_temperature(element, friction.scuffing)
+    bulk, estimated = model.bulk_temperature, False
+    if bulk is None:
+        bulk, estimated = oil + BULK_WEIGHT * (mean or 0.0), mean is not None
+    integral = None if mean is None else integral_temperature(bulk, mean)
+    contact_safety = integral_safety = None
+    if model.scuffing_load_stage is not None:
+        factor = lubricant_factor(base_of(element), _sum_speed(model))
+        allowed = permissible_contact_temperature(
+            model.scuffing_load_stage, factor=factor, structure=model.structure_factor
+        )
+        contact_safety = (allowed + CELSIUS - oil) / (bulk + flash - oil)
+        viscosity = _viscosity_at_40(element)
+        if integral is not None and viscosity is not None:
+            integral_safety = permissible_integral_temperature(
+                model.scuffing_load_stage, viscosity_40=viscosity, factor=factor, structure=model.structure_factor
+            ) / (integral - CELSIUS)
+    return Scuffing(bulk, estimated, flash, where, bulk + flash, mean, integral, contact_safety, integral_safety)
+
+
+def mean_flash_temperature(element: Element, friction: float) -> float | None:
+    """Return the mean flash temperature over the path of contact [K] under one friction coefficient."""
+    found = [
+        flash_temperature(one, friction, modulus=element.modulus, bodies=element.bodies)
+        for one in element.found.contacts
+    ]
+    known = [one for one in found if one is not None]
+    return sum(known) / len(known) if known else None
+
+
+def _sum_speed(model: GearModel) -> float:
+    path = path_of_contact(model)
+    return model.speed * (path.pitch + model.teeth[0] / model.teeth[1] * (path.line - path.pitch))
+
+
+def _viscosity_at_40(element: Element) -> float | None:
+    """Return the oil's kinematic viscosity at 40 degC [m^2/s]; None of an oil that is known at one temperature."""
+    assert element.model.oil is not None
+    oil = element.model.oil.build().oil
+    return None if oil is None else oil.viscosity.kinematic(_AT_40)
+
+
+def sliding_power(element: Element, friction: float) -> float:
+    """Return the friction power of the gear mesh [W] under one friction coefficient at all places."""
+    slid = [one.load * abs(one.speeds[0] - one.speeds[1]) for one in element.found.contacts]
+    return friction * sum(slid) / len(slid) * element.found.at_once

@@ -1,0 +1,33 @@
+"""Sources of what `bem element` computes, as keys of `bem/references.bib`."""
+
+from __future__ import annotations
+
+from bem.elements import element_wear, rating_life, reference_life, running, scuffing
+from bem.elements.cam_follower import CamModel
+from bem.elements.element import Element
+from bem.elements.gear_pair import GearModel
+from bem.elements.piston_ring import PistonRingModel
+from bem.elements.rolling_bearing import BearingModel
+
+_SHARED = {
+    "johnson1985": "Hertz contacts",
+    "dowson1966": "film formula",
+    **dict.fromkeys(running.CITES, "estimated load share of asperities"),
+}
+_OF_MODEL: dict[type, dict[str, str]] = {
+    BearingModel: {
+        **dict.fromkeys(reference_life.CITES, "reference rating life"),
+        **dict.fromkeys(rating_life.CITES, "rating life"),
+    },
+    GearModel: dict.fromkeys(scuffing.CITES, "scuffing and friction of gear tests"),
+    CamModel: {},
+    PistonRingModel: {"reynolds1886": "film of the ring"},
+}
+
+
+def sources_of_element(element: Element) -> dict[str, list[str]]:
+    """Return the keys of the sources of an element's answer, each with the methods that it is the source of."""
+    found = _SHARED | _OF_MODEL[type(element.model)]
+    if element.model.specific_wear_rate is not None:
+        found = found | dict.fromkeys(element_wear.CITES, "wear")
+    return {key: [method] for key, method in found.items()}

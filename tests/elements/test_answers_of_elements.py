@@ -1,0 +1,226 @@
+"""The one-screen answer: rows of every element, pressure in place of load, temperatures of the bodies, the command."""
+
+import math
+import subprocess
+import sys
+import tomllib
+
+import pytest
+
+from bem import InputError
+from bem.elements.answer import PLACES, answer, balance_heat, friction_power
+from bem.elements.bearing_life import bearing_life
+from bem.elements.element import MODELS, element_template, load_element
+from bem.elements.rating_life import dynamic_rating
+from bem.elements.running import operating_places, run_all, run_contact
+
+STEEL_BEARING = {
+    "element": "rolling-bearing", "name": "nu208", "rolling": "roller", "bore": "40 mm", "outside": "80 mm",
+    "diameter": "11 mm", "length": "11 mm", "count": 14, "radial_load": "15 kN", "clearance": "20 um",
+    "speed": "1500 rpm", "first": "steel-52100", "second": "steel-52100", "rms_roughness": "100 nm",
+    "oil": {"grade": "ISO VG 220", "temperature": "70 degC"},
+}  # fmt: skip
+
+
+def element_of(name, **changes):
+    table = tomllib.loads(element_template(name)) | {"name": name} | changes
+    return load_element({key: value for key, value in table.items() if value is not None})
+
+
+@pytest.mark.parametrize("name", ["rolling-bearing", "gear-pair"])
+def test_a_pressure_in_place_of_the_load(name):
+    """The load that it stands for gives that pressure: under the most loaded element, at the pitch point."""
+    load = {"rolling-bearing": "radial_load", "gear-pair": "torque"}[name]
+    found = element_of(name, **{load: None, "hertz_pressure": "1.2 GPa"})
+    at = (
+        found.worst()
+        if name == "rolling-bearing"
+        else min(found.found.contacts, key=lambda one: abs(one.place - found.found.marks["C"]))
+    )
+    # the row nearest to C is up to half a step beside it
+    assert at.hertz(found.modulus).maximum_pressure == pytest.approx(1.2e9, rel=1e-9 if load == "radial_load" else 2e-3)
+    given = found.model.load if load == "radial_load" else found.model.pinion_torque
+    again = element_of(name, **{load: given})
+    assert [one.load for one in again.found.contacts] == pytest.approx(
+        [one.load for one in found.found.contacts], rel=1e-6
+    )
+    for wrong, words in (({load: None}, "neither"), ({"hertz_pressure": "1 GPa"}, "both")):
+        with pytest.raises(InputError, match=f"{words} .*hertz_pressure"):
+            element_of(name, **wrong)
+
+
+def test_a_pressure_under_helical_teeth_and_rollers():
+    gears = element_of(
+        "gear-pair", torque=None, tip_diameters=None, helix_angle="20 deg", points=401, hertz_pressure="1.2 GPa"
+    )
+    pitch = min(gears.found.contacts, key=lambda one: abs(one.place))
+    assert pitch.hertz(gears.modulus).maximum_pressure == pytest.approx(1.2e9, rel=1e-3)
+    rollers = {key: value for key, value in STEEL_BEARING.items() if key != "radial_load"}
+    found = load_element(rollers | {"hertz_pressure": "1.2 GPa"})
+    assert found.worst().hertz(found.modulus).maximum_pressure == pytest.approx(1.2e9)
+
+
+def test_a_selection_of_places_holds_marks_and_extremes():
+    gears = element_of("gear-pair", points=201)
+    places = operating_places(gears, PLACES)
+    assert PLACES <= len(places) <= PLACES + 7
+    assert gears.worst() in places
+    for mark in gears.found.marks.values():
+        assert min(abs(one.place - mark) for one in places) <= 0.5 * 19.1e-3 / 200
+    assert operating_places(gears) == gears.found.contacts
+    cam = element_of("cam-follower")
+    assert all(abs(one.slide_roll_ratio) <= 2 for one in operating_places(cam, PLACES))
+
+
+@pytest.mark.internal
+def test_a_selection_has_nearly_the_power_of_all_places():
+    gears = element_of("gear-pair", points=21)
+    whole, some = (friction_power(gears, run_all(gears, most=most)) for most in (None, 9))
+    assert some.film == pytest.approx(whole.film, rel=0.05)
+    assert whole.with_asperities > whole.film
+
+
+def test_contacts_alike_are_solved_once(monkeypatch):
+    import bem.elements.running as running
+
+    calls = []
+    monkeypatch.setattr(running, "run_contact", lambda element, one: calls.append(one) or run_contact(element, one))
+    bearing = element_of("rolling-bearing", count=5)
+    runs = run_all(bearing)
+    assert [one.contact for one in runs] == list(bearing.found.contacts)
+    assert len(calls) < len(runs)
+
+
+@pytest.mark.internal
+def test_every_element_answers_with_film_friction_and_temperatures():
+    for name in MODELS:
+        element = element_of(name)
+        places = operating_places(element)[:: 20 if name != "rolling-bearing" else 4]
+        said = dict(answer(element, [run_contact(element, one) for one in places]))
+        assert {"critical contact", "lambda ratio", "friction power", "temperatures", "wear per hour"} <= set(said)
+        assert ("scuffing" in said, "efficiency" in said) == (name == "gear-pair", name == "gear-pair")
+        assert ("basic rating life" in said, "friction moment" in said) == (name == "rolling-bearing",) * 2
+        assert "GPa" in said["critical contact"] or "MPa" in said["critical contact"]
+
+
+def test_lives_of_a_bearing():
+    """Basic life by hand from C of the geometry; kappa from the oil; a catalogue's C counts where it is given."""
+    found = load_element(STEEL_BEARING)
+    life = bearing_life(found)
+    rating = dynamic_rating(found.model.geometry)
+    assert life.rating.basic == pytest.approx(1e6 * (rating / 15e3) ** (10 / 3))
+    oil = found.model.oil.build()
+    needed = 4500e-6 / math.sqrt(1500 * 60)
+    assert life.rating.viscosity_ratio == pytest.approx(oil.viscosity / oil.density / needed)
+    assert life.rating.contamination == pytest.approx(0.55)
+    catalogue = bearing_life(load_element(STEEL_BEARING | {"dynamic_load_rating": "53.9 kN"}))
+    assert catalogue.rating.basic == pytest.approx(1e6 * (53.9 / 15) ** (10 / 3))
+    clean = bearing_life(load_element(STEEL_BEARING | {"cleanliness": "extreme"}))
+    assert clean.rating.modified > life.rating.modified
+    assert clean.reference.basic == life.reference.basic
+    tilted = bearing_life(load_element(STEEL_BEARING | {"tilt": "2 mrad"}))
+    assert tilted.reference.basic < life.reference.basic
+    assert tilted.slice_pressure > life.slice_pressure > found.worst().hertz(found.modulus).maximum_pressure
+    safer = bearing_life(load_element(STEEL_BEARING | {"reliability": 99}))
+    assert safer.rating.modified == pytest.approx(0.25 * life.rating.modified)
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"cleanliness": "normal", "contamination_factor": 0.5}, "both cleanliness and contamination_factor"),
+        ({"cleanliness": "clean"}, "cleanliness"),
+        ({"reliability": 92}, "reliability"),
+        ({"rolling": "ball", "length": None, "tilt": "1 mrad"}, "tilt of a ball bearing"),
+        ({"bulk_temperature": "80 degC", "heat_balance": {"conductance": "5 W/K"}}, "one of both"),
+        ({"heat_balance": {"conductance": "5 W"}}, "heat conductance"),
+        ({"oil": None, "heat_balance": {"conductance": "5 W/K"}}, "temperature of an oil"),
+    ],
+)
+def test_mistakes_in_ratings_and_temperatures_are_said(change, words):
+    table = {key: value for key, value in (STEEL_BEARING | change).items() if value is not None}
+    with pytest.raises(InputError, match=words):
+        load_element(table)
+
+
+def test_life_without_a_kinematic_viscosity_is_the_basic_one():
+    own = {"viscosity": "40 mPa*s", "pressure_viscosity": "20 1/GPa"}
+    said = dict(answer(load_element(STEEL_BEARING | {"oil": own}), []))
+    assert "kinematic viscosity is missing" in said["modified rating life"]
+    assert "L10 = " in said["basic rating life"]
+    thin = STEEL_BEARING["oil"] | {"grade": "ISO VG 10", "temperature": "120 degC"}
+    assert (
+        "below 0.1"
+        in dict(answer(load_element(STEEL_BEARING | {"oil": thin, "speed": "30 rpm"}), []))["modified rating life"]
+    )
+
+
+def test_films_are_solved_at_the_temperature_of_the_bodies():
+    """Scenes of films start there, dry heat has it, and the formula's film is thinner."""
+    cold, warm = (load_element(STEEL_BEARING | change) for change in ({}, {"bulk_temperature": "95 degC"}))
+    place = warm.worst()
+    assert warm.scene(place, "traction")["oil"]["temperature"] == pytest.approx(368.15)
+    assert warm.scene(place, "surface-temperature")["heat"]["lower_bulk"] == pytest.approx(368.15)
+    assert min(warm.columns()["minimum_film [m]"]) < 0.7 * min(cold.columns()["minimum_film [m]"])
+    assert bearing_life(warm).rating.viscosity_ratio < bearing_life(cold).rating.viscosity_ratio
+    assert cold.at_bulk(368.15).columns() == warm.columns()
+
+
+@pytest.mark.internal
+def test_the_heat_balance_balances():
+    """Bodies are warmer than the surroundings by friction power over conductance, at that temperature."""
+    gears = element_of("gear-pair", points=5, heat_balance={"conductance": "20 W/K", "ambient": "60 degC"})
+    warm = balance_heat(gears, most=5)
+    power = friction_power(warm, run_all(warm, most=5)).with_asperities
+    assert warm.model.bulk_temperature == pytest.approx(333.15 + power / 20, abs=0.5)
+    assert warm.model.bulk_temperature > 343
+    plain = element_of("gear-pair", points=5)
+    assert balance_heat(plain) is plain
+
+
+def test_boundary_friction_of_the_element_is_that_of_its_scenes():
+    gears = element_of("gear-pair", boundary_friction=0.09)
+    scene = gears.scene(gears.worst(), "friction")
+    assert scene["contact"]["boundary_friction"] == 0.09
+    assert "assumed" not in scene["description"].replace("surfaces are random", "")
+    assert (
+        "boundary friction 0.12 is assumed" in element_of("gear-pair").scene(gears.worst(), "friction")["description"]
+    )
+
+
+@pytest.fixture
+def bem(tmp_path):
+    (tmp_path / "gears.toml").write_text(element_template("gear-pair").replace("points = 41", "points = 7"))
+    (tmp_path / "bearing.toml").write_text(element_template("rolling-bearing"))
+    code = "import sys; sys.argv[0] = 'bem'; from bem.cli import main; main()"
+
+    def run(*words):
+        command = [sys.executable, "-c", code, *words]
+        return subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
+
+    return run
+
+
+def test_the_command_answers_on_one_screen(bem, tmp_path):
+    done = bem("element", "gears.toml", "--figure", "gears.png")
+    assert done.returncode == 0, done.stderr
+    for name in ("critical contact", "lambda ratio", "efficiency", "temperatures", "scuffing", "micropitting"):
+        assert f"\n{name} " in done.stdout
+    assert done.stdout.count("\n") < 30
+    assert (tmp_path / "gears.png").stat().st_size > 10_000
+    table = bem("element", "gears.toml", "--contacts")
+    assert "Hertz pressure (GPa)" in table.stdout
+    assert "slower one, as before the pitch point" in table.stdout
+    assert "degC" not in table.stdout
+    assert bem("element", "gears.toml", "--scene", "c.toml", "--at", "C").returncode == 0
+    assert (
+        "allowed: worst, thinnest, path, A, B, C"
+        in bem("element", "gears.toml", "--scene", "f.toml", "--at", "F").stderr
+    )
+
+
+def test_words_of_life_and_scuffing_lead_to_their_element(bem, tmp_path):
+    for word, name in (("bearing-life", "rolling-bearing"), ("l10", "rolling-bearing"), ("scuffing", "gear-pair")):
+        assert bem("new", word, "made.toml").returncode == 0
+        assert f'element = "{name}"' in (tmp_path / "made.toml").read_text()
+        (tmp_path / "made.toml").unlink()
