@@ -101,6 +101,17 @@ def test_water_is_a_viscosity_that_a_scene_takes():
     assert load_scene("traction-curve", ["thermal=lumped", *_as_settings(water, ("grade",))]).thermal == "lumped"
 
 
+def test_a_water_glycol_runs_with_the_coefficient_that_its_message_names():
+    oil = ("oil.grade=water-glycol 46", "oil.temperature=40 degC")
+    with pytest.raises(InputError, match="4 to 6 1/GPa are usual") as error:
+        load_scene("starved-roller", ["thermal=off", *oil])
+    key, value = re.search(r'(pressure_viscosity) = "([^"]+)"', str(error.value)).groups()
+    assert load_scene("starved-roller", ["thermal=off", *oil, f"oil.{key}={value}"]).oil.build().viscosity > 0
+    code, said = bem("oils", "water-glycol 46")
+    assert code == 0
+    assert f'{key} = "{value}"' in said
+
+
 def _as_settings(oil, gone=("grade", "temperature")):
     return [*(f"oil.{key}=" for key in gone), *(f'oil.{key}="{value}"' for key, value in oil.items())]
 

@@ -31,6 +31,7 @@ def register(app: typer.Typer) -> None:
         from bem.cli._quantity import quantity
         from bem.cli._terminal import show_warnings, table
         from bem.lubrication.oils.catalogue import find_oil, oil_names
+        from bem.lubrication.oils.oil import USUAL_PRESSURE_VISCOSITY
         from bem.scenes.checks.overview import oil as described
         from bem.scenes.units import TEMPERATURE
 
@@ -44,7 +45,8 @@ def register(app: typer.Typer) -> None:
         lubricant = found.at(at) if known else found.at(at, pressure_viscosity=0.0)
         rows = described(lubricant)
         if not known:
-            rows = [row if row[0] != "pressure-viscosity" else (row[0], "not known", "give it") for row in rows]
+            missing = ("pressure-viscosity", "not known", USUAL_PRESSURE_VISCOSITY.get(found.base, "give it"))
+            rows = [row if row[0] != "pressure-viscosity" else missing for row in rows]
         table(("", "", "source"), rows, title=f"{found.name} ({found.base})")
         show_warnings(lubricant.notes)
 

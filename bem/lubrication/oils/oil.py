@@ -27,6 +27,15 @@ EXTRAPOLATED = 30.0
 measured are good from 10 to 130."""
 
 
+USUAL_PRESSURE_VISCOSITY = {
+    "water-glycol": (
+        'such as pressure_viscosity = "5 1/GPa": 4 to 6 1/GPa are usual, about a quarter of that of a mineral oil '
+        "(order of magnitude; not checked against a measurement)"
+    )
+}
+"""Usual coefficients of bases that the catalogue has none of, in words."""
+
+
 @dataclass(frozen=True)
 class Line:
     """A figure that is linear in temperature: `value` at `at` [K], `slope` per K; `source` in words."""
@@ -114,9 +123,10 @@ class Oil:
         InputError : an oil of which none is known.
         """
         if self.pressure_viscosity is None:
+            usual = USUAL_PRESSURE_VISCOSITY.get(self.base)
             raise InputError(
                 f"{self.name}: no pressure-viscosity coefficient with a source is known of {self.base} fluids; give "
-                "pressure_viscosity"
+                f"pressure_viscosity{f', {usual}' if usual else ''}"
             )
         return self.pressure_viscosity.at(
             self.dynamic_viscosity(temperature),
