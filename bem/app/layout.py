@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Sequence
 from contextlib import contextmanager
+from datetime import UTC, datetime
 from inspect import isawaitable
 from typing import Any
 
@@ -18,6 +19,7 @@ STATES = {
     "failed": "red-9",
     "outside the model": "red-9",
     "converged": "green-9",
+    "caution": "brown-7",
 }
 """Colours of badges, which white letters stand out from."""
 _UNDO = 30.0
@@ -41,7 +43,7 @@ body.body--light a:not(.text-white) { color: #0b5a8a }
 body.body--dark :is(.q-btn--flat, .q-btn--outline):not(.text-amber-4) :is(.block, .q-icon) { color: #8ec7ee }
 body.body--dark .q-tab--active { color: #8ec7ee }
 body.body--dark .bem-table td { border-color: #3a4146 }
-:focus-visible { outline: 3px solid #d97706 !important; outline-offset: 2px }
+@layer theme { :focus-visible { outline: 3px solid #d97706 !important; outline-offset: 2px } }
 .q-field--focused .q-field__control { box-shadow: 0 0 0 2px #d97706 }
 .bem-pair { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 560px), 1fr)); gap: 8px }
 .bem-cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 220px), 1fr)); gap: 10px }
@@ -52,15 +54,50 @@ body.body--dark .bem-table td { border-color: #3a4146 }
 body.body--light .bem-bar { background: #fafaf8 }
 body.body--dark .bem-bar { background: #14181b }
 .bem-table { overflow-x: auto; max-width: 100% }
+.bem-table table { border-collapse: collapse }
+.bem-answers { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 230px), 1fr)); gap: 10px }
+.bem-answer { padding: 10px 14px }
+.bem-answer .value { font-size: 1.35rem; line-height: 1.3; font-weight: 500; overflow-wrap: break-word }
+.bem-main { max-width: 1000px }
+.bem-run { display: grid; grid-template-columns: minmax(22em, 1.2fr) minmax(15em, 1fr) 1.4fr auto; align-items: center }
+.bem-run { gap: 2px 14px; padding: 4px 0 }
+@media (max-width: 900px) {
+  .bem-run { grid-template-columns: 1fr auto }
+  .bem-run > :not(:first-child) { margin-left: 48px }
+  .bem-run > :nth-child(4) { grid-row: 1; grid-column: 2; margin-left: 0 }
+  .bem-run > :is(:nth-child(2), :nth-child(3)) { grid-column: 1 / 3 }
+}
+body.body--dark .js-plotly-plot .main-svg { background: transparent !important }
+body.body--dark .js-plotly-plot :is(.bg, .bglayer rect) { fill: #1d2327 !important }
+body.body--dark .js-plotly-plot :is(text, .legendtext, .gtitle) { fill: #e0e0de !important }
+body.body--dark .js-plotly-plot .hoverlayer text { fill: white !important }
+body.body--dark .js-plotly-plot :is(.xgrid, .ygrid) { stroke: #3a4146 !important }
+body.body--dark .js-plotly-plot :is(.zerolinelayer path, .xlines-above, .ylines-above) { stroke: #8a9094 !important }
+body.body--dark .js-plotly-plot .modebar-btn path { fill: #b9bdc0 !important }
+body.body--dark .js-plotly-plot :is(.modebar, .modebar-group) { background: transparent !important }
+.js-plotly-plot { border-radius: 6px; overflow: hidden }
+body.body--dark .js-plotly-plot { background: #1d2327 }
+body.body--light .js-plotly-plot { background: white }
+body.body--dark .js-plotly-plot:has(.gl-container canvas) { background: #f4f4f2 }
+body.body--dark .js-plotly-plot:has(.gl-container canvas) text { fill: #1c1c1c !important }
 """
 
 _NAMES = """new MutationObserver(() => {
+  for (const t of document.querySelectorAll('time[datetime]:empty'))
+    t.textContent = new Date(t.dateTime).toLocaleString(undefined, {dateStyle: 'medium', timeStyle: 'short'})
+  for (const box of document.querySelectorAll('.bem-table, .nicegui-markdown'))
+    if (box.scrollWidth > box.clientWidth && !box.hasAttribute('tabindex')) {
+      box.setAttribute('tabindex', '0'); box.setAttribute('role', 'region'); box.setAttribute('aria-label', 'table')
+    }
   for (const a of document.querySelectorAll('.q-uploader a.q-btn')) ['role', 'tabindex'].map(n => a.removeAttribute(n))
   for (const input of document.querySelectorAll('.q-uploader__input')) {
     input.setAttribute('aria-label', 'surface file'); input.removeAttribute('tabindex')
   }
 }).observe(document.documentElement, {childList: true, subtree: true})"""
-"""The library's field for files is one control in another, without a name: the inner one gets it and the focus."""
+"""Times are written as the browser's user writes them. What scrolls sideways can be scrolled by keys.
+
+The library's field for files is one control in another, without a name: the inner one gets it and the focus.
+"""
 
 
 @contextmanager
@@ -189,12 +226,31 @@ def rows(title: str, lines: Sequence[Sequence[str]], head: Sequence[str] = ()) -
             with ui.element("tr"):
                 for place, cell in enumerate(line):
                     tag = "th" if head and number == 0 else "td"
-                    least = "" if place == 0 else "; min-width: 5em"
+                    least = "" if place == 0 else "; min-width: 7em"
                     style = f"padding: 2px 14px 2px 0; vertical-align: top; text-align: left{least}"
                     with ui.element(tag).style(style):
                         ui.label(str(cell)).style("overflow-wrap: break-word")
 
 
-def badge(state: str) -> Any:
+def badge(state: str, colour: str = "") -> Any:
     """The state of a run, coloured."""
-    return ui.badge(state, color=STATES.get(state, "grey-8"))
+    return ui.badge(state, color=colour or STATES.get(state, "grey-8"))
+
+
+def moment(seconds: float) -> Any:
+    """A clock time [s] as the browser's user writes it."""
+    item = ui.element("time").classes("text-caption bem-soft")
+    item.props["datetime"] = datetime.fromtimestamp(seconds, UTC).isoformat()
+    return item
+
+
+def duration(seconds: float) -> str:
+    """A duration for people, in whole seconds up to minutes."""
+    if seconds < 10:
+        return f"{seconds:.1f} s"
+    if seconds < 60:
+        return f"{seconds:.0f} s"
+    whole = round(seconds)
+    if whole < 3600:
+        return f"{whole // 60} min {whole % 60} s"
+    return f"{whole // 3600} h {whole % 3600 // 60} min"

@@ -2,9 +2,10 @@
 
 from __future__ import annotations
 
+import itertools
 import textwrap
-from collections.abc import Mapping
-from typing import Any
+from collections.abc import Mapping, Sequence
+from typing import TYPE_CHECKING, Any
 
 import numpy as np
 from numpy.typing import NDArray
@@ -20,10 +21,13 @@ from bem.plots.labels import (
     prefix,
     uniform_value,
 )
-from bem.plots.tables import is_error, is_list, name_and_unit
+from bem.plots.tables import is_error, is_list, name_and_unit, varied_keys
 from bem.quantities import with_signs
 from bem.results.arrays import Arrays
 from bem.scenes.context import Variable
+
+if TYPE_CHECKING:
+    from bem.plots.overlay import Panel
 
 Picture = dict[str, Any]
 MOST_CELLS = 384
@@ -34,7 +38,9 @@ _LONGEST = 5.0
 _MARGIN = {"l": 60, "r": 10, "t": 66, "b": 46}
 _BAR = {"orientation": "h", "thickness": 14, "y": -0.2, "yanchor": "top"}
 """Below the map: on a narrow screen a bar beside it would take its width."""
-_LINE = 52
+_LEGEND = 22
+"""Height of a line of a legend; on a narrow screen each line has one of its own."""
+_LINE = 44
 """Letters of a title's line."""
 COLOURS = "Viridis"
 
@@ -70,11 +76,13 @@ def map_picture(
     unit: str,
     *,
     solid: bool = False,
+    whole: bool = False,
 ) -> Picture:
     """A map (nx, ny) over x and y [m] that zooms, or as a surface in space.
 
-    Colours end at the 0.2nd and 99.8th percentile where lone points would take them all, which the bar then says. A
-    uniform field has one colour. A map of less than `FEWEST_CELLS` cells along one axis becomes lines along the other.
+    Colours end at the 0.2nd and 99.8th percentile where lone points would take them all, which the bar then says,
+    unless they shall be of the `whole` range. A uniform field has one colour. A map of less than `FEWEST_CELLS` cells
+    along one axis becomes lines along the other.
     """
     if min(values.shape) < FEWEST_CELLS <= max(values.shape):
         return _rows_picture(values, sides, words, unit)
@@ -84,7 +92,7 @@ def map_picture(
     factor, shown = scaled(known, unit)
     length, length_unit = _length_unit(sides)
     x, y = (side[step // 2 :: step] * length for side, step in zip(sides, steps, strict=True))
-    low, high, said = _colours(seen[np.isfinite(seen)] * factor, known, factor)
+    low, high, said = _colours(seen[np.isfinite(seen)] * factor, known, factor, whole)
     if (value := uniform_value(values)) is not None:
         seen = np.where(np.isfinite(seen), value, np.nan)
     thinned = f" (every {ordinal(max(steps))} cell)" if max(steps) > 1 else ""
@@ -103,10 +111,13 @@ def map_picture(
     return {"data": [trace], "layout": {**title, **axes, "margin": _MARGIN, "height": 520}, "config": _CONFIG}
 
 
-def _colours(shown: NDArray[np.float64], known: NDArray[np.float64], factor: float) -> tuple[float, float, str]:
+def _colours(
+    shown: NDArray[np.float64], known: NDArray[np.float64], factor: float, whole: bool
+) -> tuple[float, float, str]:
     """Ends of the colours of a map, and what its bar says of them.
 
-    shown : finite values drawn, in their unit. known : all finite values; times `factor` in that unit.
+    shown : finite values drawn, in their unit. known : all finite values; times `factor` in that unit. whole : whether
+    colours end at the least and the largest value whatever these are.
     """
     if not shown.size:
         return 0.0, 1.0, ""
@@ -114,8 +125,8 @@ def _colours(shown: NDArray[np.float64], known: NDArray[np.float64], factor: flo
     if (value := uniform_value(known)) is not None:
         around = sorted((0.9 * value * factor, 1.1 * value * factor)) if value else (-1.0, 1.0)
         return around[0], around[1], f"uniform, {value * factor:.4g}"
-    low, high = colour_ends(shown, 0.2, 99.8)
-    if high - low == float(np.ptp(shown)):  # of all cells, though fewer are sent
+    low, high = (least, most) if whole else colour_ends(shown, 0.2, 99.8)
+    if whole or high - low == float(np.ptp(shown)):  # of all cells, though fewer are sent
         return least, most, ""
     return low, high, beyond_ends((low, high), (least, most))[1].replace("\n", "<br>")
 
@@ -229,26 +240,123 @@ def curve_picture(arrays: Arrays, name: str, case: str = "") -> Picture:
 
 
 def figure_picture(summary: Mapping[str, Any], name: str, along: str) -> Picture:
-    """A figure of the summary that is a list, over another (speed, load), with its error bars."""
+    """A figure of the summary that is a list, over another (speed, load) or a varied key, with its error bars.
+
+    A friction coefficient over speed has its regimes behind it; see `regimes`.
+    """
     words, unit = name_and_unit(name)
+    varied = varied_keys(summary)
     under, under_unit = name_and_unit(along)
-    values, at = (np.array(summary[key], dtype=np.float64) for key in (name, along))
+    if along in varied:
+        under, under_unit = key_words(along), varied[along].removeprefix("1")
+    at, under_unit = in_celsius(np.array(summary[along], dtype=np.float64), under_unit, along)
+    length, under_unit = prefix(at, under_unit)
+    values = np.array(summary[name], dtype=np.float64)
     error = summary.get(f"{name}_error")
     bars = np.array(error, dtype=np.float64) if isinstance(error, list) and len(error) == len(values) else None
-    return _curves([_line(words, at, values, bars)], words, label(under, under_unit), unit or words, at)
+    factor, unit = (100.0, "%") if words.endswith(" fraction") else scaled(values, unit)
+    line = _line(words, at * length, values * factor, None if bars is None else bars * factor)
+    picture = _curves([line], words, label(under, under_unit), unit or words, at)
+    if along == "speed_m_s" and name.startswith("friction"):
+        picture["layout"]["shapes"] = [
+            _band(first * length, last * length, regime) for first, last, regime in regimes(summary)
+        ]
+    return picture
+
+
+BOUNDARY, FULL = 0.9, 0.01
+"""Shares of the load on asperities from which lubrication is called boundary, and up to which it is a full film."""
+
+
+def regimes(summary: Mapping[str, Any]) -> list[tuple[float, float, str]]:
+    """First and last speed [m/s] and name of the regimes of a Stribeck curve, by the load share of the asperities.
+
+    Between two speeds the share is interpolated over the logarithm of the speed. Empty where no share is known, or
+    where all of the curve is of one regime.
+    """
+    lists = [summary.get(name) for name in ("speed_m_s", "contact_load_N", "film_load_N")]
+    if not all(isinstance(item, list) and len(item) == len(lists[0] or ()) for item in lists):
+        return []
+    speed, contact, film = (np.array(item, dtype=np.float64) for item in lists)
+    known = np.isfinite(contact) & np.isfinite(film) & (contact + film > 0) & (speed > 0)
+    speed, contact, film = speed[known], contact[known], film[known]
+    if len(speed) < 2:
+        return []
+    order = np.argsort(speed, kind="stable")
+    at, share = np.log(speed[order]), (contact / (contact + film))[order]
+    fine = np.linspace(at[0], at[-1], 2000)
+    found = np.interp(fine, at, share)
+    names = np.where(found >= BOUNDARY, "boundary", np.where(found > FULL, "mixed", "full film"))
+    changes = [0, *(np.flatnonzero(names[1:] != names[:-1]) + 1), len(fine)]
+    parts = [
+        (float(np.exp(fine[i])), float(np.exp(fine[min(j, len(fine) - 1)])), str(names[i]))
+        for i, j in itertools.pairwise(changes)
+    ]
+    return parts if len(parts) > 1 else []
+
+
+_REGIMES = {
+    "boundary": "rgba(176, 80, 0, 0.14)",
+    "mixed": "rgba(120, 120, 120, 0.12)",
+    "full film": "rgba(0, 90, 160, 0.14)",
+}
+
+
+def _band(first: float, last: float, regime: str) -> Picture:
+    """A band behind curves with the name of its regime."""
+    place = {"type": "rect", "x0": first, "x1": last, "y0": 0, "y1": 1, "yref": "paper", "layer": "below"}
+    words = {"label": {"text": regime, "textposition": "top center", "font": {"size": 11}}}
+    return {**place, **words, "fillcolor": _REGIMES[regime], "line": {"width": 0}}
 
 
 def figures_over(summary: Mapping[str, Any]) -> list[tuple[str, str]]:
     """Figures of the summary that are lists of numbers, each with what it runs over."""
-    known = [key for key in ("speed_m_s", "load_N", "temperature_C") if is_list(summary.get(key))]
+    varied = [key for key in varied_keys(summary) if _is_numbers(summary.get(key))]
+    known = [key for key in (*varied, "speed_m_s", "load_N", "temperature_C") if is_list(summary.get(key))]
     found = []
     for name, value in summary.items():
         if not is_list(value) or name in known or is_error(name, summary) or name.endswith("_spread"):
             continue
-        along = next((key for key in known if len(summary[key]) == len(value) and len(set(summary[key])) > 1), None)
+        along = next((key for key in known if len(summary[key]) == len(value) and _is_axis(summary[key])), None)
         if along is not None and all(isinstance(v, int | float | None) for v in value) and _says_something(value):
             found.append((name, along))
     return found
+
+
+def _is_numbers(values: Any) -> bool:
+    return isinstance(values, list) and all(isinstance(v, int | float) and not isinstance(v, bool) for v in values)
+
+
+def _is_axis(values: list[Any]) -> bool:
+    """Return True if each entry of a list is another value: of several keys varied at once none runs once only."""
+    return len(set(values)) == len(values)
+
+
+def told_pictures(history: Mapping[str, Any]) -> list[Picture]:
+    """Figures that a run has told up to now (`bem.app.worker`), over its speed or over the steps that are done."""
+    found = []
+    for what, stage in history.items():
+        points, total = stage["points"], stage["total"]
+        names = dict.fromkeys(name for _, figures in points for name in figures if name != "speed")
+        at = [figures.get("speed", np.nan) for _, figures in points]
+        steps = [100.0 * done / total if total in _SHARES else done for done, _ in points]
+        over_speed = bool(np.isfinite(at).all())
+        along = np.array(at if over_speed else steps, dtype=np.float64)
+        head = "speed (m/s)" if over_speed else f"{what} (% done)" if total in _SHARES else what
+        for name in names:
+            words, unit = name_and_unit(name)
+            values = np.array([figures.get(name, np.nan) for _, figures in points], dtype=np.float64)
+            if words.endswith(" fraction"):
+                values, unit = 100.0 * values, "%"
+            picture = _curves([_line(words, along, values)], words, head, unit or words, along if over_speed else None)
+            if name.startswith("residual"):
+                picture["layout"]["yaxis"] |= _POWERS_OF_TEN
+            found.append(picture)
+    return found
+
+
+_SHARES = (100, 1000)
+"""Totals of steps that are parts of a whole."""
 
 
 def scaled(values: Any, unit: str) -> tuple[float, str]:
@@ -290,10 +398,10 @@ def _curves(data: list[Picture], title: str, x: str, y: str, along: Any = None) 
     layout: Picture = {
         "title": heading(title),
         "xaxis": axis_title(x),
-        "yaxis": axis_title(y),
-        "legend": {"orientation": "h", "y": -0.25},
-        "margin": _MARGIN,
-        "height": 340,
+        "yaxis": axis_title("" if y == title else y),
+        "legend": {"orientation": "h", "yref": "container", "y": 0.02, "yanchor": "bottom", "x": 0},
+        "margin": _MARGIN | ({"b": 46 + _LEGEND * len(data)} if len(data) > 1 else {}),
+        "height": 340 + (_LEGEND * len(data) if len(data) > 1 else 0),
         "showlegend": len(data) > 1,
     }
     if along is not None and _is_wide(along):
@@ -308,6 +416,34 @@ def _curves(data: list[Picture], title: str, x: str, y: str, along: Any = None) 
 def _is_wide(along: Any) -> bool:
     values = np.asarray(along)
     return values.dtype.kind in "fiu" and bool((values > 0).all()) and bool(values.max() > 30 * values.min())
+
+
+def panels_picture(group: Sequence[Panel], labels: Sequence[str]) -> Picture:
+    """One variable of several runs: a colour for each run, a dash for each case in it.
+
+    group : a panel of each run. labels : of the runs.
+    """
+    first = group[0]
+    lines = [line for item in group for line in item.lines]
+    length, along_unit = prefix(np.concatenate([line.x for line in lines]), first.along_unit)
+    factor, unit = scaled(np.concatenate([line.y for line in lines]), first.unit)
+    cases = list(dict.fromkeys(line.case for line in lines))
+    data = []
+    for i, (item, words) in enumerate(zip(group, labels, strict=True)):
+        for line in item.lines:
+            trace = _line(f"{words}, {line.case}" if line.case else words, line.x * length, line.y * factor)
+            dash = _DASHES[cases.index(line.case) % len(_DASHES)]
+            trace["line"] = {"color": _LINES[i % len(_LINES)], "dash": dash, "width": 2.5 if i == 0 else 1.6}
+            data.append(trace)
+    along = np.concatenate([line.x for line in lines]) if "speed" in first.along else None
+    picture = _curves(data, first.title, label(first.along, along_unit), unit, along)
+    if "residual" in first.title:
+        picture["layout"]["yaxis"] |= _POWERS_OF_TEN
+    return picture
+
+
+_LINES = ("#0072b2", "#d55e00", "#009e73", "#cc79a7", "#b07a00", "#56b4e9", "#7f7f7f")
+_DASHES = ("solid", "dash", "dot", "dashdot")
 
 
 def unit_of(item: Variable) -> str:

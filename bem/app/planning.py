@@ -60,14 +60,17 @@ def shown_plan(table: Mapping[str, Any]) -> ShownPlan:
     return ShownPlan((), shown, tuple(map(str, warnings)), takes, short)
 
 
-def check_scene(table: Mapping[str, Any]) -> None:
-    """Refuse a scene that is wrong or does not fit into memory.
+def check_scene(table: Mapping[str, Any]) -> float:
+    """Refuse a scene that is wrong or does not fit into memory; return the seconds that its plan says.
 
     Raises
     ------
     InputError : what is wrong with it.
     """
     from bem.runs import plan_scene
-    from bem.scenes.planner import check_memory
+    from bem.scenes.planner import check_memory, machine_rate
+    from bem.threads import get_threads
 
-    check_memory(plan_scene(table)[1])
+    _, plan = plan_scene(table)
+    check_memory(plan)
+    return plan.seconds(machine_rate(get_threads()))

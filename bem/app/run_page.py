@@ -13,15 +13,43 @@ from nicegui import run as io
 from nicegui import ui
 
 from bem.app import pictures
+from bem.app.answers import Answer
 from bem.app.computing import compute, compute_if
 from bem.app.downloads import WHAT
-from bem.app.layout import asked_name, badge, busy, can_undo, confirm, more_actions, page, rows, say, words_of, wrong
-from bem.app.run_view import RunView, check_number, comparison, map_view, overlay, run_view, solid_view
+from bem.app.layout import (
+    STATES,
+    asked_name,
+    badge,
+    busy,
+    can_undo,
+    confirm,
+    duration,
+    moment,
+    more_actions,
+    page,
+    rows,
+    say,
+    words_of,
+    wrong,
+)
+from bem.app.run_view import (
+    PartialView,
+    RunView,
+    check_number,
+    comparison,
+    map_view,
+    overlay,
+    partial_view,
+    parts_version,
+    run_view,
+    solid_view,
+)
 from bem.app.workspace import RunState, Workspace
 from bem.errors import BemError
 from bem.notes import OUTSIDE
 
 _EVERY = 1.0  # seconds between two looks into the folder
+_PARTS_EVERY = 3.0  # seconds between two looks at what a running run has computed
 
 
 def actions(workspace: Workspace, state: RunState, after: Callable[[str], Any]) -> None:
@@ -75,6 +103,7 @@ class Progress:
 
     def __init__(self, state: RunState) -> None:
         self._bar = ui.linear_progress(0.0, show_value=False).classes("w-48")
+        self._bar.props["aria-label"] = f"progress of {state.name}"
         self._words = ui.label().classes("text-caption").style("white-space: pre-wrap")
         self._words.props["data-progress"] = state.name
         self.show(state)
@@ -84,16 +113,46 @@ class Progress:
         running = state.state == "running"
         self._bar.set_visibility(running)
         self._bar.set_value(state.done / state.total if state.total else 0.0)
-        words = state.message
-        if running:
-            words = f"{state.what} {state.done} of {state.total}" if state.total else "starting"
-        self._words.set_text(words)
+        self._words.set_text(progress_words(state) if running else state.message)
         self._words.classes(add="" if running else "bem-wrong", remove="bem-wrong" if running else "")
+
+
+def progress_words(state: RunState) -> str:
+    """What a running run does, since when, and how long it may still take."""
+    parts = [f"{state.what} {state.done} of {state.total}" if state.total else "starting"]
+    if state.seconds is not None:
+        parts.append(f"{duration(state.seconds)} so far")
+    if state.left is not None and state.done < state.total:
+        parts.append(f"about {duration(state.left)} left of {state.what}")
+    elif state.total and state.done >= state.total:
+        parts.append("finishing")
+    if state.planned is not None:
+        parts.append(f"planned: {duration(state.planned)} in all")
+    return "; ".join(parts)
 
 
 def frame_of(state: RunState) -> RunState:
     """Return the state that decides which buttons there are: all but the progress."""
-    return replace(state, done=0, total=0, what="", notes=())
+    return replace(state, done=0, total=0, what="", notes=(), seconds=None, left=None)
+
+
+def badges(state: RunState) -> None:
+    """The state of a run; green only where nothing puts it outside its model."""
+    grave = bool(state.beyond) and state.state == "converged"
+    badge(state.state, "grey-8" if grave else "").props["data-state"] = state.name
+    if state.beyond:
+        badge(OUTSIDE.rstrip(": ")).tooltip("; ".join(state.beyond)).props["data-beyond"] = state.name
+    if state.cautions:
+        several = "s" if state.cautions > 1 else ""
+        badge(f"{state.cautions} caution{several}", STATES["caution"])
+
+
+def key_figures(state: RunState, most: int = 2) -> None:
+    """The first figures that a run was made for, on one line each."""
+    with ui.column().classes("gap-0").style("min-width: 0") as place:
+        for words, value in state.answers[:most]:
+            ui.label(f"{words} {value}").classes("text-caption")
+    place.props["data-answers"] = state.name
 
 
 class RunsPage:
@@ -128,20 +187,27 @@ class RunsPage:
                 self._row(state)
 
     def _row(self, state: RunState) -> None:
-        with ui.row().classes("w-full items-center gap-2 bem-line"):
-            box = ui.checkbox(
-                value=state.name in self._ticked, on_change=lambda e, n=state.name: self._tick(n, e.value)
-            )
-            box.set_enabled(state.finished)
-            box.props["data-tick"], box.props["aria-label"] = state.name, f"overlay {state.name}"
-            ui.link(state.name, f"/run/{state.name}").classes("text-body1").style("min-width: min(16em, 60vw)")
-            ui.label(state.kind).classes("text-caption bem-soft").style("min-width: 8em")
-            badge(state.state).props["data-state"] = state.name
-            if state.beyond:
-                badge(OUTSIDE.rstrip(": ")).tooltip("; ".join(state.beyond)).props["data-beyond"] = state.name
-            self._shown.append(Progress(state))
-            ui.space()
-            actions(self._workspace, state, lambda _: self._look())
+        with ui.element("div").classes("w-full bem-line bem-run"):
+            with ui.row().classes("items-center no-wrap gap-1"):
+                box = ui.checkbox(
+                    value=state.name in self._ticked, on_change=lambda e, n=state.name: self._tick(n, e.value)
+                )
+                box.set_enabled(state.finished)
+                box.props["data-tick"], box.props["aria-label"] = state.name, f"overlay {state.name}"
+                with ui.column().classes("gap-0"):
+                    ui.link(state.name, f"/run/{state.name}").classes("text-body1").style("overflow-wrap: anywhere")
+                    with ui.row().classes("gap-2"):
+                        ui.label(state.kind).classes("text-caption bem-soft")
+                        moment(state.begun)
+                        if state.finished and state.seconds is not None:
+                            ui.label(duration(state.seconds)).classes("text-caption bem-soft")
+            with ui.column().classes("gap-1"):
+                with ui.row().classes("gap-1"):
+                    badges(state)
+                self._shown.append(Progress(state))
+            key_figures(state)
+            with ui.row().classes("items-center no-wrap gap-1"):
+                actions(self._workspace, state, lambda _: self._look())
 
     def _tick(self, name: str, ticked: bool) -> None:
         (self._ticked.add if ticked else self._ticked.discard)(name)
@@ -161,8 +227,9 @@ class RunPage:
         self._workspace, self._name = workspace, name
         self._seen: RunState | None = None
         self._progress: Progress | None = None
+        self._going: Going | None = None
         with page(name):
-            self._head = ui.row().classes("items-center w-full")
+            self._head = ui.column().classes("w-full gap-1")
             self._notes = ui.column().classes("gap-0")
             self._body = ui.column().classes("w-full")
             self._look()
@@ -184,22 +251,38 @@ class RunPage:
         if before is not None and self._progress is not None and frame_of(before) == frame_of(state):
             self._progress.show(state)
         else:
-            self._head.clear()
-            with self._head:
-                badge(state.state).props["data-state"] = state.name
-                ui.label(f"{state.scene}, {state.kind}").classes("text-subtitle1")
-                self._progress = Progress(state)
-                actions(self._workspace, state, self._moved)
+            self._draw_head(state)
         if not state.finished:
             self._notes.clear()
             with self._notes:
                 for text in state.notes:
                     ui.label(text).classes("text-body2")
+            if self._going is None:
+                with self._body:
+                    self._going = Going(state)
         elif before is None or not before.finished:
+            self._going = None
             self._notes.clear()
             self._body.clear()
             with self._body:
                 ui.timer(0.01, lambda: self._results(state), once=True)
+
+    def _draw_head(self, state: RunState) -> None:
+        self._head.clear()
+        with self._head:
+            with ui.row().classes("items-center w-full"):
+                badges(state)
+                if state.scene in self._workspace.scenes():
+                    ui.link(state.scene, f"/scene/{state.scene}").classes("text-subtitle1").tooltip("the scene")
+                else:
+                    ui.label(state.scene).classes("text-subtitle1")
+                ui.label(state.kind).classes("text-caption bem-soft")
+                moment(state.begun)
+                if state.finished and state.seconds is not None:
+                    ui.label(f"took {duration(state.seconds)}").classes("text-caption bem-soft")
+                actions(self._workspace, state, self._moved)
+            with ui.row().classes("items-center w-full"):
+                self._progress = Progress(state)
 
     def _moved(self, name: str) -> None:
         """Something was done with the run; it may have another name now, or none."""
@@ -221,21 +304,101 @@ class RunPage:
         if found is None:
             return
         with self._body:
-            _downloads(state.path)
-            _figures(found)
-            for text in found.cautions:
-                ui.label(text).classes("text-body2 bem-caution")
-            if found.remarks:
-                several = "s" if len(found.remarks) > 1 else ""
-                with ui.expansion(f"{len(found.remarks)} remark{several}").classes("w-full"):
-                    for text in found.remarks:
-                        ui.label(text).classes("text-body2")
-            _pictures(found.over)
+            _wrongs(found)
+            show_answers(found.answers)
+            _notes_by_level(found)
+            if found.main is not None:
+                with ui.element("div").classes("w-full bem-main"):
+                    ui.plotly(found.main).classes("w-full").props["data-main"] = "1"
             if found.maps:
                 Maps(state, found)
+            for table in found.tables:
+                rows(table.title, table.rows, table.head)
+            _downloads(state.path)
+            _pictures(found.over)
             if found.solids:
                 _solids(state.path, found)
             _pictures(found.curves)
+
+
+class Going:
+    """What a run that is not finished has computed up to now; looked at again every few seconds."""
+
+    def __init__(self, state: RunState) -> None:
+        self._path = state.path
+        self._version: object = None
+        self._drawn: list[Any] = []
+        self._busy = False
+        self._answers = ui.column().classes("w-full gap-1")
+        self._place = ui.element("div").classes("w-full bem-pair")
+        ui.timer(0.1, self._look, once=True)
+        ui.timer(_PARTS_EVERY, self._look)
+
+    async def _look(self) -> None:
+        if self._busy or self._answers.is_deleted:
+            return
+        version = await io.io_bound(parts_version, self._path)
+        if version == self._version:
+            return
+        self._busy, self._version = True, version
+        try:
+            found = await compute(partial_view, self._path)
+        except BemError:
+            return  # what is there can be incomplete; the run itself says what is wrong
+        finally:
+            self._busy = False
+        if not self._answers.is_deleted:
+            self._show(found)
+
+    def _show(self, found: PartialView) -> None:
+        self._answers.clear()
+        with self._answers:
+            if found.finished:
+                words = ui.label(f"up to now: {found.finished} of {found.cases} cases").classes("text-subtitle2")
+                words.props["data-cases"] = str(found.finished)
+                show_answers(found.answers)
+        if len(found.pictures) != len(self._drawn):
+            self._place.clear()
+            with self._place:
+                self._drawn = [ui.plotly(one).classes("w-full").style("min-width: 0") for one in found.pictures]
+            for item in self._drawn:
+                item.props["data-partial"] = "1"
+        else:
+            for item, picture in zip(self._drawn, found.pictures, strict=True):
+                item.update_figure(picture)
+
+
+def show_answers(found: Sequence[Answer]) -> None:
+    """The figures that a run was made for, large."""
+    if found:
+        with ui.element("div").classes("w-full bem-answers"):
+            for one in found:
+                with ui.element("div").classes("bem-card bem-answer") as card:
+                    ui.label(one.words).classes("text-caption bem-soft")
+                    ui.label(one.value).classes("value")
+                    if one.where:
+                        ui.label(one.where).classes("text-caption bem-soft")
+                card.props["data-answer-of"] = one.words
+
+
+def _notes_by_level(found: RunView) -> None:
+    """Cautions and remarks, folded, with the first words of each."""
+    for words, texts in (("caution", found.cautions), ("remark", found.remarks)):
+        if not texts:
+            continue
+        several = "s" if len(texts) > 1 else ""
+        with ui.expansion(f"{len(texts)} {words}{several}").classes("w-full bem-card").props("dense") as fold:
+            for text in texts:
+                ui.label(text).classes("text-body2 q-mb-xs" + (" bem-caution" if words == "caution" else ""))
+        heads = list(dict.fromkeys(text.split(". ")[0].rpartition(": ")[2] for text in texts))
+        fold.props["caption"] = "; ".join(heads[:_HEADS]) + (
+            f"; and {len(heads) - _HEADS} more" if heads[_HEADS:] else ""
+        )
+        fold.props["data-notes"] = words
+
+
+_HEADS = 3
+"""Headlines of notes beside their fold."""
 
 
 def _downloads(path: Path) -> None:
@@ -248,16 +411,12 @@ def _downloads(path: Path) -> None:
             link.tooltip(words).props["data-download"] = what
 
 
-def _figures(found: RunView) -> None:
-    """Headline figures with their error bars, and where the run went wrong or outside its model."""
+def _wrongs(found: RunView) -> None:
+    """Where the run went wrong or outside its model."""
     if found.failed:
         ui.label(found.failed).classes("bem-wrong")
-    if found.beyond:
-        with ui.row().classes("items-center no-wrap"):
-            badge(OUTSIDE.rstrip(": "))
-            ui.label("; ".join(found.beyond)).classes("text-body2 bem-wrong")
-    for table in found.tables:
-        rows(table.title, table.rows, table.head)
+    for text in found.beyond:
+        ui.label(f"{OUTSIDE}{text}").classes("text-body2 bem-wrong")
 
 
 def _pictures(found: Sequence[pictures.Picture]) -> None:
@@ -321,6 +480,8 @@ class Maps:
             self._layer.props["data-key"] = "map.of"
             self._solid = ui.switch("in space", on_change=self._draw)
             self._solid.props["data-key"] = "map.solid"
+            self._whole = ui.switch("colours to the extremes", on_change=self._draw)
+            self._whole.props["data-key"] = "map.whole"
         self._place = ui.element("div").classes("w-full bem-pair")
         self._offer_layers()
         ui.timer(0.01, self._draw, once=True)
@@ -347,7 +508,12 @@ class Maps:
             with self._place:
                 busy("drawing")
         found = await compute_if(
-            lambda: current == self._round, map_view, *self._chosen_map(), at=self._at, solid=bool(self._solid.value)
+            lambda: current == self._round,
+            map_view,
+            *self._chosen_map(),
+            at=self._at,
+            solid=bool(self._solid.value),
+            whole=bool(self._whole.value),
         )
         if found is None or current != self._round:
             return
@@ -392,10 +558,14 @@ def compare_page(workspace: Workspace, names: list[str]) -> None:
                         rows(table.title, table.rows, table.head)
                     for text in found.beyond:
                         ui.label(text).classes("text-body2 bem-wrong")
-                picture = await compute(overlay, paths, names)
+                shown = await compute(overlay, paths, names)
                 with place:
-                    if picture:
-                        ui.html(picture, sanitize=False).classes("w-full bem-overlay").props["data-overlay"] = "1"
+                    if shown:
+                        with ui.element("div").classes("w-full bem-pair") as both:
+                            for picture in shown:
+                                ui.plotly(picture).classes("w-full").style("min-width: 0")
+                        both.props["data-overlay"] = "1"
+                        both.move(target_index=0)
                     else:
                         ui.label("These runs share nothing that can be drawn over each other.").classes("bem-soft")
             except BemError as error:

@@ -339,8 +339,8 @@ class ScenePage:
         await self._save_draft(self._draft)
         try:
             table = self._workspace.scene_table(self._name)
-            await compute(check_scene, table)
-            state = self._workspace.begin(self._name, table)
+            planned = await compute(check_scene, table)
+            state = self._workspace.begin(self._name, table, planned)
         except BemError as error:
             say(error)
             self._start.enable()

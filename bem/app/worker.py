@@ -4,32 +4,78 @@ from __future__ import annotations
 
 import contextlib
 import json
+import math
 import sys
 import time
 from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
-from bem.app.workspace import ASKED, OWN, PROGRESS
+from bem.app.workspace import ASKED, HISTORY, OWN, PROGRESS
 from bem.errors import BemError, interrupts_as_they_are
 from bem.notes import Level, Note
 from bem.results.atomic import write_text
 from bem.startup.interrupts import catch_interrupts
 
 _EVERY = 0.3  # seconds between two writings of the progress
+_MOST_TOLD = 300
+"""Points that are kept of a stage's figures: every second one of more."""
+_FIRST_GUESS = 1.0
+"""Seconds of a stage after which its pace is known well enough to say what is left."""
+
+
+class Stage:
+    """One of several things that a run goes through, such as its cycles: its pace, and figures told on the way.
+
+    Attributes
+    ----------
+    total : its steps.
+    points : of (done, figures), at most `_MOST_TOLD`.
+    """
+
+    def __init__(self, done: int, total: int, now: float) -> None:
+        self._first = (done, now)
+        self.total = total
+        self._step = 1
+        self._count = 0
+        self.points: list[tuple[int, dict[str, float]]] = []
+
+    def left(self, done: int, now: float) -> float | None:
+        """Seconds to its end at the mean pace; None before there is one."""
+        moved, spent = done - self._first[0], now - self._first[1]
+        return spent * (self.total - done) / moved if moved > 0 and spent >= _FIRST_GUESS else None
+
+    def tell(self, done: int, figures: Mapping[str, float]) -> None:
+        """Keep figures, thinned where they are many."""
+        known = {name: float(value) for name, value in figures.items() if math.isfinite(value)}
+        if known and self._count % self._step == 0:
+            self.points.append((done, known))
+            if len(self.points) > _MOST_TOLD:
+                del self.points[1::2]
+                self._step *= 2
+        self._count += bool(known)
 
 
 class Told:
-    """A watcher (see `bem.campaigns.context.Watcher`) that keeps what it is told in a file."""
+    """A watcher (see `bem.campaigns.context.Watcher`) that keeps what it is told in files of a folder."""
 
-    def __init__(self, file: Path) -> None:
-        self._file = file
+    def __init__(self, folder: Path) -> None:
+        self._folder = folder
         self._state: dict[str, Any] = {"state": "running", "done": 0, "total": 0, "what": "", "notes": []}
+        self._state["began"] = time.time()
+        self._stages: dict[str, Stage] = {}
         self._written = 0.0
 
     def progress(self, done: int, total: int, what: str, figures: Mapping[str, float]) -> None:
         """See `Watcher`."""
-        self._state |= {"done": done, "total": total, "what": what or "working"}
+        what, now = what or "working", time.time()
+        stage = self._stages.setdefault(what, Stage(done, total, now))
+        stage.tell(done, figures)
+        if what == _CASES and len(self._stages) > 1:  # the steps of all cases together say more
+            self._state["cases"] = [done, total]
+        else:
+            self._state |= {"done": done, "total": total, "what": what}
+            self._state |= {"left": stage.left(done, now), "at": now}
         if time.monotonic() - self._written > _EVERY:
             self._write()
 
@@ -42,6 +88,10 @@ class Told:
             self._state["notes"].append(shown)
             self._write()
 
+    def begin(self) -> None:
+        """Write that the run has begun, which is seen before its first progress."""
+        self._write()
+
     def end(self, state: str, message: str = "") -> None:
         """Write how the run ended."""
         self._state |= {"state": state, "message": message}
@@ -49,15 +99,25 @@ class Told:
 
     def _write(self) -> None:
         self._written = time.monotonic()
+        history = {
+            what: {"total": stage.total, "points": stage.points} for what, stage in self._stages.items() if stage.points
+        }
         with contextlib.suppress(BemError):  # a full disk: the run itself will say so
-            write_text(self._file, json.dumps(self._state))
+            write_text(self._folder / PROGRESS, json.dumps(self._state))
+            if history:
+                write_text(self._folder / HISTORY, json.dumps(history))
+
+
+_CASES = "cases"
+"""The stage that counts finished cases."""
 
 
 def main(folder: Path) -> int:
     """Run, or go on with, the scene in the folder; the exit code of `bem run`."""
     from bem.runs import run_scene
 
-    told = Told(folder / OWN / PROGRESS)
+    told = Told(folder / OWN)
+    told.begin()
     try:
         with interrupts_as_they_are():
             done = run_scene(folder / OWN / ASKED if _asked(folder) else folder, folder, resume=True, watcher=told)

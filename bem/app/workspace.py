@@ -9,6 +9,7 @@ import re
 import signal
 import subprocess
 import sys
+import time
 import tomllib
 from collections.abc import Mapping
 from contextlib import suppress
@@ -16,7 +17,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
 
-from bem.errors import InputError, ResultsError
+from bem.errors import BemError, InputError, ResultsError
 from bem.results.atomic import write_bytes, write_text
 from bem.results.directory import LOCK, SCENE, SUMMARY
 from bem.scenes.edit import edited_text, table_text
@@ -26,6 +27,8 @@ from bem.surfaces.examples import example_names
 OWN = ".app"
 """Folder inside a run's folder: the scene as it was asked for, progress, what the process printed."""
 ASKED, PROGRESS, LOG, PID = "scene.toml", "progress.json", "log.txt", "pid"
+HISTORY, PLANNED = "history.json", "planned.json"
+"""Files in `OWN`: figures told while the run went on (`bem.app.worker`), and the seconds that its plan says."""
 CANCELLED, REMOVED = ".cancelled", ".removed"
 """Folders of runs, and of scenes and surfaces, that were put out of the lists."""
 _NAME = re.compile(r"[A-Za-z0-9][A-Za-z0-9_.-]{0,63}")
@@ -39,7 +42,9 @@ class RunState:
 
     `state` : "running", "paused" (it can go on), "failed", or the status of its summary. `done` of `total` steps of
     `what`; `message` says why it failed. `finished` : whether its results are there. `beyond` : what of them is outside
-    the model.
+    the model. `cautions` : the number of its notes of that level. `answers` : names and values of the figures that it
+    was run for. `begun` : clock time [s]. `seconds` : what it took, or has taken up to now. `left` : seconds to the end
+    of `what` at the present pace; `planned` : seconds of all of it by its plan; None where nobody knows.
     """
 
     name: str
@@ -54,6 +59,24 @@ class RunState:
     notes: tuple[str, ...] = ()
     finished: bool = False
     beyond: tuple[str, ...] = ()
+    cautions: int = 0
+    answers: tuple[tuple[str, str], ...] = ()
+    begun: float = 0.0
+    seconds: float | None = None
+    left: float | None = None
+    planned: float | None = None
+
+
+@dataclass(frozen=True)
+class _Told:
+    """What the summary of a finished run says for lists of runs; kept as long as the file is the same."""
+
+    version: tuple[int, int]
+    status: str
+    beyond: tuple[str, ...]
+    cautions: int
+    answers: tuple[tuple[str, str], ...]
+    seconds: float | None
 
 
 class Workspace:
@@ -68,6 +91,7 @@ class Workspace:
         self.folder = folder.resolve()
         self.runs_folder, self.surfaces_folder = self.folder / "runs", self.folder / "surfaces"
         self._children: list[subprocess.Popen[bytes]] = []
+        self._summaries: dict[Path, _Told] = {}
         try:
             for item in (self.folder, self.runs_folder, self.surfaces_folder):
                 item.mkdir(parents=True, exist_ok=True)
@@ -179,9 +203,12 @@ class Workspace:
             table = tomllib.loads(asked.read_text("utf-8"))
         told = _json(path / OWN / PROGRESS)
         name, kind = str(table.get("name", path.name)), str(table.get("kind", ""))
-        summary = _json(path / SUMMARY) if (path / SUMMARY).is_file() else None
+        summary = self._summary(path, table)
         state = self._state(path, told, summary)
         message = str(told.get("message", "")) if state == "failed" else ""
+        now, began = time.time(), told.get("began")
+        running = state == "running"
+        left = told.get("left") if running else None
         return RunState(
             name=path.name,
             path=path,
@@ -193,15 +220,34 @@ class Workspace:
             what=str(told.get("what", "")),
             message=message,
             notes=_texts(told.get("notes")),
-            finished=summary is not None and state != "running",
-            beyond=_texts((summary or {}).get("outside_model")),
+            finished=summary is not None and not running,
+            beyond=summary.beyond if summary else (),
+            cautions=summary.cautions if summary else 0,
+            answers=summary.answers if summary else (),
+            begun=_begun(path),
+            seconds=now - float(began) if running and began else summary.seconds if summary else None,
+            left=None if left is None else max(0.0, float(left) - (now - float(told.get("at", now)))),
+            planned=_json(path / OWN / PLANNED).get("seconds") if running else None,
         )
 
-    def _state(self, path: Path, told: Mapping[str, Any], summary: Mapping[str, Any] | None) -> str:
+    def _summary(self, path: Path, scene: Mapping[str, Any]) -> _Told | None:
+        """Read what is shown of a run's summary, unless the same file was read before; None where there is none."""
+        try:
+            found = (path / SUMMARY).stat()
+        except OSError:
+            self._summaries.pop(path, None)
+            return None
+        version = (found.st_mtime_ns, found.st_size)
+        known = self._summaries.get(path)
+        if known is None or known.version != version:
+            known = self._summaries[path] = _told_by(_json(path / SUMMARY), scene, version)
+        return known
+
+    def _state(self, path: Path, told: Mapping[str, Any], summary: _Told | None) -> str:
         if self.process_of(path) is not None:
             return "running"
         if summary is not None:
-            return str(summary.get("status", "unknown"))
+            return summary.status
         return "failed" if told.get("state") == "failed" else "paused"
 
     def process_of(self, path: Path) -> int | None:
@@ -226,8 +272,11 @@ class Workspace:
         check_scene(table)
         return self.begin(name, table)
 
-    def begin(self, name: str, table: Mapping[str, Any]) -> RunState:
-        """Run a scene that was found right, under that name, in a process of its own, in the next free folder."""
+    def begin(self, name: str, table: Mapping[str, Any], planned: float | None = None) -> RunState:
+        """Run a scene that was found right, under that name, in a process of its own, in the next free folder.
+
+        planned : seconds that its plan says.
+        """
         number = 1
         while True:
             path = self.runs_folder / f"{name}-{number:03d}"
@@ -238,6 +287,8 @@ class Workspace:
             number += 1
         (path / OWN).mkdir()
         write_text(path / OWN / ASKED, table_text(table))
+        if planned is not None:
+            write_text(path / OWN / PLANNED, json.dumps({"seconds": planned}))
         return self.go_on(path.name)
 
     def go_on(self, name: str) -> RunState:
@@ -245,7 +296,8 @@ class Workspace:
         path = self.run_path(name)
         if self.process_of(path) is None and not (path / SUMMARY).is_file():
             (path / OWN).mkdir(exist_ok=True)
-            (path / OWN / PROGRESS).unlink(missing_ok=True)
+            for file in (PROGRESS, HISTORY):
+                (path / OWN / file).unlink(missing_ok=True)
             with open(path / OWN / LOG, "ab") as log:
                 child = subprocess.Popen(
                     [sys.executable, "-P", "-m", "bem.app.worker", str(path)],  # no modules from the user's folder
@@ -400,6 +452,28 @@ def _json(path: Path) -> dict[str, Any]:
     except (OSError, ValueError, RecursionError):
         return {}
     return found if isinstance(found, dict) else {}
+
+
+def _told_by(summary: Mapping[str, Any], scene: Mapping[str, Any], version: tuple[int, int]) -> _Told:
+    """What a summary says for lists of runs."""
+    from bem.app.answers import answers
+    from bem.notes import Level, of_summary
+    from bem.scenes.kind import get_kind
+
+    found: tuple[tuple[str, str], ...] = ()
+    with suppress(BemError, KeyError, ValueError, TypeError, AttributeError):  # of a kind that is not here, or damaged
+        kind = get_kind(str(summary["kind"]))
+        found = tuple((one.words, one.short) for one in answers(summary, kind.headline, scene))
+    cautions = sum(note.get("level") == Level.CAUTION for note in of_summary(summary))
+    seconds = summary.get("wall_time_s")
+    return _Told(
+        version,
+        str(summary.get("status", "unknown")),
+        _texts(summary.get("outside_model")),
+        cautions,
+        found,
+        float(seconds) if isinstance(seconds, int | float) else None,
+    )
 
 
 def _texts(found: object) -> tuple[str, ...]:

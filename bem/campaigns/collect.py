@@ -49,12 +49,17 @@ def collect(campaign: Campaign, given: Sequence[Given]) -> Outcome:
     """All of it as the outcome of the scene."""
     records = [item.record for item in given]
     status, where = worst(given)
-    known = described(campaign.kind.record)
-    summary = _summary(campaign, known, records)
-    own = campaign.kind.summarise(campaign.scene, campaign.axes, records) | told_in_summary(campaign, records)
-    variables = _variables(campaign, known, records)
+    summary = summary_of(campaign, records)
+    variables = _variables(campaign, described(campaign.kind.record), records)
     volumes = campaign.kind.volumes(campaign.scene)
-    return Outcome({**summary, **own}, variables, status, where, volumes, tuple(axis.name for axis in campaign.axes))
+    return Outcome(summary, variables, status, where, volumes, tuple(axis.name for axis in campaign.axes))
+
+
+def summary_of(campaign: Campaign, records: Sequence[Record | None]) -> dict[str, Any]:
+    """Return the figures of all cases, None where a case has no record; at least one has."""
+    summary = _summary(campaign, described(campaign.kind.record), records)
+    own = campaign.kind.summarise(campaign.scene, campaign.axes, records) | told_in_summary(campaign, records)
+    return {**summary, **own}
 
 
 def outcome_of(scene: SceneModel, record: Record) -> Outcome:

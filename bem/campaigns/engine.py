@@ -10,6 +10,7 @@ from __future__ import annotations
 import dataclasses
 import time
 from collections.abc import Hashable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any
@@ -27,7 +28,7 @@ from bem.results.directory import CASES, CHECKPOINT
 from bem.scenes.context import Outcome
 from bem.scenes.kind import get_kind
 from bem.scenes.planner import Plan
-from bem.scenes.records import pack, unpack, without
+from bem.scenes.records import Record, pack, unpack, without
 from bem.startup.lazy import collecting
 from bem.threads import one_blas_thread
 
@@ -163,6 +164,22 @@ def compute(
         results[index] = result
         board.over(index)
     return _together(campaign, [results[case.index] for case in campaign.cases], board, epoch)
+
+
+def finished_cases(campaign: Campaign, folder: Path) -> list[Record | None]:
+    """Return the records of the cases that a run in the folder has finished, None of those that it has not.
+
+    A case whose file is being replaced, or was begun with other code, counts as unfinished.
+    """
+    records: list[Record | None] = []
+    for case in campaign.cases:
+        file = folder / CASES / f"{case.index:05d}.bin"
+        state = None
+        with suppress(BemError):
+            state = load_checkpoint(file, campaign.kind.name)
+        done = state is not None and _RECORD in state
+        records.append(unpack(state[_RECORD], campaign.kind.record) if state is not None and done else None)
+    return records
 
 
 def _file(folder: Path | None, campaign: Campaign, case: Case) -> Path | None:

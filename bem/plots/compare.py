@@ -39,7 +39,7 @@ def draw_comparison(
 
     from bem.plots.pictures import DOTS, settle, write
 
-    groups = _groups(datasets)
+    groups = shared_panels(datasets)
     if not groups:
         return []
     columns = min(2, len(groups))
@@ -56,7 +56,7 @@ def draw_comparison(
         return write(figure, path.parent, path.name, formats)
 
 
-def _groups(datasets: Sequence[Any]) -> list[list[Panel]]:
+def shared_panels(datasets: Sequence[Any]) -> list[list[Panel]]:
     """For each variable that is drawn, its panel of each run; what varies among cases before sections of one field.
 
     Values are read of variables that are drawn, and of those before them that turn out not to be lines.

@@ -97,9 +97,8 @@ def _with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
         none = f"{name}_error" in summary and error is None and value is not None
         return text, f"{shown} (no error bar)" if none else shown
     number, *unit = shown.split(" ")
-    factor = float(number.rstrip("%")) / value if float(number.rstrip("%")) else 1.0
-    percent = "%" if number.endswith("%") else ""
-    return text, " ".join([number, within(name, value, error, factor, percent), *unit])
+    factor = float(number) / value if float(number) else 1.0
+    return text, " ".join([number, within(name, value, error, factor), *unit])
 
 
 def _only(value: Any) -> Any:
@@ -111,7 +110,7 @@ def spelled(name: str, value: Any) -> tuple[str, str]:
     """`mean_contact_pressure_Pa`, 1.2e9 -> `mean contact pressure`, `1.2 GPa`."""
     text, unit = name_and_unit(name)
     if text.endswith(" fraction") and isinstance(value, float):
-        return text, f"{value:.4%}"
+        return text, f"{100 * value:.4g} %"
     return text, _with_unit(value, unit)
 
 

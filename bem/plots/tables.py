@@ -99,12 +99,12 @@ _WITHOUT_SIGN = frozenset(
 )
 
 
-def within(name: str, value: float, error: float, factor: float = 1.0, sign: str = "") -> str:
+def within(name: str, value: float, error: float, factor: float = 1.0) -> str:
     """An error as it stands behind a value: `± 0.2`, or, where that would leave what the figure can be, the interval
     that is left: `(0 to 1.3)`, of what has no sign, and `(0.7 to 1)`, of a share of a whole. The error itself, beside
     the figure in summary and dataset, is that of either side.
 
-    factor, sign : of the unit that is shown, and what follows each number.
+    factor : of the unit that is shown.
     """
     words = name_and_unit(name)[0].lower().split(" ")
     is_share = any(word in _SHARES for word in words)
@@ -112,9 +112,9 @@ def within(name: str, value: float, error: float, factor: float = 1.0, sign: str
     least = 0.0 if value >= 0 and not signed and (is_share or not _WITHOUT_SIGN.isdisjoint(words)) else -np.inf
     most = 1.0 if value <= 1 and is_share else np.inf
     if least <= value - error and value + error <= most:
-        return f"± {plain_digits(error * abs(factor))}{sign}"
+        return f"± {plain_digits(error * abs(factor))}"
     low, high = max(value - error, least) * factor, min(value + error, most) * factor
-    return f"({plain_digits(low, 3)}{sign} to {plain_digits(high, 3)}{sign})"
+    return f"({plain_digits(low, 3)} to {plain_digits(high, 3)})"
 
 
 _LEAST_SCATTER = 1e-6

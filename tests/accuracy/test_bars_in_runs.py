@@ -108,7 +108,7 @@ def test_figures_are_spelt_with_their_errors():
         "contact_area_fraction", {"contact_area_fraction": 0.1, "contact_area_fraction_error": 0.002}
     ) == (
         "contact area fraction",
-        "10.0000% ± 0.2%",
+        "10 ± 0.2 %",
     )
 
 

@@ -163,6 +163,29 @@ class Tab:
                 found.append((role, self._do("DOM.describeNode", backendNodeId=node["backendDOMNodeId"])["node"]))
         return found
 
+    def dark(self, dark):
+        """What the system's user prefers."""
+        value = "dark" if dark else "light"
+        self._do("Emulation.setEmulatedMedia", features=[{"name": "prefers-color-scheme", "value": value}])
+        self.wait(f"document.body.classList.contains('body--{value}')")
+
+    def settle(self):
+        """Until no colour moves any more."""
+        self.wait("document.getAnimations().every(one => !(one instanceof CSSTransition))")
+
+    def faint(self):
+        """Texts whose contrast with what is behind them is below 4.5 (3 where they are large), with their contrast."""
+        return self.look(_FAINT)
+
+    def unfocused(self, count):
+        """Of the next controls that the tabulator key goes to, those that nothing marks."""
+        found = []
+        for _ in range(count):
+            for kind in ("keyDown", "keyUp"):
+                self._do("Input.dispatchKeyEvent", type=kind, key="Tab", code="Tab", windowsVirtualKeyCode=9)
+            found.append(self.look(_MARK))
+        return [one for one in found if one]
+
     def narrow(self, width=390, height=844):
         """A window as narrow as a telephone."""
         self._do("Emulation.setDeviceMetricsOverride", width=width, height=height, deviceScaleFactor=1, mobile=True)
@@ -183,3 +206,52 @@ class Tab:
 
     def close(self):
         self._open.close()
+
+
+_MARK = """(() => {
+  const at = document.activeElement, style = getComputedStyle(at)
+  if (at === document.body) return ''
+  const field = at.closest('.q-field__control')
+  const marked = parseFloat(style.outlineWidth) >= 2 && style.outlineStyle !== 'none'
+  return marked || (field && getComputedStyle(field).boxShadow !== 'none') ? '' : at.outerHTML.slice(0, 200)
+})()"""
+
+_FAINT = """(() => {
+  const parse = text => {
+    const c = document.createElement('canvas').getContext('2d', {willReadFrequently: true})
+    c.fillStyle = text; c.fillRect(0, 0, 1, 1)
+    const d = c.getImageData(0, 0, 1, 1).data
+    return [d[0], d[1], d[2], d[3] / 255]
+  }
+  const known = {}, rgba = text => known[text] ??= parse(text)
+  const over = (top, under) => top.slice(0, 3).map((v, i) => v * top[3] + under[i] * (1 - top[3])).concat(1)
+  const light = c => {
+    const [r, g, b] = c.slice(0, 3).map(v => v / 255).map(v => v <= 0.03928 ? v / 12.92 : ((v + 0.055) / 1.055) ** 2.4)
+    return 0.2126 * r + 0.7152 * g + 0.0722 * b
+  }
+  const behind = item => {
+    const layers = []
+    for (let at = item; at; at = at.parentElement) {
+      const colour = rgba(getComputedStyle(at).backgroundColor)
+      if (colour[3] > 0) layers.push(colour)
+      if (colour[3] === 1) break
+    }
+    return layers.reverse().reduce((under, top) => over(top, under), [255, 255, 255, 1])
+  }
+  const found = [], walk = document.createTreeWalker(document.body, NodeFilter.SHOW_TEXT)
+  while (walk.nextNode()) {
+    const item = walk.currentNode.parentElement, text = walk.currentNode.textContent.trim()
+    if (!text || item.closest('script, style, .q-icon, .hoverlayer')) continue
+    if (item.closest('[disabled], .disabled, [aria-disabled=true]')) continue
+    if (!item.checkVisibility({checkOpacity: true, checkVisibilityCSS: true})) continue
+    const style = getComputedStyle(item), size = parseFloat(style.fontSize)
+    const own = rgba(item.closest('svg') ? style.fill : style.color), back = behind(item)
+    let opacity = own[3]
+    for (let at = item; at; at = at.parentElement) opacity *= parseFloat(getComputedStyle(at).opacity)
+    const [a, b] = [light(over([...own.slice(0, 3), opacity], back)), light(back)]
+    const ratio = (Math.max(a, b) + 0.05) / (Math.min(a, b) + 0.05)
+    const large = size >= 24 || (size >= 18.66 && parseInt(style.fontWeight) >= 700)
+    if (ratio < (large ? 3 : 4.5)) found.push([text.slice(0, 60), Math.round(ratio * 100) / 100])
+  }
+  return found
+})()"""

@@ -187,9 +187,9 @@ def test_from_a_file_to_results_and_back(serve, chrome, tmp_path):
         "scene.toml", "results.nc", "figures.zip", "points.csv", "run.py", "report.html"
     }  # fmt: skip
     tab.go(f"{server.base}/compare?runs=contact-001,contact-002")
-    tab.wait_text("contact.load")
-    tab.wait(r"/load_N\s+[0-9.]+ (± [0-9.e-]+ mN|mN .no error bar)/.test(document.body.innerText)")  # or why not
-    tab.wait("document.querySelector('[data-overlay] svg')")
+    tab.wait_text("contact: load")
+    tab.wait(r"/\bload\s+[0-9.]+ (± [0-9.e-]+ )?mN/.test(document.body.innerText)")
+    tab.wait("document.querySelector('[data-overlay] .main-svg')")
 
     path = tmp_path / "work" / "runs" / "contact-002" / "summary.json"
     path.write_text(json.dumps(json.loads(path.read_text()) | {"outside_model": ["half of it"]}))
@@ -276,7 +276,16 @@ def test_a_killed_server_and_a_pause_lose_nothing(serve, chrome, tmp_path):
     tab.wait("document.querySelector('[data-state=long-001]').innerText === 'running'")
     tab.look("void (window.kept = document.querySelector('[data-action=pause]'))")
     tab.wait("document.querySelector('[data-progress=long-001]').innerText.includes(' of ')")  # it goes on
+    tab.wait(r"/ so far.* left of cycles/.test(document.querySelector('[data-progress=long-001]').innerText)")
     assert tab.look("window.kept.isConnected")  # a button that is drawn anew under the mouse loses its click
+    one = chrome.tab()
+    one.go(f"{server.base}/run/long-001")
+    one.wait("document.querySelector('[data-partial] .main-svg')")  # what is known up to now
+    last = "document.querySelector('[data-partial]').data[0].x.at(-1)"
+    before = one.look(last)
+    one.wait(f"{last} > {before}")
+    assert one.errors == []
+    one.close()
     tab.click("[data-action=pause]")
     tab.click("[data-action=cancel]")
     tab.click("[data-answer=no]")
@@ -437,9 +446,14 @@ def test_two_tabs_keep_each_others_edits(serve, chrome, tmp_path):
     assert one.errors + two.errors == []
 
 
-def test_every_page_has_names_for_its_controls_and_fits_a_telephone(serve, chrome, tmp_path):
+def test_every_page_can_be_read_and_used(serve, chrome, tmp_path):
+    """Names of controls, contrast in light and dark, a mark on what has the focus, all of it in a telephone's width."""
     runs = tmp_path / "work" / "runs"
     run_scene("hertz-sphere", runs / "ball-001", settings=["grid.shape=16", "outputs.errors=false"], figures=False)
+    for name in ("ball-002", "ball-003"):
+        shutil.copytree(runs / "ball-001", runs / name)
+    path = runs / "ball-003" / "summary.json"
+    path.write_text(json.dumps(json.loads(path.read_text()) | {"outside_model": ["half of it"]}))
     (tmp_path / "work" / "own.toml").write_text(EDITED)
     server, tab = serve(), chrome.tab()
     tab.narrow()
@@ -450,13 +464,28 @@ def test_every_page_has_names_for_its_controls_and_fits_a_telephone(serve, chrom
         ("/surfaces", "document.querySelector('.main-svg')"),
         ("/runs", "document.querySelector('[data-tick]')"),
         ("/run/ball-001", "document.querySelectorAll('.main-svg').length > 2"),
+        ("/compare?runs=ball-001,ball-002", "document.querySelector('[data-overlay] .main-svg')"),
+        ("/run/none-001", "document.querySelector('[data-mistake]')"),
     ):
         tab.go(server.base + path)
         tab.wait(there)
+        tab.wait("document.querySelector('[inert]') === null")
         assert tab.unnamed() == [], path
         assert tab.look("document.documentElement.scrollWidth") == 390, path
         assert tab.look("document.documentElement.lang"), path
         assert tab.look("document.querySelectorAll('h1').length") == 1, path
+        for dark in (False, True):
+            tab.dark(dark)
+            tab.settle()
+            assert tab.faint() == [], (path, dark)
+        assert tab.unfocused(8) == [], path
+        tab.dark(False)
+    tab.look("document.querySelector('[data-mistake]').style.color = '#999'")  # what is looked for is seen
+    assert [text.partition(":")[0] for text, _ in tab.faint()] == ["run 'none-001'"]
+    unmarked = "<style>@layer theme { html :focus-visible { outline: none !important } }</style>"
+    tab.look(f"document.head.insertAdjacentHTML('beforeend', {json.dumps(unmarked)})")
+    assert tab.unfocused(2)
+    tab.look("document.activeElement.blur()")
     tab.go(f"{server.base}/scene/own")
     tab.wait("document.querySelector('[data-plan]')")
     tab.look("window.scrollTo(0, document.body.scrollHeight)")  # the button stays in view, and on top

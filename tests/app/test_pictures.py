@@ -14,8 +14,10 @@ from bem.app.pictures import (
     layers_of,
     map_names,
     map_picture,
+    regimes,
     scaled,
     sections_picture,
+    told_pictures,
 )
 from bem.app.solids import MOST_PARTICLES, PARTICLES, cases_of, field_picture, solid_names, solid_picture
 from bem.results.arrays import Arrays
@@ -42,6 +44,50 @@ def test_lone_spikes_do_not_take_the_colours():
     spiked[3, 4] = 1e-3
     trace = map_picture(spiked, (X, Y), "height", "m")["data"][0]
     assert trace["zmax"] < 1e-2 * np.nanmax(np.array(trace["z"], dtype=float))
+
+
+def test_colours_may_reach_the_extremes():
+    spiked = HEIGHTS.copy()
+    spiked[3, 4] = 1e-3
+    picture = map_picture(spiked, (X, Y), "height", "m", whole=True)
+    trace = picture["data"][0]
+    np.testing.assert_allclose(trace["zmax"], np.nanmax(np.array(trace["z"], dtype=float)), rtol=1e-5)
+    assert "end" not in trace["colorbar"]["title"]["text"]
+
+
+def test_regimes_of_a_stribeck_curve_meet_where_the_load_share_passes_their_limits():
+    """Between 1 and 10 mm/s the share falls from 1 to 0 over the logarithm of the speed: 0.9 at 10**0.1 mm/s."""
+    summary = {"speed_m_s": [1.0, 1e-3, 1e-2], "contact_load_N": [0.0, 2.0, 0.0], "film_load_N": [2.0, 0.0, 2.0]}
+    found = regimes(summary)
+    assert [name for *_, name in found] == ["boundary", "mixed", "full film"]
+    np.testing.assert_allclose([first for first, *_ in found], [1e-3, 10**-2.9, 10**-2.01], rtol=5e-3)
+    np.testing.assert_allclose([last for _, last, _ in found], [10**-2.9, 10**-2.01, 1.0], rtol=5e-3)
+    summary["friction"] = [0.01, 0.1, 0.02]
+    shapes = figure_picture(summary, "friction", "speed_m_s")["layout"]["shapes"]
+    assert [one["label"]["text"] for one in shapes] == ["boundary", "mixed", "full film"]
+    assert regimes(summary | {"contact_load_N": [0.0, 0.0, 0.0]}) == []  # all of it is one
+    assert regimes({"speed_m_s": [1.0, 2.0]}) == []
+
+
+def test_a_figure_over_a_varied_key_is_in_the_units_of_both():
+    summary = {"over": {"contact.load": "N"}, "contact.load": [1000.0, 2000.0], "approach_m": [1e-6, 2e-6]}
+    assert figures_over(summary) == [("approach_m", "contact.load")]
+    picture = figure_picture(summary, "approach_m", "contact.load")
+    assert picture["data"][0]["x"] == [1.0, 2.0]
+    assert picture["layout"]["xaxis"]["title"]["text"] == "load (kN)"
+    assert picture["data"][0]["y"] == [1.0, 2.0]
+    assert picture["layout"]["yaxis"]["title"]["text"] == "µm"
+
+
+def test_figures_told_on_the_way_stand_over_steps_or_speeds():
+    history = {
+        "contact": {"total": 100, "points": [[10, {"residual": 1e-2}], [80, {"residual": 1e-6}]]},
+        "speeds": {"total": 5, "points": [[1, {"speed": 0.1, "friction": 0.12}], [2, {"speed": 0.2, "friction": 0.1}]]},
+    }
+    residual, friction = told_pictures(history)
+    json.dumps([residual, friction], allow_nan=False)
+    assert (residual["data"][0]["x"], residual["layout"]["yaxis"]["type"]) == ([10, 80], "log")
+    assert friction["data"][0]["x"] == [0.1, 0.2]
 
 
 def test_missing_points_are_gaps_and_large_maps_are_thinned():

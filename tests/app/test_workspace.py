@@ -9,7 +9,7 @@ import time
 import pytest
 from small_scenes import CONTACT
 
-from bem import InputError, ResultsError, load_scene
+from bem import InputError, ResultsError, load_scene, open_run
 from bem.app.downloads import WHAT, download
 from bem.app.planning import shown_plan
 from bem.app.run_view import overlay
@@ -124,7 +124,9 @@ def test_a_run_is_a_process_and_a_folder(workspace):
             assert download(state.path, what)
     assert b"bem.run_scene(scene)" in download(state.path, "run.py")
     compile(download(state.path, "run.py"), "run.py", "exec")
-    assert overlay([one.path for one in workspace.runs()], ["a", "b"]).startswith("<svg")
+    assert overlay([one.path for one in workspace.runs()], ["a", "b"])
+    assert dict(state.answers)["contact area fraction"].endswith(" %")
+    assert state.seconds == open_run(state.path).summary["wall_time_s"]
     with pytest.raises(InputError, match="allowed"):
         download(state.path, "../summary.json")
     assert Workspace(workspace.folder).runs() == workspace.runs()  # another server sees the same

@@ -18,7 +18,7 @@ from typer.testing import CliRunner
 from bem import open_run
 from bem.cli import build
 from bem.errors import ResultsError
-from bem.plots.compare import _groups
+from bem.plots.compare import shared_panels
 from bem.plots.overlay import panel
 from bem.results.compare import (
     Difference,
@@ -196,7 +196,7 @@ def test_errors_of_figures_take_no_panels():
     run = xarray.Dataset(
         {name: ("speed", [1.0, 2.0], {"long_name": name}) for name in names}, coords={"speed": [0.1, 1.0]}
     )
-    titles = [group[0].title for group in _groups([run, run])]
+    titles = [group[0].title for group in shared_panels([run, run])]
     assert titles[:4] == ["friction", "contact_load", "film_load", "minimum_film"]
     assert len(titles) == 6
     assert not [title for title in titles if "_error" in title]

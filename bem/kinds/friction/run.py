@@ -61,7 +61,7 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
         curve = curve.then(own, notes, friction_scatter(own.film, setup.lubricant, own.film_force / own.load))
         if len(curve.points) < len(pairs):
             keep(context, (curve, errors), made_again)
-        context.progress(len(curve.points), len(pairs), "speeds", friction=own.friction)
+        context.progress(len(curve.points), len(pairs), "speeds", speed=curve.points[-1].speed, friction=own.friction)
     tell(context, notes_over("speed", "m/s", [p.speed for p in curve.points], [p.notes for p in curve.points]))
     tell(context, oil_notes([point.oil for point in curve.points]))
     tell(context, covered_notes([(point.friction, point.oil_on_contact) for point in curve.points]))
