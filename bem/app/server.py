@@ -18,6 +18,7 @@ from nicegui import ui
 from bem.app.access import Guard
 from bem.app.computing import compute
 from bem.app.downloads import download, stored_file
+from bem.app.element_page import ElementPage
 from bem.app.layout import page, words_of, wrong
 from bem.app.run_page import RunPage, RunsPage, compare_page
 from bem.app.scene_page import ScenePage, scenes_page
@@ -90,6 +91,10 @@ def application(workspace: Workspace) -> FastAPI:
     @ui.page("/scene/{name}")
     def scene(name: str) -> None:
         ScenePage(workspace, name)
+
+    @ui.page("/element/{name}")
+    def element(name: str) -> None:
+        ElementPage(workspace, name)
 
     @ui.page("/surfaces")
     def surfaces() -> None:

@@ -5,14 +5,9 @@ Verified in tests/app/test_starts.py.
 
 from __future__ import annotations
 
-import tomllib
-from contextlib import suppress
 from dataclasses import dataclass
-from typing import Any
 
-from bem.elements.element import Element, element_template, load_element
 from bem.errors import InputError
-from bem.scenes.edit import table_text
 from bem.scenes.kind import get_kind, kinds_by_task
 from bem.scenes.load import library, library_text
 from bem.scenes.template import scene_template
@@ -26,7 +21,7 @@ class Start:
     ----------
     name : of the scene that comes of it.
     title, words : what it is called, and what it computes.
-    source : of the scene's text: "kind contact", "scene coated-sphere", "element gear-pair"; or "page /surfaces".
+    source : of the scene's text: "kind contact", "scene coated-sphere"; or "page /surfaces".
     """
 
     name: str
@@ -43,10 +38,15 @@ TASKS = (
     Start("coating", "Coating", "Stresses in a coated body under a ball", "scene coated-sphere"),
     Start("tribofilm", "Tribofilm", "Growth and wear of a film such as ZDDP's", "kind tribofilm"),
     Start("film", "EHL film", "Film thickness and pressure between a ball and a disc", "kind point-film"),
-    Start("bearing", "Bearing", "Film and friction where a rolling bearing is loaded most", "element rolling-bearing"),
-    Start("gear", "Gear", "Film and friction along the path of contact of a gear pair", "element gear-pair"),
-    Start("cam", "Cam", "Film and friction between a cam and its follower", "element cam-follower"),
-    Start("ring", "Piston ring", "Film and friction between a piston ring and its liner", "element piston-ring"),
+    Start("bearing", "Bearing", "Film, friction and rating life of a rolling bearing", "page /element/rolling-bearing"),
+    Start("gear", "Gear", "Film, losses, temperatures and scuffing of a gear pair", "page /element/gear-pair"),
+    Start("cam", "Cam", "Film, friction and wear between a cam and its follower", "page /element/cam-follower"),
+    Start(
+        "ring",
+        "Piston ring",
+        "Film, friction and wear between a piston ring and its liner",
+        "page /element/piston-ring",
+    ),
 )
 
 
@@ -55,7 +55,7 @@ def start_text(source: str) -> str:
 
     Parameters
     ----------
-    source : as in `Start`; of an element, the scene of its path or of its most loaded contact.
+    source : as in `Start`, of a kind or a built-in scene.
 
     Raises
     ------
@@ -66,19 +66,7 @@ def start_text(source: str) -> str:
         return scene_template(name)
     if what == "scene":
         return library_text(name)
-    element = load_element(tomllib.loads(element_template(name)))
-    scene = element.path_scene() if name == "gear-pair" else _most_loaded(element)
-    note = f"# From an example of a machine element; `bem new {name}` and `bem element` make one of your own.\n"
-    return note + table_text(scene)
-
-
-def _most_loaded(element: Element) -> dict[str, Any]:
-    """The film of the contact with the highest pressure, of those that a steady film can have."""
-    contacts = element.found.contacts
-    for contact in sorted(contacts, key=lambda one: -one.hertz(element.modulus).maximum_pressure):
-        with suppress(InputError):
-            return element.scene(contact, "traction")
-    raise InputError(f"{element.model.name}: no contact has a steady film")
+    raise InputError(f"{source}: no text of a scene; allowed: kind NAME, scene NAME")
 
 
 @dataclass(frozen=True)

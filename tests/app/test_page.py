@@ -95,6 +95,25 @@ def chrome():
 
 
 @pytest.mark.internal
+def test_an_element_answers_on_its_page(serve, chrome, tmp_path):
+    """From the first page to a bearing: a mistake is said, the answer has life and figure, the scene is one to run."""
+    server, tab = serve(), chrome.tab()
+    tab.go(server.address)
+    tab.click("[data-start=bearing]")
+    tab.wait_text("press answer")
+    tab.type("radial_load", "6 K")
+    tab.click("[data-action=answer]")
+    tab.wait("document.querySelector('[data-mistake]').innerText.includes('radial_load')")
+    tab.type("radial_load", "6 kN")
+    tab.click("[data-action=answer]")
+    tab.wait_text("P = 6 kN")
+    tab.wait("document.querySelector('[data-figure=rolling-bearing]')")
+    tab.click('[data-action="scene of the film"]')
+    tab.wait("location.pathname.includes('/scene/rolling-bearing')")
+    assert (tmp_path / "work" / "rolling-bearing.toml").is_file()
+
+
+@pytest.mark.internal
 def test_from_a_file_to_results_and_back(serve, chrome, tmp_path):
     """Drop a surface, treat it, press it, see it, take it away; in another tab the same; two runs overlaid."""
     server, own = serve(), tmp_path / "mine.al3d"
@@ -462,6 +481,7 @@ def test_every_page_can_be_read_and_used(serve, chrome, tmp_path):
         ("/", "document.querySelector('[data-start=gear]')"),
         ("/scene/own", "document.querySelector('[data-plan]')"),
         ("/surfaces", "document.querySelector('.main-svg')"),
+        ("/element/gear-pair", "document.querySelector('[data-action=answer]')"),
         ("/runs", "document.querySelector('[data-tick]')"),
         ("/run/ball-001", "document.querySelectorAll('.main-svg').length > 2"),
         ("/compare?runs=ball-001,ball-002", "document.querySelector('[data-overlay] .main-svg')"),

@@ -1,0 +1,57 @@
+"""The form of a machine element: as filled from the template it is that element, and its answer is the command's."""
+
+import tomllib
+
+import pytest
+
+from bem import InputError, load_scene
+from bem.app.element_form import answered, fields_of, file_of, scene_of_form, table_of
+from bem.app.planning import shown_plan
+from bem.app.starts import TASKS
+from bem.elements.element import MODELS, element_template, load_element
+
+pytestmark = pytest.mark.internal
+
+
+def typed(name, **changes):
+    return {field.key: field.value for field in fields_of(name)} | changes
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_the_form_begins_as_the_template(name):
+    own = tomllib.loads(element_template(name)) | {"name": name}
+    assert load_element(table_of(name, typed(name))).model == load_element(own).model
+    assert tomllib.loads(file_of(name, typed(name))) == own
+    assert all(field.words for field in fields_of(name) if not field.basic)
+
+
+def test_every_key_beside_the_template_is_a_key_of_the_element():
+    bearing = typed(
+        "rolling-bearing", rolling="roller", length="11 mm", profile="straight", reliability="95", tilt="1 mrad",
+        fatigue_load_limit="0.9 kN", contamination_factor="0.4", cleanliness="", boundary_friction="0.1",
+    )  # fmt: skip
+    model = load_element(table_of("rolling-bearing", bearing)).model
+    assert (model.length, model.profile, model.reliability) == (11e-3, "straight", 95)
+    gears = typed("gear-pair", torque="", hertz_pressure="1.2 GPa", structure_factor="0.8") | {"oil.base": "pao"}
+    assert load_element(table_of("gear-pair", gears)).model.oil.base == "pao"
+
+
+def test_the_answer_of_a_form():
+    found = answered("rolling-bearing", typed("rolling-bearing", radial_load="6 kN"))
+    said = dict(found.rows)
+    assert "P = 6 kN" in said["basic rating life"]
+    assert found.picture.startswith(b"\x89PNG")
+    assert found.table.count("\n") > 4
+    with pytest.raises(InputError, match="radial_load"):
+        answered("rolling-bearing", typed("rolling-bearing", radial_load="6 K"))
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_the_scene_of_a_form_can_run(name):
+    table = tomllib.loads(scene_of_form(name, typed(name)))
+    assert load_scene(table).kind == "traction"
+    assert shown_plan(table | {"name": name}).messages == ()
+
+
+def test_tasks_lead_to_the_pages_of_all_elements():
+    assert {one.source for one in TASKS if "/element/" in one.source} == {f"page /element/{name}" for name in MODELS}
