@@ -37,10 +37,11 @@ PROMISED = {
 
 def scenes_to_draw():
     """Scenes whose runs have all figures and arrays that runs of their kinds have; others have the same pictures."""
-    records, held = stored("scenes"), {}
+    records, kinds = stored("scenes"), {name: table["kind"] for name, table in library().items()}
+    held = {}
     for name in NAMES:
         figures = records[name].figures if name in records else [name]
-        held[name] = {(library()[name]["kind"], re.sub(r"\d+", "", figure)) for figure in figures}
+        held[name] = {(kinds[name], re.sub(r"\d+", "", figure)) for figure in figures}
     left, found = set().union(*held.values()), []
     while left:  # greedy cover
         found.append(max(NAMES, key=lambda name: len(held[name] & left)))
