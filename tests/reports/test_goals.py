@@ -97,7 +97,8 @@ def test_scenes_are_held_to_two_seconds_or_a_fifth_outside_their_solvers():
     assert all(scene in body for scene in rows)
 
 
-def test_only_what_a_run_computes_counts_as_its_solvers(tmp_path):
+def test_only_what_a_run_computes_counts_as_its_solvers(tmp_path, monkeypatch):
+    monkeypatch.setattr(enter_to_report, "LONG", 0.0)  # once: it does not matter whether loops are compiled
     row = enter_to_report.outside("hertz-sphere", str(tmp_path / "run"))
     assert 0.2 < row["outside_s"] < row["processor_s"]  # imports alone take more
     assert (tmp_path / "run" / "report.html").is_file()
