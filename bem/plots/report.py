@@ -32,7 +32,7 @@ from bem.plots.tables import (
 )
 from bem.results.atomic import write_text
 from bem.results.directory import REPORT
-from bem.scenes.records import OIL
+from bem.scenes.records import scatter_key
 
 
 def write_report(run: Any, drawn: Sequence[Drawn], headline: Sequence[str]) -> Path:
@@ -78,10 +78,14 @@ def summary_rows(summary: dict[str, Any], names: Sequence[str]) -> list[tuple[st
 
 def with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
     """Name and value of a figure as `spelled`, with its error where it has one: `1.2 ± 0.013 GPa`; a friction
-    coefficient with its scatter from the constants of the oil, too."""
+    coefficient or force with its scatter from the constants of the oil, too."""
     text, shown = _with_error(name, summary)
-    scatter = _only(summary.get(f"{name}{OIL}"))
-    return text, with_scatter(shown, scatter, numerical="±" in shown or " to " in shown)
+    scatter, value = (_only(summary.get(key)) for key in (scatter_key(name), name))
+    if not isinstance(scatter, int | float):
+        return text, shown
+    number, *unit = spelled(name, value)[1].split(" ")
+    numerical, factor = "±" in shown or " to " in shown, float(number) / value if unit and value else 1.0
+    return text, with_scatter(shown, scatter, numerical=numerical, unit=" ".join(unit), factor=factor)
 
 
 def _with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:

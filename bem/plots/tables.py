@@ -11,7 +11,7 @@ import numpy as np
 
 from bem.plots.labels import label, prefix
 from bem.quantities import plain_digits, with_signs
-from bem.scenes.records import OIL, TELLING, unit_of
+from bem.scenes.records import OIL, TELLING, scatter_key, unit_of
 
 _SPREAD, _ERROR = "_spread", "_error"
 _TELLING = tuple(f"{name}_{unit}" for name, unit in TELLING.items())
@@ -121,16 +121,16 @@ _LEAST_SCATTER = 1e-6
 """Scatter of a friction coefficient below which it is shown as zero: no measurement resolves it."""
 
 
-def with_scatter(shown: str, scatter: Any, *, numerical: bool) -> str:
-    """Return a friction coefficient as it is shown with its scatter from the constants of the oil behind its error:
+def with_scatter(shown: str, scatter: Any, *, numerical: bool, unit: str = "", factor: float = 1.0) -> str:
+    """Return a friction figure as it is shown with its scatter from the constants of the oil behind its error:
     `0.046 ± 0.0004 (numerical), ± 0.012 (oil)`.
 
-    shown : the coefficient, with its error where it has one. scatter : half-width, None of none. numerical : whether
-    there is an error in `shown`.
+    shown : the figure, with its error where it has one. scatter : half-width, None of none. numerical : whether
+    there is an error in `shown`. unit : that is shown, and `factor` of it.
     """
     if not isinstance(scatter, int | float) or not np.isfinite(scatter):
         return shown
-    oil = f"± {plain_digits(scatter if scatter >= _LEAST_SCATTER else 0.0)} (oil)"
+    oil = f"± {plain_digits(factor * scatter if scatter >= _LEAST_SCATTER else 0.0)}{unit and f' {unit}'} (oil)"
     return f"{shown} (numerical), {oil}" if numerical else f"{shown} {oil}"
 
 
@@ -142,8 +142,8 @@ def is_list(value: Any) -> bool:
 def is_error(name: str, among: Mapping[str, Any]) -> bool:
     """Return True if a figure is the error bar of another, beside which it stands, what an origin adds to it, or its
     scatter from the constants of the oil."""
-    if name.removesuffix(_SPREAD).endswith(OIL):
-        return name.removesuffix(_SPREAD).removesuffix(OIL) in among
+    if OIL in (scatter := name.removesuffix(_SPREAD)):
+        return scatter.replace(OIL, "", 1) in among
     bare, found, origin = name.rpartition(_ERROR)
     return bool(found) and bare in among and (not origin or bare + _ERROR in among)
 
@@ -227,7 +227,7 @@ def summary_of_points(
     wanted = [
         key
         for name in names
-        for key in (name, name + _ERROR, name + _SPREAD, name + OIL)
+        for key in (name, name + _ERROR, name + _SPREAD, scatter_key(name))
         if name not in over and any(summary and summary.get(key) is not None for summary in summaries)
     ]
     found |= {name: [] for name in wanted}
@@ -280,7 +280,7 @@ def _columns(summary: Mapping[str, Any], names: Sequence[str], title: str, colum
             summary[name],
             _beside(name, summary),
             bars=f"{name}{_ERROR}" in summary,
-            oil=summary.get(f"{name}{OIL}"),
+            oil=summary.get(scatter_key(name)),
         )
         for name in names
         if name not in leading and name not in varied and name not in repeated
@@ -364,7 +364,7 @@ def _column(
         ]
     if isinstance(oil, list) and len(oil) == len(values):
         cells = [
-            with_scatter(cell, s, numerical=bars and ("±" in cell or " to " in cell))
+            with_scatter(cell, s, numerical=bars and ("±" in cell or " to " in cell), factor=factor)
             for cell, s in zip(cells, oil, strict=True)
         ]
     return label(words, unit), cells
@@ -410,7 +410,7 @@ def _cases(title: str, cases: Sequence[Mapping[str, Any]], known: Mapping[str, A
         table = {key: [case.get(key) for case in cases] for key in plain}
         shown = {k: v for k, v in table.items() if not _is_spread(k, table) and not is_error(k, table)}
         columns = [
-            _varied(k, v, varied[k]) if k in varied else _column(k, v, _beside(k, table), oil=table.get(f"{k}{OIL}"))
+            _varied(k, v, varied[k]) if k in varied else _column(k, v, _beside(k, table), oil=table.get(scatter_key(k)))
             for k, v in shown.items()
         ]
         rows = tuple(zip(*(cells for _, cells in columns), strict=True))

@@ -7,7 +7,7 @@ test_point_film_time_kind.py.
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -17,11 +17,12 @@ from bem.errors import Status
 from bem.grid import FloatArray
 from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.packing import keep, kept
-from bem.scenes.records import Figure, Record, Series, columns
+from bem.scenes.records import OIL_SCATTER, Figure, Record, Series, columns
 
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars
     from bem.accuracy.march import MarchCase, PointMarchCase
+    from bem.lubrication import Lubricant
 
 _CHECKPOINTS = 20  # of a march
 JUMPS = "a film is often nearly as thin at several times, and other steps may pick another of them"
@@ -38,6 +39,7 @@ class MarchedRecord(Record):
     time: Annotated[FloatArray, Series(("time",), "s", "time")]
     minimum_film: Annotated[FloatArray, Series(("time",), "m", "minimum film thickness")]
     central_film: Annotated[FloatArray, Series(("time",), "m", "film thickness at the centre")]
+    friction_oil_scatter: Annotated[FloatArray | None, Series(("time",), "1", OIL_SCATTER)] = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -86,6 +88,21 @@ def _films(case: MarchCase | PointMarchCase, mesh: Any, context: Context) -> lis
             keep(context, now, made_again)
 
     return case.again(mesh, state=kept(context, made_again), callback=watch)
+
+
+def oil_scatters(films: Sequence[Any], lubricant: Lubricant, friction: FloatArray) -> FloatArray | None:
+    """Return the scatter of the friction of each time from the constants of the oil; not-a-number at times without a
+    friction coefficient, None with another shear law than that of base oils.
+
+    films : of a march. lubricant : as it was given to the march. friction : coefficient of sliding of each film.
+    """
+    from bem.lubrication.oil_scatter import friction_scatter
+    from bem.lubrication.shear import BaseOilShear
+
+    if not isinstance(lubricant.shear_law, BaseOilShear):
+        return None
+    found = (friction_scatter(film, lubricant, float(own)) for film, own in zip(films, friction, strict=True))
+    return np.array([math.nan if one is None else one for one in found])
 
 
 def few_of(count: int, most: int) -> list[int]:

@@ -208,6 +208,15 @@ OIL = "_oil_scatter"
 OIL_SCATTER = "scatter of the friction coefficient from the oil's constants, half-width"
 """What it is."""
 
+
+def scatter_key(name: str) -> str:
+    """Return the key of a friction figure's scatter from the constants of the oil: `OIL` stands before the unit."""
+    for unit in filter(None, UNITS):
+        if name.endswith(f"_{unit}"):
+            return f"{name.removesuffix(f'_{unit}')}{OIL}_{unit}"
+    return name + OIL
+
+
 SCATTER = "scatter"
 """The origin of errors that repetitions tell: the standard error of their mean."""
 

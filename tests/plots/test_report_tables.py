@@ -62,6 +62,20 @@ def test_friction_has_its_scatter_from_the_oil_behind_its_error():
     assert [row[1] for row in cases.rows] == ["0.046 ± 0.0004 (numerical), ± 0.012 (oil)"] * 2
 
 
+def test_a_force_has_its_scatter_from_the_oil_in_its_unit():
+    force = {
+        "largest_friction_force_N": 0.25,
+        "largest_friction_force_N_error": 0.01,
+        "largest_friction_force_oil_scatter_N": 0.05,
+    }
+    shown = "250 ± 10 mN (numerical), ± 50 mN (oil)"
+    assert with_error("largest_friction_force_N", force) == ("largest friction force", shown)
+    over = {"speed_m_s": [0.1, 1.0]} | {name: [value, 2 * value] for name, value in force.items()}
+    (table,) = figure_tables(over, list(over))
+    assert table.head == ("speed (m/s)", "largest friction force (mN)")
+    assert table.rows[1][1] == "500 ± 20 (numerical), ± 100 (oil)"
+
+
 def test_units_of_names_are_those_of_records():
     assert name_and_unit("film_wear_rate_nm_s") == ("film wear rate", "nm/s")
     assert name_and_unit("wear_volume_mm3") == ("wear volume", "mm³")

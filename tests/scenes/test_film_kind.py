@@ -68,6 +68,26 @@ def test_reciprocating_and_changing_load():
     assert load * 6e-3 == pytest.approx(8.0, rel=1e-5)
 
 
+def test_friction_has_its_scatter_from_the_oil_where_its_constants_are_known():
+    oil = {"grade": "ISO VG 68", "temperature": "60 degC"}
+    march = {"duration": "12 ms", "steps": 48, "points": 201}
+    changes = {"oil": oil, "cylinder": SCENE["cylinder"] | {"load": "500 N"}, "outputs": {"errors": False}}
+    outcome = run(changes | {"march": march})
+    friction, scatter = (outcome.variables[name].values for name in ("friction", "friction_oil_scatter"))
+    sliding = np.abs(outcome.variables["speed"].values) > 0.01
+    # oils of one base differ by a fifth; the rolling part of the force has none of it
+    assert (0.03 * np.abs(friction[sliding]) < scatter[sliding]).all()
+    assert (scatter[sliding] < 0.5 * np.abs(friction[sliding])).all()
+    standing = np.abs(outcome.variables["speed"].values) < 1e-12
+    assert standing.any()
+    assert (scatter[standing] < 1e-9).all()
+    largest = np.abs(friction).argmax()
+    assert outcome.summary["largest_friction_force_oil_scatter_N"] == pytest.approx(500 * scatter[largest], rel=0.01)
+    limited = run(changes | {"oil": oil | {"shear_law": "limited"}})
+    assert "friction_oil_scatter" not in limited.variables
+    assert "largest_friction_force_oil_scatter_N" not in limited.summary
+
+
 def test_cavitation_is_an_option():
     motion = {"motion": {"kind": "reciprocating", "speed": "0.05 m/s", "period": "4 ms"}}
     short = {"duration": "2 ms", "steps": 40, "points": 201}

@@ -48,6 +48,16 @@ def test_speed_and_load_change_over_time_with_bars(tmp_path):
     assert run.summary["highest_pressure_Pa_error"] is None
 
 
+def test_sliding_friction_has_its_scatter_from_the_oil(tmp_path):
+    slides = {"mean_speed": "0.09 m/s", "slide_roll_ratio": 1.0}
+    oil = {"viscosity": "0.25 Pa s", "pressure_viscosity": "22 1/GPa", "temperature": "40 degC"}
+    data = run_scene(scene(rolling=slides, oil=oil), tmp_path / "run", figures=False).dataset
+    friction, scatter = (data[name].values for name in ("friction", "friction_oil_scatter"))
+    assert friction.shape == scatter.shape == (9,)
+    assert (0.03 * friction < scatter).all()
+    assert (scatter < 0.5 * friction).all()
+
+
 def test_rough_bodies_pass_on_their_patch(tmp_path):
     rough = {"kind": "generated", "rms_height": "10 nm", "correlation_length": "30 um"}
     upper = {"material": "steel-52100", "surface": rough}

@@ -45,6 +45,19 @@ def run(scene, context=None):
     return kind.run(resolved, context), context
 
 
+def test_friction_at_the_end_has_its_scatter_from_the_oil():
+    """Of the film's part alone: boundary friction is an input."""
+    oil = {"grade": "ISO VG 320", "temperature": "40 degC"}
+    slides = {"values": ["0.2 m/s"], "cylinder": 0.5}
+    contact = LIFE["contact"] | {"loads": ["120 N"]}
+    changes = {"contact": contact, "speeds": slides, "thermal": "off", "life": SHORT}
+    record, _ = run(LIFE | changes | {"oil": oil})
+    of_film = record.friction_final - record.boundary_friction_over_cycles[-1]
+    assert 0.03 * of_film < record.oil_scatter < 0.5 * of_film < 0.5 * record.friction_final
+    limited, _ = run(LIFE | changes | {"oil": oil | {"shear_law": "limited"}})
+    assert limited.oil_scatter is None
+
+
 def test_a_life_wears_grows_counts_pieces_and_goes_on_to_the_same_bits():
     scene = LIFE | {"tribofilm": FILM, "particles": PIECES, "life": LIFE["life"] | {"coarser_lives": True}}
     record, context = run(scene)

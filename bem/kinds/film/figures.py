@@ -13,6 +13,8 @@ from bem.plots.style import BLACK, BLUE, GREEN, ORANGE, PINK, SEQUENTIAL, SKY, V
 
 _COLOURS = (BLUE, VERMILION, ORANGE, SKY, GREEN, PINK, BLACK)
 _DASHES = ("-", "--", "-.", ":")
+_SEEN = 0.01
+"""Width of a band over the height of its panel from which it is seen."""
 
 
 def _over_time(run: Any, figure: Figure) -> None:
@@ -34,6 +36,12 @@ def _over_time(run: Any, figure: Figure) -> None:
     panels[1].legend()
     if sliding:
         panels[2].plot(time, friction, color=BLACK)
+        scatter = data["friction_oil_scatter"].values if "friction_oil_scatter" in data.variables else np.zeros(1)
+        if np.nanmax(scatter) > _SEEN * np.nanmax(np.abs(friction)):
+            panels[2].fill_between(
+                time, friction - scatter, friction + scatter, color="0.6", alpha=0.4, linewidth=0, label="oil"
+            )
+            panels[2].legend()
         panels[2].set_ylabel("friction\ncoefficient")
     panels[-1].set_xlabel(label("time", t_unit))
 
@@ -90,7 +98,8 @@ def _fraction(run: Any, figure: Figure) -> None:
 FIGURES = (
     FigureKind(
         "film-over-time",
-        "Speed, film thickness and, where the surfaces slide, friction over time.",
+        "Speed, film thickness and, where the surfaces slide, friction over time; a grey band is the scatter of "
+        "friction from the constants of the oil.",
         ("time", "minimum_film", "central_film"),
         _over_time,
         (5.0, 6.0),

@@ -7,7 +7,7 @@ from typing import Annotated
 
 from bem.grid import FloatArray
 from bem.scenes.marching import JUMPS, MarchedRecord
-from bem.scenes.records import Figure, Series
+from bem.scenes.records import OIL, Figure, Series
 
 _BY_TIME = "the thinnest one and the last one have theirs"
 
@@ -22,6 +22,16 @@ class FilmTimeRecord(MarchedRecord):
     ]
     thinnest_film_time: Annotated[float, Figure("s", "when it is that thin", headline=True, no_bar=JUMPS)]
     largest_friction_force: Annotated[float, Figure("N", "largest friction force")]
+    oil_scatter: Annotated[
+        float | None,
+        Figure(
+            "N",
+            "scatter of the largest friction force from the oil's constants, half-width",
+            name=f"largest_friction_force{OIL}",
+            optional=True,
+            unjudged=True,
+        ),
+    ] = None
     volume_imbalance: Annotated[
         float, Figure("", "volume that appears or goes, over that in the film", headline=True, unjudged=True)
     ]

@@ -13,11 +13,11 @@ from bem.kinds.film.record import FilmTimeRecord
 from bem.kinds.film.scene import FilmScene
 from bem.scenes import build
 from bem.scenes.context import Context
-from bem.scenes.marching import Marched, few_of
+from bem.scenes.marching import Marched, few_of, oil_scatters
 from bem.scenes.records import columns
 
 if TYPE_CHECKING:
-    from bem.lubrication import FilmSolution
+    from bem.lubrication import FilmSolution, Lubricant
 
 
 def run(scene: FilmScene, context: Context) -> FilmTimeRecord:
@@ -41,14 +41,18 @@ def run(scene: FilmScene, context: Context) -> FilmTimeRecord:
     )
     wanted, width = scene.outputs.errors, cylinder.width
     march = Marched.of(case, case.points, context, wanted, lambda films: bars_of(replace(case, films=films), width))
-    return _record(march, width, starved=scene.supply is not None)
+    return _record(march, case.lubricant, width, starved=scene.supply is not None)
 
 
-def _record(march: Marched, width: float, *, starved: bool) -> FilmTimeRecord:
+def _record(march: Marched, lubricant: Lubricant, width: float, *, starved: bool) -> FilmTimeRecord:
     from bem.accuracy import march_figures
 
     films: list[FilmSolution] = march.films
     last, figures, over, few = films[-1], march_figures(films), columns(films, _OVER_TIME), few_of(len(films), 21)
+    # a film that begins as a gap carries nothing at first
+    load, force = np.where(over["load"] > 0, over["load"], np.nan), over["shear_force"]
+    scatters = oil_scatters(films, lubricant, (force - over["rolling_force"]) / load)
+    largest = int(np.abs(force).argmax())
     return FilmTimeRecord(
         **march.figures,
         thinnest_film=figures["thinnest_film"],
@@ -59,8 +63,9 @@ def _record(march: Marched, width: float, *, starved: bool) -> FilmTimeRecord:
         volume_imbalance=float(over["volume_imbalance"].max()),
         film_x=last.position,
         speed=over["speeds"][:, 0],
-        # a film that begins as a gap carries nothing at first
-        friction=over["shear_force"] / np.where(over["load"] > 0, over["load"], np.nan),
+        friction=force / load,
+        friction_oil_scatter=scatters,
+        oil_scatter=None if scatters is None else float(scatters[largest] * load[largest] * width),
         thickness=over["thickness"],
         film_pressure=over["pressure"],
         meniscus=np.array([_meniscus(film) for film in films]) if starved else None,
@@ -77,4 +82,6 @@ def _meniscus(film: FilmSolution) -> float:
     return float(full[0] if sum(film.speeds) >= 0 else full[-1])
 
 
-_OVER_TIME = (*("speeds", "thickness", "pressure", "film_fraction", "shear_force", "load", "volume_imbalance"),)
+_OVER_TIME = (
+    *("speeds", "thickness", "pressure", "film_fraction", "shear_force", "rolling_force", "load", "volume_imbalance"),
+)

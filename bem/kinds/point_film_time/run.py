@@ -14,7 +14,7 @@ from bem.kinds.point_film_time.scene import PointFilmTimeScene
 from bem.notes.scenes import WAVE_STEPS_FEW
 from bem.scenes import build
 from bem.scenes.context import Context
-from bem.scenes.marching import Marched, few_of
+from bem.scenes.marching import Marched, few_of, oil_scatters
 
 if TYPE_CHECKING:
     from bem.lubrication import MovingSurface, PointFilmSolution
@@ -84,6 +84,7 @@ def _record(scene: PointFilmTimeScene, march: Marched) -> PointFilmTimeRecord:
     wanted = np.array([film.load for film in solved]) / [_load(scene, film.time) for film in solved]
     few = few_of(len(films), _FRAMES)
     figures: dict[str, Any] = point_march_figures(films)
+    friction = np.array([film.friction for film in films])
     return PointFilmTimeRecord(
         **march.figures,
         **figures,
@@ -92,7 +93,8 @@ def _record(scene: PointFilmTimeScene, march: Marched) -> PointFilmTimeRecord:
         mass_imbalance=max((film.mass_imbalance for film in solved), default=0.0),
         load_missed=float(np.abs(wanted - 1).max(initial=0.0)),
         speed=np.array([scene.factors(t)[0] * scene.rolling.mean_speed for t in time]),
-        friction=np.array([film.friction for film in films]),
+        friction=friction,
+        friction_oil_scatter=oil_scatters(films, scene.oil.build(), friction),
         film_x=last.x,
         film_y=last.y,
         thickness=np.array([_middle(film, film.thickness) for film in films]),

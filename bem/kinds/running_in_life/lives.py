@@ -104,6 +104,21 @@ def _film(scene: Any, table: LifeFilm, setup: MixedSetup) -> GrowingFilm:
     return table.build(scene.friction, spots)
 
 
+def oil_scatter(case: LifeCase, end: LifeState) -> float | None:
+    """Return the scatter of the friction at the end of a life from the constants of the oil, of the solved film whose
+    load is nearest to the film's at the end; None where none is known."""
+    from bem.lubrication.oil_scatter import friction_scatter
+    from bem.wear.mixed import MixedContact
+
+    contact = case.contact
+    assert isinstance(contact, MixedContact)
+    load = contact.setup.load * (1.0 - float(end.over("contact_share")[-1]))
+    if load <= 0:
+        return None
+    film = contact.table.nearest(load)
+    return friction_scatter(film, contact.setup.lubricant, float(end.over("film_friction")[-1]))
+
+
 def end_of(scene: Any, heights: tuple[FloatArray, FloatArray]) -> LifeState:
     """A scene's life from these heights [m] on its grid, to its end."""
     from bem.life.march import run_life

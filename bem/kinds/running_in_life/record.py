@@ -10,7 +10,7 @@ from typing import Annotated, Any
 from bem.grid import FloatArray
 from bem.kinds.running_in_life.scene import RunningInLifeScene
 from bem.scenes.axes import Axis
-from bem.scenes.records import LAMBDA_WHOLE, MINIMUM_FILM, Figure, GridRecord, Series, grid_map
+from bem.scenes.records import LAMBDA_WHOLE, MINIMUM_FILM, OIL, OIL_SCATTER, Figure, GridRecord, Series, grid_map
 from bem.scenes.tables.sharing import heated
 
 _over, _shown = partial(Series, ("cycle",)), partial(grid_map, of="first")
@@ -25,6 +25,9 @@ class RunningInLifeRecord(GridRecord):
 
     friction_initial: Annotated[float, Figure("", "friction coefficient of the unworn surfaces", headline=True)]
     friction_final: Annotated[float, Figure("", "friction coefficient at the end", headline=True)]
+    oil_scatter: Annotated[
+        float | None, Figure("", OIL_SCATTER, name=f"friction_final{OIL}", optional=True, unjudged=True)
+    ]
     lower_Sq_initial: Annotated[float, Figure("nm", "Sq of the whole lower surface, unworn", headline=True)]
     lower_Sq_final: Annotated[
         float, Figure("nm", "Sq of the whole lower surface at the end, its film on it", headline=True)

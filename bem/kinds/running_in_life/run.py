@@ -59,7 +59,7 @@ def run(scene: RunningInLifeScene, context: Context) -> RunningInLifeRecord:
     bars["errors"] = _with_body(bars["errors"])
     if "error_parts" in bars:
         bars["error_parts"] = {origin: _with_body(part) for origin, part in bars["error_parts"].items()}
-    return replace(_record(scene, setup, end, monitors), **bars)
+    return replace(_record(scene, setup, end, monitors), oil_scatter=lives.oil_scatter(case, end), **bars)
 
 
 def _with_body(figures: Mapping[str, Any]) -> dict[str, Any]:
@@ -106,6 +106,7 @@ def _record(scene: RunningInLifeScene, setup: MixedSetup, end: LifeState, monito
         jumps=len(end.rows) - 1,
         jumps_rejected=end.rejected,
         convolutions=end.convolutions,
+        oil_scatter=None,
         step_cycle=at[1:],
         step_length=end.over("step")[1:],
         step_error=end.over("step_error")[1:],
