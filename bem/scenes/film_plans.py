@@ -9,11 +9,11 @@ from bem.scenes.planner import SEARCHED_IN_SINGLE, Step
 
 _IN_CONTACT = "; that of the surfaces in contact at each speed"
 _HEAT = {
-    "off": ('thermal is "off"', 0.0),
-    "lumped": ("inlet heating of each film and its oil's temperature" + _IN_CONTACT, 1.0),
-    "full": ("temperature along and across each film" + _IN_CONTACT, 5.0),
+    "off": ('thermal is "off"', 0.0, 0.0),
+    "lumped": ("inlet heating of each film and its oil's temperature" + _IN_CONTACT, 0.15, 1.0),
+    "full": ("temperature along and across each film" + _IN_CONTACT, 5.0, 5.0),
 }
-"""Reason of the step, and seconds at a speed on any grid."""
+"""Reason of the step, and seconds at a speed on any grid, of cylinders and of balls."""
 
 _HELD = 1e4
 """Bytes a node of a line film's weights and of its equations taken apart, 500 to 8000 nodes."""
@@ -46,10 +46,10 @@ def of_curve(speeds: int, points: int, cells: int | None, hertz_pressure: float)
     )
 
 
-def heat(thermal: str, speeds: int, cells: int) -> Step:
+def heat(thermal: str, speeds: int, cells: int, *, ball: bool) -> Step:
     """Step of heat for films and contacts at a number of speeds, on a grid of a number of cells."""
-    what, seconds = _HEAT[thermal]
-    cost = speeds * (seconds + 3e-6 * cells)
+    what, of_cylinder, of_ball = _HEAT[thermal]
+    cost = speeds * ((of_ball if ball else of_cylinder) + 3e-6 * cells)
     return Step("heat", what, skipped=thermal == "off", seconds=cost, memory=2e7 + 300.0 * cells)
 
 
@@ -72,11 +72,36 @@ def oil_beside(oil_volume: str, speeds: int, *, at_film_separation: bool = False
     )
 
 
-def tables(points: int, shared_by: str) -> Step:
-    """Films over the load they carry, tabulated once for each speed."""
-    what = f"about 20 films for each speed, shared by all {shared_by}"
-    seconds = 20 * (0.005 + 1.5e-5 * points)
-    return Step("film tables", what, per="grid", seconds=seconds, memory=20 * _HELD * points)
+def tables(points: int, cells: int | None, thermal: str, shared_by: str) -> Step:
+    """Return the step of films over the load they carry, tabulated once for each speed.
+
+    Parameters
+    ----------
+    points : nodes of a cylinder's film.
+    cells : cells along an axis of a ball's film; None for a cylinder.
+    thermal : heat of the films, which each film of a table has.
+    shared_by : what looks films up in the table, in words.
+    """
+    _, of_cylinder, of_ball = _HEAT[thermal]
+    if cells is None:
+        films, memory = 20, 20 * _HELD * points
+        seconds = films * (0.005 + 1.5e-5 * points + 0.2 * of_cylinder)
+    else:
+        films, memory = 8, 8 * 900.0 * cells**2
+        seconds = films * (0.05 + 4.5e-5 * cells**2) * (1.0 + 0.65 * of_ball)
+    what = f"about {films} films for each speed, shared by all {shared_by}"
+    return Step("film tables", what, per="grid", seconds=seconds, memory=memory)
+
+
+def heat_of_contacts(thermal: str, contacts: float, cells: int) -> Step:
+    """Return the step of the temperature of surfaces that touch, once for each of a number of contacts."""
+    return Step(
+        "heat of contacts",
+        _HEAT[thermal][0] if thermal == "off" else "temperature of the surfaces in contact, once for each contact",
+        skipped=thermal == "off",
+        seconds=contacts * 1e-6 * cells,
+        memory=300.0 * cells,
+    )
 
 
 def of_ball(cells: int, *, wanted: bool) -> Step:

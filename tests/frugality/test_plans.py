@@ -287,3 +287,17 @@ def test_cycles_on_small_grids_cost_more_than_their_transforms():
     assert 15 < seconds(20_000) - seconds(200) < 60
     # tables that grow are copied in every cycle
     assert seconds(200_000) - seconds(200) > 15 * (seconds(20_000) - seconds(200))
+
+
+@pytest.mark.parametrize("name", ["running-in-ball", "running-in-life"])
+def test_heat_of_lubricated_wear_is_planned(name):
+    """Of the films of the table and of each contact."""
+
+    def steps(thermal):
+        oil = ['oil={grade="ISO VG 68", temperature="60 degC"}', f"thermal={thermal}"]
+        return {step.name: step for step in plan_scene(name, oil)[1].steps}
+
+    warm, cold = steps("lumped"), steps("off")
+    assert cold["heat of contacts"].skipped
+    assert warm["heat of contacts"].seconds > 0
+    assert warm["film tables"].seconds > 1.2 * cold["film tables"].seconds

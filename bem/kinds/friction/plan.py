@@ -21,15 +21,16 @@ def plan(scene: FrictionScene) -> Plan:
     InputError : a patch that does not fit. InfeasibleError : a load that neither film nor surfaces can carry.
     """
     grid, speeds, coupled = scene.check(scene.film), len(scene.speeds.build()), scene.coupled
-    heat, cells = film_plans.heat(scene.thermal, speeds, grid.cells), scene.film.cells
+    ball, cells = scene.contact.point_radii is not None, scene.film.cells
+    heat = film_plans.heat(scene.thermal, speeds, grid.cells, ball=ball)
     smooth = scene.smooth_contact()
     films = film_plans.of_curve(
         speeds,
         scene.film.points,
-        None if scene.contact.point_radii is None else cells,
+        cells if ball else None,
         smooth.maximum_pressure if smooth is not None else 0.0,
     )
-    again = _FILMS_AGAIN if scene.contact.point_radii is None else _BALL_FILMS_AGAIN
+    again = _BALL_FILMS_AGAIN if ball else _FILMS_AGAIN
     return Plan.of(
         plans.surfaces(grid, scene.lower.surface, scene.upper.surface),
         films,

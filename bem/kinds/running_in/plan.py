@@ -23,9 +23,10 @@ def plan(scene: RunningInScene) -> Plan:
     # what these lack is said before any work
     wearing.between(scene, grid, scene.contact.on_patch(scene.load, grid.lengths))
     loops = 1 if wearing.film_is_halved(scene) else 2  # a film that cannot be halved takes a second one
+    film_cells = None if scene.contact.point_radii is None else scene.sharing.film_cells
     return Plan.of(
         plans.surfaces(grid, scene.lower.surface, scene.upper.surface),
-        film_plans.tables(scene.sharing.film_points, "cycles and repetitions"),
+        film_plans.tables(scene.sharing.film_points, film_cells, scene.thermal, "cycles and repetitions"),
         Step("a film for every balance", "films are interpolated in the tables", skipped=True),
         *wearing.cycle_steps(
             scene,
@@ -37,6 +38,7 @@ def plan(scene: RunningInScene) -> Plan:
             first=4 * _DEPTHS_NEEDED,
             friction=float(scene.contact.boundary_friction != 0),
         ),
+        film_plans.heat_of_contacts(scene.thermal, scene.cycles.count, grid.cells),
         wearing.bars_step(scene, grid, _CONVOLUTIONS * loops, _SOLVES * loops),
         plans.figures(grid.cells),
     )

@@ -35,9 +35,10 @@ def plan(scene: RunningInLifeScene) -> Plan:
     passes = 3 * scene.wear.positions * _JUMPS * decades * max(0.05 / life.tolerance, 0.5)
     # stresses and damage of both bodies at each depth, by cells
     fatigue = 0.0 if scene.fatigue is None else 1.2e-6 * grid.cells * scene.fatigue.depths.count * passes
+    film_cells = None if scene.contact.point_radii is None else scene.sharing.film_cells
     return Plan.of(
         plans.surfaces(grid, scene.lower.surface, scene.upper.surface),
-        film_plans.tables(scene.sharing.film_points, "passes"),
+        film_plans.tables(scene.sharing.film_points, film_cells, scene.thermal, "passes"),
         replace(
             plans.contacts(
                 grid,
@@ -47,6 +48,7 @@ def plan(scene: RunningInLifeScene) -> Plan:
             ),
             seconds=_SECONDS * passes,
         ),
+        film_plans.heat_of_contacts(scene.thermal, passes, grid.cells),
         Step("tribofilm", "grows cell by cell where surfaces touch", skipped=scene.tribofilm is None, seconds=0.1),
         Step(
             "fatigue",
