@@ -250,3 +250,21 @@ def test_friction_power_has_the_scatter_of_the_base_oil(gears):
     power = dict(answer(element, runs))["friction power"]
     low, high = map(float, re.search(r" W .* \(-([\d.]+), \+([\d.]+) W between oils of this base\)", power).groups())
     assert (low, high) == pytest.approx((down, up), rel=0.05)
+
+
+@pytest.mark.internal
+def test_losses_of_gears_by_default_are_those_of_tests_with_each_oil():
+    """FZG type C at 90 degC: a mineral oil loses 330 to 560 W; a PAO 0.6 to 0.97, an ester 0.3 to 1 and a polyglycol
+    0.2 to 0.75 of it (Schlenk's formula, twin discs and gears of Doleschel et al.)."""
+    oil = tomllib.loads(element_template("gear-pair"))["oil"]
+
+    def power(base):
+        element = element_of("gear-pair", oil={key: oil[key] for key in ("grade", "temperature")} | base)
+        runs = run_all(element)
+        assert all(one.converged for one in runs)
+        return sum(one.power for one in runs) / len(runs) * element.found.at_once
+
+    mineral = power({})
+    assert 330 < mineral < 560
+    for base, low, high in (("pao", 0.6, 0.97), ("ester", 0.3, 1.0), ("pag", 0.2, 0.75)):
+        assert low < power({"base": base}) / mineral < high

@@ -65,7 +65,7 @@ def test_a_curve_over_the_slide_to_roll_ratio(tmp_path):
 
 def test_traction_and_mixed_friction_of_one_smooth_hot_contact_agree(tmp_path):
     """Summits of nanometres touch no film: mixed lubrication is the film with its heat, by another solver of loads."""
-    oil = {"grade": "ISO VG 68", "temperature": "60 degC", "shear_law": "base_oil"}
+    oil = {"grade": "ISO VG 68", "temperature": "60 degC"}
     rolled = run_scene(
         scene(oil=oil, rolling={"mean_speed": "5 m/s", "slide_roll_ratio": 0.1}), tmp_path / "traction", figures=False
     ).summary
@@ -81,11 +81,11 @@ def test_traction_and_mixed_friction_of_one_smooth_hot_contact_agree(tmp_path):
         "speeds": {"values": ["5.25 m/s"], "cylinder": 4.75 / 5.25},
         "grid": {"shape": [64, 16], "spacing": "5 um", "periodic": [False, True]},
         "film": {"points": 200},
-        "thermal": "lumped",
     }
     shared = run_scene(mixed, tmp_path / "friction", figures=False).summary
     assert shared["status"] == rolled["status"] == "converged"
     assert shared["contact_load_N"][0] == 0.0
+    assert min(shared["oil_temperature_C"][0], rolled["film_temperature_C"]) > 61  # both are hot by default
     apart = abs(shared["friction"][0] - rolled["traction_coefficient"])
     assert apart <= shared["friction_error"][0] + rolled["traction_coefficient_error"]
     assert shared["friction_error"][0] + rolled["traction_coefficient_error"] < 0.1 * rolled["traction_coefficient"]
