@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 from bem.lubrication.oils.catalogue import bases
@@ -26,7 +27,7 @@ NAME = "friction_measured"
 HEADERS = ("what", "published", "ours", "scatter", "numerical", "inside", "middle", "source", "remark")
 FORMULA_ERROR = 0.005
 """Within which the formula of Arana et al. (2019) has the coefficients that Mann measured, as they say."""
-THROUGH_FORMULA = ("mann", "gupta", "clarke")
+THROUGH_FORMULA = ("mann", "gupta", "clarke", "schlenk")
 """Sources whose measurements are known by a formula that describes them."""
 AT_LIMIT = 0.89
 """Mean shear stress over limit from which a contact counts as at its limit."""
@@ -40,7 +41,12 @@ BASE_NAMES = {"mineral": "mineral oil", "pao": "PAO", "ester": "ester", "pag": "
 def rows(stored: Mapping[str, Any]) -> list[Row]:
     """All published values, from the stored result of the experiment on oils; those of films are read here."""
     oils = (_gear_rows(stored), _disc_rows(stored["discs"]), _base_rows(stored["base_oils"]), _trend_rows(stored))
-    return [row for part in (*oils, *published.rows()) for row in part]
+    sources = prose("friction")["sources"]
+    return [
+        replace(row, assumed=row.assumed or sources[row.source].get("assumed", False))
+        for part in (*oils, *published.rows())
+        for row in part
+    ]
 
 
 def _ratio(one: Mapping[str, float], other: Mapping[str, float]) -> tuple[float, float, float, float]:
@@ -70,6 +76,7 @@ def _gear_rows(stored: Mapping[str, Any]) -> Iterator[Row]:
         one["numerical"],
         "doleschel",
         words["gear_mineral"],
+        assumed=True,
     )
     for base in ("pag", "ester"):
         ratio = _ratio(mixed[base], one)
@@ -137,9 +144,9 @@ def _trend_rows(stored: Mapping[str, Any]) -> Iterator[Row]:
     """Statements of which the sense is measured."""
     words, trends = prose("friction")["remarks"], stored["trends"]
     for base, low, high in (("pag", AT_LIMIT, 1.0), ("mineral", 0.0, AT_LIMIT), ("pao", 0.0, AT_LIMIT)):
-        share = trends["at_limit"][base]
+        share, remark = trends["at_limit"][base], words["below_limit" if base == "pag" else "at_limit"]
         what = f"stress over limit, {BASE_NAMES[base]}"
-        yield Row("trends", what, low, high, share, 0.0, 0.0, 0.01, "vengudusamy", words["at_limit"])
+        yield Row("trends", what, low, high, share, 0.0, 0.0, 0.01, "vengudusamy", remark, assumed=True)
     pressure, speed = trends["traction_pressure"], trends["traction_speed"]
     rise, fall = pressure["2"] / pressure["1"], speed["50"] / speed["5"]
     yield Row("trends", "peak traction at 2 GPa over that at 1 GPa", 1.0, MOST, rise, 0.0, 0.0, 0.01, "santotrac")
@@ -153,7 +160,8 @@ def verdict(shown: list[Row]) -> str:
     return (
         f"{len(shown)} published values from {sources} sources. Of {len(measured)} measured ones, {fitted} of them "
         f"through a formula that describes the measurement, {_counts(measured)}. Of {len(computed)} that others "
-        f"computed, {_counts(computed)}. No constant is fitted to them."
+        f"computed, {_counts(computed)}. The uncertainty of {sum(row.assumed for row in shown)} values is assumed here "
+        "(marked *). No constant is fitted to the values."
     )
 
 
@@ -184,7 +192,7 @@ def build() -> Page:
 def _cells(row: Row) -> tuple[Any, ...]:
     """A row of the tables."""
     high = "" if math.isinf(row.high) else f" to {_short(row.high)}"
-    published_range = f"{'above ' if math.isinf(row.high) else ''}{_short(row.low)}{high}"
+    published_range = f"{'above ' if math.isinf(row.high) else ''}{_short(row.low)}{high}{' *' if row.assumed else ''}"
     scatter = f"-{_short(row.down, 2)} +{_short(row.up, 2)}" if row.down or row.up else "-"
     numerical = _short(row.numerical, 1) if row.numerical else "-"
     source = prose("friction")["sources"][row.source]["short"]

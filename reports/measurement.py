@@ -16,7 +16,8 @@ class Row:
     group : its table. what : quantity and conditions. low, high : interval of the measurement, its uncertainty in it.
     ours : computed. down, up : its scatter from the oil's constants. numerical : of its numerical error. source : key
     of the sources in `reports/prose/friction.toml`. remark : conditions that were assumed, or why it is missed.
-    computed : True if others computed the value; else it was measured.
+    computed : True if others computed the value; else it was measured. assumed : True if the source states no
+    uncertainty and that of the interval is an assumption.
     """
 
     group: str
@@ -30,6 +31,7 @@ class Row:
     source: str
     remark: str = ""
     computed: bool = False
+    assumed: bool = False
 
     @property
     def inside(self) -> bool:

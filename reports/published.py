@@ -9,6 +9,7 @@ from functools import partial
 from typing import Any
 
 from reports.builder import Section, table, text
+from reports.experiments.bearing_measured import drag
 from reports.experiments.kept import age, found, result_of
 from reports.measurement import MOST, Row
 from reports.prose import prose
@@ -214,7 +215,7 @@ def _rolling_points(stored: Mapping[str, Any]) -> Iterator[Row]:
         low, high = _near(1.0, POINT_FORMULA_ERROR)
         what = f"ball, M {row['M']:g}, L {row['L']:g}: resistance over the formula"
         ours, down, numerical = (row[key] / formula for key in ("ours", "down", "numerical"))
-        yield Row("rolling", what, low, high, ours, down, 0.0, numerical, "houpert2", _remark("far"), True)
+        yield Row("rolling", what, low, high, ours, down, 0.0, numerical, "houpert2", _remark("far"), True, True)
 
 
 def _dimples(stored: Mapping[str, Any]) -> Iterator[Row]:
@@ -257,7 +258,9 @@ def sections() -> list[Section]:
     return [
         Section(
             "What is missed in bearings, films and fatigue, and why",
-            text(words["starved"])
+            text(words["parts"])
+            + table(("rpm", "degC", "radial load (kN)", *PARTS, "measured"), _torque_parts(bearing["torque"]))
+            + text(words["starved"])
             + table(
                 ("rpm", "meniscus (half-widths before the centre)", "resistance over flooded", "film over flooded"),
                 [
@@ -280,6 +283,22 @@ def sections() -> list[Section]:
             + table(("pair", "published", "A per factor e", "A per decade"), _readings(pitting)),
         )
     ]
+
+
+PARTS = ("rolling", "ribs with a film", "ribs without a film", "rollers in full oil")
+"""Parts of the torque [N mm]."""
+
+
+def _torque_parts(stored: list[dict[str, Any]]) -> list[tuple[str, ...]]:
+    """Parts of the torque of the bearing, the last two upper bounds of what is left out."""
+    shown = []
+    for row in stored:
+        radial, temperature, speed = (row[key] for key in ("radial", "temperature", "speed"))
+        parts = (row["rolling"], row["rib"], row["rib_dry"], drag(speed, temperature))
+        measured = TORQUES[radial, temperature][int(speed)]
+        cells = (speed, temperature, 1e-3 * radial, *map(round, parts), measured)
+        shown.append(tuple(f"{cell:g}" for cell in cells))
+    return shown
 
 
 def _counted() -> tuple[str, ...]:

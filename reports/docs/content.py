@@ -17,9 +17,10 @@ from bem.scenes.records import Figure, described
 from bem.scenes.walk import Key, is_law, meaning_of_table
 from bem.surfaces.processes import PROCESSES
 from bem.verification import registry
-from reports import error_bars, validation
+from reports import error_bars, friction, validation
 from reports.docs import keys
 from reports.docs.tasks import stored
+from reports.experiments.kept import found
 from reports.prose import prose
 
 _LEVELS = {Level.OUTSIDE_MODEL: "outside the model", Level.CAUTION: "caution", Level.INFO: "remark"}
@@ -205,6 +206,18 @@ def verdicts() -> str:
         agree, differ = (found[word] + found[f"{word}, stale"] for word in ("agrees", "differs"))
         rows.append((escaped(title), str(agree), str(differ)))
     return markdown_table(("subject", "agree", "differ"), rows)
+
+
+def measured() -> str:
+    """Return the shares of published values inside both uncertainties, by group."""
+    rows, groups = friction.rows(found(friction.NAME)), prose("friction")["groups"]
+    cells = []
+    for group, title in groups.items():
+        own = [row for row in rows if row.group == group]
+        counts = (len(own), sum(row.inside for row in own), sum(row.middle_inside for row in own))
+        cells.append((escaped(title), *map(str, counts)))
+    heads = ("subject", "values", "inside both uncertainties", "our value inside theirs")
+    return f"{friction.verdict(rows)}\n\n{markdown_table(heads, cells)}"
 
 
 def error_coverage() -> str:

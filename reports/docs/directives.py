@@ -29,6 +29,7 @@ MARKDOWN: dict[str, Callable[..., str]] = {
     "task-numbers": content.task_numbers,
     "gates": content.gates,
     "verdicts": content.verdicts,
+    "measured": content.measured,
     "error-coverage": content.error_coverage,
     "error-factors": content.error_factors,
     "accuracy-met": content.accuracy_met,

@@ -31,6 +31,8 @@ RIB_HEIGHT, RIB_RADIUS = (2.5e-3, 1.5e-3, 3.5e-3), 0.95
 distance of the apex; assumed."""
 BOUNDARY = 0.10
 """Boundary friction of a rib without a film, assumed."""
+DRAG_COEFFICIENT = 1.0
+"""Of a cylinder across its axis in oil, assumed."""
 AXIAL, RADIAL = 6000.0, 6500.0
 """Loads [N]."""
 CASES = tuple((0.0, speed, 50.0) for speed in (500.0, 2000.0, 4000.0)) + tuple(
@@ -68,7 +70,7 @@ def semi_angle() -> float:
 def bearing_oil(temperature: float) -> Lubricant:
     """FVA 3 at a temperature [degC], sheared by the constants of its base."""
     oil = MANN["M100"].oil("FVA 3")
-    return oil.at(temperature + CELSIUS, shear_law="base_oil", density_law="incompressible")
+    return oil.at(temperature + CELSIUS, shear_law="base_oil")
 
 
 def rolling_force(load: float, radius: float, speed: float, temperature: float, points: int) -> float:
@@ -101,6 +103,20 @@ def rib(load: float, radius: float, speed: float, temperature: float) -> tuple[f
     heights = max(RIB_HEIGHT[2] / RIB_HEIGHT[0] - 1, 1 - RIB_HEIGHT[1] / RIB_HEIGHT[0])
     relative = math.hypot(max(scatter.down, scatter.up) / scatter.friction, heights)
     return force * scatter.friction * slide, relative, force * BOUNDARY * slide
+
+
+def drag(speed: float, temperature: float) -> float:
+    """Torque of rollers that move through a bearing full of oil [N mm], an upper bound of what drag adds.
+
+    speed : [rpm]. temperature : of the oil [degC].
+    """
+    gamma = DIAMETER * math.cos(CUP_ANGLE - semi_angle()) / PITCH
+    turning = speed * math.pi / 30
+    velocity = 0.25 * turning * (1 - gamma) * PITCH
+    density = bearing_oil(temperature).density
+    assert density is not None
+    force = 0.5 * DRAG_COEFFICIENT * density * velocity**2 * DIAMETER * LENGTH
+    return 1e3 * COUNT * force * velocity / turning
 
 
 def torque(radial: float, speed: float, temperature: float) -> dict[str, Any]:

@@ -28,18 +28,20 @@ WAVE_LOAD, WAVE_OIL = 100.0, 11.0
 """Moes' M and L of the table of Venner, Couhier, Lubrecht and Greenwood (1997)."""
 WAVES = (
     (4.0, 0.0), (4.0, 0.1), (4.0, 0.2), (4.0, 0.5),
-    (1.0, 0.0), (1.0, 0.1), (1.0, 0.5),
-    (0.25, 0.0), (0.25, 0.5),
+    (1.0, 0.0), (1.0, 0.1), (1.0, 0.2), (1.0, 0.5),
+    (0.25, 0.0), (0.25, 0.1), (0.25, 0.2), (0.25, 0.5),
 )  # fmt: skip
 """Wavelengths over Hertz' half-width, and heights over the central film: zero is linear and exact in time."""
 WAVE_MESHES = {4.0: ((4.5, 1.6), (300, 450)), 1.0: ((2.2, 1.3), (300, 450)), 0.25: ((1.7, 1.2), (400, 600))}
 """By wavelength: how far the mesh goes before and behind the centre, in half-widths, and nodes."""
-WAVE_STEPS, WAVE_REACH, WAVES_BEHIND = 32, (1.5, 1.3), 0.8
-"""Steps a wave; where the first wave begins, in half-widths before the centre, but no nearer than a quarter of a wave
+WAVE_STEPS = {4.0: 96, 1.0: 96, 0.25: 64}
+"""Steps a wave by wavelength; steps damp the waves by less than 1 % up to the centre."""
+WAVE_REACH, WAVES_BEHIND = (1.5, 1.3), 2.8
+"""Where the first wave begins, in half-widths before the centre, but no nearer than a quarter of a wave
 from the end of the mesh; how many waves more than two pass the centre."""
 POINT_WAVE = (1007.6, 12.05, 0.25)
 """M, L and wavelength over the half-axis of Venner's circular contact (2000)."""
-POINT_SHAPES = ((128, 32), (192, 32))
+POINT_SHAPES = ((256, 32), (320, 32))
 POINT_EXTENT = (-1.6, 1.2, -1.3, 1.3)
 """Edges of the grid in half-axes."""
 ROUGH_MODULUS, ROUGH_RADIUS, ROUGH_WAVE, ROUGH_HEIGHT = 113.5e9, 0.02, 0.2e-3, 0.25e-6
@@ -87,8 +89,10 @@ DIMPLE_SHAPES = ((72, 48), (96, 64))
 # ---- waves in line contacts
 
 
-def march_wave(line: Line, wavelength: float, amplitude: float) -> float:
+def march_wave(line: Line, wavelength: float, amplitude: float, steps: int) -> float:
     """Return half of the range of the film in the centre over the amplitude of waves that both surfaces carry.
+
+    steps : a wave.
 
     Reynolds' equation in time, of second order (BDF2), in the units of `line`: surfaces move one unit of length in a
     unit of time. Waves come in behind a front.
@@ -99,7 +103,7 @@ def march_wave(line: Line, wavelength: float, amplitude: float) -> float:
     """
     number = 2 * math.pi / wavelength
     begin = max(-WAVE_REACH[0] * line.half, float(line.x[0]) + 0.25 * wavelength)
-    step = wavelength / WAVE_STEPS
+    step = wavelength / steps
     end = WAVE_REACH[1] * line.half - begin + WAVES_BEHIND * wavelength
     count = math.ceil((max(end, -begin + 2 * wavelength)) / step)
 
@@ -115,8 +119,8 @@ def march_wave(line: Line, wavelength: float, amplitude: float) -> float:
         mass = [_mass(state), mass[0]]
         centre.append(float(np.interp(0.0, state.x, state.film)))
     # half of the range, by trigonometric interpolation of the last wave
-    fourier = np.fft.rfft(centre[-WAVE_STEPS:])
-    fine = np.fft.irfft(fourier, 16 * WAVE_STEPS) * 16
+    fourier = np.fft.rfft(centre[-steps:])
+    fine = np.fft.irfft(fourier, 16 * steps) * 16
     return float(0.5 * np.ptp(fine) / amplitude)
 
 
@@ -165,7 +169,8 @@ def line_wave(wavelength: float, amplitude: float) -> dict[str, Any]:
         line = waviness.moes_line(WAVE_LOAD, WAVE_OIL, count, reach)
         height = amplitude * float(np.interp(0.0, line.x, line.film))
         length = wavelength * line.half
-        left.append(march_wave(line, length, height) if amplitude else waviness.line_response(line, length))
+        steps = WAVE_STEPS[wavelength]
+        left.append(march_wave(line, length, height, steps) if amplitude else waviness.line_response(line, length))
     row = {"wavelength": wavelength, "amplitude": amplitude, **_settled(left, points[1] / points[0])}
     print("waves", rounded(row), flush=True)
     return row

@@ -53,11 +53,6 @@ SPEEDS, SLIPS = (2.0, 4.0, 8.0, 16.0), (0.02, 0.05, 0.1)
 OTHER_ALPHA = (("pag", 17.6 / 15.24), ("ester", 1.0))
 """Largest factor of the pressure-viscosity coefficient: 17.6 1/GPa of a copolymer of ethylene and propylene oxide of
 0.204 Pa s at 30 degC (Stachowiak and Batchelor, table 2.3) over the catalogue's correlation."""
-BALL = (
-    *("speeds.count=5", "film.cells=64", "grid.lengths=320 um"),
-    *("oil.grade=ISO VG 68", "contact.hertz_pressures=[0.8e9]"),
-)
-"""Settings of the ball's scene: a mineral oil under more pressure than the scene has."""
 TEMPERATURES = (40.0, 60.0, 80.0, 100.0)
 
 
@@ -190,7 +185,8 @@ def gears() -> dict[str, Any]:
         out["mixed"][base] = first | {"numerical": 0.5 * abs(pairs[0]["coefficient"] - pairs[1]["coefficient"])}
         print("gears", base, out["film"][base], out["mixed"][base], flush=True)
         out["roughness"][base] = {
-            f"{1e9 * rms:.0f}": mixed_loss(base, rms, SEEDS[0])["coefficient"] for rms in ROUGHNESSES
+            f"{1e9 * rms:.0f}": (pairs[0] if rms == GEAR_ROUGHNESS else mixed_loss(base, rms, SEEDS[0]))["coefficient"]
+            for rms in ROUGHNESSES
         }
         print("roughness", base, out["roughness"][base], flush=True)
     return out
@@ -272,7 +268,7 @@ def arana(oil: MannOil, film: FilmSolution, lubricant: Lubricant, speed: float, 
 def disc(name: str, speed: float, slip: float, inlet: float) -> dict[str, Any]:
     """Twin discs with one of Mann's oils, beside the formula that describes them; inlet [degC]."""
     oil = MANN[name]
-    lubricant = oil.oil(name).at(inlet + CELSIUS, shear_law="base_oil", density_law="incompressible")
+    lubricant = oil.oil(name).at(inlet + CELSIUS, shear_law="base_oil")
     film = roller(lubricant, speed, slip)
     formula = arana(oil, film, lubricant, speed, slip, inlet + CELSIUS)
     ours = traction(lubricant, speed, slip)
@@ -292,7 +288,7 @@ def discs() -> list[dict[str, Any]]:
 
 def base_oil(base: str) -> dict[str, Any]:
     """Twin discs with an oil of VG 100 of a base at 8 m/s and 10 % sliding, film alone; HFC 46 for water-glycol."""
-    asked: dict[str, Any] = {"shear_law": "base_oil", "density_law": "incompressible"}
+    asked: dict[str, Any] = {"shear_law": "base_oil"}
     if base == "water-glycol":
         asked |= {"temperature": 40 + CELSIUS, "pressure_viscosity": 3e-9, "viscosity_index": 200.0}
         return traction(Lubricant.of("water-glycol 46", **asked), 8.0, 0.1)
@@ -340,7 +336,7 @@ def full_heat() -> list[dict[str, Any]]:
     """Lumped beside full heat at some of the discs' conditions: what the model of heat is worth."""
     rows = []
     for name, speed, slip in (("M100", 2.0, 0.05), ("M100", 8.0, 0.1), ("PAO100", 8.0, 0.1), ("M100", 4.0, 0.5)):
-        lubricant = MANN[name].oil(name).at(DISC_INLET + CELSIUS, shear_law="base_oil", density_law="incompressible")
+        lubricant = MANN[name].oil(name).at(DISC_INLET + CELSIUS, shear_law="base_oil")
         row: dict[str, Any] = {"oil": name, "speed": speed, "slip": slip}
         for heat in ("off", "lumped", "full"):
             try:
@@ -354,7 +350,7 @@ def full_heat() -> list[dict[str, Any]]:
 
 def pressure_coefficient(base: str, alpha: float) -> dict[str, Any]:
     """Twin discs with an oil of VG 100 of a base at 8 m/s and 10 % sliding and another alpha at 60 degC [1/Pa]."""
-    asked: dict[str, Any] = {"shear_law": "base_oil", "density_law": "incompressible"}
+    asked: dict[str, Any] = {"shear_law": "base_oil"}
     asked |= {"temperature": DISC_INLET + CELSIUS, "pressure_viscosity": alpha}
     found = traction(Lubricant.of("ISO VG 100", base=base, **asked), 8.0, 0.1)
     return {"base": base, "alpha": alpha, "coefficient": found["coefficient"]}
@@ -395,7 +391,7 @@ def viscosity_at_pressure(pressure: float = 1e9) -> list[tuple[str, dict[str, fl
     rows = []
     for name, own in MANN.items():
         for inlet in (60.0, 90.0):
-            lubricant = own.oil(name).at(inlet + CELSIUS, density_law="incompressible")
+            lubricant = own.oil(name).at(inlet + CELSIUS)
             first, second = own.modulus(inlet + CELSIUS)
             row = {
                 "temperature": inlet,
@@ -413,7 +409,7 @@ def measured_viscosity(name: str, slip: float) -> dict[str, Any]:
     own = MANN[name]
     first, second = own.modulus(DISC_INLET + CELSIUS)
     laws = {"viscosity_law": Modulus(first, second), "pressure_viscosity": 1 / first, "shear_law": "base_oil"}
-    lubricant = own.oil(name).at(DISC_INLET + CELSIUS, density_law="incompressible", **laws)
+    lubricant = own.oil(name).at(DISC_INLET + CELSIUS, **laws)
     return {"oil": name, "slip": slip, "coefficient": oil_scatter(roller(lubricant, 4.0, slip), lubricant).friction}
 
 
@@ -431,13 +427,13 @@ def measured_viscosities() -> list[dict[str, Any]]:
 
 
 def ball() -> list[dict[str, Any]]:
-    """The built-in Stribeck curve of a ball with the law of base oils and lumped heat."""
+    """The built-in Stribeck curve of a ball."""
     from bem.friction.solve import solve_setup
     from bem.kinds.friction.scene import FrictionScene, resolve
     from bem.scenes import build
     from bem.scenes.load import load_scene
 
-    scene = resolve(load_scene("stribeck-ball-on-disc", ["oil.shear_law=base_oil", "thermal=lumped", *BALL]))
+    scene = resolve(load_scene("stribeck-ball-on-disc"))
     assert isinstance(scene, FrictionScene)
     grid = build.grid_of(scene.grid)
     height = build.heights_of(scene.lower.surface, grid, 11, lambda text: None)

@@ -59,7 +59,7 @@ class FittedOil:
         points = {at: self.ambient(at) / self.density for at in (313.15, 333.15, 353.15, 373.15)}
         oil = oil_from_viscosities(points, base=self.base)
         alpha = factor * self.pressure_viscosity(temperature)
-        return oil.at(temperature, shear_law="base_oil", density_law="incompressible", pressure_viscosity=alpha)
+        return oil.at(temperature, shear_law="base_oil", pressure_viscosity=alpha)
 
     def coefficient(self, temperature: float, pressure: float, slide: float, film: float) -> float:
         """Coefficient of the fitted model in a line contact at Hertz' pressure [Pa], from the exact stress of an oil
