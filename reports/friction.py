@@ -268,7 +268,7 @@ def _missed(stored: Mapping[str, Any]) -> Section:
         + text(words["film"])
         + table(("oil", "film alone (W)", "coefficient", "oil", "over mineral oil"), alone)
         + text(words["viscosity"])
-        + table(("oil", "slide/roll", "measured", "ours", "ours, viscosity as measured"), viscosity)
+        + table(("oil", "slide/roll", "formula of the measurement", "ours", "ours, viscosity as measured"), viscosity)
         + text(words["roelands"])
         + table(ROELANDS_HEADERS, roelands)
         + text(words["alpha"])

@@ -1,15 +1,16 @@
 """Inlet shear heating: factor by which it thins the film of a line contact.
 
-P. K. Gupta, H. S. Cheng, D. Zhu, N. H. Forster and J. B. Schrand, *J. Tribol.* 114 (1992) 55: with L = mu0 beta u^2/k
-of the mean speed u, slide-to-roll ratio S and Hertz pressure p_h over E' = 2 E*,
+P. K. Gupta, H. S. Cheng, D. Zhu, N. H. Forster and J. B. Schrand, *Tribol. Trans.* 35 (1992) 269: with
+L = mu0 beta u^2/k of the mean speed u, slide-to-roll ratio S and Hertz pressure p_h over E' = 2 E*,
 
     factor = (1 - 13.2 p_h/E' L^0.42) / (1 + 0.213 (1 + 2.23 S^0.83) L^0.64),
 
-fitted to thermal solutions for loads and speeds of bearings. The constants were not checked against the paper. The
-exponent 0.64 agrees with the inlet factor of bearing friction, 1/(1 + 1.84e-9 (n d_m)^1.28 nu^0.64) (SKF, *Rolling
-bearings*, 2013), which depends on speed^2 times viscosity in the same power. In pure rolling the factor is 2 to 6 %
-below that of full heat for L from 0.03 to 11 (ISO VG 68 at 0.8 GPa; tests/lubrication/test_full_thermal.py). At higher
-loads and speeds the numerator passes zero; it is bounded by `LEAST_NUMERATOR`, with a note.
+fitted to thermal solutions for loads and speeds of bearings. The constants are those that A. Arana, J. Larranaga and
+I. Ulacia, *Proc. IMechE J* 233 (2019) 303, eq. 24, quote; they were not checked against the paper itself. The exponent
+0.64 agrees with the inlet factor of bearing friction, 1/(1 + 1.84e-9 (n d_m)^1.28 nu^0.64) (SKF, *Rolling bearings*,
+2013), which depends on speed^2 times viscosity in the same power. In pure rolling the factor is 2 to 6 % below that of
+full heat for L from 0.03 to 11 (ISO VG 68 at 0.8 GPa; tests/lubrication/test_full_thermal.py). At higher loads and
+speeds the numerator passes zero; it is bounded by `LEAST_NUMERATOR`, with a note.
 """
 
 from __future__ import annotations
