@@ -137,24 +137,39 @@ def answer(element: Element, solved: Sequence[Running]) -> Rows:
         rows.append(("particles per hour", particles_per_hour(element)))
     lost = [one for one in solved if not one.converged]
     if lost:
-        rows.append(("not converged", f"{len(lost)} of {len(solved)} films, the first at {lost[0].contact.name}"))
+        rows.append(
+            (
+                "not converged",
+                f"{len(lost)} of {len(solved)} films, the first at {place_words(element, lost[0].contact)}",
+            )
+        )
     return tuple(rows)
+
+
+def place_words(element: Element, one: ElementContact) -> str:
+    """Return the name of a contact, with the mark of the path that it is the nearest contact to."""
+    for mark, place in element.found.marks.items():
+        if min(element.found.contacts, key=lambda other: abs(other.place - place)) == one:
+            return f"{mark} ({one.name})" if mark != "C" else "C"
+    return one.name
 
 
 def contact_words(element: Element, one: ElementContact) -> str:
     """Return a contact's pressure, load, radius and speeds in words."""
     hertz = one.hertz(element.modulus)
     sliding = abs(one.speeds[0] - one.speeds[1])
-    moves = f"entrainment {one.mean_speed:.3g} m/s" + (f", sliding {sliding:.3g} m/s" if sliding else ", pure rolling")
+    moves = f"entrainment {abs(one.mean_speed):.3g} m/s" + (
+        f", sliding {sliding:.3g} m/s" if sliding else ", pure rolling"
+    )
     return (
-        f"{one.name}: Hertz pressure {with_unit(hertz.maximum_pressure, 'Pa')}, load {with_unit(one.load, 'N')}, "
-        f"radius {with_unit(one.radius, 'm')}, {moves}"
+        f"{place_words(element, one)}: Hertz pressure {with_unit(hertz.maximum_pressure, 'Pa')}, "
+        f"load {with_unit(one.load, 'N')}, radius {with_unit(one.radius, 'm')}, {moves}"
     )
 
 
 def _film(element: Element, runs: Sequence[Running]) -> str:
     thinnest = min(runs, key=lambda one: one.minimum_film)
-    film = f"minimum film {1e9 * thinnest.minimum_film:.3g} nm at {thinnest.contact.name}"
+    film = f"minimum film {1e9 * thinnest.minimum_film:.3g} nm at {place_words(element, thinnest.contact)}"
     if thinnest.film_ratio is None:
         return f"not known: give rms_roughness, of both surfaces together; {film}"
     ratio = thinnest.film_ratio
@@ -214,7 +229,9 @@ def _temperatures(element: Element, runs: Sequence[Running]) -> str:
     hottest = max(hot, key=lambda one: one.flash or 0.0)
     if not hottest.flash:
         return f"{said}; no flash temperature, as the surfaces roll without sliding"
-    return f"{said}; flash {hottest.flash:.3g} K at {hottest.contact.name} (Blok, friction of the film)"
+    return (
+        f"{said}; flash {hottest.flash:.3g} K at {place_words(element, hottest.contact)} (Blok, friction of the film)"
+    )
 
 
 def _scuffing(element: Element, runs: Sequence[Running]) -> str:
@@ -226,7 +243,7 @@ def _scuffing(element: Element, runs: Sequence[Running]) -> str:
     bulk = f"bulk {found.bulk - CELSIUS:.3g} °C"
     if found.estimated:
         bulk += " (estimate: oil + 0.7 x mean flash)"
-    said = f"contact temperature {found.contact - CELSIUS:.3g} °C at {found.flash_at}, {bulk}"
+    said = f"contact temperature {found.contact - CELSIUS:.3g} °C at {place_words(element, found.flash_at)}, {bulk}"
     if found.integral is not None:
         said += f"; integral temperature {found.integral - CELSIUS:.3g} °C (friction of gear tests)"
     if found.contact_safety is None:

@@ -6,6 +6,7 @@ import math
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from bem.elements.contact import ElementContact
 from bem.elements.element import Element
 from bem.elements.gear_pair import GearModel, path_of_contact
 from bem.elements.running import Running
@@ -50,7 +51,7 @@ class Scuffing:
     bulk: float
     estimated: bool
     flash: float
-    flash_at: str
+    flash_at: ElementContact
     contact: float
     mean_flash: float | None
     integral: float | None
@@ -93,11 +94,12 @@ def scuffing_of(element: Element, runs: Sequence[Running]) -> Scuffing | None:
     """
     model = element.model
     assert isinstance(model, GearModel)
-    flashes = [(one.flash, one.contact.name) for one in runs if one.converged and one.flash is not None]
+    hot = [one for one in runs if one.converged and one.flash is not None]
     oil = None if model.oil is None else model.oil.temperature
-    if not flashes or oil is None:
+    if not hot or oil is None:
         return None
-    flash, where = max(flashes)
+    hottest = max(hot, key=lambda one: one.flash or 0.0)
+    flash, where = hottest.flash or 0.0, hottest.contact
     friction = friction_of_gear_tests(element)
     mean = None if friction is None else mean_flash_temperature(element, friction.scuffing)
     bulk, estimated = model.bulk_temperature, False

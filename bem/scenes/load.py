@@ -264,8 +264,8 @@ def _read_named(source: str) -> tuple[dict[str, Any], Path]:
 def machine_element(data: Mapping[str, Any], file: str) -> InputError:
     """Say that the table of a file is a machine element, not a scene, and which command reads it."""
     return InputError(
-        f"{file} is a machine element ({show(data['element'])}), not a scene. `bem element {file}` shows its contacts, "
-        f"and with --scene SCENE.toml writes a scene of one of them."
+        f"{file} is a machine element ({show(data['element'])}), not a scene. `bem element {file}` answers with "
+        f"film, friction and safety, and with --scene SCENE.toml writes a scene of one contact."
     )
 
 

@@ -7,16 +7,16 @@ import pytest
 
 from bem.campaigns.collect import outcome_of
 from bem.convolution import displacement_operator
-from bem.errors import Status
+from bem.errors import InputError, Status
 from bem.grid import Grid
 from bem.materials import Body, Layer, Material, contact_modulus
 from bem.notes import has_code
 from bem.notes.checks import DEPTHS_MISS_STRESS
 from bem.reference_solutions.hertz import cylinder_contact, sphere_contact
 from bem.reference_solutions.westergaard import crossed_full_contact_pressure
-from bem.runs import plan_scene
-from bem.scenes import PlainContext, get_kind
-from bem.scenes.build import traction_couples
+from bem.runs import plan_scene, run_scene
+from bem.scenes import PlainContext, get_kind, load_scene
+from bem.scenes.build import grid_of, traction_couples
 from bem.scenes.checks import examine, scene_warnings
 from bem.transforms import COUNT
 
@@ -328,3 +328,51 @@ def test_an_elastic_patch_lies_between_the_theories_of_contact_area():
 def test_smooth_bodies_have_no_roughness_figures():
     _, outcome, _ = run("hertz-sphere", ["grid.shape=48", "outputs.stresses=false"])
     assert not {"combined_Sdq", "reduced_pressure", "plasticity_index"} & set(outcome.summary)
+
+
+PRESSED = {
+    "kind": "contact", "name": "by-pressure", "grid": {"shape": [64, 64], "lengths": ["300 um", "300 um"]},
+    "lower": {"material": "steel-52100"}, "upper": {"material": "steel-52100"},
+    "contact": {"hertz_pressure": "1 GPa"}, "outputs": {"errors": False},
+}  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    "shape",
+    [
+        {"kind": "sphere", "radius": "5 mm"},
+        {"kind": "ellipsoid", "radius": "5 mm", "radius_y": "8 mm"},
+        {"kind": "cylinder", "radius": "5 mm"},
+    ],
+    ids=lambda shape: shape["kind"],
+)
+def test_a_hertz_pressure_stands_for_its_load(shape, tmp_path):
+    """The load of the plan is that of the closed form; the contact that is solved has the pressure."""
+    grid = PRESSED["grid"] | {"periodic": [False, shape["kind"] == "cylinder"]}
+    table = PRESSED | {"shape": shape, "grid": grid}
+    scene, _ = plan_scene(table)
+    assert scene.contact.hertz_pressure is None
+    smooth = scene.smooth_contact(grid_of(scene.grid).lengths)
+    assert smooth.maximum_pressure == pytest.approx(1e9, rel=1e-9)
+    found = run_scene(table, tmp_path / "run", figures=False).summary
+    assert found["max_pressure_Pa"] == pytest.approx(1e9, rel=0.02)  # cells of a thirtieth of the contact
+
+
+def test_a_hertz_pressure_needs_a_shape_and_no_load():
+    for shape in ({"kind": "flat"}, {"kind": "sinusoid", "amplitude": "1 um", "wavelength": "50 um"}):
+        with pytest.raises(InputError, match=r"hertz_pressure under a shape of kind .*contact\.mean_pressure"):
+            load_scene(PRESSED | {"shape": shape})
+    ball = PRESSED | {"shape": {"kind": "sphere", "radius": "5 mm"}}
+    with pytest.raises(InputError, match="load and hertz_pressure are given"):
+        load_scene(ball | {"contact": {"hertz_pressure": "1 GPa", "load": "3 N"}})
+    with pytest.raises(InputError, match="exactly one of load, hertz_pressure, mean_pressure"):
+        load_scene(ball | {"contact": {}})
+
+
+def test_a_key_over_hertz_pressures_runs_each(tmp_path):
+    over = {"contact.hertz_pressure": ["0.5 GPa", "1 GPa"]}
+    found = run_scene(
+        PRESSED | {"shape": {"kind": "sphere", "radius": "5 mm"}, "over": over}, tmp_path / "run", figures=False
+    )
+    loads = found.dataset["load"].values
+    assert loads[1] / loads[0] == pytest.approx(8)

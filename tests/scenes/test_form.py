@@ -69,7 +69,7 @@ def test_what_is_typed_goes_into_the_table_and_nothing_takes_it_out():
 def test_entries_say_meaning_unit_and_level():
     load = entry(form_of("contact"), "contact.load")
     assert (load.unit, load.level) == ("N", "basic")
-    assert load.meaning == "Normal load; instead of mean_pressure, approach or mean_gap [N]."
+    assert load.meaning == "Normal load; instead of hertz_pressure, mean_pressure, approach or mean_gap [N]."
     assert entry(form_of("contact"), "contact.tolerance").level == "expert"
     layer = entry(form_of("contact"), "lower.layer.thickness")
     assert layer.level == "advanced"  # that of its table

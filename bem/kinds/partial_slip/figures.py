@@ -11,8 +11,13 @@ from bem.plots.figures import FigureKind
 from bem.plots.over import axis_of, lines_over
 from bem.plots.style import BLACK, label, prefix
 
-_PRESSED = ("contact.load", "contact.mean_pressure", "contact.approach", "contact.mean_gap")
-_UNITS = ("load (N)", "mean pressure (Pa)", "approach (m)", "mean gap (m)")
+_UNITS = {
+    "contact.load": "load (N)",
+    "contact.hertz_pressure": "Hertz pressure (Pa)",
+    "contact.mean_pressure": "mean pressure (Pa)",
+    "contact.approach": "approach (m)",
+    "contact.mean_gap": "mean gap (m)",
+}
 
 
 def _loop(run: Any, figure: Figure) -> None:
@@ -30,7 +35,7 @@ def _loop(run: Any, figure: Figure) -> None:
 
 
 def _stiffness(run: Any, figure: Figure) -> None:
-    data, axis = run.dataset, axis_of(run, *_PRESSED)
+    data, axis = run.dataset, axis_of(run, *_UNITS)
     axes = figure.add_subplot()
     for name, words in (("normal_stiffness", "normal"), ("tangential_stiffness", "tangential")):
         lines_over(axes, data, name, axis, words=words)
@@ -38,7 +43,7 @@ def _stiffness(run: Any, figure: Figure) -> None:
         line.set_color(colour)
     axes.set_xscale("log")
     axes.set_yscale("log")
-    axes.set_xlabel(_UNITS[_PRESSED.index(axis or "contact.load")])
+    axes.set_xlabel(_UNITS[axis or "contact.load"])
     axes.set_ylabel("stiffness (N/m)")
     axes.legend()
 
@@ -49,7 +54,7 @@ FIGURES = (
         "Normal and tangential stiffness of the contact before anything slips, over what presses it.",
         ("normal_stiffness", "tangential_stiffness"),
         _stiffness,
-        applies=lambda run: axis_of(run, *_PRESSED) is not None,
+        applies=lambda run: axis_of(run, *_UNITS) is not None,
         all_cases=True,
     ),
     FigureKind(

@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated, Any, Literal, Self
 from pydantic import Field, model_validator
 
 from bem.errors import InfeasibleError
-from bem.materials import softer_hardness
+from bem.materials import contact_modulus, softer_hardness
 from bem.scenes import build
 from bem.scenes.axes import changed
 from bem.scenes.common import (
@@ -42,7 +42,16 @@ class ContactControl(Table):
     """Control of the contact: load, mean pressure, normal approach or mean gap."""
 
     load: Annotated[Force, Field(gt=0)] | None = key(
-        "Normal load; instead of mean_pressure, approach or mean_gap.", "basic", default=None, example="20 N"
+        "Normal load; instead of hertz_pressure, mean_pressure, approach or mean_gap.",
+        "basic",
+        default=None,
+        example="20 N",
+    )
+    hertz_pressure: PositivePressure | None = key(
+        "Maximum Hertz pressure of the smooth shape without layers; instead of load.",
+        "basic",
+        default=None,
+        example="1 GPa",
     )
     mean_pressure: PositivePressure | None = key(
         "Nominal pressure: load over the area of the grid; instead of load.", "basic", default=None, example="200 MPa"
@@ -82,7 +91,7 @@ class ContactControl(Table):
 
     @model_validator(mode="after")
     def _one_control(self) -> ContactControl:
-        exactly_one(self, "load", "mean_pressure", "approach", "mean_gap")
+        exactly_one(self, "load", "hertz_pressure", "mean_pressure", "approach", "mean_gap")
         if self.behaviour == "elastic" and self.hardness is not None:
             raise problem(
                 "hardness is given but behaviour is elastic", 'behaviour = "capped" with hardness, or neither'
@@ -123,6 +132,8 @@ class ContactControl(Table):
             return f"load {self.load:g} N"
         if self.mean_pressure is not None:
             return f"mean pressure {self.mean_pressure:g} Pa"
+        if self.hertz_pressure is not None:
+            return f"Hertz pressure {self.hertz_pressure:g} Pa"
         if self.approach is not None:
             return f"approach {self.approach:g} m"
         return f"mean gap {self.mean_gap:g} m"
@@ -139,16 +150,46 @@ class PressedScene(SceneModel):
     shape: ShapeScene = key("Smooth shape of the upper body.", "basic", default=ShapeScene())
     contact: ContactControl = key("Control of the contact: load, pressure, approach or gap.", "basic")
 
+    @model_validator(mode="after")
+    def _pressure_of_a_shape(self) -> Self:
+        if self.contact.hertz_pressure is not None and math.isinf(self.shape.radii[0]):
+            raise problem(
+                f"contact.hertz_pressure under a shape of kind {self.shape.kind}",
+                "a sphere, cylinder or ellipsoid, or contact.mean_pressure",
+            )
+        return self
+
     def resolved(self) -> Self:
-        """With the grid filled in where measured surfaces decide it, and the softer surface's hardness where capped."""
+        """With the grid filled in where measured surfaces decide it, the load where a Hertz pressure is given, and the
+        softer surface's hardness where capped."""
         scene = build.with_grid(self)
+        if scene.contact.hertz_pressure is not None:
+            load = scene.hertz_load()
+            if math.isinf(scene.shape.radii[1]):
+                load *= build.grid_of(scene.grid).lengths[1]
+            control = scene.contact.model_copy(update={"load": load, "hertz_pressure": None})
+            scene = scene.model_copy(update={"contact": control})
         return build.with_hardness(scene, needed=True) if self.contact.behaviour == "capped" else scene
+
+    def hertz_load(self) -> float:
+        """Load of the smooth contact of the substrates [N] under the Hertz pressure; per length [N/m] of a cylinder."""
+        from bem.reference_solutions.hertz import ellipse_load
+
+        pressure, radii = self.contact.hertz_pressure, self.shape.radii
+        assert pressure is not None
+        upper = self.upper.build()
+        modulus = contact_modulus(self.lower.build().material, None if upper is None else upper.material)
+        if math.isinf(radii[1]):
+            return math.pi * radii[0] * pressure**2 / modulus
+        return ellipse_load(radii=radii, contact_modulus=modulus, maximum_pressure=pressure)
 
     def smooth_contact(self, lengths: tuple[float, float] | None = None) -> SmoothContact | None:
         """Hertz contact of the substrates, where shape and load, or approach, say enough, on a grid of these sides."""
         from bem.scenes.checks.hertz import smooth_contact
 
         control, shape = self.contact, self.shape
+        if control.hertz_pressure is not None:
+            return smooth_contact(self.lower.build(), self.upper.build(), shape.radii, load=self.hertz_load())
         load = control.load if control.load is not None or lengths is None else control.load_on(math.prod(lengths))
         if load is not None and lengths is not None and math.isinf(shape.radii[1]):
             load /= lengths[1]
