@@ -49,6 +49,17 @@ body.body--dark .bem-table td { border-color: #3a4146 }
 .bem-cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 220px), 1fr)); gap: 10px }
 .bem-start { text-align: left; padding: 10px 12px; color: inherit; font: inherit; cursor: pointer; height: 100% }
 .bem-start { display: flex; flex-direction: column; justify-content: flex-start }
+.bem-sketch { width: 96px; height: 45px; stroke: currentColor; fill: none; stroke-width: 1.6; stroke-linejoin: round }
+.bem-sketch { stroke-linecap: round; margin-bottom: 4px; display: block }
+body.body--light .bem-accent { stroke: #0b5a8a }
+body.body--light .bem-filled { fill: #0b5a8a; fill-opacity: 0.35 }
+body.body--dark .bem-accent { stroke: #8ec7ee }
+body.body--dark .bem-filled { fill: #8ec7ee; fill-opacity: 0.35 }
+@media (max-width: 600px) {
+  .bem-start { display: grid; grid-template-columns: 72px 1fr; column-gap: 12px; align-content: start }
+  .bem-start > :first-child { grid-row: 1 / 3 }
+  .bem-start .bem-sketch { width: 72px; height: 34px }
+}
 .bem-start:hover { border-color: #0b5a8a; box-shadow: 0 1px 4px rgba(0, 0, 0, 0.2) }
 .bem-bar { position: sticky; top: 52px; z-index: 5; padding: 6px 0 }
 body.body--light .bem-bar { background: #fafaf8 }
@@ -65,6 +76,7 @@ body.body--dark .bem-bar { background: #14181b }
   .bem-run { grid-template-columns: 1fr auto }
   .bem-run > :not(:first-child) { margin-left: 48px }
   .bem-run > :nth-child(4) { grid-row: 1; grid-column: 2; margin-left: 0 }
+  .bem-run > :nth-child(4) { flex-wrap: wrap; max-width: 7.5em }
   .bem-run > :is(:nth-child(2), :nth-child(3)) { grid-column: 1 / 3 }
 }
 body.body--dark .js-plotly-plot .main-svg { background: transparent !important }

@@ -6,6 +6,7 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
+from bem.app.remedies import Remedy, for_mistakes, for_notes
 from bem.errors import BemError, InputError
 
 Rows = Sequence[Sequence[str]]
@@ -15,7 +16,8 @@ Rows = Sequence[Sequence[str]]
 class ShownPlan:
     """`messages` say what is wrong; where nothing is: tables by title, warnings, and what it takes in a line.
 
-    `short` : why the scene cannot run on this machine now though nothing is wrong with it, "" if it can.
+    `short` : why the scene cannot run on this machine now though nothing is wrong with it, "" if it can. `remedies` :
+    changes that mend what is wrong or uncertain.
     """
 
     messages: tuple[str, ...] = ()
@@ -23,6 +25,7 @@ class ShownPlan:
     warnings: tuple[str, ...] = ()
     takes: str = ""
     short: str = ""
+    remedies: tuple[Remedy, ...] = ()
 
 
 def shown_plan(table: Mapping[str, Any]) -> ShownPlan:
@@ -42,7 +45,8 @@ def shown_plan(table: Mapping[str, Any]) -> ShownPlan:
             tables.append(("oil", [row[:2] for row in oil(given.build())]))
         tables.append(("grid and smooth contact", common(facts)))
     except BemError as error:
-        return ShownPlan(tuple(getattr(error, "messages", None) or str(error).splitlines()))
+        messages = tuple(getattr(error, "messages", None) or str(error).splitlines())
+        return ShownPlan(messages, remedies=for_mistakes(table, messages))
     rate = machine_rate(get_threads())
     steps = [
         (step.name, "skipped" if step.skipped else show_seconds(step_seconds(step, rate)), step.why)
@@ -57,7 +61,7 @@ def shown_plan(table: Mapping[str, Any]) -> ShownPlan:
         check_memory(plan)
     except InputError as error:
         short = str(error)
-    return ShownPlan((), shown, tuple(map(str, warnings)), takes, short)
+    return ShownPlan((), shown, tuple(map(str, warnings)), takes, short, for_notes(table, scene, warnings))
 
 
 def check_scene(table: Mapping[str, Any]) -> float:

@@ -12,9 +12,25 @@ from nicegui import ui
 
 from bem.app.computing import compute, compute_if
 from bem.app.form_view import FormView
-from bem.app.layout import asked_name, badge, can_undo, confirm, heading, more_actions, page, rows, say, words_of, wrong
+from bem.app.layout import (
+    asked_name,
+    can_undo,
+    confirm,
+    duration,
+    heading,
+    moment,
+    more_actions,
+    page,
+    rows,
+    say,
+    words_of,
+    wrong,
+)
 from bem.app.planning import ShownPlan, check_scene, shown_plan
+from bem.app.remedies import Remedy
+from bem.app.run_page import badges, key_figures
 from bem.app.scene_file import Change, Conflict, SceneFile
+from bem.app.sketches import sketch
 from bem.app.starts import TASKS, BuiltIn, built_in_scenes, kinds_with_titles, start_text
 from bem.app.workspace import Workspace
 from bem.errors import BemError
@@ -49,14 +65,14 @@ def scenes_page(workspace: Workspace) -> None:
             heading("Start with a task")
             with ui.element("div").classes("w-full bem-cards"):
                 for start in TASKS:
-                    card = _card(start.title, start.words, partial(begin, start.name, start.source))
+                    card = _card(start.title, start.words, start.picture, partial(begin, start.name, start.source))
                     card.props["data-start"] = start.name
             heading("All kinds of calculation")
             for task, kinds in kinds_with_titles().items():
                 ui.label(task).classes("text-subtitle2 bem-soft")
                 with ui.element("div").classes("w-full bem-cards"):
                     for name, title in kinds:
-                        _card(name, title, partial(begin, name, f"kind {name}")).props["data-new"] = name
+                        _card(name, title, name, partial(begin, name, f"kind {name}")).props["data-new"] = name
             heading("Built-in scenes")
             _built_in(begin)
         with ui.column().classes("gap-3").style("flex: 1 1 260px; min-width: 0"):
@@ -66,9 +82,10 @@ def scenes_page(workspace: Workspace) -> None:
             ui.label(str(workspace.folder)).classes("text-caption bem-soft").style("overflow-wrap: anywhere")
 
 
-def _card(title: str, words: str, act: Callable[[], Any]) -> Any:
-    """A button with a title and a sentence."""
+def _card(title: str, words: str, drawn: str, act: Callable[[], Any]) -> Any:
+    """A button with a sketch, a title and a sentence."""
     with ui.element("button").classes("bem-card bem-start").on("click", act) as card:
+        ui.html(sketch(drawn), sanitize=False)
         ui.label(title).classes("text-bold")
         ui.label(words).classes("text-caption")
     return card
@@ -87,7 +104,7 @@ def _built_in(begin: Callable[[str, str], Any]) -> None:
     field.props("dense outlined clearable debounce=200").classes("w-full").props["data-key"] = "filter"
     with ui.element("div").classes("w-full bem-cards"):
         for item in built_in_scenes():
-            card = _card(item.name, item.words, partial(begin, item.name, f"scene {item.name}"))
+            card = _card(item.name, item.words, item.kind, partial(begin, item.name, f"scene {item.name}"))
             card.props["data-scene-card"] = item.name
             cards.append((item, card))
 
@@ -102,9 +119,15 @@ def _last_runs(workspace: Workspace) -> None:
             return
         with place:
             for state in found[:_LAST]:
-                with ui.row().classes("items-center"):
-                    ui.link(state.name, f"/run/{state.name}")
-                    badge(state.state)
+                with ui.column().classes("gap-0 w-full bem-line q-pb-xs"):
+                    with ui.row().classes("items-center gap-2"):
+                        ui.link(state.name, f"/run/{state.name}")
+                        badges(state)
+                    with ui.row().classes("gap-2"):
+                        moment(state.begun)
+                        if state.seconds is not None:
+                            ui.label(duration(state.seconds)).classes("text-caption bem-soft")
+                    key_figures(state)
             if not found:
                 ui.label("None yet.").classes("bem-soft")
 
@@ -328,11 +351,22 @@ class ScenePage:
         with self._mistakes:
             for text in (*plan.messages, *filter(None, (plan.short,))):
                 wrong(text)
+            if plan.messages:
+                self._offer(plan.remedies)
         with self._plan:
             for text in plan.warnings:
                 ui.label(f"! {text}").classes("text-body2 bem-caution")
+            if not plan.messages:
+                self._offer(plan.remedies)
             for title, lines in plan.tables:
                 rows(title, lines)
+
+    def _offer(self, remedies: tuple[Remedy, ...]) -> None:
+        """Add a button for each change that mends what the plan finds."""
+        with ui.row().classes("gap-2"):
+            for one in remedies:
+                button = ui.button(one.words, icon="build", on_click=partial(self._edit, one.key, one.changed))
+                button.props("dense no-caps outline").props["data-remedy"] = one.key
 
     async def _run(self) -> None:
         self._start.disable()

@@ -5,6 +5,7 @@ from __future__ import annotations
 import asyncio
 import os
 import tempfile
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -12,9 +13,10 @@ from nicegui import run as io
 from nicegui import ui
 from nicegui.events import UploadEventArguments
 
-from bem.app.computing import compute_if
+from bem.app.computing import compute, compute_if
 from bem.app.layout import asked_name, busy, can_undo, confirm, page, rows, say, words_of, wrong
 from bem.app.pictures import Picture
+from bem.app.starts import OF_SURFACES, scene_of_surface
 from bem.app.treatment import Treated, treated
 from bem.app.workspace import MOST_BYTES, Workspace
 from bem.errors import BemError, InputError, ResultsError
@@ -61,6 +63,7 @@ class SurfacePage:
                         button = ui.button(words, icon=icon, on_click=act).props("flat dense no-caps")
                         button.bind_enabled_from(self._file, "value", lambda path: not str(path).startswith("example/"))
                         button.props["data-action"] = f"{words} surface"
+                self._scenes()
                 for key, hint, default in _TREATMENTS:
                     if key == "detrend":
                         self._levelling(hint, default)
@@ -70,7 +73,6 @@ class SurfacePage:
                     )
                     item.props("dense outlined debounce=400 stack-label").classes("w-full")
                     item.props["hint"], item.props["data-key"] = hint, key
-                self._scenes()
             with ui.column().style("flex: 3 1 420px; min-width: 0"):
                 self._state = ui.column().classes("w-full")
                 self._shown = ui.column().classes("w-full")
@@ -85,9 +87,16 @@ class SurfacePage:
         item.props["data-key"] = "detrend"
 
     def _scenes(self) -> None:
-        """Show the scenes that can take the treated surface."""
+        """Offer new scenes with the treated surface, and those that can take it."""
+        ui.label("begin with it").classes("text-subtitle2")
+        with ui.row().classes("gap-2"):
+            for kind, words in OF_SURFACES.items():
+                button = ui.button(words, icon="play_arrow", on_click=partial(self._begin, kind)).props("dense no-caps")
+                button.props["data-begin"] = kind
         names = list(self._workspace.scenes())
-        scene = ui.select(names, label="take it into the scene", value=names[0] if names else None)
+        if not names:
+            return
+        scene = ui.select(names, label="take it into the scene", value=names[0])
         scene.classes("w-full").props("dense outlined")
         with ui.row():
             for body in ("lower", "upper"):
@@ -192,6 +201,21 @@ class SurfacePage:
             lines.insert(0, f"grid = {typed(found.grid)}")
         code = ui.code("\n".join(lines), language="toml").classes("w-full")
         code.copy_button.props["aria-label"] = "copy"
+
+    async def _begin(self, kind: str) -> None:
+        """Write a new scene with the surface as its lower one, and show it."""
+        await self._settled.wait()
+        try:
+            if self._done is None:
+                raise InputError("a surface without mistakes is needed")
+            found = self._done
+            text = await compute(scene_of_surface, kind, found.surface, found.shape, found.lengths)
+            name = self._workspace.free_scene_name(f"{Path(str(self._file.value)).stem}-{kind}")
+            self._workspace.save_scene(name, text)
+        except BemError as error:
+            say(error)
+            return
+        ui.navigate.to(f"/scene/{name}")
 
     async def _put(self, scene: str, body: str) -> None:
         """Write the surface, and the grid of the cells that are asked for, into a scene's file; other keys stay."""

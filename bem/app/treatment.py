@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from bem.app.pictures import Picture, map_picture
+from bem.app.remedies import length_text
 from bem.errors import InputError
 from bem.grid import Grid
 from bem.memory import available_memory
@@ -31,7 +32,8 @@ _PER_CELL = 120.0
 class Treated:
     """A surface after its treatment: picture, statistics, what was done, and the tables of a scene that say all this.
 
-    `grid` is that of the cells that were asked for, None where the scene's own decides.
+    `grid` is that of the cells that were asked for, None where the scene's own decides. `shape` and `lengths` [m] are
+    the cells and sides of the map.
     """
 
     picture: Picture
@@ -40,6 +42,8 @@ class Treated:
     notes: tuple[str, ...]
     surface: dict[str, Any]
     grid: dict[str, Any] | None
+    shape: tuple[int, int]
+    lengths: tuple[float, float]
 
 
 def treated(path: str, asked: dict[str, Any]) -> Treated:
@@ -76,10 +80,10 @@ def treated(path: str, asked: dict[str, Any]) -> Treated:
     surface = {"kind": "measured", "path": path, **keys}
     own = None
     if asked.get("cells", "") != "":
-        own = {"shape": list(grid.shape), "lengths": [_length(side) for side in lengths]}
+        own = {"shape": list(grid.shape), "lengths": [length_text(side) for side in lengths]}
     sides = (np.asarray(grid.x), np.asarray(grid.y))
     pictures = [map_picture(heights, sides, Path(path).name, "m", solid=solid) for solid in (False, True)]
-    return Treated(pictures[0], pictures[1], tuple(figures), tuple(map(str, notes)), surface, own)
+    return Treated(pictures[0], pictures[1], tuple(figures), tuple(map(str, notes)), surface, own, grid.shape, lengths)
 
 
 def _check_cells(shape: tuple[int, int]) -> None:
@@ -91,8 +95,3 @@ def _check_cells(shape: tuple[int, int]) -> None:
             f"cells: {shape[0]} x {shape[1]} need about {show_bytes(needed)} of memory and {show_bytes(free)} are "
             f"available; allowed: at most about {most} x {most}"
         )
-
-
-def _length(value: float) -> str:
-    """A length [m] as scenes are written by hand."""
-    return f"{1e6 * value:.10g} um"

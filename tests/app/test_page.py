@@ -322,8 +322,11 @@ def test_a_killed_server_and_a_pause_lose_nothing(serve, chrome, tmp_path):
     assert tab.errors == []
 
 
-def test_too_many_cells_are_refused_and_the_server_goes_on(serve, chrome):
-    """The mistake stands on the page without an old picture; nothing that is asked for ends the server."""
+def test_too_many_cells_are_refused_and_the_map_leads_to_a_result(serve, chrome):
+    """The mistake stands on the page without an old picture; nothing that is asked for ends the server.
+
+    From the map a scene, a button for a grid that became too large, a run, and its answers.
+    """
     server, tab = serve(), chrome.tab()
     tab.go(server.address)
     tab.go(f"{server.base}/surfaces")
@@ -336,7 +339,21 @@ def test_too_many_cells_are_refused_and_the_server_goes_on(serve, chrome):
     tab.type("cells", "32")
     tab.wait_text("32 x 32")
     assert server.process.poll() is None
-    assert tab.errors == []
+    tab.click("[data-begin=contact]")
+    tab.wait("location.pathname === '/scene/ground-disk-contact'")
+    tab.wait("document.querySelector('[data-plan]')")
+    tab.type("grid.lengths", "1 mm")
+    tab.wait("document.querySelector('[data-action=run]').disabled && document.querySelector('[data-remedy=grid]')")
+    tab.click("[data-remedy=grid]")
+    tab.wait("document.querySelector('[data-plan]')")
+    tab.type("grid.shape", "32")
+    tab.wait_text("32 x 32")
+    tab.wait("document.querySelector('[data-plan]')")
+    tab.click("[data-action=run]")
+    tab.wait("document.querySelector('[data-answer-of=\"contact area fraction\"]')")
+    tab.wait("document.querySelectorAll('.main-svg').length > 2")
+    assert tab.look("[...document.querySelectorAll('time')].every(one => one.innerText)")
+    assert [text for text in tab.errors if LIBRARY not in text] == []
 
 
 def test_errors_of_the_server_are_told_on_the_page(serve, chrome, tmp_path):
