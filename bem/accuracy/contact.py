@@ -112,7 +112,7 @@ def contact_bars(case: ContactCase, coarser: Coarser) -> ErrorBars:
     edge = relative(edge_fraction(case), fine)
     edge["plastic_area_fraction"] = _plastic_edge_fraction(case) * fine["plastic_area_fraction"]
     grid = RULES.errors(fine, coarse, {"edge": edge}, regime=regime)
-    for name, missed in _missed_by_differences(case, resolved=regime is Regime.RESOLVED).items():
+    for name, missed in missed_by_differences(case, resolved=regime is Regime.RESOLVED).items():
         grid[name] += missed
     # a prescribed figure has no error but that of the residual
     given = {name for name in ("approach", "mean_gap", "load") if getattr(case, name) is not None}
@@ -173,7 +173,7 @@ def _plastic_edge_fraction(case: ContactCase) -> float:
     return region.perimeter * cell / solution.plastic_area
 
 
-def _missed_by_differences(case: ContactCase, *, resolved: bool) -> dict[str, float]:
+def missed_by_differences(case: ContactCase, *, resolved: bool) -> dict[str, float]:
     """Return errors that a difference between grids may miss: peaks between cells, lost curvature, first touch between
     cells, and means over free axes."""
     cap = math.inf if case.hardness is None else case.hardness

@@ -49,6 +49,21 @@ CONTACT_UNRESOLVED = define(
         ),
     },
 )
+ADHESIVE_ZONE_UNRESOLVED = define(
+    "adhesive-zone-unresolved",
+    OUTSIDE_MODEL,
+    "The cells do not resolve the zone in which adhesion acts.",
+    "At the edge of a contact it is {zone:si m} wide, for cells of {cell:si m}: the grid holds the edge back, and"
+    " adhesion and its hysteresis are wrong.",
+    "Set spacing to {wanted:si m} or less, or give a longer range at the same work.",
+)
+ADHESION_JUMPS = define(
+    "adhesion-jumps",
+    INFO,
+    "The adhesive contact jumps on its path.",
+    "It does so in {jumps} of {steps} steps, in the first of them to a load of {load:si N}.",
+    "Take shorter steps there for the load and the approach of the jump.",
+)
 MEAN_GAP_NOT_MET = define(
     "mean-gap-not-met",
     CAUTION,

@@ -80,10 +80,12 @@ class LawKey:
     """Annotation of a law's class: the key takes a name, a table with `kind` and parameters, or a law.
 
     beside : whether a `LawTable` takes the parameters beside the key, too.
+    usual : name of the law that a table without `kind` means; such a table is refused where it is empty.
     """
 
     family: str
     beside: bool = False
+    usual: str = ""
 
     def read(self, value: Any) -> Law:
         """The law.
@@ -98,6 +100,8 @@ class LawKey:
             value = {"kind": value}
         if not isinstance(value, dict):
             raise problem("not a law", f"a name, or a table with kind and parameters; kinds: {', '.join(self.names())}")
+        if "kind" not in value and self.usual:
+            value = {"kind": self.usual, **value}
         if "kind" not in value:
             raise problem("kind is missing", "kind = " + ", ".join(f'"{name}"' for name in self.names()))
         law = self.law_class(value)
@@ -142,7 +146,7 @@ class LawKey:
         """The class that a value of the key names, None if it names none."""
         if isinstance(value, Law):
             return type(value)
-        name = value.get("kind") if isinstance(value, dict) else value
+        name = value.get("kind", self.usual) if isinstance(value, dict) else value
         return laws_of(self.family).get(name) if isinstance(name, str) else None
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> core_schema.CoreSchema:
@@ -163,7 +167,10 @@ class LawKey:
                 "type": "object",
                 "description": (law.__doc__ or "").strip(),
                 "properties": {"kind": {"const": name}, **_json_properties(fields_of(law))},
-                "required": ["kind", *(() if self.beside else law.required())],
+                "required": [
+                    *(() if name == self.usual else ("kind",)),
+                    *(() if self.beside else law.required()),
+                ],
                 "additionalProperties": False,
             }
             for name, law in laws.items()

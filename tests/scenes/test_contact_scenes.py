@@ -12,6 +12,7 @@ from bem.grid import Grid
 from bem.materials import Body, Layer, Material, contact_modulus
 from bem.notes import has_code
 from bem.notes.checks import DEPTHS_MISS_STRESS
+from bem.notes.contact import ADHESIVE_ZONE_UNRESOLVED
 from bem.reference_solutions.hertz import cylinder_contact, sphere_contact
 from bem.reference_solutions.westergaard import crossed_full_contact_pressure
 from bem.runs import plan_scene, run_scene
@@ -376,3 +377,67 @@ def test_a_key_over_hertz_pressures_runs_each(tmp_path):
     )
     loads = found.dataset["load"].values
     assert loads[1] / loads[0] == pytest.approx(8)
+
+
+ADHESIVE = {
+    "kind": "contact",
+    "grid": {"shape": 64, "lengths": "40 um"},
+    "lower": {"material": {"youngs_modulus": "5 MPa", "poissons_ratio": 0.49}},
+    "shape": {"kind": "sphere", "radius": "50 um"},
+    "contact": {
+        "adhesion": {"work": "50 mJ/m^2", "range": "200 nm"},
+        "approach_path": ["-1 um", "0.4 um", "0 um", "-0.2 um"],
+        "approach": "-0.4 um",
+    },
+}
+
+
+def test_adhesion_follows_the_path_and_tells_the_lowest_load():
+    _, outcome, _ = run(ADHESIVE)
+    assert outcome.status == Status.CONVERGED
+    load = outcome.variables["path_load"].values
+    assert load.shape == (5,)
+    assert outcome.summary["load_N"] == load[-1]
+    assert outcome.summary["lowest_load_N"] == load.min()
+    # between Johnson, Kendall and Roberts' 1.5 and Bradley's 2 pi w R
+    assert 1.5 < -outcome.summary["lowest_load_N"] / (np.pi * 0.05 * 50e-6) < 2
+    net = outcome.variables["pressure"].values - outcome.variables["attraction"].values
+    assert net.sum() * (40e-6 / 64) ** 2 == pytest.approx(load[-1], rel=1e-5)
+    assert 0 < outcome.summary["lowest_load_N_error"] < 0.1 * -outcome.summary["lowest_load_N"]
+
+
+def test_one_state_at_a_time_is_the_same_as_its_path_without_hysteresis():
+    data = copy.deepcopy(ADHESIVE)
+    data["contact"] = {"adhesion": data["contact"]["adhesion"], "load": "5 uN"}
+    _, alone, _ = run(data)
+    data["contact"]["load_path"] = ["20 uN", "1 uN"]
+    _, after, _ = run(data)
+    assert after.summary["approach_m"] == pytest.approx(alone.summary["approach_m"], rel=1e-3)
+    assert "path_load" not in alone.variables
+
+
+def test_too_wide_cells_for_the_adhesive_zone_are_outside_the_model():
+    data = copy.deepcopy(ADHESIVE)
+    data["contact"] = {"adhesion": {"work": "50 mJ/m^2", "range": "20 nm"}, "load": "5 uN"}
+    _, _, context = run(data)
+    assert has_code(context.notes, ADHESIVE_ZONE_UNRESOLVED)
+    _, _, context = run(ADHESIVE)
+    assert not has_code(context.notes, ADHESIVE_ZONE_UNRESOLVED)
+
+
+@pytest.mark.parametrize(
+    ("changed", "message"),
+    [
+        ({"friction": 0.1}, "friction is given with adhesion"),
+        ({"load_path": ["1 uN"]}, "load_path does not go with"),
+        ({"approach": None, "mean_gap": "1 um", "approach_path": []}, "mean_gap is given with adhesion"),
+        ({"adhesion": None}, "approach_path is given without adhesion"),
+        ({"adhesion": {"work": "50 mJ/m^2"}}, "range"),
+        ({"adhesion": {"kind": "glue", "work": "50 mJ/m^2", "range": "1 nm"}}, "glue"),
+    ],
+)
+def test_adhesion_refuses_what_does_not_go_with_it(changed, message):
+    data = copy.deepcopy(ADHESIVE)
+    data["contact"] = {key: value for key, value in (data["contact"] | changed).items() if value is not None}
+    with pytest.raises(InputError, match=message):
+        plan_scene(data)

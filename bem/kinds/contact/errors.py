@@ -14,6 +14,7 @@ from bem.scenes.resolutions import CELLS, DEPTHS
 
 if TYPE_CHECKING:
     from bem.accuracy import ErrorBars
+    from bem.adhesion import AdhesiveHistory
     from bem.contact import ContactSolution
     from bem.stress import StressSummary
 
@@ -25,6 +26,7 @@ def bars_of(
     below: StressSummary | None,
     rough: Mapping[str, FloatArray],
     context: Context,
+    path: AdhesiveHistory | None = None,
 ) -> ErrorBars:
     """Bars of the contact, and of the stresses below it where there are any."""
     from bem.accuracy import ContactCase, coarser_before, contact_bars, solve_coarser, stress_bars
@@ -32,6 +34,12 @@ def bars_of(
     grid, before = build.grid_of(scene.grid), level_before(context)
     operator = build.operator_of(scene, grid, scene.contact.friction)
     case = ContactCase(operator, undeformed, solution, **scene.contact.prescribed(grid.area), from_touch=bool(rough))
+    if path is not None:
+        from bem.accuracy.adhesion import adhesive_bars
+
+        law = scene.contact.adhesion
+        assert law is not None
+        return adhesive_bars(case, law, path, scene.contact.path(grid.area))
     nested = None if before is None else coarser_before(case, before)
     coarser = nested or solve_coarser(case, scene.contact.max_iterations)
     bars = contact_bars(case, coarser)

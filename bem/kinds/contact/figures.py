@@ -169,6 +169,29 @@ def _has_pressures(run: Any) -> bool:
     return bool(np.any(np.isfinite(_array(run, "reduced_pressure")) & (_array(run, "contact_area_fraction") > 0)))
 
 
+def _adhesive_path(run: Any, figure: Figure) -> None:
+    """Load over approach, and contact area over load, with the direction and the jumps of the path."""
+    load, approach, area = (_array(run, f"path_{name}") for name in ("load", "approach", "contact_area"))
+    jumped = _array(run, "path_jump") > 0
+    (force, force_unit), (length, length_unit) = prefix(load, "N"), prefix(approach, "m")
+    left, right = figure.subplots(1, 2)
+    size, size_unit = (1e12, "µm²") if area.max() < 1e-6 else (1e6, "mm²")
+    for axes, x, y in ((left, approach * length, load * force), (right, load * force, area * size)):
+        for first in range(len(x) - 1):
+            style = "--" if jumped[first + 1] else "-"
+            axes.plot(x[first : first + 2], y[first : first + 2], style, color=VERMILION if jumped[first + 1] else BLUE)
+        axes.plot(x, y, ".", color=BLUE)
+        axes.plot(x[:1], y[:1], "o", color=BLACK, markersize=5, label="start")
+        axes.plot(x[-1:], y[-1:], "s", color=BLACK, markersize=5, label="end")
+    left.plot([], [], "--", color=VERMILION, label="jump")
+    left.axhline(0, color="0.7", linewidth=0.6)
+    left.set_xlabel(label("approach", length_unit))
+    left.set_ylabel(label("load", force_unit))
+    right.set_xlabel(label("load", force_unit))
+    right.set_ylabel(label("contact area", size_unit))
+    left.legend()
+
+
 _FEWEST_SPOTS = 10
 
 
@@ -258,6 +281,14 @@ FIGURES = (
         (5.4, 4.2),
         _has_pressures,
         all_cases=True,
+    ),
+    FigureKind(
+        "adhesion-path",
+        "Path of an adhesive contact: load over approach and contact area over load, from the start to the end; dashed "
+        "where the contact jumps.",
+        ("path_load", "path_approach", "path_contact_area", "path_jump"),
+        _adhesive_path,
+        (7.6, 3.6),
     ),
     FigureKind(
         "spot-sizes",

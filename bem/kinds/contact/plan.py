@@ -6,6 +6,9 @@ from bem.kinds.contact.scene import ContactScene
 from bem.scenes import build, plans
 from bem.scenes.planner import Plan
 
+ADHESIVE_SOLVES, ADHESIVE_CONVOLUTIONS = 30.0, 250.0
+"""Contacts and convolutions of a state with adhesion: means of spheres at Maugis' parameters 0.3 to 3, with jumps."""
+
 
 def plan(scene: ContactScene) -> Plan:
     """Plan the computation of one case.
@@ -22,9 +25,20 @@ def plan(scene: ContactScene) -> Plan:
     capped, stiffness = scene.contact.behaviour == "capped", plans.stiffest(scene.lower.build(), scene.upper.build())
     held = 2.5 if scene.contact.mean_gap is None else 3.5  # how far an even pressure on what touches displaces
     coarser = plans.coarser_contact(grid, depths, capped=capped, stiffness=stiffness, fields=held)
+    words = f"{scene.contact.behaviour}, {scene.contact.words()}"
+    if scene.contact.adhesion is None:
+        contact = plans.contact(grid, words, capped=capped, stiffness=stiffness)
+    else:
+        steps = len(next(iter(scene.contact.path(grid.area).values())))
+        contact = plans.contacts(
+            grid,
+            ADHESIVE_CONVOLUTIONS * steps,
+            f"{words}; adhesive, {steps} {'state' if steps == 1 else 'states'} on the path",
+            solves=ADHESIVE_SOLVES * steps,
+        )
     return Plan.of(
         *bodies,
-        plans.contact(grid, f"{scene.contact.behaviour}, {scene.contact.words()}", capped=capped, stiffness=stiffness),
+        contact,
         plans.stresses(grid, stressed, outputs.body, depths, fields=fields, loads=1 if friction == 0 else 2),
         plans.error_bars(outputs.errors, "the contact on the grid of twice the cell", **coarser),
         plans.vtk(outputs.vtk and depths > 0),

@@ -79,6 +79,10 @@ class ContactRecord(GridRecord):
     interface_max_tension: Annotated[FloatArray | None, _interfaces("Pa", "maximum tension across interfaces")] = None
     layer_max_von_mises: Annotated[FloatArray | None, _layers("Pa", "maximum von Mises stress in each layer")] = None
     layer_max_tension: Annotated[FloatArray | None, _layers("Pa", "maximum principal stress in each layer")] = None
+    lowest_load: Annotated[
+        float | None, Figure("N", "lowest load on the path; minus the pull-off force", optional=True, headline=True)
+    ] = None
+    adhesive_energy: Annotated[float | None, Figure("J", "elastic and adhesive energy", optional=True)] = None
     pressure: Annotated[FloatArray, grid_map("Pa", "contact pressure")]
     displacement: Annotated[FloatArray, grid_map("m", "normal displacement of both bodies together")]
     gap: Annotated[FloatArray, grid_map("m", "gap between the deformed surfaces")]
@@ -97,3 +101,10 @@ class ContactRecord(GridRecord):
     stress: Annotated[
         FloatArray | None, Series(("component", "depth", "x", "y"), "Pa", "stress, positive in tension")
     ] = None
+    attraction: Annotated[FloatArray | None, grid_map("Pa", "attraction by adhesion")] = None
+    path_load: Annotated[FloatArray | None, Series(("step",), "N", "load on the path")] = None
+    path_approach: Annotated[FloatArray | None, Series(("step",), "m", "approach on the path")] = None
+    path_contact_area: Annotated[FloatArray | None, Series(("step",), "m^2", "contact area on the path")] = None
+    path_jump: Annotated[NDArray[np.int8] | None, Series(("step",), "1", "1 for a step in which the contact jumps")] = (
+        None
+    )

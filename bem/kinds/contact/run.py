@@ -10,10 +10,11 @@ import numpy as np
 
 from bem.errors import Status
 from bem.grid import FloatArray, Grid
+from bem.kinds.contact.adhesive import adhesion_notes, adhesive_arrays, adhesive_figures, total_contact
 from bem.kinds.contact.errors import bars_of
 from bem.kinds.contact.record import ContactRecord
 from bem.kinds.contact.scene import ContactScene
-from bem.kinds.contact.solve import solve_scene
+from bem.kinds.contact.solve import solve_adhesive, solve_scene
 from bem.materials import softer_hardness
 from bem.notes import Level, Note, has_code
 from bem.notes.contact import CONTACT_AT_EDGE
@@ -24,6 +25,7 @@ from bem.scenes.context import Context, error_bars, release, set_aside, tell
 from bem.scenes.cut_off import is_cut_off
 
 if TYPE_CHECKING:
+    from bem.adhesion import AdhesiveHistory
     from bem.contact import ContactSolution
     from bem.stress import StressSummary
 
@@ -43,20 +45,30 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
     roughness |= _combined_roughness(scene, grid, lower, upper)
     rough = {name: set_aside(context, heights) for name, heights in rough.items()}
     del lower, upper
+    path: AdhesiveHistory | None = None
     with context.timer("contact"):
-        solution, history = solve_scene(scene, grid, undeformed, context)
+        if scene.contact.adhesion is None:
+            solution, history = solve_scene(scene, grid, undeformed, context)
+        else:
+            path = solve_adhesive(scene, grid, undeformed, context)
+            solution, history = total_contact(path), np.zeros((0, 2))
+            tell(context, adhesion_notes(scene, grid, path))
     tell(context, _cut_off(scene, grid, solution))
-    tell(context, _standing_off(solution))
+    if path is None:
+        tell(context, _standing_off(solution))
     below: StressSummary | None = None
     if scene.outputs.wanted_depths():
         with context.timer("stresses"):
-            below = _stresses(scene, grid, solution.pressure, context)
+            traction = solution.pressure if path is None else path.last.traction
+            below = _stresses(scene, grid, traction, context)
     wanted = scene.outputs.errors and solution.status is Status.CONVERGED
     if "combined_Sdq" in roughness and scene.shape.kind == "flat":
         pressed = build.modulus_of(scene) * roughness["combined_Sdq"] * grid.area
         roughness["reduced_pressure"] = float(solution.load) / pressed
-    errors = error_bars(context, wanted, lambda: bars_of(scene, undeformed, solution, below, rough, context))
+    errors = error_bars(context, wanted, lambda: bars_of(scene, undeformed, solution, below, rough, context, path))
     figures: dict[str, Any] = figures_of(solution, grid.area) | counted_figures(solution, grid)
+    if path is not None:
+        figures |= adhesive_figures(path)
     return ContactRecord(
         **figures,
         **roughness,
@@ -64,6 +76,7 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
         upper_height=rough.get("upper"),
         **_stress_fields(below),
         **_coating_fields(scene, below),
+        **({} if path is None else adhesive_arrays(path)),
         residual=solution.residual,
         iterations=solution.iterations,
         convolutions=solution.convolutions,

@@ -14,6 +14,7 @@ from bem.scenes.context import Context
 from bem.scenes.packing import keep, kept, kept_coarser
 
 if TYPE_CHECKING:
+    from bem.adhesion import AdhesiveHistory
     from bem.contact import ContactSolution
 
 
@@ -56,3 +57,35 @@ def level_before(context: Context) -> ContactSolution | None:
     """The contact on the grid of twice the cell, where an accuracy is refined to."""
     before: tuple[ContactSolution, FloatArray] | None = kept_coarser(context)
     return None if before is None else before[0]
+
+
+def solve_adhesive(scene: ContactScene, grid: Grid, undeformed: FloatArray, context: Context) -> AdhesiveHistory:
+    """Return the adhesive contact along its path, from the checkpoint where it was solved before."""
+    from bem.adhesion import AdhesiveSolution, follow_path
+
+    solved: AdhesiveHistory | None = kept(context)
+    if solved is not None:
+        return solved
+    law, path = scene.contact.adhesion, scene.contact.path(grid.area)
+    assert law is not None
+    steps = len(next(iter(path.values())))
+
+    def watch(number: int, state: AdhesiveSolution) -> None:
+        context.progress(number + 1, steps, "path", residual=state.residual)
+
+    history = follow_path(
+        undeformed,
+        build.operator_of(scene, grid),
+        law,
+        hardness=scene.contact.hardness,
+        tolerance=max(scene.contact.tolerance, ADHESION_TOLERANCE),
+        loads=path.get("loads"),
+        approaches=path.get("approaches"),
+        callback=watch,
+    )
+    keep(context, history)
+    return history
+
+
+ADHESION_TOLERANCE = 1e-6
+"""Least tolerance of the attraction over its strength: its contacts are solved to a tenth of what it allows."""

@@ -1,0 +1,77 @@
+"""Error bars of an adhesive contact: the same path on the grid of twice the cell.
+
+Verified in tests/adhesion/test_adhesive_bars.py against Maugis' spheres and finer grids of rough surfaces.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+
+from bem.accuracy.bars import GRID, RESIDUAL, ErrorBars
+from bem.accuracy.coarsened import ContactCase, edge_fraction, regime_of
+from bem.accuracy.contact import figures_of, missed_by_differences
+from bem.accuracy.richardson import Regime, Table, relative, residual_errors, rows
+from bem.adhesion import AdhesionLaw, AdhesiveHistory, follow_path
+from bem.contact.nested_iteration import sample
+from bem.errors import InfeasibleError, Status
+from bem.notes.accuracy import NoBar
+
+RULES = Table(
+    "",
+    rows(
+        "contact_area contact_area_fraction contact_perimeter mean_contact_pressure plastic_area_fraction",
+        1.0,
+        "First order: the edge of the contact moves by whole cells, as the attraction beside it is steep.",
+        order=1,
+        edge=0.05,
+    ),
+    rows(
+        "max_pressure",
+        1.0,
+        "First order: it is next to the edge or at the top of the sharpest asperity.",
+        order=1,
+        edge=0.03,
+    ),
+    rows("load lowest_load adhesive_energy", 1.0, "First order, as the area that adheres.", order=1, edge=0.02),
+    rows("approach mean_gap", 1.0, "First order, as the area that adheres.", order=1, edge=0.01),
+)
+"""Factors on the difference to twice the cell; floors on the fraction of the area within a cell of the edge."""
+
+
+def adhesive_bars(
+    case: ContactCase, law: AdhesionLaw, path: AdhesiveHistory, asked: Mapping[str, list[float]]
+) -> ErrorBars:
+    """Return the error bars of an adhesive contact.
+
+    case : of the last contact. path : as solved. asked : loads or approaches of the path.
+    """
+    operator = case.operator.coarsened()
+    if operator is None:
+        return ErrorBars.unknown(RULES, NoBar.TOO_SMALL)
+    gap = sample(case.undeformed, operator.grid.shape, operator.grid.periodic)
+    if case.from_touch:
+        gap = gap - gap.min()
+    try:
+        coarse = follow_path(
+            gap,
+            operator,
+            law,
+            loads=asked.get("loads"),
+            approaches=asked.get("approaches"),
+            hardness=case.hardness,
+        )
+    except InfeasibleError:
+        return ErrorBars.unknown(RULES, NoBar.IMPOSSIBLE)
+    if coarse.status is not Status.CONVERGED:
+        return ErrorBars.unknown(RULES, NoBar.COARSER_UNSOLVED)
+    fine, other = (
+        figures_of(one.last.contact, grid.area)
+        | {"load": one.last.load, "lowest_load": one.lowest_load, "adhesive_energy": one.last.energy}
+        for one, grid in ((path, case.grid), (coarse, operator.grid))
+    )
+    grid = RULES.errors(fine, other, {"edge": relative(edge_fraction(case), fine)})
+    for name, missed in missed_by_differences(case, resolved=regime_of(case) is Regime.RESOLVED).items():
+        grid[name] += missed
+    given = "load" if "loads" in asked else "approach"
+    grid[given] = 0.0
+    return ErrorBars.together({GRID: grid, RESIDUAL: residual_errors(path.last.residual, fine)})

@@ -1,0 +1,73 @@
+"""Results of a contact with adhesion: figures, arrays and notes of its path."""
+
+from __future__ import annotations
+
+import math
+from dataclasses import replace
+from typing import TYPE_CHECKING, Any
+
+from bem.grid import Grid
+from bem.kinds.contact.scene import ContactScene
+from bem.notes import Note
+from bem.notes.contact import ADHESION_JUMPS, ADHESIVE_ZONE_UNRESOLVED
+from bem.scenes import build
+
+if TYPE_CHECKING:
+    from bem.adhesion import AdhesionLaw, AdhesiveHistory
+    from bem.contact import ContactSolution
+
+FEWEST_CELLS = 2.0
+"""Cells across the adhesive zone at an edge, below which the edge is held by the grid."""
+
+
+def adhesive_zone(law: AdhesionLaw, modulus: float) -> float:
+    """Return the width of the zone in which attraction acts at the edge of a wide contact [m].
+
+    pi E* w / (4 strength^2): Dugdale's zone of a crack whose energy is the work of adhesion (Maugis 1992).
+    modulus : E* [Pa].
+    """
+    return math.pi * modulus * law.work / (4 * law.strength**2)
+
+
+def total_contact(path: AdhesiveHistory) -> ContactSolution:
+    """Return the last contact of a path with the convolutions, the residual and the status of the whole."""
+    contact, last = path.last.contact, path.last
+    return replace(
+        contact,
+        residual=max(contact.residual, last.residual),
+        convolutions=last.convolutions,
+        iterations=last.steps,
+        status=path.status,
+    )
+
+
+def adhesive_figures(path: AdhesiveHistory) -> dict[str, Any]:
+    """Return the figures of an adhesive contact that replace or follow those of its pressure."""
+    return {"load": path.last.load, "lowest_load": path.lowest_load, "adhesive_energy": path.last.energy}
+
+
+def adhesive_arrays(path: AdhesiveHistory) -> dict[str, Any]:
+    """Return the map of attraction and the path."""
+    found: dict[str, Any] = {"attraction": path.last.attraction}
+    if len(path.load) > 1:
+        found |= {
+            "path_load": path.load,
+            "path_approach": path.approach,
+            "path_contact_area": path.contact_area,
+            "path_jump": path.jumped.astype("int8"),
+        }
+    return found
+
+
+def adhesion_notes(scene: ContactScene, grid: Grid, path: AdhesiveHistory) -> tuple[Note, ...]:
+    """Return notes on jumps, and on an adhesive zone that the cells do not resolve."""
+    law, notes = scene.contact.adhesion, []
+    assert law is not None
+    cell = max(d for n, d in zip(grid.shape, grid.spacing, strict=True) if n > 1)
+    zone = adhesive_zone(law, build.modulus_of(scene))
+    if zone < FEWEST_CELLS * cell:
+        notes.append(ADHESIVE_ZONE_UNRESOLVED(zone=zone, cell=cell, wanted=zone / FEWEST_CELLS))
+    if path.jumped.any():
+        first = int(path.jumped.argmax())
+        notes.append(ADHESION_JUMPS(jumps=int(path.jumped.sum()), load=float(path.load[first]), steps=len(path.load)))
+    return tuple(notes)
