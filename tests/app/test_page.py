@@ -167,7 +167,8 @@ def test_from_a_file_to_results_and_back(serve, chrome, tmp_path):
     tab.wait_text("1 um of tungsten-carbide")  # in the plan
     layer = tomllib.loads(file.read_text())["lower"]["layer"]
     assert layer == {"material": "tungsten-carbide", "thickness": "1 um"}
-    tab.wait_text("Normal load; instead of mean_pressure, approach or mean_gap [N].")  # what a key means stands by it
+    # what a key means stands by it
+    tab.wait_text("Normal load; instead of hertz_pressure, mean_pressure, approach or mean_gap [N].")
     tab.type("contact.load", "2 M")
     tab.wait("document.querySelector('[data-mistake]').innerText.startsWith('contact.load')")
     tab.type("contact.load", "0.3 N")
