@@ -12,9 +12,10 @@ from dataclasses import dataclass
 from functools import partial
 
 from bem.elements.bearing_life import life_rows
+from bem.elements.cam_follower import CamModel
 from bem.elements.contact import ElementContact
 from bem.elements.element import Element
-from bem.elements.element_wear import particles_per_hour, wear_per_hour
+from bem.elements.element_wear import particles_per_hour, wear_per_hour, worn_volume_rate
 from bem.elements.gear_pair import GearModel
 from bem.elements.gear_scuffing import CELSIUS, friction_of_gear_tests, scuffing_of, sliding_power
 from bem.elements.rolling_bearing import BearingModel
@@ -35,7 +36,8 @@ _BALANCE_ROUNDS, _BALANCE_STEP = 8, 0.2
 class FrictionPower:
     """Friction power of an element [W].
 
-    film : of the oil films. with_asperities : estimate with asperity contact; None without roughness.
+    film : of the oil films. with_asperities : estimate with asperity contact, which is boundary friction where there is
+    no steady film; None without roughness.
     down, up : scatter of `film` from the oil's constants; None but with the law of base oils.
     counted : share of the places that have a steady film.
     """
@@ -70,7 +72,10 @@ def friction_power(element: Element, runs: Sequence[Running]) -> FrictionPower:
     if all(one.asperity_share is not None for one in known):
         boundary = element.model.boundary_friction
         mixed = mean(lambda one: one.power + (one.asperity_share or 0.0) * (boundary * _slid(one) - one.power))
-        mixed = max(mixed, 0.0)
+        rubbing = sum(
+            one.load * abs(one.speeds[0] - one.speeds[1]) for one in found.contacts if abs(one.slide_roll_ratio) > 2
+        )
+        mixed = max(mixed, 0.0) + boundary * rubbing / len(found.contacts) * found.at_once
     down = up = None
     if all(one.scatter is not None for one in known):
         down, up = (mean(partial(_scattered, k)) for k in (0, 1))
@@ -87,11 +92,22 @@ def _scattered(side: int, one: Running) -> float:
     return _slid(one) * (one.scatter or (0.0, 0.0))[side]
 
 
+def likely_power(element: Element, runs: Sequence[Running]) -> float:
+    """Return the likely friction power [W]: of gears with roughness by the fit to gear tests, of others with asperity
+    contact, without roughness that of the films."""
+    if isinstance(element.model, GearModel):
+        tests = friction_of_gear_tests(element)
+        if tests is not None:
+            return sliding_power(element, tests.power)
+    power = friction_power(element, runs)
+    return power.film if power.with_asperities is None else power.with_asperities
+
+
 def balance_heat(element: Element, *, most: int = PLACES) -> Element:
     """Return the element with the bulk temperature of its heat balance; the element itself without one.
 
-    The bulk temperature is that of the surroundings plus friction power over conductance. Rounds are damped by the
-    secant of the last two.
+    The bulk temperature is that of the surroundings plus friction power (`likely_power`) over conductance,
+    found by secants.
     """
     balance = element.model.heat_balance
     if balance is None or element.model.oil is None or element.model.oil.temperature is None:
@@ -100,8 +116,7 @@ def balance_heat(element: Element, *, most: int = PLACES) -> Element:
 
     def excess(temperature: float) -> float:
         at = element.at_bulk(temperature)
-        power = friction_power(at, run_all(at, most=most))
-        return around + (power.with_asperities or power.film) / balance.conductance - temperature
+        return around + likely_power(at, run_all(at, most=most)) / balance.conductance - temperature
 
     low, error = around, excess(around)
     high = low + error
@@ -130,10 +145,10 @@ def answer(element: Element, solved: Sequence[Running]) -> Rows:
         rows.append(("scuffing", _scuffing(element, runs)))
     if isinstance(element.model, BearingModel):
         rows += life_rows(element)
-    if runs and (not isinstance(element.model, BearingModel) or element.model.permissible_film_ratio is not None):
+    if runs and (isinstance(element.model, GearModel | CamModel) or element.model.permissible_film_ratio is not None):
         rows.append(("micropitting", _micropitting(element, runs)))
     rows.append(("wear per hour", wear_per_hour(element)))
-    if element.model.specific_wear_rate is not None:
+    if worn_volume_rate(element) > 0:
         rows.append(("particles per hour", particles_per_hour(element)))
     lost = [one for one in solved if not one.converged]
     if lost:
@@ -192,7 +207,8 @@ def _friction_rows(element: Element, runs: Sequence[Running]) -> list[tuple[str,
             f"{element.model.boundary_friction:g} (estimate; kind friction computes it)"
         )
     if power.counted < 1:
-        said += f"; {1 - power.counted:.0%} of the places have no steady film and count none"
+        counts = "none" if power.with_asperities is None else "with boundary friction in the latter alone"
+        said += f"; {1 - power.counted:.0%} of the places have no steady film and count {counts}"
     rows = [("friction power", said)]
     model = element.model
     if isinstance(model, GearModel):

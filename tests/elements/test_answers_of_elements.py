@@ -8,9 +8,10 @@ import tomllib
 import pytest
 
 from bem import InputError
-from bem.elements.answer import PLACES, answer, balance_heat, friction_power
+from bem.elements.answer import PLACES, answer, balance_heat, friction_power, likely_power
 from bem.elements.bearing_life import bearing_life
 from bem.elements.element import MODELS, element_template, load_element
+from bem.elements.gear_scuffing import friction_of_gear_tests, sliding_power
 from bem.elements.rating_life import dynamic_rating
 from bem.elements.running import operating_places, run_all, run_contact
 
@@ -171,9 +172,15 @@ def test_the_heat_balance_balances():
     """Bodies are warmer than the surroundings by friction power over conductance, at that temperature."""
     gears = element_of("gear-pair", points=5, heat_balance={"conductance": "20 W/K", "ambient": "60 degC"})
     warm = balance_heat(gears, most=5)
-    power = friction_power(warm, run_all(warm, most=5)).with_asperities
+    power = likely_power(warm, run_all(warm, most=5))
+    assert power == pytest.approx(sliding_power(gears, friction_of_gear_tests(gears).power))
     assert warm.model.bulk_temperature == pytest.approx(333.15 + power / 20, abs=0.5)
-    assert warm.model.bulk_temperature > 343
+    assert warm.model.bulk_temperature > 345
+    rollers = load_element(STEEL_BEARING | {"heat_balance": {"conductance": "2 W/K"}})
+    hot = balance_heat(rollers)
+    power = friction_power(hot, run_all(hot)).with_asperities
+    assert hot.model.bulk_temperature == pytest.approx(343.15 + power / 2, abs=0.5)
+    assert hot.model.bulk_temperature > 348
     plain = element_of("gear-pair", points=5)
     assert balance_heat(plain) is plain
 

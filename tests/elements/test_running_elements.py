@@ -121,14 +121,14 @@ def test_what_did_not_converge_is_no_figure(gears):
     element, runs = gears
     lost = replace(runs[0], status=Status.STALLED, minimum_film=1e-12, film_ratio=1e-6, power=1e9, notes=("lost",))
     said = dict(answer(element, (lost, *runs[1:])))
-    assert said["not converged"] == f"1 of 5 films, the first at {lost.contact.name}"
+    assert said["not converged"] == f"1 of 5 films, the first at A ({lost.contact.name})"
     assert float(said["friction power"].split(" W")[0]) < 1e3  # the neighbours' in its place
     assert "safety 1e" not in said["micropitting"]
     assert said["lambda ratio"] == dict(answer(element, runs[1:]))["lambda ratio"]
     assert np.isnan(columns(element, (lost, *runs[1:]))["friction_power [W]"][0])
     assert notes((lost,)) == ()
     alone = dict(answer(element, (lost,)))
-    assert alone["not converged"] == f"1 of 1 films, the first at {lost.contact.name}"
+    assert alone["not converged"] == f"1 of 1 films, the first at A ({lost.contact.name})"
     assert "friction power" not in alone
 
 
@@ -139,7 +139,12 @@ def test_what_is_not_known_is_said():
     runs = run_all(cam)
     assert len(runs) < 9  # under the nose there is no steady film
     said = dict(answer(cam, runs))
-    assert "have no steady film and count none" in said["friction power"]
+    assert "have no steady film and count with boundary friction in the latter alone" in said["friction power"]
+    power = friction_power(cam, runs)
+    nose = [one for one in cam.found.contacts if abs(one.slide_roll_ratio) > 2]
+    rubbed = 0.12 * sum(one.load * abs(one.speeds[0] - one.speeds[1]) for one in nose) / 9 * cam.found.at_once
+    assert power.counted == pytest.approx(1 - len(nose) / 9)
+    assert power.with_asperities > power.film + 0.9 * rubbed > power.film
     assert "thermal constants of a body are missing" in said["temperatures"]
     assert "give specific_wear_rate" in said["wear per hour"]
     assert "for a safety give" in said["micropitting"]
