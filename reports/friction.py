@@ -161,7 +161,8 @@ def verdict(shown: list[Row]) -> str:
         f"{len(shown)} published values from {sources} sources. Of {len(measured)} measured ones, {fitted} of them "
         f"through a formula that describes the measurement, {_counts(measured)}. Of {len(computed)} that others "
         f"computed, {_counts(computed)}. The uncertainty of {sum(row.assumed for row in shown)} values is assumed here "
-        "(marked *). No constant is fitted to the values."
+        "(marked * on the page). No constant is fitted to the values; which rows share constants with their sources "
+        "is said under How to read this."
     )
 
 

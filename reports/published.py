@@ -142,13 +142,13 @@ def _load_share(stored: list[dict[str, Any]]) -> Iterator[Row]:
     counted = [one["rows"] for one in stored if one["oil_volume"] == "loaded"]
     for one, other in zip(*counted, strict=True):
         ratio = one["lambda"]
-        if not 0.05 < ratio < 3:
+        if not 0.04 < ratio < 3:
             continue
         low, high = (1 - math.erf(ratio * (1 + sign * LAMBDA_ERROR)) for sign in (1, -1))
         change = other["contact_share"] - one["contact_share"]
         yield Row(
             "share", f"asperity load share at lambda {ratio:.2g}", low, high, one["contact_share"],
-            max(-change, 0.0), max(change, 0.0), 0.01, "clarke", _remark("share") if ratio > 2 else "",
+            max(-change, 0.0), max(change, 0.0), 0.01, "clarke",
         )  # fmt: skip
 
 

@@ -22,9 +22,7 @@ from reports.experiments.kept import keep
 
 RESULT = Path(__file__).resolve().parents[1] / "results" / "load_share_curves.json"
 STEEL = Material("steel", youngs_modulus=207e9, poissons_ratio=0.3, hardness=7e9)
-OIL = Lubricant(
-    0.06, pressure_viscosity=20e-9, shear_law="eyring", shear_stress_limit=5e6, density_law="incompressible"
-)
+OIL = Lubricant(0.06, pressure_viscosity=20e-9, shear_law="eyring", shear_stress_limit=5e6)
 RADIUS, WIDTH, PRESSURE, ROUGHNESS, WAVES = 8e-3, 10e-3, 1.0e9, 160e-9, 30e-6
 PATCHES = ((1.25, "patch"), (1.5, "patch"), (2.0, "patch"), (1.5, "loaded"), (2.0, "loaded"))
 """Length over Hertz' contact, and where the oil is counted (`bem.friction.oil_volume`)."""
