@@ -147,7 +147,7 @@ kind = "contact"
 grid = {shape = 192, spacing = "0.5 um", periodic = true}
 lower = {material = "steel-disk", surface = {kind = "generated", rms_height = "100 nm", correlation_length = "3 um"}}
 contact = {mean_pressure = "80 MPa", behaviour = "capped"}
-outputs = {von_mises = true, vtk = false, depths = {deepest = "20 um", count = 300}}
+outputs = {von_mises = true, vtk = false, depths = {deepest = "20 um", count = 200}}
 """
 
 
