@@ -36,6 +36,11 @@ def register(app: typer.Typer) -> None:
         everything: Annotated[
             bool, typer.Option("--all", help="Write all keys, with those that few users set behind a #.")
         ] = False,
+        lower: Annotated[
+            str | None,
+            typer.Option(metavar="FILE", help="Measured surface of the lower body; the mesh is chosen to fit it."),
+        ] = None,
+        upper: Annotated[str | None, typer.Option(metavar="FILE", help="Measured surface of the upper body.")] = None,
     ) -> None:
         """Write a commented scene of a kind to start from: the keys that every user sets, with meaning and unit.
 
@@ -47,6 +52,7 @@ def register(app: typer.Typer) -> None:
           bem new wear my-wear.toml
           bem new stribeck
           bem new gear-pair gears.toml
+          bem new running-in mine.toml --lower disk.al3d --upper pin.x3p
         """
         from bem.cli._terminal import print_written
         from bem.errors import InputError, ResultsError
@@ -61,8 +67,11 @@ def register(app: typer.Typer) -> None:
             _check_kind(kind)
         elif everything:
             raise InputError(f"--all: {kind} is a machine element; its file has all keys; allowed: without --all")
-        text = element or scene_template(kind, everything=everything)
         path = file or Path(f"{kind}.toml")
+        surfaces = {body: one for body, one in (("lower", lower), ("upper", upper)) if one is not None}
+        if element and surfaces:
+            raise InputError(f"--lower, --upper: {kind} is a machine element; allowed: kinds of scene")
+        text = element or scene_template(kind, everything=everything, surfaces=surfaces, folder=path.resolve().parent)
         if path.exists():
             raise ResultsError(f"{path}: exists; give another FILE")
         if not path.parent.is_dir():

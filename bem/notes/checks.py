@@ -376,6 +376,13 @@ NO_WEAR_RATE = define(
     "criterion_wear_rate is up to {rate:.2g} mm3/(N m){of}; metals have 1e-9 to {severe:g}.",
     "Take volumes from a measured rate ([archard], or the criterion archard).",
 )
+NO_PARTICLE_SIZES = define(
+    "no-particle-sizes",
+    INFO,
+    "A wear law by pressure gives no wear particles.",
+    "wear.criterion = {law} gives depth and volume only.",
+    'Set wear.particle_criterion = "averaged_von_mises" for sizes and numbers of particles.',
+)
 NOT_SETTLED = define(
     "not-settled",
     CAUTION,

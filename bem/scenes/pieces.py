@@ -182,7 +182,7 @@ def mean_sizes(particles: NDArray[np.void], sizes: SizesScene) -> dict[str, Any]
 def sizes_converge(scene: Any, grid: Grid) -> bool:
     """Return True if sizes by number were found to converge under the scene's criterion, on cells as small as a
     case's."""
-    bodies, law = (scene.lower.build(), scene.upper.build()), scene.wear.criterion
+    bodies, law = (scene.lower.build(), scene.upper.build()), scene.wear.finds_particles
     wearing = (bodies[body].surface_material for body in wearing_bodies(bodies, scene.wear.wears))
     return law.sizes_converge and all(law.resolved(material, grid) for material in wearing)
 

@@ -6,6 +6,7 @@ import re
 import textwrap
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
+from pathlib import Path
 from typing import Any
 
 from bem.errors import InputError
@@ -28,13 +29,17 @@ def kind_meant(word: str) -> str:
     return name if name in kind_names() else kind_aliases().get(name, word)
 
 
-def scene_template(kind: str, *, everything: bool = False) -> str:
+def scene_template(
+    kind: str, *, everything: bool = False, surfaces: Mapping[str, str] | None = None, folder: Path | None = None
+) -> str:
     """Return a TOML scene that runs as it is: the keys that every user sets, each with its meaning and unit.
 
     Parameters
     ----------
     kind : a kind, a name that people guess for one, or a built-in scene, whose own text is then given.
     everything : also all other keys, as comments by level; refused for a built-in scene.
+    surfaces : files of measured surfaces by body, "lower" and "upper", in place of generated roughness.
+    folder : of the scene file, to which the paths are relative; the working folder if None.
 
     Raises
     ------
@@ -42,6 +47,8 @@ def scene_template(kind: str, *, everything: bool = False) -> str:
     """
     kind = kind_meant(kind)
     if kind not in kind_names() and kind in library():
+        if surfaces:
+            raise InputError(f"--lower, --upper: {kind} is a built-in scene; allowed: a kind, or bem run with --set")
         if everything:
             raise InputError(f"--all: {kind} is a built-in scene; allowed: a kind, such as {library()[kind]['kind']}")
         return without_description(library_text(kind))
@@ -52,6 +59,10 @@ def scene_template(kind: str, *, everything: bool = False) -> str:
             f"KIND {show(kind)}: not a kind of scene{close}; allowed: {listed}, or a built-in scene of `bem scenes`"
         )
     data = start_scene(kind)
+    if surfaces:
+        from bem.scenes.own_surfaces import own_surfaces_start  # reads files of instruments
+
+        data = own_surfaces_start(kind, data, surfaces, folder or Path.cwd())
     more = "Keys behind a # show their default or an example; levels: basic, advanced (models), expert (numerics)."
     lines = [
         f"# {get_kind(kind).title[:1].upper()}{get_kind(kind).title[1:]}.",

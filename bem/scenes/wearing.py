@@ -18,6 +18,8 @@ from pydantic import Field, model_validator
 
 from bem.errors import ConvergenceError, InputError
 from bem.grid import FloatArray, Grid
+from bem.notes.checks import PARTICLES_CUT
+from bem.packing import packed, unpacked
 from bem.scenes import plans
 from bem.scenes.common import PositiveLength, Table, problem
 from bem.scenes.context import Context, PlainContext, tell
@@ -63,13 +65,30 @@ class LastCycles(Table):
     """Number of wear cycles, and of the last ones over which means are taken, even if the surface still changes."""
 
     count: Count = key("Number of wear cycles.", "basic", default=200)
-    settled: Count = key("Number of last cycles over which means of wear particles are taken.", "advanced", default=50)
+    settled: Count = key(
+        "Number of last cycles over which means of wear particles are taken.",
+        "advanced",
+        default=50,
+        reason="50, or all of fewer",
+    )
     coarser_grid: bool = key(
         "Repeat the cycles on twice the cell size, for discretisation errors of roughness, wear and friction.",
         "advanced",
         default=False,
         strict=True,
     )
+
+    @model_validator(mode="before")
+    @classmethod
+    def _no_more_than_count(cls, data: Any) -> Any:
+        """Take the windows of means that are not given no longer than the loop."""
+        count = data.get("count") if isinstance(data, Mapping) else None
+        if not isinstance(count, int) or count < 1:
+            return data
+        defaults = {
+            name: cls.model_fields[name].default for name in ("averaged", "settled") if name in cls.model_fields
+        }
+        return {name: count for name, default in defaults.items() if default > count} | dict(data)
 
     @model_validator(mode="after")
     def _enough(self) -> Self:
@@ -94,12 +113,13 @@ def cycle_steps(
     without friction.
     """
     scene.wear.traction.check(friction)
+    finds = scene.wear.finds_particles
     strengths = [body.build().surface_material.yield_stress for body in (scene.lower, scene.upper)]
-    if scene.wear.criterion.needs_strength and all(value is None for value in strengths):
+    if finds.needs_strength and all(value is None for value in strengths):
         raise InputError(
             "lower.material: neither body has a yield_stress or a hardness, so nothing can wear; allowed: one of them"
         )
-    scene.wear.criterion.check_length(grid)
+    finds.check_length(grid)
     points, cycles = padded_points(grid.shape, grid.periodic), scene.cycles.count
     depths, deepest = min(scene.depths.count, usual), min(scene.depths.count, first)
     bodies = wearing_bodies((scene.lower.build(), scene.upper.build()), scene.wear.wears)
@@ -110,7 +130,7 @@ def cycle_steps(
         replace(contact, seconds=contact.seconds + _COPIED * cycles**2),
         rubbing_step(scene.wear.traction, grid, cycles),
         Step("stresses", "the criterion asks for none", skipped=True)
-        if not isinstance(scene.wear.criterion, WearCriterion)
+        if not isinstance(finds, WearCriterion)
         else Step(
             "stresses",
             "from the surface down to the first depth at which nothing yields",
@@ -120,7 +140,7 @@ def cycle_steps(
             memory=8.0 * (points / 4 * 12 * deepest + grid.cells * (deepest + 8)),
         ),
         Step("pieces", "runs of yielded voxels along depth", seconds=0.006 * cycles, memory=8.0 * grid.cells * 8)
-        if scene.wear.criterion.needs_strength
+        if finds.needs_strength
         else Step("pieces", "the criterion wears by pressure and distance, without any", skipped=True),
     )
 
@@ -141,7 +161,7 @@ def stress_transforms(wear: Any, depths: int) -> float:
     wear : criterion, stress_range and traction of a wear model.
     """
     fields = 1 if wear.traction.slides else 3
-    if wear.criterion.is_von_mises and not wear.stress_range:
+    if wear.finds_particles.is_von_mises and not wear.stress_range:
         return fields * (5.0 * depths + 1)
     return (2 if wear.stress_range else 1) * fields * 7.0 * depths
 
@@ -276,7 +296,7 @@ def wear_model(scene: Any, particles: ThirdBodies | None = None, defect: FilmDef
     """Build the wear model of a scene, with the particles and films between its surfaces."""
     from bem.wear import WearModel
 
-    table = scene.wear.model_dump(exclude={"third_bodies", "film_defect"})
+    table = scene.wear.model_dump(exclude={"third_bodies", "film_defect", "particle_criterion"})
     return WearModel(**table, third_bodies=particles, film_defect=defect)
 
 
@@ -293,7 +313,7 @@ def stress_below_strength(scene: Any, result: RunningIn, grid: Grid, load: float
     from bem.wear.loads import SurfaceLoad
     from bem.wear.yielding import largest_stress
 
-    law, pressure = scene.wear.criterion, result.pressure
+    law, pressure = scene.wear.finds_particles, result.pressure
     plain = isinstance(law, WearCriterion) and type(law).detach is WearCriterion.detach
     if not plain or scene.wear.stress_range or not scene.wear.traction.slides or pressure is None or not pressure.any():
         return None
@@ -301,7 +321,7 @@ def stress_below_strength(scene: Any, result: RunningIn, grid: Grid, load: float
     bodies = (scene.lower.build(), scene.upper.build())
     setup = WearSetup(grid, bodies, np.zeros(grid.shape), load, friction, scene.depths.build())
     acting = SurfaceLoad(pressure, friction)
-    return largest_stress(acting, setup, wear_model(scene), scene.sizes.body(result.wearing))[0]
+    return largest_stress(acting, setup, replace(wear_model(scene), criterion=law), scene.sizes.body(result.wearing))[0]
 
 
 def wear_loop(
@@ -321,23 +341,36 @@ def wear_loop(
     keep : what the checkpoint holds then besides the loop's own state, under names other than "wear".
     grid, load : of the contact, and on it [N]. contact : further arguments of `bem.wear.run_in`.
     """
-    from bem.wear import pack_state, run_in, unpack_state
+    from bem.wear import WearSetup, pack_state, run_in, unpack_state
 
     saved, count, (particles, defect) = context.saved(), scene.cycles.count, between(scene, grid, load)
 
+    model, bodies = wear_model(scene, particles, defect), (scene.lower.build(), scene.upper.build())
+    depths, sizing = scene.depths.build(), scene.wear.particle_criterion
+    found = [] if saved is None or sizing is None else [unpacked(saved["particles"])]
+
+    def find(now: RunningInState) -> None:
+        from bem.wear.sizing import particles_beside_law
+
+        setup = WearSetup(grid, bodies, np.zeros(grid.shape), load, float(now.cycles["friction"][-1]), depths)
+        found.append(particles_beside_law(now, setup, replace(model, criterion=sizing)))
+
     def after(now: RunningInState) -> None:
+        if sizing is not None:
+            find(now)
         figures = watch(now)
         if now.cycle % _CHECKPOINT_EVERY == 0 or now.cycle == count:
-            context.save({"wear": pack_state(now), **keep()})
+            beside = {} if sizing is None else {"particles": packed(np.concatenate(found))}
+            context.save({"wear": pack_state(now), **beside, **keep()})
         context.progress(now.cycle, count, "cycles", **figures)
 
     with context.timer("cycles"):
         result = run_in(
             *heights,
-            bodies=(scene.lower.build(), scene.upper.build()),
-            depths=scene.depths.build(),
+            bodies=bodies,
+            depths=depths,
             cycles=count,
-            model=wear_model(scene, particles, defect),
+            model=model,
             grid=grid,
             load=load,
             state=None if saved is None else unpack_state(saved["wear"]),
@@ -345,7 +378,43 @@ def wear_loop(
             **contact,
         )
     tell(context, result.notes)
-    return result
+    if sizing is None:
+        return result
+    rows = np.concatenate(found)
+    cut = rows["truncated"].mean() if rows.size else 0.0
+    if cut > _MOST_CUT:
+        context.note(PARTICLES_CUT(share=float(cut), unless="", reason="depths"))
+    return replace(result, particles=rows)
+
+
+_MOST_CUT = 0.02
+"""Share of particles cut off by the deepest depth above which their sizes are doubtful."""
+
+
+def sizes_over_cycles(scene: Any, result: RunningIn) -> tuple[FloatArray, FloatArray]:
+    """Return the volume-mean radius [m] (nan without particles) and the number of reported particles of each cycle.
+
+    Beside a wear law, the number is the worn volume of the body over the mean volume of its particles in the cycle.
+    """
+    from bem.wear.outcome import sizes_over_cycles
+
+    cycles, particles = result.cycles, scene.sizes.particles(result)
+    radius, number = sizes_over_cycles(cycles["cycle"], particles)
+    if scene.wear.particle_criterion is None:
+        return radius, number
+    total = np.bincount(particles["cycle"], particles["volume"], minlength=int(cycles["cycle"].max()) + 1)
+    total, worn = total[cycles["cycle"]], _share_worn(scene, result) * cycles["volume"]
+    return radius, np.divide(number * worn, total, out=np.zeros(len(cycles)), where=total > 0)
+
+
+def _share_worn(scene: Any, result: RunningIn) -> float:
+    """Return the share of the reported body in the volume that a wear law takes from both."""
+    if len(result.wearing) < 2:
+        return 1.0
+    law, bodies = scene.wear.criterion, (scene.lower.build(), scene.upper.build())
+    friction = float(result.cycles["friction"][-1])
+    rates = [law.rate(bodies[0], friction), law.rate(bodies[1], friction) * law.upper_over_lower]
+    return rates[scene.sizes.body(result.wearing)] / (sum(rates) or 1.0)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -407,7 +476,7 @@ class WornSurface:
         before, after = before[: grid.shape[0]], after[: grid.shape[0]]
         figures = {
             "cycle": np.arange(1, len(cycles) + 1),
-            "particles_per_cycle": float(late.size / len(settled)),
+            "particles_per_cycle": float(sizes_over_cycles(scene, result)[1][-len(settled) :].mean()),
             "convolutions_per_cycle": float(cycles["convolutions"].mean()),
             "truncated_particles": int(late["truncated"].sum()),
             "step_error": result.step_error,

@@ -310,7 +310,7 @@ def advance(
         else:
             heights[body] = heights[body] - removal.thickness
             remembered[body] = removal.memory
-        table.append(_particle_rows(removal, setup.grid, cycle))
+        table.append(particle_rows(removal, setup.grid, cycle))
     for body, cut in enumerate(() if contact.third_bodies is None else contact.third_bodies.cut):
         heights[body] = _remove_from_window(heights[body], cut, offset if body == moving else 0)
     elapsed = time.perf_counter() - began
@@ -427,7 +427,8 @@ def _slide(pressure: FloatArray, cells: int, periodic: bool) -> FloatArray:
     return moved
 
 
-def _particle_rows(removal: Removal, grid: Grid, cycle: int) -> NDArray[np.void]:
+def particle_rows(removal: Removal, grid: Grid, cycle: int) -> NDArray[np.void]:
+    """Return the particles of a removal as rows of `PARTICLE_FIELDS`."""
     return np.array(
         [
             (

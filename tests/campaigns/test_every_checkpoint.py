@@ -23,6 +23,10 @@ RUNNING_IN = small_scenes.PATCH | {
     "cycles": {"count": 12, "averaged": 3, "settled": 4},
     "sharing": {"film_points": 200},
 }
+SIZED = {
+    "criterion": {"kind": "archard", "specific_wear_rate": "1e-7 mm^3/(N*m)", "distance": "1 mm"},
+    "particle_criterion": "von_mises",
+}
 HOT = {
     "lower": {
         "material": {"catalogue": "steel-52100", "hardness": "1.08 GPa"},
@@ -73,6 +77,7 @@ KINDS = {
     "running-in-hot": RUNNING_IN | HOT,
     "running-in-with-particles": RUNNING_IN | {"wear": {"third_bodies": BODIES}},
     "running-in-partial-slip": RUNNING_IN | STICKING,
+    "running-in-archard": RUNNING_IN | {"wear": SIZED},
     "running-in-life": LIFE,
     "friction": small_scenes.PATCH
     | {"kind": "friction", "speeds": ["0.003 m/s", "0.02 m/s", "0.5 m/s"], "film": {"points": 300}},

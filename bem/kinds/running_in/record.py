@@ -137,4 +137,4 @@ def summarise(scene: RunningInScene, axes: Sequence[Axis], records: Sequence[Run
 
 def scattering(scene: RunningInScene) -> tuple[str, ...]:
     """Figures of pieces where there are none; that any converge here was shown of no criterion."""
-    return () if scene.wear.criterion.needs_strength else tuple(without_bars(RunningInRecord))
+    return () if scene.wear.finds_particles.needs_strength else tuple(without_bars(RunningInRecord))

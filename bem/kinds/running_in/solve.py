@@ -77,7 +77,7 @@ def _record(
 ) -> RunningInRecord:
     """The figures of a wear loop and what is kept of it."""
     from bem.wear.mixed_figures import mixed_figures
-    from bem.wear.outcome import hertz_area, sizes_over_cycles
+    from bem.wear.outcome import hertz_area
 
     setup, cycles, rows, averaged = shared.contact.setup, result.cycles, shared.rows, scene.cycles.averaged
     grid, load = setup.grid, scene.contact.on_patch(setup.load, setup.grid.lengths)
@@ -87,7 +87,7 @@ def _record(
     figures = mixed_figures(shared, cycles, averaged)
     over: dict[str, Any] = {f"{n}_over_cycles": rows[n].copy() for n in ("friction", "film_load", "minimum_film")}
     over |= {f"{n}_over_cycles": cycles[n].astype(np.float64) for n in ("rms_height", "volume")}
-    over["particles_over_cycles"] = sizes_over_cycles(cycles["cycle"], worn.particles)[1]
+    number = over["particles_over_cycles"] = wearing.sizes_over_cycles(scene, result)[1]
     over |= pieces.mean_radii(worn.late, scene.sizes, *_RADII)
     hot = scene.thermal != "off"
     return RunningInRecord(
@@ -119,8 +119,8 @@ def _record(
         # the same number as `friction`, which is the sum of its two parts as in the kind `friction`; here it stands
         # beside `friction_initial`
         friction_run_in=figures.friction,
-        particles_first_cycle=float((worn.particles["cycle"] == 1).sum()),
-        particles_last_cycles=float((worn.particles["cycle"] > len(cycles) - averaged).sum()),
+        particles_first_cycle=float(number[0]),
+        particles_last_cycles=float(number[-averaged:].sum()),
         frame=np.array(_frame_cycles(scene.cycles.count)[: len(own["pressure_frames"])]),
         **own,
     )

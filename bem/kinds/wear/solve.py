@@ -52,13 +52,13 @@ def _record(
 ) -> WearRecord:
     """The figures of a wear loop, means over its settled cycles, and its tables."""
     from bem.particles import volume_mean_radius
-    from bem.wear.outcome import contact_strip, settled_means, sizes_over_cycles
+    from bem.wear.outcome import contact_strip, settled_means
 
     assert result.pressure is not None
     strip = contact_strip(result.pressure, result.state.strip)
     worn = wearing.WornSurface.of(scene, initial, result, grid, share, strip)
     cycles, particles, late, (load,) = result.cycles, worn.particles, worn.late, scene.cylinder.loads
-    radius, number = sizes_over_cycles(cycles["cycle"], particles)
+    radius, number = wearing.sizes_over_cycles(scene, result)
     between, borne = scene.wear.third_bodies, worn.figures.get("third_body_load_share", 0.0)
     settled = settled_means(cycles[-scene.cycles.settled :], grid.area)
     table: dict[str, Any] = {

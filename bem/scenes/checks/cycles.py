@@ -15,6 +15,7 @@ from bem.grid import FloatArray, Grid
 from bem.notes import Level, Note
 from bem.notes.accuracy import NoBar, no_error_bar
 from bem.notes.checks import (
+    NO_PARTICLE_SIZES,
     NO_WEAR_RATE,
     NOT_SETTLED,
     PARTICLES_OF_BODY,
@@ -267,6 +268,18 @@ def long_steps_of_wear_by_pressure(facts: Facts, outcome: Outcome) -> Iterator[N
     if long:
         step, depth = max(long, key=lambda pair: pair[0] / pair[1])
         yield WEAR_STEPS_LONG(step=1e-9 * step, depth=1e-9 * depth, of=_of(len(long), len(steps)), reason="error")
+
+
+@outcome_check
+def law_without_particles(facts: Facts, outcome: Outcome) -> Iterator[Note]:
+    """Archard's law knows no particles; of bodies with a yield stress a stress criterion finds their sizes."""
+    for case in facts.cases:
+        if not facts.of_kind("wear", "running-in") or case.wear is None or case.wear.particle_criterion is not None:
+            return
+        strong = any(material.yield_stress is not None for material in case.wearing)
+        if case.wear.criterion.wears_by_pressure and case.wear.traction.slides and strong:
+            yield NO_PARTICLE_SIZES(law=case.wear.criterion.name)
+            return
 
 
 @outcome_check

@@ -224,7 +224,7 @@ def depths_coarser_than_cells(facts: Facts) -> Iterator[Note]:
 def few_cells_per_length_of_the_criterion(facts: Facts) -> Iterator[Note]:
     """Below three cells sizes follow the mesh under any criterion (the documentation on wear criteria)."""
     for case in facts.cases:
-        law = None if case.wear is None else case.wear.criterion
+        law = None if case.wear is None else case.wear.finds_particles
         if law is None or case.grid is None:
             continue
         coarse = [law.length(material) for material in case.wearing if not law.resolved(material, case.grid)]

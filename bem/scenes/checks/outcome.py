@@ -302,9 +302,9 @@ def nothing_comes_off(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     stresses = np.ravel(np.array(outcome.summary.get("largest_stress_Pa"), dtype=np.float64))
     stresses = stresses if len(stresses) == len(counts) else np.full(len(counts), np.nan)
     for number, case, stress in zip(counts, facts.cases, stresses, strict=True):
-        if number == 0 and case.wear is not None and case.wear.criterion.needs_strength:
+        if number == 0 and case.wear is not None and case.wear.finds_particles.needs_strength:
             takes = _what_it_takes(case) or _how_far(case, float(stress))
-            yield NOTHING_CAME_OFF(case.label, law=case.wear.criterion.name, takes=takes)
+            yield NOTHING_CAME_OFF(case.label, law=case.wear.finds_particles.name, takes=takes)
 
 
 def _how_far(case: Case, stress: float) -> str:
@@ -349,6 +349,8 @@ def particles_cut_by_the_depths(facts: Facts, outcome: Outcome) -> Iterator[Note
     """A piece that reaches the last depth goes on below it."""
     cut, number = outcome.summary.get("truncated_particles"), outcome.summary.get("particles_per_cycle")
     if cut is None or number is None or not facts.of_kind("wear", "running-in"):
+        return
+    if facts.scene.wear.particle_criterion is not None:  # told by the loop: numbers are those of the wear law
         return
     settled = facts.scene.cycles.settled
     shares = [c / (n * settled) for c, n in zip(numbers(cut), numbers(number), strict=False) if n > 0]

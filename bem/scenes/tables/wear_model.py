@@ -25,6 +25,12 @@ class WearScenePart(Table):
         "advanced",
         default=VonMises(),
     )
+    particle_criterion: Annotated[Detachment, LawKey("criterion")] | None = key(
+        "Stress criterion that gives sizes of wear particles beside a wear law by pressure; it removes nothing.",
+        "advanced",
+        default=None,
+        example="averaged_von_mises",
+    )
     stress_range: bool = key(
         "Compare half the change of stress since the last cycle (none before the first) with the yield stress.",
         "advanced",
@@ -84,7 +90,25 @@ class WearScenePart(Table):
         if self.film_defect is not None:
             law, traction = self.criterion, self.traction
             misfits += film_defect_misfits(law.name, law.wears_by_pressure, traction.name, traction.slides)
+        if self.particle_criterion is not None:
+            named = self.particle_criterion.name
+            if not self.criterion.wears_by_pressure:
+                misfits.append(
+                    f"particle_criterion beside the criterion {self.criterion.name}, which finds particles itself; "
+                    "allowed: a law that wears by pressure, such as archard, or no particle_criterion"
+                )
+            if named not in _SIZING:
+                misfits.append(f"{named} as particle_criterion; allowed: {', '.join(_SIZING)}")
         for text in misfits:
             found, allowed = text.rsplit("; allowed: ", 1)
             raise problem(found, allowed)
         return self
+
+    @property
+    def finds_particles(self) -> Detachment:
+        """The criterion whose particles are reported: `particle_criterion` beside a wear law, else `criterion`."""
+        return self.particle_criterion or self.criterion
+
+
+_SIZING = ("averaged_von_mises", "von_mises", "tresca", "maximum_tension")
+"""Stress criteria without a memory, which can be evaluated without removing material."""

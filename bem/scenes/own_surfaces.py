@@ -1,0 +1,208 @@
+"""First scenes on measured surfaces: files of an instrument in place of generated roughness, and a mesh that fits them.
+
+`bem new KIND --lower FILE --upper FILE` writes them. Verified in tests/scenes/test_own_surfaces.py.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+from collections.abc import Mapping
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+from bem.errors import InputError
+from bem.notes.note import percent
+from bem.quantities import si
+from bem.scenes.kind import get_kind
+from bem.surfaces.examples import example_path
+
+KINDS = ("contact", "friction", "running-in", "wear")
+_MOST_FILLED = 0.25
+"""Share of missing points of a map above which filling them draws most of what touches."""
+_MOST_SPIKES = 0.005
+"""Share of points that may be outliers of an instrument; more of them are texture."""
+_MOST_CELLS = 192
+"""Cells along an axis of a first mesh: a wear loop of 100 cycles takes some minutes."""
+_MARGIN = 2.2
+"""Length of the mesh over the half-width within which the surfaces touch."""
+_FEWEST_CELLS = 48
+"""Cells along an axis of a first mesh, at least."""
+_CELLS_PER_LENGTH = 3
+"""Cells to the averaging length of the particle criterion."""
+_SHORTEST_AVERAGE = 300e-9
+"""Averaging length of the particle criterion where cells are small enough [m]."""
+_WEAR_RATE = 1e-16
+"""Specific wear rate of a first scene [m^2/N]: 1e-7 mm^3/(N m), of steel in boundary lubrication."""
+_STEP = 0.2
+"""Compliance by wear of a cycle over that by which the bodies give way from cell to cell: a stable step."""
+
+
+@dataclass(frozen=True)
+class _Map:
+    """A measured map: cells, their spacing [m], keys of its table in a scene, and its rms height Sq [m]."""
+
+    shape: tuple[int, int]
+    spacing: tuple[float, float]
+    table: dict[str, Any]
+    rms_height: float
+
+    @property
+    def lengths(self) -> tuple[float, float]:
+        """Side lengths [m]."""
+        return self.shape[0] * self.spacing[0], self.shape[1] * self.spacing[1]
+
+
+def own_surfaces_start(kind: str, start: Mapping[str, Any], files: Mapping[str, str], folder: Path) -> dict[str, Any]:
+    """Return values of a first scene of a kind on measured surfaces.
+
+    start : values of the kind's first scene. files : path of each body's map, by "lower" and "upper". folder : of the
+    scene file, to which paths are relative.
+
+    Raises
+    ------
+    InputError : a kind without measured surfaces, a map with too many missing points, or one too small for the contact.
+    SurfaceFileError : a file that cannot be read.
+    """
+    if kind not in KINDS:
+        raise InputError(f"--lower, --upper: not for kind {kind}; allowed: with {', '.join(KINDS)}")
+    found = {body: _read(body, path, folder) for body, path in files.items()}
+    data = {key: dict(value) if isinstance(value, Mapping) else value for key, value in start.items()}
+    for body, one in found.items():
+        data[body] = {**data[body], "surface": one.table}
+    spacing = max(max(one.spacing) for one in found.values())
+    smallest = min(min(one.lengths) for one in found.values())
+    if kind == "contact":
+        data.pop("shape", None)  # a patch of a larger contact, on cells and area of the maps
+        return data | {"grid": {"periodic": True}, "contact": {"mean_pressure": "20 MPa", "behaviour": "capped"}}
+    rms_height = math.hypot(*(one.rms_height for one in found.values()))
+    data, length = _fitted(kind, data, spacing, smallest, rms_height)
+    cells, cell = _mesh(length, spacing)
+    if kind == "wear":
+        data["domain"] = {"cells": cells, "lengths": _length(cells * cell)}
+    else:
+        data["grid"] = {"shape": cells, "spacing": _length(cell)}
+    if kind == "friction":
+        return data
+    if kind == "running-in":
+        data["speeds"] = {"values": [data["speeds"]["first"]]}
+    data["depths"] = {"count": 64, "spacing": _length(cell / 2)}
+    return data | {"wear": _wear(kind, data, cell)}
+
+
+def _read(body: str, path: str, folder: Path) -> _Map:
+    """Read a map and choose what its table needs: form removal, and despiking where there are outliers."""
+    from bem.surfaces import read_surface
+    from bem.surfaces.filter import count_spikes
+
+    surface = read_surface(path, detrend="curvature")
+    cells = surface.shape[0] * surface.shape[1]
+    missing = float(surface.metadata.get("missing_points", 0) or 0) / cells
+    if missing > _MOST_FILLED:
+        raise InputError(
+            f"--{body}: {Path(path).name}: {percent(missing)} of the points are missing, so that most of what touches "
+            f"would be filled in; allowed: up to {percent(_MOST_FILLED)}; measure again, or cut out a part without "
+            "holes in the instrument's program"
+        )
+    known = path if example_path(path) is not None else os.path.relpath(path, folder)
+    table = {"kind": "measured", "path": Path(known).as_posix(), "detrend": "curvature"}
+    spikes = count_spikes(surface.heights, surface.spacing) / cells
+    table |= {"despike": 6} if 0 < spikes < _MOST_SPIKES else {}
+    return _Map(surface.shape, surface.spacing, table, float(surface.heights.std()))
+
+
+def _half_width(kind: str, data: Mapping[str, Any]) -> float:
+    """Half-width of the Hertz contact of a first scene [m]."""
+    scene = _without_roughness(kind, data)
+    if kind == "wear":
+        smooth = scene.smooth_contact()
+        assert smooth is not None
+        return float(smooth.semi_axes[0])
+    from bem.scenes.checks.hertz import smooth_contact
+
+    radius = scene.contact.point_radii[0]
+    smooth = smooth_contact(scene.lower.build(), scene.upper.build(), (radius, radius), load=max(scene.contact.loads))
+    assert smooth is not None
+    return float(max(smooth.semi_axes))
+
+
+def _without_roughness(kind: str, data: Mapping[str, Any]) -> Any:
+    """The scene of these values with smooth bodies."""
+    bodies = {
+        body: {key: value for key, value in data[body].items() if key != "surface"} for body in ("lower", "upper")
+    }
+    return get_kind(kind).model.model_validate({**data, **bodies})
+
+
+def _mesh(length: float, spacing: float) -> tuple[int, float]:
+    """Cells along each axis and their size [m]: the coarser spacing of the maps, on a length that holds the contact."""
+    cells = min(2 * math.floor(length / spacing / 2 + 1e-9), _MOST_CELLS)
+    if cells < _FEWEST_CELLS:
+        raise InputError(
+            f"--lower, --upper: the maps have {cells} points of {si(spacing, 'm')} across the contact of the first "
+            f"scene; allowed: {_FEWEST_CELLS} or more: larger maps, or finer ones"
+        )
+    return cells, max(spacing, length / _MOST_CELLS)
+
+
+def _fitted(
+    kind: str, data: dict[str, Any], spacing: float, smallest: float, rms_height: float
+) -> tuple[dict[str, Any], float]:
+    """Return the values with a contact that fits the maps, and the length of the mesh [m].
+
+    Rough surfaces touch where the gap of the smooth bodies, x^2 / 2R, is within about 1.5 Sq beside the Hertz contact.
+    Where that is too large for the maps or too small for their cells, radius and load change at the same Hertz
+    pressure: half-width in proportion to the radius, load to its square, of a cylinder of the same width to the radius.
+    rms_height : Sq of both surfaces together [m].
+    """
+    scene = _without_roughness(kind, data)
+    half_width, body = _half_width(kind, data), scene.cylinder if kind == "wear" else scene.contact
+    radius = body.radius if kind == "wear" else body.ball
+
+    def length(scale: float) -> float:
+        return _MARGIN * math.hypot(scale * half_width, math.sqrt(3 * scale * radius * rms_height))
+
+    wanted = min(max(length(1.0), 1.1 * _FEWEST_CELLS * spacing), 0.98 * smallest)
+    if wanted == length(1.0):
+        return data, wanted
+    # of (scale a)^2 + 3 scale R Sq = (wanted / margin)^2 the positive root
+    linear, square = 3 * radius * rms_height, half_width**2
+    scale = (math.sqrt(linear**2 + 4 * square * (wanted / _MARGIN) ** 2) - linear) / (2 * square)
+    smaller = {
+        "radius" if kind == "wear" else "ball": f"{_digits(1e3 * scale * radius)} mm",
+        "loads": [f"{_digits(scale ** (1 if kind == 'wear' else 2) * load)} N" for load in body.loads],
+    }
+    table = "cylinder" if kind == "wear" else "contact"
+    return data | {table: data[table] | smaller}, wanted
+
+
+def _digits(value: float) -> str:
+    """A number, rounded down to two digits."""
+    unit = 10.0 ** (math.floor(math.log10(value)) - 1)
+    return f"{math.floor(value / unit * (1 + 1e-9)) * unit:.6g}"
+
+
+def _wear(kind: str, data: Mapping[str, Any], cell: float) -> dict[str, Any]:
+    """Archard's law with the particles of the averaged von Mises criterion, and a distance that keeps steps stable."""
+    from bem.grid import Grid
+    from bem.wear.criterion.local import cell_to_cell_compliance
+
+    scene = _without_roughness(kind, data)
+    lower, upper = scene.lower.build(), scene.upper.build()
+    most = cell_to_cell_compliance(Grid((32, 32), (cell, cell)), (lower, upper))
+    distance = _STEP * most / _WEAR_RATE
+    average = max(_SHORTEST_AVERAGE, _CELLS_PER_LENGTH * cell)
+    return {
+        "criterion": {
+            "kind": "archard",
+            "specific_wear_rate": f"{1e9 * _WEAR_RATE:.0e} mm^3/(N*m)",
+            "distance": f"{float(f'{1e3 * distance:.1g}'):g} mm",
+        },
+        "particle_criterion": {"kind": "averaged_von_mises", "averaging_length": _length(average)},
+    }
+
+
+def _length(value: float) -> str:
+    """A length [m] as a scene writes it."""
+    return f"{float(f'{1e6 * value:.4g}'):g} um"

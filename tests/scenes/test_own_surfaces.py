@@ -1,0 +1,103 @@
+"""First scenes on measured surfaces: they plan without a caution and run to an end inside the model."""
+
+import shutil
+from pathlib import Path
+
+import numpy as np
+import pytest
+from typer.testing import CliRunner
+
+from bem.campaigns import campaign_of, compute
+from bem.cli import build as command_line
+from bem.errors import InputError
+from bem.grid import Grid
+from bem.notes import Level
+from bem.runs import plan_scene
+from bem.scenes import build
+from bem.scenes.checks import examine, outcome_warnings, scene_warnings
+from bem.scenes.starts import start_scene
+from bem.scenes.template import scene_template
+from bem.surfaces import Surface, generate_surface, write_surface
+from bem.surfaces.examples import FOLDER
+
+FILES = {"lower": "example/ground-disk.al3d", "upper": "example/polished-pin.x3p"}
+
+
+@pytest.mark.parametrize("kind", ["contact", "friction", "running-in", "wear"])
+def test_a_scene_on_own_surfaces_plans_without_a_caution(kind, tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(scene_template(kind, surfaces=FILES, folder=tmp_path))
+    scene, _ = plan_scene(path)
+    assert scene.lower.surface.path.endswith("ground-disk.al3d")
+    assert scene.lower.surface.despike == 6
+    assert not [
+        note for note in scene_warnings(examine(scene)) if note.level != Level.INFO and note.code != "patch-short"
+    ]
+
+
+def test_the_mesh_has_the_cells_of_the_coarser_map_and_holds_the_contact(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(scene_template("running-in", surfaces=FILES, folder=tmp_path))
+    grid = build.grid_of(plan_scene(path)[0].grid)
+    assert grid.spacing == pytest.approx((0.8e-6, 0.8e-6))
+    assert 102.4e-6 > grid.lengths[0] > 4 * 13.8e-6  # Hertz radius of the first scene
+
+
+def test_a_contact_larger_than_the_maps_shrinks_at_the_same_pressure(tmp_path):
+    """The first friction scene has a contact of 139 um, larger than the maps of 102 um."""
+    path = tmp_path / "mine.toml"
+    path.write_text(scene_template("friction", surfaces=FILES, folder=tmp_path))
+    scene, usual = plan_scene(path)[0], plan_scene(start_scene("friction"))[0]
+    (smaller,), (larger,) = (
+        [case.smooth for case in examine(one).cases[:1] if case.smooth is not None] for one in (scene, usual)
+    )
+    assert smaller.maximum_pressure == pytest.approx(larger.maximum_pressure, rel=0.05)
+    assert 2 * smaller.semi_axes[0] < build.grid_of(scene.grid).lengths[0] <= 102.4e-6
+
+
+def test_own_surfaces_run_in_inside_the_model_with_particles(tmp_path):
+    path = tmp_path / "mine.toml"
+    path.write_text(scene_template("running-in", surfaces=FILES, folder=tmp_path).replace("count = 50", "count = 12"))
+    path.write_text(path.read_text().replace("[cycles]\n", "[cycles]\nsettled = 4\n"))
+    campaign = campaign_of(plan_scene(path)[0])
+    outcome = compute(campaign).outcome
+    summary = outcome.summary
+    assert 0 < summary["Sq_final_nm"][0] < summary["Sq_initial_nm"][0]
+    assert summary["particle_equivalent_radius_nm"][0] > 0
+    assert summary["particles_per_cycle"][0] > 0
+    notes = outcome_warnings(examine(campaign.scene), outcome)
+    assert [note for note in notes if note.level == Level.OUTSIDE_MODEL] == []
+
+
+def test_the_command_writes_paths_from_the_folder_of_the_scene(tmp_path, monkeypatch):
+    shutil.copy(FOLDER / "ground-disk.al3d", tmp_path / "disk.al3d")
+    (tmp_path / "runs").mkdir()
+    monkeypatch.chdir(tmp_path)
+    done = CliRunner().invoke(command_line(), ["new", "contact", "runs/mine.toml", "--lower", "disk.al3d"])
+    assert done.exit_code == 0, done.output
+    scene, _ = plan_scene(tmp_path / "runs" / "mine.toml")
+    assert scene.lower.surface.kind == "measured"
+    assert 'path = "../disk.al3d"' in (tmp_path / "runs" / "mine.toml").read_text()
+
+
+def _map(path, heights, spacing):
+    return str(write_surface(path, Surface(heights, spacing)))
+
+
+def test_maps_that_are_too_small_or_full_of_holes_are_refused_with_what_to_do(tmp_path, monkeypatch):
+    grid = Grid((32, 32), (0.4e-6, 0.4e-6), periodic=(True, True))
+    heights = generate_surface(grid, rms_height=50e-9, correlation_length=1e-6, seed=1)
+    small = _map(tmp_path / "small.npz", heights, grid.spacing)
+    with pytest.raises(InputError, match=r"30 points of 400 nm across the contact.*larger maps"):
+        scene_template("running-in", surfaces={"lower": small}, folder=tmp_path)
+    monkeypatch.syspath_prepend(str(Path(__file__).parents[1] / "surfaces"))
+    import make_examples
+
+    cells = make_examples.CELLS
+    heights = 1e-7 * np.random.default_rng(1).standard_normal((cells, cells)).astype(np.float32)
+    heights[:, :40] = np.nan
+    make_examples.write_al3d(tmp_path / "holes.al3d", heights)
+    with pytest.raises(InputError, match=r"31 % of the points are missing.*measure again"):
+        scene_template("running-in", surfaces={"lower": str(tmp_path / "holes.al3d")}, folder=tmp_path)
+    with pytest.raises(InputError, match="traction"):
+        scene_template("traction", surfaces=FILES, folder=tmp_path)

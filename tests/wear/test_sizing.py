@@ -1,0 +1,66 @@
+"""Sizes of particles beside a wear law: those of the stress criterion, from the contact that the law wears."""
+
+import numpy as np
+import pytest
+from small_scenes import WEAR
+
+from bem.campaigns import campaign_of, compute
+from bem.errors import InputError
+from bem.runs import plan_scene
+from bem.scenes.checks import examine, outcome_warnings
+
+ARCHARD = '[wear]\ncriterion = { kind = "archard", specific_wear_rate = "1e-7 mm^3/(N*m)", distance = "%s" }\n'
+SIZES = 'particle_criterion = "von_mises"\n'
+
+
+def run(tmp_path, text):
+    path = tmp_path / "scene.toml"
+    path.write_text(text)
+    campaign = campaign_of(plan_scene(path)[0])
+    return campaign, compute(campaign).outcome
+
+
+def test_particles_of_the_first_contact_are_those_of_the_criterion_and_nothing_more_leaves(tmp_path):
+    short = WEAR.replace("count = 12\nsettled = 4", "count = 1\nsettled = 1")
+    _, alone = run(tmp_path, short)
+    _, plain = run(tmp_path, short + ARCHARD % "1 nm")
+    _, beside = run(tmp_path, short + ARCHARD % "1 nm" + SIZES)
+    assert (beside.variables["height_after"].values == plain.variables["height_after"].values).all()
+    assert beside.variables["volume"].values == plain.variables["volume"].values > 0
+    volumes = [np.sort(one.variables["particle_volume"].values) for one in (alone, beside)]
+    assert volumes[0].size > 3
+    assert volumes[1] == pytest.approx(volumes[0], rel=1e-3)
+    assert plain.variables["particle_volume"].values.size == 0
+    assert beside.summary["particle_equivalent_radius_nm"] == pytest.approx(
+        alone.summary["particle_equivalent_radius_nm"], rel=1e-3
+    )
+
+
+def test_the_number_of_particles_is_the_volume_of_the_law_over_their_mean_volume(tmp_path):
+    _, found = run(tmp_path, WEAR + ARCHARD % "1 mm" + SIZES)
+    volume, cycle = (found.variables[f"particle_{name}"].values.ravel() for name in ("volume", "cycle"))
+    number, worn = (found.variables[name].values.ravel() for name in ("particles", "volume"))
+    for index in range(12):
+        assert number[index] == pytest.approx(worn[index] / volume[cycle == index + 1].mean(), rel=1e-12)
+    assert found.summary["particles_per_cycle"] == pytest.approx(number[-4:].mean())
+
+
+def test_a_law_without_sizes_says_how_to_have_them(tmp_path):
+    for text, told in ((ARCHARD % "1 mm", 1), (ARCHARD % "1 mm" + SIZES, 0), ("", 0)):
+        campaign, found = run(tmp_path, WEAR + text)
+        codes = [note.code for note in outcome_warnings(examine(campaign.scene), found)]
+        assert codes.count("no-particle-sizes") == told
+
+
+@pytest.mark.parametrize(
+    ("wear", "refused"),
+    [
+        (SIZES, "particle_criterion beside the criterion von_mises"),
+        (ARCHARD % "1 mm" + 'particle_criterion = "junction"\n', "junction as particle_criterion"),
+    ],
+)
+def test_what_cannot_give_sizes_is_refused(tmp_path, wear, refused):
+    path = tmp_path / "scene.toml"
+    path.write_text(WEAR + ("[wear]\n" if "criterion = {" not in wear else "") + wear)
+    with pytest.raises(InputError, match=refused):
+        plan_scene(path)
