@@ -33,7 +33,8 @@ class Reference:
         place = next((told[name] for name in ("journal", "booktitle", "publisher", "school") if name in told), "")
         pages = f", {told['pages']}" if "pages" in told else ""
         where = " ".join(part for part in (place, told.get("volume", "")) if part)
-        return f"{names} ({told['year']}). {told['title']}. {where}{pages}."
+        note = f" ({told['note']})" if "note" in told else ""
+        return f"{names} ({told['year']}). {told['title']}. {where}{pages}.{note}"
 
 
 @cache

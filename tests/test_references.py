@@ -24,7 +24,8 @@ def test_every_entry_is_read_whole():
         assert one.bibtex.count("{") == one.bibtex.count("}")
         assert not set("{}\\") & set(one.text), key
     assert known["briscoe1978"].text == (
-        "Briscoe, B. J. and Tabor, D. (1978). Shear properties of thin polymeric films. Journal of Adhesion 9, 145-155."
+        "Briscoe, B. J. and Tabor, D. (1978). Shear properties of thin polymeric films. Journal of Adhesion 9, "
+        "145-155. (title and pages not checked against the paper)"
     )
 
 
@@ -32,8 +33,11 @@ def test_every_key_that_is_cited_has_an_entry():
     keys = {key for family in FAMILIES for law in laws_of(family).values() for key in law.cites}
     keys |= {key for kind in kind_names() for key in sources_of_kind(kind)}
     keys |= {
-        key for table in (*cited._HEAT.values(), cited._GENERATED, cited._MOMENTS, cited._LAYERED) for key in table
+        key
+        for table in (*cited._HEAT.values(), cited._GENERATED, cited._MOMENTS, cited._LAYERED, cited._DESPIKED)
+        for key in table
     }
+    keys |= {*cited._ROUGH_CONTACT, *cited._AREA_THEORIES}
     assert keys <= set(references())
     assert all(sources_of_kind(kind) for kind in kind_names())
 
@@ -80,3 +84,21 @@ def test_a_machine_element_cites_its_ratings_and_its_film(name, own, tmp_path):
     assert done.exit_code == 0
     for key in (own, "zhou1991", "roelands1966"):
         assert references()[key].bibtex in done.output
+
+
+def test_laws_without_a_source_are_constants_tables_and_definitions():
+    bare = {name for family in FAMILIES for name, law in laws_of(family).items() if not law.cites}
+    assert bare <= {
+        *("isoviscous", "incompressible", "newtonian", "constant", "table", "gross_sliding"),
+        *("table_over_pressure", "table_over_speed", "table_over_temperature", "temperature_dependent"),
+    }
+
+
+def test_rough_contacts_cite_their_indices_and_despiked_maps_their_rule():
+    rough = sources("rough-contact")
+    assert {"nayak1971", "greenwood1966", "mikic1974"} <= set(rough)
+    assert "hampel1974" not in rough
+    assert not {"nayak1971", "mikic1974"} & set(sources("hertz-sphere"))
+    pair = ("lower.surface.path=example/ground-disk.al3d", "upper.surface.path=example/polished-pin.x3p")
+    own = sources("measured-surfaces", *pair, "lower.surface.despike=6")
+    assert {"persson2001", "bush1975", "hampel1974"} <= set(own)

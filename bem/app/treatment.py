@@ -15,7 +15,7 @@ import numpy as np
 from bem.app.pictures import Picture, map_picture
 from bem.app.remedies import length_text
 from bem.errors import InputError
-from bem.grid import Grid
+from bem.grid import FloatArray, Grid
 from bem.memory import available_memory
 from bem.plots.report import spelled
 from bem.scenes.common import GridScene, MeasuredSurface
@@ -77,6 +77,7 @@ def treated(path: str, asked: dict[str, Any]) -> Treated:
     for name, value in dataclasses.asdict(described).items():
         unit = "" if name in ("Ssk", "Sku", "Sdq", "slope_x", "slope_y") else "_m"
         figures.append((name.replace("_", " "), "-" if math.isnan(value) else spelled(name + unit, value)[1]))
+    figures += _functional(heights, grid)
     surface = {"kind": "measured", "path": path, **keys}
     own = None
     if asked.get("cells", "") != "":
@@ -84,6 +85,21 @@ def treated(path: str, asked: dict[str, Any]) -> Treated:
     sides = (np.asarray(grid.x), np.asarray(grid.y))
     pictures = [map_picture(heights, sides, Path(path).name, "m", solid=solid) for solid in (False, True)]
     return Treated(pictures[0], pictures[1], tuple(figures), tuple(map(str, notes)), surface, own, grid.shape, lengths)
+
+
+def _functional(heights: FloatArray, grid: Grid) -> list[tuple[str, str]]:
+    """Figures of the material ratio curve and the Hurst exponent, of maps that have them."""
+    from bem.surfaces import fit_self_affine, material_ratio, radial_spectrum
+
+    if heights.size < 10 or not np.ptp(heights) > 0:
+        return []
+    curve = material_ratio(heights)
+    figures = [(name, spelled(f"{name}_m", getattr(curve, name))[1]) for name in ("Sk", "Spk", "Svk")]
+    try:
+        fit = fit_self_affine(radial_spectrum(heights, grid.spacing))
+    except InputError:  # too small or too smooth for a fit
+        return figures
+    return [*figures, ("Hurst exponent", f"{fit.hurst:.2f} ± {fit.hurst_error:.2f}")] if 0 < fit.hurst < 1 else figures
 
 
 def _check_cells(shape: tuple[int, int]) -> None:

@@ -8,7 +8,7 @@ from typing import Any
 from pydantic import BaseModel
 
 from bem.laws import Law
-from bem.scenes.common import GeneratedSurface, SceneModel
+from bem.scenes.common import GeneratedSurface, MeasuredSurface, SceneModel
 from bem.scenes.kind import sources_of_kind
 
 _HEAT = {
@@ -17,7 +17,20 @@ _HEAT = {
 }
 _GENERATED = {"hu1992": "generated roughness"}
 _MOMENTS = {"schreiber1996": "skewness and kurtosis of roughness"}
+_DESPIKED = {"hampel1974": "outliers of measured roughness"}
+_ROUGH_CONTACT = {
+    "nayak1971": "asperities of rough surfaces",
+    "greenwood1966": "plasticity index by asperities",
+    "mikic1974": "plasticity index by slope",
+}
+_AREA_THEORIES = {
+    "persson2001": "contact area beside the computed one",
+    "bush1975": "contact area beside the computed one",
+}
 _LAYERED = {"burmister1945": "layered bodies", "osullivan1988": "stresses of layered bodies"}
+
+
+_ROUGH = (GeneratedSurface, MeasuredSurface)
 
 
 def sources_of(scene: SceneModel) -> dict[str, list[str]]:
@@ -32,6 +45,10 @@ def sources_of(scene: SceneModel) -> dict[str, list[str]]:
 
 def _all_sources(scene: SceneModel) -> Iterator[tuple[str, str]]:
     yield from sources_of_kind(str(getattr(scene, "kind", ""))).items()
+    if getattr(scene, "kind", "") == "contact" and any(isinstance(item, _ROUGH) for item in _inside(scene)):
+        yield from _ROUGH_CONTACT.items()
+        if all(getattr(getattr(scene, "grid", None), "periodic", None) or (False,)):
+            yield from _AREA_THEORIES.items()
     yield from _HEAT.get(str(getattr(scene, "thermal", "off")), {}).items()
     for item in _inside(scene):
         if isinstance(item, Law):
@@ -41,6 +58,8 @@ def _all_sources(scene: SceneModel) -> Iterator[tuple[str, str]]:
             yield from _GENERATED.items()
             if (item.skewness or 0.0, item.kurtosis or 3.0) != (0.0, 3.0):
                 yield from _MOMENTS.items()
+        elif isinstance(item, MeasuredSurface):
+            yield from _DESPIKED.items() if item.despike is not None else ()
         elif getattr(item, "layer", None) is not None or getattr(item, "layers", None):
             yield from _LAYERED.items()
 

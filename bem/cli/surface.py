@@ -29,6 +29,7 @@ SpacingOption = Annotated[
 SpikesOption = Annotated[
     float | None, typer.Option(help="Take out points further from their neighbours than so many standard deviations.")
 ]
+LinesOption = Annotated[bool, typer.Option("--level-lines", help="Remove the offset of each scan line too.")]
 UnitOption = Annotated[str | None, typer.Option(help="Unit of the heights where the file does not say, such as nm.")]
 
 
@@ -99,6 +100,7 @@ def read(
     spacing: SpacingOption = None,
     height_unit: UnitOption = None,
     despike: SpikesOption = None,
+    level_lines: LinesOption = False,
 ) -> None:
     """Read a measured surface, level it, fill what is missing and write it as a plain map in metres."""
     from bem.cli._quantity import new_file
@@ -106,7 +108,7 @@ def read(
     from bem.surfaces import write_surface
 
     new_file(out, "OUT", (".npz",))
-    surface = _read(file, detrend, fill, channel, spacing, height_unit, despike)
+    surface = _read(file, detrend, fill, channel, spacing, height_unit, despike, level_lines)
     path = write_surface(out, surface)
     _show(surface, file.name)
     print_written(path)
@@ -120,10 +122,11 @@ def describe(
     spacing: SpacingOption = None,
     height_unit: UnitOption = None,
     despike: SpikesOption = None,
+    level_lines: LinesOption = False,
     json: Annotated[bool, typer.Option("--json", help="As JSON, in SI units.")] = False,
 ) -> None:
     """Print height, slope and correlation of a surface."""
-    surface = _read(file, detrend, fill, channel, spacing, height_unit, despike)
+    surface = _read(file, detrend, fill, channel, spacing, height_unit, despike, level_lines)
     if json:
         import dataclasses
         import json as writer
@@ -157,13 +160,14 @@ def plot(
     spacing: SpacingOption = None,
     height_unit: UnitOption = None,
     despike: SpikesOption = None,
+    level_lines: LinesOption = False,
 ) -> None:
     """Draw a surface: heights, their distribution, autocorrelation and spectrum."""
     from bem.cli._quantity import new_file
     from bem.cli._terminal import print_written
 
     new_file(out, "OUT", (".png", ".pdf", ".svg"))
-    surface = _read(file, detrend, fill, channel, spacing, height_unit, despike)
+    surface = _read(file, detrend, fill, channel, spacing, height_unit, despike, level_lines)
     from bem.plots.surface import draw_surface
 
     draw_surface(surface, out, periodic=_periodic(surface))
@@ -178,6 +182,7 @@ def _read(
     spacing: str | None,
     height_unit: str | None,
     despike: float | None,
+    level_lines: bool,
 ) -> Surface:
     from bem.cli._quantity import pair_of_lengths
     from bem.surfaces import read_surface
@@ -191,6 +196,7 @@ def _read(
         spacing=pair_of_lengths(spacing, "--spacing"),
         height_unit=height_unit,
         despike=despike,
+        level_lines=level_lines,
     )
 
 
@@ -234,6 +240,12 @@ def _show(surface: Surface, name: str) -> None:
         if surface.metadata.get(key):
             rows.append((words, str(surface.metadata[key])))
     table(("figure", "value"), rows, title=name)
+    filled = float(surface.metadata.get("missing_points", 0) or 0) / surface.heights.size
+    if filled > 0.1:
+        print(
+            f"{filled:.0%} of the points were missing and filled smoothly: the real surface is rougher. Take a part "
+            "without holes, or measure again."
+        )
     spikes = 0 if surface.metadata.get("spikes") else count_spikes(surface.heights, surface.spacing)
     if spikes:
         print(

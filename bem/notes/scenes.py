@@ -84,6 +84,13 @@ MAP_ALTERED = define(
             CAUTION,
             headline="Much of the map was filled smoothly from neighbouring points.",
         ),
+        "outliers": Reason(
+            "{points} points stand out of their neighbours by more than 6 standard deviations, and the kurtosis Sku is "
+            "{kurtosis:.3g}: single points carry much of the load.",
+            "Set despike = 6 in its surface, if they are spikes of the instrument.",
+            CAUTION,
+            headline="The measured map has outliers.",
+        ),
         "mirror": Reason("It is mirrored, and symmetric about its seams.", headline=_PERIODIC),
         "seams": Reason(
             "The step where its ends meet along {along} is spread out (Moisan 2011), which changes the heights by "

@@ -287,9 +287,9 @@ class GeneratedSurface(Table):
 class MeasuredSurface(Table):
     """Measured surface from an instrument's file.
 
-    In this order: read, despiked, levelled, missing points filled, cropped to lengths around `centre`, filtered,
-    resampled to the grid, levelled again, made periodic (mirrored or seams closed), scaled to `rms_height`. A run's
-    scene has the file's checksum: one that has changed since is refused.
+    In this order: read, despiked, scan lines levelled, levelled, missing points filled, cropped to lengths around
+    `centre`, filtered, resampled to the grid, levelled again, made periodic (mirrored or seams closed), scaled to
+    `rms_height`. A run's scene has the file's checksum: one that has changed since is refused.
     """
 
     kind: Literal["measured"] = key("Measured surface, from the file of an instrument.", "basic", default="measured")
@@ -309,6 +309,12 @@ class MeasuredSurface(Table):
         "advanced",
         default=None,
         example=6.0,
+    )
+    level_lines: bool = key(
+        "Remove the offset of each scan line (along x), as scanning instruments leave it.",
+        "advanced",
+        default=False,
+        strict=True,
     )
     fill: bool = key(
         "Fill missing points by harmonic interpolation; false refuses maps with missing points.",

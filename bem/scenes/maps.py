@@ -44,7 +44,9 @@ def read_map(surface: MeasuredSurface) -> Surface:
     """The measured map: read, levelled, filled and cropped."""
     from bem.surfaces import crop, read_surface
 
-    asked = surface.model_dump(include={"detrend", "fill", "channel", "spacing", "height_unit", "despike"})
+    asked = surface.model_dump(
+        include={"detrend", "fill", "channel", "spacing", "height_unit", "despike", "level_lines"}
+    )
 
     def read() -> Surface:
         found = read_surface(surface.path, **asked)

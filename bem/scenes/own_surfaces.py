@@ -106,7 +106,7 @@ def _read(body: str, path: str, folder: Path) -> _Map:
             "holes in the instrument's program"
         )
     known = path if example_path(path) is not None else os.path.relpath(path, folder)
-    table = {"kind": "measured", "path": Path(known).as_posix(), "detrend": "curvature"}
+    table: dict[str, Any] = {"kind": "measured", "path": Path(known).as_posix(), "detrend": "curvature"}
     spikes = count_spikes(surface.heights, surface.spacing) / cells
     table |= {"despike": 6} if 0 < spikes < _MOST_SPIKES else {}
     return _Map(surface.shape, surface.spacing, table, float(surface.heights.std()))

@@ -97,6 +97,19 @@ def despike(heights: FloatArray, spacing: tuple[float, float], threshold: float 
     return np.where(spikes, np.nan, heights) if deviation > 0 else heights
 
 
+def level_lines(heights: FloatArray) -> FloatArray:
+    """Remove the offset of each scan line, its median about the median of all points; missing points (nan) stay.
+
+    heights : (nx, ny) [m], a scan line for each iy. Waves across the lines that are as wide as the map go too.
+    """
+    known = ~np.isnan(heights)
+    measured = known.any(axis=0)
+    offsets = np.zeros(heights.shape[1])
+    offsets[measured] = np.nanmedian(heights[:, measured], axis=0)
+    whole = float(np.median(heights[known])) if known.any() else 0.0
+    return heights - np.where(measured, offsets - whole, 0.0)[None, :]
+
+
 def count_spikes(heights: FloatArray, spacing: tuple[float, float], threshold: float = 6.0) -> int:
     """Return the number of points that `despike` would make missing."""
     return int(np.count_nonzero(np.isnan(despike(heights, spacing, threshold)) & ~np.isnan(heights)))

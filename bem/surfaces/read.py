@@ -28,7 +28,7 @@ from bem.grid import FloatArray
 from bem.memory import available_memory
 from bem.quantities import with_prefixes
 from bem.surfaces.examples import example_path
-from bem.surfaces.filter import DETRENDINGS, LEAST_SPIKE, despike, detrend, fill_missing
+from bem.surfaces.filter import DETRENDINGS, LEAST_SPIKE, despike, detrend, fill_missing, level_lines
 from bem.surfaces.formats import SurfaceFormat, format_of
 from bem.surfaces.surface import Surface
 
@@ -78,6 +78,7 @@ def read_surface(
     spacing: tuple[float, float] | None = None,
     height_unit: str | None = None,
     despike: float | None = None,
+    level_lines: bool = False,
 ) -> Surface:
     """Read a measured surface.
 
@@ -98,6 +99,8 @@ def read_surface(
         for those in metres always (.npz, formats of your own); .npy and tables are in metres without.
     despike : take out points that stand out of their neighbourhood by more than so many standard deviations (at least
         3; 6 takes instruments' spikes and leaves roughness), before the map is levelled; see `bem.surfaces.despike`.
+    level_lines : remove the offset of each scan line (each iy), as scanning instruments leave it, before the map is
+        levelled; see `bem.surfaces.level_lines`.
 
     Returns
     -------
@@ -153,7 +156,7 @@ def read_surface(
         cell = given
     if cell is None:
         raise _without_spacing(file)
-    return _finish(file, heights, cell, notes, _Treatment(detrend, fill, despike))
+    return _finish(file, heights, cell, notes, _Treatment(detrend, fill, despike, level_lines))
 
 
 def write_surface(path: str | os.PathLike[str], surface: Surface) -> Path:
@@ -189,6 +192,7 @@ class _Treatment:
     detrend: str
     fill: bool
     despike: float | None
+    level_lines: bool
 
 
 def _are_lengths(pair: object) -> bool:
@@ -305,10 +309,13 @@ def _finish(
         if asked.despike is not None:
             heights = despike(heights, cell, asked.despike)
             notes = {**notes, "spikes": int(np.isnan(heights).sum()) - missing}
+        if asked.level_lines:
+            heights = level_lines(heights)
         heights = fill_missing(detrend(heights, cell, asked.detrend), cell)
     except InputError as problem:
         raise SurfaceFileError([f"{file}: {message}" for message in problem.messages]) from problem
     notes = {"file": file.name, **notes, "missing_points": missing, "detrend": asked.detrend}
+    notes |= {"lines_levelled": True} if asked.level_lines else {}
     return Surface(np.ascontiguousarray(heights), cell, notes)
 
 

@@ -84,6 +84,7 @@ class FadingSubstrate(PropertyLaw):
     """
 
     name: ClassVar[str] = "fading_substrate"
+    cites: ClassVar[tuple[str, ...]] = ("demmou2006", "akchurin2017")
     substrate: float = parameter("value at zero film thickness", "Pa", above=0)
     film: float = parameter("value of a thick film at the reference temperature", "Pa", above=0)
     length: float = parameter("film thickness over which the influence of the substrate decays to 1/e", "m", above=0)

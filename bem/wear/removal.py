@@ -71,6 +71,7 @@ class Cap(_ByColumns):
     """
 
     name: ClassVar[str] = "cap"
+    cites: ClassVar[tuple[str, ...]] = ("akchurin2017",)
     takes_along: ClassVar[bool] = True
 
 
@@ -86,4 +87,5 @@ class TopRun(_ByColumns):
     """
 
     name: ClassVar[str] = "top_run"
+    cites: ClassVar[tuple[str, ...]] = ("akchurin2017",)
     takes_along: ClassVar[bool] = False

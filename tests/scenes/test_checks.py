@@ -366,6 +366,9 @@ def maps(tmp_path):
     np.savez(tmp_path / "form.npz", heights=form, spacing=np.array([1e-6, 1e-6]))
     np.savez(tmp_path / "gaps.npz", heights=gaps, spacing=np.array([1e-6, 1e-6]))
     write_surface(tmp_path / "whole.npz", Surface(rng.normal(0, 1e-7, (64, 64)), (1e-6, 1e-6)))
+    spiky = rng.normal(0, 1e-7, (64, 64))
+    spiky[20, 30] = spiky[40, 11] = 3e-6
+    np.savez(tmp_path / "spiky.npz", heights=spiky, spacing=np.array([1e-6, 1e-6]))
     return tmp_path
 
 
@@ -381,6 +384,7 @@ MAPS = {
     ),
     "surface_interpolated_from_few_points": (("few.npz", {}, "6 x 6 measured points"), ("whole.npz", {})),
     "much_of_the_map_is_filled": (("gaps.npz", {}, "25 %"), ("whole.npz", {})),
+    "outliers_of_the_instrument": (("spiky.npz", {}, "2 points stand out"), ("spiky.npz", {"despike": 6.0})),
     "scaled_out_of_proportion": (
         ("whole.npz", {"rms_height": "1 um"}, "multiplied by"),
         ("whole.npz", {"rms_height": "150 nm"}),
@@ -580,6 +584,12 @@ OUTCOMES = {
             "up to 20 nm open of a mean depth of 100 nm",
         ),
         Outcome({"step_error_nm": [9.0], "worn_depth_nm": [100.0]}, {}),
+    ),
+    "law_without_particles": (
+        library()["wear-steel-steel"]
+        | {"wear": {"criterion": {"kind": "archard", "specific_wear_rate": 1e-16, "distance": 1.0}}},
+        (both_outcome(2e-18), 'Set wear.particle_criterion = "averaged_von_mises"'),
+        both_outcome(0.0),
     ),
     "loop_without_error_bars": (
         "running-in-stribeck",

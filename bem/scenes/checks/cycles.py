@@ -273,8 +273,13 @@ def long_steps_of_wear_by_pressure(facts: Facts, outcome: Outcome) -> Iterator[N
 @outcome_check
 def law_without_particles(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     """Archard's law knows no particles; of bodies with a yield stress a stress criterion finds their sizes."""
+    worn = outcome.variables.get("volume", outcome.variables.get("volume_over_cycles"))
+    if not facts.of_kind("wear", "running-in") or worn is None or not worn.values.sum() > 0:
+        return
+    if not any(True for _ in facts.surfaces):  # the scar of smooth bodies sheds particles of no roughness
+        return
     for case in facts.cases:
-        if not facts.of_kind("wear", "running-in") or case.wear is None or case.wear.particle_criterion is not None:
+        if case.wear is None or case.wear.particle_criterion is not None:
             return
         strong = any(material.yield_stress is not None for material in case.wearing)
         if case.wear.criterion.wears_by_pressure and case.wear.traction.slides and strong:

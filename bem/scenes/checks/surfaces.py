@@ -15,6 +15,8 @@ from bem.scenes.checks.surfaces_of import RoughSurface
 from bem.scenes.checks.words import times
 
 _FILLED = 0.03
+_KURTOSIS = 10.0
+"""Sku above which a map with outliers is doubted; 3 is Gaussian, honed liners have 5 to 9."""
 _POINTS = 32
 _ROUND_OFF = 1e-9
 """Rounding error of a count of points, a length divided by a spacing."""
@@ -43,6 +45,16 @@ def much_of_the_map_is_filled(facts: Facts) -> Iterator[Note]:
     for filled, _, surface in facts.worst_surfaces(lambda surface: surface.filled):
         if filled > _FILLED:
             yield MAP_ALTERED(f"{surface.body}.surface", share=filled, reason="much")
+
+
+@scene_check
+def outliers_of_the_instrument(facts: Facts) -> Iterator[Note]:
+    """Lone points micrometres above their neighbours are contacts of their own: with ten in 45000 points the kurtosis
+    is 50 where ground steel has 3 to 6."""
+    for kurtosis, _, surface in facts.worst_surfaces(lambda surface: surface.kurtosis):
+        if kurtosis > _KURTOSIS and surface.spikes:
+            where = f"{surface.body}.surface"
+            yield MAP_ALTERED(where, points=surface.spikes, kurtosis=kurtosis, reason="outliers")
 
 
 @scene_check

@@ -37,6 +37,7 @@ class RoughSurface:
     filled : share of a measured map's points that were missing.
     source_points : points of the measured map under the grid along x and y; None where generated.
     source_spacing : their distance [m].
+    spikes, kurtosis : points of a measured map that `despike` would remove, and Sku of the map; 0 where despiked.
     scaled : what heights were multiplied by to meet `rms_height`.
     """
 
@@ -51,6 +52,8 @@ class RoughSurface:
     source_points: tuple[float, float] | None = None
     source_spacing: tuple[float, float] | None = None
     scaled: float | None = None
+    spikes: int = 0
+    kurtosis: float = 0.0
 
     @property
     def shortest_wave(self) -> float | None:
@@ -202,6 +205,7 @@ def _described_map(body: str, table: MeasuredSurface, grid: Grid, content: str) 
         description = _described(found.heights, found.grid())
         done = ("Sq, slope and correlation length are those of the map as it was measured",)
     missing, whole = _missing(found)
+    spikes, kurtosis = (0, 0.0) if table.despike is not None else _outliers(found)
     return RoughSurface(
         body,
         table,
@@ -212,7 +216,18 @@ def _described_map(body: str, table: MeasuredSurface, grid: Grid, content: str) 
         source_points=points,
         source_spacing=found.spacing,
         scaled=scaled,
+        spikes=spikes,
+        kurtosis=kurtosis,
     )
+
+
+def _outliers(found: Surface) -> tuple[int, float]:
+    """Number of outliers, and the kurtosis Sku."""
+    from bem.surfaces.filter import count_spikes
+
+    about = found.heights - found.heights.mean()
+    variance = float((about**2).mean())
+    return count_spikes(found.heights, found.spacing), float((about**4).mean()) / variance**2 if variance > 0 else 0.0
 
 
 def _missing(found: Surface) -> tuple[float, float]:
@@ -231,6 +246,7 @@ def _origin(table: MeasuredSurface, found: Surface) -> str:
     words.append(f"{found.shape[0]} x {found.shape[1]} points at {times(found.spacing, 'm')}")
     words.append("" if table.detrend == "none" else f"levelled by {table.detrend}")
     missing, whole = _missing(found)
+    words.append("scan lines levelled" if table.level_lines else "")
     words.append(f"{percent(missing / whole)} filled" if missing else "")
     words.append("" if table.crop is None else f"cropped to {times(table.crop, 'm')}")
     words.append("" if table.low_pass is None else f"waves under {si(table.low_pass, 'm')} removed")

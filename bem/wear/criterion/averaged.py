@@ -22,7 +22,7 @@ class AveragedVonMises(VonMises):
     """
 
     name: ClassVar[str] = "averaged_von_mises"
-    cites: ClassVar[tuple[str, ...]] = ()
+    cites: ClassVar[tuple[str, ...]] = ("akchurin2017",)
     length_key: ClassVar[str] = "averaging_length"
     averaging_length: float = parameter(
         "diameter of the disc over which stresses are averaged",

@@ -62,6 +62,7 @@ class Tresca(WearCriterion):
     """Largest minus smallest principal stress; equals the yield stress at yield."""
 
     name: ClassVar[str] = "tresca"
+    cites: ClassVar[tuple[str, ...]] = ("johnson1985",)
 
     @property
     def von_mises_factor(self) -> float:
@@ -83,6 +84,7 @@ class MaximumTension(WearCriterion):
     """
 
     name: ClassVar[str] = "maximum_tension"
+    cites: ClassVar[tuple[str, ...]] = ("johnson1985",)
     skin_depth: float = parameter(
         "depth below the surface down to which the stress counts as that at this depth",
         "m",

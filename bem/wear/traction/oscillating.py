@@ -111,6 +111,7 @@ class OscillatingForce(Oscillating):
     """A tangential force between plus and minus a share of friction x load: the contact always sticks somewhere."""
 
     name: ClassVar[str] = "oscillating_force"
+    cites: ClassVar[tuple[str, ...]] = ("cattaneo1938", "mindlin1949")
     share: float = parameter("largest tangential force over friction coefficient x load", above=0, below=1)
 
     def peak(self, limit: float) -> dict[str, float]:
@@ -128,6 +129,7 @@ class OscillatingShift(Oscillating):
     (fretting; Vingsbo and Soderberg 1988)."""
 
     name: ClassVar[str] = "oscillating_shift"
+    cites: ClassVar[tuple[str, ...]] = ("cattaneo1938", "mindlin1949")
     amplitude: float = parameter("displacement amplitude of the bodies, far from the contact", "m", above=0)
 
     def peak(self, limit: float) -> dict[str, float]:
