@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import bisect
 import itertools
+import math
 import tomllib
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from importlib.resources import files
 from typing import Any
 
@@ -130,15 +131,25 @@ def _of_the_catalogue(material: Any) -> Any:
 
 @dataclass(frozen=True)
 class Layer:
-    """A bonded surface layer of uniform thickness [m].
+    """A bonded surface layer of uniform thickness.
+
+    Parameters
+    ----------
+    material : of the layer.
+    thickness : [m].
+    residual_stress : in the plane of the layer, equal in all directions [Pa]; compression is negative. It adds to the
+        stresses below the surface. It changes neither pressure nor displacement: the traction of a uniform biaxial
+        stress on the surface and on every interface is zero, and in linear elasticity solutions add.
 
     Raises
     ------
-    InputError : a material that is none, or a thickness that is not positive and finite.
+    InputError : a material that is none, a thickness that is not positive and finite, a residual stress at which the
+        layer yields without a contact.
     """
 
     material: Material
     thickness: float
+    residual_stress: float = 0.0
 
     def __post_init__(self) -> None:
         messages = []
@@ -148,6 +159,17 @@ class Layer:
         if not is_positive(self.thickness):
             messages.append(
                 f"Layer: thickness {self.thickness!r} must be positive and finite [m]; for none, leave the layer out"
+            )
+        if not is_finite(self.residual_stress):
+            messages.append(
+                f"Layer: residual_stress {self.residual_stress!r} must be finite [Pa]; compression negative"
+            )
+        elif isinstance(self.material, Material) and abs(self.residual_stress) >= (
+            math.inf if self.material.yield_stress is None else self.material.yield_stress
+        ):
+            messages.append(
+                f"Layer: residual_stress {self.residual_stress:g} Pa is beyond the yield stress of the layer, "
+                f"{self.material.yield_stress:g} Pa; a layer cannot hold more"
             )
         if messages:
             raise InputError(messages)
@@ -223,6 +245,21 @@ class Body:
     def media(self) -> tuple[Material, ...]:
         """The materials from the surface down, that of the half-space last."""
         return (*(layer.material for layer in self.layers), self.material)
+
+    @property
+    def residual_stresses(self) -> tuple[float, ...]:
+        """Residual stresses in the plane of the layers, from the surface down, 0 of the half-space last [Pa]."""
+        return (*(layer.residual_stress for layer in self.layers), 0.0)
+
+    def residual_stress_at(self, depth: float) -> float:
+        """The residual stress in the plane at a depth [m]; an interface belongs to the layer above it [Pa]."""
+        return self.residual_stresses[self.medium_at(depth)]
+
+    def without_residual_stress(self) -> Body:
+        """Return the body without residual stresses, for loads that are added to those of the body with them."""
+        if not any(self.residual_stresses):
+            return self
+        return Body(self.material, layers=tuple(replace(layer, residual_stress=0.0) for layer in self.layers))
 
     def medium_at(self, depth: float) -> int:
         """Number of the material at a depth [m], 0 outermost; an interface belongs to the layer above it."""

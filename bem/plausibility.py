@@ -191,6 +191,10 @@ RANGES: tuple[UsualRange, ...] = (
         "thickness of a layer", "m", ATOM, 0.02, ("thickness", "layer_thickness"), (("um", 1e-6), ("nm", 1e-9)),
         "hard coatings have 0.5 to 10 um",
     ),
+    UsualRange(
+        "residual stress", "Pa", 1e5, 1.5e10, ("residual_stress",), _PRESSURES,
+        "hard coatings have 0.5 to 10 GPa of compression, peened steels 0.3 to 1 GPa",
+    ),
     UsualRange("layer of oil", "m", 1e-9, 1e-3, ("supply.layer",), (("um", 1e-6), ("nm", 1e-9))),
     UsualRange(
         "cell of the grid", "m", ATOM, 1e-2, ("grid.spacing", "grid_cell"), (("um", 1e-6), ("nm", 1e-9)),
@@ -295,6 +299,7 @@ def body_arguments(bodies: Any) -> dict[str, tuple[str, Any]]:
             key = f"bodies[{number}].layers[{place}]"
             parts.append((f"{key}.material", layer.material))
             found[f"{key}.thickness"] = ("thickness of a layer", layer.thickness)
+            found[f"{key}.residual_stress"] = ("residual stress", layer.residual_stress)
         for key, material in parts:
             found |= material_arguments(key, material)
     return found

@@ -92,10 +92,12 @@ class RollingFatigue:
 
     def _path(self, case: LifeCase, rows: tuple[int, int], passes: Sequence[Pass]) -> FloatArray:
         """Return the stresses (6, positions + 1, nz, rows, ny) [Pa] of the material along its path; the last is
-        rest."""
+        rest, which leaves residual stresses."""
         whole, (nx, ny) = rows[self.body], case.grid.shape
         moved = [each[self.body] for each in case.passing.offsets(rows)]
         path = np.zeros((6, len(passes) + 1, len(self.depths), whole, ny))
+        residual = np.array([self.solid.residual_stress_at(depth) for depth in self.depths.tolist()])
+        path[:2] += residual[:, None, None]
         sign = 1.0 if self.body == LOWER else -1.0
         for place, number in enumerate(np.argsort(moved, kind="stable")):
             one = passes[number]

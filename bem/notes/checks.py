@@ -267,6 +267,41 @@ DEPTHS_MISS_STRESS = define(
         ),
     },
 )
+TRIBOFILM_ON_COATING = define(
+    "tribofilm-on-coating",
+    CAUTION,
+    "The tribofilm grows on a coating.",
+    reasons={
+        "growth": Reason(
+            "Growth constants of the literature were measured on steel. On {material} a film may grow slower, stay"
+            " thinner or not form at all.",
+            "Calibrate them on films that grew on it (`bem calibrate`), or take the result as a limit.",
+            headline="Growth constants come from steel; the film grows on a coating.",
+        ),
+        "hardness": Reason(
+            "film.hardness is {film:si Pa} at zero thickness; the coating, {material}, has {hardness:si Pa}.",
+            "Take the coating's hardness as the value at zero thickness.",
+            headline="The hardness of a thin film is not that of the coating.",
+        ),
+        "heat": Reason(
+            "Flash temperatures are those of the bodies without coatings of {thickness:si m}.",
+            "Expect hotter spots on coatings that conduct heat badly, such as DLC.",
+            headline="Heat flows as if the coating were not there.",
+        ),
+        "worn": Reason(
+            "{worn:si m} have worn; the outermost coating, {material}, is {thickness:si m} thick.",
+            "Rub for a shorter time, or begin again on what lies below.",
+            headline="The film has taken the whole coating with it.",
+        ),
+    },
+)
+RESIDUAL_STRESS = define(
+    "residual-stress",
+    INFO,
+    "Stresses below the surface include residual stresses of layers.",
+    "The {body} body has {found}. Von Mises stress, tension, yielded volume and criteria of stress include it. The "
+    "contact pressure does not depend on it: it causes no traction across the surface or an interface.",
+)
 PARTICLES_OF_MESH = define(
     "particles-of-mesh",
     CAUTION,

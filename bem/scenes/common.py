@@ -132,10 +132,27 @@ class LayerScene(Table):
         "Material of the layer: a name of the catalogue (`bem materials`), or a table of constants.", "basic"
     )
     thickness: PositiveLength = key("Thickness of the layer.", "basic", example="2 um")
+    residual_stress: Pressure = key(
+        "Residual stress in the plane of the layer, compression negative; adds to stresses below the surface.",
+        "advanced",
+        default=0.0,
+        reason="none",
+        example="-2 GPa",
+    )
+
+    @model_validator(mode="after")
+    def _elastic_without_a_contact(self) -> Self:
+        strength = self.material.build().yield_stress
+        if strength is not None and abs(self.residual_stress) >= strength:
+            raise problem(
+                f"residual_stress {self.residual_stress:g} Pa, beyond the yield stress of the layer, {strength:g} Pa",
+                "a smaller one, or the yield stress or hardness of a layer that holds it",
+            )
+        return self
 
     def build(self) -> Layer:
         """As `bem.Layer`."""
-        return Layer(self.material.build(), self.thickness)
+        return Layer(self.material.build(), self.thickness, self.residual_stress)
 
 
 class SmoothSurface(Table):

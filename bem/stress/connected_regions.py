@@ -77,6 +77,8 @@ def connected_stress(
     InputError : as `subsurface_stress`.
     """
     request = StressRequest.of("connected_stress", pressure, grid, body, depths, friction)
+    if any(request.residual):
+        return _whole_planes(request, limit, depths_beside)
     (load,) = request.loads
     transform, number, wraps = load.transform, len(request.depths), grid.periodic[0]
     stress = np.empty((number, *grid.shape))
@@ -104,6 +106,21 @@ def connected_stress(
                 waiting.add(other)
     used = int(computed.any(axis=1).sum())
     return ConnectedStress(stress[:used], computed[:used], exceeding, passes)
+
+
+def _whole_planes(request: StressRequest, limit: float, depths_beside: int) -> ConnectedStress:
+    """Compute whole planes down to `depths_beside` below the first without a point above the limit."""
+    number, shape = len(request.depths), request.grid.shape
+    planes, exceeding, last = np.empty((number, *shape)), np.zeros(shape, np.bool_), number - 1
+    index = 0
+    while index <= last:
+        request.write_von_mises(index, planes[index])
+        above = ~(planes[index] <= limit)
+        exceeding |= above
+        if not above.any():
+            last = min(last, index + depths_beside - 1) if index > 0 else index
+        index += 1
+    return ConnectedStress(planes[:index], np.ones((index, shape[0]), np.bool_), exceeding, index)
 
 
 def clear_other_rows(planes: FloatArray, rows: NDArray[np.bool_]) -> FloatArray:

@@ -164,8 +164,8 @@ class TransformedLoad:
             out += scratch.T
 
 
-_D = 1
-"""Position of d among the components t, d, e, yz, xz, xy."""
+_D, _E = 1, 2
+"""Positions of d and e among the components t, d, e, yz, xz, xy."""
 _EXCHANGED = (0, 1, 2, 4, 3, 5)
 """Component that t, d, e, yz, xz, xy become when x and y are exchanged."""
 
@@ -176,11 +176,13 @@ class StressRequest:
 
     depths : (nz,) [m].
     loads : the pressure with friction x pressure, then the directions of a prescribed traction that are not zero.
+    residual : (nz,) residual stress xx = yy of the body at each depth, which adds to the stress under the loads [Pa].
     """
 
     grid: Grid
     depths: tuple[float, ...]
     loads: tuple[TransformedLoad, ...]
+    residual: tuple[float, ...]
 
     @classmethod
     def of(
@@ -204,7 +206,7 @@ class StressRequest:
                 for axis, along in enumerate(sheared)
                 if along.any()
             ]
-        return cls(grid, places, tuple(loads))
+        return cls(grid, places, tuple(loads), tuple(body.residual_stress_at(place) for place in places))
 
     @property
     def entries(self) -> int:
@@ -218,20 +220,25 @@ class StressRequest:
     def write_von_mises(self, index: int, out: FloatArray) -> None:
         """Write von Mises stress of a depth into a contiguous array."""
         first, *others = self.loads
-        spectra = self._spectra(index)
-        if not others:
+        spectra, residual = self._spectra(index), self.residual[index]
+        if not others and residual == 0:
             first.write_von_mises(spectra[0], out)
             return
         scratch = first.scratch
         for component in range(1, 6):
             self._write_component(spectra, component, scratch)
+            if component == _E and residual != 0:
+                scratch -= residual
             _add_square(scratch, VON_MISES_WEIGHTS[component], _STAGES.get(component, GOES_ON), out)
 
     def write_components(self, index: int, out: FloatArray) -> None:
         """Write t, d, e, yz, xz, xy of a depth into `out` (6, nx, ny)."""
-        spectra = self._spectra(index)
+        spectra, residual = self._spectra(index), self.residual[index]
         for component in range(6):
             self._write_component(spectra, component, out[component])
+        if residual != 0:
+            out[0] += 2 * residual
+            out[_E] -= residual
 
     def _spectra(self, index: int) -> list[StressSpectra]:
         return [load.spectra(self.depths[index]) for load in self.loads]

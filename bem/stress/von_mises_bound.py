@@ -11,7 +11,8 @@ and for either sign of k, p_j <= m, sum p_j = P and any t >= 0
 
 The larger of both sums bounds the magnitude of the component, and von Mises stress grows with every magnitude. Where p
 has negative values, abs(p) takes the place of p and the sum of both parts bounds the magnitude. The right-hand side is
-minimised over t = 0 and powers of two. The sums over max(k - t, 0) take one pass over the kernel and are cached for
+minimised over t = 0 and powers of two. A residual stress of the body adds its magnitude to that of the component e. The
+sums over max(k - t, 0) take one pass over the kernel and are cached for
 each depth. The proof is this project's own.
 """
 
@@ -68,6 +69,7 @@ def von_mises_upper_bound(
         above = _TABLES.of(key, partial(_table, grid, body, depth, coefficient), sweep)
         parts = (largest * above + total * _THRESHOLDS).min(axis=1).reshape(5, 2)
         component = parts.sum(axis=1) if either_sign else parts.max(axis=1)
+        component[1] += abs(body.residual_stress_at(depth))  # e = zz - (xx + yy)/2
         square = 0.75 * component[0] ** 2 + component[1] ** 2 + 3 * float((component[2:] ** 2).sum())
         # the last factor covers the round-off of sums over all cells
         bound[index] = math.sqrt(square) * (1 + 1e-9)

@@ -30,6 +30,7 @@ from numpy.typing import NDArray
 
 from bem.errors import InputError
 from bem.grid import FloatArray
+from bem.materials import Body
 from bem.stress import clear_other_rows, connected_stress, subsurface_stress, von_mises_planes, von_mises_upper_bound
 from bem.wear.loads import Removal, SurfaceLoad
 from bem.wear.removal import RemovalLaw
@@ -74,9 +75,11 @@ def equivalent_stress_planes(
         (load,) = loads
         yield from von_mises_planes(load.pressure, grid, solid, depths, **load.shear(body), out=out)
         return
+    solids = _residual_once(solid, loads)
     for index, depth in enumerate(depths):
         stress = sum(
-            subsurface_stress(load.pressure, grid, solid, depth[None], **load.shear(body))[:, 0] for load in loads
+            subsurface_stress(load.pressure, grid, one, depth[None], **load.shear(body))[:, 0]
+            for load, one in zip(loads, solids, strict=True)
         )
         out[index] = criterion.equivalent_stress(np.asarray(stress))
         yield out[index]
@@ -111,9 +114,17 @@ def cannot_yield(
     factor = criterion.von_mises_factor
     if factor is None or any(load.traction is not None for load in loads):
         return False
-    grid, solid = setup.grid, setup.bodies[body]
-    limit = sum(von_mises_upper_bound(load.pressure, grid, solid, [depth], **load.shear(body))[0] for load in loads)
+    grid, solids = setup.grid, _residual_once(setup.bodies[body], loads)
+    limit = sum(
+        von_mises_upper_bound(load.pressure, grid, one, [depth], **load.shear(body))[0]
+        for load, one in zip(loads, solids, strict=True)
+    )
     return bool(factor * limit <= setup.yield_stress(body))
+
+
+def _residual_once(solid: Body, loads: Sequence[SurfaceLoad]) -> list[Body]:
+    """Return the body of each of several loads whose stresses are added: residual stresses count once."""
+    return [solid, *[solid.without_residual_stress()] * (len(loads) - 1)]
 
 
 def depths_for(setup: WearSetup, model: WearChoices, body: int) -> FloatArray:

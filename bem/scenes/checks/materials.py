@@ -5,8 +5,17 @@ from __future__ import annotations
 from collections.abc import Iterator
 
 from bem.notes import Note
-from bem.notes.checks import CAP_NOT_OF_SOFTER, FATIGUE_CONSTANTS, HARDNESS_UNLIKELY, LAYER_INCOMPRESSIBLE, VISCOELASTIC
+from bem.notes.checks import (
+    CAP_NOT_OF_SOFTER,
+    FATIGUE_CONSTANTS,
+    HARDNESS_UNLIKELY,
+    LAYER_INCOMPRESSIBLE,
+    RESIDUAL_STRESS,
+    VISCOELASTIC,
+)
+from bem.notes.note import joined
 from bem.plausibility import BY_NAME
+from bem.quantities import si
 from bem.scenes.checks.facts import Case, Facts
 from bem.scenes.checks.registry import scene_check
 
@@ -61,6 +70,21 @@ def incompressible_layer(facts: Facts) -> Iterator[Note]:
         if "layer" in key and nu >= 0.48:
             confined = (1 - nu) / ((1 + nu) * (1 - 2 * nu))
             yield LAYER_INCOMPRESSIBLE(key, ratio=nu, stiffer=confined)
+
+
+@scene_check
+def residual_stress_of_layers(facts: Facts) -> Iterator[Note]:
+    """A uniform biaxial stress in a plane layer is in equilibrium by itself, and linear solutions add: displacement
+    and pressure of a contact do not change. Hardness and modulus by indentation do not either, once the area of contact
+    is measured (Bolshakov, Oliver & Pharr, J. Mater. Res. 11 (1996) 760)."""
+    for name, body in (facts.cases[0].bodies if facts.cases else {}).items():
+        found = [
+            f"{si(layer.residual_stress, 'Pa')} in layer {number} ({layer.material.name})"
+            for number, layer in enumerate(body.layers, start=1)
+            if layer.residual_stress != 0
+        ]
+        if found:
+            yield RESIDUAL_STRESS(f"{name}.layers", found=joined(found), body=name)
 
 
 @scene_check

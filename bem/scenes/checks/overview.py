@@ -152,7 +152,11 @@ def _column(case: Case) -> dict[str, str]:
 
 
 def _body(body: Body) -> str:
-    stack = [f"{si(layer.thickness, 'm')} of {_material(layer.material)}" for layer in body.layers]
+    stack = [
+        f"{si(layer.thickness, 'm')} of {_material(layer.material)}"
+        + (f", residual stress {si(layer.residual_stress, 'Pa')}" if layer.residual_stress else "")
+        for layer in body.layers
+    ]
     return ", on ".join([*stack, _material(body.material)])
 
 
