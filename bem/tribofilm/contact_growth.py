@@ -20,7 +20,7 @@ from bem.convolution import displacement_operator
 from bem.errors import ConvergenceError, InputError, Status
 from bem.grid import FloatArray, Grid
 from bem.heat.steady import flash_temperature
-from bem.materials import Body, Layer, Material
+from bem.materials import Body, Layer, Material, softer_hardness
 from bem.notes import Note
 from bem.plausibility import material_arguments, notes_on_arguments
 from bem.tribofilm.growth import GrowthLaw
@@ -38,10 +38,12 @@ class FilmContact:
     """Contact in which a film grows: rough bodies, load, and film properties over thickness.
 
     gap : undeformed gap (nx, ny) [m]. substrate : body under the film. counterface : other body, None is rigid.
+    layers, counterface_layers : coatings of substrate and counterface, outermost first; the film lies on `layers`.
     hardness, modulus : of the film, functions of (thickness [m], temperature [K]) [Pa].
     friction : shear stress over pressure. temperature : [K], of film and bodies.
     speeds : of substrate and counterface over the contact [m/s]: the film then grows as warm as rubbing makes each
-        spot, both bodies being half-spaces without the film (its own resistance is left out); None: nowhere warmer.
+        spot, both bodies being half-spaces without film and coatings (their own resistance is left out); None: nowhere
+        warmer.
     average : what "mean" is taken over: "contact", the cells that touch; "nominal", the cells of `nominal_area`
         (all where None), touching or not: what a point of the track sees on average as contacts sweep over it.
     """
@@ -61,19 +63,34 @@ class FilmContact:
     nominal_area: FloatArray | None = None
     contact_tolerance: float = 1e-6
     speeds: tuple[float, float] | None = None
+    layers: tuple[Layer, ...] = ()
+    counterface_layers: tuple[Layer, ...] = ()
 
     def __post_init__(self) -> None:
         self.grid.check_field(self.gap, "gap")
         if self.average not in AVERAGES:
             raise InputError(f"average {self.average!r} must be one of {list(AVERAGES)}")
+        if self.counterface_layers and self.counterface is None:
+            raise InputError("counterface_layers: the counterface is rigid; give it a material, or leave them out")
         if self.nominal_area is not None and np.shape(self.nominal_area) != self.grid.shape:
             raise InputError(f"nominal_area: shape {np.shape(self.nominal_area)} does not match {self.grid.shape}")
 
     def hardness_at(self, thickness: float) -> float:
-        """Return the hardness of a film of a thickness [m], or of the counterface if that is softer [Pa]."""
+        """Return the hardness of a film of a thickness [m], or of the counterbody's surface if softer [Pa]."""
         hardness = self.hardness(thickness, self.temperature)
-        other = None if self.counterface is None else self.counterface.indentation_hardness
+        other = softer_hardness(self.counterbody)
         return hardness if other is None else min(hardness, other)
+
+    @property
+    def counterbody(self) -> Body | None:
+        """The other body with its coatings; None is rigid."""
+        return None if self.counterface is None else Body(self.counterface, layers=self.counterface_layers)
+
+    def bodies(self, film: Layer | None = None) -> Body | tuple[Body, Body]:
+        """Return the bodies with their coatings, the film outermost of those of the substrate."""
+        stack = self.layers if film is None else (film, *self.layers)
+        lower, upper = Body(self.substrate, layers=stack), self.counterbody
+        return lower if upper is None else (lower, upper)
 
 
 @dataclass(frozen=True, eq=False)
@@ -115,6 +132,10 @@ def notes_on_growth(contact: FilmContact, wear_coefficient: float, initial_thick
     }
     for name in ("substrate", "counterface"):
         arguments |= material_arguments(f"contact.{name}", getattr(contact, name))
+    for name in ("layers", "counterface_layers"):
+        for number, layer in enumerate(getattr(contact, name)):
+            arguments |= material_arguments(f"contact.{name}[{number}].material", layer.material)
+            arguments[f"contact.{name}[{number}].thickness"] = ("thickness of a layer", layer.thickness)
     return notes_on_arguments(arguments)
 
 
@@ -137,11 +158,9 @@ def solve_film_contact(
             poissons_ratio=contact.poissons_ratio,
         )
         layer = Layer(film, thickness)
-    coated = Body(contact.substrate, layer=layer)
-    bodies = coated if contact.counterface is None else (coated, Body(contact.counterface))
     solution = solve_contact(
         contact.gap,
-        displacement_operator(contact.grid, bodies),
+        displacement_operator(contact.grid, contact.bodies(layer)),
         load=contact.load,
         hardness=hardness,
         tolerance=contact.contact_tolerance,

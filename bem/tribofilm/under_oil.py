@@ -18,7 +18,6 @@ from typing import TYPE_CHECKING
 from bem.errors import ConvergenceError, InfeasibleError, Status
 from bem.friction.oil_volume import OilVolume
 from bem.grid import FloatArray
-from bem.materials import Body
 
 if TYPE_CHECKING:
     from collections.abc import Sequence
@@ -50,10 +49,9 @@ def under_oil(
     from bem.friction.setup import MixedSetup
     from bem.friction.solve import solve_setup
 
-    substrate = Body(contact.substrate)
     setup = MixedSetup(
         grid=contact.grid,
-        bodies=substrate if contact.counterface is None else (substrate, Body(contact.counterface)),
+        bodies=contact.bodies(),
         radii=radii,
         load=contact.load,
         lubricant=lubricant,

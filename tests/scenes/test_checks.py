@@ -116,6 +116,10 @@ CASES = {
         (with_(BALL, lower__layer={"material": material("1 GPa", 0.49), "thickness": "20 um"}), "17 times"),
         with_(BALL, lower__layer={"material": material("1 GPa", 0.45), "thickness": "20 um"}),
     ),
+    "residual_stress_of_layers": (
+        (with_(BALL, lower__layer={"material": "dlc", "thickness": "20 um", "residual_stress": "-2 GPa"}), "-2 GPa in"),
+        with_(BALL, lower__layer={"material": "dlc", "thickness": "20 um"}),
+    ),
     "hardness_against_modulus": (
         (with_(BALL, lower__material=material("200 GPa", hardness="70 GPa")), "perfect solid"),
         with_(BALL, lower__material=material("200 GPa", hardness="20 GPa")),
@@ -224,6 +228,10 @@ CASES = {
     "oil_outside_its_range": (
         (("film-start-stop", 'oil={ grade = "ISO VG 680", temperature = "-30 C" }'), "too thick to flow"),
         ("film-start-stop", 'oil={ grade = "ISO VG 68", temperature = "60 C" }'),
+    ),
+    "tribofilm_on_a_coating": (
+        (("tribofilm-ball", 'lower.layer={material="dlc",thickness="2 um"}'), "Growth constants come from steel"),
+        "tribofilm-ball",
     ),
     "growth_without_a_barrier": (
         (("tribofilm-afm-tip", 'film.activation_volume="900 angstrom^3"'), "above the barrier of 0.8 eV"),
@@ -471,13 +479,20 @@ def least_area_outcome(area):
     return Outcome({"contact_area_fraction": [area]}, {"pressure": Variable(("speed", "x", "y"), pressure, "Pa", "p")})
 
 
+def film_outcome(worn):
+    """A film that took some of what it grew on [nm]."""
+    return Outcome({"total_wear_depth_nm": [worn]}, {})
+
+
 CELL = 50.5e-9
 MIRRORED = with_(
     ROUGH,
     grid={"shape": 64, "spacing": "0.8 um", "periodic": True},
     lower__surface={"kind": "measured", "path": "example/polished-pin.x3p", "mirror": "x"},
 )
+COATED_BALL = with_(library()["tribofilm-ball"], lower__layer={"material": "dlc", "thickness": "100 nm"})
 OUTCOMES = {
+    "coating_taken_by_the_film": (COATED_BALL, (film_outcome(120.0), "the outermost coating, dlc"), film_outcome(80.0)),
     "highest_pressure_at_a_seam": (
         MIRRORED,
         (contact_outcome(spot(1e9, width=1)), "is the mirror's (along x)"),

@@ -32,7 +32,8 @@ def plan(scene: TribofilmScene) -> Plan:
     surfaces = plans.surfaces(grid, scene.lower.surface, scene.upper.surface)
     scene.check_load(grid)
     lags = scene.rubbing.duration / film.lag if film.lag > 0 else 0.0  # integrated one by one
-    same = film.youngs_modulus == Constant(scene.lower.build().material.youngs_modulus)
+    coated = bool(scene.lower.stack or scene.upper.stack)
+    same = not coated and film.youngs_modulus == Constant(scene.lower.build().material.youngs_modulus)
     return Plan.of(
         surfaces,
         Step(

@@ -5,13 +5,16 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator
 
-from bem.notes import Note
-from bem.notes.checks import (
-    GROWTH_WITHOUT_BARRIER,
-)
+from bem.notes import Level, Note
+from bem.notes.checks import GROWTH_WITHOUT_BARRIER, TRIBOFILM_ON_COATING
 from bem.plausibility import ELECTRON_VOLT
 from bem.scenes.checks.facts import Facts
-from bem.scenes.checks.registry import scene_check
+from bem.scenes.checks.registry import outcome_check, scene_check
+from bem.scenes.checks.words import numbers
+from bem.scenes.context import Outcome
+
+_LIKE = 1.5
+"""Ratio of hardnesses up to which a film's curve begins at the coating's own."""
 
 
 @scene_check
@@ -39,3 +42,38 @@ def growth_without_a_barrier(facts: Facts) -> Iterator[Note]:
                 barrier=film.activation_energy / ELECTRON_VOLT,
             )
             return
+
+
+@scene_check
+def tribofilm_on_a_coating(facts: Facts) -> Iterator[Note]:
+    """Additives made for steel act otherwise on coatings (Neville, Morina, Haque & Voong, Tribol. Int. 40 (2007)
+    1680)."""
+    if not facts.of_kind("tribofilm") or not facts.cases:
+        return
+    scene, body = facts.scene, facts.cases[0].lower
+    if not body.layers:
+        return
+    coating, temperature = body.surface_material, scene.rubbing.temperatures[0]
+    yield TRIBOFILM_ON_COATING("lower.layers", material=coating.name, reason="growth")
+    bare, own = scene.film.hardness(0.0, temperature), coating.indentation_hardness
+    if own is not None and not 1 / _LIKE < bare / own < _LIKE:
+        yield TRIBOFILM_ON_COATING("film.hardness", film=bare, material=coating.name, hardness=own, reason="hardness")
+    if scene.rubbing.speeds is not None:
+        yield TRIBOFILM_ON_COATING("rubbing.speeds", thickness=body.interfaces[-1], reason="heat")
+
+
+@outcome_check
+def coating_taken_by_the_film(facts: Facts, outcome: Outcome) -> Iterator[Note]:
+    """What leaves with the film is material of the outermost coating, which the contact keeps at its thickness."""
+    body = facts.cases[0].lower
+    if not facts.of_kind("tribofilm") or body.layer is None:
+        return
+    worn = 1e-9 * max(numbers(outcome.summary.get("total_wear_depth_nm")), default=0.0)
+    if worn > body.layer.thickness:
+        yield TRIBOFILM_ON_COATING(
+            level=Level.OUTSIDE_MODEL,
+            worn=worn,
+            material=body.layer.material.name,
+            thickness=body.layer.thickness,
+            reason="worn",
+        )

@@ -187,7 +187,7 @@ class RubbedScene(SceneModel):
     """
 
     grid: GridScene = key("Grid of the contact.", "basic", default=GridScene())
-    lower: BodyScene = key("Lower body, on which the film grows.", "basic")
+    lower: BodyScene = key("Lower body, on whose surface or coating the film grows.", "basic")
     upper: BodyScene = key("Upper body (counter-body), which carries the smooth shape.", "basic")
     shape: ShapeScene = key("Smooth shape of the upper body.", "basic", default=ShapeScene())
     rubbing: RubbingScene = key("Loads, temperatures and duration of rubbing.", "basic")
@@ -220,12 +220,7 @@ class RubbedScene(SceneModel):
         return self
 
     @model_validator(mode="after")
-    def _film_is_the_layer(self) -> Self:
-        if self.lower.stack or self.upper.stack:
-            raise problem(
-                "a tribofilm cannot grow on a coated body: the film is the only layer of its scene",
-                "bodies without layer and layers",
-            )
+    def _heat_of_both_bodies(self) -> Self:
         bodies = build.bodies_of(self)
         for body in bodies if isinstance(bodies, tuple) else (bodies,):
             if self.rubbing.speeds is not None and body.material.thermal_diffusivity is None:
@@ -307,4 +302,6 @@ class RubbedScene(SceneModel):
             average=film.average,
             nominal_area=nominal,
             speeds=self.rubbing.speeds,
+            layers=self.lower.build().layers,
+            counterface_layers=self.upper.build().layers,
         )
