@@ -15,6 +15,7 @@ RESULTS = Path(__file__).parent / "results"
 DRAWN = {
     "contact": "contacts",
     "small_contact": "contacts 3 to 9 cells wide",
+    "coating": "stresses in coatings",
     "film": "steady films",
     "point": "films of points",
     "rough_point": "rough balls with contact inside their film",
@@ -38,6 +39,7 @@ DRAWN = {
 TABLES = {
     "contact": "contact.RULES",
     "stresses": "stress.RULES",
+    "stresses in layers": "coating.RULES",
     "partial slip": "sticking.PUSH_RULES",
     "rolling": "sticking.ROLL_RULES",
     "surface temperature": "rubbing.RULES",

@@ -35,6 +35,7 @@ if TYPE_CHECKING:
     from bem.accuracy.asperities import asperity_bars
     from bem.accuracy.bars import ErrorBars
     from bem.accuracy.coarsened import Coarser, ContactCase, coarser_before, solve_coarser, surface_is_resolved
+    from bem.accuracy.coating import coating_bars
     from bem.accuracy.contact import contact_bars, counted_figures, figures_of
     from bem.accuracy.film import FilmCase, OtherFilm, film_bars, film_figures, solve_coarser_film
     from bem.accuracy.flow import flow_bars
@@ -63,6 +64,7 @@ __all__ = [
     "TribofilmCase",
     "asperity_bars",
     "coarser_before",
+    "coating_bars",
     "contact_bars",
     "counted_figures",
     "figures_of",
@@ -98,6 +100,7 @@ __getattr__ = loader(
         "asperities": ["asperity_bars"],
         "bars": ["ErrorBars"],
         "coarsened": ["Coarser", "ContactCase", "coarser_before", "solve_coarser", "surface_is_resolved"],
+        "coating": ["coating_bars"],
         "contact": ["contact_bars", "counted_figures", "figures_of"],
         "film": ["FilmCase", "OtherFilm", "film_bars", "film_figures", "solve_coarser_film"],
         "flow": ["flow_bars"],

@@ -19,7 +19,6 @@ from bem.errors import InputError
 from bem.scenes import build
 from bem.scenes.axes import changed
 from bem.scenes.common import GeneratedSurface, MeasuredSurface
-from bem.scenes.tables.depths import DepthsScene
 
 _PER_WAVE, _PER_RADIUS, _PER_LAYER, _FEWEST = 4, 6, 1, 32
 """Cells of the first level to the shortest wave or correlation length, to the radius of the smooth contact, to the
@@ -32,8 +31,8 @@ _MARGIN, _HIGH = 1.25, 3.0
 rms height, is closed."""
 _PER_LENGTH, _WAVES = 8, 4
 """Correlation lengths that make a longest wave, and how many of these a slice of a line contact holds along it."""
-_DEEP, _DEPTHS, _MOST_DEPTHS = 1.5, 24, 1024
-"""Deepest depth over the radius of the smooth contact, how many there are, and can be."""
+_DEEP, _MOST_DEPTHS, _MOST_PER_LAYER = 1.5, 1024, 257
+"""Deepest depth over the radius of the smooth contact, and how many depths there can be, in all and in each layer."""
 
 
 @dataclass(frozen=True)
@@ -290,7 +289,7 @@ def _first_depths(scene: Any) -> Any:
     smooth = scene.smooth_contact(scene.grid.lengths)
     size = _DEEP * min(smooth.semi_axes) if smooth is not None else 0.0
     deepest = max(size, min(scene.grid.lengths) / 4)
-    return changed(scene, "outputs.depths", DepthsScene(deepest=deepest, count=_DEPTHS))
+    return changed(scene, "outputs.depths", scene.usual_depths(deepest))
 
 
 def _finer_depths(scene: Any) -> Any:
@@ -301,15 +300,22 @@ def _finer_depths(scene: Any) -> Any:
         return "outputs.depths are given one by one"
     if 2 * depths.count - 1 > _MOST_DEPTHS:
         return f"outputs.depths.count can be {_MOST_DEPTHS} at most"
-    return changed(scene, "outputs.depths.count", 2 * depths.count - 1)
+    finer = changed(scene, "outputs.depths.count", 2 * depths.count - 1)
+    if not scene.stressed()[0].layers:
+        return finer
+    per_layer = 2 * depths.in_each_layer - 1
+    if per_layer > _MOST_PER_LAYER:
+        return f"outputs.depths.per_layer can be {_MOST_PER_LAYER} at most"
+    return changed(finer, "outputs.depths.per_layer", per_layer)
 
 
 def _depths_shown(scene: Any) -> str:
-    number = len(scene.outputs.wanted_depths())
+    number = len(scene.wanted_depths())
     return f"{number} depths" if number else ""
 
 
-_STRESSES = ("max_von_mises", "max_von_mises_depth")
+_IN_LAYERS = ("interface_max_shear", "interface_max_tension", "layer_max_von_mises", "layer_max_tension")
+_STRESSES = ("max_von_mises", "max_von_mises_depth", *_IN_LAYERS)
 DEPTHS = Resolution("depths", _first_depths, _finer_depths, _depths_shown, _STRESSES, BELOW)
 """Depths below a contact where stresses are wanted."""
 

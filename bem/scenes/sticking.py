@@ -188,7 +188,7 @@ def plan_around(scene: PushedScene | RolledScene, steps: Callable[[Grid, float],
     points = padded_points(grid.shape, grid.periodic)
     own = tuple(steps(grid, points))
     capped, stiffness = scene.contact.behaviour == "capped", plans.stiffest(scene.lower.build(), scene.upper.build())
-    depths = len(outputs.wanted_depths())
+    depths = len(scene.wanted_depths())
     coarser = plans.coarser_contact(grid, depths, capped=capped, stiffness=stiffness, fields=14.5)
     coarser["transforms"] += again * sum(step.transforms for step in own if not step.skipped)
     return Plan.of(
@@ -209,7 +209,7 @@ def stresses_under(
     """
     from bem.stress import summarise_stress
 
-    depths = np.array(scene.outputs.wanted_depths())
+    depths = np.array(scene.wanted_depths())
     if not len(depths):
         return None
     body, sign = scene.stressed()

@@ -34,7 +34,14 @@ finite elements.
 
 from bem.stress.connected_regions import ConnectedStress, clear_other_rows, connected_stress
 from bem.stress.fields import subsurface_stress, von_mises, von_mises_field, von_mises_planes
-from bem.stress.layer_stresses import LayerStresses, highest_principal, layer_stresses, with_layer_depths
+from bem.stress.layer_stresses import (
+    DepthMaxima,
+    LayerStresses,
+    depth_maxima,
+    highest_principal,
+    layer_stresses,
+    with_layer_depths,
+)
 from bem.stress.spectra import COUNT, set_stress_memory, stress_memory
 from bem.stress.stress_summary import StressSummary, summarise_stress
 from bem.stress.von_mises_bound import von_mises_upper_bound
@@ -42,10 +49,12 @@ from bem.stress.von_mises_bound import von_mises_upper_bound
 __all__ = [
     "COUNT",
     "ConnectedStress",
+    "DepthMaxima",
     "LayerStresses",
     "StressSummary",
     "clear_other_rows",
     "connected_stress",
+    "depth_maxima",
     "highest_principal",
     "layer_stresses",
     "set_stress_memory",

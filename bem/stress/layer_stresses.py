@@ -17,12 +17,10 @@ import numpy as np
 from bem.grid import FloatArray
 from bem.materials import Body
 
-DEPTHS_PER_LAYER = 5
-"""Fewest depths in a layer, both of its ends included."""
 _BELOW = 1e-3
 """Distance of a depth below an interface, over the thickness of the thinner layer beside it."""
-_APART = 0.1
-"""Depths of a list that are nearer to a depth of a layer than this part of its thickness are left out."""
+_APART = 0.4
+"""Depths of a list that are nearer to a depth of a layer than this part of the layer's intervals are left out."""
 
 
 @dataclass(frozen=True)
@@ -43,30 +41,58 @@ class LayerStresses:
     layer_max_tension: FloatArray
 
 
-def layer_stresses(stress: FloatArray, von_mises: FloatArray, depths: FloatArray, body: Body) -> LayerStresses:
-    """Return the highest stresses of the points of each layer and interface.
+@dataclass(frozen=True)
+class DepthMaxima:
+    """Highest stresses of the points of each depth, from the surface to the first depth below all layers.
+
+    depths : (nz,) [m].
+    shear, tension : (nz,) highest shear stress and tension across the plane [Pa].
+    von_mises, principal : (nz,) highest von Mises and principal stress [Pa].
+    """
+
+    depths: FloatArray
+    shear: FloatArray
+    tension: FloatArray
+    von_mises: FloatArray
+    principal: FloatArray
+
+
+def depth_maxima(stress: FloatArray, von_mises: FloatArray, depths: FloatArray, body: Body) -> DepthMaxima:
+    """Return the highest stresses of the depths that the layers need.
 
     Parameters
     ----------
     stress : (6, nz, nx, ny), in the order xx, yy, zz, yz, xz, xy [Pa].
     von_mises : (nz, nx, ny) [Pa].
-    depths : (nz,) [m]. That nearest to an interface counts as the interface.
+    depths : (nz,) rising [m].
     body : its layers.
     """
-    count = len(body.layers)
-    medium = [body.medium_at(depth) for depth in depths.tolist()]
-    mises, tension = np.full((2, count), np.nan)
-    for k, number in enumerate(medium):
-        if number < count:
-            mises[number] = np.fmax(mises[number], von_mises[k].max())
-            tension[number] = np.fmax(tension[number], max(0.0, float(highest_principal(stress[:, k]).max())))
-    nearest = [int(np.argmin(np.abs(depths - interface))) for interface in body.interfaces]
+    number = min(int(np.searchsorted(depths, body.interfaces[-1], side="right")) + 1, len(depths))
+    planes = range(number)
+    return DepthMaxima(
+        depths=depths[:number],
+        shear=np.array([np.hypot(stress[3, k], stress[4, k]).max() for k in planes]),
+        tension=np.array([max(0.0, float(stress[2, k].max())) for k in planes]),
+        von_mises=np.array([von_mises[k].max() for k in planes]),
+        principal=np.array([max(0.0, float(highest_principal(stress[:, k]).max())) for k in planes]),
+    )
+
+
+def layer_stresses(maxima: DepthMaxima, body: Body) -> LayerStresses:
+    """Return the highest stresses of each layer and interface; the depth nearest to an interface counts as it."""
+    medium = np.array([body.medium_at(depth) for depth in maxima.depths.tolist()])
+
+    def in_layers(values: FloatArray) -> FloatArray:
+        return np.array([values[medium == number].max(initial=-np.inf) for number in range(len(body.layers))])
+
+    nearest = [int(np.argmin(np.abs(maxima.depths - interface))) for interface in body.interfaces]
+    missing = np.array([not (medium == number).any() for number in range(len(body.layers))])
     return LayerStresses(
         interface_depth=np.array(body.interfaces),
-        interface_max_shear=np.array([np.hypot(stress[3, k], stress[4, k]).max() for k in nearest]),
-        interface_max_tension=np.array([max(0.0, float(stress[2, k].max())) for k in nearest]),
-        layer_max_von_mises=mises,
-        layer_max_tension=tension,
+        interface_max_shear=maxima.shear[nearest],
+        interface_max_tension=maxima.tension[nearest],
+        layer_max_von_mises=np.where(missing, np.nan, in_layers(maxima.von_mises)),
+        layer_max_tension=np.where(missing, np.nan, in_layers(maxima.principal)),
     )
 
 
@@ -86,23 +112,25 @@ def highest_principal(stress: FloatArray) -> FloatArray:
     return highest
 
 
-def with_layer_depths(depths: Sequence[float], body: Body) -> tuple[float, ...]:
-    """Return depths with those that a coating needs: at least five in each layer, and on both sides of every interface.
+def with_layer_depths(depths: Sequence[float], body: Body, per_layer: int = 5) -> tuple[float, ...]:
+    """Return depths with those that a coating needs: some in each layer, and on both sides of every interface.
 
     Parameters
     ----------
     depths : rising [m]; those that nearly coincide with an added one are left out.
     body : its layers.
+    per_layer : fewest depths in a layer, both of its ends included.
     """
     added: list[tuple[float, float]] = []
     top, above = 0.0, math.inf
     for interface, layer in zip(body.interfaces, body.layers, strict=True):
         thickness = layer.thickness
         first = top if top == 0 else top + _BELOW * min(above, thickness)
-        places = [top + thickness * i / (DEPTHS_PER_LAYER - 1) for i in range(1, DEPTHS_PER_LAYER - 1)]
+        places = [top + thickness * i / (per_layer - 1) for i in range(1, per_layer - 1)]
         added += [(place, thickness) for place in (first, *places, interface)]
         top, above = interface, thickness
     if added:
         added.append((top + _BELOW * above, above))
-    kept = [depth for depth in depths if all(abs(depth - one) > _APART * thickness for one, thickness in added)]
+    near = _APART / (per_layer - 1)
+    kept = [depth for depth in depths if all(abs(depth - one) > near * thickness for one, thickness in added)]
     return tuple(sorted([*kept, *(one for one, _ in added)]))

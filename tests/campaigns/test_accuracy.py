@@ -195,6 +195,33 @@ def test_memory_that_is_not_there_ends_it(tmp_path, monkeypatch):
     assert "are available" in done.summary["where"]
 
 
+def test_stresses_of_a_coating_are_as_exact_as_was_asked_with_depths_in_every_layer(tmp_path):
+    """Against a run of twice the cells and depths; finer levels have more depths in every layer."""
+    layers = [{"material": "dlc", "thickness": "60 um"}, {"material": "tungsten-carbide", "thickness": "40 um"}]
+    coated = BALL | {"lower": {"material": "steel-52100", "layers": layers}, "outputs": {"stresses": True}}
+    coated |= {"accuracy": {"interface_max_shear": "3 %", "layer_max_von_mises": "3 %"}}
+    done = run(coated, tmp_path / "run", "outputs.vtk=false")
+    found = done.summary
+    assert found["accuracy"]["met"]
+    depths = done.dataset["depth"].values
+    assert {60e-6, 100e-6} <= set(np.round(depths, 15))
+    assert len(found["layer_max_tension_Pa_error"]) == 2
+    scene = load_scene(done.path / "scene.toml")
+    (number,) = (i for i, one in enumerate(get_kind("contact").resolutions) if one.what == "depths")
+    finer = get_kind("contact").resolutions[number].finer(scene)
+    for top, bottom in ((0, 60e-6), (60e-6, 100e-6)):
+        few, many = (sum(top < z <= bottom for z in one.wanted_depths()) for one in (scene, finer))
+        assert many >= max(8, few + 1)
+    cells = 2 * len(done.dataset["x"])
+    lengths = [float(cells * np.diff(done.dataset[axis].values)[0]) / 2 for axis in ("x", "y")]
+    again = {"grid": {"shape": cells, "lengths": lengths}, "accuracy": None, "outputs": finer.outputs.model_dump()}
+    reference = run(coated | again, tmp_path / "finer", "outputs.vtk=false", "outputs.errors=false").summary
+    for key in ("interface_max_shear_Pa", "layer_max_von_mises_Pa"):
+        bars = found[f"{key}_error"]
+        assert max(bars) <= 0.03 * max(found[key])
+        assert np.abs(np.subtract(found[key], reference[key])).max() <= 0.03 * max(found[key])
+
+
 def test_cases_are_refined_each_by_itself_and_the_accuracy_can_be_swept(tmp_path):
     over = {key: value for key, value in BALL.items() if key != "accuracy"} | {"over": {"accuracy": ["1 %", "0.3 %"]}}
     done = run(over, tmp_path / "over", workers=1)

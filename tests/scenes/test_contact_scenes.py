@@ -11,7 +11,7 @@ from bem.errors import InputError, Status
 from bem.grid import Grid
 from bem.materials import Body, Layer, Material, contact_modulus
 from bem.notes import has_code
-from bem.notes.checks import DEPTHS_MISS_STRESS
+from bem.notes.checks import DEPTHS_MISS_STRESS, RESIDUAL_STRESS
 from bem.notes.contact import ADHESIVE_ZONE_UNRESOLVED
 from bem.reference_solutions.hertz import cylinder_contact, sphere_contact
 from bem.reference_solutions.westergaard import crossed_full_contact_pressure
@@ -295,11 +295,36 @@ def test_bodies_that_do_not_touch_say_so(asked):
 COATED = ("grid.shape=32", "contact.friction=0.1", 'outputs={"stresses" = true, "errors" = false}')
 
 
+def test_a_residual_stress_of_a_layer_adds_to_stresses_and_is_said():
+    """The pressure keeps its bits; in-plane stresses of the layer move by it; its figure stands beside the others."""
+    settings = [*COATED, 'outputs.depths={deepest="20 um",count=4}']
+    stated = "lower.layer.residual_stress=-2 GPa"
+    _, plain, _ = run("coated-sphere", settings)
+    scene, found, _ = run("coated-sphere", [*settings, stated])
+    layer = [depth <= 2e-6 for depth in scene.wanted_depths()]
+    moved = found.variables["stress"].values - plain.variables["stress"].values
+    np.testing.assert_allclose(moved[:2, layer], -2e9, rtol=1e-9)
+    assert np.abs(moved[2:]).max() < 1e-3
+    assert np.abs(moved[:2, np.logical_not(layer)]).max() < 1e-3
+    assert found.variables["pressure"].values.tobytes() == plain.variables["pressure"].values.tobytes()
+    assert found.summary["layer_residual_stress_Pa"] == [-2e9]
+    assert "layer_residual_stress_Pa" not in plain.summary
+    assert found.summary["layer_max_tension_Pa"][0] < plain.summary["layer_max_tension_Pa"][0]
+    assert has_code(scene_warnings(examine(scene)), RESIDUAL_STRESS)
+    thinner = scene.lower.with_outermost(1e-6).build()
+    assert (thinner.layers[0].thickness, thinner.layers[0].residual_stress) == (1e-6, -2e9)
+
+
+def test_a_residual_stress_beyond_the_yield_stress_is_refused():
+    with pytest.raises(InputError, match=r"lower.layer: residual_stress -9e\+09 Pa, beyond the yield stress"):
+        run("coated-sphere", ["lower.layer.residual_stress=-9 GPa"])
+
+
 def test_coatings_have_depths_and_stresses_by_layer_and_interface():
     layers = 'lower.layers=[{material="dlc",thickness="2 um"},{material="tungsten-carbide",thickness="0.5 um"}]'
     settings = [*COATED, "lower.layer=", layers]
     scene, outcome, _ = run("coated-sphere", settings)
-    depths = np.array(scene.outputs.depths.values)
+    depths = np.array(scene.wanted_depths())
     told = outcome.summary
     assert told["interface_depth_m"] == pytest.approx([2e-6, 2.5e-6])
     for top, bottom in ((-1, 2e-6), (2e-6, 2.501e-6)):
@@ -307,6 +332,10 @@ def test_coatings_have_depths_and_stresses_by_layer_and_interface():
     assert len(told["interface_max_shear_Pa"]) == len(told["layer_max_tension_Pa"]) == 2
     assert max(told["layer_max_von_mises_Pa"]) <= told["max_von_mises_Pa"] * (1 + 1e-9)
     assert not has_code(scene_warnings(examine(scene)), DEPTHS_MISS_STRESS)
+    graded, _, _ = run("coated-sphere", [*settings, 'outputs.depths={deepest="60 um",count=8}'])
+    assert {2e-6, 2.5e-6} <= set(np.round(graded.wanted_depths(), 15))
+    listed, _, _ = run("coated-sphere", [*settings, 'outputs.depths=["0 um","1 um"]'])
+    assert listed.wanted_depths() == (0.0, 1e-6)
     _, plain, _ = run("hertz-sphere", ["grid.shape=32", 'outputs={"stresses" = true, "errors" = false}'])
     assert "interface_depth_m" not in plain.summary
 

@@ -27,7 +27,6 @@ EXPECTED_WARNINGS = {
     "hardness-optimum": {"few_cells_per_wave"},  # the thesis' cell, two to the shortest wave
     "running-in-stribeck": {"few_cells_per_wave", "few_cells_per_correlation_length"},  # likewise
     "running-in-ball": {"few_cells_per_wave", "few_cells_per_correlation_length"},  # likewise, the same surfaces
-    "multilayer-coating": {"few_depths_in_a_layer"},  # the depths that `deepest` gives: two in layers far down
     "wear-hard-roughness": {"steep_roughness"},  # Sq 1500 nm is the variant's point; its slope is 5
     "wear-soft-roughness": {"steep_roughness"},  # likewise, slope 1
     "wear-mesh-convergence": {"few_cells_per_wave", "depths_coarser_than_cells"},  # coarse meshes are its point

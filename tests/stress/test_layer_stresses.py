@@ -7,7 +7,7 @@ import numpy as np
 import pytest
 
 from bem import Body, Grid, Layer, Material, subsurface_stress
-from bem.stress import highest_principal, layer_stresses, von_mises, with_layer_depths
+from bem.stress import depth_maxima, highest_principal, layer_stresses, von_mises, with_layer_depths
 
 
 def material(modulus, poisson):
@@ -35,6 +35,14 @@ def test_every_layer_has_five_depths_and_every_interface_two_sides(thicknesses, 
     assert {depth for depth in depths if depth > 1.1 * ends[-1]} <= set(found)
 
 
+def test_more_depths_in_each_layer_keep_those_of_fewer():
+    """Twice the intervals have every depth of the single ones, so that a refinement of depths never loses a stress."""
+    body = Body(STEEL, layers=(Layer(HARD, 2e-6), Layer(STIFF, 0.5e-6)))
+    few, many = (np.array(with_layer_depths((), body, number)) for number in (5, 9))
+    assert np.abs(many[:, None] - few).min(axis=0).max() <= 1e-12
+    assert len(many) == 2 * len(few) - 3
+
+
 def test_a_body_without_layers_keeps_its_depths():
     assert with_layer_depths((0.0, 1e-6), Body(STEEL)) == (0.0, 1e-6)
 
@@ -58,7 +66,7 @@ def test_layers_and_interfaces_have_the_stresses_of_the_layered_kernels_there():
     pressure = 2e9 * np.sqrt(np.clip(1 - (x**2 + y**2) / 5e-6**2, 0, None))
     depths = np.array(with_layer_depths(tuple(np.linspace(0, 10e-6, 6)), body))
     stress = subsurface_stress(pressure, grid, body, depths, friction=0.1)
-    found = layer_stresses(stress, von_mises(stress), depths, body)
+    found = layer_stresses(depth_maxima(stress, von_mises(stress), depths, body), body)
     np.testing.assert_allclose(found.interface_depth, [2e-6, 2.5e-6], rtol=1e-12)
     for number, (top, bottom) in enumerate([(0.0, body.interfaces[0]), (2.0005e-6, body.interfaces[1])]):
         own = np.linspace(top, bottom, 5)
@@ -87,7 +95,7 @@ def test_coatings_agree_with_finite_elements(case):
     pressure *= 2 / 3 * np.pi / (pressure.sum() * grid.cell_area)
     depths = np.array(with_layer_depths((0.0, 3.0), body))
     stress = subsurface_stress(pressure, grid, body, depths)
-    found = layer_stresses(stress, von_mises(stress), depths, body)
+    found = layer_stresses(depth_maxima(stress, von_mises(stress), depths, body), body)
     of = {(one["name"], one["along"]): np.array(one["values"]) for one in stored["quantities"]}
     foot = of["stress_xx", "interface, y = 0 (layer)"][0]
     shear = np.abs(of["stress_xz", "interface, y = 0 (layer)"]).max()

@@ -29,7 +29,7 @@ def bars_of(
     path: AdhesiveHistory | None = None,
 ) -> ErrorBars:
     """Bars of the contact, and of the stresses below it where there are any."""
-    from bem.accuracy import ContactCase, coarser_before, contact_bars, solve_coarser, stress_bars
+    from bem.accuracy import ContactCase, coarser_before, coating_bars, contact_bars, solve_coarser, stress_bars
 
     grid, before = build.grid_of(scene.grid), level_before(context)
     operator = build.operator_of(scene, grid, scene.contact.friction)
@@ -46,7 +46,11 @@ def bars_of(
     if below is None:
         return bars
     body, sign = scene.stressed()
-    return bars | stress_bars(case, coarser, body, below, sign * scene.contact.friction)
+    friction = sign * scene.contact.friction
+    bars |= stress_bars(case, coarser, body, below, friction)
+    return (
+        bars | coating_bars(case, coarser, body, below, friction) if body.layers and below.stress is not None else bars
+    )
 
 
 RESOLUTIONS = (CELLS, DEPTHS)

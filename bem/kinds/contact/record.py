@@ -12,10 +12,7 @@ from numpy.typing import NDArray
 from bem.grid import FloatArray
 from bem.scenes.records import Figure, GridRecord, Series, grid_map
 
-_NO_BAR = (
-    "the highest stress of the points of a layer or interface follows the grid; compare with one of half the spacing"
-)
-_coating = partial(Figure, optional=True, headline=True, no_bar=_NO_BAR)
+_coating = partial(Figure, optional=True, headline=True)
 _interfaces = partial(_coating, dimensions=("interface",))
 _layers = partial(_coating, dimensions=("layer",))
 
@@ -76,13 +73,19 @@ class ContactRecord(GridRecord):
     interface_max_shear: Annotated[FloatArray | None, _interfaces("Pa", "maximum shear stress across interfaces")] = (
         None
     )
-    interface_max_tension: Annotated[FloatArray | None, _interfaces("Pa", "maximum tension across interfaces")] = None
+    interface_max_tension: Annotated[
+        FloatArray | None, _interfaces("Pa", "maximum tension across interfaces", part_of=("max_pressure",))
+    ] = None
     layer_max_von_mises: Annotated[FloatArray | None, _layers("Pa", "maximum von Mises stress in each layer")] = None
     layer_max_tension: Annotated[FloatArray | None, _layers("Pa", "maximum principal stress in each layer")] = None
     lowest_load: Annotated[
         float | None, Figure("N", "lowest load on the path; minus the pull-off force", optional=True, headline=True)
     ] = None
     adhesive_energy: Annotated[float | None, Figure("J", "elastic and adhesive energy", optional=True)] = None
+    layer_residual_stress: Annotated[
+        FloatArray | None,
+        _layers("Pa", "residual stress of each layer, which the other stresses include", unjudged=True),
+    ] = None
     pressure: Annotated[FloatArray, grid_map("Pa", "contact pressure")]
     displacement: Annotated[FloatArray, grid_map("m", "normal displacement of both bodies together")]
     gap: Annotated[FloatArray, grid_map("m", "gap between the deformed surfaces")]

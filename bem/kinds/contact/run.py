@@ -57,7 +57,7 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
     if path is None:
         tell(context, _standing_off(solution))
     below: StressSummary | None = None
-    if scene.outputs.wanted_depths():
+    if scene.wanted_depths():
         with context.timer("stresses"):
             traction = solution.pressure if path is None else path.last.traction
             below = _stresses(scene, grid, traction, context)
@@ -138,12 +138,15 @@ def _stress_fields(below: StressSummary | None) -> dict[str, Any]:
 
 def _coating_fields(scene: ContactScene, below: StressSummary | None) -> dict[str, Any]:
     """Fields of the record on layers and interfaces of the stressed body; none without layers or components."""
-    from bem.stress import layer_stresses
+    from bem.stress import depth_maxima, layer_stresses
 
     body, _ = scene.stressed()
     if below is None or below.stress is None or not body.layers:
         return {}
-    return dataclasses.asdict(layer_stresses(below.stress, below.von_mises, below.depths, body))
+    maxima = depth_maxima(below.stress, below.von_mises, below.depths, body)
+    residual = np.array(body.residual_stresses[:-1])
+    stated = {"layer_residual_stress": residual} if residual.any() else {}
+    return dataclasses.asdict(layer_stresses(maxima, body)) | stated
 
 
 def _cut_off(scene: ContactScene, grid: Grid, solution: ContactSolution) -> tuple[Note, ...]:
@@ -177,7 +180,7 @@ def _stresses(scene: ContactScene, grid: Grid, pressure: FloatArray, context: Co
     """Stresses in the body asked for, at every depth; von Mises on disk where it is very large."""
     from bem.stress import summarise_stress
 
-    depths, (body, sign) = np.array(scene.outputs.wanted_depths()), scene.stressed()
+    depths, (body, sign) = np.array(scene.wanted_depths()), scene.stressed()
     friction = sign * scene.contact.friction
     field = context.scratch((len(depths), *grid.shape))
 

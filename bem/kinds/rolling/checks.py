@@ -14,5 +14,4 @@ def contacts(scene: RollingContactScene) -> list[Case]:
     """Contact of the two bodies on the grid."""
     from bem.scenes.checks.facts import dry_contacts
 
-    outputs = scene.outputs
-    return dry_contacts(scene, outputs.depths.build() if outputs.below and outputs.depths is not None else ())
+    return dry_contacts(scene, scene.wanted_depths())

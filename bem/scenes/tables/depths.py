@@ -2,13 +2,19 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import TYPE_CHECKING, Annotated, Any
 
 from pydantic import Field, model_validator
 
 from bem.scenes.common import PositiveLength, Table, check_rising, exactly_one
 from bem.scenes.keys import key
 from bem.scenes.units import Length, Ratio
+
+if TYPE_CHECKING:
+    from bem.materials import Body
+
+DEPTHS_PER_LAYER = 5
+"""Fewest depths in a layer, both of its ends included, besides graded depths."""
 
 
 class DepthsScene(Table):
@@ -21,6 +27,13 @@ class DepthsScene(Table):
     count: Annotated[int, Field(strict=True, ge=2, le=1024)] = key("Number of depths.", "basic", default=32)
     grading: Annotated[Ratio, Field(ge=1, le=5)] = key(
         "Exponent of the grading: 1 is uniform, larger values refine near the surface.", "expert", default=2.0
+    )
+    per_layer: Annotated[int, Field(strict=True, ge=2, le=257)] | None = key(
+        "Fewest depths added in each layer of a coating, with both sides of every interface.",
+        "expert",
+        default=None,
+        reason=f"{DEPTHS_PER_LAYER} besides graded depths, none besides a list",
+        example=9,
     )
 
     @classmethod
@@ -43,9 +56,25 @@ class DepthsScene(Table):
         check_rising(self.values or (), "depths")
         return self
 
-    def build(self) -> tuple[float, ...]:
-        """Depths [m]; from `deepest` they are deepest * (i / (count - 1))^grading."""
+    @property
+    def in_each_layer(self) -> int:
+        """Fewest depths in each layer of a coating; 0 for those of a list alone."""
+        if self.per_layer is not None:
+            return self.per_layer
+        return 0 if self.values is not None else DEPTHS_PER_LAYER
+
+    def build(self, body: Body | None = None) -> tuple[float, ...]:
+        """Depths [m]; from `deepest` they are deepest * (i / (count - 1))^grading.
+
+        body : whose layers have depths of their own.
+        """
         if self.values is not None:
-            return tuple(self.values)
-        assert self.deepest is not None
-        return tuple(self.deepest * (i / (self.count - 1)) ** self.grading for i in range(self.count))
+            depths = tuple(self.values)
+        else:
+            assert self.deepest is not None
+            depths = tuple(self.deepest * (i / (self.count - 1)) ** self.grading for i in range(self.count))
+        if body is None or not body.layers or not self.in_each_layer:
+            return depths
+        from bem.stress import with_layer_depths
+
+        return with_layer_depths(depths, body, self.in_each_layer)

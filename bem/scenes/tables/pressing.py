@@ -223,10 +223,6 @@ class StressOutputs(Table):
         """Return True if anything below the surface is wanted."""
         return self.von_mises
 
-    def wanted_depths(self) -> tuple[float, ...]:
-        """Depths of what is wanted below the surface [m]; none where nothing is."""
-        return self.depths.build() if self.below and self.depths is not None else ()
-
 
 class ContactOutputs(StressOutputs):
     """Results besides pressure, gap and displacement."""
@@ -249,7 +245,7 @@ class ContactOutputs(StressOutputs):
     def volumes(self) -> tuple[str, ...]:
         """Fields for ParaView."""
         wanted = ("von_mises", "stress") if self.stresses else ("von_mises",)
-        return wanted if self.vtk and self.wanted_depths() else ()
+        return wanted if self.vtk and self.below and self.depths is not None else ()
 
 
 class StressedScene(PressedScene):
@@ -270,18 +266,19 @@ class StressedScene(PressedScene):
         scene = super().resolved()
         if scene.outputs.below and scene.outputs.depths is None:
             deepest = min(build.grid_of(scene.grid).lengths) / 4
-            scene = changed(scene, "outputs.depths", self._usual_depths(deepest))
+            scene = changed(scene, "outputs.depths", scene.usual_depths(deepest))
         return scene
 
-    def _usual_depths(self, deepest: float) -> DepthsScene:
-        """Graded depths [m]; of a coated body listed, with those that its layers and interfaces need."""
-        from bem.stress import with_layer_depths
-
+    def usual_depths(self, deepest: float) -> DepthsScene:
+        """Graded depths down to `deepest` [m], or below all layers."""
         body, _ = self.stressed()
-        if not body.layers:
-            return DepthsScene(deepest=deepest, count=_DEPTHS)
-        graded = DepthsScene(deepest=max(deepest, _BELOW_COATING * body.interfaces[-1]), count=_DEPTHS)
-        return DepthsScene(values=list(with_layer_depths(graded.build(), body)))
+        through = _BELOW_COATING * body.interfaces[-1] if body.layers else 0.0
+        return DepthsScene(deepest=max(deepest, through), count=_DEPTHS)
+
+    def wanted_depths(self) -> tuple[float, ...]:
+        """Depths of what is wanted below the surface [m], with those of layers; none where nothing is."""
+        outputs = self.outputs
+        return outputs.depths.build(self.stressed()[0]) if outputs.below and outputs.depths is not None else ()
 
     def stressed(self) -> tuple[Body, float]:
         """The body whose stresses are wanted, and the sign of traction: on the lower body it acts along +x, on the

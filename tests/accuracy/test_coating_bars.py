@@ -1,0 +1,83 @@
+"""Error bars of stresses in coatings: random contacts against four times the cells and depths, and where depths lack.
+
+`reports/experiments/coating_error_bars.py` has 60 of them and the verdict for each figure.
+"""
+
+import numpy as np
+import pytest
+from error_bar_ratios import ratios_of
+
+from bem import Body, Grid, Layer, Material, displacement_operator, solve_contact
+from bem.accuracy import ContactCase, coating_bars, solve_coarser
+from bem.accuracy.coating import NAMES
+from bem.stress import depth_maxima, layer_stresses, summarise_stress, with_layer_depths
+from reports.experiments.coating_error_bars import EXPERIMENT, draw
+
+STEEL = Material("steel", youngs_modulus=200e9, poissons_ratio=0.3)
+BODY = Body(
+    STEEL,
+    layers=(
+        Layer(Material("outer", youngs_modulus=500e9, poissons_ratio=0.2), 3e-6),
+        Layer(Material("inner", youngs_modulus=100e9, poissons_ratio=0.3), 2e-6),
+    ),
+)
+
+
+def test_bars_of_a_dozen_random_coatings_cover_nine_errors_in_ten():
+    """On grids that repeat, whose references take seconds."""
+    rng, rows, number = np.random.default_rng(4), [], 0
+    while number < 12:
+        drawn = draw(rng)
+        if all(drawn.problem.grid.periodic):
+            number += 1
+            rows += EXPERIMENT.rows(drawn, number)
+    ratios = ratios_of(rows, 60)
+    assert np.mean(ratios >= 1) >= 0.9
+    assert np.median(ratios) < 9
+
+
+def ball(cells, hardness=None):
+    """A ball on two layers: its case and its pressure's grid."""
+    grid = Grid((cells, cells), (40e-6 / cells,) * 2)
+    gap = (grid.x[:, None] ** 2 + grid.y**2) / 1e-3
+    operator = displacement_operator(grid, BODY)
+    solution = solve_contact(gap, operator, load=0.5, hardness=hardness)
+    return ContactCase(operator, gap, solution, load=0.5, hardness=hardness)
+
+
+def stresses(case, depths, friction=0.0):
+    below = summarise_stress(
+        case.solution.pressure, case.grid, BODY, np.array(depths), friction=friction, components=True
+    )
+    return below, layer_stresses(depth_maxima(below.stress, below.von_mises, below.depths, BODY), BODY)
+
+
+@pytest.mark.parametrize("friction", [0.0, 0.3])
+def test_a_balls_stresses_between_depths_are_covered_also_without_depths_at_the_interfaces(friction):
+    case = ball(40)
+    _, truth = stresses(case, with_layer_depths((), BODY, 65), friction)
+    few = (0.4e-6, 1.5e-6, 2.6e-6, 3.3e-6, 4.0e-6, 4.8e-6, 5.5e-6)
+    for depths, most in ((with_layer_depths((), BODY, 5), 0.02), (few, 1.3)):
+        below, found = stresses(case, depths, friction)
+        bars = coating_bars(case, solve_coarser(case), BODY, below, friction)
+        for name in NAMES:
+            missed = np.abs(getattr(found, name) - getattr(truth, name))
+            left, whole = bars.parts["depths"][name], np.abs(getattr(truth, name)).max()
+            assert (missed <= left + 0.01 * whole).all(), (name, missed, left)
+            assert (left < most * whole).all(), (name, left)
+
+
+def test_layers_without_depths_and_limits_have_no_bar():
+    case = ball(40)
+    below, found = stresses(case, (0.0, 1e-6, 2e-6, 3e-6))
+    bars = coating_bars(case, solve_coarser(case), BODY, below)
+    assert np.isnan(found.layer_max_von_mises[1])
+    assert np.isnan(bars.values["layer_max_von_mises"]).tolist() == [False, True]
+    assert bars.notes == ()
+    capped = ball(40, hardness=0.7 * float(case.solution.pressure.max()))
+    below, _ = stresses(capped, with_layer_depths((), BODY, 9))
+    bars = coating_bars(capped, solve_coarser(capped), BODY, below)
+    assert np.isnan(bars.values["layer_max_tension"]).tolist() == [True, False]
+    assert np.isfinite(bars.values["interface_max_shear"]).all()
+    (note,) = bars.notes
+    assert note.values["reason"] == "stress-of-capped"
