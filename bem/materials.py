@@ -133,8 +133,6 @@ def _of_the_catalogue(material: Any) -> Any:
 class Layer:
     """A bonded surface layer of uniform thickness.
 
-    Parameters
-    ----------
     material : of the layer.
     thickness : [m].
     residual_stress : in the plane of the layer, equal in all directions [Pa]; compression is negative. It adds to the
