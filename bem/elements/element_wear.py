@@ -14,10 +14,10 @@ _ROLLS = "none by sliding: both surfaces roll at one speed"
 def wear_per_hour(element: Element) -> str:
     """Return the depth that an hour takes off each body, in words."""
     contacts, rates = element.found.contacts, element.found.passes
+    if all(one.speeds[0] == one.speeds[1] for one in contacts):
+        return _ROLLS
     if element.model.specific_wear_rate is None:
         return "not known: give specific_wear_rate, measured with this oil and load share"
-    if worn_volume_rate(element) == 0:
-        return _ROLLS
     said = []
     for body, rate in enumerate(rates):
         if rate is None:
