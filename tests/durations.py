@@ -13,7 +13,7 @@ import json
 import re
 import sys
 from collections import defaultdict
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from pathlib import Path
 
 TESTS = Path(__file__).resolve().parent
@@ -26,6 +26,8 @@ SLOW_CASE = 0.4
 """Seconds of its longest case from which a function is slow: the fast tests take 2.5 minutes together."""
 SLOW_FUNCTION = 1.2
 """Seconds of all cases of a function from which it is slow."""
+SHARING = ("tests/gallery/test_gallery.py", "tests/results/test_compare_runs.py", "tests/golden/test_golden.py")
+"""Files that read the same runs (`golden_runs`): one worker takes them in turn, as two would wait for one another."""
 _LINE = re.compile(r"\s*([\d.]+)s (?:call|setup|teardown)\s+(tests/.*?)\s*$")
 
 
@@ -75,7 +77,7 @@ def file_seconds(functions: Iterable[str], seconds: Mapping[str, tuple[float, fl
     return found
 
 
-def deal_files(seconds: Mapping[str, float]) -> list[str]:
+def deal_files(seconds: Mapping[str, float], sharing: Sequence[str] = SHARING) -> list[str]:
     """Return the files in the order in which two workers take them, each half with its longest files first.
 
     Workers begin with one half each and steal from the end of the other's: long tests at an end would be waited for.
@@ -83,13 +85,16 @@ def deal_files(seconds: Mapping[str, float]) -> list[str]:
     Parameters
     ----------
     seconds : of all tests of the files.
+    sharing : files that follow one another in the same half.
     """
+    together = [file for file in sharing if file in seconds]
+    groups = [[file] for file in seconds if file not in together] + ([together] if together else [])
     halves: tuple[list[str], list[str]] = ([], [])
     sums = [0.0, 0.0]
-    for file in sorted(seconds, key=lambda file: (-seconds[file], file)):
+    for total, group in sorted((-sum(seconds[file] for file in group), group) for group in groups):
         half = int(sums[1] < sums[0])
-        halves[half].append(file)
-        sums[half] += seconds[file]
+        halves[half].extend(group)
+        sums[half] -= total
     return [*halves[0], *halves[1]]
 
 

@@ -1,6 +1,8 @@
 """Stored durations: what they make slow, how they deal files to workers, and how they are read."""
 
-from durations import deal_files, file_seconds, function_of, killers, read_log, slow_functions, stored
+from pathlib import Path
+
+from durations import SHARING, deal_files, file_seconds, function_of, killers, read_log, slow_functions, stored
 
 SECONDS = {"a.py::one": (0.6, 0.6), "a.py::two": (2.0, 0.1), "b.py::three": (0.3, 0.3), "b.py::four": (9.0, 9.0)}
 
@@ -25,6 +27,12 @@ def test_workers_get_halves_that_end_with_short_files():
     order = deal_files({"short": 1.0, "long": 9.0, "shorter": 0.5, "middle": 5.0, "low": 4.0})
     assert sorted(order) == ["long", "low", "middle", "short", "shorter"]
     assert order == ["long", "short", "middle", "low", "shorter"]
+
+
+def test_files_that_share_runs_follow_one_another_in_one_half():
+    order = deal_files({"b": 3.0, "long": 4.0, "a": 2.0, "short": 0.5}, sharing=("a", "b", "not chosen"))
+    assert order == ["a", "b", "long", "short"]
+    assert all((Path(__file__).parents[1] / file).is_file() for file in SHARING)
 
 
 def test_durations_of_a_log_are_summed_over_set_up_and_cases():
