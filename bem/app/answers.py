@@ -14,7 +14,6 @@ from bem.plots.labels import UNIFORM, key_words
 from bem.plots.report import with_error
 from bem.plots.tables import is_list, is_size_of_no_particles, name_and_unit, varied_keys
 from bem.quantities import si
-from bem.results.differing import leaves
 from bem.scenes.records import TELLING
 
 MOST = 5
@@ -27,8 +26,8 @@ _ASIDE = frozenset(
     )
 )
 """Headline figures that say how, where or how well it was computed."""
-_GIVEN = 1e-6
-"""Relative difference up to which a load repeats a value of the scene."""
+_WITHOUT_LOAD = ("approach", "mean_gap", "hertz_pressure")
+"""Keys of a contact in place of its load, which is a result then."""
 
 
 @dataclass(frozen=True)
@@ -52,18 +51,19 @@ class Answer:
 def answers(summary: Mapping[str, Any], headline: Sequence[str], scene: Mapping[str, Any]) -> tuple[Answer, ...]:
     """Return up to `MOST` headline figures that answer what was asked.
 
-    Figures that are zero everywhere, repeat the load of the scene, or say how well it was computed are left out.
+    Figures that are zero everywhere, are the load that was given, or say how well it was computed are left out.
     """
-    given = [value for value in leaves(dict(scene)).values() if isinstance(value, int | float)]
+    contact = scene.get("contact")
+    asked = isinstance(contact, Mapping) and any(contact.get(key) is not None for key in _WITHOUT_LOAD)
     found = []
     for name in telling_figures(summary, headline):
         value = summary[name]
+        if name == "load_N" and not asked:
+            continue
         if is_list(value):
             answer = _of_list(name, summary)
-            answer = None if name == "load_N" and "contact.mean_pressure" in varied_keys(summary) else answer
         elif isinstance(value, int | float) and not isinstance(value, bool) and value != 0:
-            repeats = any(math.isclose(value, one, rel_tol=_GIVEN) for one in given)
-            answer = None if repeats and name == "load_N" else _of_one(name, summary)
+            answer = _of_one(name, summary)
         else:
             answer = None
         if answer is not None:
@@ -101,7 +101,11 @@ def _of_one(name: str, summary: Mapping[str, Any]) -> Answer:
 def _of_list(name: str, summary: Mapping[str, Any]) -> Answer | None:
     """The least and the largest of a list of numbers."""
     values = summary[name]
-    known = [i for i, v in enumerate(values) if isinstance(v, int | float) and not isinstance(v, bool)]
+    known = [
+        i
+        for i, v in enumerate(values)
+        if isinstance(v, int | float) and not isinstance(v, bool) and not is_size_of_no_particles(name, v)
+    ]
     if not known or all(values[i] == 0 for i in known):
         return None
     ends = [min(known, key=lambda i: values[i]), max(known, key=lambda i: values[i])]

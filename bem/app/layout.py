@@ -58,6 +58,7 @@ body.body--dark .bem-filled { fill: #8ec7ee; fill-opacity: 0.35 }
 @media (max-width: 600px) {
   .bem-start { display: grid; grid-template-columns: 72px 1fr; column-gap: 12px; align-content: start }
   .bem-start > :first-child { grid-row: 1 / 3 }
+  .js-plotly-plot .modebar-container { display: none }
   .bem-start .bem-sketch { width: 72px; height: 34px }
 }
 .bem-start:hover { border-color: #0b5a8a; box-shadow: 0 1px 4px rgba(0, 0, 0, 0.2) }
@@ -122,12 +123,12 @@ def page(title: str) -> Iterator[None]:
     ui.on_exception(say)
     with ui.header().classes("items-center q-py-xs").style("background: #0b3954; height: 52px; flex-wrap: nowrap"):
         ui.link("bem", "/").classes("text-h6 text-bold text-white").style("text-decoration: none")
-        with ui.element("nav").classes("row"):
+        with ui.element("nav").classes("row no-wrap"):
             for words, where in _LINKS:
                 ui.link(words, where).classes("text-white q-mx-sm").style("text-decoration: none")
         ui.space()
-        with ui.element("h1").classes("text-subtitle1 ellipsis").style("margin: 0; line-height: 1.5"):
-            ui.label(title)
+        with ui.element("h1").classes("text-subtitle1").style("margin: 0; line-height: 1.5; min-width: 0"):
+            ui.label(title).classes("ellipsis")
     body = ui.element("div").classes("w-full column q-pa-md gap-4").style("max-width: 1500px; margin: 0 auto")
     body.props("inert")
     ui.context.client.on_connect(lambda: body.props(remove="inert"))

@@ -40,6 +40,11 @@ def test_rounding_beside_a_figure_of_its_unit_is_no_answer():
     assert [one.words for one in found] == ["force", "friction coefficient"]
 
 
+def test_the_size_of_no_particles_is_no_size():
+    (found,) = answers({"particle_equivalent_radius_nm": [2400.0, 0.0]}, ("particle_equivalent_radius_nm",), {})
+    assert found.value == "2.4 µm"
+
+
 def test_there_are_few():
     summary = {f"length_{i}_m": 1.0 + i for i in range(2 * MOST)}
     assert len(answers(summary, tuple(summary), {})) == MOST

@@ -503,6 +503,7 @@ def test_every_page_can_be_read_and_used(serve, chrome, tmp_path):
         ("/runs", "document.querySelector('[data-tick]')"),
         ("/run/ball-001", "document.querySelectorAll('.main-svg').length > 2"),
         ("/compare?runs=ball-001,ball-002", "document.querySelector('[data-overlay] .main-svg')"),
+        ("/element/gear-pair", "document.querySelector('input')"),
         ("/run/none-001", "document.querySelector('[data-mistake]')"),
     ):
         tab.go(server.base + path)
@@ -517,6 +518,12 @@ def test_every_page_can_be_read_and_used(serve, chrome, tmp_path):
             tab.settle()
             assert tab.faint() == [], (path, dark)
         assert tab.unfocused(8) == [], path
+        if path == "/run/ball-001":  # the answer comes first
+            first, then = (f"document.querySelector('{one}')" for one in ("[data-answer-of]", ".main-svg"))
+            assert tab.look(f"{first}.getBoundingClientRect().bottom < {then}.getBoundingClientRect().top")
+        if path == "/runs":  # no green beside what is outside its model
+            colour = "getComputedStyle(document.querySelector('[data-state={}]')).backgroundColor"
+            assert tab.look(colour.format("ball-003")) != tab.look(colour.format("ball-001"))
         tab.dark(False)
     tab.look("document.querySelector('[data-mistake]').style.color = '#999'")  # what is looked for is seen
     assert [text.partition(":")[0] for text, _ in tab.faint()] == ["run 'none-001'"]
