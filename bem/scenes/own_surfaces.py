@@ -35,7 +35,9 @@ _SHORTEST_AVERAGE = 300e-9
 """Averaging length of the particle criterion where cells are small enough [m]."""
 _WEAR_RATE = 1e-16
 """Specific wear rate of a first scene [m^2/N]: 1e-7 mm^3/(N m), of steel in boundary lubrication."""
-_STEP = 0.2
+_CYCLES = 150
+"""Wear cycles of a lubricated first scene: with the largest stable steps, summits lose about 10 nm in them."""
+_STEP = 0.5
 """Compliance by wear of a cycle over that by which the bodies give way from cell to cell: a stable step."""
 
 
@@ -87,6 +89,7 @@ def own_surfaces_start(kind: str, start: Mapping[str, Any], files: Mapping[str, 
         return data
     if kind == "running-in":
         data["speeds"] = {"values": [data["speeds"]["first"]]}
+        data["cycles"] = {"count": _CYCLES}
     data["depths"] = {"count": 64, "spacing": _length(cell / 2)}
     return data | {"wear": _wear(kind, data, cell)}
 

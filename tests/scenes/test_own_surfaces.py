@@ -57,7 +57,7 @@ def test_a_contact_larger_than_the_maps_shrinks_at_the_same_pressure(tmp_path):
 
 def test_own_surfaces_run_in_inside_the_model_with_particles(tmp_path):
     path = tmp_path / "mine.toml"
-    path.write_text(scene_template("running-in", surfaces=FILES, folder=tmp_path).replace("count = 50", "count = 12"))
+    path.write_text(scene_template("running-in", surfaces=FILES, folder=tmp_path).replace("count = 150", "count = 12"))
     path.write_text(path.read_text().replace("[cycles]\n", "[cycles]\nsettled = 4\n"))
     campaign = campaign_of(plan_scene(path)[0])
     outcome = compute(campaign).outcome

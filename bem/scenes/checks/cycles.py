@@ -276,7 +276,7 @@ def law_without_particles(facts: Facts, outcome: Outcome) -> Iterator[Note]:
     worn = outcome.variables.get("volume", outcome.variables.get("volume_over_cycles"))
     if not facts.of_kind("wear", "running-in") or worn is None or not worn.values.sum() > 0:
         return
-    if not any(True for _ in facts.surfaces):  # the scar of smooth bodies sheds particles of no roughness
+    if not facts.surfaces:  # the scar of smooth bodies sheds particles of no roughness
         return
     for case in facts.cases:
         if case.wear is None or case.wear.particle_criterion is not None:
