@@ -320,13 +320,28 @@ def _pair(name: str, a: object, b: object) -> tuple[Material, Material | None]:
 
 @dataclass(frozen=True, init=False)
 class CatalogueEntry(Body):
-    """A material of the catalogue and where its constants come from; it is a homogeneous body of it, too."""
+    """A material of the catalogue and where its constants come from; it is a homogeneous body of it, too.
+
+    source : of the constants.
+    thickness, residual_stress : lowest and highest usual thickness [m] and residual stress [Pa, negative in
+        compression] of a coating; None of other materials.
+    """
 
     source: str = ""
+    thickness: tuple[float, float] | None = None
+    residual_stress: tuple[float, float] | None = None
 
-    def __init__(self, material: Material, source: str) -> None:
+    def __init__(
+        self,
+        material: Material,
+        source: str,
+        thickness: tuple[float, float] | None = None,
+        residual_stress: tuple[float, float] | None = None,
+    ) -> None:
         super().__init__(material)
         object.__setattr__(self, "source", source)
+        object.__setattr__(self, "thickness", thickness)
+        object.__setattr__(self, "residual_stress", residual_stress)
 
 
 class UnknownMaterialError(InputError, KeyError):
@@ -357,7 +372,8 @@ def _catalogue() -> Catalogue:
     found = Catalogue()
     for name, table in tomllib.loads(files("bem").joinpath("materials.toml").read_text(encoding="utf-8")).items():
         source, heat = table.pop("source"), table.pop("heat_source", "")
-        found[name] = CatalogueEntry(Material(name, **table), f"{source}; heat: {heat}" if heat else source)
+        usual = {key: tuple(table.pop(key)) for key in ("thickness", "residual_stress") if key in table}
+        found[name] = CatalogueEntry(Material(name, **table), f"{source}; heat: {heat}" if heat else source, **usual)
     return found
 
 

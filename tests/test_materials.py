@@ -18,6 +18,7 @@ from bem import (
     surface_temperature,
 )
 from bem.materials import softer_hardness
+from bem.scenes import load_scene
 
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
 
@@ -97,6 +98,7 @@ def test_thermal_constants_of_the_catalogue_are_those_of_solids(name):
 NO_METAL = {
     *("tribofilm", "dlc", "glass", "ptfe", "pom", "pa66", "peek"),
     *("silicon-nitride", "alumina", "tungsten-carbide", "zirconia", "silicon-carbide"),
+    *("a-C:H", "ta-C", "CrN", "TiN", "WC/C"),
 }
 
 
@@ -129,3 +131,33 @@ def test_what_touches_carries_its_hardness_or_that_of_its_yield_stress():
     assert softer_hardness(Body(elastic), None) is None
     coated = Body(given, layer=Layer(polymer, 1e-6))
     assert softer_hardness(coated, Body(given)) == 280e6
+
+
+COATINGS = ("a-C:H", "ta-C", "CrN", "TiN", "WC/C", "Cr")
+
+
+def test_coatings_have_a_usual_thickness_and_a_stress_that_they_hold():
+    assert {name for name, one in CATALOGUE.items() if one.thickness is not None} == set(COATINGS)
+    for name in COATINGS:
+        entry = CATALOGUE[name]
+        for low, high in (entry.thickness, entry.residual_stress):
+            assert low < high
+        for thickness in entry.thickness:
+            for stress in entry.residual_stress:
+                assert Layer(entry, thickness, stress).residual_stress == stress
+
+
+@pytest.mark.parametrize("name", COATINGS)
+def test_a_coating_is_known_by_name_in_scenes(name):
+    stack = [
+        {"material": name, "thickness": "2 um", "residual_stress": "-1 GPa"},
+        {"material": "Cr", "thickness": 1e-7},
+    ]
+    ball = {"kind": "contact", "grid": {"shape": 32, "lengths": "100 um"}, "contact": {"load": "1 N"}}
+    shape = {"kind": "sphere", "radius": "3 mm"}
+    scene = load_scene(ball | {"shape": shape, "lower": {"material": "steel-52100", "layers": stack}})
+    outer, inner = scene.lower.build().layers
+    assert outer.material == CATALOGUE[name].material
+    assert inner.material == CATALOGUE["Cr"].material
+    assert (outer.thickness, outer.residual_stress) == (2e-6, -1e9)
+    assert CATALOGUE.meant(name.lower()) == name

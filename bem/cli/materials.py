@@ -38,6 +38,12 @@ def register(app: typer.Typer) -> None:
             )
             rows = [(key, *_numbers(key)[:5], CATALOGUE[key].source) for key in sorted(CATALOGUE)]
             table(head, rows, right=(1, 2, 3, 4, 5), wide_only=(6,))
+            coatings = [
+                (key, _span(one.thickness, 1e-6), _span(one.residual_stress, 1e9))
+                for key, one in sorted(CATALOGUE.items())
+                if one.thickness is not None
+            ]
+            table(("coating", "usual thickness (um)", "residual stress (GPa)"), coatings, right=(1, 2))
             return
         name = CATALOGUE.meant(name)
         if name not in CATALOGUE:
@@ -57,7 +63,18 @@ def register(app: typer.Typer) -> None:
             for (label, unit), value in zip(labels, _numbers(name), strict=True)
             if value
         ]
-        table(("", ""), [*rows, ("source", CATALOGUE[name].source)], title=name)
+        entry = CATALOGUE[name]
+        if entry.thickness is not None:
+            rows += [
+                ("usual thickness", f"{_span(entry.thickness, 1e-6)} um"),
+                ("usual residual stress", f"{_span(entry.residual_stress, 1e9)} GPa"),
+            ]
+        table(("", ""), [*rows, ("source", entry.source)], title=name)
+
+
+def _span(ends: tuple[float, float] | None, unit: float) -> str:
+    """Return two ends in a unit."""
+    return "" if ends is None else " to ".join(f"{end / unit:.3g}" for end in ends)
 
 
 def _numbers(name: str) -> tuple[str, ...]:

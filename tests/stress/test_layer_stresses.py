@@ -102,3 +102,25 @@ def test_coatings_agree_with_finite_elements(case):
     assert found.layer_max_tension[0] == pytest.approx(foot, rel=5e-3)
     assert shear * (1 - 5e-3) <= found.interface_max_shear[0] <= 1.05 * shear
     assert found.interface_max_tension[0] < 0.05 * foot
+
+
+def test_two_layers_agree_with_finite_elements():
+    """A Hertzian pressure on a stiff layer on a soft one: both interfaces, and the tension at the foot of the stiff
+    layer."""
+    stored = json.loads((files("bem.verification") / "fem_results" / "disc-hertz-stiff-on-soft.json").read_text())
+    numbers = stored["parameters"]["layer"]
+    stack = [Layer(material(*numbers[i : i + 2]), numbers[i + 2]) for i in (0, 3)]
+    body = Body(material(1.0, stored["parameters"]["nu"]), layers=stack)
+    grid = Grid((129, 129), (6.0 / 129, 6.0 / 129))
+    x, y = np.meshgrid(grid.x, grid.y, indexing="ij")
+    pressure = np.sqrt(np.clip(1 - x**2 - y**2, 0, None))
+    pressure *= 2 / 3 * np.pi / (pressure.sum() * grid.cell_area)
+    depths = np.array(with_layer_depths((0.0, 3.0), body))
+    stress = subsurface_stress(pressure, grid, body, depths)
+    found = layer_stresses(depth_maxima(stress, von_mises(stress), depths, body), body)
+    of = {(one["name"], one["along"]): np.array(one["values"]) for one in stored["quantities"]}
+    foot = of["stress_xx", "interface, y = 0 (layer)"][0]
+    assert found.layer_max_tension[0] == pytest.approx(foot, rel=5e-3)
+    for number, along in enumerate(("interface, y = 0 (layer)", "interface 2, y = 0 (layer 2)")):
+        shear = np.abs(of["stress_xz", along]).max()
+        assert shear * (1 - 5e-3) <= found.interface_max_shear[number] <= 1.05 * shear
