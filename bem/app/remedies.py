@@ -15,10 +15,13 @@ from typing import Any
 from bem.errors import BemError, InputError
 from bem.notes import Note
 from bem.notes.checks import ROUGHNESS_UNRESOLVED
+from bem.notes.scenes import MAP_ALTERED
 
 BODIES = ("lower", "upper")
 _CELLS_OF_A_WAVE = 6
 """Cells of the cutoff wavelength that is offered."""
+_DESPIKE = 6
+"""Standard deviations from which points are spikes, as the note on outliers counts them."""
 _MOST_CELLS = 2048
 """Cells along an axis of a grid that is offered."""
 
@@ -101,7 +104,12 @@ def for_notes(table: Mapping[str, Any], scene: Any, notes: Sequence[str]) -> tup
     found: dict[str, Remedy] = {}
     spacings = []
     for note in notes:
-        if not isinstance(note, Note) or note.code != ROUGHNESS_UNRESOLVED.code:
+        if not isinstance(note, Note):
+            continue
+        if note.code == MAP_ALTERED.code and note.values["reason"] == "outliers":
+            key = f"{note.where}.despike"
+            found[key] = Remedy(f"set {key} = {_DESPIKE}", key, _DESPIKE)
+        if note.code != ROUGHNESS_UNRESOLVED.code:
             continue
         if "spacing" in note.values:
             spacings.append(float(note.values["spacing"]))

@@ -44,7 +44,8 @@ def test_nothing_is_offered_that_does_not_help():
     plan = shown_plan(table)
     assert plan.messages
     assert plan.remedies == ()
-    assert shown_plan(table | {"contact": MAP["contact"]}).remedies == ()
+    sound = shown_plan(table | {"contact": MAP["contact"]})
+    assert [one for one in sound.remedies if one.key == "grid"] == []
 
 
 def test_roughness_that_the_cells_do_not_resolve_gets_smaller_cells():
@@ -57,3 +58,10 @@ def test_roughness_that_the_cells_do_not_resolve_gets_smaller_cells():
     after = shown_plan(mended)
     assert after.messages == ()
     assert not any("correlation length" in text for text in after.warnings)
+
+
+def test_outliers_of_a_map_can_be_taken_for_spikes():
+    table = MAP | {"grid": {"shape": [128, 128], "lengths": "102.4 um"}}
+    (remedy,) = shown_plan(table).remedies
+    assert remedy.key == "lower.surface.despike"
+    assert shown_plan(remedy.changed(table)).warnings == ()

@@ -29,7 +29,7 @@ def test_every_built_in_scene_is_offered_with_all_of_its_words():
 
 @pytest.mark.parametrize("kind", OF_SURFACES)
 def test_a_measured_surface_starts_with_a_scene_that_can_run(kind):
-    found = treated("example/ground-disk.al3d", {"detrend": "plane"})
+    found = treated("example/ground-disk.al3d", {"detrend": "plane", "despike": 6})
     table = tomllib.loads(scene_of_surface(kind, found.surface, found.shape, found.lengths))
     assert table["lower"]["surface"]["path"] == "example/ground-disk.al3d"
     plan = shown_plan(table | {"name": kind})
