@@ -142,7 +142,7 @@ def shear_beyond_measurements(case: Case) -> Note | None:
 
 def shear_at_the_limit(case: Case) -> Note | None:
     """Return a note if the limiting stress decides the friction."""
-    if case.lubricant.shear_law.softens:
+    if case.lubricant.shear_law.joins_limit_smoothly:
         cut = case.sliding_stress > NEAR_THE_LIMIT * case.lubricant.limiting_stress(case.pressure)
     else:
         cut = case.sliding_stress < case.lubricant.shear_stress(case.newtonian_stress)
@@ -151,7 +151,7 @@ def shear_at_the_limit(case: Case) -> Note | None:
     law = case.lubricant.shear_law
     limit = (
         f", {law.ambient_shear_strength / 1e6:g} MPa + {law.limiting_shear_coefficient:g} p"
-        + (" at 40 degC," if law.softens else ",")
+        + (" at 40 degC," if law.limit_falls_with_temperature else ",")
         if isinstance(law, LimitedShear)
         else ""
     )

@@ -212,7 +212,7 @@ class Lubricant:
         """
         if pressure is None:
             return self.shear_law.unlimited(newtonian_stress)
-        if not self.shear_law.softens:
+        if not self.shear_law.limit_falls_with_temperature:
             return self.shear_law.shear_stress(newtonian_stress, pressure)
         at = self.temperature if temperature is None else temperature
         return self.shear_law.shear_stress(newtonian_stress, pressure, at)

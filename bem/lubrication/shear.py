@@ -2,7 +2,8 @@
 
 To add a law, derive from `LimitedShear` (or `ShearLaw`, which has no limit) and register it, here or in a file of your
 own. `unlimited` alone will do; its inverse, `newtonian_stress`, is found from it if a law has no formula. A law whose
-limit depends on temperature defines `limit_at` and sets `softens`. How laws act across a film is in `shear_profile`.
+limit depends on temperature defines `limit_at` and sets `limit_falls_with_temperature`;
+one that bends into its limit sets `joins_limit_smoothly`. How laws act across a film is in `shear_profile`.
 """
 
 from __future__ import annotations
@@ -87,8 +88,10 @@ class ShearLaw(Law):
         """Return the law with constants of an oil where it leaves them open; most laws leave none open."""
         return self
 
-    softens: ClassVar[bool] = False
-    """Whether the limit depends on temperature; such a law also joins its limit smoothly (`under_limit`)."""
+    limit_falls_with_temperature: ClassVar[bool] = False
+    """True if the limit depends on temperature (`limit_at`)."""
+    joins_limit_smoothly: ClassVar[bool] = False
+    """True if the stress bends into the limit (`under_limit`); False if it is cut there."""
 
     @property
     def thins(self) -> bool:
@@ -307,7 +310,8 @@ class BaseOilShear(Eyring):
     """
 
     name: ClassVar[str] = "base_oil"
-    softens: ClassVar[bool] = True
+    limit_falls_with_temperature: ClassVar[bool] = True
+    joins_limit_smoothly: ClassVar[bool] = True
     shear_stress_limit: float = parameter(
         "Eyring stress, where thinning begins", "Pa", default=None, above=0, source="by default that of the oil's base"
     )

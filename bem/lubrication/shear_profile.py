@@ -194,7 +194,7 @@ def middle_stress(
         return lubricant.shear_stress(newtonian, pressure, temperature)
     law, half, size = lubricant.shear_law, 0.5 * film * gradient, np.abs(newtonian)
     limit = lubricant.limiting_stress(pressure, temperature)
-    if law.softens:
+    if law.joins_limit_smoothly:
         return np.copysign(smooth_middle(law, size, half, limit), newtonian)
     return np.copysign(shear_profile(law, size, half, limit).middle, newtonian)
 

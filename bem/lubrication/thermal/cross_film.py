@@ -226,7 +226,7 @@ def _couette_stress(
             centre_stress != 0, (centred_of(newtonian_stress * (1 + _STEP)) / centre_stress - 1) / _STEP, 1.0
         )
         limit_softening = np.zeros_like(stress_exponent)
-        if lubricant.shear_law.softens:
+        if lubricant.shear_law.limit_falls_with_temperature:
             fall = (1 - centred_of(newtonian_stress, _TEMPERATURE_STEP) / centre_stress) / _TEMPERATURE_STEP
             limit_softening = np.where(centre_stress != 0, fall, 0.0)
     return CouetteStress(
@@ -257,7 +257,7 @@ def _middle_stress(
 ) -> FloatArray:
     """Return the stress in the middle of such layers (n,) [Pa], which a law may join to its limit smoothly."""
     law = lubricant.shear_law
-    if not law.softens:
+    if not law.joins_limit_smoothly:
         return _profile(lubricant, film, integrals, newtonian_stress, half, temperature).middle
     layers = LayeredShear.of(law, integrals, half * math.copysign(1.0, -film.sliding))
     limit = lubricant.limiting_stress(film.pressure, temperature)
