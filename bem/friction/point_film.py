@@ -44,7 +44,7 @@ LARGEST_MOES_LOAD, GROWTH = 2500.0, 1.25
 solver stalls, because the side lobes are narrower than a cell."""
 LEAST_FILM = 0.5 * THINNEST_FILM
 """Smallest central thickness [m] of extrapolated films: half of the thickness below which the model is not valid."""
-THINNED = 3.0
+LATTICE_RATIO = 3.0
 """Ratio of neighbouring loads at which the thinning of the oil by inlet heating is computed."""
 _TRIED = (1.0, 0.5, 0.25)
 """Fractions of a load under which a film is tried, in this order."""
@@ -148,8 +148,9 @@ def point_film(
 ) -> PointFilmSolution:
     """Return the film under a load [N], with its heat if the contact has a heat model.
 
-    The thinning of the oil by inlet heating is computed for a flooded film at the nearest of loads `THINNED` times
-    apart, and stored in `thinnings`. A supply then limits the film, as of line films.
+    The thinning of the oil by inlet heating is computed for flooded films at the two nearest of loads `LATTICE_RATIO`
+    times apart, stored in `thinnings`, and interpolated in ln(load), so that films are continuous in the load. A supply
+    then limits the film, as of line films. The heat of the contact itself is added by `lumped_point.add_heat`.
     """
     if contact.heat is None:
         return cold_film(contact, speeds, load, cells)
@@ -159,22 +160,30 @@ def point_film(
     )
 
     known = {} if thinnings is None else thinnings
-    place = round(math.log(load) / math.log(THINNED))
     inlet, oil = _inlet(contact, speeds, load), contact.lubricant
-    if place not in known:
-        at = THINNED**place
 
-        def central(lubricant: Lubricant) -> float:
-            flooded = replace(_of_oil(contact, lubricant), supply=None)
-            film = cold_film(flooded, speeds, at, min(cells, BALANCE_CELLS))
-            return film.central_thickness if film.status is Status.CONVERGED else math.nan
+    def thinning_at(place: int) -> OilThinning:
+        if place not in known:
+            at = LATTICE_RATIO**place
 
-        known[place] = find_oil_thinning(
-            oil, _inlet(contact, speeds, at), central, _fitted_exponent(contact, speeds, at)
-        )
-    film = cold_film(_of_oil(contact, known[place].oil(oil, inlet)), speeds, load, cells)
+            def central(lubricant: Lubricant) -> float:
+                flooded = replace(_of_oil(contact, lubricant), supply=None)
+                film = cold_film(flooded, speeds, at, min(cells, BALANCE_CELLS))
+                return film.central_thickness if film.status is Status.CONVERGED else math.nan
+
+            known[place] = find_oil_thinning(
+                oil, _inlet(contact, speeds, at), central, _fitted_exponent(contact, speeds, at)
+            )
+        return known[place]
+
+    exact = math.log(load) / math.log(LATTICE_RATIO)
+    below = math.floor(exact + 1e-9)
+    thinning = thinning_at(below)
+    if exact - below > 1e-9:
+        thinning = thinning.between(thinning_at(below + 1), exact - below)
+    film = cold_film(_of_oil(contact, thinning.oil(oil, inlet)), speeds, load, cells)
     dry = ellipse_contact(radii=contact.radii, contact_modulus=contact.film_modulus(load), load=load)
-    return add_heat(film, oil, contact.heat.bodies, dry.semi_axes, inlet, known[place].deviation)
+    return add_heat(film, oil, contact.heat.bodies, dry.semi_axes, inlet, thinning.deviation)
 
 
 def _of_oil(contact: PointContact, lubricant: Lubricant) -> PointContact:

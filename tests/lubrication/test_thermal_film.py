@@ -230,8 +230,9 @@ def test_traction_rises_and_falls_with_sliding(law):
     assert curve[-1].isothermal.shear_force > curve[top].isothermal.shear_force
 
 
-def test_motion_the_other_way_is_the_mirror():
-    a, b = film(5.0, 0.7), film(-5.0, 0.7)
+@pytest.mark.parametrize("slide", [0.7, 2.0], ids=["both move", "one at rest"])
+def test_motion_the_other_way_is_the_mirror(slide):
+    a, b = film(5.0, slide), film(-5.0, slide)
     assert b.shear_force == pytest.approx(-a.shear_force, rel=1e-9)
     np.testing.assert_allclose(b.film_temperature[::-1], a.film_temperature, rtol=1e-9)
     np.testing.assert_allclose(b.position[::-1], -a.position, rtol=1e-9)

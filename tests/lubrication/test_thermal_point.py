@@ -197,3 +197,15 @@ def test_a_ball_at_rest_has_its_own_heat():
 def test_bad_input_is_said(wrong, said):
     with pytest.raises(InputError, match=said):
         MixedSetup(**MIXED | {"thermal": "lumped"} | wrong)
+
+
+@pytest.mark.internal
+def test_films_with_heat_are_continuous_in_the_load():
+    """The viscosity was taken from the nearest of loads a factor of three apart: half way between two the film jumped
+    by 4 %, and rough surfaces had two balances."""
+    oil = Lubricant.of("ISO VG 68", temperature=313.15)
+    contact, speeds, middle = PointContact((10e-3, 10e-3), MODULUS, oil, heat=HEAT), (8.0, 6.0), 3**2.5
+    less, more = (
+        point_film(contact, speeds, load, 48).central_thickness for load in (middle * (1 - 1e-6), middle * (1 + 1e-6))
+    )
+    assert more == pytest.approx(less, rel=1e-4)

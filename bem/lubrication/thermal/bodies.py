@@ -20,12 +20,13 @@ def moving_bodies(
     bodies: Sequence[Body],
     speeds: Sequence[float],
     bulk: Sequence[float] | None,
-    radius: float,
+    cool_at: float,
 ) -> tuple[Conductor, Conductor]:
     """Return both bodies as half-spaces that move along the entrainment.
 
-    A body at rest is taken as so slow that it is cool at a distance of the radius. `owner` is the function named in
-    messages.
+    Speeds are positive along the entrainment. A body at rest is taken as so slow, along the entrainment, that it is
+    cool at the distance `cool_at` [m]: the radius of a cylinder, the half-axis across the flow under a ball. `owner` is
+    the function named in messages.
 
     Raises
     ------
@@ -47,11 +48,11 @@ def moving_bodies(
     hot = [value for value in (*(body.bulk for body in found), temperature) if value > HOTTEST]
     if hot:
         raise InputError(f"{owner}: {hot[0] - CELSIUS:g} degC is above {HOTTEST - CELSIUS:g} degC; oils crack")
-    least = 1 / radius
+    least = 1 / cool_at
     sign = math.copysign(1.0, float(speeds[0]) + float(speeds[1]))
     moving = []
     for body in found:
         own = body.peclet_per_length
-        number = own if abs(own) > least else math.copysign(least, body.speed or 1.0)
+        number = own if abs(own) > least else math.copysign(least, body.speed or sign)
         moving.append(replace(body, speed=2 * body.diffusivity * number * sign))
     return moving[0], moving[1]

@@ -77,6 +77,11 @@ class OilThinning:
     exponent: float
     deviation: float
 
+    def between(self, other: OilThinning, weight: float) -> OilThinning:
+        """Return (1 - weight) of this exponent and weight of another; the larger deviation of both."""
+        exponent = (1 - weight) * self.exponent + weight * other.exponent
+        return OilThinning(exponent, max(self.deviation, other.deviation))
+
     def oil(self, lubricant: Lubricant, inlet: InletHeating) -> Lubricant:
         """Return the oil whose film is thinned by the factor of inlet heating."""
         return thinned_oil(lubricant, inlet.factor ** (1 / self.exponent))
