@@ -36,7 +36,8 @@ class Summits:
 class AsperityContact:
     """Loads of uncoupled asperities; attributes as far as they exist for them as in `ContactSolution`.
 
-    `pressure` is each summit's load spread over the cells within its contact radius: for pictures.
+    `pressure` is each summit's load spread over the cells within its contact radius. Laws of boundary friction over
+    pressure, frictional heat and the oil on cells in contact take it.
     """
 
     pressure: FloatArray
@@ -138,7 +139,6 @@ def uncoupled_contact(
     depth = summits.height - separation + shift
     load, area, plastic = asperity_loads(depth, summits.radius, contact_modulus, hardness)
     pressure = np.zeros(grid.shape)
-    nx, ny = grid.shape
     for k in np.flatnonzero(load > 0):
         reach = math.sqrt(area[k] / math.pi)
         span_x, span_y = int(reach / grid.spacing[0]), int(reach / grid.spacing[1])
@@ -146,7 +146,12 @@ def uncoupled_contact(
         j = np.arange(iy[k] - span_y, iy[k] + span_y + 1)
         inside = ((i - ix[k])[:, None] * grid.spacing[0]) ** 2 + ((j - iy[k])[None, :] * grid.spacing[1]) ** 2
         rows, columns = np.nonzero(inside <= reach**2)
-        rows, columns = np.clip(i[rows], 0, nx - 1), j[columns] % ny
+        cells, on_grid = [i[rows], j[columns]], np.ones(len(rows), dtype=bool)
+        for axis, (count, periodic) in enumerate(zip(grid.shape, grid.periodic, strict=True)):
+            if periodic:
+                cells[axis] = cells[axis] % count
+            on_grid &= (cells[axis] >= 0) & (cells[axis] < count)
+        rows, columns = cells[0][on_grid], cells[1][on_grid]
         np.add.at(pressure, (rows, columns), load[k] / (len(rows) * grid.cell_area))
     return AsperityContact(
         pressure=pressure,

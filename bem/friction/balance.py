@@ -359,7 +359,8 @@ class _LevelSearch:
             mismatches.clear()
             sides.clear()
         slope = root.slope / max(1 - trial.film.load / self.load, LEAST_REST)
-        if at >= math.log(self.load) - _EQUAL_LOGARITHMS and self.mismatch(trial) > self.goal:
+        touches = trial.contact.status is not Status.INFEASIBLE  # an infeasible contact decides nothing
+        if touches and at >= math.log(self.load) - _EQUAL_LOGARITHMS and self.mismatch(trial) > self.goal:
             return _LevelResult(self.with_excess(at, trial.film, None), slope, Regime.FULL_FILM, at)
         at_bottom = at <= self.bottom + _EQUAL_LOGARITHMS and self.is_boundary(trial)
         next_log_load = self.log_load(root.next_trial) if met and inside else at

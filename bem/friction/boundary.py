@@ -7,9 +7,11 @@ The force is the sum of the shear stress over the contact. The real area is know
 number of cells in contact only to first order. So the same fraction of every cell in contact is taken to touch, under a
 pressure that is higher in proportion; load and area are then those of the contact (`filled_part`).
 
-Two rules give one coefficient for the whole contact. Coupling into the normal gap takes the coefficient at the pressure
-of a rough contact that hardly depends on its load (`reference_pressure`); it is known before any contact is solved, so
-one operator serves all contacts. Stresses below the surface take the mean of the contact, force over load.
+Three rules give one coefficient for the whole contact. Coupling into the normal gap takes the coefficient at the
+pressure of a rough contact that hardly depends on its load (`reference_pressure`); it is known before any contact is
+solved, so one operator serves all contacts. Stresses below the surface in a wear cycle take the mean of the contact,
+force over load. Fatigue and pieces in a life take the coefficient at the hardness, or else at Hertz' mean pressure, the
+same in all positions and cycles.
 """
 
 from __future__ import annotations
@@ -317,9 +319,13 @@ def sliding_sign(speeds: tuple[float, float]) -> float:
 
 
 def filled_part(pressure: FloatArray, area: float, grid: Grid) -> float:
-    """Return the real contact area [m^2] of a patch over the area of its cells in contact; 1 without contact."""
+    """Return the real contact area [m^2] of a patch over the area of its cells in contact, at most 1; 1 without
+    contact.
+
+    Contacts of uncoupled asperities may overlap: their areas add up to more than that of the cells.
+    """
     cells = int(np.count_nonzero(pressure > 0))
-    return area / (cells * grid.cell_area) if cells and area > 0 else 1.0
+    return min(area / (cells * grid.cell_area), 1.0) if cells and area > 0 else 1.0
 
 
 def reference_pressure(

@@ -38,6 +38,7 @@ from bem.friction.oil_volume import OilVolume
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray, Grid
 from bem.notes import Note
+from bem.notes.friction import NO_SUMMITS
 from bem.plausibility import without_argument_notes
 from bem.representation import readable
 
@@ -293,7 +294,7 @@ class UncoupledAsperities:
     def at_load(self, film: PatchFilm, load: float, tolerance: float, start: FloatArray | None) -> Pressed:
         """See `RoughContact`. Infeasible where the patch has no summit."""
         if not len(self._summits.height):
-            return replace(self._shifted(film, 0.0), status=Status.INFEASIBLE)
+            return replace(self._shifted(film, 0.0), status=Status.INFEASIBLE, notes=(NO_SUMMITS(),))
         shift = shift_for_load(
             self._separation(film),
             self._summits,

@@ -16,7 +16,7 @@ FRICTION_UNPHYSICAL = define(
 FILM_MODEL_ENDS = define(
     "film-model-ends",
     CAUTION,
-    "The film's model ends at a smaller load than this one.",
+    "The film model does not reach the load of this contact.",
     reasons={
         "balance": Reason(
             "It ends at {load:si N}, where the film is thicker than the surfaces leave open under the rest: film and"
@@ -109,6 +109,13 @@ POINT_FILM_SCALED = define(
             level=INFO,
         ),
     },
+)
+NO_SUMMITS = define(
+    "no-summits",
+    CAUTION,
+    "The rough surface has no summits, which uncoupled asperities need.",
+    "A summit is higher than its eight neighbours; a ridge along a periodic axis has none.",
+    'Take the contact model "coupled".',
 )
 REPEATED_PATCH = define(
     "repeated-patch",

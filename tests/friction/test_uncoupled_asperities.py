@@ -6,9 +6,14 @@ import numpy as np
 import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
+from mixed_case import mixed_case
 
-from bem import Grid
-from bem.friction.asperities import asperity_loads, find_summits, uncoupled_contact
+from bem import Grid, Lubricant, Status, solve_mixed
+from bem.friction.asperities import Summits, asperity_loads, find_summits, uncoupled_contact
+from bem.friction.balance import Regime
+from bem.friction.boundary import filled_part
+from bem.notes import has_code
+from bem.notes.friction import NO_SUMMITS
 from reports.experiments.separation_datum import volume_shift
 
 
@@ -91,3 +96,39 @@ def test_pressure_map_carries_the_load():
     assert contact.load > 0
     assert contact.pressure.sum() * grid.cell_area == pytest.approx(contact.load, rel=1e-12)
     assert contact.summit_load.sum() == pytest.approx(contact.load, rel=1e-12)
+
+
+@pytest.mark.internal
+@pytest.mark.parametrize("periodic", [(False, False), (True, False), (False, True)])
+def test_a_disc_at_an_edge_wraps_on_periodic_axes_only(periodic):
+    """It went on at the opposite edge of a free axis along y, and was piled up at the edge of an axis along x."""
+    grid = Grid((20, 20), (0.2e-6, 0.2e-6), periodic=periodic)
+    summits = Summits((np.array([1]), np.array([18])), np.full(1, 200e-9), np.full(1, 30e-6))
+    contact = uncoupled_contact(np.full(1, 170e-9), summits, grid, shift=0.0, contact_modulus=115e9, hardness=None)
+    assert contact.pressure.sum() * grid.cell_area == pytest.approx(contact.load, rel=1e-12)
+    touched = contact.pressure > 0  # a disc of radius 0.95 um is four cells to either side
+    assert touched[1, 18]
+    assert touched[19, 18] == periodic[0]
+    assert touched[1, 0] == periodic[1]
+    assert touched[0, 18]
+
+
+@pytest.mark.internal
+def test_overlapping_discs_cover_no_more_than_their_cells():
+    """Areas add up to 1.3 times that of the cells they lie on: more film was taken off than the cells have."""
+    grid = Grid((40, 40), (0.2e-6, 0.2e-6), periodic=(True, True))
+    summits = Summits((np.array([20, 21]), np.array([20, 20])), np.full(2, 200e-9), np.full(2, 30e-6))
+    contact = uncoupled_contact(np.full(2, 170e-9), summits, grid, shift=0.0, contact_modulus=115e9, hardness=None)
+    assert contact.contact_area > 1.2 * np.count_nonzero(contact.pressure) * grid.cell_area
+    assert filled_part(contact.pressure, contact.contact_area, grid) == 1.0
+
+
+def test_ridges_have_no_summits_and_no_balance():
+    """Without a summit the contact carries nothing: the film was taken for a full one, and converged."""
+    case = mixed_case(64, 0.8e-6, 3e-6, lubricant=Lubricant(0.36, density_law="incompressible"), boundary_friction=0.1)
+    ridges = np.broadcast_to(case["height"][:, :1], case["height"].shape)
+    found = solve_mixed(**case | {"height": ridges, "contact_model": "uncoupled"}, speeds=(0.003, 0.0))
+    assert found.status is Status.INFEASIBLE
+    assert has_code(found.notes, NO_SUMMITS)
+    coupled = solve_mixed(**case | {"height": ridges}, speeds=(0.003, 0.0))
+    assert coupled.regime is Regime.MIXED
