@@ -244,7 +244,7 @@ LAYER_MESH = define(
         "thick": Reason(
             "It is {thickness:si m} thick over a grid of {length:si m}, and the substrate is hardly felt.",
             "Make the layer the body's material, which is faster.",
-            headline="The layer is thick against the grid.",
+            headline="The layer is thick compared with the grid.",
         ),
     },
 )
@@ -383,13 +383,13 @@ HARDNESS_DECIDES = define(
             "Take a smaller load or a larger grid.",
             CAUTION,
             foreseen=True,
-            headline="Most of the patch reaches the hardness; rough valleys would carry more.",
+            headline="Most of the patch reaches the hardness; real asperities would resist more.",
         ),
         "area": Reason(
             "{share:%} of the patch is in contact; above about half rough valleys resist, which a cap leaves out.",
             "Take a smaller load or a larger grid.",
             CAUTION,
-            headline="Most of the patch has yielded; rough valleys would carry more.",
+            headline="Most of the patch has yielded; real asperities would resist more.",
         ),
     },
 )
@@ -460,7 +460,7 @@ WEAR_STEPS_LONG = define(
 NOTHING_CAME_OFF = define(
     "nothing-came-off",
     CAUTION,
-    "Nothing came off by the criterion {law}.",
+    "The wear criterion {law} removed no particle.",
     "{takes}",
     "Raise load, friction or cycles.count, or check yield_stress and the constants of wear.criterion.",
 )

@@ -61,7 +61,7 @@ FILM_BY_SQUEEZE = define(
 FOLLOWER_PASSED_OFTEN = define(
     "follower-passed-often",
     INFO,
-    "Places of the follower are passed more than once in a turn.",
+    "The contact passes places of the follower more than once a turn.",
     "The contact wanders to and fro, slowly where it turns round: depths per pass have no limit there, and "
     "wear per hour is not known.",
 )

@@ -194,7 +194,7 @@ FLOW_FACTORS_LIMIT = define(
 FIRST_FILM = define(
     "first-film",
     INFO,
-    "The film in time does not begin in equilibrium.",
+    "The transient film does not begin in equilibrium.",
     reasons={
         "load": "The first film is {origin} and carries {missed:.2g} % {direction} than the load asked for.",
         "surfaces": "Rough surfaces in the contact are not yet deformed in its first film.",
@@ -250,7 +250,7 @@ INLET_FRICTION = define(
 OIL_CREATED = define(
     "oil-created",
     CAUTION,
-    "Oil is not conserved where ruptured films form again.",
+    "Oil is not conserved where the film forms again behind cavities.",
     "Oil that appears there is {created:.2g} times the flow through the contact, and the oil carries too much load.",
     "Take waves that are longer or lower.",
 )
@@ -259,7 +259,7 @@ OIL_CREATED = define(
 HEAT_NOT_FOUND = define(
     "heat-not-found",
     CAUTION,
-    "No temperatures were found that fit the friction heat.",
+    "No temperatures were found that balance the frictional heat.",
     reasons={
         "lumped": Reason(
             "The film is shown without temperatures, friction and heat.",
@@ -278,7 +278,7 @@ HEAT_NOT_FOUND = define(
 LUMPED_HEAT_LIMIT = define(
     "lumped-heat-limit",
     CAUTION,
-    "Lumped heat is outside the range that it was compared in.",
+    "Lumped heat is outside the range in which it was validated.",
     "",
     'Line contact: set thermal = "full". Ball: take it as an estimate.',
     reasons={

@@ -101,14 +101,14 @@ MAP_ALTERED = define(
             "They are multiplied by {factor:.2g} to have Sq {height:si m}, and slopes with them.",
             "Leave rms_height out, or use a map of such a surface.",
             CAUTION,
-            headline="Measured heights are scaled out of proportion.",
+            headline="Measured heights are scaled, and their slopes with them.",
         ),
     },
 )
 MAP_SPACING_GIVEN = define(
     "map-spacing-given",
     CAUTION,
-    "The given distance of points contradicts the file.",
+    "The given spacing of points contradicts the file.",
     "Points are taken as {own} apart; the file says {other}. A wrong spacing spoils every slope.",
     "Check spacing.",
 )

@@ -7,7 +7,7 @@ OUTSIDE_MODEL, CAUTION, INFO = Level.OUTSIDE_MODEL, Level.CAUTION, Level.INFO
 FILM_OF_OTHER_SHAPE = define(
     "film-of-other-shape",
     CAUTION,
-    "The film is not that of the worn shape.",
+    "The oil film does not follow the worn shape.",
     reasons={
         "unworn": Reason(
             "{film} keeps the unworn shape of the standing body: the worn depth is {behind:%} of the film's gap, and"
@@ -64,7 +64,7 @@ LIFE_DISTANCE_DIFFERS = define(
 MICROPITS_EARLY = define(
     "micropits-early",
     OUTSIDE_MODEL,
-    "Micropits form too early for a fatigue law: their share is too high.",
+    "Micropits form too early for the fatigue law to hold.",
     "{share:%} of the surface fails within {cycles:.2g} cycles. Stresses that high deform the surface plastically, "
     "which lowers the stresses of later passes; the criterion holds above about {limit:g} cycles. The built-in scene "
     "micropitting-rig gives more than 30 % where 1 % was measured (Morales-Espejel and Brizmer 2011).",
