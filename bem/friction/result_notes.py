@@ -14,6 +14,7 @@ import numpy as np
 
 from bem.convolution import couples
 from bem.errors import Status
+from bem.friction.balance import Balance
 from bem.friction.film import PatchFilm
 from bem.friction.forces import Forces
 from bem.friction.oil_sensitivity import OilVolumeSensitivity
@@ -55,6 +56,13 @@ def validity_notes(
         heat = any(note.code == HEAT_NOT_FOUND.code for note in whole.notes)
         notes.append(LAMBDA_UNCERTAIN(reason="no-heat" if heat else "no-film"))
     return (*notes, *coating_notes(setup))
+
+
+def contact_notes(balance: Balance, forces: Forces) -> tuple[Note, ...]:
+    """Return the notes on the rough contact of a balance and on its temperatures, without those on the film."""
+    notes = () if balance.contact is None else balance.contact.notes
+    of_heat = () if forces.heat is None else forces.heat.notes
+    return tuple(note for note in (*notes, *of_heat) if note not in balance.film.notes)
 
 
 def coating_notes(setup: MixedSetup) -> tuple[Note, ...]:

@@ -13,7 +13,7 @@ from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from bem.errors import InputError
+from bem.errors import InputError, Status
 from bem.friction.balance import Regime
 from bem.friction.boundary import BoundaryFrictionGiven
 from bem.friction.continuation import start_for_next_speed, start_from_solution
@@ -298,7 +298,7 @@ def _solution(
     """Build the solution that users see."""
     setup, balance, forces = shared.setup, shared.balance, shared.forces
     contact, heat = balance.contact, forces.heat
-    patch_film = _film_on_patch(balance.film, setup)
+    patch_film, returned = _film_on_patch(balance.film, setup), _returned_film(film, shared)
     return MixedSolution(
         speeds=film.speeds,
         friction=shared.friction,
@@ -307,7 +307,7 @@ def _solution(
         load=setup.load,
         contact_load=shared.contact_load,
         film_load=balance.film.load,
-        film=_returned_film(film, shared),
+        film=returned,
         contact=None if contact is None else contact.solution,
         separation=_film_separation(patch_film, setup) if contact is None else contact.separation,
         lambda_ratio=shared.lambda_ratio,
@@ -321,7 +321,7 @@ def _solution(
         patch_film=patch_film,
         balance_slope=balance.slope,
         continuation=start_for_next_speed(film.speeds, balance, setup.load, shared.coarse_whole, initial),
-        status=shared.status,
+        status=returned.status if shared.status is Status.CONVERGED else shared.status,
         grid=setup.grid,
         boundary_friction=_boundary_friction(setup, forces),
         contact_temperature=None if heat is None else heat.mean,

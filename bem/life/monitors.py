@@ -5,12 +5,14 @@ Verified in tests/scenes/test_running_in_life_kind.py and tests/life/test_life.p
 
 from __future__ import annotations
 
+import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
 
+from bem.errors import InputError
 from bem.grid import FloatArray, Grid
 from bem.life.fatigue import RollingFatigue, pitted_share
 from bem.life.march import LifeState
@@ -64,8 +66,14 @@ class PieceSizes:
 
         Raises
         ------
-        InputError : a lower body without yield stress, a length that the grid has no room for.
+        InputError : a lower body without yield stress, a length that the grid has no room for, a criterion that counts
+            passes.
         """
+        if criterion.counts_passes:
+            raise InputError(
+                f"criterion {criterion.name} counts passes, and a life finds pieces pass by pass; allowed: a criterion "
+                "of stress or junction, or the life's own fatigue"
+            )
         setup = WearSetup(grid, bodies, np.zeros(grid.shape), load, 0.0, depths, hardness)
         model = WearModel(criterion=criterion, wears="lower", shift=0)
         model.wearing(setup)
@@ -77,7 +85,9 @@ class PieceSizes:
         volumes: list[float] = []
         for contact in passes:
             load = SurfaceLoad(contact.pressure, friction)
-            removal = self.model.law.detach(BodyCycle(contact.pressure, (load,), self.setup, self.model, LOWER, 0.0))
+            # in a life every junction is dragged over its own size: the bodies pass through the whole contact
+            cycle = BodyCycle(contact.pressure, (load,), self.setup, self.model, LOWER, math.inf)
+            removal = self.model.law.detach(cycle)
             volumes += [piece.volume for piece in describe_pieces(removal.pieces, self.setup.grid)]
         return np.array(volumes)
 

@@ -69,7 +69,7 @@ class Pass:
     start : what the next contact of the position starts from. film_pressure : (nx, 1) of the oil [Pa].
     temperature : (nx, ny) of the surfaces [K]; None where rubbing does not heat them. contact_temperature,
     flash_temperature : of the surfaces in contact [K], mean by pressure and highest; 0 where no heat was asked for.
-    film_notes : notes on the film's model.
+    film_notes, contact_notes : notes on the film's model; on the rough contact and its heat.
     """
 
     pressure: FloatArray
@@ -86,6 +86,7 @@ class Pass:
     contact_temperature: float = 0.0
     flash_temperature: float = 0.0
     film_notes: tuple[Note, ...] = ()
+    contact_notes: tuple[Note, ...] = ()
 
 
 def solve_pass(contact: ContactStep, grid: Grid, heights: FloatArray, start: ContactStart, compliance: float) -> Pass:
@@ -140,6 +141,7 @@ def _lubricated_pass(outcome: ContactOutcome, grid: Grid, start: ContactStart) -
         contact_temperature=float(row["contact_temperature"]),
         flash_temperature=float(row["flash_temperature"]),
         film_notes=film.notes,
+        contact_notes=last.contact_notes,
     )
 
 

@@ -53,7 +53,11 @@ class GrowingFilm:
             raise InputError(f"cycle_time {self.cycle_time!r} must be positive [s]")
 
     def bare(self, thickness: FloatArray) -> FloatArray:
-        """Return the fraction of substrate at the surface under a film [m], exp(-C1 h); one without C1."""
+        """Return the fraction of substrate at the surface under a film [m], exp(-C1 h).
+
+        It is 1 where C1 is not given (infinite): no thickness is known at which the film hides the substrate, and the
+        film is taken not to protect it.
+        """
         if not math.isfinite(self.balance.concentration_constant):
             return np.ones_like(thickness)
         return self.balance.concentration(thickness)
@@ -84,7 +88,8 @@ class LifeCase:
     contact : contact of a pass.
     passing : bodies that pass, and positions.
     rates : wear volume by load and distance of (lower, upper) [m^2/N]; zero for a body that does not wear.
-    distance : slid by a place of either body in a cycle [m].
+    distance : slid in a cycle by a place of a body with as many rows as the grid [m]. A place of a longer body is on
+        the grid in that part of the positions, and slides that much less.
     cycles : in all.
     tolerance : of a step, relative to the wear in it.
     film : tribofilm on the lower body; None for none.
@@ -193,7 +198,8 @@ def _solve_wear(case: LifeCase, heights: FloatArray, start: ContactStart, slid: 
     """Return the contact of heights (nx, ny) [m] at the end of a step, and the depths worn off (lower, upper) [m].
 
     slid : distance of the step [m]. With a boundary film the compliance is that of the place with the largest defect in
-    the contact before the step, so that no place wears beyond the loss of its own pressure.
+    the contact before the step; depths take the defect at the temperatures after it, a change of first order in the
+    step, which step doubling bounds.
     """
     give = slid * sum(case.rates)
     if case.defect is None:

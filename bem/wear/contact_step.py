@@ -67,6 +67,8 @@ class ContactOutcome:
     contact_area, plastic_area : real contact area on the grid, and the part at the hardness [m^2].
     load : carried by the contact on the grid [N].
     friction : shear traction over pressure, on the lower body along +x where positive.
+    sliding : direction in which the upper body slides over the lower one, 1 along +x, -1 along -x; None takes the sign
+        of the friction.
     residual, convolutions, status : of the solution.
     minimum_film : minimum film thickness [m]; 0 where dry.
     rubbing : loop of partial slip, which `wear_cycle` adds; None in gross sliding.
@@ -88,6 +90,7 @@ class ContactOutcome:
     convolutions: float
     status: Status
     minimum_film: float = 0.0
+    sliding: int | None = None
     rubbing: Rubbing | None = None
     third_bodies: ThirdBodyLoad | None = None
     temperature: FloatArray | None = None

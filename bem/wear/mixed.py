@@ -40,7 +40,7 @@ from bem.friction.load_sharing import LoadSharing, SharedLoad
 from bem.friction.models import films_of, rough_contact
 from bem.friction.oil_sensitivity import OilVolumeSensitivity, oil_volume_sensitivity
 from bem.friction.oil_volume import OilVolume
-from bem.friction.result_notes import coupling_notes, covered_notes, oil_notes, validity_notes
+from bem.friction.result_notes import contact_notes, coupling_notes, covered_notes, oil_notes, validity_notes
 from bem.friction.rough_contact import CoupledContact, RoughContact, boundary_traction
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray
@@ -97,6 +97,7 @@ class SharedCycle:
     forces : friction forces.
     load : on the whole contact [N].
     coupling : notes on how friction couples into the normal gap.
+    contact_notes : notes on the rough contact and its heat.
     particle_load : fraction of the load on particles between the surfaces.
     """
 
@@ -105,6 +106,7 @@ class SharedCycle:
     forces: Forces
     load: float
     coupling: tuple[Note, ...]
+    contact_notes: tuple[Note, ...]
     particle_load: float
 
 
@@ -263,12 +265,14 @@ class MixedContact:
             forces=forces,
             load=setup.load,
             coupling=coupling_notes(forces, shared.rough.traction, setup),
+            contact_notes=contact_notes(balance, forces),
             particle_load=particle_load / setup.load,
         )
         solution = None if contact is None else contact.solution
         strip = None
         if isinstance(solution, ContactSolution):
-            modulus = setup.smooth.contact_modulus
+            rough = shared.rough if isinstance(shared.rough, CoupledContact) else shared.rough.patch
+            modulus = rough.operator.modulus_at(0.5 * math.pi / math.sqrt(setup.grid.cell_area))
             strip = partial(contact_rows, solution, setup.grid, modulus, cap=setup.hardness, compliance=compliance)
         return ContactOutcome(
             pressure=np.zeros(setup.grid.shape) if solution is None else solution.pressure,
@@ -280,6 +284,8 @@ class MixedContact:
             convolutions=balance.convolutions,
             status=shared.status,
             minimum_film=film.minimum_thickness,
+            # friction of a film without a contact may be zero, and in pure rolling nothing slides
+            sliding=int(np.sign(self.speeds[1] - self.speeds[0])) or None,
             temperature=None if heat is None else heat.temperature,
             measure_strip=strip,
             sharing=row,
@@ -369,7 +375,8 @@ class MixedCycles:
         covered = covered_notes([(float(rows["friction"][-1]), last.forces.covered / setup.load)])
         follower, follows = self.contact.follower, self.contact.film_shape == "worn"
         shape = follower.notes(self.worn, len(rows)) if follows else ()
-        return (*notes, *last.coupling, *on_oil, *(note.at(LAST_CYCLE) for note in covered), *shape)
+        of_last = tuple(note.at(LAST_CYCLE) for note in (*last.contact_notes, *covered))
+        return (*notes, *last.coupling, *on_oil, *of_last, *shape)
 
     def oil(self) -> OilVolumeSensitivity | None:
         """Return how the last cycle's load sharing depends on the oil beside Hertz' contact, by one more balance; None

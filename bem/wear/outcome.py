@@ -50,16 +50,19 @@ def track_of(strip: NDArray[Any]) -> FloatArray:
     return parts.max(axis=0, keepdims=True).reshape(1, -1)
 
 
-def contact_strip(pressure: FloatArray, rows: FloatArray | None = None) -> FloatArray:
-    """Return the fraction of each row (nx,) within the strip in contact; all rows without a contact.
+def contact_strip(pressure: FloatArray, rows: FloatArray | None = None, before: FloatArray | None = None) -> FloatArray:
+    """Return the fraction of each row (nx,) within the strip in contact.
 
     rows : as the contact step gave them; None takes whole rows of the pressure (nx, ny) that are in contact anywhere,
     which jump from grid to grid.
+    before : strip of the cycle before, which counts without a contact; None for all rows.
     """
     if rows is not None and rows.any():
         return rows
     touched = np.asarray((pressure != 0).any(axis=1))
-    return (touched if touched.any() else ~touched).astype(np.float64)
+    if touched.any():
+        return touched.astype(np.float64)
+    return np.ones(touched.size) if before is None else before
 
 
 _CUTS = 8

@@ -142,8 +142,8 @@ def run_in(
     depths : (nz,) [m], increasing.
     gap : macroscopic, of the smooth bodies [m]; None is flat. A contact step that is given has its own.
     friction : traction over pressure, along +x on the lower body where positive, along -x where negative. With a
-        contact step that is given, the friction of its contacts counts; this one is only checked, and is the direction
-        of sliding until a cycle had friction.
+        contact step that is given, the friction of its contacts counts; this one is only checked, and gives the
+        direction of sliding as long as no contact gives one.
     hardness : cap of the contact pressure [Pa]; None takes the softer surface's. A contact step that is given has its
         own.
     cycles : how many, counted from the start of the run.
@@ -318,13 +318,17 @@ def advance(
     pieces_time = sum(removal.segmentation_time for removal in removals)
     particles = np.concatenate(table)
     worn_heights = _window(heights[removals[0].body], offset if removals[0].body == moving else 0, rows)
+    strip = contact_strip(contact.pressure, contact.strip, state.strip)
+    row = _cycle_row(
+        cycle, contact, removals, particles, strip_wear(worn_heights, worn_heights, strip).rms_after, setup
+    )
     return RunningInState(
         cycle=cycle,
         heights=(heights[LOWER], heights[UPPER]),
         offset=offset,
         pressure=contact.pressure,
         removed=removals[0].thickness,
-        cycles=np.append(state.cycles, _cycle_row(cycle, contact, removals, particles, worn_heights, setup.grid)),
+        cycles=np.append(state.cycles, row),
         particles=np.concatenate([state.particles, particles]),
         times=np.append(
             state.times,
@@ -332,7 +336,8 @@ def advance(
         ),
         memories=(remembered[LOWER], remembered[UPPER]),
         rubbing=rubbing,
-        strip=contact.strip,
+        strip=strip,
+        sliding=_sliding(contact, state),
         contact=contact.memory,
         sharing=_append_row(state.sharing, contact.sharing),
     )
@@ -349,12 +354,21 @@ def _append_row(table: NDArray[np.void] | None, row: NDArray[np.void] | None) ->
 def sliding_direction(state: RunningInState, setup: WearSetup, moving: int) -> int:
     """Return 1 if the moving body slides along +x over the other body, to which the contact is fixed, -1 if along -x.
 
-    Friction drags the lower body the way in which the upper one slides over it, u2 - u1: that of the last cycle that
-    had any, before the first one that of the setup; the upper body slides along +x where there is none.
+    The direction is that of the last cycle (`RunningInState.sliding`). Where no cycle had one, friction of the setup
+    drags the lower body the way in which the upper one slides over it; without friction the upper body slides along +x.
     """
-    acting = state.cycles["friction"][state.cycles["friction"] != 0]
-    upper = -1 if (acting[-1] if acting.size else setup.friction) < 0 else 1
+    upper = (-1 if setup.friction < 0 else 1) if state.sliding is None else state.sliding
     return upper if moving == UPPER else -upper
+
+
+def _sliding(contact: ContactOutcome, state: RunningInState) -> int | None:
+    """Return the direction in which the upper body slides over the lower one in a cycle, 1 or -1; None if unknown.
+
+    It is that of the contact step's speeds, else that of the friction, else that of the cycle before.
+    """
+    if contact.sliding is not None:
+        return contact.sliding
+    return state.sliding if contact.friction == 0 else (1 if contact.friction > 0 else -1)
 
 
 def _check_heights(state: RunningInState, grid: Grid, moving: int) -> None:
@@ -454,12 +468,12 @@ def _cycle_row(
     contact: ContactOutcome,
     removals: list[Removal],
     particles: NDArray[np.void],
-    worn_heights: FloatArray,
-    grid: Grid,
+    rms_height: float,
+    setup: WearSetup,
 ) -> NDArray[np.void]:
-    besides = sum(float(removal.worn.sum()) for removal in removals if removal.worn is not None) * grid.cell_area
-    strip, rubbing, third = contact_strip(contact.pressure, contact.strip), contact.rubbing, contact.third_bodies
-    besides += 0.0 if third is None else float(sum(cut.sum() for cut in third.cut)) * grid.cell_area
+    cell_area, rubbing, third = setup.grid.cell_area, contact.rubbing, contact.third_bodies
+    besides = sum(float(removal.worn.sum()) for removal in removals if removal.worn is not None) * cell_area
+    besides += 0.0 if third is None else float(sum(cut.sum() for cut in third.cut)) * cell_area
     return np.array(
         [
             (
@@ -471,7 +485,7 @@ def _cycle_row(
                 contact.load,
                 contact.friction,
                 contact.minimum_film,
-                strip_wear(worn_heights, worn_heights, strip).rms_after,
+                rms_height,
                 contact.residual,
                 contact.convolutions,
                 sum(removal.depths_computed for removal in removals),

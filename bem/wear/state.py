@@ -59,7 +59,7 @@ CYCLE_FIELDS = np.dtype(
 `volume` is the sum of pieces and local wear of the wearing bodies and of cuts by third bodies in both bodies.
 `depths_computed` is the sum over the wearing bodies. `contact_area`, `plastic_area` and `contact_load` are on the grid.
 `friction` is the boundary traction over the pressure, on the lower body along +x where positive. `rms_height` is Sq of
-the (first) wearing surface inside the contact strip, over all rows without a contact. `converged` is True in every row
+the (first) wearing surface inside `RunningInState.strip`. `converged` is True in every row
 of a loop, which stops at a contact that did not converge.
 
 Columns of the same name in `bem.wear.mixed.MIXED_FIELDS` differ: `contact_area` and `contact_load` are there on the
@@ -88,7 +88,10 @@ class RunningInState:
     memories : memory of the criterion on the material of (lower, upper), (planes, rows, ny) on the heights' own rows;
         None for none.
     rubbing : loop of partial slip of the last cycle; None in gross sliding.
-    strip : fraction (nx,) of each row within the strip in contact of the last cycle; None takes whole rows by pressure.
+    sliding : direction in which the upper body slides over the lower one, 1 along +x, -1 along -x; None where no cycle
+        had a direction.
+    strip : fraction (nx,) of each row within the strip in contact, of the last cycle with a contact; all rows where no
+        cycle had one; None before the first cycle.
     contact : memory of the contact step; `memories` are those of the criterion.
     sharing : rows that a lubricated contact step gave, one per cycle; None for a dry one.
     """
@@ -104,6 +107,7 @@ class RunningInState:
     memories: tuple[FloatArray | None, FloatArray | None] = (None, None)
     rubbing: Rubbing | None = None
     strip: FloatArray | None = None
+    sliding: int | None = None
     contact: Any = None
     sharing: NDArray[np.void] | None = None
 

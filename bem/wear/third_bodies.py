@@ -130,7 +130,7 @@ class ThirdBodies:
         ------
         InputError : a surface without hardness.
         """
-        lower, upper = (body.surface_material.hardness for body in bodies)
+        lower, upper = (body.surface_material.indentation_hardness for body in bodies)
         if lower is None or upper is None:
             raise InputError("third bodies: each surface needs a hardness to be indented: give both materials one")
         return lower, upper
@@ -241,6 +241,7 @@ class DryContactWithParticles:
         """Share the load between contact and particles; see `ContactStep`."""
         dry, hardnesses = self.contact, self.hardnesses
         particles = current_particles(self.particles, start, dry.grid.area)
+        particles.check_slide(self.slide, hardnesses)  # their number may have grown
         if particles.number_per_area == 0:
             return dry(heights, start, compliance)
         first = None if start is None else start.pressure
@@ -372,11 +373,13 @@ class MixedContactWithParticles:
 
         Raises
         ------
-        InputError : a contact of uncoupled asperities.
+        InputError : a contact of uncoupled asperities; particles that became so many that they cut too deep.
         """
         mixed = self.contact
         setup, speeds = mixed.setup, mixed.speeds
         particles = current_particles(self.particles, start, setup.grid.area)
+        slide = self.slide if speeds[0] != speeds[1] else 0.0
+        particles.check_slide(slide, self.hardnesses)  # their number may have grown
         if particles.number_per_area == 0:
             return mixed(heights, start, compliance)
         memory, pressure = mixed.begin(start)
@@ -393,7 +396,7 @@ class MixedContactWithParticles:
             shared = replace(shared, forces=rough.with_rolling_friction(shared.forces, load))
         outcome = mixed.outcome(shared, memory, compliance=compliance, particle_load=load * setup.slices)
         depths = rough.indented(shared.balance.contact)
-        return replace(outcome, third_bodies=third_body_load(particles, load, depths, self.hardnesses, self.slide))
+        return replace(outcome, third_bodies=third_body_load(particles, load, depths, self.hardnesses, slide))
 
 
 @dataclass(frozen=True, eq=False)

@@ -115,9 +115,11 @@ class ShapeFollower:
             return worn
         if behind < worn.retry:
             return replace(worn, kept=worn.kept + 1)
-        indices = sorted({0, *neighbours(last.film.load, self.table.largest_load)})
+        # in boundary lubrication the film carries a negligible load: no film next to that load is needed
+        mixed = last.regime is not Regime.BOUNDARY
+        near = neighbours(last.film.load, self.table.largest_load) if mixed else ()
         found = {}
-        for index in indices:
+        for index in sorted({0, *near}):
             film = self.solver.film(index, depth, worn.starts)
             if film is None:
                 return replace(worn, kept=worn.kept + 1, retry=RETRY * behind)

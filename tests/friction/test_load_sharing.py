@@ -308,6 +308,17 @@ def test_curve_refusals():
         stribeck_curve([0.01], **{key: value for key, value in CASE.items() if key != "load"})
 
 
+def test_a_film_that_is_not_found_at_the_positions_asked_for_is_in_the_status(monkeypatch):
+    resampled = SolvedLineFilm.resampled
+
+    def stalled(films, *given, **how):
+        return dataclasses.replace(resampled(films, *given, **how), status=Status.STALLED)
+
+    monkeypatch.setattr(SolvedLineFilm, "resampled", stalled)
+    x = np.linspace(-1e-3, 2e-4, 400)
+    assert solve_mixed(**CASE, speeds=(0.03, 0.0), film_position=x).status is Status.STALLED
+
+
 @pytest.mark.parametrize(("kind", "reason"), [(FILM_NOT_FOUND, "no-film"), (HEAT_NOT_FOUND, "no-heat")])
 def test_a_film_under_the_whole_load_that_is_not_found_is_noted(kind, reason, monkeypatch):
     """Only the lambda ratio is of that film: load shares and friction keep their status."""

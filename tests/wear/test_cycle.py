@@ -173,6 +173,42 @@ def test_the_moving_body_slides_and_may_be_longer_than_the_grid(frame, way):
         assert np.array_equal(heights, longer[(np.arange(48) - way * 5 * step) % 96])
 
 
+@pytest.mark.parametrize("speeds", [1, -1])
+def test_the_body_slides_as_the_speeds_say_where_a_film_leaves_no_friction(speeds):
+    """A law of boundary friction has no coefficient without a contact: the body slid along +x until there was one."""
+    flat, upper = np.zeros(GRID.shape), surfaces()[1]
+    seen = []
+
+    def contact(heights, start, compliance):
+        seen.append(heights.copy())
+        return ContactOutcome(np.zeros(GRID.shape), 0.0, 0.0, 0.0, 0.0, 0.0, 0, Status.CONVERGED, sliding=speeds)
+
+    run_in(
+        flat,
+        upper,
+        cycles=3,
+        model=WearModel(shift=5, frame="disk"),
+        contact_step=contact,
+        **ARGUMENTS | {"friction": 0.0},
+    )
+    for step, heights in enumerate(seen):
+        assert np.array_equal(heights, np.roll(upper, 5 * speeds * step, axis=0))
+
+
+def test_roughness_of_a_cycle_without_a_contact_is_that_of_the_last_strip():
+    """It was that of all rows, beside the strip of other cycles: the rule that a run has settled compared both."""
+    lower, strip = surfaces()[0], np.zeros(GRID.shape)
+    strip[18:30] = 1.0
+
+    def contact(heights, start, compliance):
+        touches = start is None or start.last_cycle is None or start.last_cycle["cycle"] != 1
+        return ContactOutcome(1e8 * strip * touches, 0.0, 0.0, LOAD, 0.16, 0.0, 0, Status.CONVERGED)
+
+    model = WearModel(shift=0, criterion={"kind": "archard", "specific_wear_rate": 0.0, "distance": 1e-3})
+    rows = run_in(lower, np.zeros(GRID.shape), cycles=3, model=model, contact_step=contact, **ARGUMENTS).cycles
+    assert rows["rms_height"] == pytest.approx(float(lower[18:30].std()), rel=1e-12)
+
+
 def test_a_track_wears_alike_where_the_disk_moves_and_has_a_groove_where_it_stands_still():
     """Wear by pressure under a steady strip 12 of 48 cells wide: the same volume, along the whole track or in it."""
     flat, strip = np.zeros(GRID.shape), np.zeros(GRID.shape)

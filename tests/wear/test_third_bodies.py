@@ -4,7 +4,8 @@ import numpy as np
 import pytest
 
 from bem import Body, Grid, InputError, Material, generate_surface
-from bem.wear import WearModel, WearSetup, dry_contact, run_in
+from bem.wear import ContactStart, WearModel, WearSetup, dry_contact, run_in
+from bem.wear.state import CYCLE_FIELDS
 from bem.wear.third_bodies import ThirdBodies, with_third_bodies
 
 SOFT, HARD = 2e9, 6e9
@@ -173,6 +174,24 @@ def test_they_roll_as_far_as_a_cycle_stands_for_and_not_out_of_their_grooves():
     assert far == pytest.approx(2 * near, rel=1e-9)
     with pytest.raises(InputError, match=r"cut deeper than they lie; allowed: 0\.005 m"):
         loop(6e-3, third_bodies=table)
+
+
+@pytest.mark.internal
+def test_particles_that_are_shed_may_cover_the_area_and_stay_in_their_grooves():
+    """Their number was checked at the start alone: from none, a cycle could cut hundreds of times their depth."""
+    particles = ThirdBodies(D, 0.0, removed=0.1, shed=1.0)
+    step = with_third_bodies(dry_contact(setup()), particles, 1e-5)
+    last = np.zeros(1, CYCLE_FIELDS)
+    step(rough(), ContactStart(last_cycle=last[0]))
+    last["third_bodies_per_area"] = particles.most_per_area
+    with pytest.raises(InputError, match=r"cut deeper than they lie; allowed: 6\.28e-06 m"):
+        step(rough(), ContactStart(last_cycle=last[0]))
+
+
+@pytest.mark.internal
+def test_a_surface_without_hardness_has_that_of_its_yield_stress():
+    given = Material("given", youngs_modulus=210e9, poissons_ratio=0.3, yield_stress=1e9)
+    assert ThirdBodies(D, 1.0).hardnesses((Body(given), Body(given))) == (2.8e9, 2.8e9)
 
 
 @pytest.mark.internal

@@ -198,6 +198,12 @@ def test_they_cover_the_area_once_at_most_and_that_is_said():
     assert has_code(found.notes, THIRD_BODIES_MANY, reason="area")
 
 
+def test_nothing_is_cut_in_pure_rolling():
+    sliding, rolling = (shared(ROUGH, 1e10, speeds, removed=0.1)[0] for speeds in ((0.01, 0.0), (0.005, 0.005)))
+    assert all(cut.max() > 0 for cut in sliding.third_bodies.cut)
+    assert not any(cut.any() for cut in rolling.third_bodies.cut)
+
+
 @pytest.mark.parametrize("changes", [{"shed": 1.5}, {"leaving": -0.1}])
 def test_shares_lie_between_nothing_and_all(changes):
     (name,) = changes

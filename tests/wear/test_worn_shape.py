@@ -7,6 +7,9 @@ import numpy as np
 import pytest
 
 from bem import CATALOGUE, Body, Grid, InputError, Lubricant, Status, generate_surface
+from bem.friction.balance import Regime
+from bem.friction.contact_heat import ContactHeat
+from bem.friction.load_sharing import SharedLoad
 from bem.friction.models import rough_contact
 from bem.friction.setup import MixedSetup
 from bem.friction.worn_film import ShapeSolver, extended
@@ -14,6 +17,8 @@ from bem.lubrication.line.case import LineCase
 from bem.lubrication.line.shaped import ShapedContact
 from bem.lubrication.line.steady import line_film
 from bem.notes import Level, has_code
+from bem.notes.contact import CONTACT_AT_EDGE
+from bem.notes.heat import SURFACE_HOT
 from bem.notes.wear import FILM_OF_OTHER_SHAPE
 from bem.wear import WearModel, pack_state, run_in, unpack_state
 from bem.wear.mixed import MixedContact, MixedCycles, shared_film_table
@@ -204,6 +209,50 @@ def test_a_cycle_counts_once_where_one_of_two_films_is_missing(monkeypatch):
     _, after = step.share_load_on_worn_film(whole.last.heights, rough, replace(memory, worn=worn), result.pressure)
     assert set(after.worn.changes) == {0, *found}
     assert after.worn.clamped == 4
+
+
+def test_films_next_to_a_negligible_load_are_not_solved(monkeypatch):
+    """In boundary lubrication only the film under the whole load follows: a film that is missing next to a load of
+    nearly nothing kept the last shape."""
+    shared, _ = worn_loop()
+    follower, memory, indices = shared.contact.follower, shared.memory, []
+    solved = ShapeSolver.film
+
+    def count(solver, index, shape, starts):
+        indices.append(index)
+        return solved(solver, index, shape, starts) if index == 0 else None
+
+    monkeypatch.setattr(ShapeSolver, "film", count)
+    film = replace(shared.film, load=1e-4 * CASE["load"])  # thin films of a slow contact
+    last = replace(shared.last.balance, film=film, regime=Regime.BOUNDARY)
+    deeper = memory.worn.unworn - 3 * memory.worn.shape
+    after = follower.followed(memory.worn, deeper, last)
+    assert indices == [0]
+    assert after.updates == memory.worn.updates + 1
+    assert after.kept == memory.worn.kept
+
+
+def test_notes_of_the_contact_and_its_heat_are_shown():
+    """Those of the last cycle; the notes of the balance on its end are counted over the cycles."""
+    shared, _ = loop(contact_of(), 1)
+    assert not has_code(shared.notes, CONTACT_AT_EDGE, SURFACE_HOT)
+    last = shared.last
+    pressed = replace(last.balance.contact, notes=(CONTACT_AT_EDGE(axes="x", reason="pressed"),))
+    hot = (SURFACE_HOT(temperature=250.0, reason="softens"),)
+    heat = ContactHeat(400.0, 800.0, np.zeros(GRID.shape), None, 0.1, Status.CONVERGED, hot)
+    step = shared.contact
+    again = SharedLoad(
+        step.setup,
+        last.heights,
+        rough_contact(step.setup, last.heights, step.speeds),
+        step.film_under_load(shared.worn),
+        step.film_under_load(shared.worn),
+        replace(last.balance, contact=pressed),
+        replace(last.forces, heat=heat),
+    )
+    cycles = MixedCycles(step, shared.rows, step.outcome(again, shared.memory).memory)
+    found = [note for note in cycles.notes if has_code([note], CONTACT_AT_EDGE, SURFACE_HOT)]
+    assert [note.where for note in found] == ["last cycle", "last cycle"]
 
 
 def test_a_limited_supply_keeps_the_unworn_film():

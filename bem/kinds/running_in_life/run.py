@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from bem.friction.setup import MixedSetup
     from bem.life.march import LifeState
     from bem.life.monitors import Monitors
-    from bem.notes import Note
+    from bem.life.passes import Pass
 
 
 def run(scene: RunningInLifeScene, context: Context) -> RunningInLifeRecord:
@@ -51,7 +51,7 @@ def run(scene: RunningInLifeScene, context: Context) -> RunningInLifeRecord:
 
     with context.timer("cycles"):
         end = run_life(case, *initial, state=state, callback=after)
-    _tell(scene, context, setup, end.passes[-1].film_notes)
+    _tell(scene, context, setup, end.passes[-1])
     for note in monitors.notes():
         context.note(note)
     wanted = scene.life.coarser_lives
@@ -68,8 +68,8 @@ def _with_body(figures: Mapping[str, Any]) -> dict[str, Any]:
     return {**figures, **{f"lower_{name}": figures[name] for name in names if name in figures}}
 
 
-def _tell(scene: RunningInLifeScene, context: Context, setup: MixedSetup, film_notes: tuple[Note, ...]) -> None:
-    """Note partial error bars, a distance that differs from the slid one, and the notes on films."""
+def _tell(scene: RunningInLifeScene, context: Context, setup: MixedSetup, last: Pass) -> None:
+    """Note partial error bars, a distance that differs from the slid one, and the notes of the last pass."""
     wear, (speeds,) = scene.wear, scene.speeds.build()
     hold = "cycle jumps, positions, cells and points of the films" if scene.life.coarser_lives else JUMPS_ALONE
     context.note(BARS_PARTIAL(positions=wear.positions, hold=hold, reason="life"))
@@ -79,7 +79,8 @@ def _tell(scene: RunningInLifeScene, context: Context, setup: MixedSetup, film_n
     slid = length * slide / mean if passing else wear.distance
     if passing and slid > 0 and abs(wear.distance / slid - 1) > 0.05:
         context.note(LIFE_DISTANCE_DIFFERS(given=wear.distance, slid=slid, length=length))
-    tell(context, film_notes, "film")
+    tell(context, last.film_notes, "film")
+    tell(context, last.contact_notes)
 
 
 def _record(scene: RunningInLifeScene, setup: MixedSetup, end: LifeState, monitors: Monitors) -> RunningInLifeRecord:

@@ -145,6 +145,10 @@ class LifeParticles(Table):
     def _with_pieces(cls, law: Detachment) -> Detachment:
         if isinstance(law, LocalWear):
             raise problem(f"{law.name} has no pieces", "a criterion such as von_mises, averaged_von_mises, junction")
+        if law.counts_passes:
+            raise problem(
+                f"{law.name} counts passes", "a criterion of stress or junction; the table fatigue for damage"
+            )
         return law
 
     def build(self, grid: Grid, bodies: tuple[Body, Body], hardness: float | None, load: float) -> PieceSizes:

@@ -52,10 +52,11 @@ def _record(
 ) -> WearRecord:
     """The figures of a wear loop, means over its settled cycles, and its tables."""
     from bem.particles import volume_mean_radius
-    from bem.wear.outcome import contact_strip, settled_means
+    from bem.wear.outcome import settled_means
 
     assert result.pressure is not None
-    strip = contact_strip(result.pressure, result.state.strip)
+    strip = result.state.strip
+    assert strip is not None
     worn = wearing.WornSurface.of(scene, initial, result, grid, share, strip)
     cycles, particles, late, (load,) = result.cycles, worn.particles, worn.late, scene.cylinder.loads
     radius, number = wearing.sizes_over_cycles(scene, result)

@@ -52,6 +52,11 @@ class Detachment(Law):
         return False
 
     @property
+    def counts_passes(self) -> bool:
+        """True if pieces depend on the passes before, which the memory of the material holds."""
+        return False
+
+    @property
     def needs_strength(self) -> bool:
         """True if a wearing body needs a yield stress."""
         return True

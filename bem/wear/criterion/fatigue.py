@@ -57,6 +57,11 @@ class LowCycleFatigue(VonMises):
     )
 
     @property
+    def counts_passes(self) -> bool:
+        """True: damage adds up."""
+        return True
+
+    @property
     def passes_per_cycle(self) -> float:
         """Passes that one computed cycle stands for, as given."""
         return self.passes

@@ -36,7 +36,7 @@ class LocalWear(Detachment):
     distance: float = parameter(
         "sliding distance that a computed cycle stands for; none in partial slip", "m", default=0.0, at_least=0
     )
-    upper_over_lower: float = parameter("wear rate of the upper body over that of the lower", default=1.0, at_least=0)
+    upper_over_lower: float = parameter("factor on the wear rate of the upper body", default=1.0, at_least=0)
 
     @property
     def wears_by_pressure(self) -> bool:
@@ -76,7 +76,7 @@ class LocalWear(Detachment):
 
     @abstractmethod
     def rate(self, body: Body, friction: float) -> float:
-        """Return the wear volume of the lower body by load and distance [m^3/(N m)]."""
+        """Return the wear volume of a body by load and distance [m^3/(N m)]; `upper_over_lower` multiplies it."""
 
     def detach(self, cycle: BodyCycle) -> Removal:
         """Return the depth (nx, ny) worn in a cycle, without pieces.
@@ -132,7 +132,7 @@ class ArchardOverHardness(LocalWear):
 
     def rate(self, body: Body, friction: float) -> float:
         """Return K / H."""
-        hardness = body.surface_material.hardness
+        hardness = body.surface_material.indentation_hardness
         if hardness is None:
             raise InputError("archard_over_hardness: the body that wears has no hardness: give its material one")
         return self.archard_coefficient / hardness
