@@ -18,7 +18,6 @@ from bem.contact.active_set import Report
 from bem.contact.certificate import certify, displacement_scale
 from bem.contact.controls import Control
 from bem.contact.grid_workspace import GridResult, IterationBudget, is_flat
-from bem.contact.mean_gap_multiplicity import note_on_several_answers
 from bem.contact.nested_iteration import start_from_coarser
 from bem.contact.problem import GridProblem, Settings, Units, checked_request
 from bem.contact.solution import ContactSolution
@@ -118,6 +117,8 @@ def solve_contact(
     )
     notes = _notes_on_arguments(operator, load, hardness)
     if mean_gap is not None and solution.status is Status.CONVERGED:
+        from bem.contact.mean_gap_multiplicity import note_on_several_answers  # other controls have one answer
+
         several = note_on_several_answers(request.gap, operator, solution, mean_gap, hardness, solve_contact)
         return replace(solution, notes=notes + solution.notes + several) if notes + several else solution
     return replace(solution, notes=notes + solution.notes) if notes else solution

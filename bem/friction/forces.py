@@ -10,15 +10,18 @@ from __future__ import annotations
 
 import math
 from dataclasses import dataclass
+from typing import TYPE_CHECKING
 
 import numpy as np
 
 from bem.friction.boundary import filled_part, sliding_sign
-from bem.friction.contact_heat import ContactHeat, contact_heat
 from bem.friction.film import PatchFilm
 from bem.friction.rough_contact import Pressed
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray
+
+if TYPE_CHECKING:
+    from bem.friction.contact_heat import ContactHeat
 
 
 @dataclass(frozen=True)
@@ -46,6 +49,8 @@ def friction_forces(film: PatchFilm, contact: Pressed | None, setup: MixedSetup,
     """Return both parts of friction at a pair of speeds (u1, u2) [m/s]."""
     slide, heat = abs(speeds[0] - speeds[1]), None
     if setup.smooth.heat is not None and contact is not None and slide > 0 and contact.pressure.any():
+        from bem.friction.contact_heat import contact_heat  # heat conduction is loaded where there is heat
+
         heat = contact_heat(film, contact, setup, speeds)
     coefficient = _boundary_coefficient(contact, setup, slide) if heat is None else heat.coefficient
     if contact is None:

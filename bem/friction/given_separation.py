@@ -32,11 +32,11 @@ from bem.friction.rough_contact import (
     CoupledContact,
     Pressed,
     RoughContact,
-    UncoupledAsperities,
     boundary_traction,
     reference_friction,
 )
 from bem.friction.setup import MixedSetup
+from bem.friction.uncoupled_asperities import UncoupledAsperities
 from bem.grid import FloatArray, Grid
 
 

@@ -12,7 +12,6 @@ from bem.friction.line_film import SolvedLineFilm
 from bem.friction.rough_contact import (
     CoupledContact,
     RoughContact,
-    UncoupledAsperities,
     boundary_traction,
     reference_friction,
 )
@@ -80,6 +79,8 @@ def rough_contact(setup: MixedSetup, height: FloatArray, speeds: Sequence[float]
 
         return contact_at_film_separation(setup, rough, speeds)
     if setup.contact_model == "uncoupled":
+        from bem.friction.uncoupled_asperities import UncoupledAsperities
+
         return UncoupledAsperities(setup, rough)
     patch = CoupledContact(setup, rough, boundary_traction(speeds, reference_friction(setup, rough, speeds)))
     if not setup.repeated_cell:

@@ -1,9 +1,10 @@
-"""Protocol of a rough contact under a film, and the two contacts of a rough patch.
+"""Protocol of a rough contact under a film, and the rough half-space.
 
 A film gives the gap of the smooth bodies. The rough surfaces are pressed into that gap by a load or to an approach; the
 result is the mean opening between them where oil is counted (`oil_volume`). Implementations of `RoughContact`:
-`CoupledContact` (rough half-space) and `UncoupledAsperities` here, `ContactAtSeparation` (`given_separation`),
-`HomogenisedContact` (`homogenised_contact`), and surfaces with particles between them (`bem.wear.third_bodies`).
+`CoupledContact` (rough half-space) here, `UncoupledAsperities` (`uncoupled_asperities`), `ContactAtSeparation`
+(`given_separation`), `HomogenisedContact` (`homogenised_contact`), and surfaces with particles between them
+(`bem.wear.third_bodies`).
 
 Boundary friction couples into the normal gap by one rule. The flat (lower body) feels the traction f p against its
 sliding over the cylinder, along -x where u1 > u2, and the cylinder feels the opposite. f is the coefficient; of a law,
@@ -16,7 +17,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TYPE_CHECKING, Protocol
 
@@ -25,24 +26,17 @@ import numpy as np
 from bem.contact import ContactSolution, solve_contact
 from bem.convolution import DisplacementOperator, displacement_operator
 from bem.errors import Status
-from bem.friction.asperities import (
-    AsperityContact,
-    Summits,
-    find_summits,
-    shift_for_load,
-    uncoupled_contact,
-)
 from bem.friction.boundary import filled_part, reference_pressure
 from bem.friction.film import PatchFilm, middle_line
 from bem.friction.oil_volume import OilVolume
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray, Grid
 from bem.notes import Note
-from bem.notes.friction import NO_SUMMITS
 from bem.plausibility import without_argument_notes
 from bem.representation import readable
 
 if TYPE_CHECKING:
+    from bem.friction.asperities import AsperityContact
     from bem.friction.cell_law import CellLaw
 
 
@@ -235,7 +229,7 @@ class CoupledContact:
             status=solution.status,
             solution=solution,
             separation=middle_line(film.gap) - solution.approach,
-            covered=_covered(solution, self.setup.grid),
+            covered=covered_fraction(solution, self.setup.grid),
             notes=without_argument_notes(solution.notes),
             opening_error=tolerance * float(gap.std()),
         )
@@ -262,87 +256,7 @@ class OfPatch:
         return self.patch.oil(film)
 
 
-@dataclass(frozen=True, eq=False)
-class UncoupledAsperities:
-    """Summits as independent Hertz spheres, in closed form; a `RoughContact`.
-
-    rough : (nx, ny) heights without mean [m].
-    """
-
-    setup: MixedSetup
-    rough: FloatArray
-    traction: float = 0.0
-    tolerance: float = 0.0
-    largest_load: float = math.inf
-
-    def oil(self, film: PatchFilm) -> float:
-        """See `RoughContact`."""
-        return self.setup.mean_counted(film.thickness, film)
-
-    @cached_property
-    def _summits(self) -> Summits:
-        return find_summits(self.rough, self.setup.grid)
-
-    def clears(self, film: PatchFilm) -> bool:
-        """See `RoughContact`. Tops of summits between cells count as well."""
-        of_planes = self._at_film
-        shift = 0.0 if of_planes else shift_apart(film, self.rough, self.setup)
-        if (film.thickness - self.rough).min() < shift:
-            return False
-        return bool((self._separation(film) - self._summits.height >= shift).all())
-
-    def at_load(self, film: PatchFilm, load: float, tolerance: float, start: FloatArray | None) -> Pressed:
-        """See `RoughContact`. Infeasible where the patch has no summit."""
-        if not len(self._summits.height):
-            return replace(self._shifted(film, 0.0), status=Status.INFEASIBLE, notes=(NO_SUMMITS(),))
-        shift = shift_for_load(
-            self._separation(film),
-            self._summits,
-            load / self.setup.slices,
-            contact_modulus=self.setup.smooth.contact_modulus,
-            hardness=self.setup.hardness,
-        )
-        return self._shifted(film, shift)
-
-    def at_approach(self, film: PatchFilm, approach: float, tolerance: float, start: FloatArray | None) -> Pressed:
-        """See `RoughContact`."""
-        return self._shifted(film, approach)
-
-    @property
-    def _at_film(self) -> bool:
-        return self.setup.asperity_separation == "film" or self.setup.at_film_separation
-
-    def _separation(self, film: PatchFilm) -> FloatArray:
-        return np.broadcast_to(film.thickness, self.rough.shape)[self._summits.index]
-
-    def _shifted(self, film: PatchFilm, shift: float) -> Pressed:
-        solution = uncoupled_contact(
-            self._separation(film),
-            self._summits,
-            self.setup.grid,
-            shift=shift,
-            contact_modulus=self.setup.smooth.contact_modulus,
-            hardness=self.setup.hardness,
-        )
-        if self._at_film:
-            opening = self.oil(film) - shift
-        else:
-            opening = self.setup.mean_counted(np.maximum(film.thickness - self.rough - shift, 0.0), film)
-        return Pressed(
-            load=solution.load * self.setup.slices,
-            opening=opening,
-            pressure=solution.pressure,
-            approach=shift,
-            area=solution.contact_area * self.setup.slices,
-            convolutions=0.0,
-            status=Status.CONVERGED,
-            solution=solution,
-            separation=middle_line(film.thickness) - shift,
-            covered=_covered(solution, self.setup.grid),
-        )
-
-
-def _covered(solution: ContactSolution | AsperityContact, grid: Grid) -> FloatArray:
+def covered_fraction(solution: ContactSolution | AsperityContact, grid: Grid) -> FloatArray:
     """Return the fraction of each cell (nx, ny) in contact.
 
     All cells with pressure have the same fraction, real contact area over their area: excluding the film from whole

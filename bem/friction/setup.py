@@ -16,7 +16,6 @@ from bem.friction.boundary import BoundaryFriction, BoundaryFrictionGiven, bound
 from bem.friction.oil_volume import OilVolume, mean_where_counted
 from bem.friction.smooth import LineContact, PointContact
 from bem.grid import FloatArray, Grid
-from bem.heat.bodies import conductors_of
 from bem.lubrication import Lubricant
 from bem.lubrication.flow_factors import WallFactors
 from bem.lubrication.supply import InletDistance, Supply, checked_layer, checked_supply, inside_hertz
@@ -193,6 +192,8 @@ class MixedSetup:
             return ["thermal: heat enters both bodies; give a pair"]
         missing = [name for name in HEAT_NEEDS if getattr(self.lubricant, name, None) is None]
         messages = [f"thermal: the lubricant lacks {', '.join(missing)}; give an oil by grade"] if missing else []
+        from bem.heat.bodies import conductors_of  # loaded where there is heat
+
         try:
             conductors_of("thermal", self.bodies, (0.0, 0.0), (0.0, 0.0))
         except InputError as error:

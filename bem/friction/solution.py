@@ -9,7 +9,6 @@ import numpy as np
 
 from bem.contact import ContactSolution
 from bem.errors import Status
-from bem.friction.asperities import AsperityContact
 from bem.friction.balance import BalanceStart, Regime
 from bem.friction.boundary import BoundaryFrictionGiven, boundary_law, filled_part, sliding_sign
 from bem.friction.film import PatchFilm, middle_line
@@ -20,6 +19,7 @@ from bem.notes import Note
 from bem.representation import readable
 
 if TYPE_CHECKING:
+    from bem.friction.asperities import AsperityContact
     from bem.friction.rough_contact import SpreadContact
     from bem.lubrication import PointFilmSolution
 

@@ -17,7 +17,6 @@ from bem.errors import InputError, Status
 from bem.friction.balance import Regime
 from bem.friction.boundary import BoundaryFrictionGiven
 from bem.friction.continuation import start_for_next_speed, start_from_solution
-from bem.friction.curves import relative_difference
 from bem.friction.film import PatchFilm, middle_line
 from bem.friction.forces import Forces
 from bem.friction.line_film import SolvedLineFilm
@@ -253,6 +252,8 @@ def largest_difference(coupled: Sequence[MixedSolution], uncoupled: Sequence[Mix
     ------
     InputError : curves at different speeds, or none.
     """
+    from bem.friction.curves import relative_difference  # one speed has no curve
+
     if not coupled or [s.speeds for s in coupled] != [s.speeds for s in uncoupled]:
         raise InputError("largest_difference: the curves must be at the same speeds")
     return relative_difference([s.friction for s in coupled], [s.friction for s in uncoupled])

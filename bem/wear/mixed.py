@@ -41,7 +41,7 @@ from bem.friction.models import films_of, rough_contact
 from bem.friction.oil_sensitivity import OilVolumeSensitivity, oil_volume_sensitivity
 from bem.friction.oil_volume import OilVolume
 from bem.friction.result_notes import contact_notes, coupling_notes, covered_notes, oil_notes, validity_notes
-from bem.friction.rough_contact import CoupledContact, RoughContact, boundary_traction
+from bem.friction.rough_contact import CoupledContact, OfPatch, RoughContact, boundary_traction
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray
 from bem.lubrication.checks import THINNEST_FILM
@@ -271,8 +271,10 @@ class MixedContact:
         solution = None if contact is None else contact.solution
         strip = None
         if isinstance(solution, ContactSolution):
-            rough = shared.rough if isinstance(shared.rough, CoupledContact) else shared.rough.patch
-            modulus = rough.operator.modulus_at(0.5 * math.pi / math.sqrt(setup.grid.cell_area))
+            patch = shared.rough.patch if isinstance(shared.rough, OfPatch) else shared.rough
+            modulus = setup.smooth.contact_modulus
+            if isinstance(patch, CoupledContact):  # at a wavelength of four cells, of coated bodies too
+                modulus = patch.operator.modulus_at(0.5 * math.pi / math.sqrt(setup.grid.cell_area))
             strip = partial(contact_rows, solution, setup.grid, modulus, cap=setup.hardness, compliance=compliance)
         return ContactOutcome(
             pressure=np.zeros(setup.grid.shape) if solution is None else solution.pressure,

@@ -20,6 +20,7 @@ from typing import Protocol
 
 import numpy as np
 
+from bem.errors import InputError
 from bem.lubrication.line.continuation import (
     COARSE_TOLERANCE,
     MEDIUM_CELLS,
@@ -30,8 +31,10 @@ from bem.lubrication.line.continuation import (
 )
 from bem.lubrication.line.deflection import LineOperator
 from bem.lubrication.line.newton import LineState, Outcome, newton, remesh, rescale
-from bem.lubrication.line.problem import Problem
+from bem.lubrication.line.problem import Problem, Scales
+from bem.lubrication.supply import OilLayer, Starvation, Supply, inside_hertz
 from bem.numerics.bracketed_root import find_decreasing_root
+from bem.numerics.monotone import MonotoneCubic
 
 FIRST_STEP = 1.0
 """First step of the continuation, in the logarithm of the distance of the meniscus from the Hertz contact."""
@@ -107,6 +110,32 @@ class MeniscusCondition:
 def _odds(share: float) -> float:
     """Return the log odds of a share."""
     return math.log(share / max(1 - share, _SMALLEST_REST))
+
+
+def supply_condition(supply: Supply, problem: Problem, flooded: LineState, scales: Scales) -> SupplyCondition | None:
+    """Return the condition of a supply; None where the supply floods the contact.
+
+    Raises
+    ------
+    InputError : a meniscus inside the Hertz contact.
+    """
+    if isinstance(supply, OilLayer):
+        share = supply.thickness / scales.film / mass_flow(problem, flooded)
+        return LayerCondition(problem, share) if share < 1 else None
+    half_width = math.sqrt(8 * problem.load / math.pi) * scales.length
+    if supply.distance <= half_width:
+        raise InputError(inside_hertz(supply, half_width))
+    return MeniscusCondition(supply.distance / scales.length)
+
+
+def starvation_of(
+    problem: Problem, state: LineState, flooded: LineState, scales: Scales, reversed_: bool
+) -> Starvation:
+    """Return meniscus, oil layers and reduction of the film."""
+    first = float(state.position[0]) * scales.length if state.far_field == 0 else -math.inf
+    layers = [mass_flow(problem, one) * scales.film for one in (state, flooded)]
+    central = [float(MonotoneCubic(one.position, one.film)(0.0)) for one in (state, flooded)]
+    return Starvation(-first if reversed_ else first, layers[0], central[0] / central[1], layers[1])
 
 
 def solve_starved(

@@ -7,7 +7,6 @@
 
 from __future__ import annotations
 
-import math
 from dataclasses import replace
 
 import numpy as np
@@ -28,10 +27,9 @@ from bem.lubrication.line.continuation import (
 from bem.lubrication.line.friction import film_friction
 from bem.lubrication.line.newton import LineState, Outcome, is_usable_start
 from bem.lubrication.line.problem import Problem, Scales
-from bem.lubrication.line.starved import LayerCondition, MeniscusCondition, SupplyCondition, mass_flow, solve_starved
 from bem.lubrication.line.state import FilmState, sample_state
 from bem.lubrication.results import FilmSolution
-from bem.lubrication.supply import OilLayer, Starvation, Supply, checked_supply, inside_hertz
+from bem.lubrication.supply import Supply, checked_supply
 from bem.numerics.monotone import MonotoneCubic
 from bem.threads import one_blas_thread
 
@@ -57,12 +55,15 @@ def line_film(
     flooded = outcome = _flooded(problem, scales, case)
     starvation = None
     if supply is not None:
-        condition = _supply_condition(supply, problem, flooded.state, scales)
+        # starved films are loaded where there is a supply
+        from bem.lubrication.line.starved import solve_starved, starvation_of, supply_condition
+
+        condition = supply_condition(supply, problem, flooded.state, scales)
         if condition is not None:
             near = _starved_neighbour(case.initial, scales)
             effort = case.points - 1, case.tolerance, case.max_iterations
             outcome = solve_starved(problem, flooded, condition, *effort, near)
-        starvation = _starvation(problem, outcome.state, flooded.state, scales, reversed_)
+        starvation = starvation_of(problem, outcome.state, flooded.state, scales, reversed_)
     found = Case(
         position=outcome.state.position * scales.length,
         pressure=np.maximum(outcome.state.pressure, 0.0) * scales.pressure,
@@ -172,30 +173,6 @@ def _starved_neighbour(initial: FilmSolution | None, scales: Scales) -> Neighbou
     ):
         return None
     return initial_state.neighbour(scales)
-
-
-def _supply_condition(supply: Supply, problem: Problem, flooded: LineState, scales: Scales) -> SupplyCondition | None:
-    """Return the condition of a supply; None where the supply floods the contact.
-
-    Raises
-    ------
-    InputError : a meniscus inside the Hertz contact.
-    """
-    if isinstance(supply, OilLayer):
-        share = supply.thickness / scales.film / mass_flow(problem, flooded)
-        return LayerCondition(problem, share) if share < 1 else None
-    half_width = math.sqrt(8 * problem.load / math.pi) * scales.length
-    if supply.distance <= half_width:
-        raise InputError(inside_hertz(supply, half_width))
-    return MeniscusCondition(supply.distance / scales.length)
-
-
-def _starvation(problem: Problem, state: LineState, flooded: LineState, scales: Scales, reversed_: bool) -> Starvation:
-    """Return meniscus, oil layers and reduction of the film."""
-    first = float(state.position[0]) * scales.length if state.far_field == 0 else -math.inf
-    layers = [mass_flow(problem, one) * scales.film for one in (state, flooded)]
-    central = [float(MonotoneCubic(one.position, one.film)(0.0)) for one in (state, flooded)]
-    return Starvation(-first if reversed_ else first, layers[0], central[0] / central[1], layers[1])
 
 
 def build_solution(
