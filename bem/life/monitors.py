@@ -22,7 +22,7 @@ from bem.materials import Body
 from bem.notes import Level, Note
 from bem.notes.checks import NOTHING_CAME_OFF
 from bem.notes.wear import MICROPITS_EARLY
-from bem.wear.criterion import Detachment
+from bem.wear.criterion import Criterion
 from bem.wear.loads import BodyCycle, SurfaceLoad
 from bem.wear.model import WearModel
 from bem.wear.segmentation import describe_pieces
@@ -57,7 +57,7 @@ class PieceSizes:
         cls,
         grid: Grid,
         bodies: tuple[Body, Body],
-        criterion: Detachment,
+        criterion: Criterion,
         depths: FloatArray,
         hardness: float | None,
         load: float,
@@ -87,7 +87,7 @@ class PieceSizes:
             load = SurfaceLoad(contact.pressure, friction)
             # in a life every junction is dragged over its own size: the bodies pass through the whole contact
             cycle = BodyCycle(contact.pressure, (load,), self.setup, self.model, LOWER, math.inf)
-            removal = self.model.law.detach(cycle)
+            removal = self.model.criterion_law.detach(cycle)
             volumes += [piece.volume for piece in describe_pieces(removal.pieces, self.setup.grid)]
         return np.array(volumes)
 
@@ -149,7 +149,7 @@ class Monitors:
         """Return a note where the criterion finds no piece in any pass, so that particles have no size."""
         if self.sizes is None or (self.pieces[:, 1] > 0).any():
             return ()
-        law = self.sizes.model.law.name
+        law = self.sizes.model.criterion_law.name
         takes = "Wear goes on by its law; particles have no sizes and numbers."
         return (NOTHING_CAME_OFF("particles", level=Level.INFO, law=law, takes=takes),)
 

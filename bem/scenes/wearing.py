@@ -30,7 +30,7 @@ from bem.scenes.rubbing import RubbedRecord, rubbed, rubbing_step
 from bem.scenes.tables.film_defect import film_defect
 from bem.scenes.third_bodies import ThirdBodyRecord, third_bodies, third_body_figures
 from bem.scenes.units import Length
-from bem.wear.criterion import WearCriterion
+from bem.wear.criterion import StressCriterion
 from bem.wear.setup import wearing_bodies
 
 if TYPE_CHECKING:
@@ -130,7 +130,7 @@ def cycle_steps(
         replace(contact, seconds=contact.seconds + _COPIED * cycles**2),
         rubbing_step(scene.wear.traction, grid, cycles),
         Step("stresses", "the criterion asks for none", skipped=True)
-        if not isinstance(finds, WearCriterion)
+        if not isinstance(finds, StressCriterion)
         else Step(
             "stresses",
             "from the surface down to the first depth at which nothing yields",
@@ -314,7 +314,7 @@ def stress_below_strength(scene: Any, result: RunningIn, grid: Grid, load: float
     from bem.wear.yielding import largest_stress
 
     law, pressure = scene.wear.finds_particles, result.pressure
-    plain = isinstance(law, WearCriterion) and type(law).detach is WearCriterion.detach
+    plain = isinstance(law, StressCriterion) and type(law).detach is StressCriterion.detach
     if not plain or scene.wear.stress_range or not scene.wear.traction.slides or pressure is None or not pressure.any():
         return None
     friction = float(result.cycles["friction"][-1])

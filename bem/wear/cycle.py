@@ -10,7 +10,7 @@ from dataclasses import replace
 from bem.errors import Status
 from bem.grid import FloatArray
 from bem.wear.contact_step import ContactOutcome, ContactStart, ContactStep
-from bem.wear.loads import BodyCycle, Removal, SurfaceLoad, stress_range_loads
+from bem.wear.loads import BodyCycle, BodyWear, SurfaceLoad, stress_range_loads
 from bem.wear.model import WearModel
 from bem.wear.setup import LOWER, UPPER, WearSetup
 
@@ -24,7 +24,7 @@ def wear_cycle(
     last_loads: tuple[SurfaceLoad | None, SurfaceLoad | None] = (None, None),
     memories: tuple[FloatArray | None, FloatArray | None] = (None, None),
     compliance: float = 0.0,
-) -> tuple[ContactOutcome, list[Removal]]:
+) -> tuple[ContactOutcome, list[BodyWear]]:
     """Solve the contact of one cycle and apply the criterion to each wearing body. Nothing is changed in place.
 
     Parameters
@@ -46,15 +46,15 @@ def wear_cycle(
     contact = contact_step(heights[LOWER] + heights[UPPER], start, compliance)
     if contact.status is not Status.CONVERGED:
         return contact, []
-    rubbing = model.tractions.rub(contact.pressure, contact.friction, setup)
+    rubbing = model.traction_law.rub(contact.pressure, contact.friction, setup)
     if rubbing is not None and rubbing.status is not Status.CONVERGED:
         return replace(contact, rubbing=rubbing), []
     acting = SurfaceLoad(contact.pressure, contact.friction, None if rubbing is None else rubbing.traction)
-    slid = None if rubbing is None else model.tractions.loops_per_cycle * rubbing.slid
+    slid = None if rubbing is None else model.traction_law.loops_per_cycle * rubbing.slid
     slide = abs(model.shift) * setup.grid.spacing[0]
     removals = []
     for body in model.wearing(setup):
         loads = stress_range_loads(acting, last_loads[body]) if model.stress_range else (acting,)
         cycle = BodyCycle(contact.pressure, loads, setup, model, body, slide, memories[body], slid, contact.temperature)
-        removals.append(model.law.detach(cycle))
+        removals.append(model.criterion_law.detach(cycle))
     return contact if rubbing is None else replace(contact, rubbing=rubbing), removals

@@ -15,13 +15,13 @@ from bem.compiled import compiled
 from bem.grid import FloatArray
 from bem.materials import Material
 from bem.wear.lengths import averaged_loads
-from bem.wear.loads import BodyCycle, Removal
+from bem.wear.loads import BodyCycle, BodyWear
 from bem.wear.yielding import depths_for, no_pieces, pieces_above, yielded_stress
 
 
 def fatigue_removal(
     cycle: BodyCycle, averaging_length: float, damage_of: Callable[[FloatArray, Material], FloatArray]
-) -> Removal:
+) -> BodyWear:
     """Return pieces of voxels with damage above one that reach the surface, and the damage of the remaining material.
 
     Parameters
@@ -50,7 +50,7 @@ def fatigue_removal(
         move_up(damage, depths[: len(damage)], pieces.thickness)
         # a piece ends where the damage is one; linear interpolation may lie above the cubic that found the depth
         np.minimum(damage[0], 1.0, out=damage[0], where=pieces.thickness > 0)
-    return Removal(body, pieces, found.computed, found.seconds, time.perf_counter() - start, damage)
+    return BodyWear(body, pieces, found.computed, found.seconds, time.perf_counter() - start, damage)
 
 
 def _planes_above_sound(stress: FloatArray, strength: float) -> int:

@@ -64,7 +64,7 @@ class FilmDefect:
 def film_defect_misfits(criterion: str, wears_by_pressure: bool, traction: str, slides: bool) -> list[str]:
     """Return a message for the criterion and for the traction law that do not go with a boundary film.
 
-    criterion, traction : names of the laws. wears_by_pressure, slides : of `Detachment` and of `TractionLaw`.
+    criterion, traction : names of the laws. wears_by_pressure, slides : of `Criterion` and of `TractionLaw`.
     """
     found = []
     if not wears_by_pressure:

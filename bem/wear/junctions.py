@@ -14,7 +14,7 @@ from numpy.typing import NDArray
 from bem.compiled import compiled
 from bem.contact.regions import label_spots
 from bem.grid import FloatArray, Grid
-from bem.wear.loads import BodyCycle, Removal
+from bem.wear.loads import BodyCycle, BodyWear
 from bem.wear.segmentation import Segmentation
 
 _PARTS = 4
@@ -35,7 +35,7 @@ class Junctions(NamedTuple):
     dragged: FloatArray
 
 
-def junction_removal(cycle: BodyCycle, critical: float) -> Removal:
+def junction_removal(cycle: BodyCycle, critical: float) -> BodyWear:
     """Return half spheres under the junctions of at least a critical size [m] that were dragged over their own size.
 
     The memory is one plane: drag of each column without a break in contact [m], reset where a piece came off. The own
@@ -53,7 +53,7 @@ def junction_removal(cycle: BodyCycle, critical: float) -> Removal:
     deepest = interfaces[0] if interfaces and cycle.model.within_layer else np.inf
     pieces = half_spheres(found.middle[ripe], found.diameter[ripe], grid, deepest)
     taken = np.isin(found.labels, ripe + 1) | (pieces.labels > 0)
-    return Removal(cycle.body, pieces, 0, 0.0, time.perf_counter() - start, np.where(taken, 0.0, drag)[None])
+    return BodyWear(cycle.body, pieces, 0, 0.0, time.perf_counter() - start, np.where(taken, 0.0, drag)[None])
 
 
 def junctions(pressure: FloatArray, drag: FloatArray, grid: Grid) -> Junctions:

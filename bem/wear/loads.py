@@ -76,7 +76,7 @@ class BodyCycle:
 
 
 @dataclass(frozen=True, eq=False)
-class Removal:
+class BodyWear:
     """Material that leaves one body in one cycle: the output of a criterion.
 
     body : LOWER or UPPER. pieces : wear particles.

@@ -13,7 +13,7 @@ import numpy as np
 
 from bem.errors import InputError
 from bem.laws import make_laws
-from bem.wear.criterion import Detachment
+from bem.wear.criterion import Criterion
 from bem.wear.film_defect import FilmDefect, film_defect_misfits
 from bem.wear.removal import RemovalLaw
 from bem.wear.segmentation import CONNECTIVITIES, REFINEMENTS
@@ -28,9 +28,8 @@ if TYPE_CHECKING:
 class WearModel:
     """Choices of a wear model: each is a name, a table of parameters or an object of your own.
 
-    criterion : the name of one of `bem.wear.criterion` or of your own, or a `Detachment`; `law` is the object that it
-        is checked to be. A `WearCriterion` is a `Detachment` that compares an equivalent stress with the yield stress
-        (`bem.wear.yielding.StressCriterion` is the protocol of that comparison). "von_mises" is the source's; "tresca"
+    criterion : the name of one of `bem.wear.criterion` or of your own, or a `Criterion`; `criterion_law` is the object.
+        A `StressCriterion` compares an equivalent stress with the yield stress. "von_mises" is the source's; "tresca"
         and "maximum_tension", too, let material leave where an equivalent stress exceeds the yield stress. These have
         no length but the cell and a skin at the surface; "averaged_von_mises" and "junction" have one of the
         material, "low_cycle_fatigue" counts passes. "archard", "archard_over_hardness" and "energy" wear by pressure
@@ -63,7 +62,7 @@ class WearModel:
         its fields; None for surfaces that wear as the criterion says.
     """
 
-    criterion: str | Mapping[str, Any] | Detachment = "von_mises"
+    criterion: str | Mapping[str, Any] | Criterion = "von_mises"
     stress_range: bool = False
     refine: int = 10
     refinement: str = "monotone_cubic"
@@ -106,13 +105,13 @@ class WearModel:
             object.__setattr__(self, "third_bodies", ThirdBodies(**self.third_bodies))
         if isinstance(self.film_defect, Mapping):
             object.__setattr__(self, "film_defect", FilmDefect(**self.film_defect))
-        misfits = list(self.tractions.misfits(self.law, self.stress_range))
-        if self.third_body_model is not None and not self.tractions.slides:
+        misfits = list(self.traction_law.misfits(self.criterion_law, self.stress_range))
+        if self.third_body_model is not None and not self.traction_law.slides:
             misfits.append(
-                f"third bodies roll where surfaces slide; allowed: no traction {self.tractions.name}, or none"
+                f"third bodies roll where surfaces slide; allowed: no traction {self.traction_law.name}, or none"
             )
-        if self.boundary_film is not None:
-            law, tractions = self.law, self.tractions
+        if self.film_defect_model is not None:
+            law, tractions = self.criterion_law, self.traction_law
             misfits += film_defect_misfits(law.name, law.wears_by_pressure, tractions.name, tractions.slides)
         if misfits:
             raise InputError([f"WearModel: {text}" for text in misfits])
@@ -123,9 +122,9 @@ class WearModel:
         return LOWER if self.frame == "cylinder" else UPPER
 
     @property
-    def law(self) -> Detachment:
+    def criterion_law(self) -> Criterion:
         """The `criterion` as an object."""
-        assert isinstance(self.criterion, Detachment)
+        assert isinstance(self.criterion, Criterion)
         return self.criterion
 
     @property
@@ -135,13 +134,13 @@ class WearModel:
         return self.third_bodies
 
     @property
-    def boundary_film(self) -> FilmDefect | None:
+    def film_defect_model(self) -> FilmDefect | None:
         """Fractional film defect of a boundary film; None for unprotected surfaces."""
         assert self.film_defect is None or isinstance(self.film_defect, FilmDefect)
         return self.film_defect
 
     @property
-    def tractions(self) -> TractionLaw:
+    def traction_law(self) -> TractionLaw:
         """The traction law as an object."""
         assert isinstance(self.traction, TractionLaw)
         return self.traction
@@ -154,15 +153,15 @@ class WearModel:
         InputError : a wearing body without yield stress; lengths, depths or a friction that a law cannot use; a skin or
             a layer that leaves fewer than two depths.
         """
-        self.law.check_length(setup.grid)
-        self.tractions.check(setup.friction)
+        self.criterion_law.check_length(setup.grid)
+        self.traction_law.check(setup.friction)
         bodies = wearing_bodies(setup.bodies, self.wears)
-        if self.law.needs_strength and any(not np.isfinite(setup.yield_stress(body)) for body in bodies):
+        if self.criterion_law.needs_strength and any(not np.isfinite(setup.yield_stress(body)) for body in bodies):
             raise InputError("the body that wears has no yield_stress and no hardness: give its material one of them")
-        self.law.check_depths(setup.depths)
-        from bem.wear.yielding import StressCriterion, check_usable_depths  # transforms are not loaded for a name
+        self.criterion_law.check_depths(setup.depths)
+        from bem.wear.yielding import EquivalentStressLaw, check_usable_depths  # transforms are not loaded for a name
 
-        if isinstance(self.law, StressCriterion):
+        if isinstance(self.criterion_law, EquivalentStressLaw):
             for body in bodies:
                 check_usable_depths(setup, self, body)
         return bodies

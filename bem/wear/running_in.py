@@ -25,9 +25,9 @@ from bem.notes.wear import THIRD_BODIES_MANY
 from bem.plausibility import body_arguments, notes_on_arguments
 from bem.representation import tabled
 from bem.wear.contact_step import ContactOutcome, ContactStart, ContactStep, dry_contact
-from bem.wear.criterion import Detachment, LocalWear
+from bem.wear.criterion import Criterion, LocalWear
 from bem.wear.cycle import wear_cycle
-from bem.wear.loads import Removal, SurfaceLoad
+from bem.wear.loads import BodyWear, SurfaceLoad
 from bem.wear.model import WearModel
 from bem.wear.outcome import contact_strip, strip_wear
 from bem.wear.segmentation import describe_pieces
@@ -122,7 +122,7 @@ def run_in(
     hardness: float | None = None,
     cycles: int = 200,
     model: WearModel | None = None,
-    criterion: str | Mapping[str, Any] | Detachment | None = None,
+    criterion: str | Mapping[str, Any] | Criterion | None = None,
     stop: Settled | None = None,
     contact_step: ContactStep | None = None,
     state: RunningInState | None = None,
@@ -148,7 +148,7 @@ def run_in(
         own.
     cycles : how many, counted from the start of the run.
     model : the replaceable parts.
-    criterion : in place of the model's: a name, a table with `kind` and parameters, or a `Detachment`.
+    criterion : in place of the model's: a name, a table with `kind` and parameters, or a `Criterion`.
     stop : rule by which the run ends before its last cycle; a state to resume from that has settled gets no cycle more.
     contact_step : contact of one cycle; None is the dry contact of these arguments, `wear.mixed.MixedContact` a
         lubricated one. Local laws wear by the pressure at the end of the cycle with the former (implicit), at its start
@@ -220,13 +220,13 @@ def _contact_step(
     """Return the contact step of a loop, and the compliance by which local laws wear in it [m/Pa]."""
     step, compliance = given, 0.0
     if step is None:
-        step, compliance = dry_contact(setup), sum(model.law.compliance(setup, body) for body in wearing)
-        if model.boundary_film is not None:
-            compliance *= float(model.boundary_film.share())
+        step, compliance = dry_contact(setup), sum(model.criterion_law.compliance(setup, body) for body in wearing)
+        if model.film_defect_model is not None:
+            compliance *= float(model.film_defect_model.share())
     if model.third_body_model is not None:
         from bem.wear.third_bodies import with_third_bodies  # imports both contacts
 
-        slide = model.law.distance_per_cycle(abs(model.shift) * setup.grid.spacing[0])
+        slide = model.criterion_law.distance_per_cycle(abs(model.shift) * setup.grid.spacing[0])
         step = with_third_bodies(step, model.third_body_model, slide)
     return step, compliance
 
@@ -246,7 +246,7 @@ def _step_error(
     state: RunningInState, setup: WearSetup, model: WearModel, contact_step: ContactStep, compliance: float
 ) -> float | None:
     """Estimate the error of the last step of a local law by step doubling; see `wear.step_doubling.step_error`."""
-    if not isinstance(model.law, LocalWear) or not state.cycle:
+    if not isinstance(model.criterion_law, LocalWear) or not state.cycle:
         return None
     start, rows = _contact_start(state, model, state.pressure), setup.grid.shape[0]
 
@@ -441,7 +441,7 @@ def _slide(pressure: FloatArray, cells: int, periodic: bool) -> FloatArray:
     return moved
 
 
-def particle_rows(removal: Removal, grid: Grid, cycle: int) -> NDArray[np.void]:
+def particle_rows(removal: BodyWear, grid: Grid, cycle: int) -> NDArray[np.void]:
     """Return the particles of a removal as rows of `PARTICLE_FIELDS`."""
     return np.array(
         [
@@ -466,7 +466,7 @@ def particle_rows(removal: Removal, grid: Grid, cycle: int) -> NDArray[np.void]:
 def _cycle_row(
     cycle: int,
     contact: ContactOutcome,
-    removals: list[Removal],
+    removals: list[BodyWear],
     particles: NDArray[np.void],
     rms_height: float,
     setup: WearSetup,

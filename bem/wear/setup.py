@@ -25,24 +25,16 @@ class WearChoices(Protocol):
     """Choices of a wear model (`bem.wear.WearModel`) that criteria and segmentation read."""
 
     @property
-    def law(self) -> Any:
+    def criterion_law(self) -> Any:
         """Criterion."""
-
-    @property
-    def tractions(self) -> Any:
-        """Traction law."""
 
     @property
     def removal(self) -> str | RemovalLaw:
         """Removal law."""
 
     @property
-    def boundary_film(self) -> FilmDefect | None:
+    def film_defect_model(self) -> FilmDefect | None:
         """Fractional film defect of a boundary film; None for unprotected surfaces."""
-
-    @property
-    def wears(self) -> str:
-        """Which body wears: "softer", "lower", "upper" or "both"."""
 
     @property
     def refine(self) -> int:

@@ -56,7 +56,7 @@ def step_error(
     """
     wearing = model.wearing(setup)
     depths = {body: state.memories[body] for body in wearing}
-    if not isinstance(model.law, LocalWear) or any(depth is None for depth in depths.values()):
+    if not isinstance(model.criterion_law, LocalWear) or any(depth is None for depth in depths.values()):
         return None
     worn = {body: facing(depth[0], body) for body, depth in depths.items() if depth is not None}
     heights = [facing(state.heights[body], body) + worn.get(body, 0.0) for body in (LOWER, UPPER)]

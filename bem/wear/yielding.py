@@ -32,15 +32,15 @@ from bem.errors import InputError
 from bem.grid import FloatArray
 from bem.materials import Body
 from bem.stress import clear_other_rows, connected_stress, subsurface_stress, von_mises_planes, von_mises_upper_bound
-from bem.wear.loads import Removal, SurfaceLoad
+from bem.wear.loads import BodyWear, SurfaceLoad
 from bem.wear.removal import RemovalLaw
 from bem.wear.segmentation import Segmentation, refine_depths, segment
 from bem.wear.setup import WearChoices, WearSetup
 
 
 @runtime_checkable
-class StressCriterion(Protocol):
-    """A criterion that compares one equivalent stress with the yield stress (`bem.wear.criterion.WearCriterion`)."""
+class EquivalentStressLaw(Protocol):
+    """A criterion that compares one equivalent stress with the yield stress (`bem.wear.criterion.StressCriterion`)."""
 
     @property
     def skin_depth(self) -> float:
@@ -63,7 +63,7 @@ def equivalent_stress_planes(
     setup: WearSetup,
     body: int,
     depths: FloatArray,
-    criterion: StressCriterion,
+    criterion: EquivalentStressLaw,
     out: FloatArray,
 ) -> Iterator[FloatArray]:
     """Yield the equivalent stress of all loads together in one body, depth by depth.
@@ -93,8 +93,8 @@ def largest_stress(load: SurfaceLoad, setup: WearSetup, model: WearChoices, body
     edge (Johnson 1985, section 3.4) and by pi (4 + nu) f p0 / 8 at the trailing edge (Hamilton and Goodman 1966). A
     thin layer stretches with its substrate, so these scale with the ratio of the plane moduli E / (1 - nu^2).
     """
-    law = model.law
-    assert isinstance(law, StressCriterion)
+    law = model.criterion_law
+    assert isinstance(law, EquivalentStressLaw)
     depths, plane = depths_for(setup, model, body), np.empty((1, *setup.grid.shape))
     found = [
         max(float(each.max()) for each in equivalent_stress_planes((load,), setup, body, depth[None], law, plane))
@@ -104,7 +104,7 @@ def largest_stress(load: SurfaceLoad, setup: WearSetup, model: WearChoices, body
 
 
 def cannot_yield(
-    loads: Sequence[SurfaceLoad], setup: WearSetup, body: int, depth: float, criterion: StressCriterion
+    loads: Sequence[SurfaceLoad], setup: WearSetup, body: int, depth: float, criterion: EquivalentStressLaw
 ) -> bool:
     """Return True if a bound without a transform proves that nothing yields at a depth [m].
 
@@ -175,7 +175,7 @@ def _layer_thickness(setup: WearSetup, model: WearChoices, body: int) -> float |
 
 
 def _skin_depth(model: WearChoices) -> float:
-    return float(model.law.skin_depth) if isinstance(model.law, StressCriterion) else 0.0
+    return float(model.criterion_law.skin_depth) if isinstance(model.criterion_law, EquivalentStressLaw) else 0.0
 
 
 def _smallest_interval(setup: WearSetup) -> float:
@@ -225,8 +225,8 @@ def yielded_stress(
     """
     start = time.perf_counter()
     loads = (SurfaceLoad(load, setup.friction),) if isinstance(load, np.ndarray) else load
-    law = model.law
-    assert isinstance(law, StressCriterion)
+    law = model.criterion_law
+    assert isinstance(law, EquivalentStressLaw)
     strength = setup.yield_stress(body)
     depths = depths_for(setup, model, body)
     below = 1 if model.refinement == "monotone_cubic" else 0
@@ -259,9 +259,9 @@ def piece_stress(
     search ends where no further row is reached, without a test of whole planes: there may be yield below.
     """
     loads = (SurfaceLoad(load, setup.friction),) if isinstance(load, np.ndarray) else load
-    law, removal, (first, *others) = model.law, model.removal, loads
+    law, removal, (first, *others) = model.criterion_law, model.removal, loads
     assert isinstance(removal, RemovalLaw)
-    assert isinstance(law, StressCriterion)
+    assert isinstance(law, EquivalentStressLaw)
     if not law.is_von_mises or others or first.traction is not None or not removal.follows_pieces:
         return yielded_stress(loads, setup, model, body)
     start = time.perf_counter()
@@ -280,13 +280,13 @@ def piece_stress(
 
 def yielded_pieces(
     load: FloatArray | Sequence[SurfaceLoad], setup: WearSetup, model: WearChoices, body: int
-) -> Removal:
+) -> BodyWear:
     """Return the pieces that come off one body where its stress exceeds yield; arguments as in `yielded_stress`."""
     found = piece_stress(load, setup, model, body)
     start = time.perf_counter()
     strength, where = setup.yield_stress(body), (found.yielding, found.rows)
     pieces = pieces_above(found.planes, found.depths, strength, setup, model, *where)
-    return Removal(body, pieces, found.computed, found.seconds, time.perf_counter() - start)
+    return BodyWear(body, pieces, found.computed, found.seconds, time.perf_counter() - start)
 
 
 def pieces_above(

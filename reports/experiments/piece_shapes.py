@@ -35,7 +35,7 @@ from bem.scenes.build import heights_of, modulus_of
 from bem.scenes.load import load_scene
 from bem.wear import WearModel
 from bem.wear.criterion import VonMises
-from bem.wear.loads import BodyCycle, Removal
+from bem.wear.loads import BodyCycle, BodyWear
 from bem.wear.segmentation import describe_pieces
 from reports.experiments.kept import keep, rounded
 
@@ -53,9 +53,9 @@ CORNERS = np.array(list(itertools.product((-0.5, 0.5), repeat=2)))
 class RecordedVonMises(VonMises):
     """The source's criterion; what leaves in each cycle is appended to `seen`."""
 
-    seen: list[Removal] = field(default_factory=list, kw_only=True)
+    seen: list[BodyWear] = field(default_factory=list, kw_only=True)
 
-    def detach(self, cycle: BodyCycle) -> Removal:
+    def detach(self, cycle: BodyCycle) -> BodyWear:
         """Return the yielded pieces."""
         removal = super().detach(cycle)
         self.seen.append(removal)

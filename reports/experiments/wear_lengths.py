@@ -112,7 +112,7 @@ def run(case: Case, criterion: str, seed: int) -> dict[str, Any]:
         model=model,
     )
     late = result.particles[result.particles["cycle"] > cycles - last]
-    slid = shift * grid.spacing[0] * model.law.passes_per_cycle * last
+    slid = shift * grid.spacing[0] * model.criterion_law.passes_per_cycle * last
     row: dict[str, Any] = {
         "criterion": criterion,
         "group": case.group,

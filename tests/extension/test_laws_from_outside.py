@@ -32,7 +32,7 @@ import numpy as np
 import bem
 from bem.laws import parameter
 from bem.lubrication.viscosity import ViscosityLaw
-from bem.wear.criterion import WearCriterion
+from bem.wear.criterion import StressCriterion
 
 
 @bem.register
@@ -51,7 +51,7 @@ class TwoSlopes(ViscosityLaw):
 
 @bem.register
 @dataclass(frozen=True)
-class OverStress(WearCriterion):
+class OverStress(StressCriterion):
     """Von Mises stress above a threshold."""
 
     name: ClassVar[str] = "over_stress"
@@ -180,7 +180,7 @@ def test_a_wear_criterion_in_python(outside):
     from bem.wear import WearModel
 
     model = WearModel(criterion=outside.OverStress(threshold=1e8))
-    assert model.law.equivalent_stress(np.array([3e8, 0, 0, 0, 0, 0])) == pytest.approx(2e8)
+    assert model.criterion_law.equivalent_stress(np.array([3e8, 0, 0, 0, 0, 0])) == pytest.approx(2e8)
     assert WearModel(criterion={"kind": "over_stress", "threshold": 1e8}) == model
     with pytest.raises(InputError, match="over_stres' is unknown - did you mean 'over_stress'"):
         WearModel(criterion="over_stres")

@@ -233,7 +233,9 @@ def test_stresses_of_a_wear_cycle_take_as_many_transforms_as_are_planned(choice)
     setup = WearSetup(grid, (solid, solid), np.zeros(grid.shape), 1.0, 0.2, np.arange(12) * 1e-7)
     pressure, model = np.zeros(grid.shape), WearModel(**choice)
     pressure[20:30, 14:24] = 1.7e9
-    loads = [SurfaceLoad(pressure, 0.2, None if model.tractions.slides else np.stack([0.2 * pressure, 0.1 * pressure]))]
+    loads = [
+        SurfaceLoad(pressure, 0.2, None if model.traction_law.slides else np.stack([0.2 * pressure, 0.1 * pressure]))
+    ]
     if model.stress_range:
         loads.append(SurfaceLoad(0.5 * pressure, 0.2))
     COUNT.reset()

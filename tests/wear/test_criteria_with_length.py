@@ -276,12 +276,12 @@ def test_a_junction_comes_off_when_it_was_dragged_over_its_size(shift):
     flat, spot = np.zeros(GRID.shape), round_spot(4.5)
     diameter = np.sqrt(4 / np.pi * spot.sum() * GRID.cell_area)
     model = WearModel(shift=shift, criterion=Junction(surface_energy=0.01))
-    assert model.law.critical_size(STEEL) < diameter
+    assert model.criterion_law.critical_size(STEEL) < diameter
     result = run_in(flat, flat, cycles=40 // shift, model=model, contact_step=pressed(spot), **ARGUMENTS)
     times = int(40 * 100e-9 / (shift * np.ceil(diameter / (shift * 100e-9)) * 100e-9))
     assert result.particles.size == times
     assert result.particles["volume"] == pytest.approx(np.full(times, np.pi * diameter**3 / 12), rel=1e-12, abs=0)
-    larger = Junction(surface_energy=0.01 * diameter / model.law.critical_size(STEEL) * 1.01)
+    larger = Junction(surface_energy=0.01 * diameter / model.criterion_law.critical_size(STEEL) * 1.01)
     none = run_in(flat, flat, cycles=20, criterion=larger, contact_step=pressed(spot), **ARGUMENTS)
     assert none.particles.size == 0
 

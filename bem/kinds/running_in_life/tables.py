@@ -16,7 +16,7 @@ from bem.scenes.tables.film_defect import FilmDefectScene
 from bem.scenes.tables.tribofilm import KineticsScene
 from bem.scenes.units import Pressure, Ratio, Temperature, Time
 from bem.scenes.wearing import WearDepthsScene
-from bem.wear.criterion import Detachment, LocalWear, VonMises
+from bem.wear.criterion import Criterion, LocalWear, VonMises
 from bem.wear.setup import LOWER, UPPER
 
 if TYPE_CHECKING:
@@ -58,7 +58,7 @@ class LifeCycles(Table):
 class LifeWear(Table):
     """Wear law of both bodies, and which of them pass through the contact."""
 
-    law: Annotated[Detachment, LawKey("criterion")] = key(
+    law: Annotated[Criterion, LawKey("criterion")] = key(
         "Wear law by pressure and sliding distance, with its parameters: archard, archard_over_hardness or energy.",
         "basic",
         example="archard",
@@ -78,7 +78,7 @@ class LifeWear(Table):
 
     @field_validator("law")
     @classmethod
-    def _local(cls, law: Detachment) -> Detachment:
+    def _local(cls, law: Criterion) -> Criterion:
         if not isinstance(law, LocalWear):
             raise problem(
                 f"{law.name}: a criterion cannot be carried over jumps",
@@ -135,14 +135,14 @@ class LifeFilm(KineticsScene):
 class LifeParticles(Table):
     """Sizes of the particles that a detachment criterion finds; none of them is taken from the surface."""
 
-    criterion: Annotated[Detachment, LawKey("criterion")] = key(
-        "Detachment criterion that finds the particles.", "advanced", default=VonMises()
+    criterion: Annotated[Criterion, LawKey("criterion")] = key(
+        "Wear criterion that finds the particles.", "advanced", default=VonMises()
     )
     depths: WearDepthsScene = key("Depths at which stresses are computed.", "basic")
 
     @field_validator("criterion")
     @classmethod
-    def _with_pieces(cls, law: Detachment) -> Detachment:
+    def _with_pieces(cls, law: Criterion) -> Criterion:
         if isinstance(law, LocalWear):
             raise problem(f"{law.name} has no pieces", "a criterion such as von_mises, averaged_von_mises, junction")
         if law.counts_passes:

@@ -8,7 +8,7 @@ from bem.errors import InfeasibleError
 from bem.kinds.wear.scene import WearScene
 from bem.scenes import build, plans, wearing
 from bem.scenes.planner import Plan, Step
-from bem.wear.criterion import WearCriterion
+from bem.wear.criterion import StressCriterion
 
 _CONVOLUTIONS = 18  # of one warm-started contact solve, coarse levels included
 _SHARING = 7  # contacts until particles that stay have their share of the load
@@ -41,7 +41,7 @@ def plan(scene: WearScene) -> Plan:
         Step("kernels of an earlier run", _KERNELS, skipped=True),
         *(
             [Step(f"deeper stresses, down to {scene.depths.count} depths", _DEEPER, skipped=True)]
-            if isinstance(scene.wear.criterion, WearCriterion)
+            if isinstance(scene.wear.criterion, StressCriterion)
             else []
         ),
         wearing.bars_step(scene, grid, _CONVOLUTIONS, solves),

@@ -26,7 +26,7 @@ from bem.scenes.keys import key
 from bem.scenes.laws import LawKey
 from bem.scenes.units import Length, Ratio
 from bem.scenes.wearing import LastCycles, WearDepthsScene
-from bem.wear.criterion import Detachment
+from bem.wear.criterion import Criterion
 from bem.wear.removal import RemovalLaw
 from bem.wear.traction import TractionLaw
 
@@ -132,8 +132,8 @@ class WearVariantScene(Variant):
     refinement: Literal["monotone_cubic", "linear", "exact"] | None = key(
         "Interpolation of the stress over depth.", "expert", default=None
     )
-    criterion: Annotated[Detachment, LawKey("criterion")] | None = key(
-        "Detachment criterion or wear law.", "advanced", default=None
+    criterion: Annotated[Criterion, LawKey("criterion")] | None = key(
+        "Wear criterion or wear law.", "advanced", default=None
     )
     removal: Annotated[RemovalLaw, LawKey("removal")] | None = key(
         "Material that leaves with a yielded region.", "advanced", default=None

@@ -11,7 +11,7 @@ from bem.scenes.keys import key
 from bem.scenes.laws import LawKey
 from bem.scenes.tables.film_defect import FilmDefectScene
 from bem.scenes.tables.third_bodies import ThirdBodiesScene
-from bem.wear.criterion import Detachment, VonMises
+from bem.wear.criterion import Criterion, VonMises
 from bem.wear.film_defect import film_defect_misfits
 from bem.wear.removal import Cap, RemovalLaw
 from bem.wear.traction import GrossSliding, TractionLaw
@@ -20,8 +20,8 @@ from bem.wear.traction import GrossSliding, TractionLaw
 class WearScenePart(Table):
     """Wear model: detachment criterion or wear law, and how material leaves."""
 
-    criterion: Annotated[Detachment, LawKey("criterion")] = key(
-        "Detachment criterion (von_mises and others) or wear law (archard, archard_over_hardness, energy).",
+    criterion: Annotated[Criterion, LawKey("criterion")] = key(
+        "Wear criterion (von_mises and others) or wear law (archard, archard_over_hardness, energy).",
         "advanced",
         default=VonMises(),
     )

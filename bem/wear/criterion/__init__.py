@@ -1,8 +1,8 @@
 """Wear criteria: material that comes off a body in a cycle, by default where an equivalent stress exceeds a strength.
 
-To add a criterion of stress, derive from `WearCriterion`, define its `equivalent_stress` and register it, here or in a
-file of your own. A criterion that needs more than the stress point by point, or has a memory, defines its own `detach`:
-`averaged`, `fatigue`. A criterion without stress derives from `Detachment`: `junction`, and `local` wear,
+To add a criterion of stress, derive from `StressCriterion`, define its `equivalent_stress` and register it, here or in
+a file of your own. A criterion that needs more than the stress point by point, or has a memory, defines its own
+`detach`: `averaged`, `fatigue`. A criterion without stress derives from `Criterion`: `junction`, and `local` wear,
 which has no pieces. The compiled loops are in `bem.wear` and are loaded when they run. Knows bodies, stresses and
 grids; no contact, no cycle.
 
@@ -10,7 +10,7 @@ Verified in tests/wear/test_criterion.py and test_criteria_with_length.py.
 """
 
 from bem.wear.criterion.averaged import AveragedVonMises
-from bem.wear.criterion.base import Detachment, WearCriterion
+from bem.wear.criterion.base import Criterion, StressCriterion
 from bem.wear.criterion.fatigue import LowCycleFatigue
 from bem.wear.criterion.junction import Junction
 from bem.wear.criterion.local import Archard, ArchardOverHardness, EnergyWear, LocalWear
@@ -20,14 +20,14 @@ __all__ = [
     "Archard",
     "ArchardOverHardness",
     "AveragedVonMises",
-    "Detachment",
+    "Criterion",
     "EnergyWear",
     "Junction",
     "LocalWear",
     "LowCycleFatigue",
     "MaximumTension",
+    "StressCriterion",
     "Tresca",
     "VonMises",
-    "WearCriterion",
     "principal_stresses",
 ]

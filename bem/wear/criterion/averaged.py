@@ -9,7 +9,7 @@ from bem.laws import parameter, register
 from bem.wear.criterion.stresses import VonMises
 
 if TYPE_CHECKING:
-    from bem.wear.loads import BodyCycle, Removal
+    from bem.wear.loads import BodyCycle, BodyWear
 
 
 @register
@@ -38,7 +38,7 @@ class AveragedVonMises(VonMises):
         """True: the disc sets the size."""
         return True
 
-    def detach(self, cycle: BodyCycle) -> Removal:
+    def detach(self, cycle: BodyCycle) -> BodyWear:
         """Return the pieces that yield under the averaged loads."""
         from bem.wear.lengths import averaged_loads
         from bem.wear.yielding import yielded_pieces

@@ -12,7 +12,7 @@ from bem.laws import Law, parameter
 
 if TYPE_CHECKING:
     from bem.materials import Material
-    from bem.wear.loads import BodyCycle, Removal
+    from bem.wear.loads import BodyCycle, BodyWear
     from bem.wear.setup import WearSetup
 
 
@@ -25,7 +25,7 @@ SKIN_DEPTH = 100e-9
 
 
 @dataclass(frozen=True)
-class Detachment(Law):
+class Criterion(Law):
     """Base class: material that comes off a body in a cycle."""
 
     family: ClassVar[str] = "criterion"
@@ -89,12 +89,12 @@ class Detachment(Law):
         """Raise InputError if the depths (nz,) [m] do not resolve the stress that the law compares."""
 
     @abstractmethod
-    def detach(self, cycle: BodyCycle) -> Removal:
+    def detach(self, cycle: BodyCycle) -> BodyWear:
         """Return the pieces that come off a body in a cycle, and the memory of its material for the next cycle."""
 
 
 @dataclass(frozen=True)
-class WearCriterion(Detachment):
+class StressCriterion(Criterion):
     """Material whose equivalent stress exceeds the yield stress comes off where it reaches the surface.
 
     The skin is the material nearer to the surface than `skin_depth`. Its stress counts as that at this depth, so it
@@ -136,7 +136,7 @@ class WearCriterion(Detachment):
                 f"{self.skin_depth:g} m; give deeper depths or a thinner skin"
             )
 
-    def detach(self, cycle: BodyCycle) -> Removal:
+    def detach(self, cycle: BodyCycle) -> BodyWear:
         """Return the pieces above yield that reach the surface."""
         from bem.wear.yielding import yielded_pieces  # kernels and transforms are not loaded for a name
 

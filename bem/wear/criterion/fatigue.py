@@ -13,7 +13,7 @@ from bem.wear.criterion.stresses import VonMises
 
 if TYPE_CHECKING:
     from bem.materials import Material
-    from bem.wear.loads import BodyCycle, Removal
+    from bem.wear.loads import BodyCycle, BodyWear
 
 _UNIFORM = "uniform material law for unalloyed and low-alloy steels (Baumel and Seeger 1990)"
 
@@ -72,7 +72,7 @@ class LowCycleFatigue(VonMises):
         flow = np.maximum(stress - material.yield_stress, 0.0) / (3 * material.shear_modulus)
         return np.asarray(np.minimum(2 * self.passes * (flow / self.ductility) ** (1 / self.exponent), 1.0))
 
-    def detach(self, cycle: BodyCycle) -> Removal:
+    def detach(self, cycle: BodyCycle) -> BodyWear:
         """Return broken pieces that reach the surface, and the damage of the remaining material as memory."""
         from bem.wear.damage import fatigue_removal
 

@@ -6,16 +6,16 @@ from dataclasses import dataclass
 from typing import TYPE_CHECKING, ClassVar
 
 from bem.laws import parameter, register
-from bem.wear.criterion.base import Detachment
+from bem.wear.criterion.base import Criterion
 
 if TYPE_CHECKING:
     from bem.materials import Material
-    from bem.wear.loads import BodyCycle, Removal
+    from bem.wear.loads import BodyCycle, BodyWear
 
 
 @register
 @dataclass(frozen=True)
-class Junction(Detachment):
+class Junction(Criterion):
     """A spot of contact whose sheared surroundings hold the energy for a crack under it comes off as a half sphere.
 
     d* = Lambda w G / tau^2 (Aghababaei, Warner and Molinari 2016): w the energy of the crack per area, G the shear
@@ -66,7 +66,7 @@ class Junction(Detachment):
         strength = self.strength_ratio * material.yield_stress
         return self.shape_factor * self.surface_energy * material.shear_modulus / strength**2
 
-    def detach(self, cycle: BodyCycle) -> Removal:
+    def detach(self, cycle: BodyCycle) -> BodyWear:
         """Return half spheres under the junctions that are large enough and were dragged far enough."""
         from bem.wear.junctions import junction_removal
 

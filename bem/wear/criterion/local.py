@@ -11,18 +11,18 @@ import numpy as np
 
 from bem.errors import InputError
 from bem.laws import parameter, register
-from bem.wear.criterion.base import Detachment
+from bem.wear.criterion.base import Criterion
 from bem.wear.setup import UPPER
 
 if TYPE_CHECKING:
     from bem.grid import Grid
     from bem.materials import Body
-    from bem.wear.loads import BodyCycle, Removal
+    from bem.wear.loads import BodyCycle, BodyWear
     from bem.wear.setup import WearSetup
 
 
 @dataclass(frozen=True, kw_only=True)
-class LocalWear(Detachment):
+class LocalWear(Criterion):
     """Base class of local laws: a cycle stands for a sliding distance s and wears the depth k p s.
 
     Steps of a dry contact are implicit: the pressure is that at their end, solved with the wear as a compliance of each
@@ -78,22 +78,21 @@ class LocalWear(Detachment):
     def rate(self, body: Body, friction: float) -> float:
         """Return the wear volume of a body by load and distance [m^3/(N m)]; `upper_over_lower` multiplies it."""
 
-    def detach(self, cycle: BodyCycle) -> Removal:
+    def detach(self, cycle: BodyCycle) -> BodyWear:
         """Return the depth (nx, ny) worn in a cycle, without pieces.
 
         The memory is the depth of this cycle alone, not of all cycles: the error of the last step needs no more.
         """
-        from bem.wear.loads import Removal
         from bem.wear.yielding import no_pieces
 
         began = time.perf_counter()
-        rate, defect = self._rate_of(cycle.setup, cycle.body, cycle.loads[0].friction), cycle.model.boundary_film
+        rate, defect = self._rate_of(cycle.setup, cycle.body, cycle.loads[0].friction), cycle.model.film_defect_model
         bare = 1.0 if defect is None else defect.share(cycle.temperature)
         if cycle.slid is not None:
             self._check_step(rate * float(cycle.slid.max()), cycle.setup)
         worn = bare * rate * (self.distance if cycle.slid is None else cycle.slid) * cycle.pressure
         pieces = no_pieces(cycle.setup.grid.shape)
-        return Removal(cycle.body, pieces, 0, 0.0, time.perf_counter() - began, worn[None], worn)
+        return BodyWear(cycle.body, pieces, 0, 0.0, time.perf_counter() - began, worn[None], worn)
 
 
 def cell_to_cell_compliance(grid: Grid, bodies: tuple[Body, Body]) -> float:

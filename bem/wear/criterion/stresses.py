@@ -9,7 +9,7 @@ import numpy as np
 
 from bem.grid import FloatArray
 from bem.laws import parameter, register
-from bem.wear.criterion.base import WearCriterion
+from bem.wear.criterion.base import StressCriterion
 
 
 def principal_stresses(stress: FloatArray) -> FloatArray:
@@ -33,7 +33,7 @@ def principal_stresses(stress: FloatArray) -> FloatArray:
 
 @register
 @dataclass(frozen=True)
-class VonMises(WearCriterion):
+class VonMises(StressCriterion):
     """Von Mises stress; equals the yield stress at yield."""
 
     name: ClassVar[str] = "von_mises"
@@ -58,7 +58,7 @@ class VonMises(WearCriterion):
 
 @register
 @dataclass(frozen=True)
-class Tresca(WearCriterion):
+class Tresca(StressCriterion):
     """Largest minus smallest principal stress; equals the yield stress at yield."""
 
     name: ClassVar[str] = "tresca"
@@ -77,7 +77,7 @@ class Tresca(WearCriterion):
 
 @register
 @dataclass(frozen=True)
-class MaximumTension(WearCriterion):
+class MaximumTension(StressCriterion):
     """Largest principal stress, zero where all are compressive: brittle detachment.
 
     Tension is largest at the surface, so by default there is no skin.

@@ -15,7 +15,7 @@ from bem.laws import Law
 from bem.notes import Note
 
 if TYPE_CHECKING:
-    from bem.wear.criterion import Detachment
+    from bem.wear.criterion import Criterion
     from bem.wear.setup import WearSetup
 
 
@@ -58,7 +58,7 @@ class TractionLaw(Law):
         """Loops of the bodies that one computed cycle stands for, for wear by the slip distance."""
         return 1.0
 
-    def misfits(self, criterion: Detachment, stress_range: bool) -> tuple[str, ...]:
+    def misfits(self, criterion: Criterion, stress_range: bool) -> tuple[str, ...]:
         """Return messages on choices of a wear model that do not go with the law; none by default."""
         return ()
 

@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING, ClassVar
 
 from bem.grid import FloatArray
 from bem.laws import register
-from bem.wear.criterion import Detachment, LocalWear
+from bem.wear.criterion import Criterion, LocalWear
 from bem.wear.traction.base import TractionLaw
 
 if TYPE_CHECKING:
@@ -26,7 +26,7 @@ class GrossSliding(TractionLaw):
         """True."""
         return True
 
-    def misfits(self, criterion: Detachment, stress_range: bool) -> tuple[str, ...]:
+    def misfits(self, criterion: Criterion, stress_range: bool) -> tuple[str, ...]:
         """Return a message if a local law has no sliding distance."""
         if isinstance(criterion, LocalWear) and criterion.distance == 0:
             return (

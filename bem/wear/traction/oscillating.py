@@ -13,7 +13,7 @@ from bem.grid import FloatArray
 from bem.laws import parameter, register
 from bem.notes.contact import PRESSING_PATH
 from bem.notes.wear import LOOP_ALL_SLIPS
-from bem.wear.criterion import Detachment, LocalWear
+from bem.wear.criterion import Criterion, LocalWear
 from bem.wear.traction.base import Rubbing, TractionLaw
 
 if TYPE_CHECKING:
@@ -43,7 +43,7 @@ class Oscillating(TractionLaw):
         """Loops that one computed cycle stands for, as given."""
         return self.loops
 
-    def misfits(self, criterion: Detachment, stress_range: bool) -> tuple[str, ...]:
+    def misfits(self, criterion: Criterion, stress_range: bool) -> tuple[str, ...]:
         """Return messages on a sliding distance and on ranges of stress between cycles, which loops replace."""
         found = []
         if isinstance(criterion, LocalWear) and criterion.distance > 0:

@@ -6,12 +6,12 @@ import numpy as np
 
 import bem
 from bem.laws import parameter
-from bem.wear.criterion import WearCriterion
+from bem.wear.criterion import StressCriterion
 
 
 @bem.register
 @dataclass(frozen=True)
-class OverStress(WearCriterion):
+class OverStress(StressCriterion):
     """Von Mises stress above a threshold."""
 
     name: ClassVar[str] = "over_stress"
