@@ -51,7 +51,7 @@ START = {
 }
 """Figures of the unworn surfaces by columns of the march."""
 _SAMPLED = {
-    "friction": ("boundary_friction", "film_friction"),
+    "friction": ("boundary_friction", "oil_friction"),
     "contact_share": ("contact_share",),
     "area_share": ("area_share",),
     "minimum_film": ("minimum_film",),
@@ -128,8 +128,8 @@ def life_figures(end: LifeState) -> dict[str, float]:
     found = {name: float(end.over(column)[-1]) for name, column in END.items()}
     found |= {name: float(end.over(column)[0]) for name, column in START.items()}
     found["wear_volume"] = float(sum(end.surfaces.volume))
-    if end.surfaces.film is not None:
-        found["tribofilm_thickness"] = float(end.over("film_thickness")[-1])
+    if end.surfaces.tribofilm is not None:
+        found["tribofilm_thickness"] = float(end.over("tribofilm_thickness")[-1])
     return found
 
 
@@ -153,9 +153,13 @@ class OtherLives:
 
 def two_rounds(case: LifeCase, end: LifeState) -> tuple[dict[str, float], dict[str, float]]:
     """Return means over the positions by column of the march, on the unworn surfaces and on those of the end."""
-    film = end.surfaces.film
-    grown = None if film is None or case.film is None else np.full(film.shape, case.film.balance.initial_thickness)
-    unworn = replace(end.surfaces, heights=end.first, film=grown)
+    film = end.surfaces.tribofilm
+    grown = (
+        None
+        if film is None or case.tribofilm is None
+        else np.full(film.shape, case.tribofilm.balance.initial_thickness)
+    )
+    unworn = replace(end.surfaces, heights=end.first, tribofilm=grown)
     first, last = (solve_round(case, surfaces, 0.0).passes for surfaces in (unworn, end.surfaces))
     return _means(first), _means(last)
 
@@ -248,7 +252,7 @@ def errors_of_jumps(state: LifeState, columns: Mapping[str, str]) -> dict[str, f
 
 def jump_bars(end: LifeState) -> dict[str, float]:
     """Return the errors of the figures at the end that the steps of a life leave."""
-    columns = END if end.surfaces.film is None else END | {"tribofilm_thickness": "film_thickness"}
+    columns = END if end.surfaces.tribofilm is None else END | {"tribofilm_thickness": "tribofilm_thickness"}
     # rows hold mean depths over whole surfaces, whose areas turn them into volumes
     areas = [v / d for v, d in zip(end.surfaces.volume, _depths(end), strict=True) if d > 0]
     return errors_of_jumps(end, columns) | {"wear_volume": float(end.over("depth_error")[-1]) * max(areas, default=0.0)}

@@ -3,9 +3,11 @@
 1. A round takes two bodies through a number of positions (passes.py). In each position: solve the contact with its wear
    as a compliance (`bem.wear.ContactStep`, dry or lubricated), wear both bodies, grow and wear the tribofilm
    (surfaces.py).
-2. A step is a round in which each position stands for many cycles. Its error is controlled by step doubling (march.py).
-3. After each step, monitors estimate the number of pieces, the worn volume over the mean volume of the pieces that a
-   wear criterion would find, and the fatigue damage below the surface (monitors.py, fatigue.py, criteria.py).
+2. A step of n cycles is two rounds of n/2 cycles, in which each position stands for an equal part of them. A round of n
+   cycles measures their error: step doubling (march.py).
+3. After each step, monitors (monitors.py) estimate the number of pieces, which is the worn volume over the mean volume
+   of the pieces that a wear criterion would find, and add the fatigue damage below the surface (fatigue.py) by Dang
+   Van's or Crossland's limit (fatigue_limit.py).
 4. Errors of jumps, positions, cells and films add up to error bars (`bem.accuracy.life`, sampling.py).
 
 Source: Archard (1953) at each place; tribofilm of the thesis, paper E; fatigue of Morales-Espejel and Brizmer (2011).

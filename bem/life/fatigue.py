@@ -4,7 +4,7 @@
 2. Where both bodies pass, this path meets as many places in one cycle as there are positions, while in reality a place
    rolls with one. So damage is also counted of each position by itself and rest, which leaves out the rest of the pass.
    The two counts bracket the path; the larger or smaller rate of both ends of a step brackets the step.
-3. Equivalent shear stress of the path (criteria.py) and its damage per cycle; damage adds up (Miner).
+3. Equivalent shear stress of the path (fatigue_limit.py) and its damage per cycle; damage adds up (Miner).
 4. Damage moves up with the material as the surface wears (`bem.wear.damage.move_up`).
 5. A column with a voxel of damage one counts as micropitted.
 
@@ -23,7 +23,7 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from bem.grid import FloatArray
-from bem.life.criteria import FatigueLimit
+from bem.life.fatigue_limit import FatigueLimit
 from bem.life.march import LifeState
 from bem.life.passes import Pass, facing
 from bem.life.surfaces import LifeCase
@@ -63,9 +63,9 @@ class RollingFatigue:
         return np.stack([self._damage(path), alone])
 
     def initial_state(self, case: LifeCase, state: LifeState) -> LifeState:
-        """Return a life's first state with zero damage and the first rates; see `LifeState.damage`."""
+        """Return a life's first state with zero damage and the first rates; see `LifeState.damage_rates`."""
         rates = self.damage_rates(case, state)
-        return replace(state, damage=np.concatenate([np.zeros((3, *rates.shape[1:])), rates]))
+        return replace(state, damage=np.zeros((3, *rates.shape[1:])), damage_rates=rates)
 
     def add_damage(self, case: LifeCase, before: LifeState, now: LifeState) -> LifeState:
         """Return the state after a step with the damage of the step added.
@@ -74,18 +74,19 @@ class RollingFatigue:
         lower bracket count all of it at the larger and smaller rate.
         """
         assert before.damage is not None
-        cycles, (one, alone) = now.cycles - before.cycles, self.damage_rates(case, now)
-        path_before, alone_before = before.damage[3:]
+        assert before.damage_rates is not None
+        cycles, rates = now.cycles - before.cycles, self.damage_rates(case, now)
+        (path_before, alone_before), (one, alone) = before.damage_rates, rates
         worn = np.ascontiguousarray(before.surfaces.heights[self.body] - now.surfaces.heights[self.body])
         most, least = 0.5 * np.maximum(one, path_before), 0.5 * np.minimum(alone, alone_before)
         found = []
         for damage, first, last in zip(
-            before.damage[:3], (0.5 * path_before, most, least), (0.5 * one, most, least), strict=True
+            before.damage, (0.5 * path_before, most, least), (0.5 * one, most, least), strict=True
         ):
             damage = damage + cycles * first
             move_up(damage, self.depths, worn)
             found.append(damage + cycles * last)
-        return replace(now, damage=np.stack([*found, one, alone]))
+        return replace(now, damage=np.stack(found), damage_rates=rates)
 
     def _damage(self, path: FloatArray) -> FloatArray:
         return self.limit.damage(self.limit.equivalent_shear(path))
@@ -102,7 +103,7 @@ class RollingFatigue:
         for place, number in enumerate(np.argsort(moved, kind="stable")):
             one = passes[number]
             # what presses is not above the cap where oil lies on a contact that is at it
-            pressure = np.minimum(one.pressure + one.film_pressure, self.hardness)
+            pressure = np.minimum(one.pressure + one.oil_pressure, self.hardness)
             traction = np.stack([sign * self.friction * one.pressure, np.zeros((nx, ny))])
             stress = subsurface_stress(pressure, case.grid, self.solid, self.depths, traction=traction)
             path[:, place, :, facing(moved[number], nx, whole)] = np.moveaxis(stress, 2, 0)

@@ -27,8 +27,8 @@ from bem.wear.contact_step import ContactStart
 from bem.wear.setup import LOWER, UPPER
 
 ROW = (
-    *("cycles", "step", "friction", "boundary_friction", "film_friction", "contact_share", "area_share"),
-    *("minimum_film", "lambda_ratio", "lower_rms", "upper_rms", "lower_depth", "upper_depth", "film_thickness"),
+    *("cycles", "step", "friction", "boundary_friction", "oil_friction", "contact_share", "area_share"),
+    *("minimum_film", "lambda_ratio", "lower_rms", "upper_rms", "lower_depth", "upper_depth", "tribofilm_thickness"),
     *("contact_temperature", "flash_temperature", "step_error", "depth_error"),
 )
 """Columns of a row at the end of a step: SI units; means over the positions of its last round and over whole surfaces;
@@ -37,7 +37,7 @@ the flash temperature is the highest of any position."""
 _ROUND_OFF = float(np.finfo(np.float64).eps)
 """Round-off of heights relative to the largest, by one subtraction against two."""
 _THIN = 1e-10
-"""Thickness below which the tolerance of the film is absolute [m]."""
+"""Thickness below which the tolerance of the tribofilm is absolute [m]."""
 _SMALLEST = 2.0**-30
 """Smallest step relative to the first; the march fails below it."""
 
@@ -50,8 +50,9 @@ class LifeState:
     surfaces : now. first : heights before the first cycle [m].
     rows : (n, len(ROW)), one per step. rejected : number of steps that were halved.
     passes : of the last round. convolutions : so far.
-    damage : (5, nz, rows, ny) of a body's material where it is counted: so far, upper and lower bracket, then per cycle
-        with all positions as one path, and position by position.
+    damage : (3, nz, rows, ny) of a body's material so far: estimate, upper and lower bracket; None where not counted.
+    damage_rates : (2, nz, rows, ny) damage per cycle now: of all positions as one path, and as the mean over positions
+        each on its own path; None where not counted.
     """
 
     cycles: float
@@ -63,6 +64,7 @@ class LifeState:
     passes: tuple[Pass, ...] = ()
     damage: FloatArray | None = None
     convolutions: float = 0.0
+    damage_rates: FloatArray | None = None
 
     def over(self, name: str) -> FloatArray:
         """Return a column of the rows."""
@@ -100,9 +102,9 @@ def run_life(
 
 def initial_state(case: LifeCase, lower: FloatArray, upper: FloatArray) -> LifeState:
     """Return the state before the first cycle, with the friction of the unworn surfaces (rows, ny) [m]."""
-    film = None if case.film is None else np.full(np.shape(lower), case.film.balance.initial_thickness)
+    tribofilm = None if case.tribofilm is None else np.full(np.shape(lower), case.tribofilm.balance.initial_thickness)
     heights = (np.array(lower, dtype=np.float64), np.array(upper, dtype=np.float64))
-    unworn = Surfaces(heights, film, (ContactStart(),) * case.passing.positions)
+    unworn = Surfaces(heights, tribofilm, (ContactStart(),) * case.passing.positions)
     found = solve_round(case, unworn, 0.0)
     row = _row(found, heights, 0.0, 0.0, (0.0, 0.0))
     return LifeState(
@@ -141,6 +143,7 @@ def advance(case: LifeCase, state: LifeState) -> LifeState:
         end.passes,
         state.damage,
         spent,
+        state.damage_rates,
     )
 
 
@@ -149,11 +152,11 @@ def _spent(found: Round) -> float:
 
 
 def _error(before: Surfaces, whole: Surfaces, halves: Surfaces) -> tuple[float, float]:
-    """Return the relative error of a step in two halves, the largest over bodies and film, and the error of the mean
-    depth worn of both bodies [m].
+    """Return the relative error of a step in two halves, the largest over bodies and tribofilm, and the error of the
+    mean depth worn of both bodies [m].
 
     The error of a body is the rms over its surface relative to that of the depth worn in the step, so that the errors
-    of all steps add up to the same fraction of the whole wear. The error of the film is relative to its thickness,
+    of all steps add up to the same fraction of the whole wear. The error of the tribofilm is relative to its thickness,
     since a film forgets its past.
     """
     worst, missed = 0.0, 0.0
@@ -165,9 +168,9 @@ def _error(before: Surfaces, whole: Surfaces, halves: Surfaces) -> tuple[float, 
         # differences below the round-off of heights are no error: steps that wear less than that grow
         if worn > 0 and apart > _ROUND_OFF * float(np.abs(heights).max()):
             worst = max(worst, apart / worn)
-    if whole.film is not None and halves.film is not None:
-        apart = float(np.abs(whole.film - halves.film).mean())
-        worst = max(worst, apart / max(float(halves.film.mean()), _THIN))
+    if whole.tribofilm is not None and halves.tribofilm is not None:
+        apart = float(np.abs(whole.tribofilm - halves.tribofilm).mean())
+        worst = max(worst, apart / max(float(halves.tribofilm.mean()), _THIN))
     return worst, missed
 
 
@@ -181,17 +184,17 @@ def _row(
     """Return a row of the table, the columns as in `ROW`."""
     surfaces, passes = found.surfaces, found.passes
     lower, upper = surfaces.heights
-    film = np.zeros(lower.shape) if surfaces.film is None else surfaces.film
+    tribofilm = np.zeros(lower.shape) if surfaces.tribofilm is None else surfaces.tribofilm
     boundary, oil, *others = (mean_over(passes, name) for name in _OF_PASSES)
     warm, hottest = mean_over(passes, "contact_temperature"), max(one.flash_temperature for one in passes)
     return np.array(
         [
             *(cycles, step, boundary + oil, boundary, oil, *others),
-            *(float((lower + film).std()), float(upper.std())),
+            *(float((lower + tribofilm).std()), float(upper.std())),
             *(float((first[body] - surfaces.heights[body]).mean()) for body in (LOWER, UPPER)),
-            *(float(film.mean()), warm, hottest, *errors),
+            *(float(tribofilm.mean()), warm, hottest, *errors),
         ]
     )
 
 
-_OF_PASSES = (*("boundary_friction", "film_friction", "contact_share", "area_share", "minimum_film", "lambda_ratio"),)
+_OF_PASSES = (*("boundary_friction", "oil_friction", "contact_share", "area_share", "minimum_film", "lambda_ratio"),)

@@ -63,29 +63,29 @@ def facing(offset: int, rows: int, whole: int) -> NDArray[np.int_]:
 class Pass:
     """Contact of one position.
 
-    pressure : (nx, ny) [Pa]. boundary_friction, film_friction : parts of the coefficient of friction.
+    pressure : (nx, ny) [Pa]. boundary_friction, oil_friction : parts of the coefficient of friction.
     contact_share, area_share : fractions of the load and of the grid's area in contact. minimum_film : [m].
     lambda_ratio : minimum film under the whole load over the rms height. convolutions : of the contact.
-    start : what the next contact of the position starts from. film_pressure : (nx, 1) of the oil [Pa].
+    start : what the next contact of the position starts from. oil_pressure : (nx, 1) of the oil [Pa].
     temperature : (nx, ny) of the surfaces [K]; None where rubbing does not heat them. contact_temperature,
     flash_temperature : of the surfaces in contact [K], mean by pressure and highest; 0 where no heat was asked for.
-    film_notes, contact_notes : notes on the film's model; on the rough contact and its heat.
+    oil_notes, contact_notes : notes on the film's model; on the rough contact and its heat.
     """
 
     pressure: FloatArray
     boundary_friction: float
-    film_friction: float
+    oil_friction: float
     contact_share: float
     area_share: float
     minimum_film: float
     lambda_ratio: float
     convolutions: float
     start: ContactStart
-    film_pressure: FloatArray
+    oil_pressure: FloatArray
     temperature: FloatArray | None = None
     contact_temperature: float = 0.0
     flash_temperature: float = 0.0
-    film_notes: tuple[Note, ...] = ()
+    oil_notes: tuple[Note, ...] = ()
     contact_notes: tuple[Note, ...] = ()
 
 
@@ -103,14 +103,14 @@ def solve_pass(contact: ContactStep, grid: Grid, heights: FloatArray, start: Con
         return Pass(
             pressure=outcome.pressure,
             boundary_friction=outcome.friction,
-            film_friction=0.0,
+            oil_friction=0.0,
             contact_share=1.0,
             area_share=outcome.contact_area / grid.area,
             minimum_film=0.0,
             lambda_ratio=0.0,
             convolutions=outcome.convolutions,
             start=ContactStart(outcome.pressure),
-            film_pressure=np.zeros((grid.shape[0], 1)),
+            oil_pressure=np.zeros((grid.shape[0], 1)),
             temperature=outcome.temperature,
         )
     return _lubricated_pass(outcome, grid, start)
@@ -128,7 +128,7 @@ def _lubricated_pass(outcome: ContactOutcome, grid: Grid, start: ContactStart) -
     return Pass(
         pressure=outcome.pressure,
         boundary_friction=float(row["boundary_force"]) / last.load,
-        film_friction=float(row["film_force"]) / last.load,
+        oil_friction=float(row["film_force"]) / last.load,
         contact_share=float(row["contact_load"]) / last.load,
         area_share=outcome.contact_area / grid.area,
         minimum_film=outcome.minimum_film,
@@ -136,11 +136,11 @@ def _lubricated_pass(outcome: ContactOutcome, grid: Grid, start: ContactStart) -
         convolutions=outcome.convolutions,
         # the film keeps its shape, so the next balance needs nothing of this one's fields
         start=ContactStart(pressure, replace(memory, last=None)),
-        film_pressure=film.pressure[:, :1],
+        oil_pressure=film.pressure[:, :1],
         temperature=outcome.temperature,
         contact_temperature=float(row["contact_temperature"]),
         flash_temperature=float(row["flash_temperature"]),
-        film_notes=film.notes,
+        oil_notes=film.notes,
         contact_notes=last.contact_notes,
     )
 

@@ -77,7 +77,7 @@ def _pressures(end: LifeState, passing: Passing, body: int) -> FloatArray:
 def _surfaces(end: LifeState) -> tuple[FloatArray, FloatArray]:
     """Return the heights of the end, film included [m]."""
     lower, upper = end.surfaces.heights
-    return (lower if end.surfaces.film is None else lower + end.surfaces.film), upper
+    return (lower if end.surfaces.tribofilm is None else lower + end.surfaces.tribofilm), upper
 
 
 def _rows(heights: tuple[FloatArray, FloatArray]) -> tuple[int, int]:

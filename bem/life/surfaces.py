@@ -92,7 +92,7 @@ class LifeCase:
         the grid in that part of the positions, and slides that much less.
     cycles : in all.
     tolerance : of a step, relative to the wear in it.
-    film : tribofilm on the lower body; None for none.
+    tribofilm : growing film on the lower body; None for none.
     first_step, longest : first trial and upper bound of a step [cycles].
     defect : fractional film defect of a boundary film, the fraction of the rates left at each temperature; None for
         unprotected surfaces.
@@ -105,7 +105,7 @@ class LifeCase:
     distance: float
     cycles: float
     tolerance: float = 0.05
-    film: GrowingFilm | None = None
+    tribofilm: GrowingFilm | None = None
     first_step: float = 1.0
     longest: float = math.inf
     defect: FilmDefect | None = None
@@ -134,12 +134,12 @@ class LifeCase:
 class Surfaces:
     """State of both surfaces.
 
-    heights : of the substrates of (lower, upper), (rows, ny) [m]. film : on the lower body [m]; None for none.
+    heights : of the substrates of (lower, upper), (rows, ny) [m]. tribofilm : on the lower body [m]; None for none.
     starts : what the contact of each position starts from. volume : worn of (lower, upper) so far [m^3].
     """
 
     heights: tuple[FloatArray, FloatArray]
-    film: FloatArray | None
+    tribofilm: FloatArray | None
     starts: tuple[ContactStart, ...]
     volume: tuple[float, float] = (0.0, 0.0)
 
@@ -170,20 +170,20 @@ def _solve_position(
     case: LifeCase, surfaces: Surfaces, number: int, moved: tuple[int, int], cycles: float
 ) -> tuple[Surfaces, Pass]:
     """Return the surfaces after one position, and its contact."""
-    nx, whole, law = case.grid.shape[0], [len(each) for each in surfaces.heights], case.film
+    nx, whole, law = case.grid.shape[0], [len(each) for each in surfaces.heights], case.tribofilm
     here = [facing(offset, nx, count) for offset, count in zip(moved, whole, strict=True)]
     lower, upper = (heights[rows] for heights, rows in zip(surfaces.heights, here, strict=True))
-    film = np.zeros(case.grid.shape) if surfaces.film is None else surfaces.film[here[LOWER]]
-    bare = np.ones(case.grid.shape) if law is None else law.bare(film)
+    tribofilm = np.zeros(case.grid.shape) if surfaces.tribofilm is None else surfaces.tribofilm[here[LOWER]]
+    bare = np.ones(case.grid.shape) if law is None else law.bare(tribofilm)
     slid = case.distance * cycles
-    found, depths = _solve_wear(case, lower + upper + film, surfaces.starts[number], slid)
-    films = surfaces.film
-    if law is not None and films is not None:
-        rubbed = np.minimum((1 - bare) * depths[LOWER], film)
-        grown, substrate = law.after(film - rubbed, found.pressure, cycles)
+    found, depths = _solve_wear(case, lower + upper + tribofilm, surfaces.starts[number], slid)
+    tribofilms = surfaces.tribofilm
+    if law is not None and tribofilms is not None:
+        rubbed = np.minimum((1 - bare) * depths[LOWER], tribofilm)
+        grown, substrate = law.after(tribofilm - rubbed, found.pressure, cycles)
         depths[LOWER] = depths[LOWER] - rubbed + substrate
-        films = films.copy()
-        films[here[LOWER]] = grown
+        tribofilms = tribofilms.copy()
+        tribofilms[here[LOWER]] = grown
         found = _with_friction_on_film(found, law, bare)
     heights, volume = list(surfaces.heights), list(surfaces.volume)
     for body, rows in enumerate(here):
@@ -191,7 +191,7 @@ def _solve_position(
         heights[body][rows] -= depths[body]
         volume[body] += float(depths[body].sum()) * case.grid.cell_area
     starts = (*surfaces.starts[:number], found.start, *surfaces.starts[number + 1 :])
-    return Surfaces((heights[LOWER], heights[UPPER]), films, starts, (volume[LOWER], volume[UPPER])), found
+    return Surfaces((heights[LOWER], heights[UPPER]), tribofilms, starts, (volume[LOWER], volume[UPPER])), found
 
 
 def _solve_wear(case: LifeCase, heights: FloatArray, start: ContactStart, slid: float) -> tuple[Pass, list[FloatArray]]:

@@ -15,7 +15,7 @@ from typing import Any
 
 import numpy as np
 
-from bem.life.criteria import CRITERIA, FatigueLimit
+from bem.life.fatigue_limit import CRITERIA, FatigueLimit
 from bem.reference_solutions.mcewen import cylinder_stress
 from reports.experiments.kept import keep, result_of, rounded
 

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from bem import Body, Grid, Material
-from bem.life.criteria import FatigueLimit
 from bem.life.fatigue import RollingFatigue, pitted_share
+from bem.life.fatigue_limit import FatigueLimit
 from bem.life.march import advance, run_life
 from bem.life.passes import Passing
 from bem.life.surfaces import LifeCase
@@ -61,7 +61,7 @@ def test_damage_adds_up_and_comes_up_with_the_material():
     case = smooth(32, 8, rate=2e-16, cycles=4000.0, first_step=4000.0, tolerance=0.5)
     model = fatigue(FatigueLimit(bending=700e6))
     first = model.initial_state(case, first_state(case))
-    rate = first.damage[3]
+    rate = first.damage_rates[0]
     still = replace(case, rates=(0.0, 0.0))
     steady = model.add_damage(still, first, advance(still, replace(first, step=4000.0, cycles=0.0)))
     # the same stresses all along: cycles times the damage of one; jumps leave nothing open. Contacts from other starts
@@ -69,7 +69,7 @@ def test_damage_adds_up_and_comes_up_with_the_material():
     # where balls are found to 1e-8
     assert steady.damage[0] == pytest.approx(4000 * rate, rel=4e-5)
     assert steady.damage[1] == pytest.approx(steady.damage[0], rel=4e-5)
-    assert steady.damage[2] == pytest.approx(4000 * first.damage[4], rel=1e-6)
+    assert steady.damage[2] == pytest.approx(4000 * first.damage_rates[1], rel=1e-6)
     so_far = np.ones_like(rate) * np.array([0.1, 0.4, 0.8])[:, None, None]
     deep = replace(first, damage=np.stack([so_far] * 3 + [0 * rate] * 2))
     worn = advance(case, replace(deep, step=4000.0, cycles=0.0))
@@ -87,7 +87,7 @@ def test_brackets_hold_the_path_and_what_lies_between_the_ends_of_a_jump():
     model = fatigue(FatigueLimit(bending=700e6))
     first = model.initial_state(case, first_state(case))
     # a path of fewer states needs no larger ball, and is as hot at rest; each of eight counts an eighth
-    assert (first.damage[4] <= first.damage[3]).all()
+    assert (first.damage_rates[1] <= first.damage_rates[0]).all()
     now = model.add_damage(case, first, advance(case, replace(first, step=4000.0, cycles=0.0)))
     assert (now.damage[2] <= now.damage[0]).all()
     assert (now.damage[0] <= now.damage[1]).all()
@@ -98,7 +98,7 @@ def test_brackets_hold_the_path_and_what_lies_between_the_ends_of_a_jump():
 def test_oil_on_a_contact_at_the_cap_presses_no_harder():
     case = smooth(32, 4)
     rows, solved = (32, 32), first_state(case)
-    passes = [replace(one, film_pressure=0.2 * one.pressure[:, :1]) for one in solved.passes]
+    passes = [replace(one, oil_pressure=0.2 * one.pressure[:, :1]) for one in solved.passes]
     capped = replace(fatigue(), hardness=PEAK).equivalent_shear(case, rows, passes)
     pressed = [replace(one, pressure=np.minimum(1.2 * one.pressure, PEAK)) for one in solved.passes]
     # the smallest ball is found to a millionth

@@ -139,18 +139,22 @@ def film(**changes):
 def test_a_film_alone_meets_its_closed_form_and_hides_the_substrate():
     flat = np.zeros(GRID.shape)
     law = film()
-    end = run_life(case(5000.0, rates=(0.0, 0.0), film=law, positions=2), flat, flat)
+    end = run_life(case(5000.0, rates=(0.0, 0.0), tribofilm=law, positions=2), flat, flat)
     growth = float(law.growth.rate(np.array(0.1 * PRESSURE), 360.0))
     steady = growth / 2.0
     # pressure is uniform: h = g/alpha (1 - exp(-alpha t)), integrated exactly by every step
-    assert end.surfaces.film == pytest.approx(np.full(GRID.shape, steady * -np.expm1(-2.0 * 5.0)), rel=1e-6, abs=0)
+    assert end.surfaces.tribofilm == pytest.approx(np.full(GRID.shape, steady * -np.expm1(-2.0 * 5.0)), rel=1e-6, abs=0)
     worn = case(
-        5000.0, film=film(balance=FilmBalance(0.0, 0.0, 1e9, 50e-9)), positions=2, rates=(1e-18, 0.0), distance=1e-6
+        5000.0,
+        tribofilm=film(balance=FilmBalance(0.0, 0.0, 1e9, 50e-9)),
+        positions=2,
+        rates=(1e-18, 0.0),
+        distance=1e-6,
     )
     hidden = run_life(worn, flat, flat)
     assert hidden.surfaces.volume[0] < 1e-6 * 1e-18 * PRESSURE * GRID.area * 1e-6 * 5000
     # what wore instead is film, as much as the law says, but for what grew
-    left = float(hidden.surfaces.film.mean())
+    left = float(hidden.surfaces.tribofilm.mean())
     grown = growth * 5.0
     assert left == pytest.approx(50e-9 + grown - 1e-18 * PRESSURE * 1e-6 * 5000, rel=1e-9)
 
@@ -158,21 +162,21 @@ def test_a_film_alone_meets_its_closed_form_and_hides_the_substrate():
 def test_friction_goes_over_to_that_of_the_film():
     flat = np.zeros(GRID.shape)
     law = film(friction_on_film=0.05, cycle_time=0.1, balance=FilmBalance(0.0, 0.0, 1e9, 0.0))
-    end = run_life(case(5e4, rates=(0.0, 0.0), film=law, positions=2, first_step=1e4), flat, flat)
+    end = run_life(case(5e4, rates=(0.0, 0.0), tribofilm=law, positions=2, first_step=1e4), flat, flat)
     assert end.over("friction")[0] == pytest.approx(0.1, rel=1e-12)
     assert end.over("friction")[-1] == pytest.approx(0.05, rel=1e-3)
 
 
 def test_it_goes_on_from_a_checkpoint_to_the_same_bits():
     lower, upper = surfaces()
-    one = case(100.0, film=film())
+    one = case(100.0, tribofilm=film())
     whole = run_life(one, lower, upper)
     kept: list[LifeState] = []
     run_life(one, lower, upper, callback=lambda now: kept.append(unpacked(packed(now))))
     again = run_life(one, lower, upper, state=kept[2])
     assert np.array_equal(again.rows, whole.rows)
     assert np.array_equal(again.surfaces.heights[0], whole.surfaces.heights[0])
-    assert np.array_equal(again.surfaces.film, whole.surfaces.film)
+    assert np.array_equal(again.surfaces.tribofilm, whole.surfaces.tribofilm)
 
 
 def test_a_step_that_misses_is_made_shorter_and_used():

@@ -79,7 +79,7 @@ def _tell(scene: RunningInLifeScene, context: Context, setup: MixedSetup, last: 
     slid = length * slide / mean if passing else wear.distance
     if passing and slid > 0 and abs(wear.distance / slid - 1) > 0.05:
         context.note(LIFE_DISTANCE_DIFFERS(given=wear.distance, slid=slid, length=length))
-    tell(context, last.film_notes, "film")
+    tell(context, last.oil_notes, "film")
     tell(context, last.contact_notes)
 
 
@@ -89,7 +89,7 @@ def _record(scene: RunningInLifeScene, setup: MixedSetup, end: LifeState, monito
 
     cycle, at = scene.life.reported(), end.over("cycles")
     over: dict[str, Any] = {name: np.interp(cycle, at, end.over(column)) for name, column in _COLUMNS.items()}
-    film, missed = end.surfaces.film, float(end.over("depth_error")[-1])
+    film, missed = end.surfaces.tribofilm, float(end.over("depth_error")[-1])
     figures = _with_body(life_figures(end))
     if film is None:
         figures["tribofilm_thickness"] = None
@@ -101,7 +101,7 @@ def _record(scene: RunningInLifeScene, setup: MixedSetup, end: LifeState, monito
         **monitors.figures(cycle, end),
         cycle=cycle,
         **_temperatures(scene, cycle, end),
-        tribofilm_over_cycles=None if film is None else np.interp(cycle, at, end.over("film_thickness")),
+        tribofilm_over_cycles=None if film is None else np.interp(cycle, at, end.over("tribofilm_thickness")),
         film_map=film,
         jump_error=missed,
         jumps=len(end.rows) - 1,

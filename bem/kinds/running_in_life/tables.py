@@ -195,8 +195,8 @@ class LifeFatigue(Table):
     def build(self, bodies: tuple[Body, Body], friction: float, hardness: float | None = None) -> RollingFatigue:
         """As `bem.life.fatigue.RollingFatigue`; friction : traction over pressure, as the lower body feels it;
         hardness : the contact's cap [Pa]."""
-        from bem.life.criteria import FatigueLimit
         from bem.life.fatigue import RollingFatigue
+        from bem.life.fatigue_limit import FatigueLimit
 
         (body,) = INDICES[self.body]
         limit = FatigueLimit(self.criterion, self.bending, self.slope, self.hydrostatic, self.residual_stress)

@@ -3,7 +3,7 @@
 Both need the smallest ball around the path of the deviator. Its centre is the residual stress at which a grain shakes
 down (Dang Van), its radius the amplitude (Crossland).
 
-Knows numbers only. Verified in tests/life/test_criteria.py: torsion, bending, rolling line contact.
+Knows numbers only. Verified in tests/life/test_fatigue_limit.py: torsion, bending, rolling line contact.
 """
 
 from __future__ import annotations

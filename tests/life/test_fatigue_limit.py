@@ -5,7 +5,7 @@ import pytest
 from scipy.optimize import minimize
 
 from bem import InputError
-from bem.life.criteria import FatigueLimit
+from bem.life.fatigue_limit import FatigueLimit
 from bem.reference_solutions.mcewen import cylinder_stress
 
 pytestmark = pytest.mark.internal
