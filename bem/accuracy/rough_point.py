@@ -82,21 +82,25 @@ class RoughPointCase:
         return solve_rough_point_film(**asked, shape=cells, errors=False)
 
 
-def rough_point_figures(case: RoughPointCase, film: RoughPointFilm, hertz_area: float) -> dict[str, float]:
+def rough_point_figures(case: RoughPointCase, film: RoughPointFilm, hertz_fraction: float) -> dict[str, float]:
     """Return the figures that have error bars, SI units."""
     friction = film.friction(case.boundary_friction)
     return {
         "minimum_thickness": film.minimum_thickness,
         "mean_thickness": film.mean_thickness,
         "contact_load_share": film.contact_share,
-        "contact_area_share": film.contact_area / hertz_area,
+        "contact_area_share": film.contact_area / hertz_fraction,
         "traction_coefficient": friction,
         "friction_power": friction * film.load * math.hypot(*np.subtract(*film.speeds)),
     }
 
 
 def _grid_errors(
-    case: RoughPointCase, film: RoughPointFilm, figures: dict[str, float], there: dict[str, float], hertz_area: float
+    case: RoughPointCase,
+    film: RoughPointFilm,
+    figures: dict[str, float],
+    there: dict[str, float],
+    hertz_fraction: float,
 ) -> dict[str, float]:
     """Return the errors of the cells from the figures here and on half as many."""
     mean, least_film = figures["mean_thickness"], case.least_film
@@ -109,7 +113,7 @@ def _grid_errors(
     for name in ("contact_load_share", "contact_area_share"):
         share = min(figures[name], 1.0)
         errors[name] = max(errors[name], STEEP * share * (1 - share) * over)
-    errors["contact_area_share"] += COUNT * math.sqrt(_at_edges(film.touching)) * _cell_area(film) / hertz_area
+    errors["contact_area_share"] += COUNT * math.sqrt(_at_edges(film.touching)) * _cell_area(film) / hertz_fraction
     rubbed = case.boundary_friction * errors["contact_load_share"]
     errors["traction_coefficient"] = max(errors["traction_coefficient"], rubbed)
     slide = math.hypot(*np.subtract(*film.speeds))
@@ -133,9 +137,9 @@ def _cell_area(film: RoughPointFilm) -> float:
     return float((film.x[1] - film.x[0]) * (film.y[1] - film.y[0]))
 
 
-def rough_point_bars(case: RoughPointCase, film: RoughPointFilm, hertz_area: float) -> ErrorBars:
+def rough_point_bars(case: RoughPointCase, film: RoughPointFilm, hertz_fraction: float) -> ErrorBars:
     """Return the error bars of the figures of a film."""
-    figures = rough_point_figures(case, film, hertz_area)
+    figures = rough_point_figures(case, film, hertz_fraction)
     missing = ("central_thickness", "central_pressure")
     nx, ny = film.thickness.shape
     if min(nx, ny) < 2 * FEWEST:
@@ -143,8 +147,8 @@ def rough_point_bars(case: RoughPointCase, film: RoughPointFilm, hertz_area: flo
     other = case.on((nx // 2, ny // 2))
     if other.status is not Status.CONVERGED:
         return ErrorBars.unknown((*figures, *missing), NoBar.COARSER_UNSOLVED)
-    there = rough_point_figures(case, other, hertz_area)
-    grid = _grid_errors(case, film, figures, there, hertz_area)
+    there = rough_point_figures(case, other, hertz_fraction)
+    grid = _grid_errors(case, film, figures, there, hertz_fraction)
     bars = ErrorBars.together(
         {GRID: grid, RESIDUAL: residual_errors(film.residual, figures)}, notes=(BARS_PARTIAL(reason="half-cells"),)
     )

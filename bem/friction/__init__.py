@@ -24,9 +24,9 @@ contact model (3):
    paper A).
 4. `continuation` predicts the film load from the solution at the last speed: the log odds of the film load change in
    proportion to the logarithm of the speed.
-5. `load_sharing.LoadSharing.solve` is the one driver; wear cycles, lives and error bars use it too. It first solves the
-   film under the whole load, for the lambda ratio. Cost: one film, of a cylinder a coarse one; in full film a fine one
-   more.
+5. `load_sharing.LoadSharing` is the one driver. `solve` serves one point and its error bars; wear cycles and lives call
+   its steps `balance` and `with_forces`. `solve` first finds the film under the whole load, for the lambda ratio. Cost:
+   one film, of a cylinder a coarse one; in full film a fine one more.
 6. `balance.share_load` finds the film load, a root in the log odds of the film load (`numerics.bracketed_root`), on the
    coarse film first. It recognises full film and boundary lubrication as ends of the range. Cost in mixed lubrication:
    three or four films, coarse and fine, each with one rough contact; six to eight without a solution at another speed.

@@ -319,13 +319,12 @@ def sliding_sign(speeds: tuple[float, float]) -> float:
 
 
 def filled_part(pressure: FloatArray, area: float, grid: Grid) -> float:
-    """Return the real contact area [m^2] of a patch over the area of its cells in contact, at most 1; 1 without
-    contact.
+    """Return the real contact area [m^2] of a patch over the area of its cells in contact; 1 without contact.
 
-    Contacts of uncoupled asperities may overlap: their areas add up to more than that of the cells.
+    It is more than 1 where contacts of uncoupled asperities overlap: their areas add up to more than that of the cells.
     """
     cells = int(np.count_nonzero(pressure > 0))
-    return min(area / (cells * grid.cell_area), 1.0) if cells and area > 0 else 1.0
+    return area / (cells * grid.cell_area) if cells and area > 0 else 1.0
 
 
 def reference_pressure(

@@ -262,5 +262,5 @@ def covered_fraction(solution: ContactSolution | AsperityContact, grid: Grid) ->
     All cells with pressure have the same fraction, real contact area over their area: excluding the film from whole
     cells at the edge would be an error of first order in the cell size.
     """
-    filled = filled_part(solution.pressure, solution.contact_area, grid)
+    filled = min(filled_part(solution.pressure, solution.contact_area, grid), 1.0)
     return np.where(solution.pressure > 0, filled, 0.0)

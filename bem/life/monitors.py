@@ -76,7 +76,7 @@ class PieceSizes:
             )
         setup = WearSetup(grid, bodies, np.zeros(grid.shape), load, 0.0, depths, hardness)
         model = WearModel(criterion=criterion, wears="lower", shift=0)
-        model.wearing(setup)
+        model.checked_wearing_bodies(setup)
         return cls(setup, model)
 
     def volumes(self, passes: Sequence[Pass], friction: float) -> FloatArray:

@@ -129,7 +129,7 @@ def _lubricated_pass(outcome: ContactOutcome, grid: Grid, start: ContactStart) -
         pressure=outcome.pressure,
         boundary_friction=float(row["boundary_force"]) / last.load,
         oil_friction=float(row["film_force"]) / last.load,
-        contact_share=float(row["contact_load"]) / last.load,
+        contact_share=float(row["width_contact_load"]) / last.load,
         area_share=outcome.contact_area / grid.area,
         minimum_film=outcome.minimum_film,
         lambda_ratio=float(row["lambda_ratio"]),

@@ -246,7 +246,7 @@ def on_every_second_cell(
         return None
 
 
-def between(scene: Any, grid: Grid, load: float) -> tuple[ThirdBodies | None, FilmDefect | None]:
+def third_bodies_and_defect(scene: Any, grid: Grid, load: float) -> tuple[ThirdBodies | None, FilmDefect | None]:
     """Return third bodies and boundary film with defects of a case, under a load [N] on its grid.
 
     Raises
@@ -292,12 +292,12 @@ _LEAST = 1.1
 """
 
 
-def wear_model(scene: Any, particles: ThirdBodies | None = None, defect: FilmDefect | None = None) -> WearModel:
-    """Build the wear model of a scene, with the particles and films between its surfaces."""
+def wear_model(scene: Any, given: ThirdBodies | None = None, defect: FilmDefect | None = None) -> WearModel:
+    """Build the wear model of a scene, with the third bodies and the boundary film between its surfaces."""
     from bem.wear import WearModel
 
     table = scene.wear.model_dump(exclude={"third_bodies", "film_defect", "particle_criterion"})
-    return WearModel(**table, third_bodies=particles, film_defect=defect)
+    return WearModel(**table, third_bodies=given, film_defect=defect)
 
 
 def wears_on_a_track(scene: Any) -> bool:
@@ -343,9 +343,9 @@ def wear_loop(
     """
     from bem.wear import WearSetup, pack_state, run_in, unpack_state
 
-    saved, count, (particles, defect) = context.saved(), scene.cycles.count, between(scene, grid, load)
+    saved, count, (given, defect) = context.saved(), scene.cycles.count, third_bodies_and_defect(scene, grid, load)
 
-    model, bodies = wear_model(scene, particles, defect), (scene.lower.build(), scene.upper.build())
+    model, bodies = wear_model(scene, given, defect), (scene.lower.build(), scene.upper.build())
     depths, sizing = scene.depths.build(), scene.wear.particle_criterion
     found = [] if saved is None or sizing is None else [unpacked(saved["particles"])]
 

@@ -12,7 +12,7 @@ from bem.grid import FloatArray
 from bem.wear.contact_step import ContactOutcome, ContactStart, ContactStep
 from bem.wear.loads import BodyCycle, BodyWear, SurfaceLoad, stress_range_loads
 from bem.wear.model import WearModel
-from bem.wear.setup import LOWER, UPPER, WearSetup
+from bem.wear.setup import LOWER, UPPER, WearSetup, wearing_bodies
 
 
 def wear_cycle(
@@ -51,10 +51,12 @@ def wear_cycle(
         return replace(contact, rubbing=rubbing), []
     acting = SurfaceLoad(contact.pressure, contact.friction, None if rubbing is None else rubbing.traction)
     slid = None if rubbing is None else model.traction_law.loops_per_cycle * rubbing.slid
-    slide = abs(model.shift) * setup.grid.spacing[0]
+    shift_distance = abs(model.shift) * setup.grid.spacing[0]
     removals = []
-    for body in model.wearing(setup):
+    for body in wearing_bodies(setup.bodies, model.wears):
         loads = stress_range_loads(acting, last_loads[body]) if model.stress_range else (acting,)
-        cycle = BodyCycle(contact.pressure, loads, setup, model, body, slide, memories[body], slid, contact.temperature)
+        cycle = BodyCycle(
+            contact.pressure, loads, setup, model, body, shift_distance, memories[body], slid, contact.temperature
+        )
         removals.append(model.criterion_law.detach(cycle))
     return contact if rubbing is None else replace(contact, rubbing=rubbing), removals

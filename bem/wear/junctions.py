@@ -45,7 +45,7 @@ def junction_removal(cycle: BodyCycle, critical: float) -> BodyWear:
     start = time.perf_counter()
     grid, pressure = cycle.setup.grid, cycle.pressure
     before = np.zeros(grid.shape) if cycle.memory is None else cycle.memory[0]
-    drag = np.where(pressure > 0, before + cycle.slide, 0.0)
+    drag = np.where(pressure > 0, before + cycle.shift_distance, 0.0)
     found = junctions(pressure, drag, grid)
     far = found.dragged >= np.minimum(found.diameter, found.extent) * (1 - 1e-9)
     ripe = np.flatnonzero((found.diameter >= critical) & far)

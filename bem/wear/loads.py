@@ -53,7 +53,7 @@ class BodyCycle:
     loads : whose stresses together the criterion compares: the contact's own, or half the change since the last cycle.
     setup, model : of the loop.
     body : LOWER or UPPER.
-    slide : distance that the moving body slides between two computed cycles [m].
+    shift_distance : distance that the moving body slides between two computed cycles [m].
     memory : (planes, nx, ny) returned in the last cycle and moved with the material; None before the first.
     slid : (nx, ny) slip distance in partial slip [m]; None in gross sliding.
     temperature : (nx, ny) of the surfaces [K]; None where unknown.
@@ -64,7 +64,7 @@ class BodyCycle:
     setup: WearSetup
     model: WearChoices
     body: int
-    slide: float
+    shift_distance: float
     memory: FloatArray | None = None
     slid: FloatArray | None = None
     temperature: FloatArray | None = None

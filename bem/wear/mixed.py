@@ -52,31 +52,31 @@ from bem.wear.worn_shape import ShapeFollower, WornShape, check_film_shape, worn
 
 MIXED_FIELDS = np.dtype(
     [
-        ("friction", np.float64),
+        ("total_friction", np.float64),
         ("boundary_force", np.float64),
         ("film_force", np.float64),
-        ("contact_load", np.float64),
+        ("width_contact_load", np.float64),
         ("film_load", np.float64),
         ("minimum_film", np.float64),
         ("lambda_ratio", np.float64),
-        ("contact_area", np.float64),
-        ("shift", np.float64),
+        ("width_contact_area", np.float64),
+        ("approach", np.float64),
         ("imbalance", np.float64),
         ("contact_temperature", np.float64),
         ("flash_temperature", np.float64),
-        ("evaluations", np.int32),
+        ("films", np.int32),
         ("regime", np.int8),
-        ("rms_height", np.float64),
+        ("combined_rms_height", np.float64),
     ]
 )
-"""A cycle's load sharing as a row of a table: SI units, forces, loads and area on the whole width, while those of
-`bem.wear.state.CYCLE_FIELDS` are on the grid; regime is an index.
-`friction` is the total coefficient, film and boundary; `CYCLE_FIELDS` has the signed boundary traction coefficient.
-`rms_height` is that of both surfaces together on the patch, without the worn shape of the film, by which the lambda
-ratio divides; `CYCLE_FIELDS` has that of the wearing surface in the contact strip.
-`shift` is the approach of the rough contact [m] (`Pressed.approach`), 0 without a contact.
-Temperatures are those of the surfaces in contact, mean by pressure and highest; the oil's without contact,
-0 where no heat was asked for."""
+"""A cycle's load sharing as a row of a table: SI units, forces, loads and area on the whole width; those of
+`bem.wear.state.CYCLE_FIELDS` are on the grid.
+
+`total_friction` is the coefficient of film and boundary; `width_contact_load` is without the load on particles.
+`approach` is that of the rough contact (`Pressed.approach`), 0 without a contact. Temperatures are those of the
+surfaces in contact, mean by pressure and highest; the oil's without contact, 0 where no heat was asked for. `films` is
+the number of films solved or interpolated, `regime` an index. `combined_rms_height` is that of both surfaces together
+on the patch, without the worn shape of the film, by which the lambda ratio divides."""
 
 
 REGIMES = tuple(Regime)
@@ -84,7 +84,7 @@ _FILM_NEGLECTED = len(REGIMES)
 """Index of boundary lubrication by rule: the film's model ends and the film is too thin to count."""
 LAST_CYCLE = "last cycle"
 """Place of notes on the last cycle."""
-NEGLIGIBLE_PARTICLE_LOAD = 0.01
+NEGLIGIBLE_PARTICLE_SHARE = 0.01
 """Fraction of the load on particles up to which the oil beside the contact is judged without them."""
 
 
@@ -98,7 +98,7 @@ class SharedCycle:
     load : on the whole contact [N].
     coupling : notes on how friction couples into the normal gap.
     contact_notes : notes on the rough contact and its heat.
-    particle_load : fraction of the load on particles between the surfaces.
+    particle_share : fraction of the load on particles between the surfaces.
     """
 
     balance: Balance
@@ -107,7 +107,7 @@ class SharedCycle:
     load: float
     coupling: tuple[Note, ...]
     contact_notes: tuple[Note, ...]
-    particle_load: float
+    particle_share: float
 
 
 @dataclass(frozen=True, eq=False)
@@ -133,6 +133,8 @@ class MixedContact:
     speeds : (u1, u2) of flat and cylinder [m/s].
     table : films of the same set-up and speeds, to share; a new one by default.
     film_shape : macroscopic shape of the film, "worn" (that of the body that stands with the contact) or "unworn".
+        "worn" takes effect where the start of a cycle has a `standing_profile`, which `run_in` gives and a life does
+        not.
 
     Notes
     -----
@@ -266,7 +268,7 @@ class MixedContact:
             load=setup.load,
             coupling=coupling_notes(forces, shared.rough.traction, setup),
             contact_notes=contact_notes(balance, forces),
-            particle_load=particle_load / setup.load,
+            particle_share=particle_load / setup.load,
         )
         solution = None if contact is None else contact.solution
         strip = None
@@ -349,7 +351,7 @@ class MixedCycles:
     def roughness_over_cycles(self) -> FloatArray:
         """Rms height (cycles,) of both surfaces together without the film's worn shape [m], by which the lambda ratio
         of each cycle divides."""
-        return np.asarray(self.rows["rms_height"])
+        return np.asarray(self.rows["combined_rms_height"])
 
     @property
     def _film_under_load(self) -> PatchFilm:
@@ -368,13 +370,13 @@ class MixedCycles:
         for regime, note in ((REGIMES.index(Regime.BOUNDARY), left), (_FILM_NEGLECTED, none)):
             if number := int(np.sum(rows["regime"] == regime)):
                 notes.append(note.at(f"{number} of {len(rows)} cycles"))
-        friction = float(rows["friction"].max())
+        friction = float(rows["total_friction"].max())
         notes += [*self.film.notes, *validity_notes(friction, last.forces, self.film, self._film_under_load, setup)]
         oil = self.oil()
         on_oil = () if oil is None else tuple(note.at(LAST_CYCLE) for note in oil_notes([oil]))
-        if last.particle_load > NEGLIGIBLE_PARTICLE_LOAD and setup.counted is not OilVolume.LOADED:
+        if last.particle_share > NEGLIGIBLE_PARTICLE_SHARE and setup.counted is not OilVolume.LOADED:
             on_oil = (OIL_COUNTED(reason="particles"),)
-        covered = covered_notes([(float(rows["friction"][-1]), last.forces.covered / setup.load)])
+        covered = covered_notes([(float(rows["total_friction"][-1]), last.forces.covered / setup.load)])
         follower, follows = self.contact.follower, self.contact.film_shape == "worn"
         shape = follower.notes(self.worn, len(rows)) if follows else ()
         of_last = tuple(note.at(LAST_CYCLE) for note in (*last.contact_notes, *covered))
@@ -384,7 +386,7 @@ class MixedCycles:
         """Return how the last cycle's load sharing depends on the oil beside Hertz' contact, by one more balance; None
         with particles between the surfaces, of which that balance would know nothing."""
         last, contact = self.last, self.contact
-        if last.particle_load > NEGLIGIBLE_PARTICLE_LOAD:
+        if last.particle_share > NEGLIGIBLE_PARTICLE_SHARE:
             return None
         return oil_volume_sensitivity(
             contact.setup,
@@ -392,7 +394,7 @@ class MixedCycles:
             last.balance,
             self._film_under_load,
             speeds=contact.speeds,
-            friction=float(self.rows["friction"][-1]),
+            friction=float(self.rows["total_friction"][-1]),
             changed=partial(worn_as, self.worn.shape, contact.speeds),
         )
 

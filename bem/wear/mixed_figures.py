@@ -58,16 +58,16 @@ class MixedFigures:
 def mixed_figures(loop: MixedCycles, cycles: NDArray[np.void], averaged: int) -> MixedFigures:
     """Return the figures of a loop with a table of `CYCLE_FIELDS`; averaged : number of last cycles of the means."""
     setup, rows, film = loop.contact.setup, loop.rows, loop.film
-    mean = {name: float(rows[name][-averaged:].mean()) for name in _MEANS}
+    mean = {name: float(rows[column][-averaged:].mean()) for name, column in _MEANS.items()}
     return MixedFigures(
-        friction_initial=float(rows["friction"][0]),
-        contact_load_initial=float(rows["contact_load"][0]),
+        friction_initial=float(rows["total_friction"][0]),
+        contact_load_initial=float(rows["width_contact_load"][0]),
         boundary_friction_part=mean.pop("boundary_force") / setup.load,
         film_friction_part=mean.pop("film_force") / setup.load,
         lambda_ratio_mixed=_mean_lambda_ratio(loop, averaged),
         contact_area_fraction=float(cycles["contact_area"][-averaged:].mean() / setup.grid.area),
-        evaluations_per_cycle=float(rows["evaluations"].mean()),
-        contact_share=rows["contact_load"] / setup.load,
+        evaluations_per_cycle=float(rows["films"].mean()),
+        contact_share=rows["width_contact_load"] / setup.load,
         film_thickness_patch=middle_line(film.thickness),
         film_pressure_patch=middle_line(film.pressure),
         separation=loop.separation,
@@ -81,11 +81,12 @@ def _mean_lambda_ratio(loop: MixedCycles, averaged: int) -> float:
     return float(np.mean(film / rms)) if (rms > 0).all() else math.inf
 
 
-_MEANS = (
-    *("friction", "boundary_force", "film_force", "contact_load", "film_load", "minimum_film", "lambda_ratio"),
-    *("contact_temperature", "flash_temperature"),
-)
-"""Columns of `MIXED_FIELDS` whose means over the last cycles are figures."""
+_MEANS = {
+    **{"friction": "total_friction", "contact_load": "width_contact_load"},
+    **{name: name for name in ("boundary_force", "film_force", "film_load", "minimum_film", "lambda_ratio")},
+    **{name: name for name in ("contact_temperature", "flash_temperature")},
+}
+"""Figures that are means over the last cycles, and their columns of `MIXED_FIELDS`."""
 
 
 def least_friction(hardnesses: Sequence[float], friction: FloatArray) -> float:

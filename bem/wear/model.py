@@ -145,7 +145,7 @@ class WearModel:
         assert isinstance(self.traction, TractionLaw)
         return self.traction
 
-    def wearing(self, setup: WearSetup) -> tuple[int, ...]:
+    def checked_wearing_bodies(self, setup: WearSetup) -> tuple[int, ...]:
         """Return the indices of the bodies that wear, after checks of the laws against a setup.
 
         Raises

@@ -30,14 +30,21 @@ def strip_wear(before: FloatArray, after: FloatArray, strip: NDArray[Any]) -> St
 
     strip : weight of rows (nx,) or cells (nx, ny): True and False, or the fraction that lies within.
     """
-    counts = np.asarray(strip, dtype=np.float64)
-    counts = np.broadcast_to(counts if counts.ndim == 2 else counts[:, None], before.shape)
+    depth = float(np.average(before - after, weights=_weights(strip, before.shape)))
+    return StripWear(rms_within(before, strip), rms_within(after, strip), depth)
 
-    def rms(heights: FloatArray) -> float:
-        about = heights - np.average(heights, weights=counts)
-        return math.sqrt(float(np.average(about**2, weights=counts)))
 
-    return StripWear(rms(before), rms(after), float(np.average(before - after, weights=counts)))
+def rms_within(heights: FloatArray, strip: NDArray[Any]) -> float:
+    """Return the rms height Sq of heights (nx, ny) [m] in a strip, weighted as for `strip_wear`."""
+    weights = _weights(strip, heights.shape)
+    about = heights - np.average(heights, weights=weights)
+    return math.sqrt(float(np.average(about**2, weights=weights)))
+
+
+def _weights(strip: NDArray[Any], shape: tuple[int, ...]) -> FloatArray:
+    """Return the weights of rows (nx,) or cells (nx, ny) as those of cells."""
+    weights = np.asarray(strip, dtype=np.float64)
+    return np.broadcast_to(weights if weights.ndim == 2 else weights[:, None], shape)
 
 
 def track_of(strip: NDArray[Any]) -> FloatArray:
@@ -70,7 +77,7 @@ _CUTS = 8
 contact four cells wide, and 0.5 % for one within a cell."""
 
 
-def hertz_area(grid: Grid, half_axes: tuple[float, float]) -> FloatArray:
+def hertz_fraction(grid: Grid, half_axes: tuple[float, float]) -> FloatArray:
     """Return the fraction of each cell within Hertz' contact of these half-axes [m].
 
     Rows (nx,) for a cylinder, whose second half-axis is infinite; cells (nx, ny) for an ellipse. Fractions of cells on
@@ -82,7 +89,7 @@ def hertz_area(grid: Grid, half_axes: tuple[float, float]) -> FloatArray:
 def _parts_inside(
     x: FloatArray, y: FloatArray, spacing: tuple[float, float], half_axes: tuple[float, float]
 ) -> FloatArray:
-    """Return fractions as `hertz_area`, for cells with their centres at x (nx,) and y (ny,) [m]."""
+    """Return fractions as `hertz_fraction`, for cells with their centres at x (nx,) and y (ny,) [m]."""
     (a, b), (dx, dy) = half_axes, spacing
     low, high = (np.clip(x + side * dx / 2, -a, a) for side in (-1, 1))
     if math.isinf(b):
@@ -109,7 +116,7 @@ def rms_error(heights: FloatArray, grid: Grid, half_axes: tuple[float, float]) -
 
     def rms(x: slice, y: slice, of: tuple[float, float]) -> float:
         within = _parts_inside(grid.x[x], grid.y[y], of, half_axes)
-        return strip_wear(heights[x, y], heights[x, y], within).rms_before
+        return rms_within(heights[x, y], within)
 
     every, ways = slice(None), [[slice(first, None, 2) for first in range(min(n, 2))] for n in grid.shape]
     whole = rms(every, every, grid.spacing)
@@ -137,12 +144,12 @@ def settled_means(cycles: NDArray[np.void], area: float) -> SettledMeans:
     )
 
 
-def criterion_wear_rate(cycles: NDArray[np.void], load: float, slide: float) -> float | None:
+def criterion_wear_rate(cycles: NDArray[np.void], load: float, cycle_distance: float) -> float | None:
     """Return the wear volume by load and distance [m^3/(N m)]; None without sliding.
 
-    cycles : table of `CYCLE_FIELDS`. load : [N]. slide : distance of each cycle [m].
+    cycles : table of `CYCLE_FIELDS`. load : [N]. cycle_distance : slid in what one computed cycle stands for [m].
     """
-    return float(cycles["volume"].mean() / (load * slide)) if slide > 0 else None
+    return float(cycles["volume"].mean() / (load * cycle_distance)) if cycle_distance > 0 else None
 
 
 def drift(series: ArrayLike, window: int = 25, tolerance: float = 0.02) -> float | None:

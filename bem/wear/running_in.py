@@ -29,7 +29,7 @@ from bem.wear.criterion import Criterion, LocalWear
 from bem.wear.cycle import wear_cycle
 from bem.wear.loads import BodyWear, SurfaceLoad
 from bem.wear.model import WearModel
-from bem.wear.outcome import contact_strip, strip_wear
+from bem.wear.outcome import contact_strip, rms_within
 from bem.wear.segmentation import describe_pieces
 from bem.wear.setup import LOWER, UPPER, WearSetup
 from bem.wear.state import CYCLE_FIELDS, PARTICLE_FIELDS, TIME_FIELDS, RunningInState, initial_state
@@ -173,7 +173,7 @@ def run_in(
         depths=depths,
         hardness=hardness,
     )
-    wearing = choices.wearing(setup)
+    wearing = choices.checked_wearing_bodies(setup)
     if state is None:
         state = initial_state(lower_heights, upper_heights)
     _check_heights(state, grid, choices.moving)
@@ -217,7 +217,12 @@ def _notes_on_arguments(setup: WearSetup) -> tuple[Note, ...]:
 def _contact_step(
     setup: WearSetup, model: WearModel, wearing: tuple[int, ...], given: ContactStep | None
 ) -> tuple[ContactStep, float]:
-    """Return the contact step of a loop, and the compliance by which local laws wear in it [m/Pa]."""
+    """Return the contact step of a loop, and the compliance by which local laws wear in it [m/Pa].
+
+    A contact step that is given gets no compliance: what friction and temperature it has, on which a rate may depend,
+    is known after its contact only, and a step of one's own may have no place for it. Lives, whose rates are known
+    before, hand `MixedContact` theirs.
+    """
     step, compliance = given, 0.0
     if step is None:
         step, compliance = dry_contact(setup), sum(model.criterion_law.compliance(setup, body) for body in wearing)
@@ -226,8 +231,8 @@ def _contact_step(
     if model.third_body_model is not None:
         from bem.wear.third_bodies import with_third_bodies  # imports both contacts
 
-        slide = model.criterion_law.distance_per_cycle(abs(model.shift) * setup.grid.spacing[0])
-        step = with_third_bodies(step, model.third_body_model, slide)
+        distance = model.criterion_law.distance_per_cycle(abs(model.shift) * setup.grid.spacing[0])
+        step = with_third_bodies(step, model.third_body_model, distance)
     return step, compliance
 
 
@@ -319,9 +324,7 @@ def advance(
     particles = np.concatenate(table)
     worn_heights = _window(heights[removals[0].body], offset if removals[0].body == moving else 0, rows)
     strip = contact_strip(contact.pressure, contact.strip, state.strip)
-    row = _cycle_row(
-        cycle, contact, removals, particles, strip_wear(worn_heights, worn_heights, strip).rms_after, setup
-    )
+    row = _cycle_row(cycle, contact, removals, particles, rms_within(worn_heights, strip), setup)
     return RunningInState(
         cycle=cycle,
         heights=(heights[LOWER], heights[UPPER]),

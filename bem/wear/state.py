@@ -62,10 +62,6 @@ CYCLE_FIELDS = np.dtype(
 the (first) wearing surface inside `RunningInState.strip`. `converged` is True in every row
 of a loop, which stops at a contact that did not converge.
 
-Columns of the same name in `bem.wear.mixed.MIXED_FIELDS` differ: `contact_area` and `contact_load` are there on the
-whole width, `friction` is the total coefficient, and `rms_height` is that of both surfaces on the patch without the
-films' worn shape.
-
 `stick_share`, `loop_energy` and `loop_way` are of the cycle's `Rubbing`, 0 in gross sliding."""
 
 TIME_FIELDS = np.dtype([("contact", np.float64), ("stress", np.float64), ("particles", np.float64)])

@@ -28,7 +28,7 @@ from bem.wear.contact_step import ContactStart, ContactStep
 from bem.wear.criterion import LocalWear
 from bem.wear.cycle import wear_cycle
 from bem.wear.model import WearModel
-from bem.wear.setup import LOWER, UPPER, WearSetup
+from bem.wear.setup import LOWER, UPPER, WearSetup, wearing_bodies
 from bem.wear.state import RunningInState
 
 
@@ -54,7 +54,7 @@ def step_error(
     facing : (rows (n, ny) of a body, LOWER or UPPER) -> those that faced the grid in the last cycle (nx, ny).
     compliance : depth that a whole cycle wears by pressure [m/Pa], for an implicit step.
     """
-    wearing = model.wearing(setup)
+    wearing = wearing_bodies(setup.bodies, model.wears)
     depths = {body: state.memories[body] for body in wearing}
     if not isinstance(model.criterion_law, LocalWear) or any(depth is None for depth in depths.values()):
         return None

@@ -135,14 +135,14 @@ class ThirdBodies:
             raise InputError("third bodies: each surface needs a hardness to be indented: give both materials one")
         return lower, upper
 
-    def check_slide(self, slide: float, hardnesses: tuple[float, float]) -> None:
+    def check_slide(self, cycle_distance: float, hardnesses: tuple[float, float]) -> None:
         """Raise InputError where a slide [m] cuts bodies of these hardnesses [Pa] deeper than the particles lie, so
         that the next cycle would find them outside their grooves."""
         most = 2 / (self.removed * self.number_per_area * self.diameter) if self.removed * self.number_per_area else 0.0
-        if most and slide > most and min(hardnesses) <= self.hardness:
+        if most and cycle_distance > most and min(hardnesses) <= self.hardness:
             raise InputError(
-                f"third bodies: a cycle of {slide:g} m lets them cut deeper than they lie; allowed: {most:.3g} m at "
-                "most, in more cycles"
+                f"third bodies: a cycle of {cycle_distance:g} m lets them cut deeper than they lie; allowed: "
+                f"{most:.3g} m at most, in more cycles"
             )
 
     def indented(self, gap: FloatArray, hardnesses: tuple[float, float]) -> tuple[FloatArray, tuple[FloatArray, ...]]:
@@ -175,27 +175,27 @@ class ThirdBodies:
         force, _ = self.indented(gap, hardnesses)
         return self.number_per_area * float(force.sum()) * cell_area
 
-    def cut(self, depth: FloatArray, hardness: float, slide: float) -> FloatArray:
+    def cut(self, depth: FloatArray, hardness: float, cycle_distance: float) -> FloatArray:
         """Return the mean depth [m] cut off a body by rolling particles; zero for a body harder than they are.
 
-        depth : indentation of the body [m]. hardness : of the body [Pa]. slide : distance that the bodies slide [m].
+        depth : indentation of the body [m]. hardness : of the body [Pa]. cycle_distance : slid in a cycle [m].
         """
         if hardness > self.hardness:
             return np.zeros_like(depth)
         radius, deep = 0.5 * self.diameter, np.clip(depth, 0.0, 0.5 * self.diameter)
         across = np.sqrt(np.maximum(deep * (self.diameter - deep), 0.0))
         groove = radius**2 * np.arccos(1 - deep / radius) - (radius - deep) * across
-        return np.asarray(self.removed * self.number_per_area * 0.5 * slide * groove)
+        return np.asarray(self.removed * self.number_per_area * 0.5 * cycle_distance * groove)
 
 
-def with_third_bodies(step: ContactStep, particles: ThirdBodies, slide: float) -> ContactStep:
+def with_third_bodies(step: ContactStep, particles: ThirdBodies, cycle_distance: float) -> ContactStep:
     """Return a contact step with particles between its surfaces.
 
-    step : `DryContact` or `MixedContact`. slide : distance that the bodies slide in a cycle [m].
+    step : `DryContact` or `MixedContact`. cycle_distance : distance that the bodies slide in a cycle [m].
 
     Raises
     ------
-    InputError : another contact step; a surface without hardness; a slide that cuts deeper than the particles lie.
+    InputError : another contact step; a surface without hardness; a cycle that cuts deeper than the particles lie.
     """
     if isinstance(step, DryContact):
         pair = step.bodies
@@ -208,10 +208,10 @@ def with_third_bodies(step: ContactStep, particles: ThirdBodies, slide: float) -
             "bodies"
         )
     hardnesses = particles.hardnesses(pair)
-    particles.check_slide(slide, hardnesses)
+    particles.check_slide(cycle_distance, hardnesses)
     if isinstance(step, DryContact):
-        return DryContactWithParticles(step, particles, slide, hardnesses)
-    return MixedContactWithParticles(step, particles, slide, hardnesses)
+        return DryContactWithParticles(step, particles, cycle_distance, hardnesses)
+    return MixedContactWithParticles(step, particles, cycle_distance, hardnesses)
 
 
 def current_particles(particles: ThirdBodies, start: ContactStart | None, area: float) -> ThirdBodies:
@@ -227,12 +227,12 @@ def current_particles(particles: ThirdBodies, start: ContactStart | None, area: 
 class DryContactWithParticles:
     """Dry contact with particles between surfaces of the hardnesses (lower, upper) [Pa]; a `ContactStep`.
 
-    slide : distance that the bodies slide in a cycle [m].
+    cycle_distance : distance that the bodies slide in a cycle [m].
     """
 
     contact: DryContact
     particles: ThirdBodies
-    slide: float
+    cycle_distance: float
     hardnesses: tuple[float, float]
 
     def __call__(
@@ -241,7 +241,7 @@ class DryContactWithParticles:
         """Share the load between contact and particles; see `ContactStep`."""
         dry, hardnesses = self.contact, self.hardnesses
         particles = current_particles(self.particles, start, dry.grid.area)
-        particles.check_slide(self.slide, hardnesses)  # their number may have grown
+        particles.check_slide(self.cycle_distance, hardnesses)  # their number may have grown
         if particles.number_per_area == 0:
             return dry(heights, start, compliance)
         first = None if start is None else start.pressure
@@ -262,7 +262,7 @@ class DryContactWithParticles:
         if imbalance > LOAD_TOLERANCE and outcome.status is Status.CONVERGED:
             outcome = replace(outcome, status=Status.STALLED, residual=imbalance)
         depths = particles.indented(solution.gap, hardnesses)[1]
-        return replace(outcome, third_bodies=third_body_load(particles, load, depths, hardnesses, self.slide))
+        return replace(outcome, third_bodies=third_body_load(particles, load, depths, hardnesses, self.cycle_distance))
 
 
 def third_body_load(
@@ -270,10 +270,10 @@ def third_body_load(
     load: float,
     depths: tuple[FloatArray, ...],
     hardnesses: tuple[float, float],
-    slide: float,
+    cycle_distance: float,
 ) -> ThirdBodyLoad:
     """Return load [N] and cuts of particles that indent the (lower, upper) body by depths (nx, ny) [m]."""
-    lower, upper = (particles.cut(depths[body], hardnesses[body], slide) for body in (LOWER, UPPER))
+    lower, upper = (particles.cut(depths[body], hardnesses[body], cycle_distance) for body in (LOWER, UPPER))
     return ThirdBodyLoad(load, (lower, upper), particles.number_per_area)
 
 
@@ -357,13 +357,14 @@ class LoadBalance:
 class MixedContactWithParticles:
     """Lubricated contact with particles between surfaces of the hardnesses (lower, upper) [Pa]; a `ContactStep`.
 
-    Particles thinner than the gap that the film leaves carry nothing. slide : distance that the bodies slide in a cycle
-    [m].
+    Particles thinner than the gap that the film leaves carry nothing.
+
+    cycle_distance : distance that the bodies slide in a cycle [m].
     """
 
     contact: MixedContact
     particles: ThirdBodies
-    slide: float
+    cycle_distance: float
     hardnesses: tuple[float, float]
 
     def __call__(
@@ -378,8 +379,8 @@ class MixedContactWithParticles:
         mixed = self.contact
         setup, speeds = mixed.setup, mixed.speeds
         particles = current_particles(self.particles, start, setup.grid.area)
-        slide = self.slide if speeds[0] != speeds[1] else 0.0
-        particles.check_slide(slide, self.hardnesses)  # their number may have grown
+        cycle_distance = self.cycle_distance if speeds[0] != speeds[1] else 0.0
+        particles.check_slide(cycle_distance, self.hardnesses)  # their number may have grown
         if particles.number_per_area == 0:
             return mixed(heights, start, compliance)
         memory, pressure = mixed.begin(start)
@@ -396,7 +397,7 @@ class MixedContactWithParticles:
             shared = replace(shared, forces=rough.with_rolling_friction(shared.forces, load))
         outcome = mixed.outcome(shared, memory, compliance=compliance, particle_load=load * setup.slices)
         depths = rough.indented(shared.balance.contact)
-        return replace(outcome, third_bodies=third_body_load(particles, load, depths, self.hardnesses, slide))
+        return replace(outcome, third_bodies=third_body_load(particles, load, depths, self.hardnesses, cycle_distance))
 
 
 @dataclass(frozen=True, eq=False)

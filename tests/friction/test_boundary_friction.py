@@ -148,7 +148,7 @@ def test_wear_cycles_take_the_contacts_own_mean():
     row = outcome.sharing[0]
     # its films come from a table: as exact as that
     assert row["boundary_force"] == pytest.approx(point.boundary_force, rel=1e-3)
-    assert -outcome.friction == pytest.approx(row["boundary_force"] / row["contact_load"], rel=1e-12)
+    assert -outcome.friction == pytest.approx(row["boundary_force"] / row["width_contact_load"], rel=1e-12)
     assert -outcome.friction > 0.081
 
 

@@ -165,7 +165,7 @@ def test_wear_cycles_take_it_too():
     point = solve_mixed(**case, speeds=(0.01, 0.0))
     assert outcome.status is Status.CONVERGED
     # a table of films is good to 1e-4 of the thickness
-    assert outcome.sharing["contact_load"][0] == pytest.approx(point.contact_load, rel=2e-3)
+    assert outcome.sharing["width_contact_load"][0] == pytest.approx(point.contact_load, rel=2e-3)
     assert not has_code(cycles(step, outcome).notes, OIL_COUNTED)
     patch = MixedContact(setup_of(bearing(64)), (0.01, 0.0))
     found = cycles(patch, patch(case["height"])).notes

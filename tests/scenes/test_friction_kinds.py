@@ -176,8 +176,8 @@ def test_cycle_contact_is_load_sharing(speed):
     assert outcome.status is Status.CONVERGED
     assert abs(row["imbalance"]) <= 5e-4
     # tolerance of the balance 5e-4; film thickness from another mesh 2e-3
-    assert row["friction"] == pytest.approx(solution.friction, rel=3e-3)
-    assert row["contact_load"] == pytest.approx(solution.contact_load, rel=1e-2, abs=1e-12)
+    assert row["total_friction"] == pytest.approx(solution.friction, rel=3e-3)
+    assert row["width_contact_load"] == pytest.approx(solution.contact_load, rel=1e-2, abs=1e-12)
     assert row["minimum_film"] == pytest.approx(solution.minimum_film, rel=5e-3)
     if speed == 0.5:
         assert outcome.memory.last.balance.contacts == 0

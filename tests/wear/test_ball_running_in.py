@@ -8,7 +8,7 @@ import pytest
 from bem import Grid
 from bem.runs import run_scene
 from bem.scenes import library
-from bem.wear.outcome import hertz_area
+from bem.wear.outcome import hertz_fraction
 
 pytestmark = pytest.mark.internal
 
@@ -16,7 +16,7 @@ pytestmark = pytest.mark.internal
 @pytest.mark.parametrize("half_axes", [(8.3e-6, 19.6e-6), (2.1e-6, 2.1e-6), (1e-9, 1e-9)])
 def test_hertz_area_is_an_ellipse(half_axes):
     grid = Grid((40, 60), (1e-6, 1e-6))
-    inside = hertz_area(grid, half_axes)
+    inside = hertz_fraction(grid, half_axes)
     # measured 0.07, 0.6 and 5 in a thousand: eight lines through a cell
     assert inside.sum() * grid.cell_area == pytest.approx(math.pi * half_axes[0] * half_axes[1], rel=1e-2, abs=0)
     assert (inside <= 1 + 1e-12).all()
@@ -42,5 +42,5 @@ def test_a_ball_runs_in(tmp_path):
     assert run.summary["friction"][0] == pytest.approx(parts, rel=1e-12)
     worn = (data["height_before"] - data["height_after"]).values.squeeze()
     assert worn.max() > 0
-    inside = hertz_area(Grid((96, 96), (0.45e-6, 0.45e-6)), (14e-6, 14e-6)) > 0.5
+    inside = hertz_fraction(Grid((96, 96), (0.45e-6, 0.45e-6)), (14e-6, 14e-6)) > 0.5
     assert worn[inside].mean() > 3 * worn[~inside].mean()

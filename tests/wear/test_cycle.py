@@ -442,7 +442,7 @@ def test_a_single_depth_is_refused_before_the_contact_and_the_remedy_helps(crite
         run_in(lower, upper, **arguments | {"depths": np.array(depths) * 1e-9})
     assert not contacts
     model = WearModel(criterion=criterion)
-    assert model.wearing(setup(bodies=(body, HARD), depths=np.array(mended) * 1e-9)) == (0,)
+    assert model.checked_wearing_bodies(setup(bodies=(body, HARD), depths=np.array(mended) * 1e-9)) == (0,)
 
 
 def test_a_layer_much_thinner_than_the_depths_wears_down_to_its_interface():

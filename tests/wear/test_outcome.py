@@ -12,7 +12,7 @@ from bem.scenes import library
 from bem.scenes.context import PlainContext
 from bem.scenes.kind import get_kind
 from bem.scenes.load import load_scene
-from bem.wear.outcome import contact_strip, drift, hertz_area, rms_error, sizes_over_cycles, strip_wear
+from bem.wear.outcome import contact_strip, drift, hertz_fraction, rms_error, sizes_over_cycles, strip_wear
 from bem.wear.state import PARTICLE_FIELDS
 
 pytestmark = pytest.mark.internal
@@ -21,7 +21,7 @@ pytestmark = pytest.mark.internal
 @pytest.mark.parametrize("half_width", [0.1, 1.0, 1.7, 3.0])
 def test_hertz_strip_is_as_wide_as_the_contact(half_width):
     # loads of a few millinewtons on the thesis' grid: no cell's centre is within the contact, and the mean was NaN
-    strip = hertz_area(Grid((8, 8), (1.0, 1.0)), (half_width, math.inf))
+    strip = hertz_fraction(Grid((8, 8), (1.0, 1.0)), (half_width, math.inf))
     assert strip.sum() == pytest.approx(2 * half_width, rel=1e-14)
     assert (strip == strip[::-1]).all()
 
@@ -35,11 +35,11 @@ def wavy(cells: int) -> tuple[FloatArray, Grid]:
 @pytest.mark.parametrize("half_axes", [(0.2637, math.inf), (0.2637, 0.18)])
 def test_roughness_of_hertz_contact_converges_and_its_error_is_told(half_axes):
     fine, there = wavy(2048)
-    exact = strip_wear(fine, fine, hertz_area(there, half_axes)).rms_before
+    exact = strip_wear(fine, fine, hertz_fraction(there, half_axes)).rms_before
     errors, told = [], []
     for cells in (32, 38, 44, 50, 64, 76, 88, 100):
         heights, grid = wavy(cells)
-        errors.append(abs(strip_wear(heights, heights, hertz_area(grid, half_axes)).rms_before - exact))
+        errors.append(abs(strip_wear(heights, heights, hertz_fraction(grid, half_axes)).rms_before - exact))
         told.append(rms_error(heights, grid, half_axes))
     # whole cells at the edge are of first order, and 0.5 % off with these
     assert np.mean(errors[4:]) < 0.4 * np.mean(errors[:4])

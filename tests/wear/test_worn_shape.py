@@ -133,8 +133,8 @@ def test_the_worn_shape_changes_film_and_friction():
     shared, _ = worn_loop()
     unworn, _ = loop(contact_of(film_shape="unworn"), 15)
     assert unworn.worn.shape is None
-    assert unworn.rows["friction"][0] == shared.rows["friction"][0]
-    assert unworn.rows["friction"][14] != shared.rows["friction"][14]
+    assert unworn.rows["total_friction"][0] == shared.rows["total_friction"][0]
+    assert unworn.rows["total_friction"][14] != shared.rows["total_friction"][14]
     films, plain = (each.contact.films(each.worn).under(3.0, 0, None).thickness for each in (shared, unworn))
     assert np.abs(films / shared.contact.table.under(3.0).thickness - 1).max() > 0.05
     assert np.array_equal(plain, unworn.contact.table.under(3.0).thickness)

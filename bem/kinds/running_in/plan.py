@@ -21,7 +21,7 @@ def plan(scene: RunningInScene) -> Plan:
     """
     grid = scene.check()
     # what these lack is said before any work
-    wearing.between(scene, grid, scene.contact.on_patch(scene.load, grid.lengths))
+    wearing.third_bodies_and_defect(scene, grid, scene.contact.on_patch(scene.load, grid.lengths))
     loops = 1 if wearing.film_is_halved(scene) else 2  # a film that cannot be halved takes a second one
     film_cells = None if scene.contact.point_radii is None else scene.sharing.film_cells
     return Plan.of(

@@ -39,7 +39,10 @@ def wear_down(
             frames.append(now.pressure)
         assert now.sharing is not None
         row = now.sharing[-1]
-        return {"friction": float(row["friction"]), "contact_share": float(row["contact_load"]) / setup.load}
+        return {
+            "friction": float(row["total_friction"]),
+            "contact_share": float(row["width_contact_load"]) / setup.load,
+        }
 
     result = wearing.wear_loop(
         scene,
@@ -77,15 +80,16 @@ def _record(
 ) -> RunningInRecord:
     """The figures of a wear loop and what is kept of it."""
     from bem.wear.mixed_figures import mixed_figures
-    from bem.wear.outcome import hertz_area
+    from bem.wear.outcome import hertz_fraction
 
     setup, cycles, rows, averaged = shared.contact.setup, result.cycles, shared.rows, scene.cycles.averaged
     grid, load = setup.grid, scene.contact.on_patch(setup.load, setup.grid.lengths)
     # the same strip before and after, at all speeds
-    strip = hertz_area(grid, setup.smooth.half_axes(setup.load))
+    strip = hertz_fraction(grid, setup.smooth.half_axes(setup.load))
     worn = wearing.WornSurface.of(scene, initial, result, grid, load, strip)
     figures = mixed_figures(shared, cycles, averaged)
-    over: dict[str, Any] = {f"{n}_over_cycles": rows[n].copy() for n in ("friction", "film_load", "minimum_film")}
+    over: dict[str, Any] = {f"{n}_over_cycles": rows[n].copy() for n in ("film_load", "minimum_film")}
+    over["friction_over_cycles"] = rows["total_friction"].copy()
     over |= {f"{n}_over_cycles": cycles[n].astype(np.float64) for n in ("rms_height", "volume")}
     number = over["particles_over_cycles"] = wearing.sizes_over_cycles(scene, result)[1]
     over |= pieces.mean_radii(worn.late, scene.sizes, *_RADII)

@@ -29,7 +29,7 @@ def plan(scene: WearScene) -> Plan:
             f"cylinder.loads: {scene.cylinder.loads[0]:g} N is beyond hardness x area of the domain; allowed: a "
             "smaller load, a larger domain or a higher hardness"
         )
-    particles, _ = wearing.between(scene, grid, load)  # what these lack is said before any work
+    particles, _ = wearing.third_bodies_and_defect(scene, grid, load)  # what these lack is said before any work
     solves = 1 if particles is None else _SHARING
     depths = {"usual": _DEPTHS_NEEDED, "first": _DEPTHS_AT_FIRST}
     cycles = {"convolutions": solves * _CONVOLUTIONS, "solves": solves, **depths}

@@ -37,10 +37,12 @@ class Criterion(Law):
         """Passes of the counterface over a place that one computed cycle stands for; one by default."""
         return 1.0
 
-    def distance_per_cycle(self, slide: float) -> float:
-        """Return the sliding distance that one computed cycle stands for [m]; slide : between two computed cycles
-        [m]."""
-        return slide * self.passes_per_cycle
+    def distance_per_cycle(self, shift_distance: float) -> float:
+        """Return the sliding distance that one computed cycle stands for [m], all its passes together.
+
+        shift_distance : distance that the moving body slides between two computed cycles [m].
+        """
+        return shift_distance * self.passes_per_cycle
 
     def compliance(self, setup: WearSetup, body: int) -> float:
         """Return the depth that a cycle wears by pressure [m/Pa], for an implicit step; zero by default."""

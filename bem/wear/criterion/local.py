@@ -53,7 +53,7 @@ class LocalWear(Criterion):
         """True: there are no pieces that could depend on the mesh."""
         return True
 
-    def distance_per_cycle(self, slide: float) -> float:
+    def distance_per_cycle(self, shift_distance: float) -> float:
         """Return the sliding distance of a cycle [m], as given."""
         return self.distance
 
