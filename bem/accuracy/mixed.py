@@ -26,7 +26,7 @@ from bem.friction import MixedSolution
 from bem.friction.asperities import AsperityContact
 from bem.friction.balance import BalanceStart
 from bem.friction.balance import Regime as LubricationRegime
-from bem.friction.forces import lambda_ratio, oil_temperature
+from bem.friction.forces import lambda_ratio, supply_temperature
 from bem.friction.load_sharing import LoadSharing
 from bem.friction.models import films_of
 from bem.friction.setup import FEWEST_CELLS, MixedSetup
@@ -118,7 +118,7 @@ class MixedCase:
 @dataclass(frozen=True)
 class Shares:
     """Figures of load sharing by their names, its status, and the largest load [N] under which its films are solved:
-    beyond it they are extrapolated in load (`point_film.thin_film`)."""
+    beyond it they are extrapolated in load (`point_film.extrapolate_in_load`)."""
 
     figures: dict[str, float]
     status: Status
@@ -174,7 +174,7 @@ def mixed_bars(case: MixedCase, coarser: CoarserShares) -> ErrorBars:
     """Return the error bars of the figures of load sharing, and their parts by origin."""
     if coarser.contact is None or coarser.both is None:
         return ErrorBars.unknown(mixed_figures(case.solution), coarser.why)
-    found, oil = mixed_figures(case.solution), oil_temperature(case.setup)
+    found, oil = mixed_figures(case.solution), supply_temperature(case.setup)
     found |= {name: found[name] - oil for name in TEMPERATURES if name in found}
     resolved, uncoupled = surface_is_resolved(case.height, case.setup.grid), case.setup.contact_model == "uncoupled"
     if uncoupled and not resolved and not case.solution.full_film:
@@ -307,7 +307,7 @@ def _shares(case: MixedCase, points: int, heat_mesh: float = 1.0) -> Shares:
         for whole, own, periodic in zip((old.x, old.y), (grid.x, grid.y), old.periodic, strict=True)
     )
     film = films_of(setup, solution.speeds, at=(x, y), initial=solution.film)
-    whole = film.under(min(setup.load, film.largest_load), len(film.errors) - 1, solution.continuation.whole_film)
+    whole = film.under(min(setup.load, film.largest_load), len(film.level_errors) - 1, solution.continuation.whole_film)
     pressure = None
     if solution.contact is not None:
         pressure = np.clip(sample(solution.contact_pressure, grid.shape, grid.periodic), 0.0, setup.hardness)
@@ -324,8 +324,8 @@ def _shares(case: MixedCase, points: int, heat_mesh: float = 1.0) -> Shares:
         "lambda_ratio": lambda_ratio(whole, case.height),
         "contact_area_fraction": shared.contact_area_fraction,
         # rises over the oil; a contact that does not touch has none
-        "contact_temperature": 0.0 if forces.heat is None else forces.heat.mean - oil_temperature(setup),
-        "flash_temperature": 0.0 if forces.heat is None else forces.heat.maximum - oil_temperature(setup),
+        "contact_temperature": 0.0 if forces.heat is None else forces.heat.mean - supply_temperature(setup),
+        "flash_temperature": 0.0 if forces.heat is None else forces.heat.maximum - supply_temperature(setup),
     }
     return Shares(figures, balance.status, film.solved_load)
 

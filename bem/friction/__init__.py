@@ -14,10 +14,11 @@ contact model (3):
 2. `models` chooses the film model and the contact model. A film model gives the film under any load, at a coarse and at
    the wanted accuracy (protocol `film.Film`): `line_film` and `point_film` solve films when they are requested,
    `film_table` interpolates them in load, `worn_film` corrects them for worn bodies. With `thermal` every film of the
-   balance has heat of its own, which thins the film and lowers its shear stress. One trial with lumped heat solves two
-   or three films on 250 cells, which find the viscosity of the thinned film, and that film on all nodes of the level
-   (1.1 to 1.3 times the Newton steps of one isothermal film), then dense systems for the temperatures of 200 cells;
-   with full heat one to three times the steps and 5 to 15 temperature fields.
+   balance has heat of its own, which thins the film and lowers its shear stress. Line contacts: one trial with lumped
+   heat solves two or three films on 250 cells, which find the viscosity of the thinned film, and that film on all nodes
+   of the level (1.1 to 1.3 times the Newton steps of one isothermal film), then dense systems for the temperatures of
+   200 cells; with full heat one to three times the steps and 5 to 15 temperature fields. Ball: the viscosity is found
+   on 64 cells at loads three times apart and interpolated (`point_film.film_with_heat`).
 3. The contact model gives the opening under any load (protocol `rough_contact.RoughContact`): the rough half-space or
    uncoupled `asperities`; `homogenised_contact` with `cell_law` for a cell that repeats over the contact of a ball
    (Greenwood and Tripp 1967); `given_separation` for mean planes at the central film thickness (figures 5 and 6 of
@@ -46,8 +47,8 @@ Terms: the *whole* film is the film under the whole load; the *opening* is the m
 oil is counted; the *rest* is the load less the film load; the *odds* of a film load are film load over rest. *Coarse*
 without more is a film on `line_film.BALANCE_POINTS` = 400 nodes, the first level of the balance (residual 1e-5; with
 heat 1e-8 on both levels). Inside one film `lubrication` has coarse meshes of its own: 160 to 400 cells for starts in
-`line.continuation` (residual 1e-4), 250 on which lumped heat finds the viscosity of the thinned film and with it the
-thickness (to 5e-3), and 400 cells for the coupling with full heat in `thermal.coupling` (residual 1e-3).
+`line.continuation` (residual 1e-4), 250 on which lumped heat of a line finds the viscosity of the thinned film and
+with it the thickness (to 5e-3), and 400 cells for the coupling with full heat in `thermal.coupling` (residual 1e-3).
 
 Names are loaded at first use, so that laws of boundary friction need no solver. The package knows films, contacts and
 operators, but no wear and no scene. Verified in tests/friction: the balance against its parts solved separately, the

@@ -5,7 +5,8 @@ Unknown: x = ln(F_film / (F - F_film)), the log odds of the film load. Equation:
     m(x) = ln(mean film thickness under F_film / mean opening of the rough surfaces under F - F_film) = 0.
 
 A film that carries more is thinner, and surfaces that carry less are farther apart, so m decreases with x. In this
-variable m is nearly linear: next to either end only one of both changes.
+variable m is nearly linear: next to either end only one of both changes. The slope that warm starts carry is
+-dm / d ln(F_film), positive; over x it is that times F_contact / F, the rest of the load.
 
 1. Full film: the film under the whole load clears the roughness. Return it; no contact is solved. Step 2 finds full
    film too: at the upper end of the search the film is still thicker than the opening under the little that is left.
@@ -89,19 +90,19 @@ class Regime(StrEnum):
 
 @dataclass(frozen=True, eq=False)
 class BalanceStart:
-    """Warm start of a balance; affects cost and rounding only.
+    """Warm start of a balance.
 
-    `share_load` reads all but `speed_power` and `whole_film`: those two are carried from speed to speed for
-    `continuation` and for the film under the whole load.
+    It affects cost and rounding only, as long as m decreases with the film load and so has one root.
+
+    `share_load` reads all but `whole_film`, from which the film under the whole load starts.
 
     Attributes
     ----------
     film_load : load of the first film [N]; None for half of the load.
-    slope : of ln(opening / film thickness) over ln(film load), at `film_load`.
+    slope : -dm / d ln(film load), of ln(opening / film thickness) over ln(film load), at `film_load`.
     pressure : contact pressure of a similar case [Pa].
     slope_known : whether the slope is that of a similar balance.
     refinement : as of `Balance`, of a similar balance.
-    speed_power : power of the speed with which the odds of the film load changed between the last two speeds.
     whole_film : coarse film of a similar case under the whole load; None of a ball.
     """
 
@@ -110,12 +111,11 @@ class BalanceStart:
     pressure: FloatArray | None = None
     slope_known: bool = False
     refinement: float = 0.0
-    speed_power: float = 1.0
     whole_film: PatchFilm | None = None
 
     @classmethod
     def from_similar(
-        cls, share: float, slope: float, load: float, film_load: float, pressure: FloatArray | None
+        cls, similar_share: float, slope: float, load: float, film_load: float, pressure: FloatArray | None
     ) -> BalanceStart:
         """Return a start from a similar balance, with its slope converted to another film load.
 
@@ -124,14 +124,30 @@ class BalanceStart:
 
         Parameters
         ----------
-        share : film load over load in the similar balance.
+        similar_share : film load over load in the similar balance.
         slope : of the similar balance.
         load : on the whole contact [N].
         film_load : of the first film [N].
         pressure : contact pressure of the similar balance [Pa].
         """
-        rest, before = max(1 - film_load / load, LEAST_REST), max(1 - share, LEAST_REST)
+        rest, before = max(1 - film_load / load, LEAST_REST), max(1 - similar_share, LEAST_REST)
         return cls(film_load, slope * before / rest, pressure, slope_known=True)
+
+
+@dataclass(frozen=True, eq=False)
+class Continuation:
+    """Parts of the next speed's warm start beside film load, slope and pressure of a solution.
+
+    Attributes
+    ----------
+    refinement : as of `Balance`.
+    speed_power : power of the speed with which the odds of the film load changed between the last two speeds.
+    whole_film : coarse film under the whole load; None of a ball.
+    """
+
+    refinement: float = 0.0
+    speed_power: float = 1.0
+    whole_film: PatchFilm | None = None
 
 
 @dataclass(frozen=True, eq=False)
@@ -143,7 +159,7 @@ class Balance:
     film : film under its part of the load.
     contact : rough contact under the rest; None in full film.
     imbalance : (film load + contact load - load) / load, of these two.
-    slope : of ln(opening / film thickness) over ln(film load).
+    slope : -dm / d ln(film load), of ln(opening / film thickness) over ln(film load).
     regime : end of the balance that it is at, or mixed.
     films, contacts : solved in the search; in `SharedLoad.balance` with the films under the whole load.
     convolutions : of the contacts.
@@ -173,13 +189,13 @@ class Balance:
 
 
 def share_load(
-    film: Film, rough: RoughContact, load: float, tolerance: float, whole: PatchFilm, start: BalanceStart
+    films: Film, rough: RoughContact, load: float, tolerance: float, whole: PatchFilm, start: BalanceStart
 ) -> Balance:
     """Find the balance of a load between film and rough contact.
 
     Parameters
     ----------
-    film : films as a function of their load.
+    films : films as a function of their load.
     rough : contact of the rough surfaces.
     load : on the whole contact [N].
     tolerance : largest imbalance, of the load and of the oil; not evaluated for the oil at the ends.
@@ -190,36 +206,38 @@ def share_load(
     if whole.load >= load and rough.clears(whole):
         trial = _Trial(math.log(load), whole, None, _load_excess(whole, None, load))
         return _certified(trial, rough, load, tolerance, Regime.FULL_FILM, history, start.slope)
-    top = math.log(min(load, film.largest_load))
+    top = math.log(min(load, films.largest_load))
     bottom = min(math.log(NEGLIGIBLE * tolerance * load), top)
     first = 0.5 * load if start.film_load is None else start.film_load
-    at, slope = min(max(math.log(first), bottom), top, math.log(load) - _LEAST_STARTING_REST), start.slope
-    if at <= bottom + _EQUAL_LOGARITHMS and top < math.log(load):
-        at = top  # the start may be at the boundary because the film model ended there: its end decides again
+    log_film_load, slope = min(max(math.log(first), bottom), top, math.log(load) - _LEAST_STARTING_REST), start.slope
+    if log_film_load <= bottom + _EQUAL_LOGARITHMS and top < math.log(load):
+        log_film_load = (
+            top  # the start may be at the boundary because the film model ended there: its end decides again
+        )
     regime = Regime.MIXED
-    for level, error in enumerate(film.errors):
-        search = _LevelSearch(film, rough, load, max(tolerance, error), level, bottom, top, history)
+    for level, error in enumerate(films.level_errors):
+        search = _LevelSearch(films, rough, load, max(tolerance, error), level, bottom, top, history)
         history.contact_tolerance = min(history.contact_tolerance, search.starting_contact_tolerance)
-        log_load_before = at
+        log_load_before = log_film_load
         if level > 0 and regime is Regime.MIXED:
-            at = search.log_load(search.log_odds(at) + start.refinement)
-        found = search.find(at, slope, slope_known=start.slope_known and level == 0)
-        trial, slope, regime, at = found.trial, found.slope, found.regime, found.next_log_load
+            log_film_load = search.log_load(search.log_odds(log_film_load) + start.refinement)
+        found = search.find(log_film_load, slope, slope_known=start.slope_known and level == 0)
+        trial, slope, regime, log_film_load = found.trial, found.slope, found.regime, found.next_log_load
         if search.film_model_ends(trial):
-            at = trial.log_load
+            log_film_load = trial.log_load
             history.contact_tolerance = min(history.contact_tolerance, rough.tolerance)
-            finest = replace(search, level=len(film.errors) - 1, goal=max(tolerance, film.errors[-1]))
+            finest = replace(search, level=len(films.level_errors) - 1, goal=max(tolerance, films.level_errors[-1]))
             if search.film_is_molecular(trial):
                 probe = finest.solve_trial()
                 return _certified(probe, rough, load, tolerance, Regime.BOUNDARY, history, slope, model_ends=True)
-            at_end = finest.solve_trial(at)
+            at_end = finest.solve_trial(log_film_load)
             if search.is_finest or finest.film_model_ends(at_end):
                 return _certified(at_end, rough, load, tolerance, regime, history, slope, model_ends=True)
             # only the coarse film is too thick there: the finer levels decide
     balance = _certified(trial, rough, load, tolerance, regime, history, slope)
-    if regime is not Regime.MIXED or len(film.errors) == 1 or balance.status is not Status.CONVERGED:
+    if regime is not Regime.MIXED or len(films.level_errors) == 1 or balance.status is not Status.CONVERGED:
         return balance
-    return replace(balance, refinement=search.log_odds(at) - search.log_odds(log_load_before))
+    return replace(balance, refinement=search.log_odds(log_film_load) - search.log_odds(log_load_before))
 
 
 @dataclass(frozen=True, eq=False)
@@ -284,13 +302,13 @@ class _SearchHistory:
 
 @dataclass
 class _LevelSearch:
-    """Search for the balance at one level of the film's accuracy.
+    """Search for the balance at one level of the films' accuracy.
 
-    load : on the whole contact [N]. goal : largest volume mismatch. bottom, top : range of the logarithm of the film
-    load.
+    films, rough : as of `share_load`. load : on the whole contact [N]. goal : largest volume mismatch. bottom, top :
+    range of the logarithm of the film load.
     """
 
-    film: Film
+    films: Film
     rough: RoughContact
     load: float
     goal: float
@@ -302,7 +320,7 @@ class _LevelSearch:
     @property
     def is_finest(self) -> bool:
         """Return True if no finer level follows."""
-        return self.level == len(self.film.errors) - 1
+        return self.level == len(self.films.level_errors) - 1
 
     @property
     def starting_contact_tolerance(self) -> float:
@@ -317,34 +335,36 @@ class _LevelSearch:
         flatness = self.rough.oil(film) / max(float(film.gap.std()), 1e-300)
         return max(asked, CONTACT_SHARE * self.goal * min(flatness, 1.0))
 
-    def find(self, at: float, slope: float, *, slope_known: bool = False) -> _LevelResult:
-        """Find the root of the volume mismatch from a logarithm of the film load; arguments as of `BalanceStart`."""
+    def find(self, log_film_load: float, slope: float, *, slope_known: bool = False) -> _LevelResult:
+        """Find the root of the volume mismatch from a logarithm of the film load; slope as of `BalanceStart`."""
         beyond = self.load - self.rough.largest_load  # load that yielding surfaces leave to the film at least
         yielded = math.log(beyond) + 1e-9 if beyond > 0 else -math.inf
         ends = self.log_odds(max(self.bottom, yielded)), self.log_odds(self.top)
         last: list[tuple[_Trial, bool]] = []
         sides: dict[bool, _Trial] = {}
-        mismatches: list[float] = [SLOPE_ERROR] if slope_known else []
+        # of the next mismatch, as its product with this one: the error of a known slope, and earlier mismatches
+        predictors: list[float] = [SLOPE_ERROR] if slope_known else []
         error_before = math.inf
 
         def evaluate(log_odds: float) -> tuple[float, bool]:
             trial = self.solve_trial(self.log_load(log_odds))
             value = self.mismatch(trial)
-            met = _volumes_agree(trial, self.rough, self.goal) or self.next_level_will_do(value, mismatches)
-            mismatches.append(value)
+            met = _volumes_agree(trial, self.rough, self.goal) or self.next_level_will_do(value, predictors)
+            predictors.append(value)
             last[:], sides[value > 0] = [(trial, met)], trial
             return value, met or self.brackets_one_load(sides)
 
         while True:
             can_tighten = self.history.contact_tolerance > FINEST_CONTACT
-            rest = -math.expm1(at - math.log(self.load))  # slope over ln(film load) times rest: slope over the log odds
+            # slope over ln(film load) times the rest is the slope over the log odds
+            rest = -math.expm1(log_film_load - math.log(self.load))
             trials = TRIALS_PER_TOLERANCE if can_tighten else MAX_TRIALS
-            root = find_decreasing_root(evaluate, self.log_odds(at), slope * rest, ends, trials)
+            root = find_decreasing_root(evaluate, self.log_odds(log_film_load), slope * rest, ends, trials)
             ((trial, met),) = last
             assert trial.contact is not None
             # part of the error may not depend on this tolerance, as of tabulated cells
             error_falls, error_before = trial.contact.opening_error <= 0.5 * error_before, trial.contact.opening_error
-            at, inside = trial.log_load, ends[0] < self.log_odds(trial.log_load) < ends[1]
+            log_film_load, inside = trial.log_load, ends[0] < self.log_odds(trial.log_load) < ends[1]
             if not met and self.brackets_one_load(sides):
                 pressed = self.press_between(sides[True], sides[False])
                 agree = _volumes_agree(pressed, self.rough, self.goal)
@@ -356,14 +376,16 @@ class _LevelSearch:
                 break
             # the effect of the tolerance on the opening may hide the root; trials at another tolerance bracket nothing
             self.history.contact_tolerance = max(0.01 * self.history.contact_tolerance, FINEST_CONTACT)
-            mismatches.clear()
+            predictors.clear()
             sides.clear()
         slope = root.slope / max(1 - trial.film.load / self.load, LEAST_REST)
         touches = trial.contact.status is not Status.INFEASIBLE  # an infeasible contact decides nothing
-        if touches and at >= math.log(self.load) - _EQUAL_LOGARITHMS and self.mismatch(trial) > self.goal:
-            return _LevelResult(self.with_excess(at, trial.film, None), slope, Regime.FULL_FILM, at)
-        at_bottom = at <= self.bottom + _EQUAL_LOGARITHMS and self.is_boundary(trial)
-        next_log_load = self.log_load(root.next_trial) if met and inside else at
+        if touches and log_film_load >= math.log(self.load) - _EQUAL_LOGARITHMS and self.mismatch(trial) > self.goal:
+            return _LevelResult(
+                self.with_excess(log_film_load, trial.film, None), slope, Regime.FULL_FILM, log_film_load
+            )
+        at_bottom = log_film_load <= self.bottom + _EQUAL_LOGARITHMS and self.is_boundary(trial)
+        next_log_load = self.log_load(root.next_trial) if met and inside else log_film_load
         return _LevelResult(trial, slope, Regime.BOUNDARY if at_bottom else Regime.MIXED, next_log_load)
 
     def needs_no_tightening(self, trial: _Trial) -> bool:
@@ -437,7 +459,7 @@ class _LevelSearch:
         """Solve a film, and store it; the nearest stored one is offered as start (with lumped heat only to the films on
         250 cells, unless the loads agree to 1e-3)."""
         load = math.exp(log_load)
-        film = self.film.under(load, self.level, self.history.nearest_film(load))
+        film = self.films.under(load, self.level, self.history.nearest_film(load))
         self.history.add_film(film)
         return film
 

@@ -70,7 +70,7 @@ def contact_heat(film: PatchFilm, contact: Pressed, setup: MixedSetup, speeds: t
     moving = speeds if setup.radius is None else _moving(heat, setup.radius, speeds)
     pressure, touching = contact.pressure, contact.pressure > 0
     filled = filled_part(pressure, contact.area / setup.slices, setup.grid)
-    of_oil = np.abs(_middle_stress(film, setup.grid)) * slide * (1 - contact.covered)
+    of_oil = np.abs(_middle_stress(film, setup.grid)) * slide * (1 - contact.touching_fraction)
     cold = law.mean_coefficient(pressure, filled, slide)
     # boundary shear stress over the coefficient
     shape = pressure if law.constant is not None or cold == 0 else law.cell_stress(pressure, filled, slide) / cold

@@ -2,8 +2,8 @@
 
 The log odds of the film load, ln(film load / contact load), change about in proportion to the logarithm of the speed.
 The factor (`speed_power`) is that of the last two speeds. A solution in full film or on another grid predicts no film
-load: the balance then starts from half of the load. Starts affect cost and rounding only. Verified in
-tests/friction/test_continuation.py.
+load: the balance then starts from half of the load. Starts affect cost and rounding only where a case has one balance,
+as it has while the volume mismatch decreases with the film load. Verified in tests/friction/test_continuation.py.
 """
 
 from __future__ import annotations
@@ -11,7 +11,7 @@ from __future__ import annotations
 import dataclasses
 import math
 
-from bem.friction.balance import Balance, BalanceStart, Regime
+from bem.friction.balance import Balance, BalanceStart, Continuation, Regime
 from bem.friction.film import PatchFilm
 from bem.friction.setup import MixedSetup
 from bem.friction.solution import MixedSolution
@@ -32,7 +32,7 @@ def start_from_solution(setup: MixedSetup, speeds: tuple[float, float], initial:
     whole = initial.continuation.whole_film
     if initial.grid != setup.grid or initial.contact is None:
         return BalanceStart(whole_film=whole)
-    before = min(initial.film_load / initial.load, LARGEST_START)
+    before = min(initial.film_load / initial.load, LARGEST_START)  # film load over load at the other speed
     odds = before / (1 - before) * _speed_ratio(speeds, initial) ** initial.continuation.speed_power
     share = min(odds / (1 + odds), LARGEST_START)
     pressure = None if setup.repeated_cell else initial.contact_pressure
@@ -40,10 +40,10 @@ def start_from_solution(setup: MixedSetup, speeds: tuple[float, float], initial:
     return dataclasses.replace(start, refinement=initial.continuation.refinement, whole_film=whole)
 
 
-def start_for_next_speed(
+def continuation_from(
     speeds: tuple[float, float], balance: Balance, load: float, whole: PatchFilm, initial: MixedSolution | None
-) -> BalanceStart:
-    """Return the next speed's warm start: film load and slope of this balance, and what a solution does not keep.
+) -> Continuation:
+    """Return the parts of the next speed's warm start that a solution does not hold otherwise.
 
     Parameters
     ----------
@@ -53,13 +53,10 @@ def start_for_next_speed(
     whole : coarse film under the whole load at these speeds.
     initial : solution at the speed before.
     """
-    power = _speed_power(speeds, balance, load, initial)
-    start = BalanceStart(balance.film.load, balance.slope, refinement=balance.refinement, speed_power=power)
-    solution = whole.solution
+    power, solution = _speed_power(speeds, balance, load, initial), whole.solution
     if not isinstance(solution, FilmSolution):
-        return start
-    film = dataclasses.replace(whole, solution=without_factors(solution))
-    return dataclasses.replace(start, whole_film=film)
+        return Continuation(balance.refinement, power)
+    return Continuation(balance.refinement, power, dataclasses.replace(whole, solution=without_factors(solution)))
 
 
 def _speed_ratio(speeds: tuple[float, float], initial: MixedSolution) -> float:

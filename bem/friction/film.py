@@ -28,7 +28,8 @@ class PatchFilm:
     load : under which the film was requested [N]; `status` says whether the film carries it.
     thickness : film thickness [m].
     pressure : film pressure [Pa].
-    shear_stress : shear stress on the flat [Pa].
+    shear_stress : shear stress on the flat, positive along -x as of `FilmSolution` [Pa]; `PointFilmSolution` has it
+        along +x.
     shear_force : of the film, beyond the patch too [N], signed like `FilmSolution.shear_force`.
     minimum_thickness : of the film, beyond the patch too [m].
     status : outcome of the solution.
@@ -37,8 +38,8 @@ class PatchFilm:
     smooth_gap : gap of the smooth bodies deformed by the film pressure alone, up to a constant [m]; None where it is
         the thickness.
     plateau : central film thickness [m] of a point contact; None of a line contact.
-    sliding_stress : shear stress in the middle of the film [Pa], zero without pressure; None where the film model gives
-        none.
+    sliding_stress : shear stress in the middle of the film [Pa], zero without pressure; None where the film model hands
+        none over (point films), and it is computed from `shear_stress` and the pressure gradient on the patch.
     """
 
     load: float
@@ -104,7 +105,7 @@ class Film(Protocol):
         """Load [N] up to which there are films; math.inf without a limit."""
 
     @property
-    def errors(self) -> tuple[float, ...]:
+    def level_errors(self) -> tuple[float, ...]:
         """Relative errors of the levels of accuracy, coarse to fine; the last level counts as exact."""
 
     def under(self, load: float, level: int, start: PatchFilm | None) -> PatchFilm:

@@ -75,7 +75,7 @@ class FilmTable:
         self.contact = films.contact
         self.speeds = films.speeds
         self.largest_load = min(load, films.largest_load)
-        self.errors = (0.0,)
+        self.level_errors = (0.0,)
         self.entries: dict[int, Any] = {}
 
     def entry(self, index: int) -> Any:

@@ -35,14 +35,14 @@ class Forces:
     coefficient : boundary part over contact load. A constant law has its constant without contact or sliding too; other
         laws then have 0.
     heat : temperatures of the contact; None without heat, contact or sliding.
-    covered : shear force of the film on the parts of cells in contact [N], which is not in `film`.
+    on_contact : shear force of the film on the parts of cells in contact [N], which is not in `film`.
     """
 
     boundary: float
     film: float
     coefficient: float
     heat: ContactHeat | None = None
-    covered: float = 0.0
+    on_contact: float = 0.0
 
 
 def friction_forces(film: PatchFilm, contact: Pressed | None, setup: MixedSetup, speeds: tuple[float, float]) -> Forces:
@@ -56,10 +56,14 @@ def friction_forces(film: PatchFilm, contact: Pressed | None, setup: MixedSetup,
     if contact is None:
         return Forces(0.0, sliding_sign(speeds) * film.shear_force, coefficient)
     film_grid = setup.film_grid
-    covered = float(np.sum(film.shear_stress * contact.covered)) * film_grid.cell_area * setup.smooth.slices(film_grid)
+    on_contact = (
+        float(np.sum(film.shear_stress * contact.touching_fraction))
+        * film_grid.cell_area
+        * setup.smooth.slices(film_grid)
+    )
     boundary = coefficient * contact.load if slide > 0 else 0.0
     sign = sliding_sign(speeds)
-    return Forces(boundary, sign * (film.shear_force - covered), coefficient, heat, sign * covered)
+    return Forces(boundary, sign * (film.shear_force - on_contact), coefficient, heat, sign * on_contact)
 
 
 def _boundary_coefficient(contact: Pressed | None, setup: MixedSetup, sliding_speed: float) -> float:
@@ -75,7 +79,7 @@ def _boundary_coefficient(contact: Pressed | None, setup: MixedSetup, sliding_sp
     return law.mean_coefficient(contact.pressure, filled, sliding_speed)
 
 
-def oil_temperature(setup: MixedSetup) -> float:
+def supply_temperature(setup: MixedSetup) -> float:
     """Return the temperature of surfaces without frictional heat [K]: that of the oil; 0 without `thermal`."""
     oil = setup.lubricant.temperature
     return 0.0 if setup.thermal == "off" or oil is None else oil

@@ -117,5 +117,5 @@ class ContactAtSeparation:
             pressed,
             opening=separation,
             separation=np.full(setup.grid.shape[0], separation),
-            covered=np.full(setup.grid.shape, float(pressed.covered.mean())),
+            touching_fraction=np.full(setup.grid.shape, float(pressed.touching_fraction.mean())),
         )

@@ -125,7 +125,7 @@ class HomogenisedContact(OfPatch):
             separation=np.full(setup.grid.shape[:1], float(law.separation(np.array(float(logarithm.max())))[0])),
             notes=self._notes(spread.pressure),
             opening_error=goal + max(cell.opening_error for cell in law.cells),
-            covered=share,
+            touching_fraction=share,
             cells=law,
         )
 

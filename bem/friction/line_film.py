@@ -114,6 +114,7 @@ class SolvedLineFilm:
     initial: FilmSolution | None = None
     tolerance: float = TOLERANCE
 
+    # step, growth and continued: see `film_table.TabulatedFilms`
     step = 0.125  # cubic interpolation is then good to about 1e-4 of the film (tested)
     growth = 0.5
     continued = True
@@ -127,7 +128,7 @@ class SolvedLineFilm:
     """Load [N] beyond which films are extrapolated (see `SolvedPointFilm`): line films never are."""
 
     @property
-    def errors(self) -> tuple[float, ...]:
+    def level_errors(self) -> tuple[float, ...]:
         """Errors of the coarse and the wanted mesh, or of the latter alone if it is no finer; see `Film`."""
         return (COARSE_ERROR, 0.0) if self.points > BALANCE_POINTS else (0.0,)
 
@@ -137,9 +138,9 @@ class SolvedLineFilm:
 
     def under(self, load: float, level: int, start: PatchFilm | None) -> PatchFilm:
         """Solve the film under a load at a level of accuracy; see `Film`."""
-        points = self.points if level == len(self.errors) - 1 else BALANCE_POINTS
+        points = self.points if level == len(self.level_errors) - 1 else BALANCE_POINTS
         initial = self.initial if start is None else line_solution(start.solution)
-        tolerance = self.tolerance if level == len(self.errors) - 1 else COARSE_TOLERANCE
+        tolerance = self.tolerance if level == len(self.level_errors) - 1 else COARSE_TOLERANCE
         on_known_mesh = None if self.contact.heat is not None else self.initial
         if (
             initial is not None

@@ -89,13 +89,13 @@ class LoadSharing:
     Attributes
     ----------
     setup : set-up of the load sharing.
-    film : film model.
+    films : film model.
     speeds : (u1, u2) of flat and cylinder or ball [m/s].
     whole : film under the whole load; None if `solve` has to find it.
     """
 
     setup: MixedSetup
-    film: Film
+    films: Film
     speeds: tuple[float, float]
     whole: PatchFilm | None = None
 
@@ -122,7 +122,7 @@ class LoadSharing:
 
     def balance(self, rough: RoughContact, whole: PatchFilm, start: BalanceStart) -> Balance:
         """Return the balance alone, without friction; `whole` is the film under the whole load."""
-        return share_load(self.film, rough, self.setup.load, self.setup.tolerance, whole, start)
+        return share_load(self.films, rough, self.setup.load, self.setup.tolerance, whole, start)
 
     def with_forces(
         self,
@@ -142,11 +142,11 @@ class LoadSharing:
         A finer film is solved only where the coarser one clears the roughness, or is too inaccurate for the lambda
         ratio.
         """
-        load = min(self.setup.load, self.film.largest_load)
+        load = min(self.setup.load, self.films.largest_load)
         wholes: list[PatchFilm] = []
-        levels = [level for level, error in enumerate(self.film.errors) if error <= LARGEST_ERROR]
+        levels = [level for level, error in enumerate(self.films.level_errors) if error <= LARGEST_ERROR]
         for level in levels:
-            wholes.append(self.film.under(load, level, wholes[-1] if wholes else start))
+            wholes.append(self.films.under(load, level, wholes[-1] if wholes else start))
             if not rough.clears(wholes[-1]):
                 break
         return tuple(wholes)

@@ -1,7 +1,7 @@
 """Film model of a point contact: every film is solved when the balance requests it, on coarse or on the wanted cells.
 
 Films come from `bem.lubrication.solve_point_film`, each from the dry contact, without warm starts. Above the largest
-load for which a film is found, films are extrapolated (`thin_film`). Verified in tests/friction/test_ball.py.
+load for which a film is found, films are extrapolated (`extrapolate_in_load`). Verified in tests/friction/test_ball.py.
 """
 
 from __future__ import annotations
@@ -77,7 +77,7 @@ class SolvedPointFilm:
     cells: int
     thinnings: dict[int, OilThinning] = field(default_factory=dict)
 
-    step = 0.25
+    step = 0.25  # this and the next two: see `film_table.TabulatedFilms`
     growth = 1 / 3
     continued = False
 
@@ -99,7 +99,7 @@ class SolvedPointFilm:
         return math.inf if thicker(_DECADES) > 0 else solved * 10 ** float(brentq(thicker, 0.0, _DECADES, rtol=1e-9))
 
     @property
-    def errors(self) -> tuple[float, ...]:
+    def level_errors(self) -> tuple[float, ...]:
         """Errors of the coarse and the wanted grid, or of the latter alone if it is no finer; see `Film`."""
         return (COARSE_ERROR, 0.0) if self.cells > BALANCE_CELLS else (0.0,)
 
@@ -109,8 +109,8 @@ class SolvedPointFilm:
 
     def under(self, load: float, level: int, start: PatchFilm | None) -> PatchFilm:
         """Solve the film under a load at a level of accuracy, from the dry contact; see `Film`."""
-        cells = self.cells if level == len(self.errors) - 1 else BALANCE_CELLS
-        return self.sampled(point_film(self.contact, self.speeds, load, cells, self.thinnings), load)
+        cells = self.cells if level == len(self.level_errors) - 1 else BALANCE_CELLS
+        return self.sampled(film_with_heat(self.contact, self.speeds, load, cells, self.thinnings), load)
 
     @property
     def parabola(self) -> FloatArray:
@@ -119,7 +119,7 @@ class SolvedPointFilm:
 
     def solve(self, load: float, initial: PointFilmSolution | None = None) -> PointFilmSolution:
         """Solve a film for a table; see `TabulatedFilms`."""
-        return point_film(self.contact, self.speeds, load, self.cells, self.thinnings)
+        return film_with_heat(self.contact, self.speeds, load, self.cells, self.thinnings)
 
     def sampled(self, film: PointFilmSolution, load: float, stretch: float = 1.0) -> PatchFilm:
         """Sample a film at stretched abscissae of the patch; see `TabulatedFilms`."""
@@ -139,7 +139,7 @@ def largest_point_load(contact: PointContact, speeds: Sequence[float], cells: in
     return largest if contact.deforming_load is None else (largest**4 / contact.deforming_load) ** (1 / 3)
 
 
-def point_film(
+def film_with_heat(
     contact: PointContact,
     speeds: Sequence[float],
     load: float,
@@ -153,7 +153,7 @@ def point_film(
     then limits the film, as of line films. The heat of the contact itself is added by `lumped_point.add_heat`.
     """
     if contact.heat is None:
-        return cold_film(contact, speeds, load, cells)
+        return film_without_heat(contact, speeds, load, cells)
     from bem.lubrication.thermal.lumped_point import (  # heat's modules only where there is heat
         add_heat,
         find_oil_thinning,
@@ -168,7 +168,7 @@ def point_film(
 
             def central(lubricant: Lubricant) -> float:
                 flooded = replace(_of_oil(contact, lubricant), supply=None)
-                film = cold_film(flooded, speeds, at, min(cells, BALANCE_CELLS))
+                film = film_without_heat(flooded, speeds, at, min(cells, BALANCE_CELLS))
                 return film.central_thickness if film.status is Status.CONVERGED else math.nan
 
             known[place] = find_oil_thinning(
@@ -181,7 +181,7 @@ def point_film(
     thinning = thinning_at(below)
     if exact - below > 1e-9:
         thinning = thinning.between(thinning_at(below + 1), exact - below)
-    film = cold_film(_of_oil(contact, thinning.oil(oil, inlet)), speeds, load, cells)
+    film = film_without_heat(_of_oil(contact, thinning.oil(oil, inlet)), speeds, load, cells)
     dry = ellipse_contact(radii=contact.radii, contact_modulus=contact.film_modulus(load), load=load)
     return add_heat(film, oil, contact.heat.bodies, dry.semi_axes, inlet, thinning.deviation)
 
@@ -212,14 +212,14 @@ def _fitted_exponent(contact: PointContact, speeds: Sequence[float], load: float
     return math.log(_fitted_film(thinner, speeds, load) / _fitted_film(contact, speeds, load)) / math.log(share)
 
 
-def cold_film(contact: PointContact, speeds: Sequence[float], load: float, cells: int) -> PointFilmSolution:
+def film_without_heat(contact: PointContact, speeds: Sequence[float], load: float, cells: int) -> PointFilmSolution:
     """Return the film under a load [N] without heat: solved, or extrapolated from one under a smaller load."""
     largest = min(load, largest_point_load(contact, speeds, cells))
     for share in _HEAVIER if _deep(contact, speeds, largest) else _TRIED:
-        film = solved_point_film(contact, speeds, share * largest, cells)
+        film = cached_film(contact, speeds, share * largest, cells)
         if film.status is Status.CONVERGED:
             break
-    return film if share * largest == load else thin_film(film, contact, speeds, share * largest, load)
+    return film if share * largest == load else extrapolate_in_load(film, contact, speeds, share * largest, load)
 
 
 def _deep(contact: PointContact, speeds: Sequence[float], load: float) -> bool:
@@ -229,7 +229,7 @@ def _deep(contact: PointContact, speeds: Sequence[float], load: float) -> bool:
     return _fitted_film(contact, speeds, load) > DEEP * contact.supply.thickness
 
 
-def thin_film(
+def extrapolate_in_load(
     film: PointFilmSolution, contact: PointContact, speeds: Sequence[float], solved: float, load: float
 ) -> PointFilmSolution:
     """Extrapolate a film in load.
@@ -307,7 +307,7 @@ KEPT = KeptValues(1 << 26)
 beyond the largest all trials of a balance, and error bars, extrapolate from one film."""
 
 
-def solved_point_film(contact: PointContact, speeds: Sequence[float], load: float, cells: int) -> PointFilmSolution:
+def cached_film(contact: PointContact, speeds: Sequence[float], load: float, cells: int) -> PointFilmSolution:
     """Return the film under a load [N] up to the largest, without the solver's state; cached.
 
     Bodies are rigid where the load is too small for the elastic film's range. Notes on the film's own error are

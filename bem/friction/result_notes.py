@@ -90,7 +90,7 @@ def coupling_notes(forces: Forces, traction: float, setup: MixedSetup) -> tuple[
     return (FRICTION_ON_PRESSURE(used=float(used), found=float(found), reason="other-friction"),)
 
 
-def covered_notes(points: Sequence[tuple[float, float]]) -> tuple[Note, ...]:
+def oil_on_contact_notes(points: Sequence[tuple[float, float]]) -> tuple[Note, ...]:
     """Return a note on the speed at which oil on cells in contact would add most friction; none where it adds little.
 
     Parameters

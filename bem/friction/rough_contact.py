@@ -74,7 +74,7 @@ class Pressed:
     status : outcome.
     solution : of the patch.
     separation : (nx,) distance of the mean planes on the middle line, deformed by film pressure alone [m].
-    covered : fraction in contact of each cell of the film's grid.
+    touching_fraction : fraction in contact of each cell of the film's grid.
     notes : of the contact solver.
     opening_error : error of the opening that the contact's tolerance leaves [m].
     cells : law of repeated cells, for laws of boundary friction; None of a patch.
@@ -89,7 +89,7 @@ class Pressed:
     status: Status
     solution: ContactSolution | AsperityContact | SpreadContact
     separation: FloatArray
-    covered: FloatArray
+    touching_fraction: FloatArray
     notes: tuple[Note, ...] = ()
     opening_error: float = 0.0
     cells: CellLaw | None = None
@@ -229,7 +229,7 @@ class CoupledContact:
             status=solution.status,
             solution=solution,
             separation=middle_line(film.gap) - solution.approach,
-            covered=covered_fraction(solution, self.setup.grid),
+            touching_fraction=touching_fraction_of(solution, self.setup.grid),
             notes=without_argument_notes(solution.notes),
             opening_error=tolerance * float(gap.std()),
         )
@@ -256,7 +256,7 @@ class OfPatch:
         return self.patch.oil(film)
 
 
-def covered_fraction(solution: ContactSolution | AsperityContact, grid: Grid) -> FloatArray:
+def touching_fraction_of(solution: ContactSolution | AsperityContact, grid: Grid) -> FloatArray:
     """Return the fraction of each cell (nx, ny) in contact.
 
     All cells with pressure have the same fraction, real contact area over their area: excluding the film from whole

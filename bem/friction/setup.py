@@ -39,7 +39,8 @@ HEAT_NEEDS = ("temperature", "density", "heat_capacity", "thermal_conductivity",
 class MixedSetup:
     """Arguments of `solve_mixed` without heights and speeds, checked.
 
-    One field is added: `heat_mesh`, factor on the columns and layers of full heat, or on the cells of lumped heat.
+    One field is added: `heat_mesh`, factor on the columns and layers of full heat, or on the cells of lumped heat of a
+    line (`FilmHeat.mesh`).
 
     Raises
     ------

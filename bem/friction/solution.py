@@ -9,7 +9,7 @@ import numpy as np
 
 from bem.contact import ContactSolution
 from bem.errors import Status
-from bem.friction.balance import BalanceStart, Regime
+from bem.friction.balance import Continuation, Regime
 from bem.friction.boundary import BoundaryFrictionGiven, boundary_law, filled_part, sliding_sign
 from bem.friction.film import PatchFilm, middle_line
 from bem.friction.oil_sensitivity import OilVolumeSensitivity
@@ -51,14 +51,14 @@ class MixedSolution:
     contact_solves : number of rough contacts solved.
     imbalance : (film_load + contact_load - load) / load, of these three.
     balance_slope : slope of ln(opening / film thickness) over ln(film_load), a warm start of the next speed.
-    continuation : other parts of the next speed's warm start: `refinement`, `speed_power` and `whole_film`. Film load,
-        slope and pressure of the start are those of this solution.
+    continuation : other parts of the next speed's warm start; its film load, slope and pressure are those of this
+        solution.
     status : converged where the imbalance of the load is within the tolerance, that of the oil is within the tolerance
         or within the error of the opening that the tightest contact leaves (contact tolerance times the standard
         deviation of the gap), and film, contact and heat conduction are converged themselves. At an end of the balance
         the oil is not tested. With heat the film's temperatures must balance its heat as well; the thickness that
-        inlet heating leaves is then known to 5e-3 (`ThermalFilm.inlet_missed`), which no imbalance shows. Infeasible
-        where film and surfaces cannot carry the load within their models.
+        inlet heating leaves is then known to 5e-3 of a line (`ThermalFilm.inlet_missed`), which no imbalance shows.
+        Infeasible where film and surfaces cannot carry the load within their models.
     grid : as given.
     boundary_friction : as given; a law over temperature has the temperature of the contact.
     oil_imbalance : (mean opening - mean film thickness) / mean film thickness where oil is counted (`oil_volume`), of
@@ -98,7 +98,7 @@ class MixedSolution:
     oil: OilVolumeSensitivity
     patch_film: PatchFilm
     regime: Regime = Regime.MIXED
-    continuation: BalanceStart = field(default_factory=BalanceStart, repr=False, compare=False)
+    continuation: Continuation = field(default_factory=Continuation, repr=False, compare=False)
     contact_temperature: float | None = None
     flash_temperature: float | None = None
     oil_on_contact: float = 0.0

@@ -16,7 +16,7 @@ import numpy as np
 from bem.errors import InputError, Status
 from bem.friction.balance import Regime
 from bem.friction.boundary import BoundaryFrictionGiven
-from bem.friction.continuation import start_for_next_speed, start_from_solution
+from bem.friction.continuation import continuation_from, start_from_solution
 from bem.friction.film import PatchFilm, middle_line
 from bem.friction.forces import Forces
 from bem.friction.line_film import SolvedLineFilm
@@ -24,7 +24,7 @@ from bem.friction.load_sharing import LoadSharing, SharedLoad
 from bem.friction.models import SolvedFilms, films_of
 from bem.friction.oil_sensitivity import OilVolumeSensitivity, oil_volume_sensitivity
 from bem.friction.oil_volume import OilVolume
-from bem.friction.result_notes import coupling_notes, covered_notes, oil_notes, validity_notes
+from bem.friction.result_notes import coupling_notes, oil_notes, oil_on_contact_notes, validity_notes
 from bem.friction.setup import FILM_CELLS, MixedSetup
 from bem.friction.solution import MixedSolution
 from bem.grid import FloatArray, Grid
@@ -88,18 +88,18 @@ def solve_mixed(
         table such as {"kind": "pressure_dependent", "shear_strength": 1e6, "pressure_coefficient": 0.1}.
     hardness : cap of the contact pressure [Pa]; None is elastic.
     tolerance : largest imbalance of the oil, mean opening over mean film thickness less one where oil is counted, and
-        of the load, (F_film + F_contact - load) / load. A trial of the search shares the load exactly, up to the
-        solvers' tolerances, unless surfaces at the hardness cannot carry the rest or two gaps carry one load; the
-        search closes the imbalance of the oil.
+        of the load, (F_film + F_contact - load) / load. The search closes the imbalance of the oil; each of its trials
+        shares the load exactly, up to the tolerances of the solvers. Two cases are exceptions: surfaces at the hardness
+        that cannot carry their part, and an opening that jumps at one load.
     film_points : nodes of the line film's mesh.
     film_cells : cells of a ball's film along an axis.
     contact_model : "coupled" (rough half-space), or "uncoupled" (every summit a Hertz sphere), the usual baseline.
     asperity_separation : distance of the mean planes for uncoupled asperities: "volume" keeps the volume of oil between
         the surfaces, cut where they overlap; "film" is the film thickness itself.
-    separation : "volume" keeps the volume of oil between the surfaces (`oil_volume`). "film": the undeformed mean
-        planes are as far apart as the central film thickness, for coupled and uncoupled asperities alike, as in figures
-        5 and 6 of the thesis' paper A (`bem.friction.given_separation`). It needs a cylinder and a grid that is
-        periodic along x and y.
+    separation : rule for the distance of the mean planes, which `MixedSolution.separation` holds. "volume" keeps the
+        volume of oil between the surfaces (`oil_volume`). "film": the undeformed mean planes are as far apart as the
+        central film thickness, for coupled and uncoupled asperities alike, as in figures 5 and 6 of the thesis' paper A
+        (`bem.friction.given_separation`). It needs a cylinder and a grid that is periodic along x and y.
     contact_tolerance : of the rough contact.
     film_position : ascending abscissae [m] on which `film` is returned; the film's own mesh by default.
     initial : solution of a similar case, a warm start.
@@ -129,7 +129,9 @@ def solve_mixed(
     tightest contact leaves in the opening: contact tolerance times the standard deviation of the gap. The contact is
     solved more tightly than `contact_tolerance`, down to 1e-9, before that error is accepted. At both ends, full film
     and boundary lubrication, the oil is not tested. With heat `converged` includes temperatures that balance the film's
-    heat, but not the 5e-3 to which the film that inlet heating leaves is known. `notes` say where a model is outside
+    heat. The film thickness itself is then uncertain, in a line contact by 5e-3, since the oil that inlet heating thins
+    is found to that tolerance; under a ball the oil is interpolated between loads, and the error may be larger.
+    `notes` say where a model is outside
     its validity. A film with less than a tenth of the tolerance is boundary lubrication: the contact is solved for the
     rest of the load. The same holds, with a note of its own, where the film model ends while the film is a few
     molecules thick.
@@ -138,7 +140,7 @@ def solve_mixed(
     ------
     InputError : values out of range; no entrainment; a patch that is larger than `film_position` or does not cover
         the contact; film positions that do not reach the inlet. With `thermal` also during the balance: inlet heating
-        that leaves an oil too thin for a film under the load of a trial to be looked for.
+        that makes the oil so thin that no film can be found under the load of a trial.
 
     Notes
     -----
@@ -278,30 +280,30 @@ def solve_setup(
     height = setup.grid.check_field(height, "height")
     if not (initial is None or isinstance(initial, MixedSolution)):
         raise InputError(f"initial: {type(initial).__name__} is not a MixedSolution")
-    film = films_of(setup, speeds, initial=None if initial is None else initial.film)
-    start = start_from_solution(setup, film.speeds, initial)
-    shared = LoadSharing(setup, film, film.speeds).solve(height, start)
+    films = films_of(setup, speeds, initial=None if initial is None else initial.film)
+    start = start_from_solution(setup, films.speeds, initial)
+    shared = LoadSharing(setup, films, films.speeds).solve(height, start)
     oil = oil_volume_sensitivity(
         setup,
         height,
         shared.balance,
         shared.whole,
-        speeds=film.speeds,
+        speeds=films.speeds,
         friction=shared.friction,
         before=None if initial is None else initial.oil,
     )
-    return _solution(film, shared, oil, initial)
+    return _solution(films, shared, oil, initial)
 
 
 def _solution(
-    film: SolvedFilms, shared: SharedLoad, oil: OilVolumeSensitivity, initial: MixedSolution | None
+    films: SolvedFilms, shared: SharedLoad, oil: OilVolumeSensitivity, initial: MixedSolution | None
 ) -> MixedSolution:
     """Build the solution that users see."""
     setup, balance, forces = shared.setup, shared.balance, shared.forces
     contact, heat = balance.contact, forces.heat
-    patch_film, returned = _film_on_patch(balance.film, setup), _returned_film(film, shared)
+    patch_film, returned = _film_on_patch(balance.film, setup), _returned_film(films, shared)
     return MixedSolution(
-        speeds=film.speeds,
+        speeds=films.speeds,
         friction=shared.friction,
         boundary_force=forces.boundary,
         film_force=forces.film,
@@ -321,13 +323,13 @@ def _solution(
         oil=oil,
         patch_film=patch_film,
         balance_slope=balance.slope,
-        continuation=start_for_next_speed(film.speeds, balance, setup.load, shared.coarse_whole, initial),
+        continuation=continuation_from(films.speeds, balance, setup.load, shared.coarse_whole, initial),
         status=returned.status if shared.status is Status.CONVERGED else shared.status,
         grid=setup.grid,
         boundary_friction=_boundary_friction(setup, forces),
         contact_temperature=None if heat is None else heat.mean,
         flash_temperature=None if heat is None else heat.maximum,
-        oil_on_contact=forces.covered / setup.load,
+        oil_on_contact=forces.on_contact / setup.load,
         regime=balance.regime,
         notes=_notes(shared, oil),
     )
@@ -341,18 +343,18 @@ def _notes(shared: SharedLoad, oil: OilVolumeSensitivity) -> tuple[Note, ...]:
     notes += coupling_notes(forces, shared.rough.traction, setup)
     if forces.heat is not None:
         notes += tuple(note for note in forces.heat.notes if note not in balance.notes)
-    return notes + oil_notes([oil]) + covered_notes([(shared.friction, forces.covered / setup.load)])
+    return notes + oil_notes([oil]) + oil_on_contact_notes([(shared.friction, forces.on_contact / setup.load)])
 
 
-def _returned_film(film: SolvedFilms, shared: SharedLoad) -> FilmSolution | PointFilmSolution:
+def _returned_film(films: SolvedFilms, shared: SharedLoad) -> FilmSolution | PointFilmSolution:
     """Return the solution of the balance's film, at the abscissae of the set-up, without factorised equations."""
     setup, balance = shared.setup, shared.balance
     solution: FilmSolution | PointFilmSolution | None = balance.film.solution
     assert solution is not None
     if setup.film_position is not None:
-        assert isinstance(film, SolvedLineFilm)
+        assert isinstance(films, SolvedLineFilm)
         negligible = balance.regime is Regime.BOUNDARY
-        solution = film.resampled(balance.film, setup.film_position, negligible=negligible)
+        solution = films.resampled(balance.film, setup.film_position, negligible=negligible)
     return without_factors(solution) if isinstance(solution, FilmSolution) else solution
 
 

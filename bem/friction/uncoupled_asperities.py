@@ -14,7 +14,7 @@ import numpy as np
 from bem.errors import Status
 from bem.friction.asperities import Summits, find_summits, shift_for_load, uncoupled_contact
 from bem.friction.film import PatchFilm, middle_line
-from bem.friction.rough_contact import Pressed, covered_fraction, shift_apart
+from bem.friction.rough_contact import Pressed, shift_apart, touching_fraction_of
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray
 from bem.notes.friction import NO_SUMMITS
@@ -96,5 +96,5 @@ class UncoupledAsperities:
             status=Status.CONVERGED,
             solution=solution,
             separation=middle_line(film.thickness) - shift,
-            covered=covered_fraction(solution, self.setup.grid),
+            touching_fraction=touching_fraction_of(solution, self.setup.grid),
         )

@@ -85,9 +85,9 @@ class WornFilms:
         return self.unworn.largest_load
 
     @property
-    def errors(self) -> tuple[float, ...]:
+    def level_errors(self) -> tuple[float, ...]:
         """Errors of the films; see `Film`."""
-        return self.unworn.errors
+        return self.unworn.level_errors
 
     def under(self, load: float, level: int = 0, start: PatchFilm | None = None) -> PatchFilm:
         """Return the film under a load; see `Film`."""
@@ -243,9 +243,9 @@ class SearchedWornFilms:
         return self.solver.unworn.largest_load
 
     @property
-    def errors(self) -> tuple[float, ...]:
+    def level_errors(self) -> tuple[float, ...]:
         """Errors of the films; see `Film`."""
-        return self.solver.unworn.errors
+        return self.solver.unworn.level_errors
 
     def under(self, load: float, level: int = 0, start: PatchFilm | None = None) -> PatchFilm:
         """Return the film under a load; see `Film`."""

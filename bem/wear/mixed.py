@@ -35,12 +35,12 @@ from bem.errors import InputError, Status
 from bem.friction.balance import NEGLIGIBLE, Balance, BalanceStart, Regime
 from bem.friction.film import Film, PatchFilm, middle_line
 from bem.friction.film_table import FilmTable
-from bem.friction.forces import Forces, oil_temperature
+from bem.friction.forces import Forces, supply_temperature
 from bem.friction.load_sharing import LoadSharing, SharedLoad
 from bem.friction.models import films_of, rough_contact
 from bem.friction.oil_sensitivity import OilVolumeSensitivity, oil_volume_sensitivity
 from bem.friction.oil_volume import OilVolume
-from bem.friction.result_notes import contact_notes, coupling_notes, covered_notes, oil_notes, validity_notes
+from bem.friction.result_notes import contact_notes, coupling_notes, oil_notes, oil_on_contact_notes, validity_notes
 from bem.friction.rough_contact import CoupledContact, OfPatch, RoughContact, boundary_traction
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray
@@ -256,7 +256,7 @@ class MixedContact:
             shared.contact_area,
             0.0 if contact is None else contact.approach,
             balance.imbalance,
-            *((oil_temperature(setup),) * 2 if heat is None else (heat.mean, heat.maximum)),
+            *((supply_temperature(setup),) * 2 if heat is None else (heat.mean, heat.maximum)),
             max(balance.films, 1),
             _FILM_NEGLECTED if balance.film_neglected else REGIMES.index(balance.regime),
             shared.heights.std(),
@@ -376,7 +376,7 @@ class MixedCycles:
         on_oil = () if oil is None else tuple(note.at(LAST_CYCLE) for note in oil_notes([oil]))
         if last.particle_share > NEGLIGIBLE_PARTICLE_SHARE and setup.counted is not OilVolume.LOADED:
             on_oil = (OIL_COUNTED(reason="particles"),)
-        covered = covered_notes([(float(rows["total_friction"][-1]), last.forces.covered / setup.load)])
+        covered = oil_on_contact_notes([(float(rows["total_friction"][-1]), last.forces.on_contact / setup.load)])
         follower, follows = self.contact.follower, self.contact.film_shape == "worn"
         shape = follower.notes(self.worn, len(rows)) if follows else ()
         of_last = tuple(note.at(LAST_CYCLE) for note in (*last.contact_notes, *covered))

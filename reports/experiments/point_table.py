@@ -15,7 +15,7 @@ from typing import Any
 import numpy as np
 
 from bem import PointFilmSolution
-from bem.lubrication.point.certificate import SolvedPointFilm
+from bem.lubrication.point.certificate import SolvedPointCase
 from bem.lubrication.point.similarity import hamrock_dowson_films, nijenbanning_film
 from reports.experiments.kept import keep, rounded
 from reports.experiments.point_films import ALPHA, MODULUS, film
@@ -83,7 +83,7 @@ def _fits(found: PointFilmSolution, load: float, oil: float, ratio: float, unit:
     return fits
 
 
-def _kept(found: PointFilmSolution) -> SolvedPointFilm:
+def _kept(found: PointFilmSolution) -> SolvedPointCase:
     assert found.state is not None
     return found.state
 

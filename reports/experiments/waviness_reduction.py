@@ -28,7 +28,7 @@ from bem import (
     march_point_film,
     solve_point_film,
 )
-from bem.lubrication.point.certificate import SolvedPointFilm, central_film
+from bem.lubrication.point.certificate import SolvedPointCase, central_film
 from bem.lubrication.point.linear_system import NewtonSystem
 from bem.lubrication.point.moving_surfaces import amplitude_in_centre, amplitude_reduction
 from bem.lubrication.point.newton import residual_of
@@ -107,7 +107,7 @@ def _symmetric(values: Any, shape: tuple[int, int]) -> Any:
     return (field[:, :, ny // 2 :] + field[:, :, ny // 2 - 1 :: -1]).reshape(len(field), -1)
 
 
-def point_response(kept: SolvedPointFilm, wavelength: float, ratio: float = 0.0) -> float:
+def point_response(kept: SolvedPointCase, wavelength: float, ratio: float = 0.0) -> float:
     """Amplitude in the centre over that of the body, of waves [unit of length] across the flow, in pure rolling; of
     bumps cos(k x) cos(ratio k y) where there is a ratio."""
     level, state = kept.level, kept.state
@@ -249,7 +249,7 @@ def marched(load: float, material: float, share: float) -> dict[str, Any]:
     }
 
 
-def _kept(film: PointFilmSolution) -> SolvedPointFilm:
+def _kept(film: PointFilmSolution) -> SolvedPointCase:
     assert film.state is not None
     return film.state
 

@@ -232,7 +232,7 @@ class FlatFilm:
 
     constant: float
     largest_load: float = math.inf
-    errors: tuple[float, ...] = (0.0,)
+    level_errors: tuple[float, ...] = (0.0,)
 
     def under(self, load, level, start):
         thickness = np.full(GRID.shape, self.constant / load)
@@ -457,8 +457,8 @@ class ClosedFormContact:
         pressure = np.full(GRID.shape, load)
         return Pressed(
             load=load, opening=self.opening(load, tolerance), pressure=pressure, approach=0.0, area=1.0,
-            convolutions=1.0, status=Status.CONVERGED, solution=None, separation=pressure[:, 0], covered=pressure,
-            opening_error=tolerance * self.error,
+            convolutions=1.0, status=Status.CONVERGED, solution=None, separation=pressure[:, 0],
+            touching_fraction=pressure, opening_error=tolerance * self.error,
         )  # fmt: skip
 
     def at_approach(self, film, approach, tolerance, start):
@@ -519,7 +519,7 @@ def test_finer_films_decide_whether_the_film_model_ends_before_the_balance(openi
             film = super().under(load, level, start)
             return dataclasses.replace(film, thickness=film.thickness * (1.02 if level == 0 else 1.0))
 
-    film = Levels(1e-6, largest_load=3.0, errors=(1e-3, 0.0))
+    film = Levels(1e-6, largest_load=3.0, level_errors=(1e-3, 0.0))
     balance = balanced(film, ClosedFormContact(lambda load, tolerance: opening * (2.5 / load) ** 0.5))
     assert balance.status is Status.CONVERGED
     assert balance.regime is Regime.MIXED

@@ -24,7 +24,7 @@ from bem.convolution import displacement_operator
 from bem.errors import InputError, Status
 from bem.friction.film_table import FilmTable
 from bem.friction.models import films_of
-from bem.friction.point_film import SolvedPointFilm, sampled_point, solved_point_film, thin_film
+from bem.friction.point_film import SolvedPointFilm, cached_film, extrapolate_in_load, sampled_point
 from bem.friction.setup import MixedSetup
 from bem.friction.smooth import PointContact
 from bem.notes import has_code
@@ -205,8 +205,8 @@ def test_bad_input_is_said(wrong, said):
 def test_thin_film_goes_on_from_a_solved_one(counted):
     """A film made from that of 0.4 of the load, against the film solved under all of it."""
     contact, speeds = PointContact((0.01, 0.012), MODULUS, OIL, counted), (0.06, 0.02)
-    small, whole = (solved_point_film(contact, speeds, load, 64) for load in (8.0, 20.0))
-    made = thin_film(small, contact, speeds, 8.0, 20.0)
+    small, whole = (cached_film(contact, speeds, load, 64) for load in (8.0, 20.0))
+    made = extrapolate_in_load(small, contact, speeds, 8.0, 20.0)
     assert made.central_thickness == pytest.approx(whole.central_thickness, rel=0.03)
     assert made.maximum_pressure == pytest.approx(whole.maximum_pressure, rel=0.03)
     assert -made.shear_force[0, 0] == pytest.approx(-whole.shear_force[0, 0], rel=0.03)

@@ -5,7 +5,7 @@ import pytest
 from mixed_case import mixed_case
 
 from bem import Lubricant, solve_mixed
-from bem.friction.result_notes import MATTERS, covered_notes
+from bem.friction.result_notes import MATTERS, oil_on_contact_notes
 from bem.notes import Level
 from bem.notes.friction import OIL_ON_CONTACT
 
@@ -45,12 +45,12 @@ def test_nothing_is_left_out_of_a_full_film():
 
 @pytest.mark.internal
 def test_the_note_names_the_worst_of_many_speeds_and_is_silent_where_little_changes():
-    assert covered_notes([(0.1, 0.004), (0.05, -0.002), (0.0, 0.0)]) == ()
-    (one,) = covered_notes([(0.1, 0.01), (0.1, 0.004)])
+    assert oil_on_contact_notes([(0.1, 0.004), (0.05, -0.002), (0.0, 0.0)]) == ()
+    (one,) = oil_on_contact_notes([(0.1, 0.01), (0.1, 0.004)])
     assert (one.values["with_oil"], one.values["friction"]) == pytest.approx((0.11, 0.1))
     assert not one.values["most"]
-    (many,) = covered_notes([(0.1, 0.01), (0.05, 0.02)])
+    (many,) = oil_on_contact_notes([(0.1, 0.01), (0.05, 0.02)])
     assert (many.values["with_oil"], many.values["friction"]) == pytest.approx((0.07, 0.05))
     assert many.values["most"]
     assert (one.level, many.level) == (Level.INFO, Level.CAUTION)
-    assert covered_notes([(0.0, 0.01)])
+    assert oil_on_contact_notes([(0.0, 0.01)])

@@ -197,7 +197,7 @@ class FlatFilm:
     constant: float
     shape: tuple[int, int]
     largest_load: float = math.inf
-    errors: tuple[float, ...] = (0.0,)
+    level_errors: tuple[float, ...] = (0.0,)
 
     def under(self, load, level, start):
         thickness = np.full(self.shape, self.constant / load)

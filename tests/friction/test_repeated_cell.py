@@ -85,7 +85,7 @@ def test_friction_is_that_of_the_load_shared(both):
     assert forces.boundary == pytest.approx(0.24, rel=1e-9)
     # the film's shear where nothing touches, integrated here
     grid = setup.film_grid
-    share = pressed.covered
+    share = pressed.touching_fraction
     assert share.max() < 0.2
     assert pressed.area == pytest.approx(share.sum() * grid.cell_area, rel=1e-12)
     left = film.shear_force - (film.shear_stress * share).sum() * grid.cell_area

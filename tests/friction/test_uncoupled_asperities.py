@@ -11,7 +11,7 @@ from mixed_case import mixed_case
 from bem import Grid, Lubricant, Status, solve_mixed
 from bem.friction.asperities import Summits, asperity_loads, find_summits, uncoupled_contact
 from bem.friction.balance import Regime
-from bem.friction.rough_contact import covered_fraction
+from bem.friction.rough_contact import touching_fraction_of
 from bem.notes import has_code
 from bem.notes.friction import NO_SUMMITS
 from reports.experiments.separation_datum import volume_shift
@@ -120,7 +120,7 @@ def test_overlapping_discs_cover_no_more_than_their_cells():
     summits = Summits((np.array([20, 21]), np.array([20, 20])), np.full(2, 200e-9), np.full(2, 30e-6))
     contact = uncoupled_contact(np.full(2, 170e-9), summits, grid, shift=0.0, contact_modulus=115e9, hardness=None)
     assert contact.contact_area > 1.2 * np.count_nonzero(contact.pressure) * grid.cell_area
-    assert covered_fraction(contact, grid).max() == 1.0
+    assert touching_fraction_of(contact, grid).max() == 1.0
 
 
 def test_ridges_have_no_summits_and_no_balance():

@@ -18,7 +18,7 @@ from bem import (
     solve_mixed,
     surface_temperature,
 )
-from bem.friction.point_film import cold_film, point_film
+from bem.friction.point_film import film_with_heat, film_without_heat
 from bem.friction.setup import MixedSetup
 from bem.friction.smooth import PointContact
 from bem.lubrication.inlet_heating import InletHeating
@@ -40,7 +40,7 @@ LONG = PointContact((5e-3, 0.25), MODULUS, OIL, heat=HEAT)
 
 @pytest.fixture(scope="module")
 def long():
-    return point_film(LONG, (1.2, 0.8), 40.0, 64)
+    return film_with_heat(LONG, (1.2, 0.8), 40.0, 64)
 
 
 @pytest.mark.internal
@@ -75,8 +75,8 @@ def test_energy_closes(long):
 @pytest.mark.internal
 def test_the_film_is_as_thin_as_inlet_heating_says_and_friction_falls():
     ball, speeds = PointContact((0.01, 0.01), MODULUS, OIL, heat=HEAT), (3.0, 2.6)
-    cold = cold_film(replace(ball, heat=None), speeds, 20.0, 48)
-    hot, back = (point_film(ball, pair, 20.0, 48) for pair in (speeds, (-3.0, -2.6)))
+    cold = film_without_heat(replace(ball, heat=None), speeds, 20.0, 48)
+    hot, back = (film_with_heat(ball, pair, 20.0, 48) for pair in (speeds, (-3.0, -2.6)))
     assert 0.9 < hot.central_thickness / cold.central_thickness < 0.96
     assert hot.friction < cold.friction
     assert hot.mean_temperature > 333.15 + 5
@@ -88,7 +88,7 @@ def test_the_film_is_as_thin_as_inlet_heating_says_and_friction_falls():
 @pytest.mark.internal
 def test_strong_heat_is_found():
     """A ball that slides at 5 m/s over a disc at rest: the oil warms by 140 K, at which the stress depends on it."""
-    hot = point_film(PointContact((5e-3, 5e-3), MODULUS, OIL, heat=HEAT), (5.0, 0.0), 20.0, 32)
+    hot = film_with_heat(PointContact((5e-3, 5e-3), MODULUS, OIL, heat=HEAT), (5.0, 0.0), 20.0, 32)
     assert hot.status is Status.CONVERGED
     assert hot.mean_temperature > 333.15 + 100
 
@@ -96,7 +96,7 @@ def test_strong_heat_is_found():
 @pytest.mark.internal
 def test_heat_that_is_not_found_is_not_shown(monkeypatch):
     monkeypatch.setattr(lumped_point, "RESIDUAL", -1.0)
-    found = point_film(PointContact((5e-3, 5e-3), MODULUS, OIL, heat=HEAT), (5.0, 0.0), 20.0, 32)
+    found = film_with_heat(PointContact((5e-3, 5e-3), MODULUS, OIL, heat=HEAT), (5.0, 0.0), 20.0, 32)
     assert found.status is Status.STALLED
     assert np.isnan([found.mean_temperature, found.maximum_temperature, found.friction]).all()
     assert np.isnan(found.temperature).all()
@@ -113,7 +113,7 @@ def test_surfaces_beside_heat_that_spreads_across(radii, speeds, most, told):
     """Under the same heat, with what is conducted from line to line, surfaces are less warm: by as much as is said."""
     contact = PointContact(radii, MODULUS, OIL, heat=HEAT)
     half_axes = ellipse_contact(radii=radii, contact_modulus=MODULUS, load=20.0).semi_axes
-    film = point_film(contact, speeds, 20.0, 32)
+    film = film_with_heat(contact, speeds, 20.0, 32)
     heat = point_heat(film, OIL, moving_bodies("test", OIL, (STEEL, STEEL), speeds, None, half_axes[1]))
     grid = Grid(film.pressure.shape, (film.x[1] - film.x[0], film.y[1] - film.y[0]))
     for flux, surface, speed in zip(heat.fluxes, heat.surfaces, speeds, strict=True):
@@ -126,7 +126,7 @@ def test_surfaces_beside_heat_that_spreads_across(radii, speeds, most, told):
 @pytest.mark.internal
 def test_slow_films_have_no_heat():
     ball, speeds = PointContact((0.01, 0.01), MODULUS, OIL, heat=HEAT), (0.02, 0.019)
-    cold, hot = cold_film(replace(ball, heat=None), speeds, 20.0, 48), point_film(ball, speeds, 20.0, 48)
+    cold, hot = film_without_heat(replace(ball, heat=None), speeds, 20.0, 48), film_with_heat(ball, speeds, 20.0, 48)
     assert hot.central_thickness == pytest.approx(cold.central_thickness, rel=5e-3)
     assert hot.mean_temperature == pytest.approx(333.15, abs=0.2)
     assert hot.friction == pytest.approx(cold.friction, rel=5e-3)
@@ -206,6 +206,7 @@ def test_films_with_heat_are_continuous_in_the_load():
     oil = Lubricant.of("ISO VG 68", temperature=313.15)
     contact, speeds, middle = PointContact((10e-3, 10e-3), MODULUS, oil, heat=HEAT), (8.0, 6.0), 3**2.5
     less, more = (
-        point_film(contact, speeds, load, 48).central_thickness for load in (middle * (1 - 1e-6), middle * (1 + 1e-6))
+        film_with_heat(contact, speeds, load, 48).central_thickness
+        for load in (middle * (1 - 1e-6), middle * (1 + 1e-6))
     )
     assert more == pytest.approx(less, rel=1e-4)

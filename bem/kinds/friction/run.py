@@ -38,7 +38,7 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
     """One curve, speed by speed, with a checkpoint after each."""
     from bem.accuracy.mixed import ORIGINS, RULES
     from bem.friction.curves import Curve
-    from bem.friction.result_notes import covered_notes, oil_notes
+    from bem.friction.result_notes import oil_notes, oil_on_contact_notes
     from bem.friction.solve import solve_setup
     from bem.lubrication.oil_scatter import friction_scatter
 
@@ -64,7 +64,7 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
         context.progress(len(curve.points), len(pairs), "speeds", speed=curve.points[-1].speed, friction=own.friction)
     tell(context, notes_over("speed", "m/s", [p.speed for p in curve.points], [p.notes for p in curve.points]))
     tell(context, oil_notes([point.oil for point in curve.points]))
-    tell(context, covered_notes([(point.friction, point.oil_on_contact) for point in curve.points]))
+    tell(context, oil_on_contact_notes([(point.friction, point.oil_on_contact) for point in curve.points]))
     left_out = (_OF_SUPPLY if scene.supply is None else ()) + (_OF_HEAT if scene.thermal == "off" else ())
     left_out += () if isinstance(setup.lubricant.shear_law, BaseOilShear) else _OF_BASE_OIL
     return _record(grid, curve, height, errors, left_out)
@@ -72,9 +72,9 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
 
 def _notes(solution: MixedSolution) -> tuple[Note, ...]:
     """Return the notes on one speed, without those on the oil, which are told of all speeds together."""
-    from bem.friction.result_notes import covered_notes, oil_notes
+    from bem.friction.result_notes import oil_notes, oil_on_contact_notes
 
-    of_oil = oil_notes([solution.oil]) + covered_notes([(solution.friction, solution.oil_on_contact)])
+    of_oil = oil_notes([solution.oil]) + oil_on_contact_notes([(solution.friction, solution.oil_on_contact)])
     return notes_of_balance([note for note in solution.notes if note not in of_oil], solution.film.notes)
 
 

@@ -4,7 +4,7 @@
 2. `solve_from_martin`: without a neighbour, continuation in the load from Martin's film on a coarse mesh that does not
    resolve the spike, with factors of the load that shrink on failure (`continue_in_load`); then `refine_mesh`, the
    spike on ever smaller cells.
-3. `continue_in_thinning`: for an oil that thins strongly, continuation in the stresses from the film of a Newtonian
+3. `continue_in_shear_law`: for an oil that thins strongly, continuation in the stresses from the film of a Newtonian
    oil.
 4. `solve_coarse`: a film on 250 cells, for the search for the viscosity that inlet heating leaves.
 """
@@ -143,7 +143,7 @@ def typical_half_width(load: float) -> float:
     return math.sqrt(8 * load / math.pi + 2 * 2.4475 / load)
 
 
-def continue_in_thinning(problem: Problem, cells: int, tolerance: float, limit: int) -> Outcome:
+def continue_in_shear_law(problem: Problem, cells: int, tolerance: float, limit: int) -> Outcome:
     """Solve by continuation in the stresses, from the film of a Newtonian oil."""
     shear = problem.shear
     assert shear is not None

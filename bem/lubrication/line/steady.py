@@ -19,7 +19,7 @@ from bem.lubrication.flow_factors import notes_on_factors
 from bem.lubrication.line.case import LineCase
 from bem.lubrication.line.continuation import (
     Neighbour,
-    continue_in_thinning,
+    continue_in_shear_law,
     solve_coarse,
     solve_from_martin,
     solve_from_neighbour,
@@ -159,7 +159,7 @@ def _flooded(problem: Problem, scales: Scales, case: LineCase) -> Outcome:
     outcome = solve_from_martin(problem, cells, tolerance, limit)
     if problem.shear is not None and not outcome.converged:
         spent += outcome.iterations
-        outcome = continue_in_thinning(problem, cells, tolerance, limit)
+        outcome = continue_in_shear_law(problem, cells, tolerance, limit)
     return replace(outcome, iterations=outcome.iterations + spent)
 
 

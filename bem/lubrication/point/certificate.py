@@ -40,7 +40,7 @@ ball at 6 mm/s has errors of 15, 7 and 2 % with r 4.1, 2.4 and 1.6."""
 
 
 @dataclass(frozen=True)
-class SolvedPointFilm:
+class SolvedPointCase:
     """Grid solution behind a result, for resampling, error bars and warm starts.
 
     case : the case in similarity variables.

@@ -17,7 +17,7 @@ from bem.notes import Note
 from bem.representation import readable
 
 if TYPE_CHECKING:
-    from bem.lubrication.point.certificate import SolvedPointFilm
+    from bem.lubrication.point.certificate import SolvedPointCase
 
 BoolArray = NDArray[np.bool_]
 
@@ -54,7 +54,7 @@ class PointFilmSolution:
         throughput.
     status : outcome, by the recomputed residuals.
     speeds : ((u1x, u1y), (u2x, u2y)) [m/s].
-    lubricant : as given.
+    lubricant : as given; of a film with lumped heat the oil that inlet heating thinned.
     film_fraction : (nx, ny) share of the gap that is filled with oil, 1 in the full film; None with Swift and Stieber's
         cavitation.
     time : [s] of a film in time (`march_point_film`), whose residual and mass_imbalance include storage.
@@ -101,7 +101,7 @@ class PointFilmSolution:
     oil_pressure: FloatArray | None = None
     contact_load: float | None = None
     notes: tuple[Note, ...] = ()
-    state: SolvedPointFilm | None = field(default=None, repr=False, compare=False)
+    state: SolvedPointCase | None = field(default=None, repr=False, compare=False)
 
     @property
     def maximum_pressure(self) -> float:

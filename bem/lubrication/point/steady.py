@@ -22,7 +22,7 @@ from bem.lubrication.point.arguments import (
     entrainment,
 )
 from bem.lubrication.point.certificate import (
-    SolvedPointFilm,
+    SolvedPointCase,
     central_film,
     certify,
     film_errors,
@@ -205,7 +205,7 @@ def point_film_solution(case: ScaledCase, nested: NestedSolution, request: FilmR
         starvation=request.starvation,
         oil_pressure=axes.to_user(state.oil_pressure) * scales.pressure if touching else None,
         contact_load=contact * force if touching else None,
-        state=SolvedPointFilm(case, level, state),
+        state=SolvedPointCase(case, level, state),
     )
     forces, rolling = without_forces.forces()
     result = replace(without_forces, shear_force=forces, rolling_force=rolling)

@@ -3,7 +3,8 @@
 Sliding and the pressure flow heat the oil; the heat enters two moving half-spaces or is carried out. Heat acts on the
 film by the viscosity (and density) of the oil, on friction by its shear stress.
 
-Lumped, `lumped.thermal_film` for lines and `lumped_point.add_heat` for points:
+Lumped. For lines `lumped.thermal_film` takes all steps. For points `bem.friction.point_film.film_with_heat` takes
+steps 1 and 2, with films of load sharing, and `lumped_point.add_heat` steps 3 and 4; `solve_point_film` has no heat:
 
 1. `bem.lubrication.inlet_heating`: factor by which shear in the inlet thins the film (Gupta and others 1992).
 2. `inlet_thinning`: viscosity whose isothermal film is as thin, by secants in its logarithm. Cost: two or three films,
@@ -26,7 +27,8 @@ Full, `full.full_thermal_film`, for lines:
    film, and 5 to 15 temperature fields, which take most of the time.
 
 Both: `hot_viscosity` (Roelands 1966, Houpert 1985), `bodies` (half-spaces from materials), `checks` (limits of the
-models), `model` (choice by name, applied by `bem.lubrication.solve`). Results share
+models), `model` (choice by name, applied by `bem.lubrication.solve` to lines and by `bem.friction.point_film` to
+points). Results share
 `bem.lubrication.results.HeatedFilm`, warm starts `bem.lubrication.line.state.FilmState`.
 
 Names are loaded at first use. Verified in tests/lubrication/test_thermal_film.py, test_thermal_point.py,

@@ -297,7 +297,7 @@ def _with_temperatures(
         return np.clip(stress, -LARGEST_STRESS, LARGEST_STRESS), slopes
 
     ambient = lubricant.viscosity * film_columns.sliding * film_columns.inlet_shear
-    rolling = film_columns.pressure_power - film_columns.flow * film_columns.pressure_work
+    poiseuille_heat = film_columns.pressure_power - film_columns.flow * film_columns.pressure_work
 
     by_width = np.stack([np.append(0.0, 1 / width[:-1]), 1 / width, np.append(1 / width[1:], 0.0)])
 
@@ -306,7 +306,9 @@ def _with_temperatures(
         generated = sum_in_cells(film_columns.cell, 0.5 * pieces * (stress[1:] + stress[:-1]), len(width))
         generated[0] += ambient
         derivative = cell_slopes(film_columns, middle, 0.5 * pieces * slope[:-1], 0.5 * pieces * slope[1:])
-        return (film_columns.sliding * generated + rolling) / width, film_columns.sliding * derivative * by_width
+        return (
+            film_columns.sliding * generated + poiseuille_heat
+        ) / width, film_columns.sliding * derivative * by_width
 
     density, capacity = lubricant.density or 0.0, lubricant.heat_capacity or 0.0
     flow = 0.5 * abs(sum(film.speeds)) * float(film_columns.thickness[-1])

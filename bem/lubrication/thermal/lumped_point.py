@@ -2,9 +2,9 @@
 
 As of line contacts (`lumped`), line by line: on each line of cells along x heat goes across the film into two moving
 half-spaces, as of bands that reach far along y, or is carried by the oil (`lumped_energy`). Flow and conduction between
-the lines are left out, with a note; a body that hardly moves is cool at the half-axis across. Sources are sliding at
-the stress of the hot oil, and the Poiseuille flow, h^3/(12 mu) |grad p|^2. A long ellipse is the line contact. Verified
-in tests/lubrication/test_thermal_point.py.
+the lines are left out; a note says so of conduction where it matters (`LARGEST_SPREAD`). A body that hardly moves is
+cool at the half-axis across. Sources are sliding at the stress of the hot oil, and the Poiseuille flow,
+h^3/(12 mu) |grad p|^2. A long ellipse is the line contact. Verified in tests/lubrication/test_thermal_point.py.
 """
 
 from __future__ import annotations
@@ -32,7 +32,7 @@ from bem.notes import without
 from bem.notes.lubrication import HEAT_LEFT_OUT, HEAT_NOT_FOUND, LUMPED_HEAT_LIMIT
 from bem.threads import one_blas_thread
 
-MOST_FILMS = 6
+MOST_THINNED_FILMS = 6
 """Largest number of thinned films."""
 LEAST_PRESSURE = 1e-3
 """Pressure over its maximum, above which a line of cells gets temperatures."""
@@ -103,7 +103,7 @@ def find_oil_thinning(
     def log_film(log_viscosity: float) -> float:
         return math.log(central(thinned_oil(lubricant, math.exp(log_viscosity))) / cold)
 
-    found = find_thinning(log_film, wanted, exponent, MOST_FILMS, FACTOR_TOLERANCE)
+    found = find_thinning(log_film, wanted, exponent, MOST_THINNED_FILMS, FACTOR_TOLERANCE)
     return OilThinning(wanted / found.log_viscosity if found.log_viscosity else exponent, found.deviation)
 
 

@@ -1,4 +1,7 @@
-"""Choice of a model of heat; importing it loads no solver. `bem.lubrication.solve` applies it."""
+"""Choice of a model of heat; importing it loads no solver.
+
+`bem.lubrication.solve` applies it to lines, `bem.friction.point_film` to points.
+"""
 
 from __future__ import annotations
 
@@ -17,7 +20,8 @@ class FilmHeat:
 
     model : "lumped" or "full", as `thermal` of `bem.lubrication.solve_line_film`.
     bodies : flat and cylinder, with heat constants.
-    mesh : factor on the usual columns and layers of full heat, or on the cells of lumped heat.
+    mesh : factor on the usual columns and layers of full heat, or on the cells of lumped heat of a line; lumped heat of
+        a point has the cells of its film.
     bulk : temperatures of the bodies far away [K]; None for that of the oil.
     """
 
