@@ -80,9 +80,10 @@ class Cap(_ByColumns):
 class TopRun(_ByColumns):
     """Only material that yields without a break from the surface down leaves, as the source's words have it.
 
-    Regions are joined before, also by yielded material below sound material, which stays. Pieces that only such
-    material joins are labelled as one: sizes are then too large and their number too small. On the steel disk of the
-    source's paper C lengths and widths are 2 % too large and the number 0.5 % too small. The depth that leaves each
+    A particle of the source is a connected volume above yield that is exposed to the surface (paper C, section 2.4).
+    So the regions decide which columns are one piece, also where two parts of a region are joined by yielded material
+    below sound material alone, which stays. Labels of the material that leaves would split such pieces: on the steel
+    disk of paper C lengths and widths would be 2 % smaller and the number 0.5 % larger. The depth that leaves each
     column does not depend on it.
     """
 
