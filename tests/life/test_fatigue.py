@@ -71,12 +71,13 @@ def test_damage_adds_up_and_comes_up_with_the_material():
     assert steady.damage[1] == pytest.approx(steady.damage[0], rel=4e-5)
     assert steady.damage[2] == pytest.approx(4000 * first.damage_rates[1], rel=1e-6)
     so_far = np.ones_like(rate) * np.array([0.1, 0.4, 0.8])[:, None, None]
-    deep = replace(first, damage=np.stack([so_far] * 3 + [0 * rate] * 2))
+    deep = replace(first, damage=np.stack([so_far] * 3), damage_rates=np.stack([0 * rate] * 2))
     worn = advance(case, replace(deep, step=4000.0, cycles=0.0))
     lost = deep.surfaces.heights[0] - worn.surfaces.heights[0]
-    after = model.add_damage(case, deep, worn).damage
+    state = model.add_damage(case, deep, worn)
+    after = state.damage
     # what lay between the first two depths moved up by what wore
-    own = after[0] - 0.5 * 4000 * after[3]
+    own = after[0] - 0.5 * 4000 * state.damage_rates[0]
     expected = 0.1 + 0.3 * lost / (DEPTHS[1] - DEPTHS[0])
     assert own[0] == pytest.approx(expected, rel=1e-9)
     assert lost.max() > 1e-10

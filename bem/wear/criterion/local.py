@@ -83,6 +83,7 @@ class LocalWear(Criterion):
 
         The memory is the depth of this cycle alone, not of all cycles: the error of the last step needs no more.
         """
+        from bem.wear.loads import BodyWear
         from bem.wear.yielding import no_pieces
 
         began = time.perf_counter()
