@@ -26,9 +26,9 @@ def particles_beside_law(state: RunningInState, setup: WearSetup, model: WearMod
         return np.empty(0, dtype=PARTICLE_FIELDS)
     traction = None if state.rubbing is None else state.rubbing.traction
     acting = SurfaceLoad(state.pressure, float(state.cycles["friction"][-1]), traction)
-    slide = abs(model.shift) * setup.grid.spacing[0]
+    shift_distance = abs(model.shift) * setup.grid.spacing[0]
     removals = [
-        model.law.detach(BodyCycle(state.pressure, (acting,), setup, model, body, slide))
-        for body in model.wearing(setup)
+        model.criterion_law.detach(BodyCycle(state.pressure, (acting,), setup, model, body, shift_distance))
+        for body in model.checked_wearing_bodies(setup)
     ]
     return np.concatenate([particle_rows(removal, setup.grid, state.cycle) for removal in removals])

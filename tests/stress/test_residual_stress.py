@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
+from bem.life.criteria import FatigueLimit
 
 from bem import Body, Grid, InputError, Layer, Material, displacement_operator, solve_contact, subsurface_stress
-from bem.life.criteria import FatigueLimit
 from bem.stress import (
     connected_stress,
     depth_maxima,
@@ -133,10 +133,10 @@ def test_wear_criteria_of_stress_include_it(residual):
     assert np.array_equal(pieces.yielding, (expected[:reached] > LIMIT).any(axis=0))
     halves = (SurfaceLoad(0.5 * pressure, FRICTION), SurfaceLoad(0.5 * pressure, FRICTION))
     out = np.empty((len(whole.depths), *setup.grid.shape))
-    for _ in equivalent_stress_planes(halves, setup, 0, whole.depths, model.law, out):
+    for _ in equivalent_stress_planes(halves, setup, 0, whole.depths, model.criterion_law, out):
         pass
     np.testing.assert_allclose(out[:reached], expected[:reached], rtol=1e-9)
-    assert not cannot_yield(halves, setup, 0, float(whole.depths[0]), model.law)
+    assert not cannot_yield(halves, setup, 0, float(whole.depths[0]), model.criterion_law)
 
 
 def test_regions_end_where_whole_planes_say_so():

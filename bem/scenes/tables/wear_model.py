@@ -25,7 +25,7 @@ class WearScenePart(Table):
         "advanced",
         default=VonMises(),
     )
-    particle_criterion: Annotated[Detachment, LawKey("criterion")] | None = key(
+    particle_criterion: Annotated[Criterion, LawKey("criterion")] | None = key(
         "Stress criterion that gives sizes of wear particles beside a wear law by pressure; it removes nothing.",
         "advanced",
         default=None,
@@ -105,7 +105,7 @@ class WearScenePart(Table):
         return self
 
     @property
-    def finds_particles(self) -> Detachment:
+    def finds_particles(self) -> Criterion:
         """The criterion whose particles are reported: `particle_criterion` beside a wear law, else `criterion`."""
         return self.particle_criterion or self.criterion
 
