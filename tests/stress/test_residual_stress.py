@@ -2,9 +2,9 @@
 
 import numpy as np
 import pytest
-from bem.life.criteria import FatigueLimit
 
 from bem import Body, Grid, InputError, Layer, Material, displacement_operator, solve_contact, subsurface_stress
+from bem.life.fatigue_limit import FatigueLimit
 from bem.stress import (
     connected_stress,
     depth_maxima,

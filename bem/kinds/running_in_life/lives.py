@@ -116,7 +116,7 @@ def oil_scatter(case: LifeCase, end: LifeState) -> float | None:
     if load <= 0:
         return None
     film = contact.table.nearest(load)
-    return friction_scatter(film, contact.setup.lubricant, float(end.over("film_friction")[-1]))
+    return friction_scatter(film, contact.setup.lubricant, float(end.over("oil_friction")[-1]))
 
 
 def end_of(scene: Any, heights: tuple[FloatArray, FloatArray]) -> LifeState:
