@@ -24,11 +24,11 @@ Figure = tuple[str, Any, Any, float]
 Allowed = Callable[[str, float], float]
 """The difference allowed for a figure, from its name and its stored value."""
 JUDGEMENTS = (
-    "accuracy_asked", "asperity_error_bars", "coating_error_bars", "contact_error_bars", "film_error_bars",
-    "flow_error_bars", "heated_mixed_error_bars", "hot_mixed_error_bars", "life_error_bars", "march_error_bars",
-    "mixed_ball_error_bars", "mixed_error_bars", "particle_error_bars", "point_error_bars", "rough_point_error_bars",
-    "rubbing_error_bars", "running_in_error_bars", "small_contact_error_bars", "sticking_error_bars",
-    "tribofilm_error_bars", "wear_error_bars",
+    "accuracy_asked", "adhesion_error_bars", "asperity_error_bars", "coating_error_bars", "contact_error_bars",
+    "film_error_bars", "flow_error_bars", "heated_mixed_error_bars", "hot_mixed_error_bars", "life_error_bars",
+    "march_error_bars", "mixed_ball_error_bars", "mixed_error_bars", "particle_error_bars", "point_error_bars",
+    "rough_point_error_bars", "rubbing_error_bars", "running_in_error_bars", "small_contact_error_bars",
+    "sticking_error_bars", "tribofilm_error_bars", "wear_error_bars",
 )  # fmt: skip
 """Modules of experiments that judge error bars."""
 ROUNDING = 1e-6
@@ -40,12 +40,12 @@ LOOPS = 3
 RESIDUAL = 1e-4
 """Relative error bar below which a bar is of the residual, which varies from run to run, and not of the grid."""
 SECONDS = {
-    "accuracy_asked": 20, "asperity_error_bars": 2, "coating_error_bars": 10, "contact_error_bars": 2,
-    "film_error_bars": 1, "flow_error_bars": 4, "heated_mixed_error_bars": 5, "hot_mixed_error_bars": 40,
-    "life_error_bars": 15, "march_error_bars": 15, "mixed_ball_error_bars": 10, "mixed_error_bars": 15,
-    "particle_error_bars": 2, "point_error_bars": 20, "rough_point_error_bars": 40, "rubbing_error_bars": 8,
-    "running_in_error_bars": 10, "small_contact_error_bars": 2, "sticking_error_bars": 60, "tribofilm_error_bars": 20,
-    "wear_error_bars": 15,
+    "accuracy_asked": 20, "adhesion_error_bars": 1, "asperity_error_bars": 2, "coating_error_bars": 10,
+    "contact_error_bars": 2, "film_error_bars": 1, "flow_error_bars": 4, "heated_mixed_error_bars": 5,
+    "hot_mixed_error_bars": 40, "life_error_bars": 15, "march_error_bars": 15, "mixed_ball_error_bars": 10,
+    "mixed_error_bars": 15, "particle_error_bars": 2, "point_error_bars": 20, "rough_point_error_bars": 40,
+    "rubbing_error_bars": 8, "running_in_error_bars": 10, "small_contact_error_bars": 2, "sticking_error_bars": 60,
+    "tribofilm_error_bars": 20, "wear_error_bars": 15,
 }  # fmt: skip
 """Processor time of a case of each judgement, about [s]."""
 

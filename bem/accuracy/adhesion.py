@@ -17,23 +17,23 @@ from bem.errors import InfeasibleError, Status
 from bem.notes.accuracy import NoBar
 
 RULES = Table(
-    "",
+    "adhesion_error_bars",
     rows(
         "contact_area contact_area_fraction contact_perimeter mean_contact_pressure plastic_area_fraction",
-        1.0,
-        "First order: the edge of the contact moves by whole cells, as the attraction beside it is steep.",
+        0.5,
+        "Between first and second order: attraction beside the edge is steep, and the edge moves within cells.",
         order=1,
-        edge=0.05,
+        edge=0.02,
     ),
+    rows("max_pressure", 0.5, "As the area; at the edge or at the sharpest asperity.", order=1, edge=0.005),
     rows(
-        "max_pressure",
+        "load lowest_load adhesive_energy",
         1.0,
-        "First order: it is next to the edge or at the top of the sharpest asperity.",
+        "First order: the sum of the attraction, which is steep between cells.",
         order=1,
-        edge=0.03,
+        edge=0.02,
     ),
-    rows("load lowest_load adhesive_energy", 1.0, "First order, as the area that adheres.", order=1, edge=0.02),
-    rows("approach mean_gap", 1.0, "First order, as the area that adheres.", order=1, edge=0.01),
+    rows("approach mean_gap", 0.5, "As the area.", order=1, edge=0.004),
 )
 """Factors on the difference to twice the cell; floors on the fraction of the area within a cell of the edge."""
 
