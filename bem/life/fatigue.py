@@ -38,15 +38,14 @@ class RollingFatigue:
     """Rolling contact fatigue of one body of a life.
 
     body : LOWER or UPPER. solid : the body. depths : (nz,) [m], increasing. limit : fatigue limit of its material.
-    friction : traction of the contact over its pressure, on the lower body. hardness : cap of contact and oil pressure
-    together [Pa]. The oil's pressure loads the body; its shear stress is left out.
+    hardness : cap of contact and oil pressure together [Pa]. Shear tractions are those of the rough contact of each
+    pass (`Pass.traction_ratio`). The oil's pressure loads the body; its shear stress is left out.
     """
 
     body: int
     solid: Body
     depths: FloatArray
     limit: FatigueLimit
-    friction: float
     hardness: float = math.inf
 
     def equivalent_shear(self, case: LifeCase, rows: tuple[int, int], passes: Sequence[Pass]) -> FloatArray:
@@ -104,7 +103,7 @@ class RollingFatigue:
             one = passes[number]
             # what presses is not above the cap where oil lies on a contact that is at it
             pressure = np.minimum(one.pressure + one.oil_pressure, self.hardness)
-            traction = np.stack([sign * self.friction * one.pressure, np.zeros((nx, ny))])
+            traction = np.stack([sign * one.traction_ratio * one.pressure, np.zeros((nx, ny))])
             stress = subsurface_stress(pressure, case.grid, self.solid, self.depths, traction=traction)
             path[:, place, :, facing(moved[number], nx, whole)] = np.moveaxis(stress, 2, 0)
         return path

@@ -5,7 +5,6 @@ Verified in tests/scenes/test_running_in_life_kind.py and tests/life/test_life.p
 
 from __future__ import annotations
 
-import math
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 from typing import Any
@@ -57,7 +56,7 @@ class PieceSizes:
         cls,
         grid: Grid,
         bodies: tuple[Body, Body],
-        criterion: Criterion,
+        criterion: str | Criterion,
         depths: FloatArray,
         hardness: float | None,
         load: float,
@@ -66,27 +65,28 @@ class PieceSizes:
 
         Raises
         ------
-        InputError : a lower body without yield stress, a length that the grid has no room for, a criterion that counts
-            passes.
+        InputError : a lower body without yield stress, a length that the grid has no room for, a criterion that sums
+            over passes.
         """
-        if criterion.counts_passes:
-            raise InputError(
-                f"criterion {criterion.name} counts passes, and a life finds pieces pass by pass; allowed: a criterion "
-                "of stress or junction, or the life's own fatigue"
-            )
         setup = WearSetup(grid, bodies, np.zeros(grid.shape), load, 0.0, depths, hardness)
         model = WearModel(criterion=criterion, wears="lower", shift=0)
+        if model.criterion_law.counts_passes:
+            raise InputError(
+                f"criterion {model.criterion_law.name} finds pieces after many passes, and a life looks for pieces in "
+                "single passes; allowed: a criterion of stress or junction, or the life's own fatigue"
+            )
         model.checked_wearing_bodies(setup)
         return cls(setup, model)
 
-    def volumes(self, passes: Sequence[Pass], friction: float) -> FloatArray:
-        """Return the volumes [m^3] of the pieces of all passes of a round; friction : traction over pressure, on the
-        lower body."""
+    def volumes(self, passes: Sequence[Pass], distance: float) -> FloatArray:
+        """Return the volumes [m^3] of the pieces of all passes of a round.
+
+        distance : slid by a place in a pass [m], over which junctions are dragged.
+        """
         volumes: list[float] = []
         for contact in passes:
-            load = SurfaceLoad(contact.pressure, friction)
-            # in a life every junction is dragged over its own size: the bodies pass through the whole contact
-            cycle = BodyCycle(contact.pressure, (load,), self.setup, self.model, LOWER, math.inf)
+            load = SurfaceLoad(contact.pressure, contact.traction_ratio)
+            cycle = BodyCycle(contact.pressure, (load,), self.setup, self.model, LOWER, distance)
             removal = self.model.criterion_law.detach(cycle)
             volumes += [piece.volume for piece in describe_pieces(removal.pieces, self.setup.grid)]
         return np.array(volumes)
@@ -101,7 +101,7 @@ def number_of_pieces(volumes: FloatArray, worn: float) -> float:
 class Monitors:
     """Monitors of a life, called after every step of `run_life`.
 
-    sizes, fatigue : None where not asked for. friction : traction over pressure, on the lower body.
+    sizes, fatigue : None where not asked for.
     pieces : rows of cycles, number of pieces and volume worn of the lower body [m^3], one per step.
     pits : rows of cycles and micropitted share. last : state before the step.
     """
@@ -109,7 +109,6 @@ class Monitors:
     case: LifeCase
     sizes: PieceSizes | None
     fatigue: RollingFatigue | None
-    friction: float
     pieces: FloatArray = field(default_factory=lambda: np.zeros((0, 3)))
     pits: FloatArray = field(default_factory=lambda: np.zeros((0, 2)))
     last: LifeState | None = None
@@ -128,7 +127,7 @@ class Monitors:
             self.pits = np.vstack([self.pits, [now.cycles, pitted_share(now)]])
         if self.sizes is not None:
             worn = now.surfaces.volume[LOWER] - before.surfaces.volume[LOWER]
-            number = number_of_pieces(self.sizes.volumes(now.passes, self.friction), worn)
+            number = number_of_pieces(self.sizes.volumes(now.passes, self.case.distance), worn)
             self.pieces = np.vstack([self.pieces, [now.cycles, number, worn]])
         self.last = now
         return now

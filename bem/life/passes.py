@@ -63,7 +63,8 @@ def facing(offset: int, rows: int, whole: int) -> NDArray[np.int_]:
 class Pass:
     """Contact of one position.
 
-    pressure : (nx, ny) [Pa]. boundary_friction, oil_friction : parts of the coefficient of friction.
+    pressure : (nx, ny) [Pa]. traction_ratio : shear traction of the rough contact over its pressure, on the lower body
+    along +x where positive. boundary_friction, oil_friction : parts of the coefficient of friction.
     contact_share, area_share : fractions of the load and of the grid's area in contact. minimum_film : [m].
     lambda_ratio : minimum film under the whole load over the rms height. convolutions : of the contact.
     start : what the next contact of the position starts from. oil_pressure : (nx, 1) of the oil [Pa].
@@ -73,6 +74,7 @@ class Pass:
     """
 
     pressure: FloatArray
+    traction_ratio: float
     boundary_friction: float
     oil_friction: float
     contact_share: float
@@ -102,7 +104,8 @@ def solve_pass(contact: ContactStep, grid: Grid, heights: FloatArray, start: Con
     if outcome.sharing is None:
         return Pass(
             pressure=outcome.pressure,
-            boundary_friction=outcome.friction,
+            traction_ratio=outcome.friction,
+            boundary_friction=abs(outcome.friction),
             oil_friction=0.0,
             contact_share=1.0,
             area_share=outcome.contact_area / grid.area,
@@ -127,6 +130,7 @@ def _lubricated_pass(outcome: ContactOutcome, grid: Grid, start: ContactStart) -
     pressure = start.pressure if contact is None else outcome.pressure
     return Pass(
         pressure=outcome.pressure,
+        traction_ratio=outcome.friction,
         boundary_friction=float(row["boundary_force"]) / last.load,
         oil_friction=float(row["film_force"]) / last.load,
         contact_share=float(row["width_contact_load"]) / last.load,

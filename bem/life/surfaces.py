@@ -30,9 +30,10 @@ class GrowingFilm:
 
     growth : law of growth under the shear stress friction x pressure.
     balance : wear of the film and the fraction of substrate in it; without lag.
-    friction : of the surfaces in contact.
+    friction : coefficient of the surfaces in contact, known before any contact is solved.
     temperature : at which the film grows.
-    cycle_time : time for which a place is under the patch in a cycle [s]; growth and wear of the film count in it.
+    cycle_time : time for which a place of a body with as many rows as the grid is under the patch in a cycle [s];
+        growth and wear of the film count in it. Places of longer bodies as for `LifeCase.distance`.
     friction_on_film : boundary friction where the film hides the substrate; None for the same.
 
     The film raises the surface. Where it hides the substrate, the material worn by pressure and distance is film. The
@@ -55,11 +56,10 @@ class GrowingFilm:
     def bare(self, thickness: FloatArray) -> FloatArray:
         """Return the fraction of substrate at the surface under a film [m], exp(-C1 h).
 
-        It is 1 where C1 is not given (infinite): no thickness is known at which the film hides the substrate, and the
-        film is taken not to protect it.
+        Without C1 (infinite) any film hides the substrate: the limit, in which the worn film has no substrate in it.
         """
         if not math.isfinite(self.balance.concentration_constant):
-            return np.ones_like(thickness)
+            return np.where(thickness > 0, 0.0, 1.0)
         return self.balance.concentration(thickness)
 
     def after(self, thickness: FloatArray, pressure: FloatArray, cycles: float) -> tuple[FloatArray, FloatArray]:
@@ -88,8 +88,9 @@ class LifeCase:
     contact : contact of a pass.
     passing : bodies that pass, and positions.
     rates : wear volume by load and distance of (lower, upper) [m^2/N]; zero for a body that does not wear.
-    distance : slid in a cycle by a place of a body with as many rows as the grid [m]. A place of a longer body is on
-        the grid in that part of the positions, and slides that much less.
+    distance : that the surfaces slide over each other in the contact in a cycle [m]. A place of a body with as many
+        rows as the grid slides it in a cycle; a place of a longer body is on the grid in that fraction of the positions
+        only, and slides that fraction of it.
     cycles : in all.
     tolerance : of a step, relative to the wear in it.
     tribofilm : growing film on the lower body; None for none.
@@ -198,8 +199,9 @@ def _solve_wear(case: LifeCase, heights: FloatArray, start: ContactStart, slid: 
     """Return the contact of heights (nx, ny) [m] at the end of a step, and the depths worn off (lower, upper) [m].
 
     slid : distance of the step [m]. With a boundary film the compliance is that of the place with the largest defect in
-    the contact before the step; depths take the defect at the temperatures after it, a change of first order in the
-    step, which step doubling bounds.
+    the contact before the step, the depths are those of the defect in the contact after it. Where the step raises the
+    temperature, a place may wear a little beyond the loss of its own pressure: an error of first order in the step,
+    which step doubling bounds.
     """
     give = slid * sum(case.rates)
     if case.defect is None:
@@ -213,9 +215,11 @@ def _solve_wear(case: LifeCase, heights: FloatArray, start: ContactStart, slid: 
 
 
 def _with_friction_on_film(found: Pass, law: GrowingFilm, bare: FloatArray) -> Pass:
-    """Return a pass with the boundary friction averaged over the load on bare and on hidden substrate."""
+    """Return a pass with the boundary friction and traction averaged over the load on bare and on hidden substrate."""
     if law.friction_on_film is None or law.friction <= 0 or not found.pressure.any():
         return found
     share = float((bare * found.pressure).sum() / found.pressure.sum())
     factor = share + (1 - share) * law.friction_on_film / law.friction
-    return replace(found, boundary_friction=found.boundary_friction * factor)
+    return replace(
+        found, boundary_friction=found.boundary_friction * factor, traction_ratio=found.traction_ratio * factor
+    )

@@ -54,6 +54,14 @@ LOOP_ALL_SLIPS = define(
     "The stick zone is narrower than a cell, and the sliding distance follows the cells.",
     "Take a smaller wear.traction.share, or smaller cells.",
 )
+PARTIAL_SLIP_IN_OIL = define(
+    "partial-slip-in-oil",
+    OUTSIDE_MODEL,
+    "Stresses are those of partial slip, friction and film of gross sliding.",
+    "In the last cycle {stick:%} of the contact sticks in the loop of wear.traction, but the friction coefficient and"
+    " the film take the surfaces to slide everywhere at the given speeds.",
+    'Take wear.traction = "gross_sliding", or kind wear for a contact that oscillates without a film.',
+)
 LIFE_DISTANCE_DIFFERS = define(
     "life-distance-differs",
     CAUTION,

@@ -21,7 +21,7 @@ from bem.errors import ConvergenceError, InputError, Status
 from bem.grid import FloatArray, Grid
 from bem.materials import Body
 from bem.notes import Note
-from bem.notes.wear import THIRD_BODIES_MANY
+from bem.notes.wear import PARTIAL_SLIP_IN_OIL, THIRD_BODIES_MANY
 from bem.plausibility import body_arguments, notes_on_arguments
 from bem.representation import tabled
 from bem.wear.contact_step import ContactOutcome, ContactStart, ContactStep, dry_contact
@@ -195,9 +195,7 @@ def run_in(
         state=state,
         status=Status.CONVERGED,
         wearing=wearing,
-        notes=_notes_on_arguments(setup)
-        + (() if state.rubbing is None else state.rubbing.notes)
-        + _coverage_notes(choices, state),
+        notes=_notes_on_arguments(setup) + _partial_slip_notes(state) + _coverage_notes(choices, state),
         step_error=_step_error(state, setup, choices, step, compliance),
         moving=choices.moving,
     )
@@ -259,6 +257,15 @@ def _step_error(
         return _window(heights, state.offset * (body == model.moving), rows)
 
     return step_error(state, setup, model, contact_step, start, facing, compliance)
+
+
+def _partial_slip_notes(state: RunningInState) -> tuple[Note, ...]:
+    """Return the notes on the last cycle's loop of partial slip; a film and its friction know of none."""
+    rubbing = state.rubbing
+    if rubbing is None:
+        return ()
+    in_oil = () if state.sharing is None else (PARTIAL_SLIP_IN_OIL(stick=rubbing.stick_share),)
+    return (*rubbing.notes, *in_oil)
 
 
 def _coverage_notes(model: WearModel, state: RunningInState) -> tuple[Note, ...]:

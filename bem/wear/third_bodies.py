@@ -124,25 +124,30 @@ class ThirdBodies:
         return min((1 - self.leaving) * number_per_area + fed, self.most_per_area)
 
     def hardnesses(self, bodies: tuple[Body, Body]) -> tuple[float, float]:
-        """Return the hardness of the surfaces of (lower, upper) [Pa].
+        """Return the indentation hardness of the surfaces of (lower, upper) [Pa].
+
+        It is `Material.indentation_hardness`, as for the cap of the contact pressure.
 
         Raises
         ------
-        InputError : a surface without hardness.
+        InputError : a surface with neither hardness nor yield stress.
         """
         lower, upper = (body.surface_material.indentation_hardness for body in bodies)
         if lower is None or upper is None:
-            raise InputError("third bodies: each surface needs a hardness to be indented: give both materials one")
+            raise InputError(
+                "third bodies: each surface needs a hardness to be indented: give both materials a hardness or a "
+                "yield_stress"
+            )
         return lower, upper
 
     def check_slide(self, cycle_distance: float, hardnesses: tuple[float, float]) -> None:
         """Raise InputError where a slide [m] cuts bodies of these hardnesses [Pa] deeper than the particles lie, so
-        that the next cycle would find them outside their grooves."""
+        that the next cycle would find them outside their grooves. The number of particles is that of the object."""
         most = 2 / (self.removed * self.number_per_area * self.diameter) if self.removed * self.number_per_area else 0.0
         if most and cycle_distance > most and min(hardnesses) <= self.hardness:
             raise InputError(
-                f"third bodies: a cycle of {cycle_distance:g} m lets them cut deeper than they lie; allowed: "
-                f"{most:.3g} m at most, in more cycles"
+                f"third bodies: a cycle of {cycle_distance:g} m lets {self.number_per_area:.3g} of them per m^2 cut "
+                f"deeper than they lie; allowed: {most:.3g} m at most, in more cycles, or fewer particles"
             )
 
     def indented(self, gap: FloatArray, hardnesses: tuple[float, float]) -> tuple[FloatArray, tuple[FloatArray, ...]]:
@@ -214,13 +219,29 @@ def with_third_bodies(step: ContactStep, particles: ThirdBodies, cycle_distance:
     return MixedContactWithParticles(step, particles, cycle_distance, hardnesses)
 
 
-def current_particles(particles: ThirdBodies, start: ContactStart | None, area: float) -> ThirdBodies:
-    """Return the particles with their number per area after the cycles so far; area : of the grid [m^2]."""
+def current_particles(
+    particles: ThirdBodies,
+    start: ContactStart | None,
+    area: float,
+    cycle_distance: float,
+    hardnesses: tuple[float, float],
+) -> ThirdBodies:
+    """Return the particles with their number per area after the cycles so far.
+
+    area : of the grid [m^2]. cycle_distance : distance that the bodies slide in a cycle [m]. hardnesses : of (lower,
+    upper) [Pa].
+
+    Raises
+    ------
+    InputError : particles that have become so many that they cut deeper in the cycle than they lie.
+    """
     row = None if start is None else start.last_cycle
     if row is None or particles.shed == particles.leaving == 0:
         return particles
     number = particles.after_cycle(float(row["third_bodies_per_area"]), float(row["volume"]), area)
-    return replace(particles, number_per_area=number)
+    current = replace(particles, number_per_area=number)
+    current.check_slide(cycle_distance, hardnesses)
+    return current
 
 
 @dataclass(frozen=True, eq=False)
@@ -240,8 +261,7 @@ class DryContactWithParticles:
     ) -> ContactOutcome:
         """Share the load between contact and particles; see `ContactStep`."""
         dry, hardnesses = self.contact, self.hardnesses
-        particles = current_particles(self.particles, start, dry.grid.area)
-        particles.check_slide(self.cycle_distance, hardnesses)  # their number may have grown
+        particles = current_particles(self.particles, start, dry.grid.area, self.cycle_distance, hardnesses)
         if particles.number_per_area == 0:
             return dry(heights, start, compliance)
         first = None if start is None else start.pressure
@@ -357,9 +377,10 @@ class LoadBalance:
 class MixedContactWithParticles:
     """Lubricated contact with particles between surfaces of the hardnesses (lower, upper) [Pa]; a `ContactStep`.
 
-    Particles thinner than the gap that the film leaves carry nothing.
+    Particles thinner than the gap that the film leaves carry nothing. In pure rolling they move along with both
+    surfaces: they carry load, but neither roll nor cut.
 
-    cycle_distance : distance that the bodies slide in a cycle [m].
+    cycle_distance : distance that the bodies slide in a cycle at different speeds [m].
     """
 
     contact: MixedContact
@@ -378,9 +399,8 @@ class MixedContactWithParticles:
         """
         mixed = self.contact
         setup, speeds = mixed.setup, mixed.speeds
-        particles = current_particles(self.particles, start, setup.grid.area)
         cycle_distance = self.cycle_distance if speeds[0] != speeds[1] else 0.0
-        particles.check_slide(cycle_distance, self.hardnesses)  # their number may have grown
+        particles = current_particles(self.particles, start, setup.grid.area, cycle_distance, self.hardnesses)
         if particles.number_per_area == 0:
             return mixed(heights, start, compliance)
         memory, pressure = mixed.begin(start)

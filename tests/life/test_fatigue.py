@@ -38,7 +38,7 @@ def first_state(case):
 
 
 def fatigue(limit=None):
-    return RollingFatigue(0, STEEL, DEPTHS, limit or FatigueLimit(), 0.0)
+    return RollingFatigue(0, STEEL, DEPTHS, limit or FatigueLimit())
 
 
 def test_a_smooth_roller_does_what_the_closed_path_says_as_cells_and_positions_grow():
@@ -74,10 +74,9 @@ def test_damage_adds_up_and_comes_up_with_the_material():
     deep = replace(first, damage=np.stack([so_far] * 3), damage_rates=np.stack([0 * rate] * 2))
     worn = advance(case, replace(deep, step=4000.0, cycles=0.0))
     lost = deep.surfaces.heights[0] - worn.surfaces.heights[0]
-    state = model.add_damage(case, deep, worn)
-    after = state.damage
+    after = model.add_damage(case, deep, worn)
     # what lay between the first two depths moved up by what wore
-    own = after[0] - 0.5 * 4000 * state.damage_rates[0]
+    own = after.damage[0] - 0.5 * 4000 * after.damage_rates[0]
     expected = 0.1 + 0.3 * lost / (DEPTHS[1] - DEPTHS[0])
     assert own[0] == pytest.approx(expected, rel=1e-9)
     assert lost.max() > 1e-10

@@ -1,5 +1,6 @@
 """A life of many cycles: volume, closed forms, cycle by cycle, order in the tolerance, the film's balance, resuming."""
 
+import math
 from dataclasses import replace
 
 import numpy as np
@@ -7,13 +8,17 @@ import pytest
 
 from bem import Body, Grid, InputError, Material, generate_surface
 from bem.accuracy.life import POSITIONS, OtherLives, errors_of_jumps, fewer_positions, life_bars, two_rounds
+from bem.life.fatigue import RollingFatigue
+from bem.life.fatigue_limit import FatigueLimit
 from bem.life.march import LifeState, advance, run_life
+from bem.life.monitors import PieceSizes
 from bem.life.passes import Passing
 from bem.life.surfaces import GrowingFilm, LifeCase, solve_round
 from bem.packing import packed, unpacked
 from bem.tribofilm import StressActivatedGrowth
 from bem.tribofilm.balance import FilmBalance
 from bem.wear import DryContact
+from bem.wear.criterion import Junction, LowCycleFatigue
 
 pytestmark = pytest.mark.internal
 
@@ -157,6 +162,92 @@ def test_a_film_alone_meets_its_closed_form_and_hides_the_substrate():
     left = float(hidden.surfaces.tribofilm.mean())
     grown = growth * 5.0
     assert left == pytest.approx(50e-9 + grown - 1e-18 * PRESSURE * 1e-6 * 5000, rel=1e-9)
+
+
+def test_a_film_without_c1_protects_as_one_of_the_largest_c1():
+    """It protected nothing, and its friction did not count."""
+    flat = np.zeros(GRID.shape)
+
+    def end(constant):
+        balance = FilmBalance(0.0, 0.0, constant, 50e-9)
+        law = film(balance=balance, friction_on_film=0.05)
+        return run_life(case(5000.0, tribofilm=law, positions=2, rates=(1e-18, 0.0), distance=1e-6), flat, flat)
+
+    largest, none = end(1e12), end(math.inf)
+    assert none.surfaces.volume[0] == largest.surfaces.volume[0] == 0
+    assert none.surfaces.tribofilm == pytest.approx(largest.surfaces.tribofilm, rel=1e-12, abs=0)
+    assert none.over("friction")[-1] == pytest.approx(0.05, rel=1e-12)
+
+
+def test_a_thin_film_without_c1_wears_through_to_the_substrate():
+    """Wear by pressure and distance takes the film first, and the substrate once there is none."""
+    flat, deep = np.zeros(GRID.shape), 1e-17 * PRESSURE * 1e-3  # in a cycle
+    law = film(balance=FilmBalance(0.0, 0.0, math.inf, 10 * deep), cycle_time=1e-30)
+    end = run_life(case(100.0, tribofilm=law, positions=2, rates=(1e-17, 0.0), distance=1e-3), flat, flat)
+    assert float(end.surfaces.tribofilm.max()) == pytest.approx(0.0, abs=1e-6 * deep)
+    assert end.surfaces.volume[0] == pytest.approx(90 * deep * GRID.area, rel=1e-6, abs=0)
+
+
+def test_a_place_of_a_longer_body_slides_less_in_a_cycle():
+    """`distance` is that of the contact: the wear of a cycle is k F s, spread over all rows that pass."""
+    flat, longer = np.zeros(GRID.shape), np.zeros((64, 16))
+    end = run_life(case(100.0, rates=(1e-18, 1e-18), positions=8), longer, flat)
+    depth = 1e-18 * PRESSURE * DISTANCE * 100
+    assert -end.surfaces.heights[1] == pytest.approx(np.full(GRID.shape, depth), rel=1e-3, abs=0)
+    assert -end.surfaces.heights[0] == pytest.approx(np.full(longer.shape, depth / 2), rel=1e-3, abs=0)
+
+
+STRONG = Material("strong", youngs_modulus=210e9, poissons_ratio=0.3, yield_stress=1e9, hardness=2.8e9)
+
+
+def pieces(criterion):
+    return PieceSizes.of(
+        GRID, (Body(STRONG), Body(STRONG)), criterion, 1e-7 * np.arange(4), 2.8e9, PRESSURE * GRID.area
+    )
+
+
+def hard_passes(distance):
+    """The passes of a rough contact at its hardness, before any wear."""
+    contact = DryContact(
+        *(GRID, (Body(STRONG), Body(STRONG)), np.zeros(GRID.shape)),
+        load=PRESSURE * GRID.area,
+        friction=-0.1,
+        hardness=2.8e9,
+    )
+    one = replace(case(1e-9, distance=distance, first_step=1e-9), contact=contact)
+    return run_life(one, *surfaces()).passes
+
+
+def test_a_life_finds_pieces_of_junctions_that_a_pass_drags_over_their_size():
+    """A pass had no distance, so that no junction was ever dragged and no criterion of junctions found a piece."""
+    criterion = Junction(surface_energy=1e-3)
+    assert pieces(criterion).volumes(hard_passes(1e-4), 1e-4).size > 0
+    assert pieces(criterion).volumes(hard_passes(1e-9), 1e-9).size == 0
+
+
+def test_a_life_refuses_pieces_that_only_many_passes_bring_off():
+    with pytest.raises(InputError, match="finds pieces after many passes"):
+        pieces(LowCycleFatigue())
+
+
+def test_stresses_of_pieces_and_fatigue_take_the_traction_of_their_pass():
+    """They took one coefficient that was known before any contact."""
+    (one, *_) = passes = hard_passes(1e-6)
+    assert one.traction_ratio == -0.1
+    assert one.boundary_friction == 0.1
+    seen = pieces("von_mises")
+    free = [replace(each, traction_ratio=0.0) for each in passes]
+    assert seen.volumes(passes, 1e-6).sum() > seen.volumes(free, 1e-6).sum()
+    model = RollingFatigue(0, STEEL, 1e-7 * np.arange(1, 4), FatigueLimit())
+    rubbed, smooth = (model.equivalent_shear(case(1.0), (32, 32), each) for each in (passes, free))
+    assert rubbed.max() > 1.01 * smooth.max()
+
+
+def test_friction_on_a_film_is_that_of_its_stresses():
+    flat = np.zeros(GRID.shape)
+    law = film(friction_on_film=0.05, balance=FilmBalance(0.0, 0.0, math.inf, 50e-9))
+    (one, *_) = run_life(case(1.0, rates=(0.0, 0.0), tribofilm=law), flat, flat).passes
+    assert one.traction_ratio == pytest.approx(0.05, rel=1e-12)
 
 
 def test_friction_goes_over_to_that_of_the_film():

@@ -25,7 +25,7 @@ def rough(seed, rms):
 
 def life(first, heights, pressures):
     """A state whose last round pressed so, position by position, and wore the lower body from `first` to `heights`."""
-    passes = tuple(Pass(p, 0.1, 0.0, 1.0, 0.1, 0.0, 0.0, 0.0, ContactStart(), NONE) for p in pressures)
+    passes = tuple(Pass(p, 0.1, 0.1, 0.0, 1.0, 0.1, 0.0, 0.0, 0.0, ContactStart(), NONE) for p in pressures)
     upper = np.zeros(GRID.shape)
     row = dict.fromkeys(ROW, 0.0) | {"lower_depth": float((first - heights).mean())}
     return LifeState(

@@ -198,7 +198,7 @@ def test_a_distance_that_the_speeds_do_not_make_is_said():
     [
         ({"wear": {"law": "von_mises"}}, "cannot be carried over jumps"),
         ({"particles": PIECES | {"criterion": LIFE["wear"]["law"]}}, "has no pieces"),
-        ({"particles": PIECES | {"criterion": "low_cycle_fatigue"}}, "counts passes"),
+        ({"particles": PIECES | {"criterion": "low_cycle_fatigue"}}, "finds pieces after many passes"),
         ({"tribofilm": {k: v for k, v in FILM.items() if k != "temperature"}}, "tribofilm without a temperature"),
         ({"tribofilm": FILM | {"heat": True}, "upper": {"material": COLD}}, r"tribofilm\.heat: heat of the upper"),
         ({"contact": PATCH["contact"] | {"loads": ["1 N", "2 N"]}}, "one load"),

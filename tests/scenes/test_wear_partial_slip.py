@@ -9,6 +9,8 @@ from test_friction_kinds import RUNNING_IN, Interrupting, StopHereError, run
 
 from bem.campaigns import campaign_of, compute
 from bem.errors import InputError
+from bem.notes import has_code
+from bem.notes.wear import PARTIAL_SLIP_IN_OIL
 from bem.runs import plan_scene
 from bem.scenes import load_scene
 from bem.scenes.kind import get_kind
@@ -74,6 +76,8 @@ def test_running_in_takes_its_stresses_from_partial_slip_and_goes_on_to_the_same
     scene, outcome, whole = run(data)
     assert 0 < outcome.summary["stick_share"][0] < 1
     assert outcome.summary["particles_per_cycle"][0] > 0
+    # friction and film take the surfaces to slide everywhere, which nothing said
+    assert has_code(whole.notes, PARTIAL_SLIP_IN_OIL)
     with pytest.raises(StopHereError):
         compute(campaign_of(scene), tmp_path, watcher=Interrupting())
     resumed = compute(campaign_of(scene), tmp_path)

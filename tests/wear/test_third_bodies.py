@@ -4,8 +4,8 @@ import numpy as np
 import pytest
 
 from bem import Body, Grid, InputError, Material, generate_surface
-from bem.wear import ContactStart, WearModel, WearSetup, dry_contact, run_in
-from bem.wear.state import CYCLE_FIELDS
+from bem.wear import WearModel, WearSetup, dry_contact, run_in
+from bem.wear.criterion import ArchardOverHardness
 from bem.wear.third_bodies import ThirdBodies, with_third_bodies
 
 SOFT, HARD = 2e9, 6e9
@@ -177,21 +177,33 @@ def test_they_roll_as_far_as_a_cycle_stands_for_and_not_out_of_their_grooves():
 
 
 @pytest.mark.internal
-def test_particles_that_are_shed_may_cover_the_area_and_stay_in_their_grooves():
-    """Their number was checked at the start alone: from none, a cycle could cut hundreds of times their depth."""
-    particles = ThirdBodies(D, 0.0, removed=0.1, shed=1.0)
-    step = with_third_bodies(dry_contact(setup()), particles, 1e-5)
-    last = np.zeros(1, CYCLE_FIELDS)
-    step(rough(), ContactStart(last_cycle=last[0]))
-    last["third_bodies_per_area"] = particles.most_per_area
-    with pytest.raises(InputError, match=r"cut deeper than they lie; allowed: 6\.28e-06 m"):
-        step(rough(), ContactStart(last_cycle=last[0]))
+def test_particles_that_become_too_many_for_their_grooves_end_the_loop():
+    """Only the number of the first cycle was checked: from none, a cycle could cut hundreds of times their depth."""
+    table = {"diameter": D, "number_per_area": 0.0, "removed": 0.1, "shed": 1.0}
+    arguments = {
+        "grid": GRID,
+        "bodies": bodies(),
+        "load": LOAD,
+        "depths": np.array([0.0, 1e-7]),
+        "friction": 0.1,
+        "criterion": {"kind": "archard", "specific_wear_rate": 1e-15, "distance": 0.1},
+        "model": WearModel(third_bodies=table),
+    }
+    first = run_in(rough(), np.zeros(GRID.shape), cycles=1, **arguments)
+    number = first.cycles["volume"][0] / (GRID.area * np.pi / 6 * D**3)
+    assert first.cycles["third_bodies_per_area"][0] == 0
+    assert 2 / (0.1 * number * D) < 0.1
+    with pytest.raises(InputError, match="cut deeper than they lie; allowed"):
+        run_in(rough(), np.zeros(GRID.shape), cycles=2, **arguments)
 
 
 @pytest.mark.internal
 def test_a_surface_without_hardness_has_that_of_its_yield_stress():
-    given = Material("given", youngs_modulus=210e9, poissons_ratio=0.3, yield_stress=1e9)
-    assert ThirdBodies(D, 1.0).hardnesses((Body(given), Body(given))) == (2.8e9, 2.8e9)
+    """The cap of the contact pressure had it, third bodies and Archard's law refused the same material."""
+    given = Body(Material("given", youngs_modulus=210e9, poissons_ratio=0.3, yield_stress=1e9))
+    assert ThirdBodies(D, 1.0).hardnesses((given, given)) == (2.8e9, 2.8e9)
+    law = ArchardOverHardness(archard_coefficient=1e-3, distance=1.0)
+    assert law.rate(given, 0.1) == pytest.approx(1e-3 / 2.8e9, rel=1e-12)
 
 
 @pytest.mark.internal

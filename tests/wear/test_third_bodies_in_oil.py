@@ -201,6 +201,7 @@ def test_they_cover_the_area_once_at_most_and_that_is_said():
 def test_nothing_is_cut_in_pure_rolling():
     sliding, rolling = (shared(ROUGH, 1e10, speeds, removed=0.1)[0] for speeds in ((0.01, 0.0), (0.005, 0.005)))
     assert all(cut.max() > 0 for cut in sliding.third_bodies.cut)
+    assert rolling.third_bodies.load > 0
     assert not any(cut.any() for cut in rolling.third_bodies.cut)
 
 

@@ -28,17 +28,14 @@ _JUMPS_OF_FATIGUE = 16  # at least: the stresses of a jump are those of its ends
 
 def monitors_of(scene: Any, setup: MixedSetup, case: LifeCase) -> Monitors:
     """Return the monitors of pieces and fatigue that a scene asks for."""
-    from bem.friction.rough_contact import boundary_traction
     from bem.life.monitors import Monitors
 
-    (speeds,) = scene.speeds.build()
-    friction = boundary_traction(speeds, scene.friction)
     sizes, fatigue = None, None
     if scene.particles is not None:
         sizes = scene.particles.build(setup.grid, scene.bodies, setup.hardness, on_grid(scene))
     if scene.fatigue is not None:
-        fatigue = scene.fatigue.build(scene.bodies, friction, setup.hardness)
-    return Monitors(case, sizes, fatigue, friction)
+        fatigue = scene.fatigue.build(scene.bodies, setup.hardness)
+    return Monitors(case, sizes, fatigue)
 
 
 def on_grid(scene: Any) -> float:

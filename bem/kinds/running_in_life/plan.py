@@ -28,7 +28,7 @@ def plan(scene: RunningInLifeScene) -> Plan:
     scene.wear.rates(scene.bodies, scene.friction)
     film_defect(scene)
     if scene.fatigue is not None:
-        scene.fatigue.build(scene.bodies, scene.friction)
+        scene.fatigue.build(scene.bodies)
     if scene.particles is not None:
         scene.particles.build(grid, scene.bodies, scene.contact.hardness, lives.on_grid(scene))
     decades = max(np.log2(max(life.count / life.first_step, 2.0)) / 20, 0.1)

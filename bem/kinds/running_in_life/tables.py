@@ -91,7 +91,7 @@ class LifeWear(Table):
         law, rates = self.law, [0.0, 0.0]
         assert isinstance(law, LocalWear)
         for body in INDICES[self.wears]:
-            rates[body] = law.rate(bodies[body], friction) * (law.upper_over_lower if body == UPPER else 1.0)
+            rates[body] = law.body_rate(bodies, body, friction)
         return rates[LOWER], rates[UPPER]
 
     @property
@@ -147,7 +147,8 @@ class LifeParticles(Table):
             raise problem(f"{law.name} has no pieces", "a criterion such as von_mises, averaged_von_mises, junction")
         if law.counts_passes:
             raise problem(
-                f"{law.name} counts passes", "a criterion of stress or junction; the table fatigue for damage"
+                f"{law.name} finds pieces after many passes, and a life looks for pieces in single passes",
+                "a criterion of stress or junction (damage: table fatigue)",
             )
         return law
 
@@ -192,13 +193,12 @@ class LifeFatigue(Table):
     residual_stress: Pressure = key("Residual stress along x and y, negative in compression.", "advanced", default=0.0)
     depths: WearDepthsScene = key("Depths at which stresses are computed.", "basic")
 
-    def build(self, bodies: tuple[Body, Body], friction: float, hardness: float | None = None) -> RollingFatigue:
-        """As `bem.life.fatigue.RollingFatigue`; friction : traction over pressure, as the lower body feels it;
-        hardness : the contact's cap [Pa]."""
+    def build(self, bodies: tuple[Body, Body], hardness: float | None = None) -> RollingFatigue:
+        """As `bem.life.fatigue.RollingFatigue`; hardness : the contact's cap [Pa]."""
         from bem.life.fatigue import RollingFatigue
         from bem.life.fatigue_limit import FatigueLimit
 
         (body,) = INDICES[self.body]
         limit = FatigueLimit(self.criterion, self.bending, self.slope, self.hydrostatic, self.residual_stress)
         cap = math.inf if hardness is None else hardness
-        return RollingFatigue(body, bodies[body], self.depths.build(), limit, friction, cap)
+        return RollingFatigue(body, bodies[body], self.depths.build(), limit, cap)

@@ -243,10 +243,7 @@ def steps_of_wear_in_oil_that_overshoot(facts: Facts, outcome: Outcome) -> Itera
         if not isinstance(law, LocalWear) or grid is None or upper is None or facts.scene.wear.film_defect is not None:
             continue
         pair = (case.lower, upper)
-        give = law.distance * sum(
-            law.rate(pair[body], case.friction) * (law.upper_over_lower if body else 1.0)
-            for body in case.wearing_bodies
-        )
+        give = law.distance * sum(law.body_rate(pair, body, case.friction) for body in case.wearing_bodies)
         most = cell_to_cell_compliance(grid, pair)
         if give > 2 * most:
             yield WEAR_STEPS_LONG(case.label, ratio=give / most, share=0.99 * most / give, reason="overshoot")

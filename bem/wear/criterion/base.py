@@ -55,7 +55,7 @@ class Criterion(Law):
 
     @property
     def counts_passes(self) -> bool:
-        """True if pieces depend on the passes before, which the memory of the material holds."""
+        """True if no single pass brings pieces off: the memory of the material sums over passes."""
         return False
 
     @property

@@ -58,7 +58,7 @@ class LowCycleFatigue(VonMises):
 
     @property
     def counts_passes(self) -> bool:
-        """True: damage adds up."""
+        """True: damage adds up over passes."""
         return True
 
     @property

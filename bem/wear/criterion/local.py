@@ -59,10 +59,11 @@ class LocalWear(Criterion):
 
     def compliance(self, setup: WearSetup, body: int) -> float:
         """Return k s [m/Pa], at the friction of the setup."""
-        return self._rate_of(setup, body, setup.friction) * self.distance
+        return self.body_rate(setup.bodies, body, setup.friction) * self.distance
 
-    def _rate_of(self, setup: WearSetup, body: int, friction: float) -> float:
-        return self.rate(setup.bodies[body], friction) * (self.upper_over_lower if body == UPPER else 1.0)
+    def body_rate(self, bodies: tuple[Body, Body], index: int, friction: float) -> float:
+        """Return the wear volume by load and distance of bodies[index] [m^3/(N m)], `upper_over_lower` included."""
+        return self.rate(bodies[index], friction) * (self.upper_over_lower if index == UPPER else 1.0)
 
     def _check_step(self, give: float, setup: WearSetup) -> None:
         """Raise InputError if the wear of a step by pressure, `give` [m/Pa], exceeds the bodies' compliance to pressure
@@ -76,7 +77,8 @@ class LocalWear(Criterion):
 
     @abstractmethod
     def rate(self, body: Body, friction: float) -> float:
-        """Return the wear volume of a body by load and distance [m^3/(N m)]; `upper_over_lower` multiplies it."""
+        """Return the wear volume by load and distance that the law gives a body [m^3/(N m)], without
+        `upper_over_lower`."""
 
     def detach(self, cycle: BodyCycle) -> BodyWear:
         """Return the depth (nx, ny) worn in a cycle, without pieces.
@@ -87,7 +89,8 @@ class LocalWear(Criterion):
         from bem.wear.yielding import no_pieces
 
         began = time.perf_counter()
-        rate, defect = self._rate_of(cycle.setup, cycle.body, cycle.loads[0].friction), cycle.model.film_defect_model
+        rate = self.body_rate(cycle.setup.bodies, cycle.body, cycle.loads[0].friction)
+        defect = cycle.model.film_defect_model
         bare = 1.0 if defect is None else defect.share(cycle.temperature)
         if cycle.slid is not None:
             self._check_step(rate * float(cycle.slid.max()), cycle.setup)
@@ -124,7 +127,7 @@ class Archard(LocalWear):
 @register
 @dataclass(frozen=True, kw_only=True)
 class ArchardOverHardness(LocalWear):
-    """h = K p s / H, K without dimension, H the hardness of the body that wears (Archard 1953)."""
+    """h = K p s / H, K without dimension, H the indentation hardness of the body that wears (Archard 1953)."""
 
     name: ClassVar[str] = "archard_over_hardness"
     cites: ClassVar[tuple[str, ...]] = ("archard1953",)
@@ -134,7 +137,10 @@ class ArchardOverHardness(LocalWear):
         """Return K / H."""
         hardness = body.surface_material.indentation_hardness
         if hardness is None:
-            raise InputError("archard_over_hardness: the body that wears has no hardness: give its material one")
+            raise InputError(
+                "archard_over_hardness: the body that wears has no hardness: give its material a hardness or a "
+                "yield_stress"
+            )
         return self.archard_coefficient / hardness
 
 
