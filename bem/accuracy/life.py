@@ -23,7 +23,7 @@ from bem.accuracy.bars import GRID, POINTS, ErrorBars
 from bem.accuracy.richardson import Table, follow, relative, rows, to_half
 from bem.grid import FloatArray
 from bem.life.march import LifeState
-from bem.life.passes import Pass, Passing
+from bem.life.positions import Passing, PositionContact
 from bem.life.sampling import missed_ratio, missed_roughness
 from bem.life.surfaces import LifeCase, solve_round
 from bem.notes.accuracy import NoBar
@@ -160,7 +160,7 @@ def two_rounds(case: LifeCase, end: LifeState) -> tuple[dict[str, float], dict[s
         else np.full(film.shape, case.tribofilm.balance.initial_thickness)
     )
     unworn = replace(end.surfaces, heights=end.first, tribofilm=grown)
-    first, last = (solve_round(case, surfaces, 0.0).passes for surfaces in (unworn, end.surfaces))
+    first, last = (solve_round(case, surfaces, 0.0).contacts for surfaces in (unworn, end.surfaces))
     return _means(first), _means(last)
 
 
@@ -262,24 +262,24 @@ def _depths(end: LifeState) -> tuple[float, float]:
     return float(end.over("lower_depth")[-1]), float(end.over("upper_depth")[-1])
 
 
-def _means(passes: Sequence[Pass]) -> dict[str, float]:
-    return {column: float(np.mean(_of_passes(passes, column))) for column in _SAMPLED}
+def _means(contacts: Sequence[PositionContact]) -> dict[str, float]:
+    return {column: float(np.mean(_of_contacts(contacts, column))) for column in _SAMPLED}
 
 
-def _of_passes(passes: Sequence[Pass], column: str) -> FloatArray:
+def _of_contacts(contacts: Sequence[PositionContact], column: str) -> FloatArray:
     """Return a column of the march, position by position."""
-    return np.sum([[getattr(one, part) for one in passes] for part in _SAMPLED[column]], axis=0)
+    return np.sum([[getattr(one, part) for one in contacts] for part in _SAMPLED[column]], axis=0)
 
 
 def _scatter(end: LifeState) -> dict[str, float]:
     """Return standard errors of the means over the positions of the last round, taken as drawn at random."""
     scatter: dict[str, float] = {}
-    if len(end.passes) < 2:
+    if len(end.contacts) < 2:
         return scatter
     for name, column in {**START, **END}.items():
         if column in _SAMPLED:
-            values = _of_passes(end.passes, column)
-            scatter[name] = float(values.std(ddof=1)) / math.sqrt(len(end.passes))
+            values = _of_contacts(end.contacts, column)
+            scatter[name] = float(values.std(ddof=1)) / math.sqrt(len(end.contacts))
     found = life_figures(end)
     if _FILM in found and found[_AREA] > 0:
         scatter[_FILM] = found[_FILM] * scatter[_AREA] / found[_AREA]

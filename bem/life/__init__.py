@@ -1,7 +1,7 @@
 """Life of up to millions of cycles: wear by pressure and distance, a tribofilm and fatigue together, in cycle jumps.
 
-1. A round takes two bodies through a number of positions (passes.py). In each position: solve the contact with its wear
-   as a compliance (`bem.wear.ContactStep`, dry or lubricated), wear both bodies, grow and wear the tribofilm
+1. A round takes two bodies through a number of positions (positions.py). In each position: solve the contact with its
+   wear as a compliance (`bem.wear.ContactStep`, dry or lubricated), wear both bodies, grow and wear the tribofilm
    (surfaces.py).
 2. A step of n cycles is two rounds of n/2 cycles, in which each position stands for an equal part of them. A round of n
    cycles measures their error: step doubling (march.py).

@@ -25,7 +25,7 @@ import numpy as np
 from bem.grid import FloatArray
 from bem.life.fatigue_limit import FatigueLimit
 from bem.life.march import LifeState
-from bem.life.passes import Pass, facing
+from bem.life.positions import PositionContact, facing
 from bem.life.surfaces import LifeCase
 from bem.materials import Body
 from bem.stress import subsurface_stress
@@ -38,8 +38,8 @@ class RollingFatigue:
     """Rolling contact fatigue of one body of a life.
 
     body : LOWER or UPPER. solid : the body. depths : (nz,) [m], increasing. limit : fatigue limit of its material.
-    hardness : cap of contact and oil pressure together [Pa]. Shear tractions are those of the rough contact of each
-    pass (`Pass.traction_ratio`). The oil's pressure loads the body; its shear stress is left out.
+    hardness : cap of contact and oil pressure together [Pa]. Shear tractions are those of the rough contact in each
+    position (`PositionContact.traction_ratio`). The oil's pressure loads the body; its shear stress is left out.
     """
 
     body: int
@@ -48,17 +48,19 @@ class RollingFatigue:
     limit: FatigueLimit
     hardness: float = math.inf
 
-    def equivalent_shear(self, case: LifeCase, rows: tuple[int, int], passes: Sequence[Pass]) -> FloatArray:
+    def equivalent_shear(
+        self, case: LifeCase, row_counts: tuple[int, int], contacts: Sequence[PositionContact]
+    ) -> FloatArray:
         """Return the equivalent shear stress (nz, rows, ny) [Pa] of the path through all positions of a round, and
         rest."""
-        return self.limit.equivalent_shear(self._path(case, rows, passes))
+        return self.limit.equivalent_shear(self._path(case, row_counts, contacts))
 
     def damage_rates(self, case: LifeCase, state: LifeState) -> FloatArray:
         """Return the damage per cycle (2, nz, rows, ny): all positions as one path, and the mean of each by itself and
         rest."""
         lower, upper = state.surfaces.heights
-        path = self._path(case, (len(lower), len(upper)), state.passes)
-        alone = np.mean([self._damage(path[:, [place, -1]]) for place in range(len(state.passes))], axis=0)
+        path = self._path(case, (len(lower), len(upper)), state.contacts)
+        alone = np.mean([self._damage(path[:, [place, -1]]) for place in range(len(state.contacts))], axis=0)
         return np.stack([self._damage(path), alone])
 
     def initial_state(self, case: LifeCase, state: LifeState) -> LifeState:
@@ -90,17 +92,17 @@ class RollingFatigue:
     def _damage(self, path: FloatArray) -> FloatArray:
         return self.limit.damage(self.limit.equivalent_shear(path))
 
-    def _path(self, case: LifeCase, rows: tuple[int, int], passes: Sequence[Pass]) -> FloatArray:
+    def _path(self, case: LifeCase, row_counts: tuple[int, int], contacts: Sequence[PositionContact]) -> FloatArray:
         """Return the stresses (6, positions + 1, nz, rows, ny) [Pa] of the material along its path; the last is
         rest, which leaves residual stresses."""
-        whole, (nx, ny) = rows[self.body], case.grid.shape
-        moved = [each[self.body] for each in case.passing.offsets(rows)]
-        path = np.zeros((6, len(passes) + 1, len(self.depths), whole, ny))
+        whole, (nx, ny) = row_counts[self.body], case.grid.shape
+        moved = [each[self.body] for each in case.passing.offsets(row_counts)]
+        path = np.zeros((6, len(contacts) + 1, len(self.depths), whole, ny))
         residual = np.array([self.solid.residual_stress_at(depth) for depth in self.depths.tolist()])
         path[:2] += residual[:, None, None]
         sign = 1.0 if self.body == LOWER else -1.0
         for place, number in enumerate(np.argsort(moved, kind="stable")):
-            one = passes[number]
+            one = contacts[number]
             # what presses is not above the cap where oil lies on a contact that is at it
             pressure = np.minimum(one.pressure + one.oil_pressure, self.hardness)
             traction = np.stack([sign * one.traction_ratio * one.pressure, np.zeros((nx, ny))])

@@ -21,7 +21,7 @@ import numpy as np
 
 from bem.errors import ConvergenceError
 from bem.grid import FloatArray
-from bem.life.passes import Pass, mean_over
+from bem.life.positions import PositionContact, mean_over
 from bem.life.surfaces import LifeCase, Round, Surfaces, solve_round
 from bem.wear.contact_step import ContactStart
 from bem.wear.setup import LOWER, UPPER
@@ -48,8 +48,8 @@ class LifeState:
 
     cycles : so far. step : next trial [cycles].
     surfaces : now. first : heights before the first cycle [m].
-    rows : (n, len(ROW)), one per step. rejected : number of steps that were halved.
-    passes : of the last round. convolutions : so far.
+    table : rows of columns `ROW`, (n, len(ROW)), one per step. rejected : number of steps that were halved.
+    contacts : of the positions of the last round. convolutions : so far.
     damage : (3, nz, rows, ny) of a body's material so far: estimate, upper and lower bracket; None where not counted.
     damage_rates : (2, nz, rows, ny) damage per cycle now: of all positions as one path, and as the mean over positions
         each on its own path; None where not counted.
@@ -59,16 +59,16 @@ class LifeState:
     step: float
     surfaces: Surfaces
     first: tuple[FloatArray, FloatArray]
-    rows: FloatArray
+    table: FloatArray
     rejected: int = 0
-    passes: tuple[Pass, ...] = ()
+    contacts: tuple[PositionContact, ...] = ()
     damage: FloatArray | None = None
     convolutions: float = 0.0
     damage_rates: FloatArray | None = None
 
     def over(self, name: str) -> FloatArray:
-        """Return a column of the rows."""
-        return np.asarray(self.rows[:, ROW.index(name)])
+        """Return a column of the table."""
+        return np.asarray(self.table[:, ROW.index(name)])
 
 
 def run_life(
@@ -108,7 +108,7 @@ def initial_state(case: LifeCase, lower: FloatArray, upper: FloatArray) -> LifeS
     found = solve_round(case, unworn, 0.0)
     row = _row(found, heights, 0.0, 0.0, (0.0, 0.0))
     return LifeState(
-        0.0, case.first_step, found.surfaces, heights, row[None], passes=found.passes, convolutions=_spent(found)
+        0.0, case.first_step, found.surfaces, heights, row[None], contacts=found.contacts, convolutions=_spent(found)
     )
 
 
@@ -129,7 +129,7 @@ def advance(case: LifeCase, state: LifeState) -> LifeState:
         if step < _SMALLEST * case.first_step:
             raise ConvergenceError(f"cycle jumps shrink without end after {state.cycles:.6g} cycles")
     cycles = case.cycles if step >= case.cycles - state.cycles else state.cycles + step
-    last = float(state.rows[-1, -1])
+    last = float(state.table[-1, -1])
     row = _row(end, state.first, cycles, step, (error, last + missed))
     longer = 2.0 if error < 0.4 * case.tolerance else 1.0
     tried = step if step >= state.step or rejected > state.rejected else state.step
@@ -138,9 +138,9 @@ def advance(case: LifeCase, state: LifeState) -> LifeState:
         tried * longer,
         end.surfaces,
         state.first,
-        np.vstack([state.rows, row]),
+        np.vstack([state.table, row]),
         rejected,
-        end.passes,
+        end.contacts,
         state.damage,
         spent,
         state.damage_rates,
@@ -148,7 +148,7 @@ def advance(case: LifeCase, state: LifeState) -> LifeState:
 
 
 def _spent(found: Round) -> float:
-    return sum(one.convolutions for one in found.passes)
+    return sum(one.convolutions for one in found.contacts)
 
 
 def _error(before: Surfaces, whole: Surfaces, halves: Surfaces) -> tuple[float, float]:
@@ -182,11 +182,11 @@ def _row(
     errors: tuple[float, float],
 ) -> FloatArray:
     """Return a row of the table, the columns as in `ROW`."""
-    surfaces, passes = found.surfaces, found.passes
+    surfaces, contacts = found.surfaces, found.contacts
     lower, upper = surfaces.heights
     tribofilm = np.zeros(lower.shape) if surfaces.tribofilm is None else surfaces.tribofilm
-    boundary, oil, *others = (mean_over(passes, name) for name in _OF_PASSES)
-    warm, hottest = mean_over(passes, "contact_temperature"), max(one.flash_temperature for one in passes)
+    boundary, oil, *others = (mean_over(contacts, name) for name in _OF_CONTACTS)
+    warm, hottest = mean_over(contacts, "contact_temperature"), max(one.flash_temperature for one in contacts)
     return np.array(
         [
             *(cycles, step, boundary + oil, boundary, oil, *others),
@@ -197,4 +197,4 @@ def _row(
     )
 
 
-_OF_PASSES = (*("boundary_friction", "oil_friction", "contact_share", "area_share", "minimum_film", "lambda_ratio"),)
+_OF_CONTACTS = (*("boundary_friction", "oil_friction", "contact_share", "area_share", "minimum_film", "lambda_ratio"),)

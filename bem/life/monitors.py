@@ -15,7 +15,7 @@ from bem.errors import InputError
 from bem.grid import FloatArray, Grid
 from bem.life.fatigue import RollingFatigue, pitted_share
 from bem.life.march import LifeState
-from bem.life.passes import Pass
+from bem.life.positions import PositionContact
 from bem.life.surfaces import LifeCase
 from bem.materials import Body
 from bem.notes import Level, Note
@@ -78,13 +78,13 @@ class PieceSizes:
         model.checked_wearing_bodies(setup)
         return cls(setup, model)
 
-    def volumes(self, passes: Sequence[Pass], distance: float) -> FloatArray:
-        """Return the volumes [m^3] of the pieces of all passes of a round.
+    def volumes(self, contacts: Sequence[PositionContact], distance: float) -> FloatArray:
+        """Return the volumes [m^3] of the pieces in all contacts of a round.
 
         distance : slid by a place in a pass [m], over which junctions are dragged.
         """
         volumes: list[float] = []
-        for contact in passes:
+        for contact in contacts:
             load = SurfaceLoad(contact.pressure, contact.traction_ratio)
             cycle = BodyCycle(contact.pressure, (load,), self.setup, self.model, LOWER, distance)
             removal = self.model.criterion_law.detach(cycle)
@@ -127,7 +127,7 @@ class Monitors:
             self.pits = np.vstack([self.pits, [now.cycles, pitted_share(now)]])
         if self.sizes is not None:
             worn = now.surfaces.volume[LOWER] - before.surfaces.volume[LOWER]
-            number = number_of_pieces(self.sizes.volumes(now.passes, self.case.distance), worn)
+            number = number_of_pieces(self.sizes.volumes(now.contacts, self.case.distance), worn)
             self.pieces = np.vstack([self.pieces, [now.cycles, number, worn]])
         self.last = now
         return now

@@ -22,7 +22,7 @@ import numpy as np
 
 from bem.grid import FloatArray
 from bem.life.march import LifeState
-from bem.life.passes import Passing, facing
+from bem.life.positions import Passing, facing
 
 MORE = 8
 """Factor on the number of positions for the mean film over roughness."""
@@ -30,7 +30,7 @@ MORE = 8
 
 def missed_roughness(end: LifeState, passing: Passing) -> tuple[float, float] | None:
     """Return standard errors of the rms heights of (lower, upper), film included [m]; None for a single position."""
-    if len(end.passes) < 2:
+    if len(end.contacts) < 2:
         return None
     worn = end.over("lower_depth")[-1], end.over("upper_depth")[-1]
     lower, upper = (
@@ -43,9 +43,9 @@ def missed_roughness(end: LifeState, passing: Passing) -> tuple[float, float] | 
 def missed_ratio(end: LifeState, passing: Passing) -> tuple[float, float]:
     """Return relative errors of the mean film over roughness on (the unworn surfaces, those of the end)."""
     more = Passing(MORE * passing.positions, passing.bodies)
-    rows = len(end.passes[0].pressure)
+    grid_count = len(end.contacts[0].pressure)
     first, last = (
-        _part(_mean_inverse(pair, rows, more), _mean_inverse(pair, rows, passing))
+        _part(_mean_inverse(pair, grid_count, more), _mean_inverse(pair, grid_count, passing))
         for pair in (end.first, _surfaces(end))
     )
     return first, last
@@ -67,9 +67,9 @@ def _missed(heights: FloatArray, worn: float, pressures: FloatArray) -> float:
 
 def _pressures(end: LifeState, passing: Passing, body: int) -> FloatArray:
     """Return the pressures of the last round on a body, (positions, rows, ny) [Pa]."""
-    counts = _rows(end.surfaces.heights)
-    found = np.zeros((len(end.passes), *end.surfaces.heights[body].shape))
-    for own, one, moved in zip(found, end.passes, passing.offsets(counts), strict=True):
+    counts = _row_counts(end.surfaces.heights)
+    found = np.zeros((len(end.contacts), *end.surfaces.heights[body].shape))
+    for own, one, moved in zip(found, end.contacts, passing.offsets(counts), strict=True):
         own[facing(moved[body], len(one.pressure), counts[body])] = one.pressure
     return found
 
@@ -80,17 +80,17 @@ def _surfaces(end: LifeState) -> tuple[FloatArray, FloatArray]:
     return (lower if end.surfaces.tribofilm is None else lower + end.surfaces.tribofilm), upper
 
 
-def _rows(heights: tuple[FloatArray, FloatArray]) -> tuple[int, int]:
+def _row_counts(heights: tuple[FloatArray, FloatArray]) -> tuple[int, int]:
     return len(heights[0]), len(heights[1])
 
 
-def _mean_inverse(heights: tuple[FloatArray, FloatArray], rows: int, passing: Passing) -> float:
+def _mean_inverse(heights: tuple[FloatArray, FloatArray], grid_count: int, passing: Passing) -> float:
     """Return the mean over positions of one over the rms height of both surfaces [1/m]; 0 for smooth surfaces."""
-    counts = _rows(heights)
+    counts = _row_counts(heights)
     found = []
     for moved in passing.offsets(counts):
         lower, upper = (
-            each[facing(offset, rows, count)] for each, offset, count in zip(heights, moved, counts, strict=True)
+            each[facing(offset, grid_count, count)] for each, offset, count in zip(heights, moved, counts, strict=True)
         )
         rms = float((lower + upper).std())
         found.append(1 / rms if rms > 0 else 0.0)

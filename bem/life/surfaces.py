@@ -1,4 +1,4 @@
-"""Surfaces of a life, heights and tribofilm, and the round of passes that advances them by a number of cycles.
+"""Surfaces of a life, heights and tribofilm, and the round of positions that advances them by a number of cycles.
 
 Verified in tests/life/test_life.py.
 """
@@ -13,7 +13,7 @@ import numpy as np
 
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
-from bem.life.passes import Pass, Passing, facing, solve_pass
+from bem.life.positions import Passing, PositionContact, facing, solve_position
 from bem.tribofilm.balance import FilmBalance
 from bem.tribofilm.growth import GrowthLaw
 from bem.wear.contact_step import ContactStart, ContactStep
@@ -147,10 +147,10 @@ class Surfaces:
 
 @dataclass(frozen=True, eq=False)
 class Round:
-    """Surfaces after a round, and the passes of the round."""
+    """Surfaces after a round, and the contacts of its positions."""
 
     surfaces: Surfaces
-    passes: tuple[Pass, ...]
+    contacts: tuple[PositionContact, ...]
 
 
 def solve_round(case: LifeCase, surfaces: Surfaces, cycles: float) -> Round:
@@ -159,21 +159,21 @@ def solve_round(case: LifeCase, surfaces: Surfaces, cycles: float) -> Round:
     The step of a position is implicit: its pressure is that after its own wear, so a round of any length is stable.
     Positions follow one another, which is of first order in the cycles.
     """
-    rows = (len(surfaces.heights[LOWER]), len(surfaces.heights[UPPER]))
-    passes = []
-    for number, moved in enumerate(case.passing.offsets(rows)):
+    row_counts = (len(surfaces.heights[LOWER]), len(surfaces.heights[UPPER]))
+    contacts = []
+    for number, moved in enumerate(case.passing.offsets(row_counts)):
         surfaces, contact = _solve_position(case, surfaces, number, moved, cycles / case.passing.positions)
-        passes.append(contact)
-    return Round(surfaces, tuple(passes))
+        contacts.append(contact)
+    return Round(surfaces, tuple(contacts))
 
 
 def _solve_position(
     case: LifeCase, surfaces: Surfaces, number: int, moved: tuple[int, int], cycles: float
-) -> tuple[Surfaces, Pass]:
+) -> tuple[Surfaces, PositionContact]:
     """Return the surfaces after one position, and its contact."""
     nx, whole, law = case.grid.shape[0], [len(each) for each in surfaces.heights], case.tribofilm
     here = [facing(offset, nx, count) for offset, count in zip(moved, whole, strict=True)]
-    lower, upper = (heights[rows] for heights, rows in zip(surfaces.heights, here, strict=True))
+    lower, upper = (heights[facing_rows] for heights, facing_rows in zip(surfaces.heights, here, strict=True))
     tribofilm = np.zeros(case.grid.shape) if surfaces.tribofilm is None else surfaces.tribofilm[here[LOWER]]
     bare = np.ones(case.grid.shape) if law is None else law.bare(tribofilm)
     slid = case.distance * cycles
@@ -187,15 +187,17 @@ def _solve_position(
         tribofilms[here[LOWER]] = grown
         found = _with_friction_on_film(found, law, bare)
     heights, volume = list(surfaces.heights), list(surfaces.volume)
-    for body, rows in enumerate(here):
+    for body, facing_rows in enumerate(here):
         heights[body] = heights[body].copy()
-        heights[body][rows] -= depths[body]
+        heights[body][facing_rows] -= depths[body]
         volume[body] += float(depths[body].sum()) * case.grid.cell_area
     starts = (*surfaces.starts[:number], found.start, *surfaces.starts[number + 1 :])
     return Surfaces((heights[LOWER], heights[UPPER]), tribofilms, starts, (volume[LOWER], volume[UPPER])), found
 
 
-def _solve_wear(case: LifeCase, heights: FloatArray, start: ContactStart, slid: float) -> tuple[Pass, list[FloatArray]]:
+def _solve_wear(
+    case: LifeCase, heights: FloatArray, start: ContactStart, slid: float
+) -> tuple[PositionContact, list[FloatArray]]:
     """Return the contact of heights (nx, ny) [m] at the end of a step, and the depths worn off (lower, upper) [m].
 
     slid : distance of the step [m]. With a boundary film the compliance is that of the place with the largest defect in
@@ -205,16 +207,16 @@ def _solve_wear(case: LifeCase, heights: FloatArray, start: ContactStart, slid: 
     """
     give = slid * sum(case.rates)
     if case.defect is None:
-        found = solve_pass(case.contact, case.grid, heights, start, give)
+        found = solve_position(case.contact, case.grid, heights, start, give)
         return found, [slid * rate * found.pressure for rate in case.rates]
-    before = solve_pass(case.contact, case.grid, heights, start, 0.0)
+    before = solve_position(case.contact, case.grid, heights, start, 0.0)
     most = float(np.where(before.pressure > 0, case.defect.share(before.temperature), 0.0).max())
-    found = solve_pass(case.contact, case.grid, heights, before.start, give * most)
+    found = solve_position(case.contact, case.grid, heights, before.start, give * most)
     found = replace(found, convolutions=found.convolutions + before.convolutions)
     return found, [slid * rate * case.defect.share(found.temperature) * found.pressure for rate in case.rates]
 
 
-def _with_friction_on_film(found: Pass, law: GrowingFilm, bare: FloatArray) -> Pass:
+def _with_friction_on_film(found: PositionContact, law: GrowingFilm, bare: FloatArray) -> PositionContact:
     """Return a pass with the boundary friction and traction averaged over the load on bare and on hidden substrate."""
     if law.friction_on_film is None or law.friction <= 0 or not found.pressure.any():
         return found

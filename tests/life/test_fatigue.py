@@ -9,7 +9,7 @@ from bem import Body, Grid, Material
 from bem.life.fatigue import RollingFatigue, pitted_share
 from bem.life.fatigue_limit import FatigueLimit
 from bem.life.march import advance, run_life
-from bem.life.passes import Passing
+from bem.life.positions import Passing
 from bem.life.surfaces import LifeCase
 from bem.reference_solutions.mcewen import cylinder_stress
 from bem.wear import DryContact
@@ -49,7 +49,7 @@ def test_a_smooth_roller_does_what_the_closed_path_says_as_cells_and_positions_g
     errors = []
     for cells, positions in ((32, 16), (64, 32), (128, 64)):
         case = smooth(cells, positions)
-        found = fatigue().equivalent_shear(case, (cells, cells), first_state(case).passes)
+        found = fatigue().equivalent_shear(case, (cells, cells), first_state(case).contacts)
         middle = found[:, cells // 2, 0]
         errors.append(float(np.abs(middle / exact - 1).max()))
     # between positions the path's corners are cut
@@ -98,12 +98,12 @@ def test_brackets_hold_the_path_and_what_lies_between_the_ends_of_a_jump():
 def test_oil_on_a_contact_at_the_cap_presses_no_harder():
     case = smooth(32, 4)
     rows, solved = (32, 32), first_state(case)
-    passes = [replace(one, oil_pressure=0.2 * one.pressure[:, :1]) for one in solved.passes]
-    capped = replace(fatigue(), hardness=PEAK).equivalent_shear(case, rows, passes)
-    pressed = [replace(one, pressure=np.minimum(1.2 * one.pressure, PEAK)) for one in solved.passes]
+    contacts = [replace(one, oil_pressure=0.2 * one.pressure[:, :1]) for one in solved.contacts]
+    capped = replace(fatigue(), hardness=PEAK).equivalent_shear(case, rows, contacts)
+    pressed = [replace(one, pressure=np.minimum(1.2 * one.pressure, PEAK)) for one in solved.contacts]
     # the smallest ball is found to a millionth
     assert capped == pytest.approx(fatigue().equivalent_shear(case, rows, pressed), rel=1e-5)
-    assert capped.max() < fatigue().equivalent_shear(case, rows, passes).max()
+    assert capped.max() < fatigue().equivalent_shear(case, rows, contacts).max()
 
 
 def test_pits_are_columns_without_life_left():

@@ -12,7 +12,7 @@ from bem.life.fatigue import RollingFatigue
 from bem.life.fatigue_limit import FatigueLimit
 from bem.life.march import LifeState, advance, run_life
 from bem.life.monitors import PieceSizes
-from bem.life.passes import Passing
+from bem.life.positions import Passing
 from bem.life.surfaces import GrowingFilm, LifeCase, solve_round
 from bem.packing import packed, unpacked
 from bem.tribofilm import StressActivatedGrowth
@@ -76,7 +76,7 @@ def test_jumps_find_what_cycle_by_cycle_finds_and_know_their_error():
     for tolerance in (0.3, 0.1, 0.03):
         end = run_life(replace(each, tolerance=tolerance, first_step=64.0), lower, upper)
         errors.append(np.sqrt(np.mean((end.surfaces.heights[0] - truth.heights[0]) ** 2)) / worn)
-        rounds.append(3 * (len(end.rows) - 1) + 2 * end.rejected)
+        rounds.append(3 * (len(end.table) - 1) + 2 * end.rejected)
         assert errors[-1] < tolerance
     assert rounds[0] < 40  # instead of 128
     # of first order, steps in powers of two: a tenth of the tolerance leaves between a fifth and a tenth of the error;
@@ -107,7 +107,7 @@ def test_bars_add_up_what_jumps_positions_cells_and_films_leave_open():
     same = life_bars(end, OtherLives(one.passing, end, end, rounds, rounds))
     # nothing differs: what jumps leave open, and what the positions scatter
     assert same.values["wear_volume"] == pytest.approx(end.over("depth_error")[-1] * GRID.area, rel=1e-9, abs=0)
-    share = [found.area_share for found in end.passes]
+    share = [found.area_share for found in end.contacts]
     scatter = 0.75 * np.std(share, ddof=1) / 2
     assert same.parts[POSITIONS]["contact_area_fraction"] == pytest.approx(scatter, rel=1e-12)
     assert not any(same.parts["grid"].values())
@@ -206,8 +206,8 @@ def pieces(criterion):
     )
 
 
-def hard_passes(distance):
-    """The passes of a rough contact at its hardness, before any wear."""
+def hard_contacts(distance):
+    """The contacts of a round at the hardness, before any wear."""
     contact = DryContact(
         *(GRID, (Body(STRONG), Body(STRONG)), np.zeros(GRID.shape)),
         load=PRESSURE * GRID.area,
@@ -215,14 +215,14 @@ def hard_passes(distance):
         hardness=2.8e9,
     )
     one = replace(case(1e-9, distance=distance, first_step=1e-9), contact=contact)
-    return run_life(one, *surfaces()).passes
+    return run_life(one, *surfaces()).contacts
 
 
 def test_a_life_finds_pieces_of_junctions_that_a_pass_drags_over_their_size():
     """A pass had no distance, so that no junction was ever dragged and no criterion of junctions found a piece."""
     criterion = Junction(surface_energy=1e-3)
-    assert pieces(criterion).volumes(hard_passes(1e-4), 1e-4).size > 0
-    assert pieces(criterion).volumes(hard_passes(1e-9), 1e-9).size == 0
+    assert pieces(criterion).volumes(hard_contacts(1e-4), 1e-4).size > 0
+    assert pieces(criterion).volumes(hard_contacts(1e-9), 1e-9).size == 0
 
 
 def test_a_life_refuses_pieces_that_only_many_passes_bring_off():
@@ -232,21 +232,21 @@ def test_a_life_refuses_pieces_that_only_many_passes_bring_off():
 
 def test_stresses_of_pieces_and_fatigue_take_the_traction_of_their_pass():
     """They took one coefficient that was known before any contact."""
-    (one, *_) = passes = hard_passes(1e-6)
+    (one, *_) = contacts = hard_contacts(1e-6)
     assert one.traction_ratio == -0.1
     assert one.boundary_friction == 0.1
     seen = pieces("von_mises")
-    free = [replace(each, traction_ratio=0.0) for each in passes]
-    assert seen.volumes(passes, 1e-6).sum() > seen.volumes(free, 1e-6).sum()
+    free = [replace(each, traction_ratio=0.0) for each in contacts]
+    assert seen.volumes(contacts, 1e-6).sum() > seen.volumes(free, 1e-6).sum()
     model = RollingFatigue(0, STEEL, 1e-7 * np.arange(1, 4), FatigueLimit())
-    rubbed, smooth = (model.equivalent_shear(case(1.0), (32, 32), each) for each in (passes, free))
+    rubbed, smooth = (model.equivalent_shear(case(1.0), (32, 32), each) for each in (contacts, free))
     assert rubbed.max() > 1.01 * smooth.max()
 
 
 def test_friction_on_a_film_is_that_of_its_stresses():
     flat = np.zeros(GRID.shape)
     law = film(friction_on_film=0.05, balance=FilmBalance(0.0, 0.0, math.inf, 50e-9))
-    (one, *_) = run_life(case(1.0, rates=(0.0, 0.0), tribofilm=law), flat, flat).passes
+    (one, *_) = run_life(case(1.0, rates=(0.0, 0.0), tribofilm=law), flat, flat).contacts
     assert one.traction_ratio == pytest.approx(0.05, rel=1e-12)
 
 
@@ -265,7 +265,7 @@ def test_it_goes_on_from_a_checkpoint_to_the_same_bits():
     kept: list[LifeState] = []
     run_life(one, lower, upper, callback=lambda now: kept.append(unpacked(packed(now))))
     again = run_life(one, lower, upper, state=kept[2])
-    assert np.array_equal(again.rows, whole.rows)
+    assert np.array_equal(again.table, whole.table)
     assert np.array_equal(again.surfaces.heights[0], whole.surfaces.heights[0])
     assert np.array_equal(again.surfaces.tribofilm, whole.surfaces.tribofilm)
 
@@ -284,7 +284,7 @@ def test_steps_that_wear_less_than_the_heights_solve_roundf_grow_until_they_wear
     """Cycles of 1e-12 wear 1e-24 m of heights known to 1e-22 m: it took 644 shorter steps, or ended the life."""
     end = run_life(case(1e-11, first_step=1e-12), *surfaces())
     assert end.rejected == 0
-    assert len(end.rows) == 5  # 1 + 2 + 4 + 3 of the first step
+    assert len(end.table) == 5  # 1 + 2 + 4 + 3 of the first step
 
 
 @pytest.mark.parametrize(

@@ -7,7 +7,7 @@ import pytest
 
 from bem import Grid, generate_surface
 from bem.life.march import ROW, LifeState
-from bem.life.passes import Pass, Passing
+from bem.life.positions import Passing, PositionContact
 from bem.life.sampling import missed_ratio, missed_roughness
 from bem.life.surfaces import Surfaces
 from bem.wear import ContactStart
@@ -25,11 +25,18 @@ def rough(seed, rms):
 
 def life(first, heights, pressures):
     """A state whose last round pressed so, position by position, and wore the lower body from `first` to `heights`."""
-    passes = tuple(Pass(p, 0.1, 0.1, 0.0, 1.0, 0.1, 0.0, 0.0, 0.0, ContactStart(), NONE) for p in pressures)
+    contacts = tuple(
+        PositionContact(p, 0.1, 0.1, 0.0, 1.0, 0.1, 0.0, 0.0, 0.0, ContactStart(), NONE) for p in pressures
+    )
     upper = np.zeros(GRID.shape)
     row = dict.fromkeys(ROW, 0.0) | {"lower_depth": float((first - heights).mean())}
     return LifeState(
-        1.0, 1.0, Surfaces((heights, upper), None, ()), (first, upper), np.array([list(row.values())]), passes=passes
+        1.0,
+        1.0,
+        Surfaces((heights, upper), None, ()),
+        (first, upper),
+        np.array([list(row.values())]),
+        contacts=contacts,
     )
 
 
@@ -61,9 +68,11 @@ def test_pressures_go_to_the_rows_that_were_under_them():
     pressures = [np.maximum(rough(30 + k, 1e9), 0.0) for k in range(4)]
     moved = [low for low, _ in passing.offsets((48, 48))]
     rests = life(heights + 1e-8, heights, pressures)
-    passes = life(heights + 1e-8, heights, [np.roll(p, shift, 0) for p, shift in zip(pressures, moved, strict=True)])
+    passing_body = life(
+        heights + 1e-8, heights, [np.roll(p, shift, 0) for p, shift in zip(pressures, moved, strict=True)]
+    )
     one = missed_roughness(rests, Passing(4, (False, True)))[0]
-    assert one == pytest.approx(missed_roughness(passes, passing)[0], rel=1e-12, abs=0)
+    assert one == pytest.approx(missed_roughness(passing_body, passing)[0], rel=1e-12, abs=0)
     assert one > 0
 
 

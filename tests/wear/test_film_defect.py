@@ -7,7 +7,7 @@ import pytest
 
 from bem import Body, Grid, InputError, Material, plan_scene
 from bem.life.march import initial_state, run_life
-from bem.life.passes import Passing
+from bem.life.positions import Passing
 from bem.life.surfaces import LifeCase, solve_round
 from bem.wear import DryContact, WearModel, run_in
 from bem.wear.film_defect import FilmDefect

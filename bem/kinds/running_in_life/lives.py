@@ -47,7 +47,7 @@ def on_grid(scene: Any) -> float:
 def case_of(scene: Any, setup: MixedSetup) -> LifeCase:
     """Return the parts of the life that stay the same."""
     from bem.kinds.running_in_life.tables import INDICES
-    from bem.life.passes import Passing
+    from bem.life.positions import Passing
     from bem.life.surfaces import LifeCase
     from bem.wear.mixed import MixedContact, shared_film_table
 

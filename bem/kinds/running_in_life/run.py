@@ -24,7 +24,7 @@ if TYPE_CHECKING:
     from bem.friction.setup import MixedSetup
     from bem.life.march import LifeState
     from bem.life.monitors import Monitors
-    from bem.life.passes import Pass
+    from bem.life.positions import PositionContact
 
 
 def run(scene: RunningInLifeScene, context: Context) -> RunningInLifeRecord:
@@ -51,7 +51,7 @@ def run(scene: RunningInLifeScene, context: Context) -> RunningInLifeRecord:
 
     with context.timer("cycles"):
         end = run_life(case, *initial, state=state, callback=after)
-    _tell(scene, context, setup, end.passes[-1])
+    _tell(scene, context, setup, end.contacts[-1])
     for note in monitors.notes():
         context.note(note)
     wanted = scene.life.coarser_lives
@@ -68,7 +68,7 @@ def _with_body(figures: Mapping[str, Any]) -> dict[str, Any]:
     return {**figures, **{f"lower_{name}": figures[name] for name in names if name in figures}}
 
 
-def _tell(scene: RunningInLifeScene, context: Context, setup: MixedSetup, last: Pass) -> None:
+def _tell(scene: RunningInLifeScene, context: Context, setup: MixedSetup, last: PositionContact) -> None:
     """Note partial error bars, a distance that differs from the slid one, and the notes of the last pass."""
     wear, (speeds,) = scene.wear, scene.speeds.build()
     hold = "cycle jumps, positions, cells and points of the films" if scene.life.coarser_lives else JUMPS_ALONE
@@ -104,7 +104,7 @@ def _record(scene: RunningInLifeScene, setup: MixedSetup, end: LifeState, monito
         tribofilm_over_cycles=None if film is None else np.interp(cycle, at, end.over("tribofilm_thickness")),
         film_map=film,
         jump_error=missed,
-        jumps=len(end.rows) - 1,
+        jumps=len(end.table) - 1,
         jumps_rejected=end.rejected,
         convolutions=end.convolutions,
         oil_scatter=None,
@@ -113,7 +113,7 @@ def _record(scene: RunningInLifeScene, setup: MixedSetup, end: LifeState, monito
         step_error=end.over("step_error")[1:],
         height_before=end.first[0],
         height_after=end.surfaces.heights[0],
-        pressure=end.passes[0].pressure,
+        pressure=end.contacts[0].pressure,
     )
 
 

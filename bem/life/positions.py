@@ -31,11 +31,14 @@ class Passing:
     positions: int
     bodies: tuple[bool, bool]
 
-    def offsets(self, rows: tuple[int, int]) -> tuple[tuple[int, int], ...]:
-        """Return the rows by which (lower, upper) have moved along +x in each position; rows : of the bodies."""
+    def offsets(self, row_counts: tuple[int, int]) -> tuple[tuple[int, int], ...]:
+        """Return the rows by which (lower, upper) have moved along +x in each position.
+
+        row_counts : numbers of rows of (lower, upper).
+        """
         moved = [
-            [round(count * j / self.positions) if passes else 0 for j in order]
-            for count, passes, order in zip(rows, self.bodies, _orders(self.positions), strict=True)
+            [round(count * j / self.positions) if moves else 0 for j in order]
+            for count, moves, order in zip(row_counts, self.bodies, _orders(self.positions), strict=True)
         ]
         return tuple(zip(*moved, strict=True))
 
@@ -53,14 +56,16 @@ def _orders(count: int) -> tuple[list[int], list[int]]:
     return list(range(count)), backwards
 
 
-def facing(offset: int, rows: int, whole: int) -> NDArray[np.int_]:
-    """Return the indices of a body's `whole` rows that lie on the grid's `rows` after it moved `offset` rows along
-    +x."""
-    return np.asarray((np.arange(rows) - offset) % whole)
+def facing(offset: int, grid_count: int, body_count: int) -> NDArray[np.int_]:
+    """Return the indices of the rows of a body that lie on the grid after it moved `offset` rows along +x.
+
+    grid_count, body_count : numbers of rows of the grid and of the body.
+    """
+    return np.asarray((np.arange(grid_count) - offset) % body_count)
 
 
 @dataclass(frozen=True, eq=False)
-class Pass:
+class PositionContact:
     """Contact of one position.
 
     pressure : (nx, ny) [Pa]. traction_ratio : shear traction of the rough contact over its pressure, on the lower body
@@ -91,7 +96,9 @@ class Pass:
     contact_notes: tuple[Note, ...] = ()
 
 
-def solve_pass(contact: ContactStep, grid: Grid, heights: FloatArray, start: ContactStart, compliance: float) -> Pass:
+def solve_position(
+    contact: ContactStep, grid: Grid, heights: FloatArray, start: ContactStart, compliance: float
+) -> PositionContact:
     """Solve the contact of one position, dry or lubricated; arguments as for `bem.wear.ContactStep`.
 
     Raises
@@ -102,7 +109,7 @@ def solve_pass(contact: ContactStep, grid: Grid, heights: FloatArray, start: Con
     if outcome.status is not Status.CONVERGED:
         raise ConvergenceError(f"a position of the life: {outcome.failure}")
     if outcome.sharing is None:
-        return Pass(
+        return PositionContact(
             pressure=outcome.pressure,
             traction_ratio=outcome.friction,
             boundary_friction=abs(outcome.friction),
@@ -116,10 +123,10 @@ def solve_pass(contact: ContactStep, grid: Grid, heights: FloatArray, start: Con
             oil_pressure=np.zeros((grid.shape[0], 1)),
             temperature=outcome.temperature,
         )
-    return _lubricated_pass(outcome, grid, start)
+    return _lubricated_position(outcome, grid, start)
 
 
-def _lubricated_pass(outcome: ContactOutcome, grid: Grid, start: ContactStart) -> Pass:
+def _lubricated_position(outcome: ContactOutcome, grid: Grid, start: ContactStart) -> PositionContact:
     """Return the figures of a lubricated contact; without a contact the next one starts from the same pressure."""
     assert outcome.sharing is not None
     (row,), memory = outcome.sharing, outcome.memory
@@ -128,7 +135,7 @@ def _lubricated_pass(outcome: ContactOutcome, grid: Grid, start: ContactStart) -
     assert last is not None
     film, contact = last.balance.film, last.balance.contact
     pressure = start.pressure if contact is None else outcome.pressure
-    return Pass(
+    return PositionContact(
         pressure=outcome.pressure,
         traction_ratio=outcome.friction,
         boundary_friction=float(row["boundary_force"]) / last.load,
@@ -149,6 +156,6 @@ def _lubricated_pass(outcome: ContactOutcome, grid: Grid, start: ContactStart) -
     )
 
 
-def mean_over(passes: Sequence[Pass], name: str) -> float:
+def mean_over(contacts: Sequence[PositionContact], name: str) -> float:
     """Return the mean of a figure over the positions of a round."""
-    return float(np.mean([getattr(one, name) for one in passes]))
+    return float(np.mean([getattr(one, name) for one in contacts]))
