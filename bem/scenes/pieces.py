@@ -30,10 +30,10 @@ QUANTITIES = ("equivalent_radius", "length", "width", "thickness")
 
 
 class WearRateScene(Table):
-    """Archard's wear law, which gives the wear volume and so the number of particles."""
+    """Measured wear rate: its volume over the mean particle volume is the number of particles; it wears nothing."""
 
     specific_wear_rate: Annotated[WearCoefficient, Field(gt=0)] = key(
-        "Specific wear rate k: worn volume per load and sliding distance.", "basic"
+        "Measured specific wear rate k: worn volume per load and sliding distance.", "basic"
     )
     distance: PositiveLength = key("Sliding distance.", "basic", example="100 m")
 

@@ -44,7 +44,7 @@ class ThirdBodyRecord(Record):
     ] = None
 
 
-def third_bodies(scene: Any, grid: Grid, load: float) -> ThirdBodies | None:
+def build_third_bodies(scene: Any, grid: Grid, load: float) -> ThirdBodies | None:
     """Particles between the surfaces of a case that press with a load [N] on its grid; None where there are none.
 
     Raises

@@ -28,7 +28,7 @@ from bem.scenes.planner import Step, padded_points, stress_kernel_seconds
 from bem.scenes.records import Figure, Series
 from bem.scenes.rubbing import RubbedRecord, rubbed, rubbing_step
 from bem.scenes.tables.film_defect import film_defect
-from bem.scenes.third_bodies import ThirdBodyRecord, third_bodies, third_body_figures
+from bem.scenes.third_bodies import ThirdBodyRecord, build_third_bodies, third_body_figures
 from bem.scenes.units import Length
 from bem.wear.criterion import StressCriterion
 from bem.wear.setup import wearing_bodies
@@ -254,7 +254,7 @@ def third_bodies_and_defect(scene: Any, grid: Grid, load: float) -> tuple[ThirdB
     InputError : what either lacks; particles that cut deeper than they lie.
     """
     defect = film_defect(scene)
-    return third_bodies(scene, grid, load), defect
+    return build_third_bodies(scene, grid, load), defect
 
 
 def on_twice_the_cell(
@@ -292,12 +292,12 @@ _LEAST = 1.1
 """
 
 
-def wear_model(scene: Any, given: ThirdBodies | None = None, defect: FilmDefect | None = None) -> WearModel:
+def wear_model(scene: Any, third_bodies: ThirdBodies | None = None, defect: FilmDefect | None = None) -> WearModel:
     """Build the wear model of a scene, with the third bodies and the boundary film between its surfaces."""
     from bem.wear import WearModel
 
     table = scene.wear.model_dump(exclude={"third_bodies", "film_defect", "particle_criterion"})
-    return WearModel(**table, third_bodies=given, film_defect=defect)
+    return WearModel(**table, third_bodies=third_bodies, film_defect=defect)
 
 
 def wears_on_a_track(scene: Any) -> bool:
@@ -321,7 +321,7 @@ def stress_below_strength(scene: Any, result: RunningIn, grid: Grid, load: float
     bodies = (scene.lower.build(), scene.upper.build())
     setup = WearSetup(grid, bodies, np.zeros(grid.shape), load, friction, scene.depths.build())
     acting = SurfaceLoad(pressure, friction)
-    return largest_stress(acting, setup, replace(wear_model(scene), criterion=law), scene.sizes.body(result.wearing))[0]
+    return largest_stress(acting, setup, replace(wear_model(scene), criterion=law), scene.sizes.body(result.wearing))
 
 
 def wear_loop(
@@ -343,9 +343,10 @@ def wear_loop(
     """
     from bem.wear import WearSetup, pack_state, run_in, unpack_state
 
-    saved, count, (given, defect) = context.saved(), scene.cycles.count, third_bodies_and_defect(scene, grid, load)
+    saved, count = context.saved(), scene.cycles.count
+    third_bodies, defect = third_bodies_and_defect(scene, grid, load)
 
-    model, bodies = wear_model(scene, given, defect), (scene.lower.build(), scene.upper.build())
+    model, bodies = wear_model(scene, third_bodies, defect), (scene.lower.build(), scene.upper.build())
     depths, sizing = scene.depths.build(), scene.wear.particle_criterion
     found = [] if saved is None or sizing is None else [unpacked(saved["particles"])]
 

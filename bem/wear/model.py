@@ -46,7 +46,8 @@ class WearModel:
     frame : which body stands still with the contact. "cylinder": the upper body (the cylinder) and the contact are
         fixed in space and the lower body moves through them, so that all places of its track wear alike; "disk": the
         lower body is fixed and the roughness of the upper body moves, so that the contact wears a groove into the lower
-        one.
+        one. The speeds of a film are not compared with it: a film is steady in the frame of its contact whichever body
+        carries the roughness along, and the source does not state which one it moved.
     shift : cells that the moving body slides over the other one along x before each cycle but the first: for positive
         friction and shift the upper body along +x, the lower one along -x (`running_in.sliding_direction`), so that
         friction on the moving body acts against its motion. A cycle counts the slide of as many cells, the first one,
@@ -55,9 +56,10 @@ class WearModel:
     traction : the name of one of `bem.wear.traction` or of your own, a table with `kind` and parameters, or a
         `TractionLaw`. "gross_sliding" is the source's, friction x pressure everywhere; "oscillating_force" and
         "oscillating_shift" give stresses, pieces and local wear the tractions and the slip of a loop in partial slip.
+        Film and friction of a lubricated contact are of gross sliding all the same, which a note says.
     third_bodies : particles that stay between the surfaces, `bem.wear.third_bodies.ThirdBodies` or a table of its
         fields; None for none. Of dry contacts and of `MixedContact`, where these slide; they roll half as far as a
-        cycle of the criterion stands for.
+        cycle of the criterion stands for, and not at all between surfaces of equal speeds.
     film_defect : of a boundary film that protects what wears locally, `bem.wear.film_defect.FilmDefect` or a table of
         its fields; None for surfaces that wear as the criterion says.
     """

@@ -59,8 +59,9 @@ CYCLE_FIELDS = np.dtype(
 `volume` is the sum of pieces and local wear of the wearing bodies and of cuts by third bodies in both bodies.
 `depths_computed` is the sum over the wearing bodies. `contact_area`, `plastic_area` and `contact_load` are on the grid.
 `friction` is the boundary traction over the pressure, on the lower body along +x where positive. `rms_height` is Sq of
-the (first) wearing surface inside `RunningInState.strip`. `converged` is True in every row
-of a loop, which stops at a contact that did not converge.
+the (first) wearing surface inside the strip that is in contact in the cycle (`RunningInState.strip`); figures of scenes
+are over other regions (`bem.scenes.wearing.WornSurface`), so that their last value is not that of a scene's `Sq_final`.
+`converged` is True in every row of a loop, which stops at a contact that did not converge.
 
 `stick_share`, `loop_energy` and `loop_way` are of the cycle's `Rubbing`, 0 in gross sliding."""
 

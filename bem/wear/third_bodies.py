@@ -15,7 +15,7 @@ Algorithm, per cycle:
 1. Number of particles from the last cycle's number and worn volume (`ThirdBodies.after_cycle`).
 2. Load balance of contact and particles in its deformed gap, by a bracketed root in the contact's load; where the gap
    jumps with the load, in its approach (`LoadBalance`). In oil this is done at every film load that the balance of film
-   and contact tries (`RoughContactWithParticles`).
+   and contact tries (`RoughContactWithThirdBodies`).
 3. Depths cut off both bodies (`ThirdBodies.cut`); in oil, the friction of the rolling particles.
 
 Cost: three to ten contacts in place of one.
@@ -215,8 +215,8 @@ def with_third_bodies(step: ContactStep, particles: ThirdBodies, cycle_distance:
     hardnesses = particles.hardnesses(pair)
     particles.check_slide(cycle_distance, hardnesses)
     if isinstance(step, DryContact):
-        return DryContactWithParticles(step, particles, cycle_distance, hardnesses)
-    return MixedContactWithParticles(step, particles, cycle_distance, hardnesses)
+        return DryContactWithThirdBodies(step, particles, cycle_distance, hardnesses)
+    return MixedContactWithThirdBodies(step, particles, cycle_distance, hardnesses)
 
 
 def current_particles(
@@ -245,7 +245,7 @@ def current_particles(
 
 
 @dataclass(frozen=True, eq=False)
-class DryContactWithParticles:
+class DryContactWithThirdBodies:
     """Dry contact with particles between surfaces of the hardnesses (lower, upper) [Pa]; a `ContactStep`.
 
     cycle_distance : distance that the bodies slide in a cycle [m].
@@ -374,7 +374,7 @@ class LoadBalance:
 
 
 @dataclass(frozen=True, eq=False)
-class MixedContactWithParticles:
+class MixedContactWithThirdBodies:
     """Lubricated contact with particles between surfaces of the hardnesses (lower, upper) [Pa]; a `ContactStep`.
 
     Particles thinner than the gap that the film leaves carry nothing. In pure rolling they move along with both
@@ -410,7 +410,7 @@ class MixedContactWithParticles:
             raise InputError('third bodies share the load of a contact_model "coupled"')
         if compliance > 0:
             patch = replace(patch, compliance=compliance)
-        rough = RoughContactWithParticles(patch, particles, self.hardnesses)
+        rough = RoughContactWithThirdBodies(patch, particles, self.hardnesses)
         shared, memory = mixed.share_load_on_worn_film(heights, rough, memory, pressure)
         load = rough.particle_load(shared.balance.contact)
         if speeds[0] != speeds[1]:
@@ -421,7 +421,7 @@ class MixedContactWithParticles:
 
 
 @dataclass(frozen=True, eq=False)
-class RoughContactWithParticles(OfPatch):
+class RoughContactWithThirdBodies(OfPatch):
     """A `RoughContact` of a patch with particles between surfaces of the hardnesses (lower, upper) [Pa]."""
 
     particles: ThirdBodies

@@ -85,8 +85,8 @@ def equivalent_stress_planes(
         yield out[index]
 
 
-def largest_stress(load: SurfaceLoad, setup: WearSetup, model: WearChoices, body: int) -> tuple[float, float]:
-    """Return the largest equivalent stress of one body at any of the depths [Pa], and its depth [m].
+def largest_stress(load: SurfaceLoad, setup: WearSetup, model: WearChoices, body: int) -> float:
+    """Return the largest equivalent stress of one body at any of the depths [Pa].
 
     A loop without particles reports it beside the strength. Orders of magnitude: under a line contact the surface is in
     tension by friction alone, 2 f p0 at the trailing edge (McEwen 1949); under a round one by (1 - 2 nu) p0 / 3 on its
@@ -96,11 +96,11 @@ def largest_stress(load: SurfaceLoad, setup: WearSetup, model: WearChoices, body
     law = model.criterion_law
     assert isinstance(law, EquivalentStressLaw)
     depths, plane = depths_for(setup, model, body), np.empty((1, *setup.grid.shape))
-    found = [
-        max(float(each.max()) for each in equivalent_stress_planes((load,), setup, body, depth[None], law, plane))
+    return max(
+        float(each.max())
         for depth in depths
-    ]
-    return max(found), float(depths[int(np.argmax(found))])
+        for each in equivalent_stress_planes((load,), setup, body, depth[None], law, plane)
+    )
 
 
 def cannot_yield(

@@ -6,14 +6,15 @@ import numpy as np
 import pytest
 from mixed_case import mixed_case
 
-from bem import Body, InputError, Lubricant, Material, run_in
+from bem import Body, InputError, Layer, Lubricant, Material, run_in
 from bem.errors import ConvergenceError, Status
 from bem.friction.load_sharing import LoadSharing
 from bem.friction.setup import MixedSetup
 from bem.notes import has_code
 from bem.notes.friction import OIL_COUNTED
 from bem.notes.wear import THIRD_BODIES_MANY
-from bem.wear import ContactStart, WearModel, pack_state, unpack_state
+from bem.wear import ContactStart, DryContact, WearModel, pack_state, unpack_state
+from bem.wear.contact_step import contact_rows
 from bem.wear.mixed import MixedContact, MixedCycles
 from bem.wear.third_bodies import ThirdBodies, with_third_bodies
 
@@ -143,6 +144,19 @@ def test_an_error_says_which_part_of_load_sharing_did_not_converge(monkeypatch):
     assert "an imbalance of oil of 2.0e-02" in outcome.failure
     with pytest.raises(ConvergenceError, match=r"load sharing, .* an imbalance of oil of 2\.0e-02, ended"):
         loop(1)
+
+
+def test_the_strip_of_coated_bodies_in_oil_is_that_of_their_dry_contact():
+    """It took the contact modulus of the substrates, where the dry contact takes that of waves of four cells."""
+    coated = Body(SOFT.material, layer=Layer(Material("soft layer", **ELASTIC | {"youngs_modulus": 40e9}), 5e-6))
+    contact = step(bodies=(coated, HARD))
+    outcome = contact(ROUGH)
+    setup, solution = contact.setup, outcome.memory.last.balance.contact.solution
+    dry = DryContact(setup.grid, (coated, HARD), np.zeros(setup.grid.shape), setup.load, hardness=setup.hardness)
+    expected = dry.outcome(solution, 0.0).strip
+    substrates = contact_rows(solution, setup.grid, setup.smooth.contact_modulus, cap=setup.hardness)
+    assert np.abs(substrates - expected).max() > 1e-2
+    assert outcome.strip == pytest.approx(expected, abs=1e-3)
 
 
 def test_a_contact_in_oil_keeps_no_state():

@@ -30,7 +30,7 @@ _over, _shown, _line = (partial(Series, ("cycle",)), partial(Series, ("x", "y"),
 SETTLED, RUN_IN = (f"mean over the last cycles.{window} cycles" for window in ("settled", "averaged"))
 """Windows of means: `settled` for particles and worn volume, `averaged` for friction, film and contact. Means are taken
 even if the surface still changes."""
-_STRIP = "in the contact region (Hertz' contact; its whole track on a body that moves)"
+_STRIP = "in the contact region (Hertz' contact; on a body that moves its whole track)"
 _FOLLOWS_CELL = f"{pieces.FOLLOWS_CELL}; in mixed lubrication the mean by volume follows it too"
 
 
@@ -106,7 +106,9 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
     film_load_over_cycles: Annotated[FloatArray, _over("N", "load carried by the film")]
     minimum_film_over_cycles: Annotated[FloatArray, _over("m", MINIMUM_FILM)]
     contact_share: Annotated[FloatArray, _over("1", "asperity load share")]
-    rms_height_over_cycles: Annotated[FloatArray, _over("m", "Sq of the worn surface in the contact region")]
+    rms_height_over_cycles: Annotated[
+        FloatArray, _over("m", "Sq of the worn surface in the rows in contact in each cycle")
+    ]
     volume_over_cycles: Annotated[FloatArray, _over("m^3", "volume worn per cycle, of all bodies that wear")]
     particles_over_cycles: Annotated[FloatArray, _over("1", "particles per cycle of one body")]
     film_thickness_patch: Annotated[FloatArray, _line("m", "film")]

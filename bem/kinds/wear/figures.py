@@ -69,7 +69,7 @@ def _pressure(run: Any, figure: Figure) -> None:
 
 
 def _roughness(run: Any, figure: Figure) -> None:
-    _over_cycles(figure.add_subplot(), run, grouped(run, "rms_height"), "Sq in the contact region", "m")
+    _over_cycles(figure.add_subplot(), run, grouped(run, "rms_height"), "Sq in the rows in contact", "m")
 
 
 def _distribution(run: Any, figure: Figure) -> None:

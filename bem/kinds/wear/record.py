@@ -14,7 +14,7 @@ from bem.scenes.third_bodies import THIRD_BODIES
 
 SETTLED = "mean over the last cycles.settled cycles"
 """Window of means, which are taken even if the surface still changes."""
-_STRIP = "in the contact region (rows in contact; whole track of a body that moves)"
+_STRIP = "in the contact region (rows in contact in the last cycle; on a body that moves its whole track)"
 _over, _map = partial(Series, ("cycle",)), partial(grid_map, of="last")
 
 
@@ -64,7 +64,7 @@ class WearRecord(pieces.MeanSizes, pieces.ParticleTable, wearing.WornRecord):
         float, Figure("", "depths at which stress was computed, per cycle", unjudged=True)
     ]
     wear_volume: Annotated[
-        float | None, Figure("mm3", "worn volume by Archard's law", optional=True, unjudged=True)
+        float | None, Figure("mm3", "worn volume by the wear rate of table archard", optional=True, unjudged=True)
     ] = None
     particle_number: Annotated[
         float | None, Figure("", "number of particles in it", optional=True, no_bar=pieces.FOLLOWS_CELL)
@@ -81,7 +81,9 @@ class WearRecord(pieces.MeanSizes, pieces.ParticleTable, wearing.WornRecord):
     contact_area: Annotated[FloatArray, _over("m^2", "contact area")]
     plastic_area: Annotated[FloatArray, _over("m^2", "area at the hardness")]
     contact_load: Annotated[FloatArray, _over("N", "load carried by asperities")]
-    rms_height: Annotated[FloatArray, _over("m", "rms height Sq of the worn surface in the contact region")]
+    rms_height: Annotated[
+        FloatArray, _over("m", "rms height Sq of the worn surface in the rows in contact in each cycle")
+    ]
     depths_computed: Annotated[FloatArray, _over("1", "depths at which stress was computed")]
     convolutions: Annotated[FloatArray, _over("1", "convolutions of the contact solve")]
     particle_cycle: Annotated[wearing.IntArray, pieces.particle_rows("1", "cycle in which a particle came off")]

@@ -43,7 +43,9 @@ class WearScene(SceneModel):
     )
     sizes: pieces.SizesScene = key("Statistics of the wear particle sizes.", "advanced", default=pieces.SizesScene())
     archard: pieces.WearRateScene | None = key(
-        "Archard's wear law, which gives the number of particles.", "advanced", default=None
+        "Measured wear rate, which turns mean particle sizes into a number of particles; it wears nothing.",
+        "advanced",
+        default=None,
     )
     variants: list[WearVariantScene] = key(
         "Cases with other mesh, roughness, film or wear model, compared in one result.", "advanced", default=[]
