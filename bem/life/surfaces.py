@@ -25,7 +25,7 @@ Temperature = Callable[[FloatArray], float | FloatArray]
 
 
 @dataclass(frozen=True, eq=False)
-class GrowingFilm:
+class GrowingTribofilm:
     """Tribofilm on the lower body, cell by cell (thesis, paper E; there apart from mechanical wear).
 
     growth : law of growth under the shear stress friction x pressure.
@@ -85,9 +85,10 @@ class LifeCase:
     """Parts of a life that stay the same.
 
     grid : of the contact.
-    contact : contact of a pass.
+    contact : contact of a position.
     passing : bodies that pass, and positions.
-    rates : wear volume by load and distance of (lower, upper) [m^2/N]; zero for a body that does not wear.
+    rates : wear volume by load and distance of (lower, upper) [m^2/N]; zero for a body that does not wear. They stay
+        the same over the life: a rate that depends on friction takes one that is known before any contact.
     distance : that the surfaces slide over each other in the contact in a cycle [m]. A place of a body with as many
         rows as the grid slides it in a cycle; a place of a longer body is on the grid in that fraction of the positions
         only, and slides that fraction of it.
@@ -106,7 +107,7 @@ class LifeCase:
     distance: float
     cycles: float
     tolerance: float = 0.05
-    tribofilm: GrowingFilm | None = None
+    tribofilm: GrowingTribofilm | None = None
     first_step: float = 1.0
     longest: float = math.inf
     defect: FilmDefect | None = None
@@ -216,7 +217,7 @@ def _solve_wear(
     return found, [slid * rate * case.defect.share(found.temperature) * found.pressure for rate in case.rates]
 
 
-def _with_friction_on_film(found: PositionContact, law: GrowingFilm, bare: FloatArray) -> PositionContact:
+def _with_friction_on_film(found: PositionContact, law: GrowingTribofilm, bare: FloatArray) -> PositionContact:
     """Return a pass with the boundary friction and traction averaged over the load on bare and on hidden substrate."""
     if law.friction_on_film is None or law.friction <= 0 or not found.pressure.any():
         return found

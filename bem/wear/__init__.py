@@ -5,15 +5,18 @@ Algorithm of `run_in` (running_in.py), one cycle after the other:
 1. Move one body through the contact, not before the first cycle, and take the rows of both that face each other
    (running_in.py).
 2. Solve the contact: dry (contact_step.py), or shared with a film by `bem.friction` (mixed.py), whose shape follows
-   wear (worn_shape.py); particles between the surfaces are a step around either (third_bodies.py).
-3. Shear tractions: friction x pressure, or a loop of partial slip (traction/).
+   wear (worn_shape.py); particles between the surfaces are a step around either (third_bodies.py). A dry contact has
+   local wear as a compliance: its pressure is that after the wear of the cycle (criterion/local.py).
+3. Shear tractions on the contact: friction x pressure, or those of a loop of partial slip (traction/), of which a film
+   and its friction know nothing.
 4. Removal by the criterion (criterion/) on each wearing body (cycle.py). Stress criteria: equivalent stress from the
    first depth (the skin, 100 nm by default) down; von Mises only where yielding material is connected to the surface,
    other stresses in whole planes to one below the first without yield (yielding.py); then runs above yield joined to
    pieces (segmentation.py, yielded_runs.py), of which the removal law says what leaves (removal.py). Averaged von
    Mises: the same, from a pressure averaged over a disc (criterion/averaged.py, lengths.py). Others: fatigue damage
    (damage.py), junctions (junctions.py), a depth by pressure and distance (criterion/local.py).
-5. Lower the surfaces; append the cycle and its particles to the tables (running_in.py).
+5. Lower the surfaces by pieces, local wear and cuts of third bodies; append the cycle and its particles to the tables
+   (running_in.py).
 
 Heights change by removal and by cuts of third bodies only. Where the pressure is at the hardness, the overlap of the
 surfaces leaves no dent: the next cycle begins with heights that are not flattened. In mixed lubrication only the

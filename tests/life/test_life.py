@@ -13,7 +13,7 @@ from bem.life.fatigue_limit import FatigueLimit
 from bem.life.march import LifeState, advance, run_life
 from bem.life.monitors import PieceSizes
 from bem.life.positions import Passing
-from bem.life.surfaces import GrowingFilm, LifeCase, solve_round
+from bem.life.surfaces import GrowingTribofilm, LifeCase, solve_round
 from bem.packing import packed, unpacked
 from bem.tribofilm import StressActivatedGrowth
 from bem.tribofilm.balance import FilmBalance
@@ -138,7 +138,7 @@ def film(**changes):
         "temperature": lambda pressure: 360.0,
         "cycle_time": 1e-3,
     }
-    return GrowingFilm(**given | changes)
+    return GrowingTribofilm(**given | changes)
 
 
 def test_a_film_alone_meets_its_closed_form_and_hides_the_substrate():

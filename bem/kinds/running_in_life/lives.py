@@ -21,7 +21,7 @@ if TYPE_CHECKING:
     from bem.kinds.running_in_life.tables import LifeFilm
     from bem.life.march import LifeState
     from bem.life.monitors import Monitors
-    from bem.life.surfaces import GrowingFilm, LifeCase
+    from bem.life.surfaces import GrowingTribofilm, LifeCase
 
 _JUMPS_OF_FATIGUE = 16  # at least: the stresses of a jump are those of its ends
 
@@ -71,7 +71,7 @@ def case_of(scene: Any, setup: MixedSetup) -> LifeCase:
     )
 
 
-def _film(scene: Any, table: LifeFilm, setup: MixedSetup) -> GrowingFilm:
+def _film(scene: Any, table: LifeFilm, setup: MixedSetup) -> GrowingTribofilm:
     """The tribofilm, as warm as the oil, or as rubbing makes each spot."""
     bulk = table.temperature if table.temperature is not None else scene.oil.temperature
     assert bulk is not None

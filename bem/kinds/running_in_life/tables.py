@@ -22,7 +22,7 @@ from bem.wear.setup import LOWER, UPPER
 if TYPE_CHECKING:
     from bem.life.fatigue import RollingFatigue
     from bem.life.monitors import PieceSizes
-    from bem.life.surfaces import GrowingFilm
+    from bem.life.surfaces import GrowingTribofilm
     from bem.life.surfaces import Temperature as LocalTemperature
     from bem.materials import Body
 
@@ -124,12 +124,12 @@ class LifeFilm(KineticsScene):
         strict=True,
     )
 
-    def build(self, friction: float, temperature: LocalTemperature) -> GrowingFilm:
-        """As `bem.life.surfaces.GrowingFilm`."""
-        from bem.life.surfaces import GrowingFilm
+    def build(self, friction: float, temperature: LocalTemperature) -> GrowingTribofilm:
+        """As `bem.life.surfaces.GrowingTribofilm`."""
+        from bem.life.surfaces import GrowingTribofilm
 
         balance, on_film = self.balance(), self.friction_on_film
-        return GrowingFilm(self.kinetics(), balance, friction, temperature, self.cycle_time, on_film)
+        return GrowingTribofilm(self.kinetics(), balance, friction, temperature, self.cycle_time, on_film)
 
 
 class LifeParticles(Table):

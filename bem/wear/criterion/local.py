@@ -26,9 +26,10 @@ class LocalWear(Criterion):
     """Base class of local laws: a cycle stands for a sliding distance s and wears the depth k p s.
 
     Steps of a dry contact are implicit: the pressure is that at their end, solved with the wear as a compliance of each
-    place, so a step of any length is stable, and the volume is k F s to round-off. Under a film and in partial slip the
-    pressure is that at the start of a step, so a long step may wear more than the bodies give way, and the next
-    pressure alternates from cell to cell. In partial slip `_check_step` refuses such steps; under a film nothing does:
+    place, so a step of any length is stable, and the volume is k F s to round-off. Steps of a life (`bem.life`) are
+    implicit under a film, too. In a loop of `run_in` under a film, and in partial slip, the pressure is that at the
+    start of a step, so a long step may wear more than the bodies give way, and the next pressure alternates from cell
+    to cell. In partial slip `_check_step` refuses such steps; under a film nothing does:
     shorten the distance where the estimated error of the step (`bem.wear.step_doubling`, `RunningIn.step_error`) is not
     small against the depth of a cycle. In partial slip the distance at each place is that of the traction law's loops.
     """
