@@ -218,7 +218,7 @@ def _solve_wear(
 
 
 def _with_friction_on_film(found: PositionContact, law: GrowingTribofilm, bare: FloatArray) -> PositionContact:
-    """Return a pass with the boundary friction and traction averaged over the load on bare and on hidden substrate."""
+    """Return a contact with friction and traction averaged over the load on bare and on hidden substrate."""
     if law.friction_on_film is None or law.friction <= 0 or not found.pressure.any():
         return found
     share = float((bare * found.pressure).sum() / found.pressure.sum())

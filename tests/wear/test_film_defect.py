@@ -97,7 +97,7 @@ def test_a_life_wears_each_place_by_its_own_temperature():
     # in the long run what wears fastest carries less, until all wears as fast: shares sixfold apart leave rates within
     # an eighth of each other, which is at the edge where the temperature jumps
     end = run_life(replace(life(warm, 1e8), first_step=1e6, tolerance=0.1), wavy, flat)
-    rate = FILM.share(warm) * end.passes[0].pressure
+    rate = FILM.share(warm) * end.contacts[0].pressure
     assert np.ptp(rate) < 0.15 * rate.mean()
 
 
