@@ -5,8 +5,8 @@ Algorithm of `run_in` (running_in.py), one cycle after the other:
 1. Move one body through the contact, not before the first cycle, and take the rows of both that face each other
    (running_in.py).
 2. Solve the contact: dry (contact_step.py), or shared with a film by `bem.friction` (mixed.py), whose shape follows
-   wear (worn_shape.py); particles between the surfaces are a step around either (third_bodies.py). A dry contact has
-   local wear as a compliance: its pressure is that after the wear of the cycle (criterion/local.py).
+   wear (worn_shape.py); particles between the surfaces are a step around either (third_bodies.py). The loop's own
+   dry contact has local wear as a compliance: its pressure is that after the wear of the cycle (criterion/local.py).
 3. Shear tractions on the contact: friction x pressure, or those of a loop of partial slip (traction/), of which a film
    and its friction know nothing.
 4. Removal by the criterion (criterion/) on each wearing body (cycle.py). Stress criteria: equivalent stress from the
