@@ -26,7 +26,8 @@ class WearScenePart(Table):
         default=VonMises(),
     )
     particle_criterion: Annotated[Criterion, LawKey("criterion")] | None = key(
-        "Stress criterion that gives sizes of wear particles beside a wear law by pressure; it removes nothing.",
+        "Stress criterion (averaged_von_mises, von_mises, tresca or maximum_tension) that gives sizes of particles "
+        "beside a wear law by pressure; it removes nothing.",
         "advanced",
         default=None,
         example="averaged_von_mises",
