@@ -44,6 +44,8 @@ body.body--dark :is(.q-btn--flat, .q-btn--outline):not(.text-amber-4) :is(.block
 body.body--dark .q-tab--active { color: #8ec7ee }
 body.body--dark .bem-table td { border-color: #3a4146 }
 @layer theme { :focus-visible { outline: 3px solid #d97706 !important; outline-offset: 2px } }
+.q-field--with-bottom { padding-bottom: 0 !important }
+.q-field__bottom--animated { position: static !important; transform: none !important; padding-top: 4px }
 .q-field--focused .q-field__control { box-shadow: 0 0 0 2px #d97706 }
 .bem-pair { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 560px), 1fr)); gap: 8px }
 .bem-cards { display: grid; grid-template-columns: repeat(auto-fill, minmax(min(100%, 220px), 1fr)); gap: 10px }

@@ -555,7 +555,10 @@ def compare_page(workspace: Workspace, names: list[str]) -> None:
                 found = await compute(comparison, paths, names)
                 with place:
                     for table in found.tables:
-                        rows(table.title, table.rows, table.head)
+                        if table.rows:
+                            rows(table.title, table.rows, table.head)
+                        else:
+                            ui.label(f"{table.title}: no differences").classes("bem-soft")
                     for text in found.beyond:
                         ui.label(text).classes("text-body2 bem-wrong")
                 shown = await compute(overlay, paths, names)

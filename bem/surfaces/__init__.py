@@ -3,8 +3,8 @@
 `generate` makes heights of a `spectrum` (`request` checks what is asked, `moments` imposes skewness and kurtosis),
 `processes` are statistics by how a surface is made, `marks` what a tool leaves, `read` opens an instrument's file by
 its `formats`, `filter` levels, despikes, fills, cuts and resamples, `seams` makes a map periodic, `describe` measures,
-with `material_ratio` (Abbott curve), `self_affine` (Hurst exponent) and `asperities` (summits, plasticity indices);
-`examples` are two maps of our own.
+with `material_ratio_curve` (Abbott curve), `self_affine` (Hurst exponent) and `asperities` (summits and plasticity
+indices); `examples` are two maps of our own.
 Names are loaded when first used: planning a contact of smooth bodies costs no transforms and no splines.
 
 Sees grids and no contact. Verified in tests/surfaces: what is asked for is what `describe` finds, the same seed gives
@@ -45,7 +45,7 @@ if TYPE_CHECKING:
     from bem.surfaces.formats import SurfaceFormat
     from bem.surfaces.generate import generate_surface
     from bem.surfaces.marks import cross_hatch, feed_marks, hatch_angle
-    from bem.surfaces.material_ratio import MaterialRatio, material_ratio
+    from bem.surfaces.material_ratio_curve import MaterialRatio, material_ratio
     from bem.surfaces.processes import PROCESSES, Process
     from bem.surfaces.read import read_surface, write_surface
     from bem.surfaces.seams import close_seams
@@ -94,7 +94,7 @@ __getattr__ = loader(
     __name__,
     {
         "asperities": ["AsperityStatistics", "describe_asperities", "plasticity_index", "slope_plasticity_index"],
-        "material_ratio": ["MaterialRatio", "material_ratio"],
+        "material_ratio_curve": ["MaterialRatio", "material_ratio"],
         "self_affine": ["SelfAffineFit", "fit_self_affine"],
         "describe": ["RadialSpectrum", "SurfaceDescription", "autocorrelation", "describe_surface", "radial_spectrum"],
         "filter": [

@@ -26,7 +26,7 @@ def test_a_key_says_its_unit_level_default_and_meaning():
     assert surface.default
     layers = key_at("contact", "lower", "layers")
     assert (layers.row.kind, layers.tables) == ("", ())
-    assert [key.name for key in keys_of(layers.row.model)] == ["material", "thickness"]
+    assert [key.name for key in keys_of(layers.row.model)] == ["material", "thickness", "residual_stress"]
 
 
 def test_a_key_has_at_least_the_level_of_the_tables_that_it_is_in():
