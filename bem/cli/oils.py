@@ -53,7 +53,7 @@ def register(app: typer.Typer) -> None:
 
 def _row(name: str) -> tuple[str, ...]:
     from bem.lubrication.oils.catalogue import find_oil
-    from bem.lubrication.oils.viscosity_index import viscosity_index
+    from bem.lubrication.oils.index import viscosity_index
 
     oil = find_oil(name)
     at_40, at_100 = (1e6 * oil.viscosity.kinematic(t) for t in (313.15, 373.15))

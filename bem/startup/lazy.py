@@ -17,7 +17,14 @@ def loader(package: str, homes: Mapping[str, Sequence[str]]) -> Callable[[str], 
     ----------
     package : its `__name__`.
     homes : names by module.
+
+    Raises
+    ------
+    ValueError : a name that is also a module's: once loaded, the module would stand in its place.
     """
+    hidden = sorted(set(homes) & {name for names in homes.values() for name in names})
+    if hidden:
+        raise ValueError(f"{package}: {', '.join(hidden)} is both a module and a name in one")
     home_of = {name: module for module, names in homes.items() for name in names}
 
     def load(name: str) -> Any:

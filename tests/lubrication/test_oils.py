@@ -12,9 +12,9 @@ from hypothesis import strategies as st
 import bem
 from bem import InputError, Lubricant, find_oil
 from bem.lubrication.oils.catalogue import bases, correlation, correlations, oil_from_viscosities, oil_names
+from bem.lubrication.oils.index import reference_oils, viscosity_at_40, viscosity_at_100, viscosity_index
 from bem.lubrication.oils.over_temperature import Andrade, ViscosityTable, Vogel, Walther
 from bem.lubrication.oils.pressure import ambient_slope
-from bem.lubrication.oils.viscosity_index import reference_oils, viscosity_at_40, viscosity_at_100, viscosity_index
 
 T40, T60, T100 = 313.15, 333.15, 373.15
 

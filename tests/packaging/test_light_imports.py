@@ -7,8 +7,13 @@ import subprocess
 import sys
 import tomllib
 from pathlib import Path
+from types import FunctionType
 
 import pytest
+
+from bem.lubrication.oils import viscosity_index
+from bem.startup.lazy import loader
+from bem.surfaces import material_ratio
 
 ROOT = Path(__file__).resolve().parents[2]
 
@@ -196,3 +201,11 @@ except InputError:
     pass
 """
     assert "matplotlib" not in loaded(code, str(tmp_path / "sweep"))
+
+
+def test_a_name_of_a_package_is_not_that_of_its_module():
+    """Once loaded, the module would stand in the place of what it defines."""
+    with pytest.raises(ValueError, match="one is both a module and a name"):
+        loader("bem.some", {"one": ["one", "two"]})
+    assert isinstance(viscosity_index, FunctionType)
+    assert isinstance(material_ratio, FunctionType)

@@ -8,8 +8,8 @@ from bem.startup.lazy import loader
 
 if TYPE_CHECKING:
     from bem.lubrication.oils.catalogue import find_oil, oil_names
+    from bem.lubrication.oils.index import viscosity_index
     from bem.lubrication.oils.oil import Oil
-    from bem.lubrication.oils.viscosity_index import viscosity_index
 
 __all__ = ["Oil", "find_oil", "oil_names", "viscosity_index"]
 
@@ -18,6 +18,6 @@ __getattr__ = loader(
     {
         "catalogue": ["find_oil", "oil_names"],
         "oil": ["Oil"],
-        "viscosity_index": ["viscosity_index"],
+        "index": ["viscosity_index"],
     },
 )

@@ -12,10 +12,10 @@ from importlib.resources import files
 from typing import Any
 
 from bem.errors import InputError
+from bem.lubrication.oils.index import viscosity_at_40, viscosity_at_100
 from bem.lubrication.oils.oil import Line, Oil
 from bem.lubrication.oils.over_temperature import CELSIUS, LAWS, MM2_S, OverTemperature, ViscosityTable, Walther
 from bem.lubrication.oils.pressure import PressureViscosity
-from bem.lubrication.oils.viscosity_index import viscosity_at_40, viscosity_at_100
 from bem.lubrication.rheology import rheology_of
 
 _T40, _T100 = 40.0 + CELSIUS, 100.0 + CELSIUS
