@@ -9,9 +9,10 @@ pressure that is higher in proportion; load and area are then those of the conta
 
 Three rules give one coefficient for the whole contact. Coupling into the normal gap takes the coefficient at the
 pressure of a rough contact that hardly depends on its load (`reference_pressure`); it is known before any contact is
-solved, so one operator serves all contacts. Stresses below the surface in a wear cycle take the mean of the contact,
-force over load. Fatigue and pieces in a life take the coefficient at the hardness, or else at Hertz' mean pressure, the
-same in all positions and cycles.
+solved, so one operator serves all contacts. Stresses below the surface, of a wear cycle and of each position of
+a life, take the mean of that contact, force over load (in a life changed by the tribofilm). What must be known before
+any contact of a life, which is the rate of the energy law and growth and flash temperature of the tribofilm, takes the
+coefficient at the hardness, or else at Hertz' mean pressure.
 """
 
 from __future__ import annotations

@@ -3,8 +3,9 @@
 1. Make each step once whole and once in two halves (`advance`).
 2. Their difference is the error of the halves, since a round is of first order. Accept the halves if it is within the
    tolerance; else halve the step.
-3. Double the next step where the error is below 0.4 of the tolerance. Steps are powers of two times the first (except
-   the last and the longest allowed), so that operators are reused.
+3. Double the next step where the error is below 0.4 of the tolerance. Steps double and halve from the first one, so
+   that operators are reused. A step cut to the longest allowed or to the end of the life is no power of two of the
+   first, nor are those that follow if it was rejected.
 
 A state holds all that the next step needs, so a life that is stopped and resumed ends in the same bits. Cycle jumps
 with step doubling are our own. Cost: three rounds per step; each half that becomes a whole step is reused.
@@ -31,8 +32,8 @@ ROW = (
     *("minimum_film", "lambda_ratio", "lower_rms", "upper_rms", "lower_depth", "upper_depth", "tribofilm_thickness"),
     *("contact_temperature", "flash_temperature", "step_error", "depth_error"),
 )
-"""Columns of a row at the end of a step: SI units; means over the positions of its last round and over whole surfaces;
-the flash temperature is the highest of any position."""
+"""Columns of a row, of the unworn surfaces or at the end of a step: SI units; means over the positions of its last
+round and over whole surfaces; the flash temperature is the highest of any position."""
 
 _ROUND_OFF = float(np.finfo(np.float64).eps)
 """Round-off of heights relative to the largest, by one subtraction against two."""
@@ -48,7 +49,8 @@ class LifeState:
 
     cycles : so far. step : next trial [cycles].
     surfaces : now. first : heights before the first cycle [m].
-    table : rows of columns `ROW`, (n, len(ROW)), one per step. rejected : number of steps that were halved.
+    table : rows of columns `ROW`, (n, len(ROW)): the unworn surfaces first, then one row per step.
+    rejected : number of steps that were halved.
     contacts : of the positions of the last round. convolutions : so far.
     damage : (3, nz, rows, ny) of a body's material so far: estimate, upper and lower bracket; None where not counted.
     damage_rates : (2, nz, rows, ny) damage per cycle now: of all positions as one path, and as the mean over positions

@@ -10,8 +10,9 @@ Algorithm of `run_in` (running_in.py), one cycle after the other:
 3. Shear tractions on the contact: friction x pressure, or those of a loop of partial slip (traction/), of which a film
    and its friction know nothing.
 4. Removal by the criterion (criterion/) on each wearing body (cycle.py). Stress criteria: equivalent stress from the
-   first depth (the skin, 100 nm by default) down; von Mises only where yielding material is connected to the surface,
-   other stresses in whole planes to one below the first without yield (yielding.py); then runs above yield joined to
+   first depth (the skin, 100 nm by default) down; von Mises stress of one load of friction x pressure, without
+   residual stress, only where yielding material is connected to the surface; all others (partial slip, stress range)
+   in whole planes to one below the first without yield (yielding.py); then runs above yield joined to
    pieces (segmentation.py, yielded_runs.py), of which the removal law says what leaves (removal.py). Averaged von
    Mises: the same, from a pressure averaged over a disc (criterion/averaged.py, lengths.py). Others: fatigue damage
    (damage.py), junctions (junctions.py), a depth by pressure and distance (criterion/local.py).

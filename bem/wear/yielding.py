@@ -6,9 +6,10 @@ where that is deeper. No piece is thinner than the first computed depth.
 
 1. A bound on von Mises stress without a transform may prove that nothing yields at the first depth (`cannot_yield`).
 2. Compute the equivalent stress depth by depth. `yielded_stress` computes whole planes, down to one below the first
-   depth whose plane has no yield. `piece_stress`, for von Mises stress of one load, follows pieces from the first depth
-   by rows (`bem.stress.connected_regions`), down to two depths below the deepest row that they reach (one below with
-   linear refinement); yield that is not connected to the surface is left out.
+   depth whose plane has no yield. `piece_stress`, for von Mises stress of one load of
+   friction x pressure without residual stress, follows pieces from the first depth by rows
+   (`bem.stress.connected_regions`), down to two depths below the deepest row that they reach (one below with linear
+   refinement); yield that is not connected to the surface is left out.
 3. Segment it (`bem.wear.segmentation`).
 
 Cost: along x five transforms per depth for von Mises stress, along y as many for the rows that are computed; six for
@@ -253,9 +254,10 @@ def piece_stress(
 ) -> YieldedStress:
     """Compute the stress in the rows that a piece reaches; where that is not possible, as `yielded_stress`.
 
-    It is possible for von Mises stress of one load, if pieces leave from the surface down: a piece is followed from
-    depth to depth and row to row, also upwards (`bem.stress.connected_regions`), since yield between depths needs a
-    depth beside it that yields. The monotone cubic in an interval needs values two depths from the end that yields. The
+    It is possible for von Mises stress of one load of friction x pressure, if pieces leave from the surface down (with
+    a residual stress whole planes are computed all the same): a piece is followed from depth
+    to depth and row to row, also upwards (`bem.stress.connected_regions`), since yield between depths needs a depth
+    beside it that yields. The monotone cubic in an interval needs values two depths from the end that yields. The
     search ends where no further row is reached, without a test of whole planes: there may be yield below.
     """
     loads = (SurfaceLoad(load, setup.friction),) if isinstance(load, np.ndarray) else load

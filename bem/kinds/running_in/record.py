@@ -79,7 +79,8 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
         Figure("nm", "what its step leaves open of a depth worn by pressure, last cycle", optional=True, unjudged=True),
     ]
     criterion_wear_rate: Annotated[
-        float | None, Figure("mm3_Nm", f"volume that the criterion removes by load and distance, {SETTLED}")
+        float | None,
+        Figure("mm3_Nm", f"volume that leaves (criterion and cuts of third bodies) by load and distance, {SETTLED}"),
     ]
     particles_per_cycle: Annotated[
         float, Figure("", f"particles per cycle of one body, {SETTLED}", no_bar=pieces.FOLLOWS_CELL)
@@ -109,7 +110,9 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
     rms_height_over_cycles: Annotated[
         FloatArray, _over("m", "Sq of the worn surface in the rows in contact in each cycle")
     ]
-    volume_over_cycles: Annotated[FloatArray, _over("m^3", "volume worn per cycle, of all bodies that wear")]
+    volume_over_cycles: Annotated[
+        FloatArray, _over("m^3", "volume worn per cycle, with the cuts of third bodies in both bodies")
+    ]
     particles_over_cycles: Annotated[FloatArray, _over("1", "particles per cycle of one body")]
     film_thickness_patch: Annotated[FloatArray, _line("m", "film")]
     film_pressure_patch: Annotated[FloatArray, _line("Pa", "film pressure")]

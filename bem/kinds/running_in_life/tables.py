@@ -38,7 +38,10 @@ class LifeCycles(Table):
         "Permitted relative error of the wear in a cycle jump, estimated by step doubling.", "advanced", default=0.05
     )
     first_step: Annotated[Ratio, Field(gt=0)] = key(
-        "Number of cycles of the first trial jump; all jumps are powers of two times it.", "expert", default=1.0
+        "Number of cycles of the first trial jump; later jumps double or halve it, up to the longest allowed and the "
+        "end of the life.",
+        "expert",
+        default=1.0,
     )
     points: Annotated[int, Field(strict=True, ge=2, le=10_000)] = key(
         "Number of cycles, in a geometric series, at which curves over the life are stored.", "expert", default=61

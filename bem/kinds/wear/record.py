@@ -37,7 +37,9 @@ class WearRecord(pieces.MeanSizes, pieces.ParticleTable, wearing.WornRecord):
         float, Figure("", f"real contact area over that of the slice, {SETTLED}", headline=True)
     ]
     mean_contact_pressure: Annotated[float, Figure("Pa", f"mean pressure over the real contact area, {SETTLED}")]
-    worn_volume_per_cycle: Annotated[float, Figure("um3", f"volume worn per cycle, of all bodies that wear, {SETTLED}")]
+    worn_volume_per_cycle: Annotated[
+        float, Figure("um3", f"volume worn per cycle, with the cuts of third bodies in both bodies, {SETTLED}")
+    ]
     first_cycles_radius: Annotated[
         float, Figure("nm", "volume-mean radius of the particles of the first five cycles", chance=pieces.OF_PIECES)
     ]
@@ -53,7 +55,11 @@ class WearRecord(pieces.MeanSizes, pieces.ParticleTable, wearing.WornRecord):
     ]
     criterion_wear_rate: Annotated[
         float | None,
-        Figure("mm3_Nm", f"volume that the criterion removes by load and distance, {SETTLED}", headline=True),
+        Figure(
+            "mm3_Nm",
+            f"volume that leaves (criterion and cuts of third bodies) by load and distance, {SETTLED}",
+            headline=True,
+        ),
     ]
     cycles: Annotated[int, Figure("", "cycles", headline=True, unjudged=True)]
     cell: Annotated[float, Figure("nm", "root of the cell's area", unjudged=True)]
@@ -77,7 +83,7 @@ class WearRecord(pieces.MeanSizes, pieces.ParticleTable, wearing.WornRecord):
     ] = None
     radius: Annotated[FloatArray, _over("m", "volume-mean equivalent radius of the particles")]
     particles: Annotated[FloatArray, _over("1", "particles per cycle of one body")]
-    volume: Annotated[FloatArray, _over("m^3", "volume worn per cycle, of all bodies that wear")]
+    volume: Annotated[FloatArray, _over("m^3", "volume worn per cycle, with the cuts of third bodies in both bodies")]
     contact_area: Annotated[FloatArray, _over("m^2", "contact area")]
     plastic_area: Annotated[FloatArray, _over("m^2", "area at the hardness")]
     contact_load: Annotated[FloatArray, _over("N", "load carried by asperities")]
