@@ -24,10 +24,12 @@ if TYPE_CHECKING:
     from matplotlib.figure import Figure
 
 NAME = "friction_measured"
-HEADERS = ("what", "published", "ours", "scatter", "numerical", "inside", "middle", "source", "remark")
+HEADERS = ("what", "published", "ours", "scatter", "numerical", "inside", "value inside", "source", "remark")
 FORMULA_ERROR = 0.005
 """Within which the formula of Arana et al. (2019) has the coefficients that Mann measured, as they say."""
-THROUGH_FORMULA = ("mann", "gupta", "clarke", "schlenk")
+TESTED = 60.0
+"""Temperature at which that formula was tested [degC]."""
+THROUGH_FORMULA = ("mann", "clarke", "schlenk")
 """Sources whose measurements are known by a formula that describes them."""
 AT_LIMIT = 0.89
 """Mean shear stress over limit from which a contact counts as at its limit."""
@@ -35,6 +37,8 @@ ROELANDS_HEADERS = (
     "oil", "degC", "alpha measured (1/GPa)", "alpha ours", "ln(mu/mu0) at 1 GPa, measured", "ours",
     "viscosity over measured",
 )  # fmt: skip
+DISC_OILS = ("N100", "M100", "PAO100")
+"""Oils of Mann's discs."""
 BASE_NAMES = {"mineral": "mineral oil", "pao": "PAO", "ester": "ester", "pag": "polyglycol"}
 
 
@@ -80,7 +84,16 @@ def _gear_rows(stored: Mapping[str, Any]) -> Iterator[Row]:
     )
     for base in ("pag", "ester"):
         ratio = _ratio(mixed[base], one)
-        yield Row(group, f"{BASE_NAMES[base]} over mineral oil", 0.6, 1.0, *ratio, "doleschel", words["gear_ratio"])
+        yield Row(
+            group,
+            f"{BASE_NAMES[base]} over mineral oil",
+            0.6,
+            1.0,
+            *ratio,
+            "doleschel",
+            words["gear_ratio"],
+            assumed=base == "pag",
+        )
     slid = film["mineral"]["sliding_power"]
     schlenk = {"mineral": 425.0, "pao": 340.0, "ester": 340.0, "pag": 313.0}
     for base, power in schlenk.items():
@@ -95,7 +108,7 @@ def _disc_rows(stored: list[dict[str, Any]]) -> Iterator[Row]:
     """Mann's discs."""
     words = prose("friction")["remarks"]
     for row in stored:
-        measured = row["formula"]
+        measured, tested = row["formula"], row["inlet"] == TESTED
         what = f"{row['oil']}, {row['speed']:g} m/s, slide/roll {row['slip']:g}, {row['inlet']:g} degC"
         yield Row(
             "discs",
@@ -107,8 +120,17 @@ def _disc_rows(stored: list[dict[str, Any]]) -> Iterator[Row]:
             row["up"],
             row["numerical"],
             "mann",
-            words["mann_temperature"] if row["inlet"] != 60 else words.get(row["oil"], ""),
+            _disc_remark(row) if tested else words["mann_temperature"],
+            assumed=not tested,
+            apart=not tested,
         )
+
+
+def _disc_remark(row: Mapping[str, Any]) -> str:
+    """Why the value of a disc is off; the viscosity that was measured was tried at 4 m/s only."""
+    if abs(row["coefficient"] - row["formula"]) <= FORMULA_ERROR:
+        return ""
+    return str(prose("friction")["remarks"].get(row["oil"] if row["speed"] == 4 else f"{row['oil']}_elsewhere", ""))
 
 
 def _base_rows(stored: Mapping[str, Any]) -> Iterator[Row]:
@@ -123,21 +145,14 @@ def _base_rows(stored: Mapping[str, Any]) -> Iterator[Row]:
     ):
         name = BASE_NAMES.get(base, f"{base} fluid" if base == "traction" else f"{base} oil")
         remark = words.get(base, words["disc_conditions"])
-        yield Row(group, f"{name} over mineral oil", low, high, *_ratio(stored[base], mineral), source, remark)
+        values = _ratio(stored[base], mineral)
+        yield Row(group, f"{name} over mineral oil", low, high, *values, source, remark, assumed=base == "pag")
     water = stored["water-glycol"]
     values = (water[key] for key in ("coefficient", "down", "up", "numerical"))
     yield Row(group, "coefficient, fluid with water", 0.0, 0.01, *values, "yilmaz", words["water"])
-    least = min(stored[base]["coefficient"] for base in ("mineral", "naphthenic", "pao", "ester"))
-    ratio = stored["pag"]["coefficient"] / least
-    scatter = ratio * stored["pag"]["up"] / stored["pag"]["coefficient"]
-    yield Row(group, "polyglycol over the lowest other oil", 0.0, 1.0, ratio, scatter, scatter, 0.0, "rounds")
-    limits = {base: rheology_of(base).limiting_shear_coefficient for base in ("ester", "pao")}
-    own = {
-        base: {"coefficient": one.value, "down": one.scatter[0], "up": one.scatter[1]} for base, one in limits.items()
-    }
-    yield Row(
-        group, "limit of an ester over that of a PAO, 40 degC", 1.0, MOST, *_ratio(own["ester"], own["pao"]), "order"
-    )
+    others = [stored[base] for base in ("mineral", "naphthenic", "pao", "ester")]
+    ratio = _ratio(stored["pag"], min(others, key=lambda one: one["coefficient"]))
+    yield Row(group, "polyglycol over the lowest other oil", 0.0, 1.0, *ratio, "rounds")
 
 
 def _trend_rows(stored: Mapping[str, Any]) -> Iterator[Row]:
@@ -155,14 +170,21 @@ def _trend_rows(stored: Mapping[str, Any]) -> Iterator[Row]:
 
 def verdict(shown: list[Row]) -> str:
     """The head of the page: how many measured and computed values, from how many sources, and the shares inside."""
-    measured, computed = ([row for row in shown if row.computed is kind] for kind in (False, True))
-    sources, fitted = len({row.source for row in shown}), sum(row.source in THROUGH_FORMULA for row in shown)
+    apart = [row for row in shown if row.apart]
+    measured, computed = ([row for row in shown if row.computed is kind and not row.apart] for kind in (False, True))
+    sources, fitted = len({row.source for row in shown}), sum(row.source in THROUGH_FORMULA for row in measured)
+    sided = [row for row in measured if row.one_sided]
+    oils = {oil: [row for row in measured if row.group == "discs" and row.what.startswith(oil)] for oil in DISC_OILS}
+    by_oil = ", ".join(f"{oil} {sum(row.inside for row in own)} of {len(own)}" for oil, own in oils.items())
     return (
-        f"{len(shown)} published values from {sources} sources. Of {len(measured)} measured ones, {fitted} of them "
-        f"through a formula that describes the measurement, {_counts(measured)}. Of {len(computed)} that others "
-        f"computed, {_counts(computed)}. The uncertainty of {sum(row.assumed for row in shown)} values is assumed here "
-        "(marked * on the page). No constant is fitted to the values; which rows share constants with their sources "
-        "is said under How to read this."
+        f"{len(shown)} published values from {sources} sources. Of {len(measured)} measured ones {_counts(measured)}. "
+        f"{fitted} of the measured ones are known by a formula that describes the measurement. {len(sided)} have an "
+        f"interval with one side or from zero, which is easily met ({sum(row.inside for row in sided)} inside). Twin "
+        f"discs inside by oil: {by_oil}. Of {len(computed)} values that others computed {_counts(computed)}. "
+        f"{len(apart)} values, marked (apart) on the page, are counted apart as formulas or fitted curves beyond what "
+        f"their tests are known to cover, or a film that our grid does not resolve: {_counts(apart)}. The uncertainty "
+        f"of {sum(row.assumed for row in shown)} values is assumed here (marked * on the page). No constant is fitted "
+        "to the values; which rows share constants with their sources is said under How to read this."
     )
 
 
@@ -174,6 +196,12 @@ def _counts(shown: list[Row]) -> str:
     )
 
 
+def _scatter(own: list[Row]) -> str:
+    """The least and the largest scatter of a table over its values."""
+    parts = [part / row.ours for row in own for part in (row.down, row.up) if row.down or row.up]
+    return f" The scatter is {min(parts):.1%} to {max(parts):.0%} of ours." if parts else ""
+
+
 def build() -> Page:
     """The page, from the stored result."""
     stored, words = found(NAME), prose("friction")
@@ -181,10 +209,14 @@ def build() -> Page:
     sections = [Section("How to read this", "".join(text(one) for one in words["reading"]))]
     for group, title in words["groups"].items():
         own = [row for row in measured if row.group == group]
-        inside = sum(row.inside for row in own)
-        body = text(words["introductions"][group]) + text(f"{inside} of {len(own)} are inside both uncertainties.")
+        inside, apart = (sum(getattr(row, name) for row in own) for name in ("inside", "apart"))
+        counted = f"; {apart} of the {len(own)} are counted apart" if apart else ""
+        share = f"{inside} of {len(own)} are inside both uncertainties{counted}.{_scatter(own)}"
+        body = text(words["introductions"][group]) + text(share)
         if group == "discs":
-            body += figure(_drawing(own), "Computed over measured coefficients; bars: scatter of the oil, and 0.005.")
+            body += figure(
+                _drawing(own), "Computed coefficients over those of the formula; bars: scatter of the oil, and 0.005."
+            )
         sections.append(Section(title, body + table(HEADERS, map(_cells, own))))
     sections += [_missed(stored), *published.sections(), _ball(stored), _constants(), _sources()]
     return Page("friction", "Friction and films against measurements", verdict(measured), sections)
@@ -193,7 +225,8 @@ def build() -> Page:
 def _cells(row: Row) -> tuple[Any, ...]:
     """A row of the tables."""
     high = "" if math.isinf(row.high) else f" to {_short(row.high)}"
-    published_range = f"{'above ' if math.isinf(row.high) else ''}{_short(row.low)}{high}{' *' if row.assumed else ''}"
+    marks = f"{' *' if row.assumed else ''}{' (apart)' if row.apart else ''}"
+    published_range = f"{'above ' if math.isinf(row.high) else ''}{_short(row.low)}{high}{marks}"
     scatter = f"-{_short(row.down, 2)} +{_short(row.up, 2)}" if row.down or row.up else "-"
     numerical = _short(row.numerical, 1) if row.numerical else "-"
     source = prose("friction")["sources"][row.source]["short"]
@@ -207,11 +240,11 @@ def _short(value: float, digits: int = 3) -> str:
 
 
 def _drawing(own: list[Row]) -> Figure:
-    """Computed over measured coefficients of the discs."""
+    """Computed coefficients of the discs over those of the formula."""
     import matplotlib.pyplot as plt
 
     drawing, axes = plt.subplots(figsize=(5, 4.5))
-    for colour, oil in zip(COLOURS, ("N100", "M100", "PAO100"), strict=False):
+    for colour, oil in zip(COLOURS, DISC_OILS, strict=False):
         rows_of = [row for row in own if row.what.startswith(oil)]
         x = [0.5 * (row.low + row.high) for row in rows_of]
         y, down, up = ([getattr(row, name) for row in rows_of] for name in ("ours", "down", "up"))
@@ -219,7 +252,7 @@ def _drawing(own: list[Row]) -> Figure:
             x, y, yerr=[down, up], xerr=FORMULA_ERROR, fmt="o", ms=3, lw=0.6, color=colour, label=oil, alpha=0.8
         )
     axes.plot([0, 0.06], [0, 0.06], color="0.5", lw=0.8)
-    axes.set_xlabel("measured coefficient of friction")
+    axes.set_xlabel("coefficient of friction by the formula")
     axes.set_ylabel("computed")
     axes.legend()
     return drawing

@@ -17,7 +17,8 @@ class Row:
     ours : computed. down, up : its scatter from the oil's constants. numerical : of its numerical error. source : key
     of the sources in `reports/prose/friction.toml`. remark : conditions that were assumed, or why it is missed.
     computed : True if others computed the value; else it was measured. assumed : True if the source states no
-    uncertainty and that of the interval is an assumption.
+    uncertainty and that of the interval is an assumption. apart : True if the row counts neither as measured nor as
+    computed: a formula beyond its tests, or ours not resolved.
     """
 
     group: str
@@ -32,6 +33,12 @@ class Row:
     remark: str = ""
     computed: bool = False
     assumed: bool = False
+    apart: bool = False
+
+    @property
+    def one_sided(self) -> bool:
+        """Return True if the interval has one side only, or begins at zero."""
+        return self.low <= 0 or self.high == MOST
 
     @property
     def inside(self) -> bool:

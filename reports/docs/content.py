@@ -214,9 +214,9 @@ def measured() -> str:
     cells = []
     for group, title in groups.items():
         own = [row for row in rows if row.group == group]
-        counts = (len(own), sum(row.inside for row in own), sum(row.middle_inside for row in own))
+        counts = (len(own), *(sum(getattr(row, name) for row in own) for name in ("apart", "inside", "middle_inside")))
         cells.append((escaped(title), *map(str, counts)))
-    heads = ("subject", "values", "inside both uncertainties", "our value inside theirs")
+    heads = ("subject", "values", "of these counted apart", "inside both uncertainties", "our value inside theirs")
     return f"{friction.verdict(rows)}\n\n{markdown_table(heads, cells)}"
 
 
