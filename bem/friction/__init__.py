@@ -17,8 +17,9 @@ contact model (3):
    balance has heat of its own, which thins the film and lowers its shear stress. Line contacts: one trial with lumped
    heat solves two or three films on 250 cells, which find the viscosity of the thinned film, and that film on all nodes
    of the level (1.1 to 1.3 times the Newton steps of one isothermal film), then dense systems for the temperatures of
-   200 cells; with full heat one to three times the steps and 5 to 15 temperature fields. Ball: the viscosity is found
-   on 64 cells at loads three times apart and interpolated (`point_film.film_with_heat`).
+   200 cells; with full heat one to three times the steps and 5 to 15 temperature fields. Ball: the power of the
+   viscosity that the film follows is found on 64 cells at loads three times apart and interpolated; the factor of inlet
+   heating is that of the load itself (`point_film.film_with_heat`).
 3. The contact model gives the opening under any load (protocol `rough_contact.RoughContact`): the rough half-space or
    uncoupled `asperities`; `homogenised_contact` with `cell_law` for a cell that repeats over the contact of a ball
    (Greenwood and Tripp 1967); `given_separation` for mean planes at the central film thickness (figures 5 and 6 of
@@ -27,7 +28,7 @@ contact model (3):
    proportion to the logarithm of the speed.
 5. `load_sharing.LoadSharing` is the one driver. `solve` serves one point and its error bars; wear cycles and lives call
    its steps `balance` and `with_forces`. `solve` first finds the film under the whole load, for the lambda ratio. Cost:
-   one film, of a cylinder a coarse one; in full film a fine one more.
+   of a ball one film on all cells; of a cylinder one on 400 nodes and, where that clears the roughness, one on all.
 6. `balance.share_load` finds the film load, a root in the log odds of the film load (`numerics.bracketed_root`), on the
    coarse film first. It recognises full film and boundary lubrication as ends of the range. Cost in mixed lubrication:
    three or four films, coarse and fine, each with one rough contact; six to eight without a solution at another speed.

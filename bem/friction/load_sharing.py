@@ -139,8 +139,8 @@ class LoadSharing:
     def _films_under_whole_load(self, rough: RoughContact, start: PatchFilm | None) -> tuple[PatchFilm, ...]:
         """Solve the film under the whole load, or under the largest load of the film model, coarse to fine.
 
-        A finer film is solved only where the coarser one clears the roughness, or is too inaccurate for the lambda
-        ratio.
+        Levels that are too inaccurate for the lambda ratio are left out: of a ball one film is left, on all cells. A
+        finer film is solved only where the coarser one clears the roughness.
         """
         load = min(self.setup.load, self.films.largest_load)
         wholes: list[PatchFilm] = []

@@ -150,7 +150,8 @@ def film_with_heat(
 
     The thinning of the oil by inlet heating is computed for flooded films at the two nearest of loads `LATTICE_RATIO`
     times apart, stored in `thinnings`, and interpolated in ln(load), so that films are continuous in the load. A supply
-    then limits the film, as of line films. The heat of the contact itself is added by `lumped_point.add_heat`.
+    then limits the film, as of line films. `lumped_point.add_heat` adds the temperatures of the oil past
+    the inlet, which act on its shear stress alone.
     """
     if contact.heat is None:
         return film_without_heat(contact, speeds, load, cells)
@@ -304,7 +305,8 @@ class _Kept:
 
 KEPT = KeptValues(1 << 26)
 """Cache of the films of this process. Films start from the dry contact, so a cached film equals a new one. Under loads
-beyond the largest all trials of a balance, and error bars, extrapolate from one film."""
+beyond the largest all trials of a balance, and error bars, extrapolate from one film; with lumped heat each load has
+its own thinned oil, and so its own film."""
 
 
 def cached_film(contact: PointContact, speeds: Sequence[float], load: float, cells: int) -> PointFilmSolution:

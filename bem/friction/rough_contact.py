@@ -127,10 +127,11 @@ class RoughContact(Protocol):
         """Solve the contact at an approach [m], as of `Pressed`; other arguments as of `at_load`."""
 
 
-def shift_apart(film: PatchFilm, rough: FloatArray, setup: MixedSetup) -> float:
-    """Return the approach [m] at which rough surfaces (nx, ny) [m] that do not touch hold the film's oil.
+def approach_without_contact(film: PatchFilm, rough: FloatArray, setup: MixedSetup) -> float:
+    """Return the approach [m], positive nearer, at which rough surfaces (nx, ny) [m] that do not touch hold the oil.
 
-    It is zero where oil is counted on the whole patch, else minus the mean height where oil is counted.
+    It is zero where oil is counted on the whole patch, else minus the mean height where oil is counted: surfaces that
+    are high there move apart by that mean.
     """
     return 0.0 if setup.counted is OilVolume.PATCH else -setup.mean_counted(rough, film)
 
@@ -189,7 +190,7 @@ class CoupledContact:
 
     def clears(self, film: PatchFilm) -> bool:
         """See `RoughContact`."""
-        return bool((film.thickness - self.rough).min() >= shift_apart(film, self.rough, self.setup))
+        return bool((film.thickness - self.rough).min() >= approach_without_contact(film, self.rough, self.setup))
 
     def at_load(self, film: PatchFilm, load: float, tolerance: float, start: FloatArray | None) -> Pressed:
         """See `RoughContact`."""

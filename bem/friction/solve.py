@@ -130,11 +130,10 @@ def solve_mixed(
     solved more tightly than `contact_tolerance`, down to 1e-9, before that error is accepted. At both ends, full film
     and boundary lubrication, the oil is not tested. With heat `converged` includes temperatures that balance the film's
     heat. The film thickness itself is then uncertain, in a line contact by 5e-3, since the oil that inlet heating thins
-    is found to that tolerance; under a ball the oil is interpolated between loads, and the error may be larger.
-    `notes` say where a model is outside
-    its validity. A film with less than a tenth of the tolerance is boundary lubrication: the contact is solved for the
-    rest of the load. The same holds, with a note of its own, where the film model ends while the film is a few
-    molecules thick.
+    is found to that tolerance; under a ball the power of the viscosity is interpolated between loads, and the error may
+    be larger. `notes` say where a model is outside its validity. A film with less than a tenth of the tolerance is
+    boundary lubrication: the contact is solved for the rest of the load. The same holds, with a note of its own,
+    where the film model ends while the film is a few molecules thick.
 
     Raises
     ------

@@ -14,7 +14,7 @@ import numpy as np
 from bem.errors import Status
 from bem.friction.asperities import Summits, find_summits, shift_for_load, uncoupled_contact
 from bem.friction.film import PatchFilm, middle_line
-from bem.friction.rough_contact import Pressed, shift_apart, touching_fraction_of
+from bem.friction.rough_contact import Pressed, approach_without_contact, touching_fraction_of
 from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray
 from bem.notes.friction import NO_SUMMITS
@@ -44,7 +44,7 @@ class UncoupledAsperities:
     def clears(self, film: PatchFilm) -> bool:
         """See `RoughContact`. Tops of summits between cells count as well."""
         of_planes = self._at_film
-        shift = 0.0 if of_planes else shift_apart(film, self.rough, self.setup)
+        shift = 0.0 if of_planes else approach_without_contact(film, self.rough, self.setup)
         if (film.thickness - self.rough).min() < shift:
             return False
         return bool((self._separation(film) - self._summits.height >= shift).all())

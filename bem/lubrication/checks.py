@@ -179,7 +179,7 @@ def viscosity_beyond_range(case: Case) -> Note | None:
     Between elastic bodies this counts above 10 % of the load; a spike holds up to 5 % of it at many times the Hertz
     pressure, as high as the mesh makes it.
     """
-    oil, largest = case.lubricant, case.lubricant.viscosity_law.largest_pressure
+    oil, largest = case.lubricant, case.lubricant.viscosity_law.described.largest_pressure
     beyond = case.pressure > largest
     spike = math.isfinite(case.contact_modulus) and _load_share(case, beyond) < LOAD_AT_THE_LIMIT
     if spike or not beyond.any():
@@ -187,11 +187,13 @@ def viscosity_beyond_range(case: Case) -> Note | None:
         return _glass(oil) if case.not_found is None and oil.viscosity_at(np.array([highest]))[0] > GLASS else None
     reason = "rigid" if math.isinf(case.contact_modulus) else "elastic"
     level = Level.CAUTION if reason == "rigid" else None
-    return VISCOSITY_EXTRAPOLATED(level=level, reason=reason, limit=float(largest), law=oil.viscosity_law.name)
+    return VISCOSITY_EXTRAPOLATED(
+        level=level, reason=reason, limit=float(largest), law=oil.viscosity_law.described.name
+    )
 
 
 def _glass(oil: Lubricant) -> Note:
-    return VISCOSITY_EXTRAPOLATED(law=oil.viscosity_law.name, glass=GLASS, reason="glass")
+    return VISCOSITY_EXTRAPOLATED(law=oil.viscosity_law.described.name, glass=GLASS, reason="glass")
 
 
 def check_oil(lubricant: Lubricant, unit: float) -> None:

@@ -36,6 +36,11 @@ class ViscosityLaw(Law):
     family: ClassVar[str] = "viscosity_law"
     largest_pressure: ClassVar[float] = math.inf
 
+    @property
+    def described(self) -> ViscosityLaw:
+        """The law by which an oil is known to its user: itself, but for a law that alters another."""
+        return self
+
     @abstractmethod
     def log_viscosity_ratio(
         self, pressure: FloatArray, viscosity: float, pressure_viscosity: float

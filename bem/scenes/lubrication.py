@@ -213,7 +213,9 @@ class FilmMeshScene(Table):
 class MixedScene(SceneModel):
     """A rough cylinder, ball or ellipsoid on a rough flat with oil between them."""
 
-    lower: BodyScene = key("Lower body: the flat or disc, on which friction acts along +x.", "basic")
+    lower: BodyScene = key(
+        "Lower body: the flat or disc; friction acts on it against its sliding over the upper body.", "basic"
+    )
     upper: BodyScene = key("Upper body: the cylinder or ball; smooth without [upper.surface].", "basic")
     contact: LubricatedScene = key("Shape of the contact, load and boundary friction.", "basic")
     oil: OilScene = key("Lubricant.", "basic")

@@ -41,7 +41,7 @@ from bem.errors import InputError, Status
 from bem.friction.film import PatchFilm
 from bem.friction.forces import Forces
 from bem.friction.models import rough_contact
-from bem.friction.rough_contact import CoupledContact, OfPatch, Pressed, RoughContact, shift_apart
+from bem.friction.rough_contact import CoupledContact, OfPatch, Pressed, RoughContact, approach_without_contact
 from bem.grid import FloatArray
 from bem.materials import Body
 from bem.numerics.bracketed_root import find_decreasing_root
@@ -436,7 +436,7 @@ class RoughContactWithThirdBodies(OfPatch):
     def clears(self, film: PatchFilm) -> bool:
         """Return True if, under a film, neither the surfaces nor particles and both surfaces touch."""
         rough = self.patch.rough
-        apart = film.thickness - rough - shift_apart(film, rough, self.patch.setup)
+        apart = film.thickness - rough - approach_without_contact(film, rough, self.patch.setup)
         return self.patch.clears(film) and self.carried(apart) == 0
 
     def carried(self, gap: FloatArray) -> float:

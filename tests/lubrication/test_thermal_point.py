@@ -27,7 +27,7 @@ from bem.lubrication.thermal.bodies import moving_bodies
 from bem.lubrication.thermal.lumped_point import find_oil_thinning, point_heat
 from bem.lubrication.thermal.model import FilmHeat
 from bem.notes import has_code
-from bem.notes.lubrication import HEAT_LEFT_OUT, HEAT_NOT_FOUND, LUMPED_HEAT_LIMIT
+from bem.notes.lubrication import HEAT_LEFT_OUT, HEAT_NOT_FOUND, LUMPED_HEAT_LIMIT, VISCOSITY_EXTRAPOLATED
 from bem.reference_solutions.hertz import ellipse_contact
 
 ELASTIC = {"youngs_modulus": 210e9, "poissons_ratio": 0.3}
@@ -145,6 +145,18 @@ def test_thinned_oil_by_a_power_law():
     pressure = np.array([1e9])
     assert oil.log_viscosity_ratio(pressure)[0] == OIL.log_viscosity_ratio(pressure)[0]
     assert find_oil_thinning(OIL, inlet, lambda _: math.nan, 0.7).deviation == math.inf
+
+
+@pytest.mark.internal
+def test_thinned_oil_keeps_the_notes_of_its_law():
+    """A ball at 1.5 GPa, fast enough for its inlet to heat: the note names the oil's law and its limit."""
+    ball = PointContact((5e-3, 5e-3), MODULUS, OIL, heat=HEAT)
+    load = 1.5e9**3 / ellipse_contact(radii=ball.radii, contact_modulus=MODULUS, load=1.0).maximum_pressure ** 3
+    film = film_with_heat(ball, (8.0, 6.0), load, 48)
+    assert film.lubricant.viscosity < 0.9 * OIL.viscosity
+    (note,) = [one for one in film.notes if one.code == VISCOSITY_EXTRAPOLATED.code]
+    assert note.values["law"] == OIL.viscosity_law.name
+    assert note.values["limit"] == OIL.viscosity_law.largest_pressure
 
 
 @pytest.mark.internal

@@ -34,6 +34,11 @@ class ThinnedLaw(ViscosityLaw):
     law: ViscosityLaw
     share: float
 
+    @property
+    def described(self) -> ViscosityLaw:
+        """The law of the other oil."""
+        return self.law.described
+
     def log_viscosity_ratio(
         self, pressure: FloatArray, viscosity: float, pressure_viscosity: float
     ) -> tuple[FloatArray, FloatArray]:

@@ -115,7 +115,9 @@ def add_heat(
     inlet: InletHeating,
     deviation: float,
 ) -> PointFilmSolution:
-    """Return a film of the thinned oil with stresses, forces and temperatures of the oil as supplied.
+    """Return a film of the thinned oil with its temperatures, and stresses and forces of the unthinned oil at these.
+
+    Pressure and thickness stay.
 
     film : with speeds along x. half_axes : of the contact, along and across the flow [m]. deviation : of the film from
         the factor of inlet heating, relative.
