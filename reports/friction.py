@@ -37,6 +37,8 @@ ROELANDS_HEADERS = (
     "oil", "degC", "alpha measured (1/GPa)", "alpha ours", "ln(mu/mu0) at 1 GPa, measured", "ours",
     "viscosity over measured",
 )  # fmt: skip
+FROM_SUMMARY = ("doleschel", "santotrac", "vengudusamy", "rounds", "yilmaz")
+"""Sources of which a summary, an abstract or a sentence quoted by others was read."""
 DISC_OILS = ("N100", "M100", "PAO100")
 """Oils of Mann's discs."""
 BASE_NAMES = {"mineral": "mineral oil", "pao": "PAO", "ester": "ester", "pag": "polyglycol"}
@@ -173,14 +175,16 @@ def verdict(shown: list[Row]) -> str:
     apart = [row for row in shown if row.apart]
     measured, computed = ([row for row in shown if row.computed is kind and not row.apart] for kind in (False, True))
     sources, fitted = len({row.source for row in shown}), sum(row.source in THROUGH_FORMULA for row in measured)
+    told = sum(row.source in FROM_SUMMARY for row in measured)
     sided = [row for row in measured if row.one_sided]
     oils = {oil: [row for row in measured if row.group == "discs" and row.what.startswith(oil)] for oil in DISC_OILS}
     by_oil = ", ".join(f"{oil} {sum(row.inside for row in own)} of {len(own)}" for oil, own in oils.items())
     return (
         f"{len(shown)} published values from {sources} sources. Of {len(measured)} measured ones {_counts(measured)}. "
-        f"{fitted} of the measured ones are known by a formula that describes the measurement. {len(sided)} have an "
-        f"interval with one side or from zero, which is easily met ({sum(row.inside for row in sided)} inside). Twin "
-        f"discs inside by oil: {by_oil}. Of {len(computed)} values that others computed {_counts(computed)}. "
+        f"{fitted} of the measured ones are known by a formula that describes the measurement, {told} from a summary, "
+        f"an abstract or a sentence quoted by others. {len(sided)} have an interval with one side or from "
+        f"zero, which is easily met ({sum(row.inside for row in sided)} inside). Twin discs "
+        f"inside by oil: {by_oil}. Of {len(computed)} values that others computed {_counts(computed)}. "
         f"{len(apart)} values, marked (apart) on the page, are counted apart as formulas or fitted curves beyond what "
         f"their tests are known to cover, or a film that our grid does not resolve: {_counts(apart)}. The uncertainty "
         f"of {sum(row.assumed for row in shown)} values is assumed here (marked * on the page). No constant is fitted "
