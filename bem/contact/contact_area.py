@@ -164,14 +164,14 @@ def rows_in_contact(
     """Return the fraction (nx,) of each row of cells within the strip along y that is in contact anywhere.
 
     The strip ends at the outermost crossing of the boundary with the links along x, or at a kink of the worn gap, so
-    that means over the strip converge with the cell size. Without contact all fractions are one. Parameters as in
+    that means over the strip converge with the cell size. Without contact all fractions are zero. Parameters as in
     `contact_region`.
     """
     inside = pressure > 0
     touched = np.asarray(inside.any(axis=1))
     rows: FloatArray = touched.astype(np.float64)
     if touched.all() or not touched.any():
-        return np.ones_like(rows)
+        return rows
     _, crossed = _region(inside, pressure, gap, undeformed, grid, modulus, compliance=compliance)
     worn = undeformed + compliance * pressure
     nx = rows.size

@@ -20,7 +20,7 @@ from bem.life.surfaces import LifeCase
 from bem.materials import Body
 from bem.notes import Level, Note
 from bem.notes.checks import NOTHING_CAME_OFF
-from bem.notes.wear import MICROPITS_EARLY
+from bem.notes.wear import MICROPITS_EARLY, PIECES_IN_SOME_STEPS
 from bem.wear.criterion import Criterion
 from bem.wear.loads import BodyCycle, SurfaceLoad
 from bem.wear.model import WearModel
@@ -31,6 +31,8 @@ HIGH_CYCLES = 1e4
 """Fewest cycles at which a criterion of high-cycle fatigue holds: below, cyclic plasticity decides."""
 PITTED_EARLY = 0.005
 """Share of the surface that may fail in fewer cycles than that without a note."""
+_LEFT_OUT = 0.02
+"""Share of the worn volume that the number of particles may leave out without a note."""
 FIGURES = (
     *("particles", "particle_equivalent_radius", "particles_over_cycles"),
     *(
@@ -145,10 +147,14 @@ class Monitors:
         return (MICROPITS_EARLY(share=float(share), cycles=float(cycles), limit=HIGH_CYCLES),)
 
     def _no_pieces(self) -> tuple[Note, ...]:
-        """Return a note where the criterion finds no piece in any pass, so that particles have no size."""
-        if self.sizes is None or (self.pieces[:, 1] > 0).any():
+        """Return a note where the criterion finds no piece in any pass, so that particles have no size, or none in
+        steps that wear more than a little, which the number of particles leaves out."""
+        if self.sizes is None:
             return ()
-        law = self.sizes.model.criterion_law.name
+        law, (number, worn) = self.sizes.model.criterion_law.name, self.pieces[:, 1:].T
+        if (number > 0).any():
+            share = float(worn[np.isnan(number)].sum() / worn.sum())
+            return (PIECES_IN_SOME_STEPS(law=law, share=share),) if share > _LEFT_OUT else ()
         takes = "Wear goes on by its law; particles have no sizes and numbers."
         return (NOTHING_CAME_OFF("particles", level=Level.INFO, law=law, takes=takes),)
 

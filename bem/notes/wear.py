@@ -69,6 +69,14 @@ LIFE_DISTANCE_DIFFERS = define(
     "It is {given:si m}; at these speeds a place slides {slid:si m} while the {length:si m} of the patch pass.",
     "Set wear.law.distance to {slid:si m}.",
 )
+PIECES_IN_SOME_STEPS = define(
+    "pieces-in-some-steps",
+    INFO,
+    "Particles leave out what wore where no piece was found.",
+    "Steps of the life in which the criterion {law} finds no piece wear {share:%} of the volume of the lower body; the "
+    "number of particles is that of the rest.",
+    "Take the number for the rest of the volume, or a criterion that finds pieces in all steps.",
+)
 MICROPITS_EARLY = define(
     "micropits-early",
     OUTSIDE_MODEL,

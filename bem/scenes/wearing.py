@@ -395,7 +395,8 @@ _MOST_CUT = 0.02
 def sizes_over_cycles(scene: Any, result: RunningIn) -> tuple[FloatArray, FloatArray]:
     """Return the volume-mean radius [m] (nan without particles) and the number of reported particles of each cycle.
 
-    Beside a wear law, the number is the worn volume of the body over the mean volume of its particles in the cycle.
+    Beside a wear law, the number is the volume that the law takes from the body, without cuts of third bodies, over the
+    mean volume of its particles in the cycle.
     """
     from bem.wear.outcome import sizes_over_cycles
 
@@ -404,7 +405,7 @@ def sizes_over_cycles(scene: Any, result: RunningIn) -> tuple[FloatArray, FloatA
     if scene.wear.particle_criterion is None:
         return radius, number
     total = np.bincount(particles["cycle"], particles["volume"], minlength=int(cycles["cycle"].max()) + 1)
-    total, worn = total[cycles["cycle"]], _share_worn(scene, result) * cycles["volume"]
+    total, worn = total[cycles["cycle"]], _share_worn(scene, result) * (cycles["volume"] - cycles["cut_volume"])
     return radius, np.divide(number * worn, total, out=np.zeros(len(cycles)), where=total > 0)
 
 

@@ -52,11 +52,18 @@ def wear_cycle(
     acting = SurfaceLoad(contact.pressure, contact.friction, None if rubbing is None else rubbing.traction)
     slid = None if rubbing is None else model.traction_law.loops_per_cycle * rubbing.slid
     shift_distance = abs(model.shift) * setup.grid.spacing[0]
+    judged = _without_residual_stress(setup) if model.stress_range else setup
     removals = []
     for body in wearing_bodies(setup.bodies, model.wears):
         loads = stress_range_loads(acting, last_loads[body]) if model.stress_range else (acting,)
         cycle = BodyCycle(
-            contact.pressure, loads, setup, model, body, shift_distance, memories[body], slid, contact.temperature
+            contact.pressure, loads, judged, model, body, shift_distance, memories[body], slid, contact.temperature
         )
         removals.append(model.criterion_law.detach(cycle))
     return contact if rubbing is None else replace(contact, rubbing=rubbing), removals
+
+
+def _without_residual_stress(setup: WearSetup) -> WearSetup:
+    """Return the setup for ranges of stress: a residual stress does not change from cycle to cycle."""
+    lower, upper = (body.without_residual_stress() for body in setup.bodies)
+    return replace(setup, bodies=(lower, upper))

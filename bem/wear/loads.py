@@ -36,7 +36,8 @@ class SurfaceLoad:
 def stress_range_loads(now: SurfaceLoad, before: SurfaceLoad | None) -> tuple[SurfaceLoad, ...]:
     """Return loads whose stresses add up to the stress amplitude, half the change since the load before (None: zero).
 
-    A single load suffices where the friction is the same, since stress is linear in pressure and traction.
+    Residual stresses of layers do not change, so they are no part of it: a criterion gets bodies without them. A single
+    load suffices where the friction is the same, since stress is linear in pressure and traction.
     """
     if before is None:
         return (SurfaceLoad(0.5 * now.pressure, now.friction),)
@@ -51,7 +52,7 @@ class BodyCycle:
 
     pressure : (nx, ny) of the contact [Pa].
     loads : whose stresses together the criterion compares: the contact's own, or half the change since the last cycle.
-    setup, model : of the loop.
+    setup, model : of the loop; for half a change, the setup's bodies are without residual stresses.
     body : LOWER or UPPER.
     shift_distance : distance that the moving body slides between two computed cycles [m].
     memory : (planes, nx, ny) returned in the last cycle and moved with the material; None before the first.

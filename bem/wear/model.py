@@ -36,7 +36,7 @@ class WearModel:
         and distance, without pieces.
     stress_range : judge half the change of stress that each body's material has seen since the last cycle instead of
         the stress (low-cycle fatigue: a range of twice the yield stress is what shakedown can bear). There is no load
-        before the first cycle, so half its stress counts.
+        before the first cycle, so half its stress counts. Residual stresses of layers do not change and count nothing.
     refine, refinement : fine voxels per depth interval and how stress is interpolated between depths; "exact" computes
         the stress at every fine depth and is the check of the others.
     connectivity : 6, 18 or 26 neighbours.

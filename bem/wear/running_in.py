@@ -483,13 +483,13 @@ def _cycle_row(
 ) -> NDArray[np.void]:
     cell_area, rubbing, third = setup.grid.cell_area, contact.rubbing, contact.third_bodies
     besides = sum(float(removal.worn.sum()) for removal in removals if removal.worn is not None) * cell_area
-    besides += 0.0 if third is None else float(sum(cut.sum() for cut in third.cut)) * cell_area
+    cut_volume = 0.0 if third is None else float(sum(cut.sum() for cut in third.cut)) * cell_area
     return np.array(
         [
             (
                 cycle,
                 particles.size,
-                particles["volume"].sum() + besides,
+                particles["volume"].sum() + (besides + cut_volume),
                 contact.contact_area,
                 contact.plastic_area,
                 contact.load,
@@ -502,6 +502,7 @@ def _cycle_row(
                 contact.status == Status.CONVERGED,
                 *((0.0, 0.0, 0.0) if rubbing is None else (rubbing.stick_share, rubbing.energy, rubbing.way)),
                 *((0.0, 0.0) if third is None else (third.load, third.number_per_area)),
+                cut_volume,
             )
         ],
         dtype=CYCLE_FIELDS,

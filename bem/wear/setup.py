@@ -33,6 +33,10 @@ class WearChoices(Protocol):
         """Removal law."""
 
     @property
+    def wears(self) -> str:
+        """Which bodies wear, as in `wearing_bodies`."""
+
+    @property
     def film_defect_model(self) -> FilmDefect | None:
         """Fractional film defect of a boundary film; None for unprotected surfaces."""
 

@@ -52,11 +52,13 @@ CYCLE_FIELDS = np.dtype(
         ("loop_way", np.float64),
         ("third_body_load", np.float64),
         ("third_bodies_per_area", np.float64),
+        ("cut_volume", np.float64),
     ]
 )
 """A cycle as a row of a table, in SI units.
 
 `volume` is the sum of pieces and local wear of the wearing bodies and of cuts by third bodies in both bodies.
+`cut_volume` is that of the cuts alone.
 `depths_computed` is the sum over the wearing bodies. `contact_area`, `plastic_area` and `contact_load` are on the grid.
 `friction` is the boundary traction over the pressure, on the lower body along +x where positive. `rms_height` is Sq of
 the (first) wearing surface inside the strip that is in contact in the cycle (`RunningInState.strip`); figures of scenes

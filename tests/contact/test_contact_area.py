@@ -169,6 +169,15 @@ def test_rows_in_contact_make_up_the_strip_wherever_it_ends(half_width, periodic
     assert rows.max() == 1
 
 
+@pytest.mark.internal
+def test_no_row_is_in_contact_where_nothing_touches():
+    """All rows were, so that a loop took the whole grid as its strip where third bodies bear the whole load."""
+    grid = Grid((8, 4), (1.0, 1.0))
+    apart, none = np.ones(grid.shape), np.zeros(grid.shape)
+    assert not rows_in_contact(none, apart, apart, grid, 1.0).any()
+    assert rows_in_contact(apart, none, none, grid, 1.0).all()
+
+
 @pytest.mark.parametrize("mean_pressure", [0.002, 0.008, 0.02])
 @pytest.mark.parametrize("hardness", [None, 0.06])
 def test_rough_contact_converges_with_order_two(mean_pressure, hardness):

@@ -11,7 +11,7 @@ from bem.accuracy.life import POSITIONS, OtherLives, errors_of_jumps, fewer_posi
 from bem.life.fatigue import RollingFatigue
 from bem.life.fatigue_limit import FatigueLimit
 from bem.life.march import LifeState, advance, run_life
-from bem.life.monitors import PieceSizes
+from bem.life.monitors import Monitors, PieceSizes
 from bem.life.positions import Passing
 from bem.life.surfaces import GrowingTribofilm, LifeCase, solve_round
 from bem.packing import packed, unpacked
@@ -223,6 +223,15 @@ def test_a_life_finds_pieces_of_junctions_that_a_pass_drags_over_their_size():
     criterion = Junction(surface_energy=1e-3)
     assert pieces(criterion).volumes(hard_contacts(1e-4), 1e-4).size > 0
     assert pieces(criterion).volumes(hard_contacts(1e-9), 1e-9).size == 0
+
+
+@pytest.mark.parametrize(("left_out", "notes"), [(1.0, ["pieces-in-some-steps"]), (0.01, [])])
+def test_a_life_says_how_much_wore_where_no_piece_was_found(left_out, notes):
+    """The number of particles left that volume out without a word."""
+    rows = np.array([[1.0, 5.0, 3.0], [2.0, math.nan, left_out]])
+    found = Monitors(case(2.0), pieces("von_mises"), None, pieces=rows).notes()
+    assert [note.code for note in found] == notes
+    assert all(note.values["share"] == 0.25 for note in found)
 
 
 def test_a_life_refuses_pieces_that_only_many_passes_bring_off():

@@ -346,6 +346,20 @@ def test_stress_range_of_a_contact_that_does_not_move_is_zero():
     assert result.particles.size == 0
 
 
+def test_stress_range_has_no_residual_stress():
+    """A residual stress does not change; it was added in full to half the change."""
+    lower, upper = surfaces()
+    weak = Material("disk", youngs_modulus=210e9, poissons_ratio=0.3, hardness=1.8e9, yield_stress=0.4e9)
+    worn = []
+    for residual in (-0.35e9, 0.0):
+        coated = Body(SOFT.material, layers=(Layer(weak, 1e-6, residual_stress=residual),))
+        arguments = ARGUMENTS | {"bodies": (coated, HARD)}
+        model = WearModel(stress_range=True, shift=5, criterion=NO_SKIN, within_layer=False)
+        worn.append(run_in(lower, upper, cycles=2, model=model, **arguments))
+    assert worn[1].particles.size > 0
+    assert np.array_equal(worn[0].lower_heights, worn[1].lower_heights)
+
+
 @pytest.mark.parametrize("rows", [48, 96], ids=["as long as the grid", "longer"])
 @pytest.mark.parametrize("frictions", [(0.16, 0.16, 0.16), (0.05, 0.25, 0.4)], ids=["steady friction", "changing"])
 def test_stress_range_with_sliding_is_that_of_each_bodys_own_material(frictions, rows):

@@ -45,6 +45,20 @@ def test_the_number_of_particles_is_the_volume_of_the_law_over_their_mean_volume
     assert found.summary["particles_per_cycle"] == pytest.approx(number[-4:].mean())
 
 
+def test_cuts_of_third_bodies_come_off_without_particles_of_the_criterion(tmp_path):
+    """The number of particles was that of all that wore, cuts of both bodies included."""
+    bodies = '\n[wear.third_bodies]\ndiameter = "300 nm"\nnumber_per_area = 1e11\nremoved = 0.5\n'
+    law = ARCHARD.replace("1e-7", "1e-12") % "100 nm" + SIZES
+    _, cut = run(tmp_path, WEAR + law + bodies)
+    _, plain = run(tmp_path, WEAR + law + bodies.replace("0.5", "0.0"))
+    worn, alone = (one.variables["volume"].values.flat[0] for one in (cut, plain))
+    assert worn > 10 * alone > 0
+    # the first contact is the same, and so are what the law takes in it and its particles
+    number, same = (one.variables["particles"].values.flat[0] for one in (cut, plain))
+    assert number == pytest.approx(same, rel=1e-6)
+    assert number > 0
+
+
 def test_a_law_without_sizes_says_how_to_have_them(tmp_path):
     for text, told in ((ARCHARD % "1 mm", 1), (ARCHARD % "1 mm" + SIZES, 0), ("", 0)):
         campaign, found = run(tmp_path, WEAR + text)

@@ -160,6 +160,7 @@ def test_a_loop_loses_what_they_cut_off_and_without_them_keeps_its_bits():
     lost = (rough() - cut.lower_heights).sum() - cut.upper_heights.sum()
     assert lost > 0
     assert lost * GRID.cell_area == pytest.approx(cut.cycles["volume"].sum(), rel=1e-9)
+    assert np.array_equal(cut.cycles["cut_volume"], cut.cycles["volume"])
     assert (cut.cycles["third_body_load"] + cut.cycles["contact_load"]) == pytest.approx(LOAD, rel=1e-6)
     plain, none = loop(), loop(third_bodies=table | {"number_per_area": 0.0})
     assert np.array_equal(plain.pressure, none.pressure)

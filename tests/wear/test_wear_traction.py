@@ -158,6 +158,17 @@ def test_what_does_not_go_together_is_refused():
         worn_ball(replace(force, loops=1e9))
 
 
+def test_two_bodies_that_wear_have_half_the_steps_of_one():
+    """The next gap changes by the wear of both; each was held against the limit alone."""
+    force = OscillatingForce(share=0.8, loops=1e9)
+    allowed = []
+    for wears in ("upper", "both"):
+        with pytest.raises(InputError, match="times the loops") as refused:
+            worn_ball(force, cells=32, model=WearModel(wears=wears, shift=0, traction=force))
+        allowed.append(float(str(refused.value).split("allowed: ")[1].split(" times")[0]))
+    assert allowed[1] == pytest.approx(0.5 * allowed[0], rel=0.1)  # told to two digits
+
+
 def test_steps_as_long_as_allowed_do_not_alternate():
     """Explicit steps overshoot where they wear more by pressure than a checkerboard of pressures gives way."""
     force = OscillatingForce(share=0.8, loops=1e9)

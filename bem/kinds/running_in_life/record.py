@@ -85,7 +85,9 @@ class RunningInLifeRecord(GridRecord):
     depth_error_over_cycles: Annotated[FloatArray, _over("m", "what the jumps leave open of the mean depths worn")]
     flash_temperature_over_cycles: Annotated[FloatArray | None, _over("K", "highest temperature of the contact")]
     tribofilm_over_cycles: Annotated[FloatArray | None, _over("m", "mean thickness of the tribofilm")]
-    particles_over_cycles: Annotated[FloatArray | None, _over("1", "pieces so far")]
+    particles_over_cycles: Annotated[
+        FloatArray | None, _over("1", "pieces so far, of steps in which the criterion finds any")
+    ]
     micropitted_over_cycles: Annotated[FloatArray | None, _over("1", "micropitted share of the surface")]
     step_cycle: Annotated[FloatArray, _step("1", "cycles after a jump")]
     step_length: Annotated[FloatArray, _step("1", "cycles of a jump")]

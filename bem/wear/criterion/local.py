@@ -12,7 +12,7 @@ import numpy as np
 from bem.errors import InputError
 from bem.laws import parameter, register
 from bem.wear.criterion.base import Criterion
-from bem.wear.setup import UPPER
+from bem.wear.setup import UPPER, wearing_bodies
 
 if TYPE_CHECKING:
     from bem.grid import Grid
@@ -67,8 +67,8 @@ class LocalWear(Criterion):
         return self.rate(bodies[index], friction) * (self.upper_over_lower if index == UPPER else 1.0)
 
     def _check_step(self, give: float, setup: WearSetup) -> None:
-        """Raise InputError if the wear of a step by pressure, `give` [m/Pa], exceeds the bodies' compliance to pressure
-        that alternates from cell to cell: the next contact would alternate."""
+        """Raise InputError if the wear of a step by pressure of all bodies that wear, `give` [m/Pa], exceeds the pair's
+        compliance to pressure that alternates from cell to cell: the next contact would alternate."""
         most = cell_to_cell_compliance(setup.grid, setup.bodies)
         if give > most:
             raise InputError(
@@ -90,11 +90,14 @@ class LocalWear(Criterion):
         from bem.wear.yielding import no_pieces
 
         began = time.perf_counter()
-        rate = self.body_rate(cycle.setup.bodies, cycle.body, cycle.loads[0].friction)
+        bodies, friction = cycle.setup.bodies, cycle.loads[0].friction
+        rate = self.body_rate(bodies, cycle.body, friction)
         defect = cycle.model.film_defect_model
         bare = 1.0 if defect is None else defect.share(cycle.temperature)
         if cycle.slid is not None:
-            self._check_step(rate * float(cycle.slid.max()), cycle.setup)
+            wearing = wearing_bodies(bodies, cycle.model.wears)  # the gap of the next contact changes by the sum
+            total = sum(self.body_rate(bodies, body, friction) for body in wearing)
+            self._check_step(total * float(cycle.slid.max()), cycle.setup)
         worn = bare * rate * (self.distance if cycle.slid is None else cycle.slid) * cycle.pressure
         pieces = no_pieces(cycle.setup.grid.shape)
         return BodyWear(cycle.body, pieces, 0, 0.0, time.perf_counter() - began, worn[None], worn)
