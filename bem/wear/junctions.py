@@ -38,6 +38,8 @@ class Junctions(NamedTuple):
 def junction_removal(cycle: BodyCycle, critical: float) -> BodyWear:
     """Return half spheres under the junctions of at least a critical size [m] that were dragged over their own size.
 
+    A cycle drags by the shift of the moving body, also in pure rolling, where nothing slides.
+
     The memory is one plane: drag of each column without a break in contact [m], reset where a piece came off. The own
     size is the diameter or, for a junction longer across than along the sliding, its extent along x: the largest drag
     of a column by an asperity that passes.

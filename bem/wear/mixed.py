@@ -74,8 +74,10 @@ MIXED_FIELDS = np.dtype(
 `total_friction` is the coefficient of film and boundary; `width_contact_load` is without the load on particles.
 `approach` is that of the rough contact (`Pressed.approach`), 0 without a contact. Temperatures are those of the
 surfaces in contact, mean by pressure and highest; the oil's without contact, 0 where no heat was asked for. `films` is
-the number of films solved or interpolated, `regime` an index. `combined_rms_height` is that of both surfaces together
-on the patch, without the worn shape of the film, by which the lambda ratio divides."""
+the number of films solved or interpolated in the last balance of the cycle, as are the convolutions of the cycle;
+balances before it, which lacked films of the worn shape, are not counted. `regime` is an index.
+`combined_rms_height` is that of both surfaces together on the patch, without the worn shape of the film, by
+which the lambda ratio divides."""
 
 
 REGIMES = tuple(Regime)

@@ -226,6 +226,7 @@ def test_kernels_of_a_wear_scene_are_planned_once_for_a_grid_not_for_a_cycle():
 )
 def test_stresses_of_a_wear_cycle_take_as_many_transforms_as_are_planned(choice):
     """Seven were planned for each depth, whatever the criterion, the tractions and the loads."""
+    from bem.scenes.tables.wear_model import WearScenePart
     from bem.scenes.wearing import stress_transforms
 
     grid = Grid((48, 40), (1e-7, 1e-7), periodic=(False, True))
@@ -241,7 +242,8 @@ def test_stresses_of_a_wear_cycle_take_as_many_transforms_as_are_planned(choice)
     COUNT.reset()
     found = yielded_pieces(loads, setup, model, 0)
     assert found.depths_computed > 2
-    planned, counted = stress_transforms(model, found.depths_computed), COUNT.forward + COUNT.inverse
+    table = WearScenePart.model_validate(choice)
+    planned, counted = stress_transforms(table, found.depths_computed), COUNT.forward + COUNT.inverse
     # a depth to which only a deeper one led is gone through twice
     assert counted == planned or (model == WearModel() and counted == planned + 5)
 

@@ -32,6 +32,10 @@ class Oscillating(TractionLaw):
     the first reversal erases the memory of earlier loops (except for lateral slip), so the loop is the steady one, and
     one step each gives its energy where slip keeps its direction. Pieces leave under the tractions at the end of the
     loop; a local law wears by the slip distance of `loops` of them.
+
+    The pressure is that of the contact before the loop, which the tractions do not change. Between elastically
+    different bodies, the loop's own dry contact has the normal displacement by friction x pressure along +x in it, as
+    in gross sliding.
     """
 
     loops: float = parameter(
