@@ -120,7 +120,7 @@ def solve(problem: Problem) -> Comparison | None:
     found, truth = mixed_figures(solution), mixed_figures(reference)
     # load sharing solves the film under the whole load on few points where it does not clear the roughness
     films = films_of(setup, speeds, resolution=FINER * setup.film_resolution)
-    whole = films.under(setup.load, len(films.errors) - 1, None)
+    whole = films.under(setup.load, len(films.level_errors) - 1, None)
     truth["lambda_ratio"] = whole.minimum_thickness / float(heights.std())
     return Comparison(found, truth, bars.values, bars.parts)
 

@@ -166,7 +166,7 @@ def test_prefixes(value, unit, expected):
     ("name", "value", "expected"),
     [
         ("mean_contact_pressure_Pa", 1.2341e9, ("mean contact pressure", "1.234 GPa")),
-        ("contact_area_fraction", 0.05, ("contact area fraction", "5.0000%")),
+        ("contact_area_fraction", 0.05, ("contact area fraction", "5 %")),
         ("approach_m", 4.2e-7, ("approach", "420 nm")),
         ("particle_equivalent_radius_nm", 151.23, ("particle equivalent radius", "151.2 nm")),
         ("cycles", 200, ("cycles", "200")),

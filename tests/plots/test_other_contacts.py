@@ -133,7 +133,7 @@ def test_errors_of_hundreds_are_written_without_a_power_of_ten():
 
 def test_an_interval_ends_where_what_a_figure_can_be_ends():
     """Areas have no sign, shares are no more than one, friction may be negative; the summary keeps the error."""
-    shown = {"worn_depth_nm": "2 (0 to 5) nm", "stick_fraction": "90.0000% (70% to 100%)", "friction": "0.002 ± 0.003"}
+    shown = {"worn_depth_nm": "2 (0 to 5) nm", "stick_fraction": "90 (70 to 100) %", "friction": "0.002 ± 0.003"}
     figures = {"worn_depth_nm": 2.0, "stick_fraction": 0.9, "friction": 0.002, "contact_share": [0.05, 0.5]}
     errors = {"worn_depth_nm": 3.0, "stick_fraction": 0.2, "friction": 0.003, "contact_share": [0.1, 0.1]}
     summary = {**figures, **{f"{name}_error": error for name, error in errors.items()}, "speed_m_s": [1.0, 2.0]}
