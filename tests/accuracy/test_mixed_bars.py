@@ -127,8 +127,8 @@ def test_the_coarser_grid_is_as_large(cells):
 
 def test_bars_cover_nine_errors_in_ten_and_are_not_far_too_large():
     """Of random contacts; `reports/experiments/mixed_error_bars.py` has more and the verdict for each figure."""
-    ratios = ratios_of(rows_of(EXPERIMENT, np.random.default_rng(31), cases=4), 20)
-    # of so few contacts, whose figures go together, the share scatters by a tenth
+    ratios = ratios_of(rows_of(EXPERIMENT, np.random.default_rng(31), cases=8), 40)
+    # of eight contacts, whose figures go together, the share scatters by a tenth
     assert np.mean(ratios >= 1) >= 0.8
     assert np.median(ratios) <= 7
 
