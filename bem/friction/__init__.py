@@ -19,7 +19,8 @@ contact model (3):
    of the level (1.1 to 1.3 times the Newton steps of one isothermal film), then dense systems for the temperatures of
    200 cells; with full heat one to three times the steps and 5 to 15 temperature fields. Ball: the power of the
    viscosity that the film follows is found on 64 cells at loads three times apart and interpolated; the factor of inlet
-   heating is that of the load itself (`point_film.film_with_heat`).
+   heating is that of the load itself, with `OilVolume.LOADED` the same under every film load, as p_h/E* is
+   (`point_film.film_with_heat`).
 3. The contact model gives the opening under any load (protocol `rough_contact.RoughContact`): the rough half-space or
    uncoupled `asperities`; `homogenised_contact` with `cell_law` for a cell that repeats over the contact of a ball
    (Greenwood and Tripp 1967); `given_separation` for mean planes at the central film thickness (figures 5 and 6 of

@@ -45,7 +45,7 @@ solver stalls, because the side lobes are narrower than a cell."""
 LEAST_FILM = 0.5 * THINNEST_FILM
 """Smallest central thickness [m] of extrapolated films: half of the thickness below which the model is not valid."""
 LATTICE_RATIO = 3.0
-"""Ratio of neighbouring loads at which the thinning of the oil by inlet heating is computed."""
+"""Ratio of neighbouring loads at which the power of the viscosity that a film follows is found."""
 _TRIED = (1.0, 0.5, 0.25)
 """Fractions of a load under which a film is tried, in this order."""
 _HEAVIER = tuple(2.0**k for k in range(11))
@@ -148,10 +148,10 @@ def film_with_heat(
 ) -> PointFilmSolution:
     """Return the film under a load [N], with its heat if the contact has a heat model.
 
-    The thinning of the oil by inlet heating is computed for flooded films at the two nearest of loads `LATTICE_RATIO`
-    times apart, stored in `thinnings`, and interpolated in ln(load), so that films are continuous in the load. A supply
-    then limits the film, as of line films. `lumped_point.add_heat` adds the temperatures of the oil past
-    the inlet, which act on its shear stress alone.
+    The power of the viscosity that the central film follows is found for flooded films at the two nearest of loads
+    `LATTICE_RATIO` times apart, stored in `thinnings`, and interpolated in ln(load), so that films are continuous in
+    the load; the factor of inlet heating is that of the load itself. A supply then limits the film, as of line films.
+    `lumped_point.add_heat` adds the temperatures of the oil past the inlet, which act on its shear stress alone.
     """
     if contact.heat is None:
         return film_without_heat(contact, speeds, load, cells)

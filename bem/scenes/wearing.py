@@ -354,7 +354,7 @@ def wear_loop(
         from bem.wear.sizing import particles_beside_law
 
         setup = WearSetup(grid, bodies, np.zeros(grid.shape), load, float(now.cycles["friction"][-1]), depths)
-        found.append(particles_beside_law(now, setup, replace(model, criterion=sizing)))
+        found.append(particles_beside_law(now, setup, replace(model, criterion=sizing, film_defect=None)))
 
     def after(now: RunningInState) -> None:
         if sizing is not None:
@@ -441,9 +441,9 @@ class WornRecord(RubbedRecord, ThirdBodyRecord):
 
 @dataclass(frozen=True, eq=False)
 class WornSurface:
-    """Result of a wear loop: the wearing body's heights on the grid [m], unworn and run in, the last pressure [Pa],
-    the reported particles, all (`particles`) and of the last `cycles.settled` cycles (`late`), and figures of its
-    records by name."""
+    """Result of a wear loop: heights of the (first) wearing body in its own rows [m], unworn and run in, the last
+    pressure [Pa], the reported particles, all (`particles`) and of the last `cycles.settled` cycles (`late`), and
+    figures of its records by name."""
 
     height_before: FloatArray
     height_after: FloatArray

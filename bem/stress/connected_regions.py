@@ -109,7 +109,7 @@ def connected_stress(
 
 
 def _whole_planes(request: StressRequest, limit: float, depths_beside: int) -> ConnectedStress:
-    """Compute whole planes down to `depths_beside` below the first without a point above the limit."""
+    """Compute whole planes to the first without a point above the limit, and `depths_beside` - 1 below it."""
     number, shape = len(request.depths), request.grid.shape
     planes, exceeding, last = np.empty((number, *shape)), np.zeros(shape, np.bool_), number - 1
     index = 0

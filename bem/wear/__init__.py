@@ -5,17 +5,19 @@ Algorithm of `run_in` (running_in.py), one cycle after the other:
 1. Move one body through the contact, not before the first cycle, and take the rows of both that face each other
    (running_in.py).
 2. Solve the contact: dry (contact_step.py), or shared with a film by `bem.friction` (mixed.py), whose shape follows
-   wear (worn_shape.py); particles between the surfaces are a step around either (third_bodies.py). The loop's own
-   dry contact has local wear as a compliance: its pressure is that after the wear of the cycle (criterion/local.py).
+   wear in flooded line contacts (worn_shape.py); particles between the surfaces are a step around either
+   (third_bodies.py). The loop's own dry contact in gross sliding has local wear as a compliance: its pressure is that
+   after the wear of the cycle (criterion/local.py).
 3. Shear tractions on the contact: friction x pressure, or those of a loop of partial slip (traction/), of which a film
    and its friction know nothing.
 4. Removal by the criterion (criterion/) on each wearing body (cycle.py). Stress criteria: equivalent stress from the
-   first depth (the skin, 100 nm by default) down; von Mises stress of one load of friction x pressure, without
-   residual stress, only where yielding material is connected to the surface; all others (partial slip, stress range)
-   in whole planes to one below the first without yield (yielding.py); then runs above yield joined to
-   pieces (segmentation.py, yielded_runs.py), of which the removal law says what leaves (removal.py). Averaged von
-   Mises: the same, from a pressure averaged over a disc (criterion/averaged.py, lengths.py). Others: fatigue damage
-   (damage.py), junctions (junctions.py), a depth by pressure and distance (criterion/local.py).
+   first depth (the skin, 100 nm by default) down; von Mises stress of one load of friction x pressure, without residual
+   stress, only where yielding material is connected to the surface; all others (partial slip, stress range where
+   friction changed since the last cycle, other equivalent stresses) in whole planes to one below the first without
+   yield (yielding.py); then runs above yield joined to pieces (segmentation.py, yielded_runs.py), of which the removal
+   law says what leaves (removal.py). Averaged von Mises: the same, from a pressure averaged over a disc
+   (criterion/averaged.py, lengths.py). Others: fatigue damage (damage.py), junctions (junctions.py), a depth by
+   pressure and distance (criterion/local.py).
 5. Lower the surfaces by pieces, local wear and cuts of third bodies; append the cycle and its particles to the tables
    (running_in.py).
 

@@ -4,13 +4,13 @@ Algorithm, per cycle:
 
 1. With `film_shape` "worn": where the worn shape of the body that stands with the contact has changed beyond a limit,
    the films take over the whole shape since the first cycle (`worn_shape`); the rough contact sees the rest of the
-   heights. Wear of the moving body is no part of it, since its track wears alike. With "unworn" the films keep the
-   shape of the smooth bodies.
+   heights. Wear of the moving body is no part of it, since its track wears alike. Under a ball, with a limited supply
+   of oil, and with "unworn" the films keep the shape of the smooth bodies.
 2. Films under any load come from one table per speed (`bem.friction.film_table`): the film of unworn bodies depends on
    its load alone.
 3. `bem.friction.load_sharing.LoadSharing` finds the film load at which film and rough contact carry the load together,
-   from that of the last cycle. The films have one level, that of the table. Where the balance needs films of the worn
-   shape at other loads, they are solved and the balance is repeated.
+   from that of the last cycle with a contact. The films have one level, that of the table. Where the balance needs
+   films of the worn shape at other loads, they are solved and the balance is repeated.
 4. Friction and lambda ratio are those of `solve_mixed`, from the same `SharedLoad`.
 
 Cost: one rough contact per trial of the balance, one to three per cycle; none where the film clears the roughness.
@@ -134,8 +134,8 @@ class MixedContact:
     speeds : (u1, u2) of flat and cylinder [m/s].
     table : films of the same set-up and speeds, to share; a new one by default.
     film_shape : macroscopic shape of the film, "worn" (that of the body that stands with the contact) or "unworn".
-        "worn" takes effect where the start of a cycle has a `standing_profile`, which `run_in` gives and a life does
-        not.
+        "worn" takes effect for a flooded film of a cylinder, where the start of a cycle has a `standing_profile`, which
+        `run_in` gives and a life does not.
 
     Notes
     -----

@@ -151,8 +151,8 @@ def run_in(
     criterion : in place of the model's: a name, a table with `kind` and parameters, or a `Criterion`.
     stop : rule by which the run ends before its last cycle; a state to resume from that has settled gets no cycle more.
     contact_step : contact of one cycle; None is the dry contact of these arguments, `wear.mixed.MixedContact` a
-        lubricated one. Local laws wear by the pressure at the end of the cycle with the former (implicit), at its start
-        with a contact step that is given.
+        lubricated one. Local laws wear by the pressure at the end of the cycle with the former in gross sliding
+        (implicit), else by that at its start.
     state : state to resume from; the heights are then ignored.
     callback : called with the state after every cycle (checkpoints, progress).
 

@@ -1,9 +1,9 @@
 """Error of the last step of wear by pressure, by step doubling: the step once more, in two halves.
 
-A step wears by one pressure, that of its end (dry contacts) or of its start, so its error is of first order: the error
-is twice the difference between the step and its two halves. No body moves between the halves, since different places
-that meet are no error of a step. Wear corrects the errors of earlier steps: where too little came off, the pressure is
-higher.
+A step wears by one pressure, that of its end (dry, in gross sliding) or of its start, so its error is of first order:
+the error is twice the difference between the step and its two halves. No body moves between the halves, since different
+places that meet are no error of a step. Wear corrects the errors of earlier steps: where too little came off, the
+pressure is higher.
 
 Third bodies: the heights that the halves start from are those after their cuts, and their number is that after the
 cycle, so the estimate leaves out the change that they make in one cycle.

@@ -59,6 +59,18 @@ def test_cuts_of_third_bodies_come_off_without_particles_of_the_criterion(tmp_pa
     assert number > 0
 
 
+def test_a_boundary_film_changes_the_volume_and_not_the_sizes(tmp_path):
+    """The defect of the film is a factor on the law; the sizing criterion, which has none, refused it after a cycle."""
+    film = '\n[wear.film_defect]\nadsorption_energy = "1e-19 J"\ntemperature = "60 degC"\nsliding_speed = "0.1 m/s"\n'
+    law = ARCHARD % "1 nm" + SIZES
+    _, covered = run(tmp_path, WEAR + law + film)
+    _, bare = run(tmp_path, WEAR + law)
+    volumes = [one.variables["volume"].values.flat[0] for one in (covered, bare)]
+    assert 0 < volumes[0] < volumes[1]
+    sizes = [np.sort(one.variables["particle_volume"].values[:4]) for one in (covered, bare)]
+    assert sizes[0] == pytest.approx(sizes[1], rel=1e-3)
+
+
 def test_a_law_without_sizes_says_how_to_have_them(tmp_path):
     for text, told in ((ARCHARD % "1 mm", 1), (ARCHARD % "1 mm" + SIZES, 0), ("", 0)):
         campaign, found = run(tmp_path, WEAR + text)

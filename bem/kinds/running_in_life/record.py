@@ -49,7 +49,9 @@ class RunningInLifeRecord(GridRecord):
     contact_temperature: Annotated[float | None, heated("surfaces in contact, mean by pressure, at the end")]
     flash_temperature: Annotated[float | None, heated("surfaces in contact, highest, at the end")]
     tribofilm_thickness: Annotated[float | None, Figure("nm", "mean thickness of the tribofilm", optional=True)]
-    particles: Annotated[float | None, Figure("", "pieces that carry away what wore", optional=True, no_bar=_COUNTS)]
+    particles: Annotated[
+        float | None, Figure("", "pieces that carry away what wore of the lower body", optional=True, no_bar=_COUNTS)
+    ]
     particle_equivalent_radius: Annotated[
         float | None,
         Figure("nm", "equivalent radius of the mean volume of pieces, over the life", optional=True, no_bar=_COUNTS),

@@ -96,10 +96,10 @@ class WearRecord(pieces.MeanSizes, pieces.ParticleTable, wearing.WornRecord):
     particle_body: Annotated[wearing.IntArray, pieces.particle_rows("1", "body that it came off: 0 lower, 1 upper")]
     x: Annotated[FloatArray, Series(("x",), "m", "x, along sliding", of="last")]
     y: Annotated[FloatArray, Series(("y",), "m", "y", of="last")]
-    height_before: Annotated[FloatArray, _map("m", "height of the wearing surface, unworn")]
-    height_after: Annotated[FloatArray, _map("m", "height of the wearing surface, run in")]
+    height_before: Annotated[FloatArray, _map("m", "height of the wearing body in its own rows, unworn")]
+    height_after: Annotated[FloatArray, _map("m", "height of the wearing body in its own rows, run in")]
     pressure: Annotated[FloatArray, _map("Pa", "contact pressure in the last cycle")]
-    removed: Annotated[FloatArray | None, _map("m", "what left the body in the last cycle")]
+    removed: Annotated[FloatArray | None, _map("m", "what the criterion took from the body in the last cycle")]
 
 
 def summarise(scene: WearScene, axes: Any, records: Any) -> dict[str, Any]:

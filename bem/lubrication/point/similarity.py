@@ -1,6 +1,7 @@
 """Moes' similarity variables of the point contact, and published fits of its film thickness.
 
-The fits serve as starts of Newton's method and for comparison; no result is taken from them.
+The fits serve as starts of Newton's method and for comparison; no film that is solved takes a result from them. Load
+sharing scales films beyond the largest solved load by the fit (`bem.friction.point_film`).
 
 With U = mu (u1 + u2) / (E' Rx), E' = 2 E*: lengths along the surfaces in Rx U^(1/4), films in Rx U^(1/2), pressures in
 E' U^(1/4). The problem is then

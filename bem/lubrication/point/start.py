@@ -2,8 +2,9 @@
 
 Smooth films (`solve_nested`):
 
-1. The dry contact, lifted by the film that Nijenbanning, Venner and Moes' (1994) fit gives, on a coarse grid.
-2. Nested iteration: each finer grid starts from the film of the coarser one.
+1. The dry contact, lifted by the film that Nijenbanning, Venner and Moes' (1994) fit gives, on the first grid.
+2. From 112 cells along the shorter side on, nested iteration: each finer grid starts from the film of the coarser one.
+   Below, the first grid is the only one, as for load sharing's 64 and 96 cells.
 3. Where that does not converge: continuation in the oil's viscosity, from oils that thicken less with pressure; then
    dry contacts lifted by thicker films; then starts that were given up as slow.
 

@@ -4,7 +4,8 @@ As of line contacts (`lumped`), line by line: on each line of cells along x heat
 half-spaces, as of bands that reach far along y, or is carried by the oil (`lumped_energy`). Flow and conduction between
 the lines are left out; a note says so of conduction where it matters (`LARGEST_SPREAD`). A body that hardly moves is
 cool at the half-axis across. Sources are sliding at the stress of the hot oil, and the Poiseuille flow,
-h^3/(12 mu) |grad p|^2. A long ellipse is the line contact. Verified in tests/lubrication/test_thermal_point.py.
+h^3/(12 mu) |grad p|^2 with mu of the thinned oil that makes the film. A long ellipse is the line contact. Verified in
+tests/lubrication/test_thermal_point.py.
 """
 
 from __future__ import annotations

@@ -55,7 +55,10 @@ class WearScenePart(Table):
         default=Cap(),
     )
     wears: Literal["softer", "lower", "upper", "both"] = key(
-        "Body that loses material.", "basic", default="softer", reason="the softer one"
+        "Body from which the criterion or law takes material; third bodies cut both.",
+        "basic",
+        default="softer",
+        reason="the one of lower yield stress",
     )
     frame: Literal["cylinder", "disk"] = key(
         "Body that stands with the contact: cylinder (upper; the lower track wears evenly) or disk (lower; a groove).",
