@@ -148,7 +148,17 @@ def _base_rows(stored: Mapping[str, Any]) -> Iterator[Row]:
         name = BASE_NAMES.get(base, f"{base} fluid" if base == "traction" else f"{base} oil")
         remark = words.get(base, words["disc_conditions"])
         values = _ratio(stored[base], mineral)
-        yield Row(group, f"{name} over mineral oil", low, high, *values, source, remark, assumed=base == "pag")
+        yield Row(
+            group,
+            f"{name} over mineral oil",
+            low,
+            high,
+            *values,
+            source,
+            remark,
+            assumed=base in ("pag", "traction"),
+            apart=base == "traction",
+        )
     water = stored["water-glycol"]
     values = (water[key] for key in ("coefficient", "down", "up", "numerical"))
     yield Row(group, "coefficient, fluid with water", 0.0, 0.01, *values, "yilmaz", words["water"])
@@ -179,14 +189,17 @@ def verdict(shown: list[Row]) -> str:
     sided = [row for row in measured if row.one_sided]
     oils = {oil: [row for row in measured if row.group == "discs" and row.what.startswith(oil)] for oil in DISC_OILS}
     by_oil = ", ".join(f"{oil} {sum(row.inside for row in own)} of {len(own)}" for oil, own in oils.items())
+    by_value = ", ".join(f"{oil} {sum(row.middle_inside for row in own)}" for oil, own in oils.items())
     return (
         f"{len(shown)} published values from {sources} sources. Of {len(measured)} measured ones {_counts(measured)}. "
         f"{fitted} of the measured ones are known by a formula that describes the measurement, {told} from a summary, "
         f"an abstract or a sentence quoted by others. {len(sided)} have an interval with one side or from "
         f"zero, which is easily met ({sum(row.inside for row in sided)} inside). Twin discs "
-        f"inside by oil: {by_oil}. Of {len(computed)} values that others computed {_counts(computed)}. "
+        f"inside by oil: {by_oil}; by our value alone: {by_value}. "
+        f"Of {len(computed)} values that others computed {_counts(computed)}. "
         f"{len(apart)} values, marked (apart) on the page, are counted apart as formulas or fitted curves beyond what "
-        f"their tests are known to cover, or a film that our grid does not resolve: {_counts(apart)}. The uncertainty "
+        f"their tests are known to cover, a standard, a fluid above another by its purpose, or a film that our grid "
+        f"does not resolve: {_counts(apart)}. The uncertainty "
         f"of {sum(row.assumed for row in shown)} values is assumed here (marked * on the page). No constant is fitted "
         "to the values; which rows share constants with their sources is said under How to read this."
     )

@@ -18,7 +18,7 @@ class Row:
     of the sources in `reports/prose/friction.toml`. remark : conditions that were assumed, or why it is missed.
     computed : True if others computed the value; else it was measured. assumed : True if the source states no
     uncertainty and that of the interval is an assumption. apart : True if the row counts neither as measured nor as
-    computed: a formula beyond its tests, or ours not resolved.
+    computed: a formula beyond its tests, a standard, a statement by purpose, or ours not resolved.
     """
 
     group: str

@@ -245,16 +245,24 @@ def _dimples(stored: Mapping[str, Any]) -> Iterator[Row]:
             row = own["figures"][name]
             unresolved = own["place"] == 1 and name == UNRESOLVED
             yield Row(
-                "dimples", f"{kind}: {name} (nm)", film - INTERFEROMETRY, film + INTERFEROMETRY, row["ours"], 0.0, 0.0,
-                row["numerical"], "mourier", _remark("unresolved" if unresolved else remark), apart=unresolved,
+                "dimples", f"{kind}: {_figure(name)} (nm)", film - INTERFEROMETRY, film + INTERFEROMETRY,
+                row["ours"], 0.0, 0.0, row["numerical"],
+                "mourier", _remark("unresolved" if unresolved else remark), apart=unresolved,
             )  # fmt: skip
+
+
+def _figure(name: str) -> str:
+    """Name of a stored film of a dimple by its side: ahead is downstream in rolling as in sliding."""
+    return name.replace("behind the dimple", "ahead of the dimple").replace(
+        "before the dimple", "upstream of the dimple"
+    )
 
 
 def _pitting(stored: Mapping[str, Any]) -> Iterator[Row]:
     """Cycles to damage below a smooth contact; pitted fractions of surface pairs."""
     for row in stored["smooth"]:
         what = f"smooth contact at 1.5 GPa, {row['criterion'].replace('_', ' ')}: decades of cycles to damage"
-        yield Row("pitting", what, ENDLESS, MOST, row["decades"][READING], 0.0, 0.0, 0.0, "iso281")
+        yield Row("pitting", what, ENDLESS, MOST, row["decades"][READING], 0.0, 0.0, 0.0, "iso281", apart=True)
     for row, pitted in zip((one for one in stored["pairs"] if one["reading"] == READING), PITTED, strict=True):
         yield Row(
             "pitting", f"{_pair(row)}: pitted fraction", pitted / PITTED_FACTOR, pitted * PITTED_FACTOR,
@@ -358,7 +366,7 @@ def _depths(films: Mapping[str, Any]) -> list[tuple[str, ...]]:
         if "figures" not in row:
             shown.append((row["kind"], depth, row["status"], "", ""))
         for name, own in row.get("figures", {}).items():
-            shown.append((row["kind"], depth, name, f"{DIMPLES[row['kind']][name]:.0f}", f"{own['ours']:.0f}"))
+            shown.append((row["kind"], depth, _figure(name), f"{DIMPLES[row['kind']][name]:.0f}", f"{own['ours']:.0f}"))
     return shown
 
 
