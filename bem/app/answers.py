@@ -114,7 +114,7 @@ def _of_list(name: str, summary: Mapping[str, Any]) -> Answer | None:
     if low == high:
         return Answer(words, low, "", low)
     span = f"{_number(low)} to {high}" if _unit(low) == _unit(high) else f"{low} to {high}"
-    places = [_place(summary, i, len(values)) for i in ends]
+    places = [_varied_quantity(summary, i, len(values)) for i in ends]
     errors = [_error(name, summary, i) for i in ends]
     said = [
         " ".join(filter(None, (end, error, f"at {place}" if place else "")))
@@ -133,7 +133,7 @@ def _error(name: str, summary: Mapping[str, Any], i: int) -> str:
     return shown[shown.index("±") :] if "±" in shown else ""
 
 
-def _place(summary: Mapping[str, Any], i: int, length: int) -> str:
+def _varied_quantity(summary: Mapping[str, Any], i: int, length: int) -> str:
     """Describe an entry of a list by the first quantity that varies along it."""
     for key, unit in varied_keys(summary).items():
         if _varies(summary.get(key), length):

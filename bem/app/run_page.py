@@ -118,7 +118,7 @@ class Progress:
 
 
 def progress_words(state: RunState) -> str:
-    """What a running run does, since when, and how long it may still take."""
+    """Return the stage of a running run, the time since its start and the estimated time left."""
     parts = [f"{state.what} {state.done} of {state.total}" if state.total else "starting"]
     if state.seconds is not None:
         parts.append(f"{duration(state.seconds)} so far")
@@ -227,7 +227,7 @@ class RunPage:
         self._workspace, self._name = workspace, name
         self._seen: RunState | None = None
         self._progress: Progress | None = None
-        self._going: Going | None = None
+        self._partial_results: PartialResults | None = None
         with page(name):
             self._head = ui.column().classes("w-full gap-1")
             self._notes = ui.column().classes("gap-0")
@@ -257,11 +257,11 @@ class RunPage:
             with self._notes:
                 for text in state.notes:
                     ui.label(text).classes("text-body2")
-            if self._going is None:
+            if self._partial_results is None:
                 with self._body:
-                    self._going = Going(state)
+                    self._partial_results = PartialResults(state)
         elif before is None or not before.finished:
-            self._going = None
+            self._partial_results = None
             self._notes.clear()
             self._body.clear()
             with self._body:
@@ -304,7 +304,7 @@ class RunPage:
         if found is None:
             return
         with self._body:
-            _wrongs(found)
+            _show_failures(found)
             show_answers(found.answers)
             _notes_by_level(found)
             if found.main is not None:
@@ -321,8 +321,8 @@ class RunPage:
             _pictures(found.curves)
 
 
-class Going:
-    """What a run that is not finished has computed up to now; looked at again every few seconds."""
+class PartialResults:
+    """View of the results so far of a run that is not finished, renewed every few seconds."""
 
     def __init__(self, state: RunState) -> None:
         self._path = state.path
@@ -411,8 +411,8 @@ def _downloads(path: Path) -> None:
             link.tooltip(words).props["data-download"] = what
 
 
-def _wrongs(found: RunView) -> None:
-    """Where the run went wrong or outside its model."""
+def _show_failures(found: RunView) -> None:
+    """Show what failed in a run and what is outside its model."""
     if found.failed:
         ui.label(found.failed).classes("bem-wrong")
     for text in found.beyond:

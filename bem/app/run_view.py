@@ -158,7 +158,7 @@ def _headline_over(summary: Mapping[str, Any], headline: Sequence[str]) -> list[
 
 @dataclass(frozen=True)
 class PartialView:
-    """What is known of a run that is not finished.
+    """Results so far of a run that is not finished.
 
     Attributes
     ----------

@@ -25,7 +25,7 @@ _FIRST_GUESS = 1.0
 
 
 class Stage:
-    """One of several things that a run goes through, such as its cycles: its pace, and figures told on the way.
+    """Stage of a run, such as its cycles: its pace, and the figures reported during it.
 
     Attributes
     ----------

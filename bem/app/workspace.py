@@ -68,8 +68,8 @@ class RunState:
 
 
 @dataclass(frozen=True)
-class _Told:
-    """What the summary of a finished run says for lists of runs; kept as long as the file is the same."""
+class _RunEntry:
+    """Entry of a finished run in lists of runs, from its summary; kept as long as the file is the same."""
 
     version: tuple[int, int]
     status: str
@@ -91,7 +91,7 @@ class Workspace:
         self.folder = folder.resolve()
         self.runs_folder, self.surfaces_folder = self.folder / "runs", self.folder / "surfaces"
         self._children: list[subprocess.Popen[bytes]] = []
-        self._summaries: dict[Path, _Told] = {}
+        self._summaries: dict[Path, _RunEntry] = {}
         try:
             for item in (self.folder, self.runs_folder, self.surfaces_folder):
                 item.mkdir(parents=True, exist_ok=True)
@@ -230,7 +230,7 @@ class Workspace:
             planned=_json(path / OWN / PLANNED).get("seconds") if running else None,
         )
 
-    def _summary(self, path: Path, scene: Mapping[str, Any]) -> _Told | None:
+    def _summary(self, path: Path, scene: Mapping[str, Any]) -> _RunEntry | None:
         """Read what is shown of a run's summary, unless the same file was read before; None where there is none."""
         try:
             found = (path / SUMMARY).stat()
@@ -240,10 +240,10 @@ class Workspace:
         version = (found.st_mtime_ns, found.st_size)
         known = self._summaries.get(path)
         if known is None or known.version != version:
-            known = self._summaries[path] = _told_by(_json(path / SUMMARY), scene, version)
+            known = self._summaries[path] = _entry_of(_json(path / SUMMARY), scene, version)
         return known
 
-    def _state(self, path: Path, told: Mapping[str, Any], summary: _Told | None) -> str:
+    def _state(self, path: Path, told: Mapping[str, Any], summary: _RunEntry | None) -> str:
         if self.process_of(path) is not None:
             return "running"
         if summary is not None:
@@ -454,8 +454,8 @@ def _json(path: Path) -> dict[str, Any]:
     return found if isinstance(found, dict) else {}
 
 
-def _told_by(summary: Mapping[str, Any], scene: Mapping[str, Any], version: tuple[int, int]) -> _Told:
-    """What a summary says for lists of runs."""
+def _entry_of(summary: Mapping[str, Any], scene: Mapping[str, Any], version: tuple[int, int]) -> _RunEntry:
+    """Return the entry of a run in lists of runs from its summary."""
     from bem.app.answers import answers
     from bem.notes import Level, of_summary
     from bem.scenes.kind import get_kind
@@ -466,7 +466,7 @@ def _told_by(summary: Mapping[str, Any], scene: Mapping[str, Any], version: tupl
         found = tuple((one.words, one.short) for one in answers(summary, kind.headline, scene))
     cautions = sum(note.get("level") == Level.CAUTION for note in of_summary(summary))
     seconds = summary.get("wall_time_s")
-    return _Told(
+    return _RunEntry(
         version,
         str(summary.get("status", "unknown")),
         _texts(summary.get("outside_model")),

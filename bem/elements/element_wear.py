@@ -29,15 +29,18 @@ def wear_per_hour(element: Element) -> str:
 
 
 def worn_volume_rate(element: Element) -> float:
-    """Of both bodies together [m^3/s]: Archard's rate x load x sliding speed on each, the mean over the places times
-    how many there are at once; 0 without a wear rate."""
+    """Return the worn volume of both bodies per time [m^3/s], by Archard's law.
+
+    It is wear rate x load x sliding speed for each body, the mean over the positions times the number of contacts at
+    once; 0 without a wear rate.
+    """
     found = element.found
     slid = [one.load * abs(one.speeds[0] - one.speeds[1]) for one in found.contacts]
     return 2 * (element.model.specific_wear_rate or 0.0) * sum(slid) / len(slid) * found.at_once
 
 
 def particles_per_hour(element: Element) -> str:
-    """How many come off, of a worn volume and their mean one; a smooth contact has neither."""
+    """Return the number of particles per hour in words: worn volume over mean particle volume."""
     rate, one = 3600 * worn_volume_rate(element), element.model.mean_particle_volume
     if element.model.specific_wear_rate is None:
         return "not known: give specific_wear_rate, and mean_particle_volume"

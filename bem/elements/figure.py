@@ -61,7 +61,7 @@ def element_figure(element: Element, runs: Sequence[Running]) -> Figure:
     return figure
 
 
-def _place(element: Element, value: float) -> float:
+def _abscissa(element: Element, value: float) -> float:
     return math.degrees(value) if element.found.along_unit == "rad" else 1e3 * value
 
 
@@ -78,7 +78,7 @@ def _loads(element: Element, axes: Any) -> None:
     contacts = element.found.contacts
     right = axes.twinx()
     for number, (ring, rows) in enumerate(_branches(element, contacts).items()):
-        x = [_place(element, contacts[i].place) for i in rows]
+        x = [_abscissa(element, contacts[i].place) for i in rows]
         dash = ("-", "--")[number % 2]
         axes.plot(x, [1e-9 * contacts[i].hertz(element.modulus).maximum_pressure for i in rows], dash, color="C0",
                   label=ring or None)  # fmt: skip
@@ -99,11 +99,11 @@ def _films(element: Element, known: Sequence[Running], axes: Any) -> None:
     scale = element.model.rms_roughness
     key, factor = ("minimum_film [m]", 1e9) if scale is None else ("film_over_roughness", 1.0)
     for number, rows in enumerate(_branches(element, contacts).values()):
-        x = [_place(element, contacts[i].place) for i in rows]
+        x = [_abscissa(element, contacts[i].place) for i in rows]
         axes.plot(x, [factor * columns[key][i] for i in rows], ("-", "--")[number % 2], color="0.5",
                   label=None if number else "formula")  # fmt: skip
     if known:
-        x = [_place(element, one.contact.place) for one in known]
+        x = [_abscissa(element, one.contact.place) for one in known]
         axes.plot(x, [one.minimum_film * (1e9 if scale is None else 1 / scale) for one in known], ".", color="C0",
                   label="solved")  # fmt: skip
     axes.set_ylabel("minimum film (nm)" if scale is None else "lambda ratio")
@@ -115,7 +115,7 @@ def _friction(element: Element, known: Sequence[Running], axes: Any) -> None:
     right = axes.twinx()
     contacts = [one.contact for one in known]
     for number, rows in enumerate(_branches(element, contacts).values()):
-        x = [_place(element, contacts[i].place) for i in rows]
+        x = [_abscissa(element, contacts[i].place) for i in rows]
         dash = ("-", "--")[number % 2]
         axes.plot(x, [abs(known[i].friction) for i in rows], dash, marker=".", color="C0")
         right.plot(x, [known[i].power for i in rows], dash, marker=".", color="C1")
@@ -128,7 +128,7 @@ def _friction(element: Element, known: Sequence[Running], axes: Any) -> None:
 def _temperatures(element: Element, known: Sequence[Running], axes: Any) -> None:
     contacts = [one.contact for one in known]
     for number, rows in enumerate(_branches(element, contacts).values()):
-        x = [_place(element, contacts[i].place) for i in rows]
+        x = [_abscissa(element, contacts[i].place) for i in rows]
         dash = ("-", "--")[number % 2]
         for name, values, colour in (
             ("oil, mean in the contact", [known[i].oil for i in rows], "C0"),

@@ -36,7 +36,7 @@ def contact(load: float, oil: float, ratio: float) -> dict[str, Any]:
     of the last, and fits."""
     films = [film(load, oil, ratio, 0.0, cells) for cells in CELLS]
     last = films[-1]
-    unit = _kept(last).case.scales.film
+    unit = _solved_case(last).case.scales.film
     row: dict[str, Any] = {
         "load": load,
         "oil": oil,
@@ -71,7 +71,7 @@ def _converged(values: Any) -> dict[str, Any]:
 
 
 def _fits(found: PointFilmSolution, load: float, oil: float, ratio: float, unit: float) -> dict[str, Any]:
-    case = _kept(found).case
+    case = _solved_case(found).case
     fits: dict[str, Any] = {"nijenbanning": nijenbanning_film(load, oil, ratio)}
     if oil > 0:
         total = found.speeds[0][0] + found.speeds[1][0]
@@ -83,7 +83,7 @@ def _fits(found: PointFilmSolution, load: float, oil: float, ratio: float, unit:
     return fits
 
 
-def _kept(found: PointFilmSolution) -> SolvedPointCase:
+def _solved_case(found: PointFilmSolution) -> SolvedPointCase:
     assert found.state is not None
     return found.state
 

@@ -174,7 +174,7 @@ L^(3/4) of a circle (Moes)."""
 def of_point(load: float, material: float, waves: tuple[float, ...]) -> list[dict[str, Any]]:
     """Rows of a circular contact, on all grids."""
     films = [solve_point_film(**point_arguments(load, material), shape=shape) for shape in SHAPES]
-    found = [[point_response(_kept(film), share * _half(film)) for share in waves] for film in films]
+    found = [[point_response(_solved_case(film), share * _half(film)) for share in waves] for film in films]
     rows = []
     for share, amplitudes in zip(waves, zip(*found, strict=True), strict=True):
         scaled = share * math.sqrt(load / material)
@@ -203,13 +203,13 @@ def of_line(load: float, material: float, waves: tuple[float, ...]) -> list[dict
 def of_long_ellipse(load: float, material: float, waves: tuple[float, ...]) -> list[dict[str, Any]]:
     """Amplitudes in a long ellipse, and in the line contact of the load per length in its middle."""
     films = [solve_point_film(**point_arguments(load, material, LONG), shape=shape) for shape in SHAPES[:2]]
-    hertz = _kept(films[-1]).case.hertz
+    hertz = _solved_case(films[-1]).case.hertz
     assert hertz is not None
     across = 0.5 * math.pi * hertz.maximum_pressure * hertz.semi_axes[0]
     lines = [moes_line(across, material, points) for points in POINTS]
     rows = []
     for share in waves:
-        here = [point_response(_kept(film), share * _half(film)) for film in films]
+        here = [point_response(_solved_case(film), share * _half(film)) for film in films]
         there = [line_response(line, share * _half(films[0])) for line in lines]
         row = _row(load, material, share, share * across**0.75 / math.sqrt(material), here, SHAPES[1][0] / SHAPES[0][0])
         rows.append(row | {"load_per_length": round(across, 4), "line_amplitudes": [round(one, 5) for one in there]})
@@ -220,8 +220,8 @@ def marched(load: float, material: float, share: float) -> dict[str, Any]:
     """The amplitude of a march in time, and what the linear system says on the same grid."""
     arguments = point_arguments(load, material)
     steady = solve_point_film(**arguments, shape=MARCH_SHAPE)
-    unit = _kept(steady).case.scales.length
-    x0, x1, y0, y1 = (edge * unit for edge in _kept(steady).case.problem.rectangle)
+    unit = _solved_case(steady).case.scales.length
+    x0, x1, y0, y1 = (edge * unit for edge in _solved_case(steady).case.problem.rectangle)
     half, speed = _half(steady) * unit, arguments["speeds"][0]
     wave, amplitude, begin = share * half, AMPLITUDE * steady.central_thickness, -1.5 * half
     far = 1.5 * half + 2.6 * wave
@@ -245,18 +245,18 @@ def marched(load: float, material: float, share: float) -> dict[str, Any]:
         "steps_a_wave": STEPS,
         "status": films[-1].status.value,
         "marched": None if found is None else round(found / amplitude, 4),
-        "linear": round(point_response(_kept(steady), share * _half(steady)), 4),
+        "linear": round(point_response(_solved_case(steady), share * _half(steady)), 4),
     }
 
 
-def _kept(film: PointFilmSolution) -> SolvedPointCase:
+def _solved_case(film: PointFilmSolution) -> SolvedPointCase:
     assert film.state is not None
     return film.state
 
 
 def _half(film: PointFilmSolution) -> float:
     """Half-axis along the flow, in the unit of length."""
-    hertz = _kept(film).case.hertz
+    hertz = _solved_case(film).case.hertz
     assert hertz is not None
     return hertz.semi_axes[0]
 

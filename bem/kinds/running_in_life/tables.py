@@ -128,7 +128,7 @@ class LifeFilm(KineticsScene):
     )
 
     def build(self, friction: float, temperature: LocalTemperature) -> GrowingTribofilm:
-        """As `bem.life.surfaces.GrowingTribofilm`."""
+        """Build the `bem.life.surfaces.GrowingTribofilm` of this table."""
         from bem.life.surfaces import GrowingTribofilm
 
         balance, on_film = self.balance(), self.friction_on_film
@@ -197,7 +197,7 @@ class LifeFatigue(Table):
     depths: WearDepthsScene = key("Depths at which stresses are computed.", "basic")
 
     def build(self, bodies: tuple[Body, Body], hardness: float | None = None) -> RollingFatigue:
-        """As `bem.life.fatigue.RollingFatigue`; hardness : the contact's cap [Pa]."""
+        """Build the `bem.life.fatigue.RollingFatigue` of this table; hardness : limit of the contact pressure [Pa]."""
         from bem.life.fatigue import RollingFatigue
         from bem.life.fatigue_limit import FatigueLimit
 

@@ -64,7 +64,7 @@ def tribofilm_on_a_coating(facts: Facts) -> Iterator[Note]:
 
 @outcome_check
 def coating_taken_by_the_film(facts: Facts, outcome: Outcome) -> Iterator[Note]:
-    """What leaves with the film is material of the outermost coating, which the contact keeps at its thickness."""
+    """Note wear of the outermost coating beneath a tribofilm, which the contact keeps at its thickness."""
     body = facts.cases[0].lower
     if not facts.of_kind("tribofilm") or body.layer is None:
         return
