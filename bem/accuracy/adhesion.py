@@ -72,6 +72,8 @@ def adhesive_bars(
     grid = RULES.errors(fine, other, {"edge": relative(edge_fraction(case), fine)})
     for name, missed in missed_by_differences(case, resolved=regime_of(case) is Regime.RESOLVED).items():
         grid[name] += missed
+    if len(path.load) == 1:  # one state has no lowest load beside its own
+        del grid["lowest_load"]
     given = "load" if "loads" in asked else "approach"
     grid[given] = 0.0
     return ErrorBars.together({GRID: grid, RESIDUAL: residual_errors(path.last.residual, fine)})

@@ -443,6 +443,8 @@ def test_one_state_at_a_time_is_the_same_as_its_path_without_hysteresis():
     _, after, _ = run(data)
     assert after.summary["approach_m"] == pytest.approx(alone.summary["approach_m"], rel=1e-3)
     assert "path_load" not in alone.variables
+    assert not [name for name in alone.summary if name.startswith("lowest_load")]
+    assert after.summary["lowest_load_N"] == pytest.approx(1e-6)
 
 
 def test_too_wide_cells_for_the_adhesive_zone_are_outside_the_model():

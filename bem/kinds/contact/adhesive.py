@@ -43,7 +43,8 @@ def total_contact(path: AdhesiveHistory) -> ContactSolution:
 
 def adhesive_figures(path: AdhesiveHistory) -> dict[str, Any]:
     """Return the figures of an adhesive contact that replace or follow those of its pressure."""
-    return {"load": path.last.load, "lowest_load": path.lowest_load, "adhesive_energy": path.last.energy}
+    found = {"load": path.last.load, "adhesive_energy": path.last.energy}
+    return found | {"lowest_load": path.lowest_load} if len(path.load) > 1 else found
 
 
 def adhesive_arrays(path: AdhesiveHistory) -> dict[str, Any]:

@@ -275,7 +275,7 @@ FIGURES = (
         "area-over-load",
         "Contact area over the nominal pressure, divided by contact modulus and rms slope of both surfaces together, "
         "beside the theories of Persson (J. Chem. Phys. 115, 2001) and of Bush, Gibson and Thomas (Wear 35, 1975) for "
-        "elastic bodies. The slope is that of neighbouring cells. Contact at the hardness lies below the lines.",
+        "elastic bodies. The slope is that of neighbouring cells. Pressures limited by the hardness need more area.",
         ("reduced_pressure", "contact_area_fraction"),
         _area_over_load,
         (5.4, 4.2),
