@@ -126,8 +126,8 @@ VISCOSITY_EXTRAPOLATED = define(
         "elastic": (
             'They exceed {limit:si Pa}, up to which viscosity_law "{law}" describes oils; the film thickness does not '
             "suffer, since the film forms in the inlet, where pressures are lower. Friction does, where the oil is "
-            "below its limiting stress: at 1 GPa Roelands' law has 0.001 to 6 times the viscosity of three measured "
-            "oils."
+            "below its limiting stress: at 1 GPa Roelands' law has 0.001 to 1.3 times the viscosity of three measured "
+            "oils with their measured pressure-viscosity coefficient, and 0.001 to 6 times with the estimated one."
         ),
         "rigid": Reason(
             'They exceed {limit:si Pa}, up to which viscosity_law "{law}" describes oils; between rigid bodies the '

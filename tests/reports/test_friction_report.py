@@ -5,6 +5,7 @@ import html
 import numpy as np
 import pytest
 
+from bem.notes.lubrication import VISCOSITY_EXTRAPOLATED
 from reports import friction, reproducible
 from reports.experiments import (
     bearing_measured,
@@ -153,6 +154,21 @@ def test_oils_at_1_gpa_depart_from_roelands_law_as_the_page_says():
     assert -0.30 < off["N100", 60] < -0.25
     assert 0.1 < off["M100", 60] < 0.2
     assert 0.05 < off["PAO100", 60] < off["PAO100", 90] < 0.2
+    assert np.sqrt(np.mean(np.square(list(off.values())))) == pytest.approx(traction_measured.ROELANDS_ERROR, rel=0.02)
+
+
+def test_the_note_of_roelands_law_has_its_factors_at_1_gpa():
+    """Both with the estimated pressure-viscosity coefficient, and of the law alone with the measured one."""
+    estimated, alone = [], []
+    for name, row in friction_measured.viscosity_at_pressure():
+        estimated.append(np.exp(row["ours"] - row["measured"]))
+        own = friction_measured.MANN[name].oil(name).at(row["temperature"] + friction_measured.CELSIUS)
+        law, slope = own.viscosity_law, 1e-9 * row["alpha_measured"]
+        (logarithm,), _ = law.log_viscosity_ratio(np.array([1e9]), own.viscosity, slope)
+        alone.append(np.exp(logarithm - row["measured"]))
+    text = str(VISCOSITY_EXTRAPOLATED(limit=1e9, law="roelands", reason="elastic"))
+    for factors in (alone, estimated):
+        assert f"{min(factors):.1g} to {max(factors):.2g} times" in text
 
 
 def test_a_fitted_oil_that_hardly_slides_has_the_stress_of_its_viscosity():

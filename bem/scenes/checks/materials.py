@@ -76,7 +76,8 @@ def incompressible_layer(facts: Facts) -> Iterator[Note]:
 def residual_stress_of_layers(facts: Facts) -> Iterator[Note]:
     """A uniform biaxial stress in a plane layer is in equilibrium by itself, and linear solutions add: displacement
     and pressure of a contact do not change. Hardness and modulus by indentation do not either, once the area of contact
-    is measured (Bolshakov, Oliver & Pharr, J. Mater. Res. 11 (1996) 760)."""
+    is measured (A. Bolshakov, W. C. Oliver & G. M. Pharr, J. Mater. Res. 11 (1996) 760: not read; as cited in J. Mater.
+    Eng. Perform. (2017), doi 10.1007/s11665-017-2816-2)."""
     for name, body in (facts.cases[0].bodies if facts.cases else {}).items():
         found = [
             f"{si(layer.residual_stress, 'Pa')} in layer {number} ({layer.material.name})"
