@@ -105,7 +105,8 @@ Steps, in order:
 
 Elastic rough contacts of half-spaces under load take about eleven convolutions at the default tolerance, weighted by
 cells over all grids; capped contacts and stiff layers take up to a hundred and more. `regions` labels separate spots of
-contact, and `mean_gap_multiplicity` notes other loads with the same mean gap.
+contact, and `mean_gap_multiplicity` notes other loads with the same mean gap. `sensitivity` has the derivatives of a
+solved contact with respect to its inputs, from the linear system of step 9 with another right-hand side.
 
 Terms: a cell is *open* (no pressure), *between the bounds*, or *capped* (at the hardness). The *active* cells of step 8
 are those between the bounds and those that violate their state. An outer iteration, or *round*, is one pass through
@@ -123,7 +124,16 @@ Verified in tests/contact: closed forms (Hertz, Westergaard, punches), an indepe
 on which other methods fail, and numbers of convolutions.
 """
 
+from bem.contact.sensitivity import ContactSensitivities, ContactTangent, InputChange, contact_tangent, sensitivities
 from bem.contact.solution import ContactSolution
 from bem.contact.solve import solve_contact
 
-__all__ = ["ContactSolution", "solve_contact"]
+__all__ = [
+    "ContactSensitivities",
+    "ContactSolution",
+    "ContactTangent",
+    "InputChange",
+    "contact_tangent",
+    "sensitivities",
+    "solve_contact",
+]

@@ -20,6 +20,7 @@ from bem.contact.grid_workspace import GridResult, is_flat
 from bem.contact.peak_pressure import highest_pressure
 from bem.contact.problem import Request, Units
 from bem.contact.solution import ContactSolution
+from bem.convolution import DisplacementOperator
 from bem.errors import Status
 from bem.grid import Grid
 from bem.notes import Note
@@ -80,7 +81,16 @@ def certify(
         largest = max(largest, abs(approach - request.approach))
     elif request.load is not None:
         load_error = _relative(abs(load - request.load), request.load)
-    contact, plastic, doubt = _regions(request, pressure, deformed, load, capped=capped > 0)
+    contact, plastic, doubt = regions_of(
+        operator,
+        request.gap,
+        pressure,
+        deformed,
+        load=load,
+        cap=request.cap,
+        modulus=operator.modulus_at(area_wavenumber(grid)),
+        capped=capped > 0,
+    )
     largest_displacement = max(largest_displacement, displacement_scale(request))
     reference = largest_displacement if is_flat(rms_gap, largest_displacement) else rms_gap
     residual = max(_relative(largest, reference), load_error)
@@ -120,23 +130,36 @@ _SHORT, _MANY = 0.98, 1.1
 spots are one or two cells wide and the area is uncertain by more than a tenth."""
 
 
-def _regions(
-    request: Request, pressure: FloatArray, deformed: FloatArray, load: float, *, capped: bool
+def area_wavenumber(grid: Grid) -> float:
+    """Return the wavenumber of four cells [rad/m], at which the law of the contact's edge takes the modulus."""
+    return 0.5 * math.pi / math.sqrt(grid.cell_area)
+
+
+def regions_of(
+    operator: DisplacementOperator,
+    undeformed: FloatArray,
+    pressure: FloatArray,
+    deformed: FloatArray,
+    *,
+    load: float,
+    cap: float,
+    modulus: float,
+    capped: bool,
 ) -> tuple[Region, Region, tuple[Note, ...]]:
     """Return the contact, its part at the cap, and a note where the cells do not determine the area.
 
-    capped : True if a cell is at the cap.
+    undeformed, pressure, deformed : (nx, ny) gap [m], pressure [Pa] and deformed gap [m]. load [N], cap [Pa].
+    modulus : E* at the wavenumber of four cells [Pa]. capped : True if a cell is at the cap.
     """
-    operator, grid, cap = request.operator, request.operator.grid, request.cap
-    modulus = operator.modulus_at(0.5 * math.pi / math.sqrt(grid.cell_area))
-    contact = contact_region(pressure, deformed, request.gap, grid, modulus, cap=cap, compliance=operator.compliance)
+    grid = operator.grid
+    contact = contact_region(pressure, deformed, undeformed, grid, modulus, cap=cap, compliance=operator.compliance)
     least = load / cap  # the pressure is nowhere above the cap
     doubt: tuple[Note, ...] = ()
     if contact.elastic_edge_area < _SHORT * least and contact.counted_area > _MANY * least:
         doubt = (CONTACT_UNRESOLVED(times=contact.counted_area / least, of="", reason="spots"),)
     if not capped:
         return contact, Region(0.0, 0.0, 0.0, 0.0, 0.0), doubt
-    plastic = plastic_region(pressure, deformed, request.gap, cap, grid, modulus)
+    plastic = plastic_region(pressure, deformed, undeformed, cap, grid, modulus)
     # the rest carries the remaining load
     return contact, plastic.of_area(min(plastic.area, least)), doubt
 

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from bem.contact import ContactSolution, solve_contact
+from bem.contact import ContactSolution, InputChange, contact_tangent, sensitivities, solve_contact
 from bem.convolution import displacement_operator
 from bem.grid import FloatArray, Grid
 from bem.materials import Body, Material, contact_modulus
@@ -143,6 +143,59 @@ def westergaard() -> list[Curve]:
             curve("gap", name, "m", _line(s), line[1], exact.gap(s), 5e-4, reason),
         ]
     return found
+
+
+def westergaard_sensitivity() -> list[Curve]:
+    """Derivatives of a sinusoidal row in partial contact with respect to its mean pressure."""
+    modulus = contact_modulus(STEEL)
+    n, wavelength, amplitude = 1024, 1e-5, 1e-8
+    exact = SinusoidalContact(amplitude, wavelength, modulus, 0.3 * math.pi * modulus * amplitude / wavelength)
+    star, sine = exact.full_contact_pressure, math.sqrt(exact.mean_pressure / exact.full_contact_pressure)
+    x = np.arange(n) * wavelength / n
+    x = np.where(x > wavelength / 2, x - wavelength, x)
+    inside, outside = np.abs(x) < 0.7 * exact.half_width, np.abs(x) > 1.2 * exact.half_width
+    grid = Grid((n, 4), (wavelength / n, wavelength / 4), periodic=(True, True))
+    gap = np.repeat(amplitude * (1 - np.cos(2 * np.pi * x / wavelength))[:, None], 4, axis=1)
+    solution = _solved(gap, grid, Body(STEEL), exact.mean_pressure * grid.area)
+    operator = displacement_operator(grid, Body(STEEL))
+    found = contact_tangent(solution, gap, operator, InputChange(load=grid.area))
+    psi = np.pi * x / wavelength
+    pressure = np.cos(psi[inside]) / np.sqrt(sine**2 - np.sin(psi[inside]) ** 2)
+    opening = -2 * amplitude / star * np.arccosh(np.abs(np.sin(psi[outside])) / sine)
+    peak = found.figures().maximum_pressure
+    reason = "1024 cells in a wavelength; cells keep their states"
+    name, place = "per mean pressure", np.zeros(3)
+    return [
+        curve("pressure", name, "1", _line(x[inside]), found.pressure[inside, 0], pressure, 3e-3, reason),
+        curve("gap", name, "m/Pa", _line(x[outside]), found.gap[outside, 0], opening, 3e-3, reason),
+        curve("maximum pressure", name, "1", place, peak, 1 / sine, 3e-3, reason),
+    ]
+
+
+def hertz_sensitivity() -> list[Curve]:
+    """Derivatives of a ball on a plane with respect to load and modulus: powers 1/3 and 2/3 of pressure and approach.
+
+    The area's power scatters by a few per cent with the place of the edge in its cells, see `bem.contact.sensitivity`.
+    """
+    exact = ellipse_contact(radii=(0.01, 0.01), contact_modulus=contact_modulus(GLASS, STEEL), load=5.0)
+    grid = Grid((129, 129), (2.4 * exact.semi_axes[0] / 129,) * 2)
+    gap = exact.undeformed_gap(grid.x[:, None], grid.y[None, :])
+    bodies = (Body(GLASS), Body(STEEL))
+    solution, operator = _solved(gap, grid, bodies, 5.0), displacement_operator(grid, bodies)
+    found = sensitivities(solution, gap, operator)
+    assert found.load is not None
+    reason = "53 cells over each semi-axis; cells keep their states"
+    return [
+        curve(name, "per relative change of the " + of, unit, np.zeros(3), value, expected, 1e-3, reason)
+        for of, rates, factor, powers in (
+            ("load", found.load, 5.0, (1 / 3, 2 / 3)),
+            ("modulus", found.modulus, operator.contact_modulus, (2 / 3, -2 / 3)),
+        )
+        for name, unit, value, expected in (
+            ("maximum pressure", "Pa", factor * rates.maximum_pressure, powers[0] * exact.maximum_pressure),
+            ("approach", "m", factor * rates.approach, powers[1] * exact.approach),
+        )
+    ]
 
 
 def crossed_waves() -> list[Curve]:
@@ -393,6 +446,8 @@ def gates() -> list[Gate]:
         ("hertz-ellipse", "Contact solver: a barrel, radii 1 to 4 (Hertz).", lambda: hertz_point((0.01, 0.04))),
         ("hertz-cylinder", "Contact solver: a cylinder, periodic along its axis (Hertz).", hertz_cylinder),
         ("westergaard", "Contact solver: a sinusoidal row, periodic (Westergaard).", westergaard),
+        ("sensitivity-row", "Derivatives of a sinusoidal row by its pressure (Westergaard).", westergaard_sensitivity),
+        ("sensitivity-sphere", "Derivatives of a ball on a plane by load and modulus (Hertz).", hertz_sensitivity),
         ("crossed-waves", "Contact solver: crossed sinusoids in full contact, periodic.", crossed_waves),
         ("flat-punch", "Contact solver: a round flat punch.", punch),
         ("hamilton", "Stresses below a sliding Hertz contact (Hamilton).", hamilton),
