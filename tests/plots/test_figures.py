@@ -298,3 +298,47 @@ def test_every_figure_of_the_package_is_drawn_by_a_kind():
     named = {name for kind in kind_names() for name in get_kind(kind).figures}
     of_campaigns = {"figures-over-keys"}
     assert set(all_figures()) == named | of_campaigns
+
+
+def layered_run(path):
+    """Two layers of 2 and 6 um on a body; the stress xx is twice as high in the second layer, xz is continuous."""
+    run = contact_run(path)
+    depth = np.array([0.0, 1e-6, 2e-6, 2.002e-6, 5e-6, 8e-6, 8.002e-6, 12e-6])
+    stress = np.zeros((6, len(depth), 40, 30))
+    inside = np.searchsorted([2e-6, 8e-6], depth)  # an interface belongs to the layer above it
+    stress[0, :, 20, 15] = np.array([1e9, 2e9, -1e9])[inside]
+    stress[4, :, 10, 15] = 3e8 - 1e13 * depth
+    stress[2, :, 10, 10] = -1e8
+    mises = np.abs(stress[0]) + np.sqrt(3) * stress[4]
+    variables = {name: run.dataset[name] for name in ("x", "y")}
+    variables |= {
+        "depth": Variable(("depth",), depth, "m", "depth"),
+        "von_mises": Variable(("depth", "x", "y"), mises, "Pa", "stress"),
+        "stress": Variable(("component", "depth", "x", "y"), stress, "Pa", "stress"),
+    }
+    soft, hard = ({"name": name, "hardness": value} for name, value in (("soft", 2.8e9), ("hard", 28e9)))
+    layers = [{"material": soft, "thickness": 2e-6}, {"material": hard, "thickness": 6e-6}]
+    scene = {"lower": {"material": {"name": "body"}, "layers": layers}, "outputs": {"body": "lower"}}
+    return SimpleNamespace(path=path, scene=scene, summary=run.summary, dataset=Arrays(variables, {}))
+
+
+def test_stresses_of_layers_jump_at_interfaces_inside_and_not_across(tmp_path):
+    run = layered_run(tmp_path)
+    assert all_figures()["layer-stresses"].fits(run)
+    _, (inside, across) = axes_of(run, "layer-stresses")
+    lines = {line.get_label(): line.get_xdata() for axes in (inside, across) for line in axes.lines}
+    gap = [np.nan]
+    np.testing.assert_allclose(lines["tension (principal)"][:9], [1, 1, 1, *gap, 2, 2, 2, *gap, 0.22], rtol=1e-2)
+    np.testing.assert_allclose(lines["shear across the plane"], 300 - 10 * run.dataset["depth"].values * 1e6, rtol=1e-9)
+    assert not lines["tension across the plane"].any()
+    np.testing.assert_allclose(lines["yield stress, where near"], [])
+    (yields,) = (line for line in inside.lines if line.get_linestyle() == "--" and len(line.get_xdata()))
+    np.testing.assert_allclose([*yields.get_xdata(), *yields.get_ydata()], [1, 1, 0, 1])  # of the soft layer alone
+    assert [tick.get_text() for tick in inside.get_yticklabels()] == ["0", "2", "8", "12"]
+    assert [text.get_text() for text in across.texts] == ["soft", "hard", "body"]
+
+
+def test_a_body_without_layers_has_no_stresses_of_layers(tmp_path):
+    run = layered_run(tmp_path)
+    run.scene["lower"]["layers"] = []
+    assert not all_figures()["layer-stresses"].fits(run)

@@ -28,6 +28,7 @@ KIND = Kind(
         "pressure-histogram",
         "von-mises-section",
         "von-mises-depth",
+        "layer-stresses",
         "adhesion-path",
         "area-over-load",
         "spot-sizes",

@@ -109,6 +109,66 @@ def _depth_profile(run: Any, figure: Figure) -> None:
     axes.legend()
 
 
+def _stresses_of_layers(run: Any, figure: Figure) -> None:
+    """Highest stresses at each depth of a layered body, inside it and across planes; layers are drawn equally thick."""
+    depth = run.dataset["depth"].values
+    media = [medium for medium in _media(run) if medium.top < depth[-1]]
+    highest = _highest_by_depth(run)
+    tops = np.array([medium.top for medium in media])
+    thickest = tops[-1] - tops[-2] if len(tops) > 1 else depth[-1]
+    last = float(min(depth[-1], tops[-1] + 2 * max(thickest, tops[-1])))
+    knots, positions = [*tops, last], [*range(len(tops)), len(tops) + 1]
+    shown = depth <= last
+    place = np.interp(depth, knots, positions)[shown]
+    inside, across = figure.subplots(1, 2, sharey=True, width_ratios=(1.25, 1))
+    breaks = np.searchsorted(depth[shown], tops[1:], side="right")  # stresses along the surface jump at interfaces
+    for axes, names, jumps in (
+        (inside, ("von Mises", "tension (principal)"), breaks),
+        (across, ("shear across the plane", "tension across the plane"), breaks[:0]),
+    ):
+        largest = max(float(highest[name][shown].max()) for name in names)
+        factor, unit = prefix([largest], "Pa")
+        for name, marker in zip(names, ("o", "s"), strict=True):
+            values = np.insert(highest[name][shown], jumps, np.nan) * factor
+            axes.plot(values, np.insert(place, jumps, np.nan), marker=marker, markersize=3, label=name)
+        for position in range(1, len(tops)):
+            axes.axhline(position, color="0.6", linewidth=0.8, linestyle=":")
+        if axes is inside:
+            for number, medium in enumerate(media):
+                if medium.yield_stress is not None and medium.yield_stress < 1.1 * largest:
+                    ends = [number, positions[number + 1]]
+                    axes.plot([medium.yield_stress * factor] * 2, ends, color="0.4", linestyle="--", linewidth=1)
+            axes.plot([], [], color="0.4", linestyle="--", linewidth=1, label="yield stress, where near")
+        axes.set_xlabel(label("highest stress", unit))
+        axes.set_xlim(0, 1.1 * largest * factor or 1.0)
+        axes.legend(loc="lower left", bbox_to_anchor=(0.0, 1.0))
+    for number, medium in enumerate(media):
+        middle = 0.5 * (number + positions[number + 1])
+        across.text(1.02, middle, medium.name, transform=across.get_yaxis_transform(), va="center")
+    factor_z, unit_z = prefix([last], "m")
+    inside.set_ylim(positions[-1], 0)
+    inside.set_yticks(positions, [f"{value * factor_z:.3g}" for value in knots])
+    inside.set_ylabel(label("depth, not to scale", unit_z))
+
+
+def _highest_by_depth(run: Any) -> dict[str, NDArray[np.float64]]:
+    """Highest stresses of each depth [Pa], zero where all is compressed; one plane in memory at a time."""
+    from bem.stress.layer_stresses import highest_principal
+
+    stress, mises = run.dataset["stress"].values, run.dataset["von_mises"].values
+    names = ("von Mises", "tension (principal)", "shear across the plane", "tension across the plane")
+    found = {name: np.zeros(stress.shape[1]) for name in names}
+    for k in range(stress.shape[1]):
+        plane = np.asarray(stress[:, k])
+        found["von Mises"][k] = mises[k].max()
+        found["tension (principal)"][k] = max(0.0, float(highest_principal(plane).max()))
+        found["shear across the plane"][k] = np.hypot(plane[3], plane[4]).max()
+        found["tension across the plane"][k] = max(0.0, float(plane[2].max()))
+        release(stress)
+        release(mises)
+    return found
+
+
 def _drawn_over_depth(
     depth: NDArray[np.float64], section: NDArray[np.float64]
 ) -> tuple[NDArray[np.float64], NDArray[np.float64]]:
@@ -153,6 +213,7 @@ def _by_depth(stress: NDArray[np.float64]) -> tuple[NDArray[np.float64], NDArray
 class _Medium:
     """Medium between two depths [m] of the body shown."""
 
+    name: str
     top: float
     bottom: float
     yield_stress: float | None
@@ -165,7 +226,7 @@ def _media(run: Any) -> list[_Medium]:
     tops = [0.0, *itertools.accumulate(float(layer["thickness"]) for layer in layers)]
     materials = [*(layer["material"] for layer in layers), body.get("material")]
     return [
-        _Medium(top, bottom, _yield_stress(material or {}))
+        _Medium(str((material or {}).get("name", "")), top, bottom, _yield_stress(material or {}))
         for top, bottom, material in zip(tops, [*tops[1:], np.inf], materials, strict=True)
     ]
 
@@ -182,6 +243,10 @@ def _several_depths(run: Any) -> bool:
 
 def _has_section(run: Any) -> bool:
     return _several_depths(run) and max(run.dataset.sizes["x"], run.dataset.sizes["y"]) > 1
+
+
+def _layered(run: Any) -> bool:
+    return _several_depths(run) and len(_media(run)) > 1
 
 
 FIGURES = (
@@ -201,5 +266,16 @@ FIGURES = (
         _depth_profile,
         (5.0, 3.2),
         _several_depths,
+    ),
+    FigureKind(
+        "layer-stresses",
+        "Highest stresses at each depth of a layered body. Left, inside the layers: von Mises stress, beside the yield "
+        "stress where it is near, and the highest principal stress. Right, across planes parallel to the surface: "
+        "shear stress and tension, which load the interfaces. Each layer is drawn equally thick, the body below twice "
+        "as thick.",
+        ("depth", "von_mises", "stress"),
+        _stresses_of_layers,
+        (7.2, 4.2),
+        _layered,
     ),
 )

@@ -55,6 +55,10 @@ TASKS: Mapping[str, Task] = {
         ("max_pressure_Pa", "approach_m", "max_von_mises_Pa", "max_von_mises_depth_m"),
         ("von-mises-section",),
     ),
+    "coating-stack": Task(
+        ("max_pressure_Pa", "approach_m", "max_von_mises_Pa", "max_von_mises_depth_m"),
+        ("layer-stresses",),
+    ),
     "stribeck-curve": Task(
         ("speed_m_s", "friction", "contact_load_N", "minimum_film_nm", "lambda_ratio"),
         ("stribeck-curve",),
@@ -120,13 +124,36 @@ def of_operation(name: str) -> dict[str, float]:
     }
 
 
-def of_layer(path: Path) -> dict[str, float]:
-    """Return the stresses of the coating in a finished run, as the snippet of its page prints them."""
-    code = (HERE.parent / "examples" / "coating.py").read_text("utf-8")
+LAYERED: Mapping[str, str] = {"coating-stresses": "coating.py", "coating-stack": "stack.py"}
+"""Examples whose page reads stresses from the arrays of the run, with the snippets that do."""
+
+
+def of_layer(name: str, path: Path) -> dict[str, float]:
+    """Return the stresses of a coating in a finished run, as the snippet of its page prints them."""
+    code = (HERE.parent / "examples" / LAYERED[name]).read_text("utf-8")
     names: dict[str, Any] = {"folder": path}
     with contextlib.redirect_stdout(io.StringIO()):
-        exec(compile(code, "coating.py", "exec"), names)
+        exec(compile(code, LAYERED[name], "exec"), names)
     return dict(names["found"])
+
+
+def of_stack(run: Any) -> dict[str, list[Any]]:
+    """Return the stresses of a layered body, a row for each layer and the interface below it."""
+    layers, summary = run.scene["lower"]["layers"], run.summary
+
+    def megapascals(values: list[float]) -> list[float]:
+        return [1e-6 * value for value in values]
+
+    return {
+        "layer": [layer["material"]["name"] for layer in layers],
+        "residual_stress_MPa": megapascals([layer["residual_stress"] for layer in layers]),
+        "yield_stress_MPa": megapascals([layer["material"]["yield_stress"] for layer in layers]),
+        "highest_von_mises_MPa": megapascals(summary["layer_max_von_mises_Pa"]),
+        "highest_tension_MPa": megapascals(summary["layer_max_tension_Pa"]),
+        "interface_below_at_um": [1e6 * value for value in summary["interface_depth_m"]],
+        "shear_across_it_MPa": megapascals(summary["interface_max_shear_Pa"]),
+        "tension_across_it_MPa": megapascals(summary["interface_max_tension_Pa"]),
+    }
 
 
 def of_summary(name: str, summary: Mapping[str, Any]) -> dict[str, Any]:
@@ -155,7 +182,7 @@ def save_small(source: Path, target: Path) -> None:
 
 def renew(name: str) -> None:
     """Run an example and store its numbers and pictures."""
-    from bem import run_scene
+    from bem import open_run, run_scene
 
     folder, task = HERE / name, TASKS[name]
     with tempfile.TemporaryDirectory() as scratch:
@@ -163,8 +190,10 @@ def renew(name: str) -> None:
         made = of_summary(name, run.summary)
         for picture in task.pictures:
             save_small(run.path / "figures" / f"{picture}.png", folder / f"{picture}.png")
-        if name == "coating-stresses":
-            made["layer"] = of_layer(run.path)
+        if name in LAYERED:
+            made["layer"] = of_layer(name, run.path)
+        if name == "coating-stack":
+            made["stack"] = of_stack(open_run(run.path))
     if name in ELEMENTS:
         made["element"] = of_element(name)
     if name == "gear-losses":
