@@ -5,15 +5,12 @@ Verified in tests/app/test_starts.py.
 
 from __future__ import annotations
 
-import tomllib
 from dataclasses import dataclass
-from typing import Any
 
-from bem.app.remedies import length_text
 from bem.errors import InputError
-from bem.scenes.edit import edited_text
 from bem.scenes.kind import get_kind, kinds_by_task
 from bem.scenes.load import library, library_text
+from bem.scenes.own_surfaces import MeasuredMap
 from bem.scenes.template import scene_template
 
 
@@ -81,43 +78,16 @@ def start_text(source: str) -> str:
 
 OF_SURFACES = {"contact": "dry contact", "friction": "Stribeck curve", "wear": "wear"}
 """Kinds of a scene that is begun with a measured surface, in words."""
-_MOST_CELLS = {"contact": 512, "friction": 128, "wear": 128}
-"""Cells along an axis with which such a scene begins, for a first result within a minute."""
 
 
-_STEEL, _BALL, _LONGEST, _OF_SIDE = 114e9, 10e-3, 240e-6, 0.29
-"""Of such a Stribeck curve: contact modulus of steel [Pa], radius of the ball [m], longest side of the grid [m], and
-Hertz radius over that side."""
+def scene_of_surface(kind: str, surface: MeasuredMap) -> str:
+    """Return the text of a first scene with a measured surface below, as `bem new KIND --lower FILE` writes it.
 
-
-def scene_of_surface(kind: str, surface: dict[str, Any], shape: tuple[int, int], lengths: tuple[float, float]) -> str:
-    """The text of a scene with a measured surface below, its grid as large as the map.
-
-    Parameters
-    ----------
-    kind : one of `OF_SURFACES`.
-    surface : table of the treated surface.
-    shape, lengths : cells and sides [m] of the map.
+    Raises
+    ------
+    InputError : a map that is too small for the contact.
     """
-    text = scene_template(kind)
-    table = tomllib.loads(text)
-    table["lower"]["surface"] = surface
-    if kind == "friction":  # the contact of the ball lies inside the map, and its grid in the middle of a large one
-        side = min(*lengths, _LONGEST)
-        shape = (max(1, int(shape[0] * side / lengths[0])), max(1, int(shape[1] * side / lengths[1])))
-        lengths = (side, side)
-        load = _STEEL * (_OF_SIDE * side) ** 3 / (0.75 * _BALL)
-        table["contact"] |= {"ball": f"{1e3 * _BALL:g} mm", "loads": [f"{load:.2g} N"]}
-    cells = [min(n, _MOST_CELLS[kind]) for n in shape]
-    sides = [length_text(side) for side in lengths]
-    if kind == "wear":
-        table["domain"] = {"cells": min(cells), "lengths": sides}
-        return edited_text(text, table)
-    table["grid"] = {"shape": cells, "lengths": sides, "periodic": kind == "contact"}
-    if kind == "contact":  # nominally flat: a map may be smaller than the contact of any ball
-        del table["shape"]
-        table["contact"] = {k: v for k, v in table["contact"].items() if k != "load"} | {"mean_pressure": "50 MPa"}
-    return edited_text(text, table)
+    return scene_template(kind, surfaces={"lower": surface})
 
 
 @dataclass(frozen=True)

@@ -209,7 +209,7 @@ class SurfacePage:
             if self._done is None:
                 raise InputError("a surface without mistakes is needed")
             found = self._done
-            text = await compute(scene_of_surface, kind, found.surface, found.shape, found.lengths)
+            text = await compute(scene_of_surface, kind, found.measured)
             name = self._workspace.free_scene_name(f"{Path(str(self._file.value)).stem}-{kind}")
             self._workspace.save_scene(name, text)
         except BemError as error:

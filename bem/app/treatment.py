@@ -20,6 +20,7 @@ from bem.memory import available_memory
 from bem.plots.report import spelled
 from bem.scenes.common import GridScene, MeasuredSurface
 from bem.scenes.maps import fitted, read_map
+from bem.scenes.own_surfaces import MeasuredMap
 from bem.scenes.paths import absolute
 from bem.scenes.planner import show_bytes
 from bem.scenes.validate import validate
@@ -32,8 +33,8 @@ _PER_CELL = 120.0
 class Treated:
     """A surface after its treatment: picture, statistics, what was done, and the tables of a scene that say all this.
 
-    `grid` is that of the cells that were asked for, None where the scene's own decides. `shape` and `lengths` [m] are
-    the cells and sides of the map.
+    `grid` is that of the cells that were asked for, None where the scene's own decides. `measured` is the map for a
+    first scene.
     """
 
     picture: Picture
@@ -42,8 +43,7 @@ class Treated:
     notes: tuple[str, ...]
     surface: dict[str, Any]
     grid: dict[str, Any] | None
-    shape: tuple[int, int]
-    lengths: tuple[float, float]
+    measured: MeasuredMap
 
 
 def treated(path: str, asked: dict[str, Any]) -> Treated:
@@ -82,24 +82,25 @@ def treated(path: str, asked: dict[str, Any]) -> Treated:
     own = None
     if asked.get("cells", "") != "":
         own = {"shape": list(grid.shape), "lengths": [length_text(side) for side in lengths]}
+    measured = MeasuredMap(grid.shape, grid.spacing, surface, described.Sq, resampled=own is not None)
     sides = (np.asarray(grid.x), np.asarray(grid.y))
     pictures = [map_picture(heights, sides, Path(path).name, "m", solid=solid) for solid in (False, True)]
-    return Treated(pictures[0], pictures[1], tuple(figures), tuple(map(str, notes)), surface, own, grid.shape, lengths)
+    return Treated(pictures[0], pictures[1], tuple(figures), tuple(map(str, notes)), surface, own, measured)
 
 
 def _functional(heights: FloatArray, grid: Grid) -> list[tuple[str, str]]:
     """Figures of the material ratio curve and the Hurst exponent, of maps that have them."""
-    from bem.surfaces import fit_self_affine, material_ratio, radial_spectrum
+    from bem.surfaces import material_ratio
+    from bem.surfaces.self_affine import self_affine_fit_of_map
 
     if heights.size < 10 or not np.ptp(heights) > 0:
         return []
     curve = material_ratio(heights)
     figures = [(name, spelled(f"{name}_m", getattr(curve, name))[1]) for name in ("Sk", "Spk", "Svk")]
-    try:
-        fit = fit_self_affine(radial_spectrum(heights, grid.spacing))
-    except InputError:  # too small or too smooth for a fit
-        return figures
-    return [*figures, ("Hurst exponent", f"{fit.hurst:.2f} ± {fit.hurst_error:.2f}")] if 0 < fit.hurst < 1 else figures
+    fit = self_affine_fit_of_map(heights, grid.spacing)
+    if fit is not None and 0 < fit.hurst < 1:
+        figures.append(("Hurst exponent", f"{fit.hurst:.2f} ± {fit.hurst_error:.2f}"))
+    return figures
 
 
 def _check_cells(shape: tuple[int, int]) -> None:

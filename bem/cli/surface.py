@@ -8,7 +8,7 @@ from typing import TYPE_CHECKING, Annotated
 import typer
 
 if TYPE_CHECKING:
-    from bem.surfaces import SelfAffineFit, Surface
+    from bem.surfaces import Surface
 
 FileArgument = Annotated[
     Path,
@@ -133,12 +133,13 @@ def describe(
         import math
 
         from bem.surfaces import describe_asperities, describe_surface, material_ratio
+        from bem.surfaces.self_affine import self_affine_fit_of_map
 
         described = describe_surface(surface.heights, surface.spacing, periodic=_periodic(surface))
         values = dataclasses.asdict(described)
         curve = material_ratio(surface.heights)
         values |= {name: getattr(curve, name) for name in ("Sk", "Spk", "Svk", "Smr1", "Smr2")}
-        fit = _self_affine(surface)
+        fit = self_affine_fit_of_map(surface.heights, surface.spacing, periodic=_periodic(surface))
         if fit is not None:
             values |= {f"spectrum_{name}": value for name, value in dataclasses.asdict(fit).items()}
         if min(surface.shape) >= 3:
@@ -254,23 +255,13 @@ def _show(surface: Surface, name: str) -> None:
         )
 
 
-def _self_affine(surface: Surface) -> SelfAffineFit | None:
-    """Return the self-affine fit of a surface's spectrum; None of maps too small or too smooth for one."""
-    from bem.errors import InputError
-    from bem.surfaces import fit_self_affine, radial_spectrum
-
-    try:
-        return fit_self_affine(radial_spectrum(surface.heights, surface.spacing, periodic=_periodic(surface)))
-    except InputError:
-        return None
-
-
 def _functional_rows(surface: Surface) -> list[tuple[str, str]]:
     """Return rows on the material ratio curve, the asperities and the spectrum."""
     import math
 
     from bem.quantities import si
     from bem.surfaces import describe_asperities, material_ratio
+    from bem.surfaces.self_affine import self_affine_fit_of_map
 
     if surface.heights.size < 10 or not float(surface.heights.max()) > float(surface.heights.min()):
         return []
@@ -290,7 +281,7 @@ def _functional_rows(surface: Surface) -> list[tuple[str, str]]:
                 ("asperity heights, standard deviation", si(asperities.rms_height, "m", digits=4)),
             ]
         rows.append(("bandwidth, Nayak's alpha", f"{asperities.bandwidth:.4g}"))
-    fit = _self_affine(surface)
+    fit = self_affine_fit_of_map(surface.heights, surface.spacing, periodic=_periodic(surface))
     if fit is not None:
         decades = f"{fit.misfit:.2f} decades off at rms"
         between = f"{si(fit.shortest_wavelength, 'm', digits=3)} to {si(fit.longest_wavelength, 'm', digits=3)}"

@@ -102,7 +102,7 @@ def _with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
         return text, f"{shown} (no error bar)" if none else shown
     number, *unit = shown.split(" ")
     factor = float(number) / value if float(number) else 1.0
-    return text, " ".join([number, within(name, value, error, factor), *unit])
+    return text, " ".join(filter(None, [number, within(name, value, error, factor), *unit]))
 
 
 def _only(value: Any) -> Any:

@@ -6,19 +6,16 @@ from pathlib import Path
 
 import numpy as np
 
-from bem.errors import InputError
 from bem.plots.style import BLACK, BLUE, VERMILION, label, map_of_heights, prefix, style
 from bem.results.atomic import replacing
 from bem.surfaces import (
-    RadialSpectrum,
-    SelfAffineFit,
     Surface,
     autocorrelation,
     describe_surface,
-    fit_self_affine,
     material_ratio,
     radial_spectrum,
 )
+from bem.surfaces.self_affine import self_affine_fit_of_map
 
 
 def draw_surface(surface: Surface, path: Path, *, periodic: tuple[bool, bool] = (False, False)) -> Path:
@@ -83,7 +80,7 @@ def draw_surface(surface: Surface, path: Path, *, periodic: tuple[bool, bool] = 
             spectrum = radial_spectrum(heights, surface.spacing, periodic=periodic)
             seen = spectrum.density > 1e-20 * spectrum.density.max()
             spectrum_axes.loglog(spectrum.wavenumber[seen] * 1e-6, spectrum.density[seen] * 1e24, color=BLUE)
-            fit = _self_affine(spectrum)
+            fit = self_affine_fit_of_map(heights, surface.spacing, periodic=periodic)
             if fit is not None:
                 q = spectrum.wavenumber[spectrum.wavenumber <= 2 * np.pi / fit.shortest_wavelength * (1 + 1e-9)]
                 name = f"H = {fit.hurst:.2f} ± {fit.hurst_error:.2f}" if 0 < fit.hurst < 1 else "not self-affine"
@@ -98,10 +95,3 @@ def draw_surface(surface: Surface, path: Path, *, periodic: tuple[bool, bool] = 
         with replacing(path) as temporary:
             figure.savefig(temporary, format=path.suffix[1:].lower())
     return path
-
-
-def _self_affine(spectrum: RadialSpectrum) -> SelfAffineFit | None:
-    try:
-        return fit_self_affine(spectrum)
-    except InputError:  # too few rings for a slope
-        return None

@@ -102,7 +102,8 @@ _WITHOUT_SIGN = frozenset(
 def within(name: str, value: float, error: float, factor: float = 1.0) -> str:
     """An error as it stands behind a value: `± 0.2`, or, where that would leave what the figure can be, the interval
     that is left: `(0 to 1.3)`, of what has no sign, and `(0.7 to 1)`, of a share of a whole. The error itself, beside
-    the figure in summary and dataset, is that of either side.
+    the figure in summary and dataset, is that of either side. An interval whose ends agree to four digits is left out:
+    "" of full contact.
 
     factor : of the unit that is shown.
     """
@@ -114,7 +115,11 @@ def within(name: str, value: float, error: float, factor: float = 1.0) -> str:
     if least <= value - error and value + error <= most:
         return f"± {plain_digits(error * abs(factor))}"
     low, high = max(value - error, least) * factor, min(value + error, most) * factor
-    return f"({plain_digits(low, 3)} to {plain_digits(high, 3)})"
+    for digits in (3, 4):
+        ends = plain_digits(low, digits), plain_digits(high, digits)
+        if ends[0] != ends[1]:
+            return f"({ends[0]} to {ends[1]})"
+    return ""
 
 
 _LEAST_SCATTER = 1e-6
@@ -359,7 +364,7 @@ def _column(
         cells = [
             cell
             if cell == "–" or not s or s < _ROUND_OFF * abs(value)
-            else f"{cell} {within(name, value, s, factor) if bars else f'± {plain_digits(s * factor)}'}"
+            else f"{cell} {within(name, value, s, factor) if bars else f'± {plain_digits(s * factor)}'}".rstrip()
             for cell, s, value in zip(cells, spread, values, strict=True)
         ]
     if isinstance(oil, list) and len(oil) == len(values):

@@ -1,6 +1,7 @@
 """First scenes on measured surfaces: files of an instrument in place of generated roughness, and a mesh that fits them.
 
-`bem new KIND --lower FILE --upper FILE` writes them. Verified in tests/scenes/test_own_surfaces.py.
+`bem new KIND --lower FILE --upper FILE` writes them, and so does the page of surfaces.
+Verified in tests/scenes/test_own_surfaces.py.
 """
 
 from __future__ import annotations
@@ -42,13 +43,22 @@ _STEP = 0.5
 
 
 @dataclass(frozen=True)
-class _Map:
-    """A measured map: cells, their spacing [m], keys of its table in a scene, and its rms height Sq [m]."""
+class MeasuredMap:
+    """A measured map.
+
+    Attributes
+    ----------
+    shape : cells. spacing : of the cells [m].
+    table : keys of its table in a scene.
+    rms_height : Sq [m].
+    resampled : True if the cells are not those of the file.
+    """
 
     shape: tuple[int, int]
     spacing: tuple[float, float]
     table: dict[str, Any]
     rms_height: float
+    resampled: bool = False
 
     @property
     def lengths(self) -> tuple[float, float]:
@@ -56,20 +66,28 @@ class _Map:
         return self.shape[0] * self.spacing[0], self.shape[1] * self.spacing[1]
 
 
-def own_surfaces_start(kind: str, start: Mapping[str, Any], files: Mapping[str, str], folder: Path) -> dict[str, Any]:
-    """Return values of a first scene of a kind on measured surfaces.
-
-    start : values of the kind's first scene. files : path of each body's map, by "lower" and "upper". folder : of the
-    scene file, to which paths are relative.
+def read_maps(files: Mapping[str, str], folder: Path) -> dict[str, MeasuredMap]:
+    """Read the map of each body, by "lower" and "upper"; paths are relative to the folder of the scene file.
 
     Raises
     ------
-    InputError : a kind without measured surfaces, a map with too many missing points, or one too small for the contact.
+    InputError : a map with too many missing points.
     SurfaceFileError : a file that cannot be read.
+    """
+    return {body: _read(body, path, folder) for body, path in files.items()}
+
+
+def own_surfaces_start(kind: str, start: Mapping[str, Any], found: Mapping[str, MeasuredMap]) -> dict[str, Any]:
+    """Return values of a first scene of a kind on measured surfaces.
+
+    start : values of the kind's first scene. found : map of each body, by "lower" and "upper".
+
+    Raises
+    ------
+    InputError : a kind without measured surfaces, or a map that is too small for the contact.
     """
     if kind not in KINDS:
         raise InputError(f"--lower, --upper: not for kind {kind}; allowed: with {', '.join(KINDS)}")
-    found = {body: _read(body, path, folder) for body, path in files.items()}
     data = {key: dict(value) if isinstance(value, Mapping) else value for key, value in start.items()}
     for body, one in found.items():
         data[body] = {**data[body], "surface": one.table}
@@ -77,7 +95,11 @@ def own_surfaces_start(kind: str, start: Mapping[str, Any], files: Mapping[str, 
     smallest = min(min(one.lengths) for one in found.values())
     if kind == "contact":
         data.pop("shape", None)  # a patch of a larger contact, on cells and area of the maps
-        return data | {"grid": {"periodic": True}, "contact": {"mean_pressure": "20 MPa", "behaviour": "capped"}}
+        grid: dict[str, Any] = {"periodic": True}
+        for one in found.values():
+            if one.resampled:
+                grid |= {"shape": list(one.shape), "lengths": [_length(side) for side in one.lengths]}
+        return data | {"grid": grid, "contact": {"mean_pressure": "20 MPa", "behaviour": "capped"}}
     rms_height = math.hypot(*(one.rms_height for one in found.values()))
     data, length = _fitted(kind, data, spacing, smallest, rms_height)
     cells, cell = _mesh(length, spacing)
@@ -94,7 +116,7 @@ def own_surfaces_start(kind: str, start: Mapping[str, Any], files: Mapping[str, 
     return data | {"wear": _wear(kind, data, cell)}
 
 
-def _read(body: str, path: str, folder: Path) -> _Map:
+def _read(body: str, path: str, folder: Path) -> MeasuredMap:
     """Read a map and choose what its table needs: form removal, and despiking where there are outliers."""
     from bem.surfaces import read_surface
     from bem.surfaces.filter import count_spikes
@@ -111,8 +133,10 @@ def _read(body: str, path: str, folder: Path) -> _Map:
     known = path if example_path(path) is not None else os.path.relpath(path, folder)
     table: dict[str, Any] = {"kind": "measured", "path": Path(known).as_posix(), "detrend": "curvature"}
     spikes = count_spikes(surface.heights, surface.spacing) / cells
-    table |= {"despike": 6} if 0 < spikes < _MOST_SPIKES else {}
-    return _Map(surface.shape, surface.spacing, table, float(surface.heights.std()))
+    if 0 < spikes < _MOST_SPIKES:
+        table["despike"] = 6
+        surface = read_surface(path, detrend="curvature", despike=6)
+    return MeasuredMap(surface.shape, surface.spacing, table, float(surface.heights.std()))
 
 
 def _half_width(kind: str, data: Mapping[str, Any]) -> float:

@@ -7,7 +7,7 @@ import textwrap
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
+from typing import TYPE_CHECKING, Any
 
 from bem.errors import InputError
 from bem.scenes.form import Entry, FormTable, keys_of_kind, table_at
@@ -17,6 +17,9 @@ from bem.scenes.load import library, library_text
 from bem.scenes.starts import start_scene
 from bem.scenes.validate import nearest, show
 from bem.scenes.values import dumped, typed
+
+if TYPE_CHECKING:
+    from bem.scenes.own_surfaces import MeasuredMap
 
 _MOST_CHOICES = 12
 _WIDEST, _WIDTH = 42, 118
@@ -30,7 +33,11 @@ def kind_meant(word: str) -> str:
 
 
 def scene_template(
-    kind: str, *, everything: bool = False, surfaces: Mapping[str, str] | None = None, folder: Path | None = None
+    kind: str,
+    *,
+    everything: bool = False,
+    surfaces: Mapping[str, str] | Mapping[str, MeasuredMap] | None = None,
+    folder: Path | None = None,
 ) -> str:
     """Return a TOML scene that runs as it is: the keys that every user sets, each with its meaning and unit.
 
@@ -38,7 +45,8 @@ def scene_template(
     ----------
     kind : a kind, a name that people guess for one, or a built-in scene, whose own text is then given.
     everything : also all other keys, as comments by level; refused for a built-in scene.
-    surfaces : files of measured surfaces by body, "lower" and "upper", in place of generated roughness.
+    surfaces : files of measured surfaces, or maps that were read, by body, "lower" and "upper", in place of generated
+        roughness.
     folder : of the scene file, to which the paths are relative; the working folder if None.
 
     Raises
@@ -60,9 +68,11 @@ def scene_template(
         )
     data = start_scene(kind)
     if surfaces:
-        from bem.scenes.own_surfaces import own_surfaces_start  # reads files of instruments
+        from bem.scenes.own_surfaces import own_surfaces_start, read_maps  # reads files of instruments
 
-        data = own_surfaces_start(kind, data, surfaces, folder or Path.cwd())
+        files = {body: one for body, one in surfaces.items() if isinstance(one, str)}
+        maps = {body: one for body, one in surfaces.items() if not isinstance(one, str)}
+        data = own_surfaces_start(kind, data, maps | read_maps(files, folder or Path.cwd()))
     more = "Keys behind a # show their default or an example; levels: basic, advanced (models), expert (numerics)."
     lines = [
         f"# {get_kind(kind).title[:1].upper()}{get_kind(kind).title[1:]}.",

@@ -13,7 +13,7 @@ import numpy as np
 
 from bem.errors import InputError
 from bem.grid import FloatArray
-from bem.surfaces.describe import RadialSpectrum
+from bem.surfaces.describe import RadialSpectrum, radial_spectrum
 
 _SHORTEST = 0.5
 """Upper end of the fit as a fraction of the highest wavenumber: above it, instruments filter and cells alias."""
@@ -49,6 +49,19 @@ class SelfAffineFit:
         """Return the fitted density [m^4] at wavenumbers [rad/m]."""
         bend = 2 * math.pi / self.longest_wavelength
         return np.asarray(self.density * (np.maximum(wavenumber, bend) / bend) ** (-2 * (1 + self.hurst)))
+
+
+def self_affine_fit_of_map(
+    heights: FloatArray, spacing: tuple[float, float], *, periodic: tuple[bool, bool] = (False, False)
+) -> SelfAffineFit | None:
+    """Return the self-affine fit of the spectrum of a map; None of maps that are too small or too smooth for one.
+
+    heights : (nx, ny) [m], without holes. spacing : of the cells along x and y [m].
+    """
+    try:
+        return fit_self_affine(radial_spectrum(heights, spacing, periodic=periodic))
+    except InputError:
+        return None
 
 
 def fit_self_affine(spectrum: RadialSpectrum) -> SelfAffineFit:

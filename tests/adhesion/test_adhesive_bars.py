@@ -9,6 +9,7 @@ from bem.accuracy import ContactCase
 from bem.accuracy.adhesion import adhesive_bars
 from bem.accuracy.contact import figures_of
 from bem.adhesion import ExponentialAdhesion, follow_path
+from bem.adhesion.figures import mean_contact_traction
 from bem.convolution import displacement_operator
 from bem.errors import Status
 
@@ -44,6 +45,21 @@ def test_bars_cover_the_difference_to_four_times_the_cells(make):
             bars = adhesive_bars(case, law, path, {"loads": loads})
     missed = [name for name in JUDGED if abs(found[64][name] - found[256][name]) > bars.values[name]]
     assert len(missed) <= 1, missed  # nine in ten
+    # pressure less the strength: the same error, and the load less what pulls outside of the contact
+    assert bars.values["mean_contact_traction"] == bars.values["mean_contact_pressure"]
     # bars that cover anything would say nothing
     assert bars.values["contact_area"] < 0.1 * found[64]["contact_area"]
     assert bars.values["load"] < 1e-4 * np.abs(loads[-1])
+
+
+def test_the_mean_traction_of_a_contact_carries_the_load_and_what_pulls_beside_it():
+    law = ExponentialAdhesion(WORK, range_of(0.8))
+    grid, gap = ball(128)
+    state = follow_path(gap, displacement_operator(grid, STEEL), law, loads=[0.5 * FORCE]).last
+    beside = float(state.attraction[state.contact.pressure == 0].sum()) * grid.cell_area
+    carried = mean_contact_traction(state, law) * state.contact.contact_area
+    # cells that the edge cuts count in whole on one side: half a cell of the edge at the strength
+    half_cell = 0.5 * grid.spacing[0] * state.contact.contact_perimeter * law.strength
+    assert abs(carried - (0.5 * FORCE + beside)) < half_cell
+    assert carried > 0.5 * FORCE + half_cell
+    assert state.contact.load > 1.5 * carried  # of the pressure alone, as much as balances the attraction besides

@@ -10,6 +10,7 @@ from bem.app.sketches import has_sketch, sketch
 from bem.app.starts import OF_SURFACES, TASKS, built_in_scenes, scene_of_surface, start_text
 from bem.app.treatment import treated
 from bem.scenes.load import library
+from bem.scenes.template import scene_template
 
 pytestmark = pytest.mark.internal
 
@@ -29,9 +30,11 @@ def test_every_built_in_scene_is_offered_with_all_of_its_words():
 
 @pytest.mark.parametrize("kind", OF_SURFACES)
 def test_a_measured_surface_starts_with_a_scene_that_can_run(kind):
-    found = treated("example/ground-disk.al3d", {"detrend": "plane", "despike": 6})
-    table = tomllib.loads(scene_of_surface(kind, found.surface, found.shape, found.lengths))
+    found = treated("example/ground-disk.al3d", {"detrend": "curvature", "despike": 6})
+    table = tomllib.loads(scene_of_surface(kind, found.measured))
     assert table["lower"]["surface"]["path"] == "example/ground-disk.al3d"
+    written = scene_template(kind, surfaces={"lower": "example/ground-disk.al3d"})
+    assert table == tomllib.loads(written)  # the command writes the same scene
     plan = shown_plan(table | {"name": kind})
     assert (plan.messages, plan.warnings) == ((), ())
 

@@ -142,6 +142,19 @@ def test_an_interval_ends_where_what_a_figure_can_be_ends():
     assert [cells[-1] for cells in table.rows] == ["0.05 (0 to 0.15)", "0.5 ± 0.1"]
 
 
+def test_an_interval_of_nothing_is_left_out():
+    """Full contact was shown as 100 (100 to 100) %."""
+    shown = {3e-6: "100 %", 3e-4: "100 (99.97 to 100) %", 3e-2: "100 (97 to 100) %"}
+    for error, words in shown.items():
+        summary = {"contact_area_fraction": 1.0, "contact_area_fraction_error": error}
+        assert with_error("contact_area_fraction", summary)[1] == words
+    columns = {"speed_m_s": [1.0, 2.0], "contact_area_fraction": [1.0, 0.5]}
+    (table,) = figure_tables(
+        columns | {"contact_area_fraction_error": [3e-6, 0.1]}, ["speed_m_s", "contact_area_fraction"]
+    )
+    assert [cells[-1] for cells in table.rows] == ["100", "50 ± 10"]
+
+
 def test_sections_of_a_film_show_the_highest_pressure_of_either():
     """The row's limit was set by the first; a bump beside its line was cut."""
     x = y = 1e-6 * (np.arange(9) - 4.0)

@@ -6,6 +6,7 @@ import math
 from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
+from bem.adhesion.figures import mean_contact_traction
 from bem.grid import Grid
 from bem.kinds.contact.scene import ContactScene
 from bem.notes import Note
@@ -41,9 +42,13 @@ def total_contact(path: AdhesiveHistory) -> ContactSolution:
     )
 
 
-def adhesive_figures(path: AdhesiveHistory) -> dict[str, Any]:
+def adhesive_figures(path: AdhesiveHistory, law: AdhesionLaw) -> dict[str, Any]:
     """Return the figures of an adhesive contact that replace or follow those of its pressure."""
-    found = {"load": path.last.load, "adhesive_energy": path.last.energy}
+    found = {
+        "load": path.last.load,
+        "adhesive_energy": path.last.energy,
+        "mean_contact_traction": mean_contact_traction(path.last, law),
+    }
     return found | {"lowest_load": path.lowest_load} if len(path.load) > 1 else found
 
 

@@ -32,8 +32,13 @@ class ContactRecord(GridRecord):
     counted_plastic_area_fraction: Annotated[float, Figure("", "cells at the hardness over all", unjudged=True)]
     contact_spots: Annotated[int, Figure("", "separate spots of contact", unjudged=True)]
     contact_perimeter: Annotated[float, Figure("m", "length of the edges of contact")]
-    mean_contact_pressure: Annotated[float, Figure("Pa", "mean pressure over the real contact area", headline=True)]
-    max_pressure: Annotated[float, Figure("Pa", "maximum pressure", headline=True)]
+    mean_contact_pressure: Annotated[
+        float,
+        Figure("Pa", "mean pressure over the real contact area; with adhesion without the attraction", headline=True),
+    ]
+    max_pressure: Annotated[
+        float, Figure("Pa", "maximum pressure; with adhesion without the attraction", headline=True)
+    ]
     max_pressure_of_cells: Annotated[float, Figure("Pa", "maximum pressure of a cell", unjudged=True)]
     approach: Annotated[float, Figure("m", "approach from first touch", headline=True)]
     mean_gap: Annotated[float, Figure("m", "mean of the open gap")]
@@ -80,6 +85,15 @@ class ContactRecord(GridRecord):
     layer_max_tension: Annotated[FloatArray | None, _layers("Pa", "maximum principal stress in each layer")] = None
     lowest_load: Annotated[
         float | None, Figure("N", "lowest load on the path; minus the pull-off force", optional=True, headline=True)
+    ] = None
+    mean_contact_traction: Annotated[
+        float | None,
+        Figure(
+            "Pa",
+            "mean of pressure less attraction over the real contact area of an adhesive contact",
+            optional=True,
+            headline=True,
+        ),
     ] = None
     adhesive_energy: Annotated[float | None, Figure("J", "elastic and adhesive energy", optional=True)] = None
     layer_residual_stress: Annotated[

@@ -68,7 +68,8 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
     errors = error_bars(context, wanted, lambda: bars_of(scene, undeformed, solution, below, rough, context, path))
     figures: dict[str, Any] = figures_of(solution, grid.area) | counted_figures(solution, grid)
     if path is not None:
-        figures |= adhesive_figures(path)
+        assert scene.contact.adhesion is not None
+        figures |= adhesive_figures(path, scene.contact.adhesion)
     return ContactRecord(
         **figures,
         **roughness,
