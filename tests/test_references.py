@@ -7,6 +7,7 @@ from bem.campaigns import cited
 from bem.cli import build
 from bem.elements.element import element_template
 from bem.laws import FAMILIES, laws_of
+from bem.materials import CATALOGUE
 from bem.references import references
 from bem.runs import plan_scene, run_scene
 from bem.scenes.kind import kind_names, sources_of_kind
@@ -34,7 +35,11 @@ def test_every_key_that_is_cited_has_an_entry():
     keys |= {key for kind in kind_names() for key in sources_of_kind(kind)}
     keys |= {
         key
-        for table in (*cited._HEAT.values(), cited._GENERATED, cited._MOMENTS, cited._LAYERED, cited._DESPIKED)
+        for table in (
+            *cited._HEAT.values(),
+            *(cited._GENERATED, cited._MOMENTS, cited._LAYERED, cited._DESPIKED, cited._PARAMETERS),
+            *(cited._UNCOUPLED, cited._FLOW_FACTORS, cited._COUPLING, cited._FILM_DEFECT),
+        )
         for key in table
     }
     keys |= {*cited._ROUGH_CONTACT, *cited._AREA_THEORIES}
@@ -102,3 +107,45 @@ def test_rough_contacts_cite_their_indices_and_despiked_maps_their_rule():
     pair = ("lower.surface.path=example/ground-disk.al3d", "upper.surface.path=example/polished-pin.x3p")
     own = sources("measured-surfaces", *pair, "lower.surface.despike=6")
     assert {"persson2001", "bush1975", "hampel1974"} <= set(own)
+
+
+def test_conditional_methods_are_cited_where_a_scene_uses_them_alone():
+    assert "dundurs1969" not in sources("hertz-sphere")  # steel on steel: traction does not move the gap
+    assert "dundurs1969" in sources("hertz-sphere", "upper.material=silicon-nitride")
+    assert "dundurs1969" not in sources("hertz-sphere", "upper.material=silicon-nitride", "contact.friction=0")
+    assert "anderson1965" in sources("hot-film")
+    assert "anderson1965" not in sources("traction-curve")
+    assert "iso25178" in sources("rough-contact")
+    assert "iso25178" not in sources("hertz-sphere")
+    both = ("elastic", "uncoupled_elastic")
+    for models in (both, both[:1]):
+        found = sources("asperities-given-film", f"sharing.models={list(models)}")
+        assert ("uncoupled asperities" in found.get("greenwood1966", ())) == (models == both)
+    defect = 'wear.film_defect={adsorption_energy="0.6 eV",sliding_speed="1 m/s",temperature="60 degC"}'
+    for settings in ((), (defect,)):
+        assert ("kingsbury1958" in sources("wear-cylinder-scar", *settings)) == bool(settings)
+    assert "patir1978" in sources("running-in-life", "sharing.flow_factors=surfaces")
+
+
+def test_constants_of_the_catalogues_are_told_with_their_sources():
+    scene = plan_scene("coated-sphere")[0]
+    found = cited.catalogue_sources(scene)
+    assert set(found) == {"material dlc", "material steel-52100", "material silicon-nitride"}
+    assert found["material dlc"] == CATALOGUE["dlc"].source
+    own = cited.catalogue_sources(plan_scene("coated-sphere", ("upper.material.youngs_modulus=300 GPa",))[0])
+    assert own["material silicon-nitride"].endswith("changed in the scene: youngs_modulus")
+    oil = cited.catalogue_sources(plan_scene("hot-film")[0])
+    assert "ISO 3448" in oil["oil ISO VG 68"]
+
+
+def test_another_parser_reads_the_bibtex():
+    """pybtex, which comes with the extra `docs`."""
+    database = pytest.importorskip("pybtex.database")
+    whole = "\n".join(one.bibtex for one in references().values())
+    parsed = database.parse_string(whole, "bibtex").entries
+    assert set(parsed) == set(references())
+    for key, entry in parsed.items():
+        fields = dict(references()[key].fields)
+        authors = fields.pop("author").split(" and ")
+        assert len(entry.persons["author"]) == len(authors), key
+        assert dict(entry.fields) == fields, key

@@ -8,13 +8,24 @@ from typing import Any
 from pydantic import BaseModel
 
 from bem.laws import Law
-from bem.scenes.common import GeneratedSurface, MeasuredSurface, SceneModel
+from bem.materials import Body
+from bem.scenes.build import bodies_of, traction_couples
+from bem.scenes.common import GeneratedSurface, MaterialScene, MeasuredSurface, SceneModel
 from bem.scenes.kind import sources_of_kind
 
 _HEAT = {
     "lumped": {"crook1961": "mean temperature of the film", "gupta1992": "heating of the inlet"},
-    "full": {"dowson1962": "generalised Reynolds equation", "cheng1965": "temperature across the film"},
+    "full": {
+        "dowson1962": "generalised Reynolds equation",
+        "cheng1965": "temperature across the film",
+        "anderson1965": "coupling of film and temperature",
+    },
 }
+_PARAMETERS = {"iso25178": "roughness parameters (Sq, Sdq, Sk and the like)"}
+_UNCOUPLED = {"greenwood1966": "uncoupled asperities"}
+_FLOW_FACTORS = {"patir1978": "flow factors", "patir1979": "shear flow factors", "almqvist2007": "homogenisation"}
+_COUPLING = {"dundurs1969": "friction that moves the normal gap of unlike bodies"}
+_FILM_DEFECT = {"kingsbury1958": "defects of the boundary film"}
 _GENERATED = {"hu1992": "generated roughness"}
 _MOMENTS = {"schreiber1996": "skewness and kurtosis of roughness"}
 _DESPIKED = {"hampel1974": "outliers of measured roughness"}
@@ -50,7 +61,17 @@ def _all_sources(scene: SceneModel) -> Iterator[tuple[str, str]]:
         if all(getattr(getattr(scene, "grid", None), "periodic", None) or (False,)):
             yield from _AREA_THEORIES.items()
     yield from _HEAT.get(str(getattr(scene, "thermal", "off")), {}).items()
+    if any(str(model).startswith("uncoupled") for model in _models(scene)):
+        yield from _UNCOUPLED.items()
+    if getattr(getattr(scene, "sharing", None), "flow_factors", "off") != "off":
+        yield from _FLOW_FACTORS.items()
+    if _friction_moves_the_gap(scene):
+        yield from _COUPLING.items()
     for item in _inside(scene):
+        if isinstance(item, _ROUGH):
+            yield from _PARAMETERS.items()
+        if type(item).__name__ == "FilmDefectScene":
+            yield from _FILM_DEFECT.items()
         if isinstance(item, Law):
             family = item.family.replace("_", " ")
             yield from ((key, f"{family} {item.name}") for key in item.cites)
@@ -62,6 +83,40 @@ def _all_sources(scene: SceneModel) -> Iterator[tuple[str, str]]:
             yield from _DESPIKED.items() if item.despike is not None else ()
         elif getattr(item, "layer", None) is not None or getattr(item, "layers", None):
             yield from _LAYERED.items()
+
+
+def catalogue_sources(scene: SceneModel) -> dict[str, str]:
+    """Return the sources of the constants of a scene: materials, oils and surfaces of the catalogues, by name.
+
+    They are sentences that name several papers and say what is assumed, not entries of `bem.references`.
+    """
+    from bem.lubrication.oils.catalogue import find_oil
+
+    found: dict[str, str] = {}
+    for item in _inside(scene):
+        if isinstance(item, MaterialScene) and item.source:
+            found[f"material {item.name}"] = item.source
+        elif isinstance(item, GeneratedSurface) and item.source:
+            found["generated surface"] = item.source
+        elif getattr(item, "grade", None) and hasattr(item, "pressure_viscosity"):
+            oil = find_oil(item.grade, viscosity_index=item.viscosity_index, base=item.base)
+            found[f"oil {item.grade}"] = f"viscosity: {oil.viscosity_source}"
+    return found
+
+
+def _models(scene: SceneModel) -> tuple[str, ...]:
+    """Return the contact models that a scene of mixed friction compares."""
+    return tuple(getattr(getattr(scene, "sharing", None), "models", None) or ())
+
+
+def _friction_moves_the_gap(scene: SceneModel) -> bool:
+    """Return True if a scene has friction between elastically unlike bodies in a dry contact."""
+    friction = getattr(getattr(scene, "contact", None), "friction", 0)
+    if getattr(scene, "kind", "") != "contact" or not friction:
+        return False
+    bodies = bodies_of(scene)
+    lower, upper = (bodies, None) if isinstance(bodies, Body) else bodies
+    return traction_couples(lower, upper, friction)
 
 
 def _inside(value: Any) -> Iterator[Any]:

@@ -17,7 +17,8 @@ def register(app: typer.Typer) -> None:
         ],
         bibtex: Annotated[bool, typer.Option("--bibtex", help="Print the BibTeX entries alone.")] = False,
     ) -> None:
-        """Print the papers of the laws and methods that a run, scene or machine element uses, as text and as BibTeX.
+        """Print the papers of the laws and methods that a run, scene or machine element uses, as text and as BibTeX,
+        and the sources of the constants of its materials and oils as text.
 
         \b
         Examples:
@@ -25,30 +26,37 @@ def register(app: typer.Typer) -> None:
           bem cite stribeck-ball-on-disc --bibtex > references.bib
           bem cite gears.toml
         """
-        from bem.campaigns.cited import sources_of
+        from bem.campaigns.cited import catalogue_sources, sources_of
         from bem.cli._terminal import print_text
         from bem.references import references
         from bem.runs import plan_scene
 
-        found, known = _of_element(scene) or sources_of(plan_scene(scene)[0]), references()
+        found, constants = _of_element(scene)
+        if not found:
+            planned = plan_scene(scene)[0]
+            found, constants = sources_of(planned), catalogue_sources(planned)
+        known = references()
         keys = sorted(found, key=lambda key: known[key].text)
         if not bibtex:
             for key in keys:
                 print_text(f"{'; '.join(found[key])}: {known[key].text}")
+            for name, source in constants.items():
+                print_text(f"{name}: {source}")
             print()
         for key in keys:
             print(known[key].bibtex)
 
 
-def _of_element(name: str) -> dict[str, list[str]]:
-    """Return the sources of a machine element's file and of the film of its most loaded contact; none of others."""
+def _of_element(name: str) -> tuple[dict[str, list[str]], dict[str, str]]:
+    """Return the sources of a machine element's file and of the film of its most loaded contact, and those of their
+    constants; none of others."""
     from pathlib import Path
 
     if not name.endswith(".toml") or not Path(name).is_file():
-        return {}
+        return {}, {}
     from contextlib import suppress
 
-    from bem.campaigns.cited import sources_of
+    from bem.campaigns.cited import catalogue_sources, sources_of
     from bem.elements.element import load_element, read_element
     from bem.elements.running import operating_places
     from bem.elements.sources import sources_of_element
@@ -57,11 +65,12 @@ def _of_element(name: str) -> dict[str, list[str]]:
 
     table = read_element(name)
     if "element" not in table:
-        return {}
+        return {}, {}
     element = load_element(table)
-    found = sources_of_element(element)
+    found, constants = sources_of_element(element), {}
     with suppress(InputError):
         film = load_scene(element.scene(operating_places(element)[0], "traction"))
+        constants = catalogue_sources(film)
         for key, methods in sources_of(film).items():
             found[key] = [*found.get(key, []), *methods]
-    return found
+    return found, constants

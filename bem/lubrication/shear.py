@@ -187,7 +187,7 @@ class Eyring(LimitedShear):
     """tau = tau0 asinh(mu du/h / tau0), tau0 the Eyring stress; Eyring (1936), Johnson and Tevaarwerk (1977)."""
 
     name: ClassVar[str] = "eyring"
-    cites: ClassVar[tuple[str, ...]] = ("eyring1936", "johnson1977")
+    cites: ClassVar[tuple[str, ...]] = ("eyring1936", "johnson1977", "conry1987")
     shear_stress_limit: float = parameter("Eyring stress, where shear thinning begins", "Pa", above=0)
 
     def unlimited(self, newtonian: FloatArray) -> FloatArray:
