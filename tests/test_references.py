@@ -124,7 +124,7 @@ def test_conditional_methods_are_cited_where_a_scene_uses_them_alone():
     defect = 'wear.film_defect={adsorption_energy="0.6 eV",sliding_speed="1 m/s",temperature="60 degC"}'
     for settings in ((), (defect,)):
         assert ("kingsbury1958" in sources("wear-cylinder-scar", *settings)) == bool(settings)
-    assert "patir1978" in sources("running-in-life", "sharing.flow_factors=surfaces")
+    assert "patir1978" in sources("stribeck-mineral-oil", "sharing.flow_factors=surfaces")
 
 
 def test_constants_of_the_catalogues_are_told_with_their_sources():
