@@ -257,7 +257,7 @@ def _peer_sections(run: StoredRun) -> Iterator[Section]:
             "routine (sum p |g| / sum p over the rms height); bem is timed at the first tolerance whose "
             "pressure is at least as good."
         )
-        body = words + table(PEER_HEADERS, peer_rows(run.peers)) + _large_peers() + shared.missing()
+        body = words + table(PEER_HEADERS, peer_rows(run.peers)) + _large_peers() + large.published() + shared.missing()
         yield Section("Beside other codes", body)
     yield from beside.sections(run)
     if result_of(SLIP).exists():

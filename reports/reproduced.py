@@ -19,6 +19,7 @@ INSIDE = "in"
 TIMES = {
     "enter_to_report": "processor times of commands",
     "large_peers": "processor times beside other codes",
+    "large_published": "processor time and memory of one large contact beside a published time",
     "performance": "run times and peak memory (python -m reports.benchmarks)",
     "shared_work": "processor times of threads",
     "slab_transforms": "processor times of transforms",

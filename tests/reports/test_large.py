@@ -6,7 +6,7 @@ import sys
 
 from bem.runs.scene import plan_scene
 from reports import large
-from reports.experiments import large_contact, slab_transforms
+from reports.experiments import kept, large_contact, large_published, slab_transforms
 
 
 def test_stored_contacts_are_shown_and_whole_runs_planned_within_half_of_what_they_took():
@@ -17,6 +17,15 @@ def test_stored_contacts_are_shown_and_whole_runs_planned_within_half_of_what_th
             planned = plan_scene(large_contact.scene_of(int(size)))[1].memory / int(size) ** 2
             assert 1 / 1.5 < planned / row["run_bytes_a_cell"] < 1.5
             assert f"{row['run_bytes_a_cell']:.0f} (" in large.contacts()
+
+
+def test_the_published_contact_stands_beside_one_of_its_size_area_and_tolerance():
+    own, other = (kept.found(large_published.RESULT.stem)[name] for name in ("bem", "published"))
+    assert (own["cells"], own["status"]) == (other["cells"], "converged")
+    assert abs(own["contact_fraction"] - other["contact_fraction"]) < 1e-3
+    assert max(own["residual"], own["penetration"], own["complementarity"]) < other["tolerance"]
+    assert f"{own['processor_s']:.3g}" in large.published()
+    assert "161" in large.published()
 
 
 def test_a_contact_takes_less_than_75_bytes_a_cell_in_a_fresh_process():
