@@ -4,7 +4,8 @@
    `oils`; a shear law across the film in `shear_profile`.
 2. Films: `line` and `point`, each with its own equations, solvers and cost in its docstring. With heat: `thermal`.
 3. Public functions: `solve.solve_line_film` chooses between no heat, lumped and full heat. All names below are public.
-4. Shared by lines and points: `results` (of lines), `supply` (starvation), `cavitation` (models), `flow_factors` (rough
+4. Rough films by waves, from a smooth film: `waves`.
+5. Shared by lines and points: `results` (of lines), `supply` (starvation), `cavitation` (models), `flow_factors` (rough
    walls), `time_stepping` (BDF2 with halving), `inlet_heating`, `checks` (validity, as notes).
 
 Imports run from `solve` over `thermal` to `line` and `point`, and from there to the shared parts and the oil; an import
