@@ -157,6 +157,22 @@ def ellipse_load(*, radii: tuple[float, float], contact_modulus: float, maximum_
     return float((maximum_pressure / one) ** 3)
 
 
+def smooth_load(*, radii: tuple[float, float], contact_modulus: float, maximum_pressure: float) -> float:
+    """Load of a smooth contact by its maximum pressure [Pa]: on the whole [N], per length [N/m] where radii[1] is
+    infinite.
+
+    Of a line W = pi R p0^2 / E* (Johnson 1985, eq. 4.45), of a point `ellipse_load`.
+
+    Raises
+    ------
+    InputError : as `ellipse_load`.
+    """
+    if math.isfinite(radii[1]):
+        return ellipse_load(radii=radii, contact_modulus=contact_modulus, maximum_pressure=maximum_pressure)
+    check_positive("Hertz: ", radius=radii[0], contact_modulus=contact_modulus, maximum_pressure=maximum_pressure)
+    return math.pi * radii[0] * maximum_pressure * maximum_pressure / contact_modulus
+
+
 def _integrals(k2: float) -> tuple[float, float]:
     """Carlson's R_F(0, k^2, 1) and R_D(0, k^2, 1) / 3; of a circle without loading special functions."""
     if k2 == 1:

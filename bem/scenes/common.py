@@ -12,6 +12,7 @@ from pydantic import Field, PrivateAttr, field_validator, model_validator
 from pydantic_core import PydanticCustomError
 
 from bem.materials import CATALOGUE, Body, Layer, Material
+from bem.reference_solutions.hertz import smooth_load
 from bem.scenes.asked import AskedAccuracy
 from bem.scenes.keys import key
 from bem.scenes.paths import checksum_of, what_is_wrong_with
@@ -25,6 +26,7 @@ PositiveLength = Annotated[Length, Field(gt=0)]
 PositivePressure = Annotated[Pressure, Field(gt=0)]
 Cells = Annotated[int, Field(strict=True, ge=1, le=65536)]
 Loads = Annotated[list[Annotated[Force, Field(gt=0)]], Field(min_length=1, max_length=64)]
+HertzPressures = Annotated[list[PositivePressure], Field(min_length=1, max_length=64)]
 Repetitions = Annotated[int, Field(strict=True, ge=1, le=1000)]
 Axis = Literal["none", "x", "y", "both"]
 BODIES = ("lower", "upper")
@@ -48,6 +50,11 @@ class CylinderTable(Table):
     width: PositiveLength = key(
         "Width of the contact: length of the cylinder along y, on which the load acts.", "basic", example="8 mm"
     )
+
+    def load_under(self, maximum_pressure: float, contact_modulus: float) -> float:
+        """Load on the width [N] under a maximum Hertz pressure [Pa]."""
+        asked = {"contact_modulus": contact_modulus, "maximum_pressure": maximum_pressure}
+        return smooth_load(radii=(self.radius, math.inf), **asked) * self.width
 
 
 _Entry = TypeVar("_Entry")

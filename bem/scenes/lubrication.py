@@ -25,6 +25,7 @@ from bem.scenes import build
 from bem.scenes.axes import Axis, changed
 from bem.scenes.common import (
     BodyScene,
+    HertzPressures,
     LineGridScene,
     Loads,
     PositivePressure,
@@ -38,7 +39,7 @@ from bem.scenes.oil import OilScene
 from bem.scenes.records import Figure
 from bem.scenes.tables.smooth import SmoothShapeScene
 from bem.scenes.tables.supply import SupplyScene, build_supply, check_layer
-from bem.scenes.units import Length, Pressure, Ratio, Speed
+from bem.scenes.units import Length, Ratio, Speed
 
 if TYPE_CHECKING:
     from bem.friction.setup import MixedSetup
@@ -140,7 +141,7 @@ class LubricatedScene(SmoothShapeScene):
     loads: Loads | None = key(
         "Normal loads on the whole contact, one result for each.", "basic", default=None, example=["20 N"]
     )
-    hertz_pressures: Annotated[list[Annotated[Pressure, Field(gt=0)]], Field(min_length=1, max_length=64)] | None = key(
+    hertz_pressures: HertzPressures | None = key(
         "Maximum Hertz pressures of the smooth contact; instead of loads.",
         "advanced",
         default=None,

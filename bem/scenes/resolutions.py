@@ -374,8 +374,8 @@ def first_domain(scene: Any) -> Any:
     domain, modulus = scene.domain, build.modulus_of(scene)
     if "cells" not in domain.model_fields_set:
         sides = [
-            domain.at(scene.cylinder.model_copy(update={"loads": [load]}), modulus)[0].lengths
-            for load in scene.cylinder.loads
+            domain.at(scene.cylinder.model_copy(update={"loads": [load], "hertz_pressures": None}), modulus)[0].lengths
+            for load in scene.cylinder.forces(modulus)
         ]
         each = [_to_begin_with(scene, lengths, "domain", "domain.cells") for lengths in sides]
         domain = domain.model_copy(update={"cells": tuple(max(counts) for counts in zip(*each, strict=True))})

@@ -6,6 +6,7 @@ import math
 from typing import TYPE_CHECKING
 
 from bem.kinds.film.scene import FilmScene
+from bem.scenes import build
 
 if TYPE_CHECKING:
     from bem.scenes.checks.facts import Case
@@ -17,7 +18,7 @@ def contacts(scene: FilmScene) -> list[Case]:
     from bem.scenes.checks.hertz import smooth_contact
 
     bodies, cylinder = bodies_of(scene), scene.cylinder
-    load = max(cylinder.load, cylinder.load_end or 0.0)
+    load = max(cylinder.force(build.modulus_of(scene)), cylinder.load_end or 0.0)
     radii = (cylinder.radius, math.inf)
     smooth = smooth_contact(bodies["lower"], bodies["upper"], radii, load=load / cylinder.width)
     return [Case(smooth=smooth, width=cylinder.width, shape="cylinder", **bodies)]

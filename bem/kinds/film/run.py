@@ -25,14 +25,14 @@ def run(scene: FilmScene, context: Context) -> FilmTimeRecord:
     from bem.accuracy import MarchCase
     from bem.lubrication import Cavitation
 
-    cylinder, asked = scene.cylinder, scene.march
+    cylinder, asked, modulus = scene.cylinder, scene.march, build.modulus_of(scene)
     case = MarchCase(
         films=(),
         times=np.linspace(0.0, asked.duration, asked.steps + 1),
-        load=lambda time: cylinder.per_length(time / asked.duration),
+        load=lambda time: cylinder.per_length(time / asked.duration, modulus),
         speeds=lambda time: (scene.motion.at(time), 0.0),
         radius=cylinder.radius,
-        contact_modulus=build.modulus_of(scene),
+        contact_modulus=modulus,
         lubricant=scene.oil.build(),
         points=asked.points,
         initial_thickness=asked.initial_thickness,

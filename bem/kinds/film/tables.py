@@ -8,15 +8,20 @@ from typing import Annotated, Literal
 import numpy as np
 from pydantic import Field, model_validator
 
-from bem.scenes.common import CylinderTable, Force, Table, check_rising, problem
+from bem.scenes.common import CylinderTable, Force, PositivePressure, Table, check_rising, one_of, problem
 from bem.scenes.keys import key
 from bem.scenes.units import Length, Speed, Time
 
 
 class FilmCylinderScene(CylinderTable):
-    """The cylinder on the flat, and its load."""
+    """The cylinder on the flat, and its load, or the Hertz pressure under it."""
 
-    load: Annotated[Force, Field(gt=0)] = key("Normal load on the width.", "basic")
+    load: Annotated[Force, Field(gt=0)] | None = key(
+        "Normal load on the width; instead of hertz_pressure.", "basic", default=None, example="200 N"
+    )
+    hertz_pressure: PositivePressure | None = key(
+        "Maximum Hertz pressure of the smooth contact; instead of load.", "basic", default=None, example="0.5 GPa"
+    )
     load_end: Annotated[Force, Field(gt=0)] | None = key(
         "Normal load at the end of the run, reached linearly.",
         "advanced",
@@ -25,10 +30,20 @@ class FilmCylinderScene(CylinderTable):
         example="100 N",
     )
 
-    def per_length(self, share: float) -> float:
+    _one_load = one_of("load", "hertz_pressure")
+
+    def force(self, contact_modulus: float) -> float:
+        """Load on the width at the start [N], as given or by the maximum pressure."""
+        if self.load is not None:
+            return self.load
+        assert self.hertz_pressure is not None
+        return self.load_under(self.hertz_pressure, contact_modulus)
+
+    def per_length(self, share: float, contact_modulus: float) -> float:
         """The load per unit length [N/m] where so much of the run is over."""
-        end = self.load if self.load_end is None else self.load_end
-        return (self.load + (end - self.load) * share) / self.width
+        start = self.force(contact_modulus)
+        end = start if self.load_end is None else self.load_end
+        return (start + (end - start) * share) / self.width
 
 
 class MotionScene(Table):

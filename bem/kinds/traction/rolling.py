@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import math
 from typing import Annotated, Any
 
 from pydantic import Field
@@ -32,11 +31,11 @@ class RollerScene(CylinderTable):
         table.pop("required", None)
 
     def per_length(self, contact_modulus: float) -> float:
-        """Load per length [N/m]; of a pressure p0 it is pi R p0^2/E*, Johnson (1985), eq. 4.45."""
+        """Load per length [N/m], as given or by the maximum pressure."""
         if self.load is not None:
             return self.load / self.width
         assert self.hertz_pressure is not None
-        return math.pi * self.radius * self.hertz_pressure**2 / contact_modulus
+        return self.load_under(self.hertz_pressure, contact_modulus) / self.width
 
 
 class RollingScene(Table):

@@ -19,7 +19,7 @@ def contacts(scene: TribofilmScene) -> list[Case]:
     from bem.tribofilm.properties import Constant
 
     grid, bodies, radii = build.grid_of(scene.grid), bodies_of(scene), scene.shape.radii
-    (load,), hardness = scene.rubbing.loads, scene.film.hardness
+    (load,), hardness = scene.forces(grid.lengths), scene.film.hardness
     on_it = load / grid.lengths[1] if math.isinf(radii[1]) else load
     return [
         Case(

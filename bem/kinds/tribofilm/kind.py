@@ -8,7 +8,6 @@ from bem.kinds.tribofilm.plan import plan
 from bem.kinds.tribofilm.record import FilmRecord, summarise
 from bem.kinds.tribofilm.run import run
 from bem.kinds.tribofilm.scene import TribofilmScene, axes
-from bem.scenes import build
 from bem.scenes.kind import Kind
 
 KIND = Kind(
@@ -20,7 +19,7 @@ KIND = Kind(
     run=run,
     axes=axes,
     summarise=summarise,
-    resolve=build.with_grid,
+    resolve=TribofilmScene.resolved,
     resolutions=RESOLUTIONS,
     contacts=contacts,
     figures=(

@@ -17,14 +17,14 @@ def contacts(scene: WearScene) -> list[Case]:
     from bem.scenes.checks.facts import Case, bodies_of
     from bem.scenes.checks.hertz import smooth_contact
 
-    (load,), cylinder, bodies = scene.cylinder.loads, scene.cylinder, bodies_of(scene)
+    cylinder, bodies = scene.cylinder, bodies_of(scene)
     grid, on_slice = scene.domain.at(cylinder, build.modulus_of(scene))
     radii = (cylinder.radius or math.inf, math.inf)
     return [
         Case(
             grid=grid,
             load=on_slice,
-            smooth=smooth_contact(bodies["lower"], bodies["upper"], radii, load=load / cylinder.width),
+            smooth=smooth_contact(bodies["lower"], bodies["upper"], radii, load=on_slice / grid.lengths[1]),
             cap=cylinder.hardness,
             friction=cylinder.friction,
             depths=tuple(float(d) for d in scene.depths.build()),

@@ -2,15 +2,12 @@
 
 from __future__ import annotations
 
-from functools import partial
-
 from bem.kinds.wear.checks import contacts
 from bem.kinds.wear.errors import RESOLUTIONS
 from bem.kinds.wear.plan import plan
 from bem.kinds.wear.record import WearRecord, scattering, summarise
 from bem.kinds.wear.run import run
-from bem.kinds.wear.scene import WearScene, axes
-from bem.scenes import build
+from bem.kinds.wear.scene import WearScene, axes, resolve
 from bem.scenes.kind import Kind
 
 KIND = Kind(
@@ -23,7 +20,7 @@ KIND = Kind(
     axes=axes,
     summarise=summarise,
     scattering=scattering,
-    resolve=partial(build.with_hardness, table="cylinder", needed=False),
+    resolve=resolve,
     resolutions=RESOLUTIONS,
     contacts=contacts,
     figures=(

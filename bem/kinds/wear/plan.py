@@ -25,9 +25,10 @@ def plan(scene: WearScene) -> Plan:
     """
     grid, load = scene.domain.at(scene.cylinder, build.modulus_of(scene))
     if (scene.cylinder.hardness or np.inf) * grid.area < load:
+        whole = load * scene.cylinder.width / grid.lengths[1]
         raise InfeasibleError(
-            f"cylinder.loads: {scene.cylinder.loads[0]:g} N is beyond hardness x area of the domain; allowed: a "
-            "smaller load, a larger domain or a higher hardness"
+            f"cylinder.loads: {whole:g} N is beyond hardness x area of the domain; allowed: a smaller load, a larger "
+            "domain or a higher hardness"
         )
     particles, _ = wearing.third_bodies_and_defect(scene, grid, load)  # what these lack is said before any work
     solves = 1 if particles is None else _SHARING

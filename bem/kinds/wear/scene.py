@@ -13,7 +13,7 @@ from pydantic import model_validator
 from bem.grid import Grid
 from bem.kinds.wear.tables import CyclesScene, CylinderScene, DomainScene, WearVariantScene
 from bem.scenes import build, pieces, wearing
-from bem.scenes.axes import Axis, listed, variants
+from bem.scenes.axes import Axis, changed, listed, variants
 from bem.scenes.common import BodyScene, Repetitions, SceneModel, problem
 from bem.scenes.keys import key
 from bem.scenes.records import Figure
@@ -64,9 +64,16 @@ class WearScene(SceneModel):
         """Hertz contact of the substrates under the smallest of the loads; the domain's `lengths` have no say in it."""
         from bem.scenes.checks.hertz import smooth_contact
 
-        cylinder = self.cylinder
+        cylinder, loads = self.cylinder, self.cylinder.forces(build.modulus_of(self))
         radii = (cylinder.radius or np.inf, np.inf)
-        return smooth_contact(self.lower.build(), self.upper.build(), radii, load=min(cylinder.loads) / cylinder.width)
+        return smooth_contact(self.lower.build(), self.upper.build(), radii, load=min(loads) / cylinder.width)
+
+
+def resolve(scene: WearScene) -> WearScene:
+    """Fill in the loads of Hertz pressures, and the softer surface's hardness."""
+    loads = scene.cylinder.forces(build.modulus_of(scene))
+    cylinder = scene.cylinder.model_copy(update={"loads": loads, "hertz_pressures": None})
+    return build.with_hardness(changed(scene, "cylinder", cylinder), table="cylinder", needed=False)
 
 
 def axes(scene: WearScene) -> tuple[Axis, ...]:

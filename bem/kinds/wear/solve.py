@@ -58,7 +58,8 @@ def _record(
     strip = result.state.strip
     assert strip is not None
     worn = wearing.WornSurface.of(scene, initial, result, grid, share, strip)
-    cycles, particles, late, (load,) = result.cycles, worn.particles, worn.late, scene.cylinder.loads
+    cycles, particles, late = result.cycles, worn.particles, worn.late
+    (load,) = scene.cylinder.forces(build.modulus_of(scene))
     radius, number = wearing.sizes_over_cycles(scene, result)
     between, borne = scene.wear.third_bodies, worn.figures.get("third_body_load_share", 0.0)
     settled = settled_means(cycles[-scene.cycles.settled :], grid.area)

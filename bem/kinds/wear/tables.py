@@ -14,11 +14,13 @@ from bem.scenes.common import (
     Cells,
     CylinderTable,
     Force,
+    HertzPressures,
     Loads,
     PositiveLength,
     PositivePressure,
     Table,
     Variant,
+    exactly_one,
     one_for_both,
     problem,
 )
@@ -35,7 +37,18 @@ class CylinderScene(CylinderTable):
     """The cylinder on the flat, its loads and its friction; radius 0 is a flat."""
 
     radius: Annotated[Length, Field(ge=0)] = key("Radius of the cylinder; 0 is a flat.", "basic", default=0.0)
-    loads: Loads = key("Normal loads on the width, one result for each.", "basic")
+    loads: Loads | None = key(
+        "Normal loads on the width, one result for each; instead of hertz_pressures.",
+        "basic",
+        default=None,
+        example=["10 N"],
+    )
+    hertz_pressures: HertzPressures | None = key(
+        "Maximum Hertz pressures of the smooth contact, one result for each; instead of loads.",
+        "basic",
+        default=None,
+        example=["1.2 GPa"],
+    )
     friction: Annotated[Ratio, Field(ge=0, le=2)] = key(
         "Friction coefficient of boundary lubrication: shear stress over pressure.", "basic", default=0.0
     )
@@ -46,6 +59,20 @@ class CylinderScene(CylinderTable):
         reason="that of the softer body",
         example="2 GPa",
     )
+
+    @model_validator(mode="after")
+    def _one_load(self) -> CylinderScene:
+        exactly_one(self, "loads", "hertz_pressures")
+        if self.hertz_pressures is not None and self.radius == 0:
+            raise problem("hertz_pressures of a flat", "a radius, or loads")
+        return self
+
+    def forces(self, contact_modulus: float) -> list[float]:
+        """Loads on the width [N], as given or by the maximum pressures."""
+        if self.loads is not None:
+            return list(self.loads)
+        assert self.hertz_pressures is not None
+        return [self.load_under(pressure, contact_modulus) for pressure in self.hertz_pressures]
 
 
 class DomainScene(Table):
@@ -85,7 +112,7 @@ class DomainScene(Table):
 
     def at(self, cylinder: CylinderScene, modulus: float) -> tuple[Grid, float]:
         """The grid of a case and its load [N], the slice's share of that on the full width; modulus : E* [Pa]."""
-        (load,), lengths, (nx, ny) = cylinder.loads, self.lengths, self.cells
+        (load,), lengths, (nx, ny) = cylinder.forces(modulus), self.lengths, self.cells
         if lengths is None:
             assert self.half_widths is not None
             per_length = (self.half_widths_at or load) / cylinder.width

@@ -7,7 +7,7 @@ from typing import Annotated
 
 from pydantic import Field, field_validator
 
-from bem.reference_solutions.hertz import ellipse_load
+from bem.reference_solutions.hertz import smooth_load
 from bem.scenes.common import Force, PositiveLength, PositivePressure, Table, one_for_both, one_of
 from bem.scenes.keys import key
 from bem.scenes.units import Angle, Ratio, Speed
@@ -41,7 +41,7 @@ class BallScene(Table):
         if self.load is not None:
             return self.load
         assert self.hertz_pressure is not None
-        return ellipse_load(radii=self.radii, contact_modulus=contact_modulus, maximum_pressure=self.hertz_pressure)
+        return smooth_load(radii=self.radii, contact_modulus=contact_modulus, maximum_pressure=self.hertz_pressure)
 
 
 class BallRollingScene(Table):

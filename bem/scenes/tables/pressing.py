@@ -173,15 +173,13 @@ class PressedScene(SceneModel):
 
     def hertz_load(self) -> float:
         """Load of the smooth contact of the substrates [N] under the Hertz pressure; per length [N/m] of a cylinder."""
-        from bem.reference_solutions.hertz import ellipse_load
+        from bem.reference_solutions.hertz import smooth_load
 
         pressure, radii = self.contact.hertz_pressure, self.shape.radii
         assert pressure is not None
         upper = self.upper.build()
         modulus = contact_modulus(self.lower.build().material, None if upper is None else upper.material)
-        if math.isinf(radii[1]):
-            return math.pi * radii[0] * pressure**2 / modulus
-        return ellipse_load(radii=radii, contact_modulus=modulus, maximum_pressure=pressure)
+        return smooth_load(radii=radii, contact_modulus=modulus, maximum_pressure=pressure)
 
     def smooth_contact(self, lengths: tuple[float, float] | None = None) -> SmoothContact | None:
         """Hertz contact of the substrates, where shape and load, or approach, say enough, on a grid of these sides."""

@@ -7,7 +7,7 @@ from typing import Any
 
 from pydantic import model_validator
 
-from bem.reference_solutions.hertz import cylinder_contact, ellipse_contact, ellipse_load
+from bem.reference_solutions.hertz import cylinder_contact, ellipse_contact, smooth_load
 from bem.scenes.common import PositiveLength, Table, problem
 from bem.scenes.keys import key
 
@@ -87,13 +87,9 @@ class SmoothShapeScene(Table):
         return math.sqrt(math.pi * contact_modulus * load / self.length / self.radius) / 4
 
     def load_of(self, maximum_pressure: float, contact_modulus: float) -> float:
-        """On the whole [N]; W = pi R p0^2 / E* per unit length of a cylinder, Johnson (1985), eq. 4.45."""
-        if self.point_radii is not None:
-            return ellipse_load(
-                radii=self.point_radii, contact_modulus=contact_modulus, maximum_pressure=maximum_pressure
-            )
-        assert self.radius is not None
-        return math.pi * self.radius * maximum_pressure * maximum_pressure / contact_modulus * self.length
+        """Load on the whole [N] under a maximum Hertz pressure [Pa]."""
+        asked = {"contact_modulus": contact_modulus, "maximum_pressure": maximum_pressure}
+        return smooth_load(radii=self.curvature, **asked) * self.length
 
     def slice_area(self, lengths: tuple[float, float]) -> float:
         """Area of the flat under patches of these lengths [m], side by side along a cylinder [m^2]."""

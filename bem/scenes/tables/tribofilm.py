@@ -12,10 +12,20 @@ from pydantic import Field, model_validator
 from bem.errors import InfeasibleError
 from bem.grid import FloatArray, Grid
 from bem.materials import softer_hardness
-from bem.reference_solutions.hertz import sphere_contact
+from bem.reference_solutions.hertz import smooth_load, sphere_contact
 from bem.scenes import build
-from bem.scenes.axes import Model, with_keys
-from bem.scenes.common import BodyScene, GridScene, Loads, SceneModel, Table, Variant, problem
+from bem.scenes.axes import Model, changed, with_keys
+from bem.scenes.common import (
+    BodyScene,
+    GridScene,
+    HertzPressures,
+    Loads,
+    SceneModel,
+    Table,
+    Variant,
+    one_of,
+    problem,
+)
 from bem.scenes.keys import key
 from bem.scenes.laws import LawKey
 from bem.scenes.lubrication import FilmCells
@@ -144,7 +154,15 @@ class VariantScene(Variant):
 class RubbingScene(Table):
     """Loads, temperatures and duration of rubbing."""
 
-    loads: Loads = key("Normal loads, one result for each.", "basic")
+    loads: Loads | None = key(
+        "Normal loads, one result for each; instead of hertz_pressures.", "basic", default=None, example=["20 N"]
+    )
+    hertz_pressures: HertzPressures | None = key(
+        "Maximum Hertz pressures of the smooth shape without layers, one result for each; instead of loads.",
+        "basic",
+        default=None,
+        example=["1.2 GPa"],
+    )
     temperatures: Annotated[list[Annotated[Temperature, Field(gt=0)]], Field(min_length=1, max_length=64)] = key(
         "Temperatures, one result for each.", "basic"
     )
@@ -171,6 +189,8 @@ class RubbingScene(Table):
         default=None,
         example=["0.1 m/s", "0 m/s"],
     )
+
+    _one_load = one_of("loads", "hertz_pressures")
 
     @model_validator(mode="after")
     def _within(self) -> RubbingScene:
@@ -199,6 +219,15 @@ class RubbedScene(SceneModel):
         reason="boundary lubrication: the asperities carry the whole load",
     )
     oil_cells: FilmCells = key("Number of cells of the oil film along each axis.", "expert", default=64)
+
+    @model_validator(mode="after")
+    def _pressures_of_a_shape(self) -> Self:
+        if self.rubbing.hertz_pressures is not None and math.isinf(self.shape.radii[0]):
+            raise problem(
+                f"rubbing.hertz_pressures under a shape of kind {self.shape.kind}",
+                "a sphere, cylinder or ellipsoid, or rubbing.loads",
+            )
+        return self
 
     @model_validator(mode="after")
     def _oil_under_a_ball(self) -> Self:
@@ -230,6 +259,25 @@ class RubbedScene(SceneModel):
                 )
         return self
 
+    def forces(self, lengths: tuple[float, float]) -> list[float]:
+        """Loads on a grid of these sides [N], as given or by the Hertz pressures of the substrates."""
+        rubbing, radii = self.rubbing, self.shape.radii
+        if rubbing.loads is not None:
+            return list(rubbing.loads)
+        assert rubbing.hertz_pressures is not None
+        length, modulus = lengths[1] if math.isinf(radii[1]) else 1.0, build.modulus_of(self)
+        return [
+            smooth_load(radii=radii, contact_modulus=modulus, maximum_pressure=pressure) * length
+            for pressure in rubbing.hertz_pressures
+        ]
+
+    def resolved(self) -> Self:
+        """With the grid filled in where measured surfaces decide it, and the loads of Hertz pressures."""
+        scene = build.with_grid(self)
+        loads = scene.forces(build.grid_of(scene.grid).lengths)
+        rubbing = scene.rubbing.model_copy(update={"loads": loads, "hertz_pressures": None})
+        return changed(scene, "rubbing", rubbing)
+
     def check_load(self, grid: Grid) -> None:
         """Refuse a load beyond the softest hardness that the film can get times the grid's area, before any work.
 
@@ -237,7 +285,7 @@ class RubbedScene(SceneModel):
         ------
         InfeasibleError : such a load.
         """
-        (load,), (temperature,) = self.rubbing.loads, self.rubbing.temperatures
+        (load,), (temperature,) = self.forces(grid.lengths), self.rubbing.temperatures
         limit = self._softest() * grid.area
         if load > limit:
             raise InfeasibleError(
@@ -264,16 +312,17 @@ class RubbedScene(SceneModel):
         """Hertz contact of the bodies under the smallest of the loads, without film, on a grid of these sides."""
         from bem.scenes.checks.hertz import smooth_contact
 
-        load, radii = min(self.rubbing.loads), self.shape.radii
-        if math.isinf(radii[1]):
-            if lengths is None:
-                return None
-            load /= lengths[1]
+        radii, line = self.shape.radii, math.isinf(self.shape.radii[1])
+        if line and lengths is None and self.rubbing.hertz_pressures is None:
+            return None
+        sides = lengths or (1.0, 1.0)
+        load = min(self.forces(sides)) / (sides[1] if line else 1.0)
         return smooth_contact(self.lower.build(), self.upper.build(), radii, load=load)
 
     def plastic_spread(self, smooth: SmoothContact) -> float:
         """By how much the contact under the largest load and the softest film is larger than the smooth one."""
-        more = max(self.rubbing.loads) / min(self.rubbing.loads)
+        loads = self.forces((1.0, 1.0))
+        more = max(loads) / min(loads)
         pressure = smooth.maximum_pressure * more ** (1 / 3)
         return more ** (1 / 3) * math.sqrt(max(1.0, pressure * 2 / 3 / self._softest()))
 
@@ -281,7 +330,7 @@ class RubbedScene(SceneModel):
         """The rough contact under the film, as `bem.tribofilm.FilmContact`; heights (nx, ny) [m]."""
         from bem.tribofilm import FilmContact
 
-        film, (load,), (temperature,) = self.film, self.rubbing.loads, self.rubbing.temperatures
+        film, (load,), (temperature,) = self.film, self.forces(grid.lengths), self.rubbing.temperatures
         nominal: FloatArray | None = None
         # cells inside the smooth Hertz contact of a ball; the whole grid for other shapes
         if film.average == "nominal" and self.shape.kind == "sphere" and self.shape.radius is not None:
