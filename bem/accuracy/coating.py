@@ -30,6 +30,7 @@ from bem.stress import (
     highest_principal,
     subsurface_stress,
     von_mises,
+    with_tension_beyond,
 )
 
 ACROSS, INSIDE = ("interface_max_shear", "interface_max_tension"), ("layer_max_von_mises", "layer_max_tension")
@@ -111,8 +112,10 @@ def coating_bars(
     if coarser.solution is None or coarser.grid is None:
         return ErrorBars(dict.fromkeys(NAMES))
     maxima = depth_maxima(below.stress, below.von_mises, below.depths, body)
+    maxima = with_tension_beyond(maxima, case.solution.pressure, case.grid, body, friction)
     there = subsurface_stress(coarser.solution.pressure, coarser.grid, body, maxima.depths, friction=friction)
     coarse = depth_maxima(there, von_mises(there), maxima.depths, body)
+    coarse = with_tension_beyond(coarse, coarser.solution.pressure, coarser.grid, body, friction)
     at_depths = _errors_at_depths(case, below, maxima, coarse, body)
     near = maxima.depths < np.sqrt(case.grid.cell_area)
     reason = _no_limit(case)

@@ -41,6 +41,7 @@ from bem.stress.layer_stresses import (
     highest_principal,
     layer_stresses,
     with_layer_depths,
+    with_tension_beyond,
 )
 from bem.stress.spectra import COUNT, set_stress_memory, stress_memory
 from bem.stress.stress_summary import StressSummary, summarise_stress
@@ -66,4 +67,5 @@ __all__ = [
     "von_mises_planes",
     "von_mises_upper_bound",
     "with_layer_depths",
+    "with_tension_beyond",
 ]

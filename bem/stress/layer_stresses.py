@@ -1,8 +1,10 @@
 """Highest stresses of a coating: in each layer, and across each interface, of the stresses at given depths.
 
 An interface is judged by its traction, which is continuous across it: the shear stress sqrt(xz^2 + yz^2) and the
-tension zz. A layer is judged by the von Mises stress and by the highest principal stress, which in stiff layers acts
-along the surface and jumps at interfaces; depths on both sides of every interface therefore belong to their own layer.
+tension zz. Tension across an interface lies beside the contact, of deep interfaces beyond a free edge of the grid:
+`with_tension_beyond` adds that of the surroundings. A layer is judged by the von Mises stress and by the highest
+principal stress, which in stiff layers acts along the surface and jumps at interfaces; depths on both sides of every
+interface therefore belong to their own layer.
 Verified in tests/stress/test_layer_stresses.py against the stresses of points and against finite elements.
 """
 
@@ -10,17 +12,26 @@ from __future__ import annotations
 
 import math
 from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 import numpy as np
+from numpy.typing import NDArray
 
-from bem.grid import FloatArray
+from bem.grid import FloatArray, Grid
 from bem.materials import Body
+from bem.stress.fields import subsurface_stress
 
 _BELOW = 1e-3
 """Distance of a depth below an interface, over the thickness of the thinner layer beside it."""
 _APART = 0.4
 """Depths of a list that are nearer to a depth of a layer than this part of the layer's intervals are left out."""
+_BLOCKS = 64
+"""Blocks of cells along a free axis, at least, from whose forces the stress beyond the grid's edge is computed. A force
+moves by half a block at most, and its distance from the edge is some half of the grid: the stress there, which falls
+with the square of the distance, is 3 % wrong at most for one force and far less for a whole contact."""
+
+_WIDENINGS = 4
+"""Times that the surroundings are widened, to 81 lengths of the grid: interfaces as deep are no coating's."""
 
 
 @dataclass(frozen=True)
@@ -78,6 +89,64 @@ def depth_maxima(stress: FloatArray, von_mises: FloatArray, depths: FloatArray, 
     )
 
 
+def with_tension_beyond(
+    maxima: DepthMaxima, pressure: FloatArray, grid: Grid, body: Body, friction: float = 0.0
+) -> DepthMaxima:
+    """Return the maxima with the tension across interfaces beyond the free edges of the grid, where it is higher.
+
+    Parameters
+    ----------
+    maxima : highest stresses on the grid.
+    pressure, grid, body, friction : of the stresses, as `bem.stress.subsurface_stress` takes them.
+    """
+    if all(grid.periodic):
+        return maxima
+    nearest = _nearest(maxima.depths, body)
+    tension = maxima.tension.copy()
+    beyond = tension_beyond(pressure, grid, body, maxima.depths[nearest], friction)
+    tension[nearest] = np.maximum(tension[nearest], beyond)
+    return replace(maxima, tension=tension)
+
+
+def tension_beyond(
+    pressure: FloatArray, grid: Grid, body: Body, depths: FloatArray, friction: float = 0.0
+) -> FloatArray:
+    """Return the highest tension zz of each depth (nz,) [Pa] beyond the free edges of the grid, where nothing presses.
+
+    The forces of blocks of cells cause the stress, since it varies as slowly as its distance from them is large; the
+    residual stress of layers has no zz. The surroundings are one length of the grid wide, and thrice as wide again
+    while the highest tension of a depth lies at their own edge.
+    """
+    highest = np.full(len(depths), -np.inf)
+    for _ in range(_WIDENINGS):
+        pressure, grid, inside = _with_surroundings(pressure, grid)
+        across = subsurface_stress(pressure, grid, body, depths, friction=friction)[2]
+        across[:, inside[0], inside[1]] = -np.inf
+        highest = np.maximum(highest, across.max(axis=(1, 2)))
+        for axis, periodic in enumerate(grid.periodic, 1):
+            if not periodic:
+                across = across[:, 1:-1] if axis == 1 else across[:, :, 1:-1]
+        if (across.max(axis=(1, 2)) >= highest).all():
+            break
+    return highest
+
+
+def _with_surroundings(pressure: FloatArray, grid: Grid) -> tuple[FloatArray, Grid, tuple[slice, slice]]:
+    """Return mean pressures of blocks of cells with zeros around, one length of the grid wide along free axes; their
+    grid; and the rows and columns of the blocks that are in the given grid."""
+    block = [1 if periodic else max(n // _BLOCKS, 1) for n, periodic in zip(grid.shape, grid.periodic, strict=True)]
+    widths, inside = [], []
+    for axis, periodic in enumerate(grid.periodic):
+        starts = np.arange(0, grid.shape[axis], block[axis])
+        pressure = np.add.reduceat(pressure, starts, axis=axis) / block[axis]
+        width = 0 if periodic else len(starts)
+        widths.append((width, width))
+        inside.append(slice(width, width + len(starts)))
+    padded, (dx, dy) = np.pad(pressure, widths), grid.spacing
+    wide = Grid((padded.shape[0], padded.shape[1]), (block[0] * dx, block[1] * dy), periodic=grid.periodic)
+    return padded, wide, (inside[0], inside[1])
+
+
 def layer_stresses(maxima: DepthMaxima, body: Body) -> LayerStresses:
     """Return the highest stresses of each layer and interface; the depth nearest to an interface counts as it."""
     medium = np.array([body.medium_at(depth) for depth in maxima.depths.tolist()])
@@ -85,7 +154,7 @@ def layer_stresses(maxima: DepthMaxima, body: Body) -> LayerStresses:
     def in_layers(values: FloatArray) -> FloatArray:
         return np.array([values[medium == number].max(initial=-np.inf) for number in range(len(body.layers))])
 
-    nearest = [int(np.argmin(np.abs(maxima.depths - interface))) for interface in body.interfaces]
+    nearest = _nearest(maxima.depths, body)
     missing = np.array([not (medium == number).any() for number in range(len(body.layers))])
     return LayerStresses(
         interface_depth=np.array(body.interfaces),
@@ -94,6 +163,11 @@ def layer_stresses(maxima: DepthMaxima, body: Body) -> LayerStresses:
         layer_max_von_mises=np.where(missing, np.nan, in_layers(maxima.von_mises)),
         layer_max_tension=np.where(missing, np.nan, in_layers(maxima.principal)),
     )
+
+
+def _nearest(depths: FloatArray, body: Body) -> NDArray[np.intp]:
+    """Return the numbers of the depths nearest to the interfaces."""
+    return np.array([int(np.argmin(np.abs(depths - interface))) for interface in body.interfaces])
 
 
 def highest_principal(stress: FloatArray) -> FloatArray:

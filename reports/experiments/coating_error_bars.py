@@ -6,8 +6,10 @@ Balls, cylinders and rough flats on one to three layers of a third of a cell to 
 the body below, rubbed and not. References have four times the cells a side and the same surfaces, and four times the
 depths in every layer. The result is stored in `reports/results/coating_error_bars.json`.
 
-The row of `interface_max_tension` was changed after a first judgement on this seed, which covered 77 % of that figure:
-for it the stored verdict is no independent one. Other figures were judged once.
+The row of `interface_max_tension` was chosen on seed 2611, where it covered 91 %. Seven of eight misses on two seeds
+were contacts on free grids whose tension is highest beyond the grid's edge, which no cell of either grid sees. The
+figure now has the tension of the surroundings (`bem.stress.with_tension_beyond`), in the references too; the rules are
+as they were, and the seed is one that nothing was chosen on.
 """
 
 from __future__ import annotations
@@ -22,7 +24,15 @@ from bem.accuracy import ContactCase, coating_bars, solve_coarser
 from bem.accuracy.coating import NAMES
 from bem.errors import Status
 from bem.grid import FloatArray
-from bem.stress import LayerStresses, StressSummary, depth_maxima, layer_stresses, summarise_stress, with_layer_depths
+from bem.stress import (
+    LayerStresses,
+    StressSummary,
+    depth_maxima,
+    layer_stresses,
+    summarise_stress,
+    with_layer_depths,
+    with_tension_beyond,
+)
 from reports.experiments import contact_error_bars
 from reports.experiments.contact_error_bars import FINER, Problem
 from reports.experiments.judging import Comparison, Experiment, main
@@ -50,7 +60,9 @@ class Coated:
             case.solution.pressure, case.grid, body, depths, friction=self.friction, components=True
         )
         assert below.stress is not None
-        return below, layer_stresses(depth_maxima(below.stress, below.von_mises, depths, body), body)
+        maxima = depth_maxima(below.stress, below.von_mises, depths, body)
+        maxima = with_tension_beyond(maxima, case.solution.pressure, case.grid, body, self.friction)
+        return below, layer_stresses(maxima, body)
 
 
 def draw(rng: np.random.Generator) -> Coated:
@@ -88,7 +100,7 @@ def _known(bars: FloatArray) -> list[float | None]:
     return [None if math.isnan(bar) else bar for bar in bars.tolist()]
 
 
-EXPERIMENT = Experiment("coating_error_bars", draw, solve, cases=60)
+EXPERIMENT = Experiment("coating_error_bars", draw, solve, cases=60, seed=7193)
 
 if __name__ == "__main__":
     main(EXPERIMENT)

@@ -7,7 +7,14 @@ import numpy as np
 import pytest
 
 from bem import Body, Grid, Layer, Material, subsurface_stress
-from bem.stress import depth_maxima, highest_principal, layer_stresses, von_mises, with_layer_depths
+from bem.stress import (
+    depth_maxima,
+    highest_principal,
+    layer_stresses,
+    von_mises,
+    with_layer_depths,
+    with_tension_beyond,
+)
 
 
 def material(modulus, poisson):
@@ -124,3 +131,32 @@ def test_two_layers_agree_with_finite_elements():
     for number, along in enumerate(("interface, y = 0 (layer)", "interface 2, y = 0 (layer 2)")):
         shear = np.abs(of["stress_xz", along]).max()
         assert shear * (1 - 5e-3) <= found.interface_max_shear[number] <= 1.05 * shear
+
+
+@pytest.mark.parametrize("cells", [48, 150])
+@pytest.mark.parametrize("periodic", [(False, False), (False, True)])
+def test_tension_beyond_a_grid_is_that_of_a_wider_grid(cells, periodic):
+    """A rubbed soft thick layer is in tension behind the contact and outside a grid that fits the contact; 150 cells go
+    in blocks of two. The wider grid has the same cells and sees the whole."""
+    body = Body(STEEL, layers=(Layer(material(60e9, 0.3), 8e-6),))
+    grid = Grid((cells, 24), (24e-6 / cells, 1e-6), periodic=periodic)
+    half = np.where(periodic, np.inf, 7e-6)
+    pressure = np.where((np.abs(grid.x[:, None]) < 8e-6) & (np.abs(grid.y) < half[1]), 1e9, 0.0)
+    depths = np.array(with_layer_depths((0.0, 10e-6), body))
+    stress = subsurface_stress(pressure, grid, body, depths, friction=0.4)
+    maxima = depth_maxima(stress, von_mises(stress), depths, body)
+    found = layer_stresses(with_tension_beyond(maxima, pressure, grid, body, 0.4), body)
+    margin = [(0, 0) if one else (2 * n, 2 * n) for one, n in zip(periodic, grid.shape, strict=True)]
+    wide = np.pad(pressure, margin)
+    whole = subsurface_stress(wide, Grid(wide.shape, grid.spacing, periodic=periodic), body, [8e-6], friction=0.4)
+    assert found.interface_max_tension[0] == pytest.approx(whole[2].max(), rel=1e-2)
+    assert found.interface_max_tension[0] > 1.1 * layer_stresses(maxima, body).interface_max_tension[0]
+    assert found.interface_max_shear.tolist() == layer_stresses(maxima, body).interface_max_shear.tolist()
+
+
+def test_nothing_lies_beyond_a_periodic_grid():
+    body, grid = Body(STEEL, layers=(Layer(HARD, 2e-6),)), Grid((8, 8), (1e-6, 1e-6), periodic=(True, True))
+    depths = np.array(with_layer_depths((0.0,), body))
+    stress = subsurface_stress(np.ones(grid.shape), grid, body, depths)
+    maxima = depth_maxima(stress, von_mises(stress), depths, body)
+    assert with_tension_beyond(maxima, np.ones(grid.shape), grid, body) is maxima

@@ -76,7 +76,7 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
         lower_height=rough.get("lower"),
         upper_height=rough.get("upper"),
         **_stress_fields(below),
-        **_coating_fields(scene, below),
+        **_coating_fields(scene, grid, solution.pressure if path is None else path.last.traction, below),
         **({} if path is None else adhesive_arrays(path)),
         residual=solution.residual,
         iterations=solution.iterations,
@@ -137,14 +137,17 @@ def _stress_fields(below: StressSummary | None) -> dict[str, Any]:
     }
 
 
-def _coating_fields(scene: ContactScene, below: StressSummary | None) -> dict[str, Any]:
+def _coating_fields(
+    scene: ContactScene, grid: Grid, pressure: FloatArray, below: StressSummary | None
+) -> dict[str, Any]:
     """Fields of the record on layers and interfaces of the stressed body; none without layers or components."""
-    from bem.stress import depth_maxima, layer_stresses
+    from bem.stress import depth_maxima, layer_stresses, with_tension_beyond
 
-    body, _ = scene.stressed()
+    body, sign = scene.stressed()
     if below is None or below.stress is None or not body.layers:
         return {}
     maxima = depth_maxima(below.stress, below.von_mises, below.depths, body)
+    maxima = with_tension_beyond(maxima, pressure, grid, body, sign * scene.contact.friction)
     residual = np.array(body.residual_stresses[:-1])
     stated = {"layer_residual_stress": residual} if residual.any() else {}
     return dataclasses.asdict(layer_stresses(maxima, body)) | stated
