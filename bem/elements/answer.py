@@ -20,6 +20,7 @@ from bem.elements.gear_pair import GearModel
 from bem.elements.gear_scuffing import CELSIUS, friction_of_gear_tests, scuffing_of, sliding_power
 from bem.elements.rolling_bearing import BearingModel
 from bem.elements.running import Running, run_all
+from bem.notes.note import percent
 from bem.quantities import plain_digits, with_unit
 
 Rows = tuple[tuple[str, str], ...]
@@ -162,11 +163,18 @@ def answer(element: Element, solved: Sequence[Running]) -> Rows:
 
 
 def place_words(element: Element, one: ElementContact) -> str:
-    """Return the name of a contact, with the mark of the path that it is the nearest contact to."""
+    """Return where a contact is: on a path of contact its distance from C, with the mark that it is the nearest
+    contact to; of a cam or ring the angle; of a bearing the ring and the angle from the load."""
+    model = element.model
+    if isinstance(model, BearingModel):
+        return one.name
+    if not isinstance(model, GearModel):
+        return f"{'cam' if isinstance(model, CamModel) else 'crank'} angle {one.name}"
+    distance = f"{1e3 * abs(one.place):.3g} mm {'before' if one.place < 0 else 'after'} C"
     for mark, place in element.found.marks.items():
         if min(element.found.contacts, key=lambda other: abs(other.place - place)) == one:
-            return f"{mark} ({one.name})" if mark != "C" else "C"
-    return one.name
+            return f"{mark} ({distance})" if mark != "C" else "C"
+    return distance
 
 
 def contact_words(element: Element, one: ElementContact) -> str:
@@ -188,44 +196,53 @@ def _film(element: Element, runs: Sequence[Running]) -> str:
     if thinnest.film_ratio is None:
         return f"not known: give rms_roughness, of both surfaces together; {film}"
     ratio = thinnest.film_ratio
-    regime = "full film" if ratio >= 3 else "mixed lubrication" if ratio < 1 else "thin film, some asperities touch"
+    regime = "full film" if ratio >= 3 else "mixed lubrication" if ratio < 1 else "thin film, highest asperities touch"
     share = max(one.asperity_share or 0.0 for one in runs)
-    touching = f"; asperities carry up to {share:.0%} (estimate)" if share >= 0.01 else ""
+    touching = f"; asperities carry up to {percent(share)} of the load, an estimate" if share >= 0.01 else ""
     return f"{ratio:.3g} ({regime}{touching}), {film}"
 
 
 def _friction_rows(element: Element, runs: Sequence[Running]) -> list[tuple[str, str]]:
-    power = friction_power(element, runs)
-    said = f"{power.film:.3g} W by the oil films"
+    power, model = friction_power(element, runs), element.model
+    film = f"{power.film:.3g} W if oil films carry the whole load"
+    if power.with_asperities is None or power.with_asperities <= 1.01 * power.film:
+        film = f"{power.film:.3g} W in the oil films"
     if power.down and power.up and max(power.down, power.up) > _LEAST_SCATTER * power.film:
-        said += f" (-{plain_digits(power.down)}, +{plain_digits(power.up)} W between oils of this base)"
-    losses = [power.film]
+        film += f" (oils of this base differ by -{plain_digits(power.down)}, +{plain_digits(power.up)} W)"
+    losses, said = [power.film], [film]
     if power.with_asperities is not None and power.with_asperities > 1.01 * power.film:
         losses.append(power.with_asperities)
-        said += (
-            f"; {power.with_asperities:.3g} W with asperity contact at boundary friction "
-            f"{element.model.boundary_friction:g} (estimate; kind friction computes it)"
+        said.append(
+            f"{power.with_asperities:.3g} W if the estimated share of asperities rubs with boundary friction "
+            f"{model.boundary_friction:g}"
         )
     if power.counted < 1:
-        counts = "none" if power.with_asperities is None else "with boundary friction in the latter alone"
-        said += f"; {1 - power.counted:.0%} of the places have no steady film and count {counts}"
-    rows = [("friction power", said)]
-    model = element.model
+        counts = "are left out" if power.with_asperities is None else "are left out of the former"
+        said.append(
+            f"{percent(1 - power.counted)} of the positions {counts}: surfaces that run against each other have no "
+            "steady film"
+        )
+    rows = []
     if isinstance(model, GearModel):
         tests = friction_of_gear_tests(element)
         if tests is not None:
             losses.append(sliding_power(element, tests.power))
-            rows[0] = (
-                "friction power",
-                f"{said}; {losses[-1]:.3g} W by a fit to gear tests (Schlenk, mean coefficient {tests.power:.3g})",
-            )
+            best = f"{losses[-1]:.3g} W by a fit to gear tests (Schlenk, mean friction coefficient {tests.power:.3g})"
+            said.insert(0, best)
         given = model.pinion_torque * model.speed
         least, most = (100 * (1 - loss / given) for loss in (max(losses), min(losses)))
         span = f"{least:.2f} to {most:.2f} %" if f"{least:.2f}" != f"{most:.2f}" else f"{least:.2f} %"
-        rows.append(("efficiency", f"{span} of {with_unit(given, 'W')}, friction of the teeth alone"))
+        rows.append(
+            (
+                "efficiency",
+                f"{span} of {with_unit(given, 'W')}: tooth friction alone, without churning, bearings, seals",
+            )
+        )
     elif isinstance(model, BearingModel):
-        rows.append(("friction moment", f"{1e3 * power.film / model.speed:.3g} N mm, without cage, churning and seals"))
-    return rows
+        spin = "spin of the balls, " if model.axial_load else ""
+        moment = f"{1e3 * power.film / model.speed:.3g} N mm of the oil films, without {spin}cage, churning and seals"
+        rows.append(("friction moment", moment))
+    return [("friction power", "; ".join(said)), *rows]
 
 
 def _temperatures(element: Element, runs: Sequence[Running]) -> str:
@@ -236,7 +253,7 @@ def _temperatures(element: Element, runs: Sequence[Running]) -> str:
     oil = model.oil.temperature - CELSIUS
     said = f"oil {oil:.4g} °C, "
     if model.bulk_temperature is None:
-        said += "bodies as warm as the oil (give bulk_temperature or heat_balance)"
+        said += "films solved with bodies as warm as the oil (give bulk_temperature or heat_balance if warmer)"
     else:
         said += f"bodies {model.bulk_temperature - CELSIUS:.4g} °C, at which films are solved"
     hot = [one for one in runs if one.flash is not None]
@@ -246,7 +263,8 @@ def _temperatures(element: Element, runs: Sequence[Running]) -> str:
     if not hottest.flash:
         return f"{said}; no flash temperature, as the surfaces roll without sliding"
     return (
-        f"{said}; flash {hottest.flash:.3g} K at {place_words(element, hottest.contact)} (Blok, friction of the film)"
+        f"{said}; highest flash temperature {hottest.flash:.3g} K at {place_words(element, hottest.contact)} "
+        "(Blok, with the film's friction)"
     )
 
 
@@ -256,18 +274,18 @@ def _scuffing(element: Element, runs: Sequence[Running]) -> str:
     found = scuffing_of(element, runs)
     if found is None:
         return "not known: give oil.temperature and thermal constants of both materials"
-    bulk = f"bulk {found.bulk - CELSIUS:.3g} °C"
+    bulk = f"bulk temperature {found.bulk - CELSIUS:.3g} °C"
     if found.estimated:
-        bulk += " (estimate: oil + 0.7 x mean flash)"
+        bulk += " (estimate: oil + 0.7 x mean flash temperature)"
     said = f"contact temperature {found.contact - CELSIUS:.3g} °C at {place_words(element, found.flash_at)}, {bulk}"
     if found.integral is not None:
-        said += f"; integral temperature {found.integral - CELSIUS:.3g} °C (friction of gear tests)"
+        said += f"; integral temperature {found.integral - CELSIUS:.3g} °C (with the friction of gear tests)"
     if found.contact_safety is None:
-        return f"{said}. For a safety give scuffing_load_stage, the FZG load stage (A/8.3/90) that the oil fails"
+        return f"{said}. For a safety factor give scuffing_load_stage, the FZG load stage (A/8.3/90) that the oil fails"
     safety = f"{found.contact_safety:.3g} by contact temperature"
     if found.integral_safety is not None:
         safety += f", {found.integral_safety:.3g} by integral temperature"
-    return f"safety {safety}; {said}. Concepts of ISO/TS 6336-20 and -21"
+    return f"safety factor {safety}; {said}. Concepts of ISO/TS 6336-20 and -21"
 
 
 def _micropitting(element: Element, runs: Sequence[Running]) -> str:
@@ -276,10 +294,10 @@ def _micropitting(element: Element, runs: Sequence[Running]) -> str:
     if thinnest.film_ratio is None:
         return "not known: give rms_roughness, of both surfaces together"
     ratio, permitted = thinnest.film_ratio, element.model.permissible_film_ratio
-    said = f"smallest lambda {ratio:.3g}"
+    said = f"smallest specific film thickness (lambda) {ratio:.3g}"
     if permitted is None:
-        return f"{said}; for a safety give permissible_film_ratio, of a test with this oil and finish"
+        return f"{said}; for a safety factor give permissible_film_ratio, from a test with this oil and surface finish"
     return (
-        f"{said} over {permitted:.3g} permitted: safety {ratio / permitted:.3g}. Concept of ISO/TS 6336-22, not its "
-        "procedure: the film is solved with its heat, and roughness is Sq instead of Ra"
+        f"{said} over {permitted:.3g} permitted: safety factor {ratio / permitted:.3g}. Concept of ISO/TS 6336-22, not "
+        "its procedure: the film is solved with its heat, and roughness is Sq instead of Ra"
     )

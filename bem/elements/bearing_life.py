@@ -11,8 +11,11 @@ from bem.elements.rating_life import (
     LEAST_KAPPA,
     RELIABILITY,
     RatingLife,
+    axial_factors,
     contamination_factor,
     dynamic_rating,
+    equivalent_load,
+    equivalent_static_load,
     fatigue_limit,
     hours,
     life_modification_factor,
@@ -24,7 +27,6 @@ from bem.elements.reference_life import (
     ReferenceLife,
     ball_reference_life,
     roller_reference_life,
-    slice_rollers,
 )
 from bem.elements.rolling_bearing import BearingModel
 
@@ -37,7 +39,8 @@ class BearingLife:
     """Lives of a bearing.
 
     rating : basic and modified life of ISO 281. reference : life of ISO/TS 16281 with the loads of all elements.
-    modified_reference : the latter with a_ISO at its reference load [revolutions]; None where a_ISO is not known.
+    modified_reference : the latter with a_ISO at its reference load, of rollers slice by slice [revolutions]; None
+    where a_ISO is not known. axial_factors : X and Y; None without an axial load. static_load : P_0 [N].
     static_rating : C_0 [N]. reference_viscosity : nu1 [m^2/s].
     slice_pressure : highest Hertz pressure of a slice of a roller on the inner ring [Pa]; None for balls.
     """
@@ -46,7 +49,9 @@ class BearingLife:
     reference: ReferenceLife
     modified_reference: float | None
     static_rating: float
+    static_load: float
     reference_viscosity: float
+    axial_factors: tuple[float, float] | None = None
     slice_pressure: float | None = None
 
 
@@ -54,10 +59,14 @@ def bearing_life(element: Element) -> BearingLife:
     """Return the lives of a rolling bearing."""
     model = element.model
     assert isinstance(model, BearingModel)
-    geometry, load = model.geometry, model.load
+    geometry = model.geometry
     rating = model.dynamic_load_rating or dynamic_rating(geometry)
     static = model.static_load_rating or static_rating(geometry)
     limit = model.fatigue_load_limit or fatigue_limit(static, geometry)
+    factors, load = None, model.load
+    if model.axial_load:
+        factors = model.axial_factors or axial_factors(model.axial_load, static, geometry)
+        load = equivalent_load(load, model.axial_load, factors)
     dirt = model.contamination_factor
     if dirt is None:
         dirt = contamination_factor(model.cleanliness or DEFAULT_CLEANLINESS, model.pitch)
@@ -77,21 +86,32 @@ def bearing_life(element: Element) -> BearingLife:
     if model.length is None:
         reference = ball_reference_life(geometry, rating, model.shared)
     else:
-        rollers = slice_rollers(
-            geometry, load, clearance=model.clearance, tilt=model.tilt, profiled=model.profile == "logarithmic"
-        )
-        reference = roller_reference_life(geometry, rating, rollers)
+        reference = roller_reference_life(geometry, rating, model.sliced_rollers())
         inner = element.found.contacts[0]
         assert reference.highest_slice is not None
         pressure = math.sqrt(reference.highest_slice * element.modulus / (math.pi * inner.radius))
     modified = None
     if kappa is not None:
-        factor = life_modification_factor(
-            model.rolling, viscosity_ratio=kappa, contamination=dirt, limit_over_load=limit / reference.load
-        )
-        if factor is not None:
-            modified = RELIABILITY[model.reliability] * factor * reference.basic
-    return BearingLife(found, reference, modified, static, needed, pressure)
+        known = kappa
+
+        def factor(load: float) -> float | None:
+            return life_modification_factor(
+                model.rolling, viscosity_ratio=known, contamination=dirt, limit_over_load=limit / load
+            )
+
+        modified = reference.modified(factor)
+    if modified is not None:
+        modified *= RELIABILITY[model.reliability]
+    return BearingLife(
+        found,
+        reference,
+        modified,
+        static,
+        equivalent_static_load(model.load, model.axial_load),
+        needed,
+        factors,
+        pressure,
+    )
 
 
 def kinematic_viscosity(element: Element) -> float | None:
@@ -113,13 +133,14 @@ def life_rows(element: Element) -> list[tuple[str, str]]:
         (
             "basic rating life",
             f"L10 = {_life(rating.basic, speed)}; C = {1e-3 * rating.dynamic_rating:.4g} kN ({source}), "
-            f"P = {1e-3 * rating.load:.4g} kN, C/P = {rating.dynamic_rating / rating.load:.3g}",
+            f"P = {1e-3 * rating.load:.4g} kN{_factors(model, life)}, C/P = {rating.dynamic_rating / rating.load:.3g}",
         )
     ]
     rows.append(("modified rating life", _modified(model, life)))
     said = f"L10r = {_life(life.reference.basic, speed)}"
     if life.modified_reference is not None:
-        said += f", modified {_life(life.modified_reference, speed)}"
+        each = " with a_ISO of every slice" if life.slice_pressure is not None else ""
+        said += f", modified {_life(life.modified_reference, speed)}{each}"
     said += "; ISO/TS 16281, from the load of every rolling element at this clearance"
     if life.slice_pressure is not None:
         tilt = f"tilt {1e3 * model.tilt:.3g} mrad" if model.tilt else "no tilt"
@@ -130,18 +151,28 @@ def life_rows(element: Element) -> list[tuple[str, str]]:
     rows.append(
         (
             "static safety",
-            f"C0 / P0 = {life.static_rating / rating.load:.3g}; C0 = {1e-3 * life.static_rating:.4g} kN "
+            f"C0 / P0 = {life.static_rating / life.static_load:.3g}; C0 = {1e-3 * life.static_rating:.4g} kN "
             f"({'of the file' if model.static_load_rating else 'from the geometry by ISO 76'})",
         )
     )
     return rows
 
 
+def _factors(model: BearingModel, life: BearingLife) -> str:
+    """Return in words how the equivalent load of an axial load came about."""
+    if life.axial_factors is None:
+        return ""
+    if life.rating.load == model.load:
+        return " (the radial load: the axial one is too small to count)"
+    (x, y), source = life.axial_factors, "of the file" if model.axial_factors else "ISO 281"
+    return f" = {x:.3g} x {1e-3 * model.load:.4g} + {y:.3g} x {1e-3 * model.axial_load:.4g} kN ({source})"
+
+
 def _modified(model: BearingModel, life: BearingLife) -> str:
     rating = life.rating
     if rating.viscosity_ratio is None:
         return "not known: the kinematic viscosity is missing; give an oil by its grade or viscosities, or its density"
-    needed = f"nu1 = {1e6 * life.reference_viscosity:.3g} mm²/s"
+    needed = f"required viscosity nu1 = {1e6 * life.reference_viscosity:.3g} mm²/s"
     if rating.a_iso is None or rating.modified is None:
         return (
             f"not defined: kappa = {rating.viscosity_ratio:.3g} is below {LEAST_KAPPA} ({needed}); take a thicker oil"

@@ -8,7 +8,7 @@ from bem.particles import particle_number
 
 CITES = ("archard1953",)
 """Source of the wear law, a key of `bem/references.bib`."""
-_ROLLS = "none by sliding: both surfaces roll at one speed"
+_ROLLS = "none: both surfaces roll at one speed without sliding"
 
 
 def wear_per_hour(element: Element) -> str:
@@ -17,15 +17,15 @@ def wear_per_hour(element: Element) -> str:
     if all(one.speeds[0] == one.speeds[1] for one in contacts):
         return _ROLLS
     if element.model.specific_wear_rate is None:
-        return "not known: give specific_wear_rate, measured with this oil and load share"
+        return "not known: give specific_wear_rate, measured with this oil at a like lambda ratio"
     said = []
     for body, rate in enumerate(rates):
         if rate is None:
-            said.append(f"body {body + 1} not known: how often a place is passed, and how fast, is not one number")
+            said.append(f"body {body + 1} not known: its places are not passed equally often")
             continue
         depth, where = max((wear_per_pass(element, one)[body] or 0.0, one.name) for one in contacts)
         said.append(f"body {body + 1} {3600 * rate * depth * 1e6:.3g} um at {where}")
-    return ", ".join(said) + "; Archard's law with the whole load, the rate being that of this lubrication"
+    return ", ".join(said) + "; Archard's law with the whole load and a wear rate of this lubrication"
 
 
 def worn_volume_rate(element: Element) -> float:
@@ -48,5 +48,5 @@ def particles_per_hour(element: Element) -> str:
         return _ROLLS
     worn = f"{1e9 * rate:.3g} mm^3 of both bodies"
     if one is None:
-        return f"{worn}; with mean_particle_volume, measured or of kinds wear and running-in, it becomes a number"
+        return f"{worn}; for a number of particles give mean_particle_volume, measured or from kind wear"
     return f"{worn}, {particle_number(rate, one):.3g} of {1e18 * one:.3g} um^3 each"

@@ -16,6 +16,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Literal
 
+import numpy as np
+
 from bem.errors import InputError
 from bem.reference_solutions.hertz import ellipse_contact
 
@@ -52,6 +54,13 @@ _BALL_FACTOR, _ROLLER_FACTOR = 1.3, 1.1
 _LARGE_BALL = 25.4e-3
 _STATIC_PRESSURE = 4.2e9
 """Hertz pressure of the most loaded ball at the static load rating [Pa]."""
+_AXIAL_TABLE = (
+    (0.172, 0.345, 0.689, 1.03, 1.38, 2.07, 3.45, 5.17, 6.89),
+    (2.30, 1.99, 1.71, 1.55, 1.45, 1.31, 1.15, 1.04, 1.00),
+)
+"""Of deep groove ball bearings with normal clearance (ISO 281, table 3): f_0 F_a / C_0 and Y, with X = 0.56; between
+them Y is interpolated linearly in the logarithm of the former."""
+_RADIAL_FACTOR = 0.56
 _STATIC_MODULUS = 207e9 / (2 * (1 - 0.3**2))
 _LARGE_PITCH = 100e-3
 _LIMIT_RATIO: Mapping[str, tuple[float, float]] = {"ball": (22.0, 0.5), "roller": (8.2, 0.3)}
@@ -146,6 +155,26 @@ def fatigue_limit(static: float, bearing: BearingGeometry) -> float:
     """Return the fatigue load limit C_u [N] from the static rating [N], simplified method of ISO 281, annex B."""
     ratio, power = _LIMIT_RATIO[bearing.rolling]
     return static / ratio * min(1.0, _LARGE_PITCH / bearing.pitch) ** power
+
+
+def axial_factors(axial: float, static: float, bearing: BearingGeometry) -> tuple[float, float]:
+    """Return X and Y of a deep groove ball bearing, normal clearance.
+
+    axial : load F_a [N]. static : basic static load rating C_0 [N]. f_0 is C_0 / (Z D^2) in N and mm.
+    """
+    factor = static_rating(bearing) / (bearing.count * (1e3 * bearing.diameter) ** 2)
+    steps, values = (np.array(row) for row in _AXIAL_TABLE)
+    return _RADIAL_FACTOR, float(np.interp(math.log(factor * axial / static), np.log(steps), values))
+
+
+def equivalent_load(radial: float, axial: float, factors: tuple[float, float]) -> float:
+    """Return the equivalent dynamic load P = X F_r + Y F_a [N], F_r at least; factors : X and Y."""
+    return max(radial, factors[0] * radial + factors[1] * axial)
+
+
+def equivalent_static_load(radial: float, axial: float) -> float:
+    """Return the equivalent static load P_0 = 0.6 F_r + 0.5 F_a of a radial ball bearing [N], F_r at least (ISO 76)."""
+    return max(radial, 0.6 * radial + 0.5 * axial)
 
 
 def reference_viscosity(pitch: float, speed: float) -> float:

@@ -5,9 +5,10 @@ times that to the power n (Stribeck 1901, Sjovall 1933; Harris, *Rolling Bearing
 n = 1.5 are Hertz' for both rings, exact; of rollers they are Palmgren's, 3.84e-5 Q^0.9 / l^0.8 in mm and N for each
 steel ring (n = 10/9). Both surfaces roll at omega d_m (1 - gamma^2) / 4 over either ring, gamma = D / d_m.
 
-Spin and differential slip of balls are left out, as are edges, crowning and skew of rollers, whose load is even along
-the length. The line film of a scene takes the middle of a ball's ellipse, and no oil that leaves sideways. The
-centrifugal force is in the loads of the outer ring, not in how the radial load is shared.
+Balls carry an axial load at contact angles of their own (`ball_load`). Spin and differential slip of balls are left
+out, as are edges and skew of rollers, whose load is even along the length; between tilted rings a contact has the load
+per length of its most loaded slice (`reference_life`). The line film of a scene takes the middle of a ball's ellipse,
+and no oil that leaves sideways. The centrifugal force is in the loads of the outer ring, not in how the load is shared.
 """
 
 from __future__ import annotations
@@ -18,17 +19,23 @@ from dataclasses import dataclass
 from functools import cached_property
 from typing import Annotated, Literal, Self
 
+import numpy as np
 from pydantic import Field, model_validator
 
+from bem.elements.ball_load import BallLoads, share_with_axial_load
 from bem.elements.contact import ElementContact
 from bem.elements.model import Contacts, ElementModel
 from bem.elements.rating_life import BearingGeometry, Cleanliness
+from bem.elements.reference_life import SlicedRollers, slice_rollers
 from bem.materials import contact_modulus
 from bem.reference_solutions.hertz import ellipse_contact
 from bem.scenes.common import PositiveLength, PositivePressure, problem
 from bem.scenes.units import Angle, Force, Length, Ratio, RotationSpeed
 
 _STEEL_DENSITY = 7800.0  # kg/m^3, of elements whose material says none
+
+
+AxialFactor = Annotated[Ratio, Field(ge=0, le=10)]
 
 
 class BearingModel(ElementModel):
@@ -38,7 +45,8 @@ class BearingModel(ElementModel):
     is `radial_load`, or the one that gives `hertz_pressure` under the most loaded rolling element of the inner ring.
     For the rating life: `dynamic_load_rating`, `static_load_rating` and `fatigue_load_limit` of a catalogue, which
     follow from the geometry where they are left out; `cleanliness`, or `contamination_factor` itself; `reliability` in
-    per cent. Of rollers `profile` and `tilt` of the rings against each other.
+    per cent. Of rollers `profile` and `tilt` of the rings against each other. Of balls `axial_load`, with
+    `axial_factors` X and Y of a catalogue for the equivalent load, which follow ISO 281 where they are left out.
     """
 
     element: Literal["rolling-bearing"] = "rolling-bearing"
@@ -52,6 +60,8 @@ class BearingModel(ElementModel):
     groove: Annotated[Ratio, Field(gt=0.5, lt=1)] = 0.52
     radial_load: Annotated[Force, Field(gt=0)] | None = None
     hertz_pressure: PositivePressure | None = None
+    axial_load: Annotated[Force, Field(ge=0)] = 0.0
+    axial_factors: tuple[AxialFactor, AxialFactor] | None = None
     clearance: Annotated[Length, Field(ge=0)] = 0.0
     speed: Annotated[RotationSpeed, Field(gt=0)]
     dynamic_load_rating: Annotated[Force, Field(gt=0)] | None = None
@@ -83,6 +93,12 @@ class BearingModel(ElementModel):
             raise problem("both cleanliness and contamination_factor given", "one of them")
         if self.tilt and self.rolling == "ball":
             raise problem("tilt of a ball bearing", 'no tilt, or rolling = "roller"')
+        if self.axial_load and self.rolling == "roller":
+            raise problem("axial_load of a roller bearing", "a ball bearing; cylindrical rollers carry none by rolling")
+        if self.axial_load and self.hertz_pressure is not None:
+            raise problem("axial_load beside hertz_pressure", "radial_load beside axial_load")
+        if self.axial_factors is not None and not self.axial_load:
+            raise problem("axial_factors without axial_load", "both, or neither")
         return self
 
     @property
@@ -128,20 +144,50 @@ class BearingModel(ElementModel):
     @cached_property
     def shared(self) -> list[float]:
         """Loads of all rolling elements [N], without centrifugal force, from the most loaded one round."""
+        if self.ball_loads is not None:
+            return [float(load) for load in self.ball_loads.loads]
+        if self.slices is not None:
+            return [float(load) for load in self.slices.loads.sum(axis=1)]
         return share(self.load, *self._stiffness(), self.clearance, self._angles)
+
+    @cached_property
+    def ball_loads(self) -> BallLoads | None:
+        """Loads and contact angles of balls under an axial load too; None without one."""
+        if not self.axial_load:
+            return None
+        return share_with_axial_load(
+            self.load,
+            self.axial_load,
+            stiffness=self._stiffness()[0],
+            centre_distance=(2 * self.groove - 1) * self.diameter,
+            clearance=self.clearance,
+            angles=np.array(self._angles),
+        )
+
+    @cached_property
+    def slices(self) -> SlicedRollers | None:
+        """Slices of the rollers between tilted rings; None without tilt."""
+        return self.sliced_rollers() if self.tilt else None
+
+    def sliced_rollers(self) -> SlicedRollers:
+        """Loads of the slices of all rollers."""
+        profiled = self.profile == "logarithmic"
+        return slice_rollers(self.geometry, self.load, clearance=self.clearance, tilt=self.tilt, profiled=profiled)
 
     def contacts(self) -> Contacts:
         """All that carry, inner and outer, by their angle from the load."""
-        races = _races(self)
         angles, shared = self._angles, self.shared
-        gamma = self.diameter / self.pitch
-        rolling = 0.25 * self.speed * self.pitch * (1 - gamma**2)
+        leaning = np.zeros(self.count) if self.ball_loads is None else self.ball_loads.contact_angles
+        uneven = _unevenness(self.slices)
         pressed_out = _centrifugal(self)
         found = []
-        for angle, load in zip(angles, shared, strict=True):
+        for number, (angle, load) in enumerate(zip(angles, shared, strict=True)):
             turned = math.degrees(angle if angle <= math.pi else angle - 2 * math.pi)
-            for race in races:
-                total = load + (pressed_out if race.name == "outer ring" else 0.0)
+            contact_angle = float(leaning[number])
+            gamma = self.diameter / self.pitch * math.cos(contact_angle)
+            rolling = 0.25 * self.speed * self.pitch * (1 - gamma**2)
+            for race in _races(self, contact_angle):
+                total = load * uneven.get(number, 1.0) + (pressed_out if race.name == "outer ring" else 0.0)
                 if load > 0:
                     found.append(
                         ElementContact(
@@ -163,12 +209,20 @@ class _Race:
     across: float
 
 
-def _races(model: BearingModel) -> tuple[_Race, _Race]:
-    inner, outer = 0.5 * (model.pitch - model.diameter), 0.5 * (model.pitch + model.diameter)
+def _races(model: BearingModel, contact_angle: float = 0.0) -> tuple[_Race, _Race]:
+    pitch = model.pitch / math.cos(contact_angle)
+    inner, outer = 0.5 * (pitch - model.diameter), 0.5 * (pitch + model.diameter)
     across = math.inf
     if model.rolling == "ball":
         across = 1 / (2 / model.diameter - 1 / (model.groove * model.diameter))
     return _Race("inner ring", inner, across), _Race("outer ring", -outer, across)
+
+
+def _unevenness(rollers: SlicedRollers | None) -> dict[int, float]:
+    """Return the load per length of the most loaded slice of each roller that carries, over the roller's mean."""
+    if rollers is None:
+        return {}
+    return {number: float(slices.max() / slices.mean()) for number, slices in enumerate(rollers.loads) if slices.any()}
 
 
 def _stiffness(model: BearingModel, races: Sequence[_Race], modulus: float) -> tuple[float, float]:
@@ -229,9 +283,23 @@ def _load_sharing(model: BearingModel, shared: Sequence[float], pressed_out: flo
     """Return sentences with the figures of the load sharing."""
     highest = max(shared)
     said = [
-        f"{sum(q > 0 for q in shared)} of {model.count} elements carry; the most loaded one {highest:.4g} N, "
-        f"{highest * model.count / model.load:.3g} times radial load over number of elements."
+        f"{sum(q > 0 for q in shared)} of {model.count} {model.rolling}s carry; the most loaded one {highest:.4g} N, "
+        f"{highest * model.count / model.load:.3g} times the radial load over the number of {model.rolling}s."
     ]
+    if model.ball_loads is not None:
+        carrying = model.ball_loads.contact_angles[model.ball_loads.loads > 0]
+        least, most = (math.degrees(float(one)) for one in (carrying.min(), carrying.max()))
+        said.append(
+            f"Axial load {model.axial_load:.4g} N: contact angles {least:.3g} to {most:.3g} deg, the inner ring "
+            f"{1e6 * model.ball_loads.axial_shift:.3g} um along the axis; spin of the balls is left out."
+        )
+    uneven = _unevenness(model.slices)
+    if uneven:
+        said.append(
+            f"The rings are tilted by {1e3 * model.tilt:.3g} mrad: the most loaded slice of a roller has up to "
+            f"{max(uneven.values()):.3g} times the roller's mean load per length. Contacts have that of their most "
+            "loaded slice, and as their load that on the whole length."
+        )
     if pressed_out > 0.05 * highest:
         said.append(
             f"Centrifugal force presses each element outwards with {pressed_out:.3g} N, which is in the loads of the "

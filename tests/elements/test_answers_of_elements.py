@@ -149,7 +149,7 @@ def test_life_without_a_kinematic_viscosity_is_the_basic_one():
     said = dict(answer(load_element(STEEL_BEARING | {"oil": own}), []))
     assert "kinematic viscosity is missing" in said["modified rating life"]
     assert "L10 = " in said["basic rating life"]
-    assert "roll at one speed" in said["wear per hour"]  # known without a wear rate
+    assert "roll at one speed without sliding" in said["wear per hour"]  # known without a wear rate
     thin = STEEL_BEARING["oil"] | {"grade": "ISO VG 10", "temperature": "120 degC"}
     assert (
         "below 0.1"

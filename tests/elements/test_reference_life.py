@@ -5,7 +5,13 @@ import math
 import numpy as np
 import pytest
 
-from bem.elements.rating_life import LINE_REDUCTION, BearingGeometry, dynamic_rating, roller_factor
+from bem.elements.rating_life import (
+    LINE_REDUCTION,
+    BearingGeometry,
+    dynamic_rating,
+    life_modification_factor,
+    roller_factor,
+)
 from bem.elements.reference_life import (
     SlicedRollers,
     ball_reference_life,
@@ -111,3 +117,31 @@ def test_the_rating_of_rollers_follows_their_dimensions():
     twice = BearingGeometry("roller", 0.8e-3, 120e-3, MANY, length=0.8e-3)
     assert dynamic_rating(twice) / base == pytest.approx(2 ** (29 / 27))
     assert base == pytest.approx(1.1 * roller_factor(0.4 / 60) * 0.8 ** (7 / 9) * MANY**0.75 * 0.4 ** (29 / 27))
+
+
+def test_one_factor_for_all_slices_is_that_of_the_whole_bearing():
+    rating, rollers = dynamic_rating(NU208), slice_rollers(NU208, 10e3, tilt=2e-3)
+    found = roller_reference_life(NU208, rating, rollers)
+    assert found.modified(lambda load: 3.0) == pytest.approx(3 * found.basic, rel=1e-12)
+    assert found.modified(lambda load: None) is None
+
+
+def test_evenly_loaded_slices_have_the_load_of_the_whole_bearing():
+    loads = np.outer(share(5e3, 1e8, 10 / 9, 0.0, [2 * math.pi * i / 14 for i in range(14)]), np.ones(40)) / 40
+    found = roller_reference_life(NU208, 5e4, SlicedRollers(loads / edge_stress_factors(40), 11e-3))
+    assert found.slice_loads == pytest.approx(found.load, rel=1e-12)
+
+
+def test_the_factor_of_every_slice_is_below_that_of_the_reference_load():
+    """a_ISO falls with the load and more steeply than it, so that the loaded end decides; a slice without load does not
+    fail."""
+    rating, rollers = dynamic_rating(NU208), slice_rollers(NU208, 4e3, tilt=3e-3)
+    found = roller_reference_life(NU208, rating, rollers)
+    assert found.slice_loads.min() == 0
+    assert found.slice_loads.max() > found.load
+
+    def factor(load):
+        return life_modification_factor("roller", viscosity_ratio=2.0, contamination=0.5, limit_over_load=6e3 / load)
+
+    assert found.modified(factor) < factor(found.load) * found.basic
+    assert found.modified(factor) > factor(found.slice_loads.max()) * found.basic

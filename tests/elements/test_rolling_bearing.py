@@ -7,6 +7,7 @@ import pytest
 from scipy.integrate import quad
 
 from bem import CATALOGUE, InputError, contact_modulus
+from bem.elements.bearing_life import bearing_life
 from bem.elements.element import element_template, load_element
 from bem.elements.rolling_bearing import BearingModel, load_integral, share
 from bem.reference_solutions.hertz import ellipse_contact
@@ -140,3 +141,17 @@ def test_the_template_is_a_good_one(tmp_path):
     path = tmp_path / "mine.toml"
     path.write_text(element_template("bearing"))
     assert load_element(path).model.name == "mine"
+
+
+def test_tilted_rollers_have_the_pressure_of_their_most_loaded_slice():
+    """That of the reference life; a tilt that vanishes leaves the profile alone."""
+    for tilt in ("0.001 mrad", "2 mrad"):
+        element = load_element(ROLLERS | {"tilt": tilt})
+        life = bearing_life(element)
+        assert element.worst().hertz(element.modulus).maximum_pressure == pytest.approx(life.slice_pressure, rel=1e-9)
+    assert "tilted" in " ".join(element.found.geometry)
+    assert sum(element.model.shared) == pytest.approx(element.model.slices.loads.sum())
+    even = load_element(ROLLERS)
+    assert (
+        element.worst().hertz(even.modulus).maximum_pressure > 1.1 * even.worst().hertz(even.modulus).maximum_pressure
+    )
