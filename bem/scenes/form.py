@@ -12,7 +12,6 @@ from dataclasses import dataclass, replace
 from typing import Any
 
 from bem.errors import InputError
-from bem.laws import laws_of
 from bem.lubrication.oils.catalogue import oil_names
 from bem.materials import CATALOGUE
 from bem.scenes.common import MaterialScene
@@ -22,7 +21,7 @@ from bem.scenes.laws import LawKey, LawOrNumber
 from bem.scenes.load import library, read_table, scene_from_table
 from bem.scenes.starts import start_scene
 from bem.scenes.values import dumped, plain_value
-from bem.scenes.walk import DEEPEST, Key, TableType, fields_of_table, keys_of, literals, unwrap
+from bem.scenes.walk import DEEPEST, Key, TableType, fields_of_table, keys_of, unwrap
 
 _NOT_ASKED = ("redoes", "name", "over", "sha256")
 
@@ -221,7 +220,7 @@ def _entry(key: Key) -> Entry:
 def _choices(key: Key) -> tuple[str, ...]:
     if key.type is MaterialScene:
         return tuple(sorted(CATALOGUE))
-    return oil_names() if key.name == "grade" else tuple(literals(key.type))
+    return oil_names() if key.name == "grade" else tuple(key.choices)
 
 
 def _words(annotation: Any) -> str:
@@ -259,7 +258,7 @@ def _example(key: Key) -> str:
 
 def _example_of_law(law_key: LawKey) -> Any:
     """Name of a law that needs no parameters, or else the first law with examples of those that it needs."""
-    laws = laws_of(law_key.family)
+    laws = law_key.laws()
     plain = next((name for name, law in laws.items() if not law.required()), None)
     if plain is not None or not laws:
         return plain or "..."

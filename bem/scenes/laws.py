@@ -75,17 +75,23 @@ def plain(law: Law) -> str | dict[str, Any]:
     return {"kind": law.name, **values} if values else law.name
 
 
+def _any(law: type[Law]) -> bool:
+    return True
+
+
 @dataclass(frozen=True)
 class LawKey:
     """Annotation of a law's class: the key takes a name, a table with `kind` and parameters, or a law.
 
     beside : whether a `LawTable` takes the parameters beside the key, too.
     usual : name of the law that a table without `kind` means; such a table is refused where it is empty.
+    takes : takes(law) is False for laws of the family that the key's table refuses; they are not offered.
     """
 
     family: str
     beside: bool = False
     usual: str = ""
+    takes: Callable[[type[Law]], bool] = _any
 
     def read(self, value: Any) -> Law:
         """The law.
@@ -134,13 +140,17 @@ class LawKey:
             text = "; ".join(message.partition(": ")[2] for message in error.messages)
             raise problem(text, f"other parameters of the {law.name} law") from None
 
+    def laws(self) -> dict[str, type[Law]]:
+        """Laws that the key takes, by name."""
+        return {name: law for name, law in laws_of(self.family).items() if self.takes(law)}
+
     def names(self) -> list[str]:
         """Names of the laws."""
-        return list(laws_of(self.family))
+        return list(self.laws())
 
     def any_law(self) -> Law:
         """One that needs no parameters."""
-        return next(law() for law in laws_of(self.family).values() if not law.required())
+        return next(law() for law in self.laws().values() if not law.required())
 
     def law_class(self, value: Any) -> type[Law] | None:
         """The class that a value of the key names, None if it names none."""
@@ -160,7 +170,7 @@ class LawKey:
         self, schema: core_schema.CoreSchema, handler: GetJsonSchemaHandler
     ) -> dict[str, Any]:
         """Names, or a table per law."""
-        laws = laws_of(self.family)
+        laws = self.laws()
         alone = [name for name, law in laws.items() if self.beside or not law.required()]
         tables = [
             {

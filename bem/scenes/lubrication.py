@@ -69,7 +69,9 @@ class SpeedsScene(Table):
         "Number of speeds from first to last, in a geometric series.", "basic", default=20
     )
     cylinder: Ratio = key(
-        "Speed of the upper body over that of the lower: 0 is pure sliding, 1 pure rolling.", "advanced", default=0.0
+        "Ratio of the speed of the upper body to that of the lower: 0 is pure sliding, 1 pure rolling.",
+        "advanced",
+        default=0.0,
     )
     slide_roll_ratio: Annotated[Ratio, Field(gt=-2, le=2)] | None = key(
         "Slide-to-roll ratio 2 (u1 - u2)/(u1 + u2), u1 of the lower body: 0 is pure rolling, 2 pure sliding.",
@@ -215,7 +217,7 @@ class MixedScene(SceneModel):
     """A rough cylinder, ball or ellipsoid on a rough flat with oil between them."""
 
     lower: BodyScene = key(
-        "Lower body: the flat or disc; friction acts on it against its sliding over the upper body.", "basic"
+        "Lower body: the flat or disc; friction acts on it against its motion relative to the upper body.", "basic"
     )
     upper: BodyScene = key("Upper body: the cylinder or ball; smooth without [upper.surface].", "basic")
     contact: LubricatedScene = key("Shape of the contact, load and boundary friction.", "basic")
@@ -225,7 +227,8 @@ class MixedScene(SceneModel):
         "Oil supply of a starved contact; without it the inlet is flooded.", "advanced", default=None
     )
     grid: LineGridScene = key(
-        "Mesh over the rough contact; it must be larger than the Hertz contact, or repeat under it.",
+        "Mesh of the rough contact: larger than the Hertz contact, or a periodic patch of roughness that repeats "
+        "under it.",
         "basic",
         default=LineGridScene(),
     )

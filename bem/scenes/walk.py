@@ -124,7 +124,17 @@ class Key:
     @cached_property
     def allowed(self) -> str:
         """Choices or dimension in words; "" for other types."""
-        return _allowed(self.field)
+        return f"one of {', '.join(self.choices)}" if self.law_alone else _allowed(self.field)
+
+    @property
+    def law_alone(self) -> bool:
+        """Return True if a law stands at the key, and not a number or a law."""
+        return self.law is not None and not isinstance(self.law, LawOrNumber)
+
+    @property
+    def choices(self) -> list[str]:
+        """Words that may stand at the key: of a literal, or names of the laws that it takes."""
+        return self.law.names() if self.law is not None and self.law_alone else literals(self.type)
 
     @cached_property
     def law(self) -> LawKey | None:
@@ -136,7 +146,8 @@ class Key:
         """Family of laws that the key takes, alone or beside a number; "" for none."""
         if isinstance(self.law, LawOrNumber):
             return self.law.family
-        return self.type.family if is_law(self.type) and not self.type.name else ""
+        annotation, _ = unwrap(self.type)  # of an optional law the type keeps the annotation
+        return annotation.family if is_law(annotation) and not annotation.name else ""
 
     @property
     def is_law(self) -> bool:
@@ -147,7 +158,8 @@ class Key:
     def tables(self) -> tuple[TableType, ...]:
         """Tables that may stand at the key: one, or several told apart by `kind`; laws of a family."""
         if self.family:
-            return tuple(TableType(law, name) for name, law in laws_of(self.family).items())
+            laws = laws_of(self.family) if self.law is None else self.law.laws()
+            return tuple(TableType(law, name) for name, law in laws.items())
         inner = members_of(self.type) or [self.type]
         found = [one for one in inner if fields_of_table(one) and typing.get_origin(one) is not list]
         return tuple(TableType(one, tag_of(one) if len(found) > 1 else "") for one in found)

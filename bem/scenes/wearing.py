@@ -49,7 +49,7 @@ class WearDepthsScene(Table):
     """Equally spaced depths at which stresses are computed."""
 
     count: Annotated[int, Field(strict=True, ge=2, le=1024)] = key("Number of depths.", "basic", default=64)
-    spacing: PositiveLength = key("Distance between depths; particles are resolved by it.", "basic")
+    spacing: PositiveLength = key("Distance between depths: the resolution of particle thickness.", "basic")
     first: Annotated[Length, Field(ge=0)] = key("First depth below the surface.", "expert", default=0.0)
 
     def build(self) -> NDArray[np.float64]:

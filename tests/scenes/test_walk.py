@@ -2,10 +2,13 @@
 
 import pytest
 
-from bem.laws import Law
-from bem.scenes import get_kind, kind_names
+from bem.errors import InputError
+from bem.laws import Law, laws_of
+from bem.scenes import get_kind, kind_names, library
+from bem.scenes.load import load_scene
 from bem.scenes.schema import scene_schema
 from bem.scenes.walk import keys_of, own_keys, walk
+from bem.wear.criterion import LocalWear
 
 pytestmark = pytest.mark.internal
 
@@ -71,3 +74,27 @@ def test_the_schema_has_the_meanings_of_the_walk(kind):
     for key in walk(get_kind(kind).model):
         if not key.tables and key.path[0] != "over":
             assert (key.name, key.meaning) in described, key.path
+
+
+@pytest.mark.parametrize(
+    ("kind", "path", "start"),
+    [
+        ("wear", ("wear", "particle_criterion"), "wear-cylinder-scar"),
+        ("running-in-life", ("wear", "law"), "running-in-life"),
+        ("running-in-life", ("particles", "criterion"), "running-in-life"),
+    ],
+)
+def test_a_key_offers_the_laws_of_a_family_that_its_table_takes(kind, path, start):
+    """As loading takes and refuses them."""
+    key = key_at(kind, *path)
+    offered, family = set(key.choices), laws_of("criterion")
+    assert {table.kind for table in key.tables} == offered < set(family)
+    table = library()[start]
+    for name, law in family.items():
+        given = dict.fromkeys(law.required(), 1e-9) | ({"distance": 1e-6} if issubclass(law, LocalWear) else {})
+        scene = table | {path[0]: table[path[0]] | {path[1]: {"kind": name, **given}}}
+        if name in offered:
+            load_scene(scene)
+        else:
+            with pytest.raises(InputError, match=name):
+                load_scene(scene)

@@ -26,7 +26,7 @@ class ArrayScene(Table):
     )
     cell: PositiveLength = key("Cell size of the grid.", "basic")
     window: PositiveLength = key(
-        "Side length of the finite array whose deflection counts, if depth is measured from the undeformed flat.",
+        "Side length of the finite array that sinks in as a whole, if depth is measured from the undeformed flat.",
         "basic",
     )
     cells_at_most: Cells = key("Largest number of cells along an axis.", "expert", default=1024)

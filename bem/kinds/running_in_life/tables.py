@@ -9,6 +9,7 @@ import numpy as np
 from pydantic import Field, field_validator
 
 from bem.grid import FloatArray, Grid
+from bem.laws import Law
 from bem.scenes.common import Table, problem
 from bem.scenes.keys import key
 from bem.scenes.laws import LawKey
@@ -58,11 +59,20 @@ class LifeCycles(Table):
         return np.geomspace(min(self.first_step, self.count), self.count, self.points)
 
 
+def _by_pressure(law: type[Law]) -> bool:
+    return issubclass(law, LocalWear)
+
+
+def _finds_particles(law: type[Law]) -> bool:
+    return not issubclass(law, LocalWear) and law.counts_passes is Criterion.counts_passes  # type: ignore[attr-defined]
+
+
 class LifeWear(Table):
     """Wear law of both bodies, and which of them pass through the contact."""
 
-    law: Annotated[Criterion, LawKey("criterion")] = key(
-        "Wear law by pressure and sliding distance, with its parameters: archard, archard_over_hardness or energy.",
+    law: Annotated[Criterion, LawKey("criterion", takes=_by_pressure)] = key(
+        "Wear law, with its parameters: archard, archard_over_hardness or energy; specific_wear_rate is the worn "
+        "volume per load and sliding distance, distance the sliding of one cycle.",
         "basic",
         example="archard",
     )
@@ -138,7 +148,7 @@ class LifeFilm(KineticsScene):
 class LifeParticles(Table):
     """Sizes of the particles that a detachment criterion finds; none of them is taken from the surface."""
 
-    criterion: Annotated[Criterion, LawKey("criterion")] = key(
+    criterion: Annotated[Criterion, LawKey("criterion", takes=_finds_particles)] = key(
         "Wear criterion that finds the particles.", "advanced", default=VonMises()
     )
     depths: WearDepthsScene = key("Depths at which stresses are computed.", "basic")

@@ -271,7 +271,7 @@ class WearingSharing(RunningInSharing):
     """Load sharing between oil film and asperities in each cycle, and the shape of the film."""
 
     film_shape: Literal["worn", "unworn"] = key(
-        "Macroscopic shape of a cylinder's film: worn like the body that stands with the contact, or unworn.",
+        "Macroscopic shape of a cylinder's film: with the wear of the body at rest in the contact, or unworn.",
         "advanced",
         default="worn",
         reason="worn; the film of a ball keeps the unworn shape",

@@ -63,10 +63,10 @@ class KineticsScene(Table):
         example="50 angstrom^3",
     )
     wear_coefficient: Annotated[Rate, Field(ge=0)] = key(
-        "Wear coefficient alpha: wear rate of the film over its thickness.", "basic"
+        "Wear coefficient alpha: wear rate of the film divided by its thickness.", "basic"
     )
     concentration_constant: Annotated[InverseLength, Field(gt=0)] | None = key(
-        "Constant C1: the worn film holds the fraction exp(-C1 h) of substrate.",
+        "Constant C1: of the worn film of thickness h the fraction exp(-C1 h) is substrate.",
         "basic",
         default=None,
         reason="no substrate in the film",
@@ -111,7 +111,9 @@ class FilmScene(KineticsScene):
         "Poisson's ratio of the film.", "advanced", default=0.3
     )
     lag: Annotated[Time, Field(ge=0)] = key(
-        "Delay of the film's wear behind its thickness, which gives an overshoot.", "advanced", default=0.0
+        "Time by which the wear of the film lags behind its thickness, so that the thickness overshoots.",
+        "advanced",
+        default=0.0,
     )
     average: Literal["contact", "nominal"] = key(
         "Area over which growth is averaged: the real contact, or the nominal contact area.",
@@ -119,7 +121,9 @@ class FilmScene(KineticsScene):
         default="contact",
     )
     feedback: Literal["mean", "local"] = key(
-        "Film in the contact: one mean thickness, or cell by cell (local).", "advanced", default="mean"
+        "Thickness of the tribofilm in the contact: one mean value, or cell by cell (local).",
+        "advanced",
+        default="mean",
     )
     local_tolerance: Annotated[Ratio, Field(gt=0, lt=1)] = key(
         "Relative tolerance of the time steps of a local film.", "expert", default=1e-2
@@ -134,10 +138,10 @@ class VariantScene(Variant):
     """Changes of the film."""
 
     wear_coefficient: Annotated[Rate, Field(ge=0)] | None = key(
-        "Wear coefficient alpha: wear rate of the film over its thickness.", "basic", default=None
+        "Wear coefficient alpha: wear rate of the film divided by its thickness.", "basic", default=None
     )
     lag: Annotated[Time, Field(ge=0)] | None = key(
-        "Delay of the film's wear behind its thickness.", "advanced", default=None
+        "Time by which the wear of the film lags behind its thickness.", "advanced", default=None
     )
     activation_volume: Annotated[Volume, Field(ge=0)] | None = key(
         "Activation volume, by which shear stress lowers the activation energy.", "basic", default=None
@@ -167,7 +171,7 @@ class RubbingScene(Table):
         "Temperatures, one result for each.", "basic"
     )
     friction: Annotated[Ratio, Field(ge=0, le=2)] = key(
-        "Friction coefficient: the shear stress that activates growth over the pressure.", "basic", default=0.1
+        "Friction coefficient: shear stress that activates growth, divided by the pressure.", "basic", default=0.1
     )
     duration: Annotated[Time, Field(gt=0)] = key("Duration of rubbing.", "basic")
     points: Annotated[int, Field(strict=True, ge=2, le=100_000)] = key(

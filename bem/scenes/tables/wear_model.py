@@ -6,6 +6,7 @@ from typing import Annotated, Literal, Self
 
 from pydantic import Field, model_validator
 
+from bem.laws import Law
 from bem.scenes.common import Table, problem
 from bem.scenes.keys import key
 from bem.scenes.laws import LawKey
@@ -16,6 +17,13 @@ from bem.wear.film_defect import film_defect_misfits
 from bem.wear.removal import Cap, RemovalLaw
 from bem.wear.traction import GrossSliding, TractionLaw
 
+_SIZING = ("averaged_von_mises", "von_mises", "tresca", "maximum_tension")
+"""Stress criteria without a memory, which can be evaluated without removing material."""
+
+
+def _sizes(law: type[Law]) -> bool:
+    return law.name in _SIZING
+
 
 class WearScenePart(Table):
     """Wear model: detachment criterion or wear law, and how material leaves."""
@@ -25,15 +33,16 @@ class WearScenePart(Table):
         "advanced",
         default=VonMises(),
     )
-    particle_criterion: Annotated[Criterion, LawKey("criterion")] | None = key(
-        "Stress criterion (averaged_von_mises, von_mises, tresca or maximum_tension) that gives sizes of particles "
-        "beside a wear law by pressure; it removes nothing.",
+    particle_criterion: Annotated[Criterion, LawKey("criterion", takes=_sizes)] | None = key(
+        "Sizes of wear particles beside a wear law: in every cycle this stress criterion finds the regions that would "
+        "come off and removes nothing; the law alone wears the surfaces. Leave it out beside a criterion, which gives "
+        "sizes itself.",
         "advanced",
         default=None,
         example="averaged_von_mises",
     )
     stress_range: bool = key(
-        "Compare half the change of stress since the last cycle (none before the first) with the yield stress.",
+        "Compare half the change of stress since the cycle before, in place of the stress, with the yield stress.",
         "advanced",
         default=False,
         strict=True,
@@ -61,7 +70,8 @@ class WearScenePart(Table):
         reason="the one of lower yield stress",
     )
     frame: Literal["cylinder", "disk"] = key(
-        "Body that stands with the contact: cylinder (upper; the lower track wears evenly) or disk (lower; a groove).",
+        "Body at rest in the contact: cylinder (upper; the track on the lower body wears evenly) or disk (lower; a "
+        "groove wears into it).",
         "advanced",
         default="cylinder",
     )
@@ -112,7 +122,3 @@ class WearScenePart(Table):
     def finds_particles(self) -> Criterion:
         """The criterion whose particles are reported: `particle_criterion` beside a wear law, else `criterion`."""
         return self.particle_criterion or self.criterion
-
-
-_SIZING = ("averaged_von_mises", "von_mises", "tresca", "maximum_tension")
-"""Stress criteria without a memory, which can be evaluated without removing material."""

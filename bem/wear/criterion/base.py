@@ -110,8 +110,8 @@ class StressCriterion(Criterion):
         "m",
         default=SKIN_DEPTH,
         at_least=0,
-        source="a choice: the depth spacing of the source's grids (90 and 95 nm), whose first plane of stress is not "
-        "stated; half of it gives the same friction and particle sizes",
+        source="a choice: the depth spacing of the grids of Akchurin (2017), 90 and 95 nm, whose first plane of stress "
+        "is not stated; half of it gives the same friction and particle sizes",
         keyword_only=True,
     )
 

@@ -21,7 +21,7 @@ _UNIFORM = "uniform material law for unalloyed and low-alloy steels (Baumel and 
 @register
 @dataclass(frozen=True)
 class LowCycleFatigue(VonMises):
-    """A voxel bears N passes, ep = ef (2N)^-c (Coffin, Manson); 1/N of it breaks with each, whatever the order (Miner).
+    """A pass uses 1/N of the life of a cell of material, its plastic strain ep = ef (2N)^-c (Coffin, Manson; Miner).
 
     ep = (von Mises - yield stress) / 3G is what the strain of the elastic surroundings leaves to flow. Broken regions
     that reach the surface come off. Damage lies with the material and moves up as it wears; that of a cycle counts down
