@@ -146,13 +146,13 @@ def of_stack(run: Any) -> dict[str, list[Any]]:
 
     return {
         "layer": [layer["material"]["name"] for layer in layers],
-        "residual_stress_MPa": megapascals([layer["residual_stress"] for layer in layers]),
-        "yield_stress_MPa": megapascals([layer["material"]["yield_stress"] for layer in layers]),
-        "highest_von_mises_MPa": megapascals(summary["layer_max_von_mises_Pa"]),
-        "highest_tension_MPa": megapascals(summary["layer_max_tension_Pa"]),
-        "interface_below_at_um": [1e6 * value for value in summary["interface_depth_m"]],
-        "shear_across_it_MPa": megapascals(summary["interface_max_shear_Pa"]),
-        "tension_across_it_MPa": megapascals(summary["interface_max_tension_Pa"]),
+        "residual stress [MPa]": megapascals([layer["residual_stress"] for layer in layers]),
+        "yield stress [MPa]": megapascals([layer["material"]["yield_stress"] for layer in layers]),
+        "highest von Mises stress [MPa]": megapascals(summary["layer_max_von_mises_Pa"]),
+        "highest tension [MPa]": megapascals(summary["layer_max_tension_Pa"]),
+        "interface below at [um]": [1e6 * value for value in summary["interface_depth_m"]],
+        "shear across it [MPa]": megapascals(summary["interface_max_shear_Pa"]),
+        "tension across it [MPa]": megapascals(summary["interface_max_tension_Pa"]),
     }
 
 
