@@ -41,6 +41,19 @@ FROM_SUMMARY = ("doleschel", "santotrac", "vengudusamy", "rounds", "yilmaz")
 """Sources of which a summary, an abstract or a sentence quoted by others was read."""
 DISC_OILS = ("N100", "M100", "PAO100")
 """Oils of Mann's discs."""
+CONSTANTS = {
+    "shear_stress_limit": ("Eyring stress, `shear_stress_limit` (MPa)", 1e6),
+    "limiting_shear_coefficient": ("limiting shear coefficient (-)", 1.0),
+    "limiting_shear_softening": ("fall of the limit with temperature (1/K)", 1.0),
+    "ambient_shear_strength": ("limiting stress at ambient pressure (MPa)", 1e6),
+}
+"""Name with unit, and unit, of the constants of a base."""
+HOT = "hot_contacts"
+"""Stored result of the smooth hot contact, the scatter solved again and the scatter of the ball."""
+DISC_CAPTION = (
+    "Computed coefficients over those of the formula, all rows of the table; bars: scatter of the oil, and 0.005, "
+    "which is assumed at 40, 80 and 100 degC."
+)
 BASE_NAMES = {"mineral": "mineral oil", "pao": "PAO", "ester": "ester", "pag": "polyglycol"}
 
 
@@ -93,7 +106,7 @@ def _gear_rows(stored: Mapping[str, Any]) -> Iterator[Row]:
             1.0,
             *ratio,
             "doleschel",
-            words["gear_ratio"],
+            words[f"gear_{base}"],
             assumed=base == "pag",
         )
     slid = film["mineral"]["sliding_power"]
@@ -173,7 +186,7 @@ def _trend_rows(stored: Mapping[str, Any]) -> Iterator[Row]:
     for base, low, high in (("pag", AT_LIMIT, 1.0), ("mineral", 0.0, AT_LIMIT), ("pao", 0.0, AT_LIMIT)):
         share, remark = trends["at_limit"][base], words["below_limit" if base == "pag" else "at_limit"]
         what = f"stress over limit, {BASE_NAMES[base]}"
-        yield Row("trends", what, low, high, share, 0.0, 0.0, 0.01, "vengudusamy", remark, assumed=True)
+        yield Row("trends", what, low, high, share, 0.0, 0.0, 0.01, "vengudusamy", remark, assumed=True, most=1.0)
     pressure, speed = trends["traction_pressure"], trends["traction_speed"]
     rise, fall = pressure["2"] / pressure["1"], speed["50"] / speed["5"]
     yield Row("trends", "peak traction at 2 GPa over that at 1 GPa", 1.0, MOST, rise, 0.0, 0.0, 0.01, "santotrac")
@@ -193,9 +206,9 @@ def verdict(shown: list[Row]) -> str:
     return (
         f"{len(shown)} published values from {sources} sources. Of {len(measured)} measured ones {_counts(measured)}. "
         f"{fitted} of the measured ones are known by a formula that describes the measurement, {told} from a summary, "
-        f"an abstract or a sentence quoted by others. {len(sided)} have an interval with one side or from "
-        f"zero, which is easily met ({sum(row.inside for row in sided)} inside). Twin discs "
-        f"inside by oil: {by_oil}; by our value alone: {by_value}. "
+        f"an abstract or a sentence quoted by others. {len(sided)} have an interval with one side, from "
+        f"zero, or to the largest possible value, which is easily met ({sum(row.inside for row in sided)} inside). "
+        f"Twin discs inside by oil: {by_oil}; by our value alone: {by_value}. "
         f"Of {len(computed)} values that others computed {_counts(computed)}. "
         f"{len(apart)} values, marked (apart) on the page, are counted apart as formulas or fitted curves beyond what "
         f"their tests are known to cover, a standard, a fluid above another by its purpose, or a film that our grid "
@@ -227,33 +240,40 @@ def build() -> Page:
     for group, title in words["groups"].items():
         own = [row for row in measured if row.group == group]
         inside, apart = (sum(getattr(row, name) for row in own) for name in ("inside", "apart"))
-        counted = f"; {apart} of the {len(own)} are counted apart" if apart else ""
+        counted = f"; {apart} of the {len(own)} {'is' if apart == 1 else 'are'} counted apart" if apart else ""
         share = f"{inside} of {len(own)} are inside both uncertainties{counted}.{_scatter(own)}"
         body = text(words["introductions"][group]) + text(share)
         if group == "discs":
-            body += figure(
-                _drawing(own), "Computed coefficients over those of the formula; bars: scatter of the oil, and 0.005."
-            )
+            body += figure(_drawing(own), DISC_CAPTION)
         sections.append(Section(title, body + table(HEADERS, map(_cells, own))))
-    sections += [_missed(stored), *published.sections(), _ball(stored), _constants(), _sources()]
+    hot = found(HOT)
+    sections += [_missed(stored), *published.sections(), _ball(stored, hot), _checks(hot), _constants(), _sources()]
     return Page("friction", "Friction and films against measurements", verdict(measured), sections)
 
 
 def _cells(row: Row) -> tuple[Any, ...]:
     """A row of the tables."""
-    high = "" if math.isinf(row.high) else f" to {_short(row.high)}"
+    digits = next((count for count in (3, 4, 5) if _as_shown(row, count) == row.middle_inside), 6)
+    high = "" if math.isinf(row.high) else f" to {_short(row.high, digits)}"
     marks = f"{' *' if row.assumed else ''}{' (apart)' if row.apart else ''}"
-    published_range = f"{'above ' if math.isinf(row.high) else ''}{_short(row.low)}{high}{marks}"
+    published_range = f"{'above ' if math.isinf(row.high) else ''}{_short(row.low, digits)}{high}{marks}"
     scatter = f"-{_short(row.down, 2)} +{_short(row.up, 2)}" if row.down or row.up else "-"
     numerical = _short(row.numerical, 1) if row.numerical else "-"
     source = prose("friction")["sources"][row.source]["short"]
     verdicts = ("yes" if row.inside else "no", "yes" if row.middle_inside else "no")
-    return row.what, published_range, _short(row.ours), scatter, numerical, *verdicts, source, row.remark
+    return row.what, published_range, _short(row.ours, digits), scatter, numerical, *verdicts, source, row.remark
+
+
+def _as_shown(row: Row, digits: int) -> bool:
+    """Return True if our value is within the interval by the figures that so many digits show."""
+    low, high, ours = (float(_short(value, digits)) for value in (row.low, row.high, row.ours))
+    return low <= ours <= high
 
 
 def _short(value: float, digits: int = 3) -> str:
     """A number with so many digits, or whole from ten on where these are fewer."""
-    return f"{value:.{digits}g}" if abs(value) < 10**digits else f"{value:.0f}"
+    shown = f"{value:.{digits}g}"
+    return shown if abs(float(shown)) < 10**digits or math.isinf(value) else f"{value:.0f}"
 
 
 def _drawing(own: list[Row]) -> Figure:
@@ -312,14 +332,23 @@ def _missed(stored: Mapping[str, Any]) -> Section:
          f"{row['measured']:.1f}", f"{row['ours']:.1f}", f"{math.exp(row['ours'] - row['measured']):.2g}")
         for name, row in viscosity_at_pressure()
     ]  # fmt: skip
+    measured = {(row["oil"], row["slip"]): row["coefficient"] for row in stored["measured_viscosity"]}
+    at = {(row["oil"], row["speed"], row["slip"]): row for row in stored["discs"] if row["inlet"] == TESTED}
+    sliding = [
+        (oil, f"{speed:g}", *(f"{at[oil, speed, 0.1][name] / at[oil, speed, 0.02][name]:.2f}" for name in
+         ("formula", "coefficient")), f"{measured[oil, 0.1] / measured[oil, 0.02]:.2f}" if speed == 4 else "-")
+        for oil in DISC_OILS for speed in sorted({key[1] for key in at})
+    ]  # fmt: skip
     return Section(
         "What is missed in oils and gears, and why",
         text(words["roughness"])
         + table(("oil", *(f"Sq {rms} nm" for rms in heights)), ratios)
         + text(words["film"])
-        + table(("oil", "film alone (W)", "coefficient", "oil", "over mineral oil"), alone)
+        + table(("oil", "film alone (W)", "coefficient", "scatter of the oil", "over mineral oil"), alone)
         + text(words["viscosity"])
         + table(("oil", "slide/roll", "formula of the measurement", "ours", "ours, viscosity as measured"), viscosity)
+        + text(words["sliding"])
+        + table(("oil", "speed (m/s)", "formula of the measurement", "ours", "ours, viscosity as measured"), sliding)
         + text(words["roelands"])
         + table(ROELANDS_HEADERS, roelands)
         + text(words["alpha"])
@@ -333,32 +362,78 @@ def _number(value: Any) -> str:
     return f"{value:.4f}" if isinstance(value, float) else str(value)
 
 
-def _ball(stored: Mapping[str, Any]) -> Section:
-    """The built-in Stribeck curve."""
+def _ball(stored: Mapping[str, Any], hot: Mapping[str, Any]) -> Section:
+    """The built-in Stribeck curve with the errors of its run, beside another draw of the surface."""
     curve = [
-        (*(f"{row[name]:.3g}" for name in ("speed", "lambda", "touching", "friction")), row["status"])
-        for row in stored["ball"]
-    ]
+        (*(f"{row[name]:.3g}" for name in ("speed", "lambda", "touching", "friction")),
+         *(f"{row[name]:.2g}" if (row[name] or 0.0) >= 1e-6 else "-" for name in ("numerical", "oil")),
+         *(f"{other[name]:.3g}" for name in ("touching", "friction")))
+        for row, other in zip(hot["ball"], stored["ball"], strict=True)
+    ]  # fmt: skip
     return Section(
         "A ball's Stribeck curve",
         text(prose("friction")["ball"])
-        + table(("disc (m/s)", "lambda ratio", "asperity load share", "friction", "status"), curve),
+        + table(
+            (
+                "disc (m/s)",
+                "lambda ratio",
+                "asperity load share",
+                "friction",
+                "numerical",
+                "oil",
+                "other draw: share",
+                "other draw: friction",
+            ),
+            curve,
+        ),
+    )
+
+
+def _checks(hot: Mapping[str, Any]) -> Section:
+    """One smooth hot contact by two kinds; the scatter of the oil beside that with the film solved again."""
+    words = prose("friction")["experiments"]
+    smooth = [
+        (f"{row['slip']:g}", *(f"{row[f'{kind}{end}']:.4g}" for kind in ("traction", "friction")
+         for end in ("", "_numerical", "_temperature")), f"{abs(row['traction'] - row['friction']):.1g}")
+        for row in hot["smooth"]
+    ]  # fmt: skip
+    again = [
+        (row["oil"], f"{row['speed']:g}", f"{row['slip']:g}", f"{row['coefficient']:.4f}",
+         *(f"-{row[f'{kind}down']:.4f} +{row[f'{kind}up']:.4f}" for kind in ("", "solved_")))
+        for row in hot["again"]
+    ]  # fmt: skip
+    kinds = (f"{kind}{end}" for kind in ("traction", "friction") for end in ("", ": numerical", ": oil (degC)"))
+    return Section(
+        "Two kinds for one contact, and scatter with the film solved again",
+        text(words["smooth"])
+        + table(("slide/roll", *kinds, "difference"), smooth)
+        + text(words["again"])
+        + table(("oil", "speed (m/s)", "slide/roll", "ours", "scatter in the tables", "solved again"), again),
     )
 
 
 def _constants() -> Section:
     """The constants of the base oils."""
     shown = [
-        (base, name.replace("_", " "), f"{one.value:.3g}", f"{one.low:.3g} to {one.high:.3g}", one.source)
+        (
+            BASE_NAMES.get(base, base),
+            label,
+            f"{one.value / unit:.3g}",
+            f"{one.low / unit:.3g} to {one.high / unit:.3g}",
+            one.source,
+        )
         for base in bases()
         for name, one in rheology_of(base).constants().items()
+        for label, unit in [CONSTANTS[name]]
         if base == "mineral" or name in ("shear_stress_limit", "limiting_shear_coefficient")
     ]
     return Section(
         "Constants of the base oils",
         text(prose("friction")["constants"])
         + table(("base", "constant", "value", "range", "source"), shown)
+        + text(prose("friction")["stored"])
         + age(NAME)
+        + age(HOT)
         + published.ages(),
     )
 

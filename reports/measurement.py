@@ -18,7 +18,8 @@ class Row:
     of the sources in `reports/prose/friction.toml`. remark : conditions that were assumed, or why it is missed.
     computed : True if others computed the value; else it was measured. assumed : True if the source states no
     uncertainty and that of the interval is an assumption. apart : True if the row counts neither as measured nor as
-    computed: a formula beyond its tests, a standard, a statement by purpose, or ours not resolved.
+    computed: a formula beyond its tests, a standard, a statement by purpose, or ours not resolved. most : largest value
+    that the quantity can have.
     """
 
     group: str
@@ -34,11 +35,12 @@ class Row:
     computed: bool = False
     assumed: bool = False
     apart: bool = False
+    most: float = MOST
 
     @property
     def one_sided(self) -> bool:
-        """Return True if the interval has one side only, or begins at zero."""
-        return self.low <= 0 or self.high == MOST
+        """Return True if the interval has one side only, begins at zero, or ends where the quantity does."""
+        return self.low <= 0 or self.high >= self.most
 
     @property
     def inside(self) -> bool:

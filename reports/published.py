@@ -102,9 +102,18 @@ def _traction(stored: list[dict[str, Any]]) -> Iterator[Row]:
             math.hypot(row["up"], row["pressure_up"]),
             row["numerical"],
             "gupta",
-            _remark("gupta_ester") if row["oil"].startswith("MIL") else _remark("gupta_limit") if fitted > 0.1 else "",
+            _fitted_remark(row),
             apart=True,
         )
+
+
+def _fitted_remark(row: Mapping[str, Any]) -> str:
+    """Why a traction coefficient is off the fitted curve; nothing where it is within its error."""
+    if abs(row["coefficient"] / row["fitted"] - 1) <= FITTED_ERROR:
+        return ""
+    if row["oil"].startswith("MIL"):
+        return _remark("gupta_ester")
+    return _remark("gupta_limit" if row["oil"].startswith("Santotrac") else "gupta_mineral")
 
 
 def _bearing(stored: list[dict[str, Any]]) -> Iterator[Row]:
@@ -123,13 +132,14 @@ def _bearing(stored: list[dict[str, Any]]) -> Iterator[Row]:
                 row["rib_dry"] - row["rib"],
                 row["numerical"],
                 "schwarz",
-                _remark("bearing"),
+                _remark("bearing").format(ratio=f"{_total(row) / torque:.1f}"),
             )
     for one, other, what in _torque_ratios():
         measured = TORQUES[one[:2]][int(one[2])] / TORQUES[other[:2]][int(other[2])]
         ratio = _total(ours[one]) / _total(ours[other])
         numerical = ratio * math.hypot(*(ours[key]["numerical"] / _total(ours[key]) for key in (one, other)))
-        yield Row("bearing", what, 0.8 * measured, 1.2 * measured, ratio, 0.0, 0.0, numerical, "schwarz")
+        remark = "" if 0.8 <= ratio / measured <= 1.2 else _remark("bearing_rise")
+        yield Row("bearing", what, 0.8 * measured, 1.2 * measured, ratio, 0.0, 0.0, numerical, "schwarz", remark)
 
 
 Condition = tuple[float, float, float]
@@ -165,6 +175,7 @@ def _load_share(stored: list[dict[str, Any]]) -> Iterator[Row]:
         yield Row(
             "share", f"asperity load share at lambda {ratio:.2g}", low, high, one["contact_share"],
             max(-change, 0.0), max(change, 0.0), 0.01, "clarke",
+            _remark("share") if one["contact_share"] + max(change, 0.0) + 0.01 < low else "",
         )  # fmt: skip
 
 
@@ -182,11 +193,14 @@ def _waves(stored: Mapping[str, Any]) -> Iterator[Row]:
         low, high = _near(left, TABLE_ERROR)
         what = f"line, wavelength {key[0]:g} half-widths, amplitude {key[1]:g} films"
         row = ours[key]
-        yield solution(what, low, high, row["ours"], numerical=row["numerical"], source="venner1997")
+        remark = "" if low <= row["ours"] <= high or key[1] < 0.5 else _remark("waves")
+        yield solution(what, low, high, row["ours"], numerical=row["numerical"], source="venner1997", remark=remark)
     low, high = _near(POINT_LEFT, TABLE_ERROR)
     row = stored["point_wave"]
     what = "ball, M 1007.6, L 12.05, wavelength 0.25 half-axes"
-    yield solution(what, low, high, row["ours"], numerical=row["numerical"], source="venner2000")
+    yield solution(
+        what, low, high, row["ours"], numerical=row["numerical"], source="venner2000", remark=_remark("point_wave")
+    )
 
 
 def _transverse(stored: Mapping[str, Any]) -> Iterator[Row]:
@@ -261,7 +275,7 @@ def _figure(name: str) -> str:
 def _pitting(stored: Mapping[str, Any]) -> Iterator[Row]:
     """Cycles to damage below a smooth contact; pitted fractions of surface pairs."""
     for row in stored["smooth"]:
-        what = f"smooth contact at 1.5 GPa, {row['criterion'].replace('_', ' ')}: decades of cycles to damage"
+        what = f"smooth contact at 1.5 GPa, {_criterion(row)}: decades of cycles to damage"
         yield Row("pitting", what, ENDLESS, MOST, row["decades"][READING], 0.0, 0.0, 0.0, "iso281", apart=True)
     for row, pitted in zip((one for one in stored["pairs"] if one["reading"] == READING), PITTED, strict=True):
         yield Row(
@@ -269,6 +283,10 @@ def _pitting(stored: Mapping[str, Any]) -> Iterator[Row]:
             row["pitted"], row["pitted"] - row["least"], row["most"] - row["pitted"], 0.0, "brizmer",
             _remark("pitting"),
         )  # fmt: skip
+
+
+def _criterion(row: Mapping[str, Any]) -> str:
+    return str(row["criterion"]).replace("_", " ").title()
 
 
 def _pair(row: Mapping[str, Any]) -> str:
@@ -300,6 +318,7 @@ def sections() -> list[Section]:
             + table(("lambda", "1 - erf", *_counted()), _shares())
             + text(words["waves"])
             + table(("wavelength (half-widths)", "no height", "0.1 films", "0.2 films", "0.5 films"), _heights(films))
+            + text(words["lines"])
             + text(words["far"])
             + table(("M", "L", "share of the resistance on the grid"), _inlets(films))
             + text(words["dimple"])
@@ -372,7 +391,7 @@ def _depths(films: Mapping[str, Any]) -> list[tuple[str, ...]]:
 
 def _smooth(pitting: Mapping[str, Any]) -> list[tuple[str, ...]]:
     return [
-        (row["criterion"].replace("_", " "), *(f"10^{row['decades'][key]:.1f}" for key in ("per factor e", READING)))
+        (_criterion(row), *(f"10^{row['decades'][key]:.1f}" for key in ("per factor e", READING)))
         for row in pitting["smooth"]
     ]
 

@@ -359,6 +359,16 @@ def _friction_measured(module: Any, stored: Any) -> Rows:
         yield f"gears {base}", _again(row, partial(module.film_loss, base), allowed)
 
 
+def _hot_contacts(module: Any, stored: Any) -> Rows:
+    allowed = within(relative=2e-3, traction_numerical=(0.5, 0.0), friction_numerical=(0.5, 0.0))
+    for row in stored["smooth"]:
+        yield f"smooth, {row['slip']:g}", _again(row, partial(module.smooth, row["slip"]), allowed)
+    for row in stored["again"]:
+        given = (row["oil"], row["speed"], row["slip"])
+        bars = within(relative=2e-3, **dict.fromkeys(("solved_down", "solved_up"), (0.02, 0.0)))
+        yield "again {}, {:g} m/s, {:g}".format(*given), _again(row, partial(module.again, *given), bars)
+
+
 def _traction_measured(module: Any, stored: Any) -> Rows:
     allowed = within(relative=2e-3, numerical=(1.0, 1e-4), temperature=(1e-3, 0.05), fitted=(2e-3, 0.0))
     for row in stored:
@@ -648,6 +658,7 @@ RESULTS: dict[str, Result] = {
         experiment("bearing_measured", _bearing_measured, 4, "2e-3, ten times what half the points change"),
         experiment("film_measured", _film_measured, 20, "2e-3 besides the difference between meshes"),
         experiment("friction_measured", _friction_measured, 5, "2e-3, ten times what half the points change"),
+        experiment("hot_contacts", _hot_contacts, 15, "2e-3, as of friction_measured"),
         experiment(
             "independent_figures", _independent_figures, 20, "the difference to half the points; area within 1e-4"
         ),

@@ -123,19 +123,23 @@ def within(name: str, value: float, error: float, factor: float = 1.0) -> str:
 
 
 _LEAST_SCATTER = 1e-6
-"""Scatter of a friction coefficient below which it is shown as zero: no measurement resolves it."""
+"""Scatter of a friction coefficient below which it is left out: the friction is that of the boundary, an input."""
 
 
 def with_scatter(shown: str, scatter: Any, *, numerical: bool, unit: str = "", factor: float = 1.0) -> str:
     """Return a friction figure as it is shown with its scatter from the constants of the oil behind its error:
     `0.046 ± 0.0004 (numerical), ± 0.012 (oil)`.
 
+    Where the scatter is too small to be resolved (boundary friction, no sliding) the figure has its error alone.
+
     shown : the figure, with its error where it has one. scatter : half-width, None of none. numerical : whether
     there is an error in `shown`. unit : that is shown, and `factor` of it.
     """
     if not isinstance(scatter, int | float) or not np.isfinite(scatter):
         return shown
-    oil = f"± {plain_digits(factor * scatter if scatter >= _LEAST_SCATTER else 0.0)}{unit and f' {unit}'} (oil)"
+    if scatter < _LEAST_SCATTER:
+        return f"{shown} (numerical)" if numerical else shown
+    oil = f"± {plain_digits(factor * scatter)}{unit and f' {unit}'} (oil)"
     return f"{shown} (numerical), {oil}" if numerical else f"{shown} {oil}"
 
 

@@ -4,7 +4,7 @@
 
 Some half an hour on one core. No constant is fitted to these measurements: the oils have the constants of their bases
 (`bem/lubrication/rheology.toml`). The result is stored in `reports/results/friction_measured.json`, which
-`reports.validation_friction` holds against the measurements.
+`reports.friction` holds against the measurements.
 """
 
 from __future__ import annotations
@@ -427,7 +427,7 @@ def measured_viscosities() -> list[dict[str, Any]]:
 
 
 def ball() -> list[dict[str, Any]]:
-    """The built-in Stribeck curve of a ball."""
+    """The built-in Stribeck curve of a ball with another draw of its surface; that of the scene: `hot_contacts`."""
     from bem.friction.solve import solve_setup
     from bem.kinds.friction.scene import FrictionScene, resolve
     from bem.scenes import build
