@@ -269,10 +269,10 @@ FIGURES = (
     ),
     FigureKind(
         "layer-stresses",
-        "Highest stresses at each depth of a layered body. Left, inside the layers: von Mises stress, beside the yield "
-        "stress where it is near, and the highest principal stress. Right, across planes parallel to the surface: "
-        "shear stress and tension, which load the interfaces. Each layer is drawn equally thick, the body below twice "
-        "as thick.",
+        "Highest stresses of the grid at each depth of a layered body. Left, inside layers: von Mises stress beside "
+        "the yield stress where it is near, and the highest principal stress. Right, across planes parallel to the "
+        "surface: shear stress and tension, which load the interfaces. Each layer is drawn equally thick, the body "
+        "below twice as thick.",
         ("depth", "von_mises", "stress"),
         _stresses_of_layers,
         (7.2, 4.2),
