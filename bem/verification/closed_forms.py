@@ -153,7 +153,7 @@ def westergaard_sensitivity() -> list[Curve]:
     star, sine = exact.full_contact_pressure, math.sqrt(exact.mean_pressure / exact.full_contact_pressure)
     x = np.arange(n) * wavelength / n
     x = np.where(x > wavelength / 2, x - wavelength, x)
-    inside, outside = np.abs(x) < 0.7 * exact.half_width, np.abs(x) > 1.2 * exact.half_width
+    inside, outside = np.abs(x) < 0.5 * exact.half_width, np.abs(x) > 1.2 * exact.half_width
     grid = Grid((n, 4), (wavelength / n, wavelength / 4), periodic=(True, True))
     gap = np.repeat(amplitude * (1 - np.cos(2 * np.pi * x / wavelength))[:, None], 4, axis=1)
     solution = _solved(gap, grid, Body(STEEL), exact.mean_pressure * grid.area)
