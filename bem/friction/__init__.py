@@ -42,6 +42,7 @@ contact model (3):
 9. `solve` gathers the notes of film (`lubrication.checks`), contact and balance; `result_notes` adds those on friction,
    lambda ratio, coatings and oil. `solution.MixedSolution` is the result.
 
+`sensitivity` has the derivatives of a solved point with respect to its inputs.
 `curves` collects the speeds of a curve, and `share_fit` fits the contact share over the lambda ratio. `asperity_array`
 (figures 3 and 4 of paper A) presses an array of equal asperities and has no film.
 
@@ -62,15 +63,25 @@ from typing import TYPE_CHECKING
 from bem.startup.lazy import loader
 
 if TYPE_CHECKING:
+    from bem.friction.sensitivity import FrictionSensitivities, sensitivities
     from bem.friction.share_fit import fit_load_share
     from bem.friction.solution import MixedSolution
     from bem.friction.solve import largest_difference, solve_mixed, stribeck_curve
 
-__all__ = ["MixedSolution", "fit_load_share", "largest_difference", "solve_mixed", "stribeck_curve"]
+__all__ = [
+    "FrictionSensitivities",
+    "MixedSolution",
+    "fit_load_share",
+    "largest_difference",
+    "sensitivities",
+    "solve_mixed",
+    "stribeck_curve",
+]
 
 __getattr__ = loader(
     __name__,
     {
+        "sensitivity": ["FrictionSensitivities", "sensitivities"],
         "share_fit": ["fit_load_share"],
         "solve": ["largest_difference", "solve_mixed", "stribeck_curve"],
         "solution": ["MixedSolution"],

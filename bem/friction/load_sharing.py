@@ -115,7 +115,7 @@ class LoadSharing:
         rough = self.contact_of(heights) if rough is None else rough
         if self.whole is not None:
             return self.with_forces(self.balance(rough, self.whole, start), heights, rough, self.whole)
-        wholes = self._films_under_whole_load(rough, start.whole_film)
+        wholes = self.films_under_whole_load(rough, start.whole_film)
         balance = self.balance(rough, wholes[-1], start)
         balance = replace(balance, films=balance.films + len(wholes))
         return self.with_forces(balance, heights, rough, wholes[-1], wholes[0])
@@ -136,7 +136,7 @@ class LoadSharing:
         forces = friction_forces(balance.film, balance.contact, self.setup, self.speeds)
         return SharedLoad(self.setup, heights, rough, whole, coarse_whole or whole, balance, forces)
 
-    def _films_under_whole_load(self, rough: RoughContact, start: PatchFilm | None) -> tuple[PatchFilm, ...]:
+    def films_under_whole_load(self, rough: RoughContact, start: PatchFilm | None) -> tuple[PatchFilm, ...]:
         """Solve the film under the whole load, or under the largest load of the film model, coarse to fine.
 
         Levels that are too inaccurate for the lambda ratio are left out: of a ball one film is left, on all cells. A
