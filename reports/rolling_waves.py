@@ -15,6 +15,11 @@ if TYPE_CHECKING:
 
 WAVES = ("contact", "M", "L", "wavelength/half-axis", "scaled", "left", "fit", "line fit of an inlet as long")
 
+RIPPLES = (
+    "film over rms", "slide-to-roll", "film ripple [nm]", "correlation", "pressure ripple [MPa]", "correlation",
+    "minimum [nm]",
+)  # fmt: skip
+
 
 def body() -> str:
     """Figure, table and how to read them, as HTML."""
@@ -42,6 +47,39 @@ def body() -> str:
         + table(WAVES, lines, caption="Amplitudes of waves in the centre over those of the surface, and fits.")
         + text(_verdict(stored["points"], stored["lines"]))
         + age("waviness_reduction")
+        + _random_surfaces(found("wave_ripples")["judged"])
+        + age("wave_ripples")
+    )
+
+
+def _random_surfaces(rows: list[dict[str, Any]]) -> str:
+    """Rough films by waves beside marches: how far off, how alike, how much faster, as HTML."""
+    faster = sorted(row["seconds"][0] / row["seconds"][2] for row in rows)
+    first = sorted(row["seconds"][0] / row["seconds"][1] for row in rows)
+    middle = len(rows) // 2
+    return text(
+        f"{len(rows)} random balls with rough surfaces on both bodies, by waves (bem.lubrication.waves) and by marches "
+        "in time: standard deviations of film and pressure inside the contact, the correlation of their fields, and "
+        f"minima. Waves are {faster[0]:.0f} to {faster[-1]:.0f} times faster (median {faster[middle]:.0f}); with the "
+        f"table of the inlet, which is computed once for a pair of speeds, {first[0]:.0f} to {first[-1]:.0f} times "
+        f"(median {first[middle]:.0f})."
+    ) + table(
+        RIPPLES,
+        [_ripple(row) for row in rows],
+        caption="Ripples of random surfaces in films of balls: marched, and by waves.",
+    )
+
+
+def _ripple(row: dict[str, Any]) -> tuple[Any, ...]:
+    film, pressure, least = row["film"], row["pressure"], row["minimum"]
+    return (
+        f"{row['central'] / row['heights']:.2g}",
+        f"{row['slide_roll_ratio']:g}",
+        f"{1e9 * film['marched']:.1f}, {1e9 * film['waves']:.1f}",
+        f"{film['correlation']:.2f}",
+        f"{1e-6 * pressure['marched']:.0f}, {1e-6 * pressure['waves']:.0f}",
+        f"{pressure['correlation']:.2f}",
+        f"{1e9 * least['marched']:.1f}, {1e9 * least['waves']:.1f}",
     )
 
 

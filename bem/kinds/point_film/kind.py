@@ -19,7 +19,14 @@ KIND = Kind(
     run=run,
     resolutions=RESOLUTIONS,
     contacts=contacts,
-    figures=("interferogram", "point-film-maps", "touching-film-maps", "point-film-sections", "point-pressure"),
+    figures=(
+        "interferogram",
+        "point-film-maps",
+        "touching-film-maps",
+        "film-ripple-maps",
+        "point-film-sections",
+        "point-pressure",
+    ),
     warm_up=(
         ("film-barrel", ("film.cells=64",)),
         ("film-rough-ball", ("film.cells=48", "patch.shape=48", 'over={"rolling.mean_speed" = ["0.003 m/s"]}')),

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -11,6 +12,7 @@ from bem.errors import Status
 from bem.kinds.point_film.record import PointFilmRecord
 from bem.kinds.point_film.scene import PointFilmScene, patch_grid
 from bem.kinds.point_film.touching import REMEDY, rough_body, rough_notes
+from bem.kinds.point_film.waves import combined_rms, ripples_of, wave_figures, wave_notes
 from bem.notes.scenes import FILM_THINNER_THAN_ROUGHNESS, LEAST_FILM_DECIDES
 from bem.reference_solutions.hertz import ellipse_contact
 from bem.scenes import build
@@ -18,6 +20,7 @@ from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.tables.supply import build_supply
 
 if TYPE_CHECKING:
+    from bem.accuracy.bars import ErrorBars
     from bem.accuracy.point import PointCase
     from bem.accuracy.rough_point import RoughPointCase
     from bem.lubrication import PointFilmSolution, RoughPointFilm
@@ -31,21 +34,36 @@ _CENTRAL = (("central_thickness", "thickness"), ("central_pressure", "pressure")
 
 def run(scene: PointFilmScene, context: Context) -> PointFilmRecord:
     """Solve the film."""
-    if scene.patch is not None:
+    if scene.patch is not None and not scene.by_waves:
         return _rough(scene, context)
     from bem.accuracy.point import point_bars, point_figures
+    from bem.accuracy.waves import wave_bars
     from bem.lubrication.oil_scatter import friction_scatter
     from bem.lubrication.point.validity import but_unknown
 
-    case = _case(scene)
+    case, heights = _case(scene), None
+    if scene.by_waves:
+        heights = build.both_heights(scene, patch_grid(scene), context)
+        case = replace(case, roughness=combined_rms(heights))
     with context.timer("film"):
         film = case.on(case.cells)
     assert film.state is not None
+    ripples = None
+    if heights is not None:
+        assert scene.patch is not None
+        with context.timer("waves"):
+            ripples = ripples_of(case, film, heights, patch_grid(scene), scene.patch.at)
+        tell(context, wave_notes(ripples))
     tell(context, but_unknown(film.notes))  # bars are of grids of their own, and say where they are unknown
     if scene.roughness is not None and film.minimum_thickness < scene.roughness:
         context.note(FILM_THINNER_THAN_ROUGHNESS(where=""))
     wanted = scene.outputs.errors and film.status is Status.CONVERGED
     figures: dict[str, Any] = point_figures(case, film)
+
+    def bars() -> ErrorBars:
+        smooth = point_bars(case, film)
+        return smooth if ripples is None else smooth | wave_bars(ripples)
+
     return PointFilmRecord(
         **figures,
         **_reference_figures(case, film, film.state.case),
@@ -61,7 +79,8 @@ def run(scene: PointFilmScene, context: Context) -> PointFilmRecord:
         thickness=film.thickness,
         film_fraction=film.film_fraction,
         status=film.status,
-        **error_bars(context, wanted, lambda: point_bars(case, film)),
+        **({} if ripples is None else wave_figures(ripples)),
+        **error_bars(context, wanted, bars),
         where=f"film: {film.status.message}, residual {film.residual:.1e}",
     )
 
