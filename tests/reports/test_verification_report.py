@@ -140,7 +140,8 @@ def test_what_the_tests_catch_is_counted_with_each_survivor_and_its_reason(page)
 def test_waves_that_roll_through_are_shown_with_fits(page):
     (body,) = [section.body for section in page.sections if section.title == "Waves that roll through a film"]
     assert "data:image/png" in body
-    assert body.count("<tr>") == 6 + 7 + 1  # in line contacts, under balls, the head
+    # in line contacts, under balls, random surfaces, the heads
+    assert body.count("<tr>") == 6 + 7 + 1 + 10 + 1
     assert "Venner" in body
 
 
