@@ -33,6 +33,7 @@ run: setup
 	$(BIN)/bem run rough-contact
 
 # All tests but the gates of `bem verify`, which are as long as half of the others: `make gates` runs those.
+# Of some long tests every commit draws a part of the cases; TEST_CASES=all runs all of them.
 test: setup setup-fem setup-browser setup-docs
 	$(PYTEST) -m "not gate"
 

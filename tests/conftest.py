@@ -18,6 +18,7 @@ if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
     # a shell ignores it in commands in the background, and the runs that tests start would ignore it, too
     signal.signal(signal.SIGINT, signal.default_int_handler)
 
+import drawn
 import durations
 import pytest
 import worker_logs
@@ -54,11 +55,12 @@ def pytest_collection() -> Generator[None, object, object]:
 
 
 @pytest.hookimpl(wrapper=True, tryfirst=True)
-def pytest_collection_modifyitems(items: list[pytest.Item]) -> Generator[None]:
-    """Mark tests slow by their stored durations; deal files of the chosen tests to workers that share them.
+def pytest_collection_modifyitems(config: pytest.Config, items: list[pytest.Item]) -> Generator[None]:
+    """Draw cases by the commit; mark tests slow by their stored durations; deal files of the chosen tests to workers.
 
-    Functions of which some cases are marked in the code are left as they are.
+    Functions of which some cases are marked slow in the code are left as they are.
     """
+    leave_out_cases(config, items)
     seconds = durations.stored()
     functions = [durations.function_of(item.nodeid) for item in items]
     marked = {f for f, item in zip(functions, items, strict=True) if item.get_closest_marker("slow")}
@@ -71,6 +73,18 @@ def pytest_collection_modifyitems(items: list[pytest.Item]) -> Generator[None]:
         chosen = durations.file_seconds((durations.function_of(item.nodeid) for item in items), seconds)
         place = {file: number for number, file in enumerate(durations.deal_files(chosen))}
         items.sort(key=lambda item: place[item.nodeid.partition("::")[0]])
+
+
+def leave_out_cases(config: pytest.Config, items: list[pytest.Item]) -> None:
+    """Deselect cases of functions marked `drawn` that the commit does not draw."""
+    marks = {item.nodeid: item.get_closest_marker("drawn") for item in items}
+    parts = {name: mark.args[0] for name, mark in marks.items() if mark is not None}
+    seed = drawn.commit() if parts else ""
+    if drawn.all_cases_run(config.args, seed):
+        return
+    without = drawn.left_out(parts, seed)
+    config.hook.pytest_deselected(items=[item for item in items if item.nodeid in without])
+    items[:] = [item for item in items if item.nodeid not in without]
 
 
 MEASURED = Path(__file__).resolve().parents[2] / "shared" / "data" / "measured"

@@ -11,6 +11,7 @@ from pathlib import Path
 
 import numpy as np
 import pytest
+from command_line import run_command
 
 from bem.results import open_run
 
@@ -84,21 +85,21 @@ def test_run_report_plot_and_the_same_bits_again(small):
     again = bem("run", "small.toml", "--out", "out", cwd=small)
     assert again.returncode == 4
     assert "holds a run already" in again.stderr
-    resumed = bem("run", "out", "--resume", cwd=small)
+    resumed = run_command("run", "out", "--resume", cwd=small)
     assert resumed.returncode == 0
     assert "contact area fraction" in resumed.stdout
-    other = bem("run", "out/scene.toml", "--no-figures", cwd=small)
+    other = run_command("run", "out/scene.toml", "--no-figures", cwd=small)
     assert other.returncode == 0
     assert "runs/small-001" in other.stdout
     assert (small / "runs" / "small-001" / "results.nc").read_bytes() == before
 
     (small / "out" / "report.html").unlink()
-    report = bem("report", "out", cwd=small)
+    report = run_command("report", "out", cwd=small)
     assert report.returncode == 0
     assert (small / "out" / "report.html").stat().st_size > 50_000
-    names = bem("plot", "out", cwd=small)
+    names = run_command("plot", "out", cwd=small)
     assert "pressure-map" in names.stdout
-    plot = bem("plot", "out", "--figure", "pressure-map", "--size", "85x60 mm", "--format", "pdf", cwd=small)
+    plot = run_command("plot", "out", "--figure", "pressure-map", "--size", "85x60 mm", "--format", "pdf", cwd=small)
     assert plot.returncode == 0
     assert (small / "pressure-map.pdf").read_bytes().startswith(b"%PDF")
     wrong = bem("plot", "out", "--figure", "presure-map", cwd=small)

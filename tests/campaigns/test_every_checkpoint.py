@@ -113,6 +113,7 @@ def killing(monkeypatch):
 SLOW = ("running-in-partial-slip", "running-in-at-speeds", "running-in-hot", "wear-of-many-cases")
 
 
+@pytest.mark.drawn(2)
 @pytest.mark.parametrize("name", [pytest.param(n, marks=[pytest.mark.slow] if n in SLOW else []) for n in KINDS])
 def test_killed_after_every_checkpoint_it_ends_the_same(name, killing, tmp_path):
     """One run dies at its first checkpoint, goes on to the next one and dies again, until it ends."""

@@ -117,6 +117,7 @@ def gap_of(row):
     return HEIGHT * gap / gap.std()
 
 
+@pytest.mark.drawn(2)
 @pytest.mark.parametrize("row", pairwise(AXES), ids=lambda row: "-".join(str(value) for value in row.values()))
 def test_every_pair_of_surface_control_bodies_grid_and_cap(row):
     op, gap = operator_of(row), gap_of(row)

@@ -1,11 +1,11 @@
 """The one-screen answer: rows of every element, pressure in place of load, temperatures of the bodies, the command."""
 
+import functools
 import math
-import subprocess
-import sys
 import tomllib
 
 import pytest
+from command_line import run_command
 
 from bem import InputError
 from bem.elements.answer import PLACES, answer, balance_heat, friction_power, likely_power
@@ -200,13 +200,7 @@ def test_boundary_friction_of_the_element_is_that_of_its_scenes():
 def bem(tmp_path):
     (tmp_path / "gears.toml").write_text(element_template("gear-pair").replace("points = 41", "points = 7"))
     (tmp_path / "bearing.toml").write_text(element_template("rolling-bearing"))
-    code = "import sys; sys.argv[0] = 'bem'; from bem.cli import main; main()"
-
-    def run(*words):
-        command = [sys.executable, "-c", code, *words]
-        return subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, check=False)
-
-    return run
+    return functools.partial(run_command, cwd=tmp_path)
 
 
 def test_the_command_answers_on_one_screen(bem, tmp_path):

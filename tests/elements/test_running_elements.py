@@ -1,14 +1,14 @@
 """What elements do as they run is what kind traction says of each place; tables of cases; what is not known is said."""
 
 import csv
+import functools
 import re
-import subprocess
-import sys
 import tomllib
 from dataclasses import replace
 
 import numpy as np
 import pytest
+from command_line import run_command
 
 from bem import InputError, load_scene, run_scene
 from bem.elements.answer import answer, friction_power
@@ -221,12 +221,7 @@ def test_mistakes_in_cases_are_said(text, message, tmp_path):
 def test_the_command_shows_and_writes_them(tmp_path):
     (tmp_path / "b.toml").write_text(element_template("rolling-bearing"))
     (tmp_path / "c.csv").write_text(CASES)
-    code = "import sys; sys.argv[0] = 'bem'; from bem.cli import main; main()"
-    command = [sys.executable, "-c", code, "element", "b.toml"]
-
-    def bem(*words):
-        return subprocess.run([*command, *words], cwd=tmp_path, capture_output=True, text=True, check=False)
-
+    bem = functools.partial(run_command, "element", "b.toml", cwd=tmp_path)
     done = bem("--running", "--table", "all.csv")
     assert done.returncode == 0, done.stderr
     assert "friction power" in done.stdout

@@ -1,13 +1,13 @@
 """What is made of a contact is a good scene of that contact; tables have units; the command says where it ends."""
 
 import csv
+import functools
 import math
 import re
-import subprocess
-import sys
 import tomllib
 
 import pytest
+from command_line import run_command
 
 from bem import InputError, load_scene, plan_scene, run_scene
 from bem.elements.contact import CONFORMING
@@ -109,13 +109,7 @@ def test_what_conforms_is_said_to():
 
 
 def test_the_command_writes_scene_and_table(tmp_path):
-    code = "import sys; sys.argv[0] = 'bem'; from bem.cli import main; main()"
-
-    def bem(*words):
-        return subprocess.run(
-            [sys.executable, "-c", code, *words], cwd=tmp_path, capture_output=True, text=True, check=False
-        )
-
+    bem = functools.partial(run_command, cwd=tmp_path)
     assert bem("new", "gear", "gears.toml").returncode == 0
     done = bem(
         "element", "gears.toml", "--remarks", "--table", "all.csv", "--path", "path.csv", "--scene", "worst.toml"

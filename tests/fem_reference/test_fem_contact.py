@@ -208,6 +208,7 @@ def test_snes_with_bounds_agrees() -> None:
     assert abs(edge) < 1.0  # of a cell
 
 
+@pytest.mark.drawn(2)
 @pytest.mark.fem
 def test_layer_of_the_same_material_is_none(tmp_path: Path) -> None:
     """A new question on the command line: it solves on another mesh what Hertz solved."""

@@ -70,6 +70,7 @@ def test_reduced_scene_has_its_keys(folder, name):
             assert not isinstance(number, float) or math.isfinite(number), key
 
 
+@pytest.mark.drawn(2)
 @pytest.mark.slow
 @pytest.mark.parametrize("name", scenes_to_draw())
 def test_every_figure_and_array_of_a_kind_is_drawn(folder, tmp_path, name):

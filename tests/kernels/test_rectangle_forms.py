@@ -72,6 +72,7 @@ def test_poissons_ratio_to_its_limits(form, nu):
         assert relative(got, oracle(form, 1.4, 0.3, 2.5, 1, 0.5, load, nu)) < 1e-13
 
 
+@pytest.mark.drawn(2)
 @pytest.mark.slow
 @pytest.mark.parametrize(
     ("form", "place", "load"),

@@ -222,6 +222,7 @@ for number, (name, settings) in enumerate(json.loads(sys.argv[2])):
 """
 
 
+@pytest.mark.drawn(3)
 @pytest.mark.slow
 @pytest.mark.parametrize("part", range(3))
 def test_the_record_has_what_its_scenes_compile(part, tmp_path):

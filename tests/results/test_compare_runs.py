@@ -167,6 +167,7 @@ def compared(*more):
     return done.output
 
 
+@pytest.mark.drawn(3)
 @pytest.mark.internal
 @pytest.mark.slow
 @pytest.mark.parametrize("kind", KINDS)

@@ -1,12 +1,11 @@
 """Runs and sweeps as tidy tables: rows in the order of what was varied, units in the head, same numbers in netCDF."""
 
 import csv
-import subprocess
-import sys
 
 import numpy as np
 import pytest
 import xarray
+from command_line import run_command
 from small_scenes import CONTACT
 
 from bem import InputError, ResultsError
@@ -52,10 +51,7 @@ def test_a_sweep_is_the_same_table_and_the_command_writes_it(tmp_path):
     points = points_of(sweep.path)
     np.testing.assert_allclose(points.columns["contact.mean_pressure"], [40e6, 80e6])
     assert (np.diff(points.columns["contact_area_fraction"]) > 0).all()
-    done = subprocess.run(
-        [sys.executable, "-m", "bem", "export", str(sweep.path), "--csv", "--out", str(tmp_path / "out")],
-        capture_output=True, text=True, check=False,
-    )  # fmt: skip
+    done = run_command("export", sweep.path, "--csv", "--out", tmp_path / "out", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     assert [path.name for path in (tmp_path / "out").iterdir()] == ["sweep-points.csv"]
     with pytest.raises(ResultsError, match="no such folder"):

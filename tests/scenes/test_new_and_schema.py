@@ -2,11 +2,10 @@
 
 import json
 import re
-import subprocess
-import sys
 import tomllib
 
 import pytest
+from command_line import run_command
 from json_schemas import fits, schema_of
 
 from bem.errors import InputError
@@ -94,12 +93,12 @@ def test_no_such_kind():
 
 
 def test_new_never_replaces_a_file(tmp_path):
-    command = [sys.executable, "-m", "bem", "new", "contact", "mine.toml"]
-    first = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False)
+    command = ("new", "contact", "mine.toml")
+    first = run_command(*command, cwd=tmp_path)
     assert first.returncode == 0, first.stderr
     assert (tmp_path / "mine.toml").read_text() == scene_template("contact")
     (tmp_path / "mine.toml").write_text("mine")
-    again = subprocess.run(command, cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False)
+    again = run_command(*command, cwd=tmp_path)
     assert again.returncode == 4
     assert (tmp_path / "mine.toml").read_text() == "mine"
 
@@ -112,9 +111,7 @@ def test_resolved_scenes_fit_the_schema(kind):
 
 
 def test_schema_command_prints_json(tmp_path):
-    done = subprocess.run(
-        [sys.executable, "-m", "bem", "schema"], cwd=tmp_path, capture_output=True, text=True, timeout=60, check=False
-    )
+    done = run_command("schema", cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     schema = json.loads(done.stdout)
     assert schema["$schema"].startswith("https://json-schema.org/")

@@ -1,11 +1,9 @@
 """Oils in scenes: by grade and temperature, resolved and run again, swept over temperature, refused in one message."""
 
-import subprocess
-import sys
-
 import numpy as np
 import pytest
 import small_scenes
+from command_line import run_command
 
 from bem import InputError, Lubricant
 from bem.runs import run_scene
@@ -106,9 +104,7 @@ def test_the_plan_shows_every_figure_with_its_source():
     ],
 )
 def test_commands_show_the_catalogue(arguments, words, tmp_path):
-    done = subprocess.run(
-        [sys.executable, "-m", "bem", *arguments], cwd=tmp_path, capture_output=True, text=True, check=False
-    )
+    done = run_command(*arguments, cwd=tmp_path)
     assert done.returncode == 0, done.stderr
     assert all(word in done.stdout for word in words), done.stdout
 
@@ -122,9 +118,7 @@ def test_commands_show_the_catalogue(arguments, words, tmp_path):
     ],
 )
 def test_commands_refuse_in_one_line(arguments, words, tmp_path):
-    done = subprocess.run(
-        [sys.executable, "-m", "bem", *arguments], cwd=tmp_path, capture_output=True, text=True, check=False
-    )
+    done = run_command(*arguments, cwd=tmp_path)
     assert done.returncode == 2
     assert len(done.stderr.splitlines()) == 1
     assert words in done.stderr

@@ -28,7 +28,7 @@ def test_friction_falls_from_the_boundary_to_the_film(table):
     scene = resolve(load_scene(copy.deepcopy(table()) | COARSE))
     height = build.heights_of(scene.lower.surface, build.grid_of(scene.grid), 1, lambda text: None)
     setup, points = scene.curve_setup("off"), []
-    for speeds in scene.speeds.build():
+    for speeds in list(scene.speeds.build())[::2]:
         points.append(solve_setup(setup, height, speeds, points[-1] if points else None))
     friction, ratio = (np.array([getattr(p, name) for p in points]) for name in ("friction", "lambda_ratio"))
     assert [p.status.value for p in points] == ["converged"] * len(points)

@@ -173,6 +173,12 @@ def label(mutant):
     return f"{function.removeprefix('bem.')}[{part}]-{load.name.lower() if load else 'any'}-{gate}"
 
 
+def cases(mutants):
+    """One case for each mutant; of those that are not quick every commit draws a third."""
+    others = (pytest.mark.slow, pytest.mark.drawn(3))
+    return [pytest.param(one, marks=() if one in QUICK else others, id=label(one)) for one in mutants]
+
+
 def failed_rows(gate):
     """Rows of the gate that fail by their numbers: a figure that could not be computed says nothing of the kernel."""
     failed = [row for row in rows_of(gate) if not row.passed]
@@ -188,16 +194,12 @@ def check_caught(monkeypatch, mutant, factor):
     assert failed_rows(gate)
 
 
-@pytest.mark.parametrize(
-    "mutant", [pytest.param(one, marks=() if one in QUICK else pytest.mark.slow, id=label(one)) for one in ALL]
-)
+@pytest.mark.parametrize("mutant", cases(ALL))
 def test_a_kernel_that_is_off_by_one_per_cent_is_caught(monkeypatch, mutant):
     check_caught(monkeypatch, mutant, 1.01)
 
 
-@pytest.mark.parametrize(
-    "mutant", [pytest.param(one, marks=() if one in QUICK else pytest.mark.slow, id=label(one)) for one in STRESSES]
-)
+@pytest.mark.parametrize("mutant", cases(STRESSES))
 def test_every_component_of_stress_that_is_off_by_one_per_cent_is_caught(monkeypatch, mutant):
     function, components, load, gate = mutant
     break_kernel(monkeypatch, function, 1.01, component=list(components), load=load)
