@@ -40,11 +40,16 @@ RULES = Table(
 
 
 def adhesive_bars(
-    case: ContactCase, law: AdhesionLaw, path: AdhesiveHistory, asked: Mapping[str, list[float]]
+    case: ContactCase,
+    law: AdhesionLaw,
+    path: AdhesiveHistory,
+    asked: Mapping[str, list[float]],
+    tolerance: float = 1e-6,
 ) -> ErrorBars:
     """Return the error bars of an adhesive contact.
 
     case : of the last contact. path : as solved. asked : loads or approaches of the path.
+    tolerance : with which the path was solved.
     """
     operator = case.operator.coarsened()
     if operator is None:
@@ -60,6 +65,7 @@ def adhesive_bars(
             loads=asked.get("loads"),
             approaches=asked.get("approaches"),
             hardness=case.hardness,
+            tolerance=tolerance,
         )
     except InfeasibleError:
         return ErrorBars.unknown(RULES, NoBar.IMPOSSIBLE)

@@ -30,10 +30,12 @@ PART_OF_BAR = re.compile(r"_error_")
 SMALLER: dict[str, dict[tuple[str, ...], Any]] = {
     "starved-ball": {("film", "cells"): 48, ("over", "supply.layer"): ["150 nm", "500 nm"]},
     "film-rough-ball": {("film", "cells"): 48},
+    "contact-challenge": {("contact", "adhesion", "range"): "60 nm"},
     "dimple": {("march", "steps"): 6},
     "waviness": {("march", "steps"): 6},
 }
-"""Scenes that take more than about two seconds at the gallery's size: keys and their values here."""
+"""Scenes that take more than about two seconds at the gallery's size: keys and their values here. The challenge's own
+range is not resolved by the cells, which then open and close by rounding."""
 _NUDGED = {"load", "loads", "mean_pressure", "rms_height", "viscosity", "hertz_pressures", "hertz_pressure"}
 
 

@@ -65,13 +65,23 @@ def adhesive_arrays(path: AdhesiveHistory) -> dict[str, Any]:
     return found
 
 
+def zone_is_resolved(scene: ContactScene, grid: Grid) -> bool:
+    """Return True if the cells resolve the adhesive zone, and without adhesion."""
+    law = scene.contact.adhesion
+    return law is None or adhesive_zone(law, build.modulus_of(scene)) >= FEWEST_CELLS * _longest_cell(grid)
+
+
+def _longest_cell(grid: Grid) -> float:
+    """Return the longer side of a cell [m], along an axis of several cells."""
+    return max(d for n, d in zip(grid.shape, grid.spacing, strict=True) if n > 1)
+
+
 def adhesion_notes(scene: ContactScene, grid: Grid, path: AdhesiveHistory) -> tuple[Note, ...]:
     """Return notes on jumps, and on an adhesive zone that the cells do not resolve."""
     law, notes = scene.contact.adhesion, []
     assert law is not None
-    cell = max(d for n, d in zip(grid.shape, grid.spacing, strict=True) if n > 1)
-    zone = adhesive_zone(law, build.modulus_of(scene))
-    if zone < FEWEST_CELLS * cell:
+    zone, cell = adhesive_zone(law, build.modulus_of(scene)), _longest_cell(grid)
+    if not zone_is_resolved(scene, grid):
         notes.append(ADHESIVE_ZONE_UNRESOLVED(zone=zone, cell=cell, wanted=zone / FEWEST_CELLS))
     if path.jumped.any():
         first = int(path.jumped.argmax())

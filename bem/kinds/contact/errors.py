@@ -7,7 +7,7 @@ from typing import TYPE_CHECKING
 
 from bem.grid import FloatArray
 from bem.kinds.contact.scene import ContactScene
-from bem.kinds.contact.solve import level_before
+from bem.kinds.contact.solve import adhesion_tolerance, level_before
 from bem.scenes import build
 from bem.scenes.context import Context
 from bem.scenes.resolutions import CELLS, DEPTHS
@@ -39,7 +39,8 @@ def bars_of(
 
         law = scene.contact.adhesion
         assert law is not None
-        return adhesive_bars(case, law, path, scene.contact.path(grid.area))
+        tolerance = adhesion_tolerance(scene)
+        return adhesive_bars(case, law, path, scene.contact.path(grid.area), tolerance)
     nested = None if before is None else coarser_before(case, before)
     coarser = nested or solve_coarser(case, scene.contact.max_iterations)
     bars = contact_bars(case, coarser)

@@ -2,12 +2,15 @@
 
 from __future__ import annotations
 
+from bem.kinds.contact.adhesive import zone_is_resolved
 from bem.kinds.contact.scene import ContactScene
 from bem.scenes import build, plans
 from bem.scenes.planner import Plan
 
 ADHESIVE_SOLVES, ADHESIVE_CONVOLUTIONS = 30.0, 250.0
 """Contacts and convolutions of a state with adhesion: means of spheres at Maugis' parameters 0.3 to 3, with jumps."""
+UNRESOLVED = 12.0
+"""Times as many where cells do not resolve the adhesive zone: cells open and close one after the other."""
 
 
 def plan(scene: ContactScene) -> Plan:
@@ -30,11 +33,12 @@ def plan(scene: ContactScene) -> Plan:
         contact = plans.contact(grid, words, capped=capped, stiffness=stiffness)
     else:
         steps = len(next(iter(scene.contact.path(grid.area).values())))
+        more = steps * (1.0 if zone_is_resolved(scene, grid) else UNRESOLVED)
         contact = plans.contacts(
             grid,
-            ADHESIVE_CONVOLUTIONS * steps,
+            ADHESIVE_CONVOLUTIONS * more,
             f"{words}; adhesive, {steps} {'state' if steps == 1 else 'states'} on the path",
-            solves=ADHESIVE_SOLVES * steps,
+            solves=ADHESIVE_SOLVES * more,
         )
     return Plan.of(
         *bodies,

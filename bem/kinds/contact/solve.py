@@ -78,13 +78,18 @@ def solve_adhesive(scene: ContactScene, grid: Grid, undeformed: FloatArray, cont
         build.operator_of(scene, grid),
         law,
         hardness=scene.contact.hardness,
-        tolerance=max(scene.contact.tolerance, ADHESION_TOLERANCE),
+        tolerance=adhesion_tolerance(scene),
         loads=path.get("loads"),
         approaches=path.get("approaches"),
         callback=watch,
     )
     keep(context, history)
     return history
+
+
+def adhesion_tolerance(scene: ContactScene) -> float:
+    """Return the tolerance of the attraction over its strength."""
+    return max(scene.contact.tolerance, ADHESION_TOLERANCE)
 
 
 ADHESION_TOLERANCE = 1e-6
