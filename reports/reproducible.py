@@ -529,6 +529,12 @@ def _waviness_reduction(module: Any, stored: Any) -> Rows:
     yield "march", _again(stored["march"], partial(module.marched, *module.MARCHED), allowed)
 
 
+def _wave_ripples(module: Any, stored: Any) -> Rows:
+    allowed = within(relative=0.02, absolute=0.01)
+    for case, row in zip(module.cases_of(*next(iter(module.JUDGED.items()))), stored["judged"], strict=True):
+        yield f"surfaces {case['seed']:g}", _again(row, partial(module.compared, case), allowed, "seconds")
+
+
 def _wear_lengths(module: Any, stored: Any) -> Rows:
     names = {
         "particles_per_cycle": "particles_per_cycle",
@@ -693,6 +699,7 @@ RESULTS: dict[str, Result] = {
         experiment("traction_measured", _traction_measured, 2, "2e-3, as of friction_measured"),
         experiment("tribofilm_hardness", _tribofilm_hardness, 120, "1 %, less than either bound is known to"),
         experiment("waviness_reduction", _waviness_reduction, 60, "2e-3, the difference between grids"),
+        experiment("wave_ripples", _wave_ripples, 90, "2 % of a ripple, less than the march is off"),
         experiment("wear_lengths", _wear_lengths, 20, "the scatter over the three pairs of surfaces and by rounding"),
         Result("line_film", _line_film, "1e-4 of a film, of which five digits are stored; orders within 0.05"),
         experiment("wear_rounding", _wear_rounding, 40, "three times the largest change over all runs, or 0.1 %"),

@@ -80,20 +80,26 @@ def moes_line(load: float, material: float, points: int, reach: tuple[float, flo
     return line
 
 
-def line_response(line: Line, wavelength: float) -> float:
-    """Amplitude in the centre over that of the body, of waves [unit of length] in pure rolling."""
+def line_wave(line: Line, wavelength: float, ratio: float = 1.0) -> Any:
+    """Change of the film (n,), complex, under waves of unit amplitude [unit of length], on a body that moves with
+    `ratio` times the mean speed."""
     matrices: Any = line_matrices(line)
     _, by_p, by_h, _ = matrices
     _, _, rho, rho_slope = line.oil(line.pressure)
     number = 2 * np.pi / wavelength
-    by_p = by_p + 6j * number * np.diag(rho_slope * line.film)
-    by_h = by_h + 6j * number * np.diag(rho)
+    by_p = by_p + 6j * ratio * number * np.diag(rho_slope * line.film)
+    by_h = by_h + 6j * ratio * number * np.diag(rho)
     wave: Any = -np.exp(-1j * number * line.x)
     held = line.pressure <= 0
     matrix, size = bordered(by_p + by_h @ line.bending, by_h.sum(axis=1), held, line.cell)
     right = np.append(np.where(held, 0.0, -by_h @ wave), 0.0) / size
     found = np.linalg.solve(matrix, right)
-    film = line.bending @ found[:-1] + found[-1] + wave
+    return line.bending @ found[:-1] + found[-1] + wave
+
+
+def line_response(line: Line, wavelength: float) -> float:
+    """Amplitude in the centre over that of the body, of waves [unit of length] in pure rolling."""
+    film = line_wave(line, wavelength)
     return float(np.hypot(np.interp(0, line.x, film.real), np.interp(0, line.x, film.imag)))
 
 

@@ -19,8 +19,10 @@ from bem.lubrication.waves.plateau import Plateau, effective_viscosities, rollin
 from bem.lubrication.waves.ripples import plateau_of
 from bem.reference_solutions.hertz import cylinder_contact, ellipse_contact
 from bem.verification.waves import AMPLITUDE, FILMS, MODULUS, WAVELENGTH, inlet_by_differences
-from reports.experiments.waviness_reduction import ALPHA, RADIUS, VISCOSITY
+from reports.experiments.kept import found as stored
+from reports.experiments.waviness_reduction import ALPHA, RADIUS, VISCOSITY, line_wave, point_arguments
 from reports.experiments.waviness_reduction import MODULUS as STEEL
+from reports.experiments.waviness_reduction import moes_line as steady_line
 
 STIFF = Plateau(3e-7, 1e9, 1e12, 1e12, 0.0, 1.15e11, 1.0, 1e-5, 1e-4)
 """Incompressible oil without leakage."""
@@ -58,6 +60,37 @@ def test_rolling_waves_are_those_of_the_published_table():
     waves = 2 * np.pi / (np.array([4.0, 1.0, 0.25]) * hertz.half_width)
     found = rolling_amplitude(plateau_of(film, hertz), waves, np.zeros(3))
     assert found == pytest.approx([0.030, 0.183, 0.660], rel=0.12)
+
+
+def test_rolling_waves_of_balls_are_those_of_the_whole_contact():
+    """Stored linear solutions of the whole contact at M 200, L 10: within 12 %."""
+    arguments = point_arguments(200.0, 10.0)
+    film = solve_point_film(**arguments, shape=(64, 64))
+    hertz = ellipse_contact(**{name: arguments[name] for name in ("radii", "contact_modulus", "load")})
+    rows = [row for row in stored("waviness_reduction")["points"] if row["load"] == 200.0]
+    assert len(rows) == 3
+    waves = np.array([2 * np.pi / (row["wavelength_over_half_axis"] * hertz.semi_axes[0]) for row in rows])
+    found = rolling_amplitude(plateau_of(film, hertz), waves, np.zeros(3))
+    assert found == pytest.approx(np.array([row["settled"] for row in rows]), rel=0.12)
+
+
+def test_sliding_waves_are_those_of_the_whole_contact():
+    """Linear equations of a whole line contact, inlet, elasticity and all, by dense matrices: within 12 %."""
+    load, material = 100.0, 11.0
+    film, hertz = moes_line(load, material)
+    line = steady_line(load, material, 500)
+    middle = np.abs(line.x) < 0.6 * line.half
+    x = line.x[middle] / line.half
+    for wavelength, ratio in ((1.0, 0.5), (1.0, 1.25), (0.5, 0.25), (4.0, 0.5)):
+        change = line_wave(line, wavelength * line.half, ratio)[middle]
+        number = 2 * np.pi / wavelength
+        parts = np.exp(-1j * number * np.column_stack([x, ratio * x]))
+        whole = np.abs(np.linalg.lstsq(parts, change, rcond=None)[0])
+        plateau = plateau_of(film, hertz)
+        found = wave_amplitudes(plateau, np.array([number / hertz.half_width]), np.zeros(1), ratio * plateau.mean_speed)
+        assert abs(found.complementary_film[0]) == pytest.approx(whole[1], rel=0.12)
+        # what compression leaves is below a hundredth
+        assert abs(found.particular_film[0]) == pytest.approx(whole[0], abs=0.01)
 
 
 @pytest.mark.parametrize(("wave", "ky", "ratio"), [(0.5, 0.0, 1.3), (1.5, 0.7, 0.4), (0.2, 3.0, -0.5)])
