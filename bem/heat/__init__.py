@@ -1,7 +1,7 @@
 """Flash temperature: surface temperature under heat sources on one or two moving half-spaces, steady or over time.
 
 The heat source is at rest on the grid; the bodies move under it along x (Jaeger 1942; Carslaw & Jaeger 1959, sections
-10.2 and 10.7). Layers are not included.
+10.2 and 10.7). `layers` adds the response of layers to the steady temperature; over time they are refused.
 
 1. `bodies` checks the arguments and reduces each body to a `Conductor`: conductivity, diffusivity, speed and bulk
    temperature.

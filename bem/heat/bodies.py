@@ -15,8 +15,17 @@ _THERMAL_CONSTANTS = {"thermal_conductivity": "W/(m K)", "density": "kg/m^3", "h
 
 
 @dataclass(frozen=True)
+class LayerConductor:
+    """Layer as a conductor of heat: thickness [m], conductivity [W/(m K)], diffusivity [m^2/s]."""
+
+    thickness: float
+    conductivity: float
+    diffusivity: float
+
+
+@dataclass(frozen=True)
 class Conductor:
-    """Homogeneous half-space that moves along x under the heat source.
+    """Half-space, bare or under layers, that moves along x under the heat source.
 
     Attributes
     ----------
@@ -24,12 +33,14 @@ class Conductor:
     diffusivity : kappa [m^2/s].
     speed : U, of the body relative to the source, positive along +x [m/s].
     bulk : temperature far below the surface [K].
+    layers : outermost first.
     """
 
     conductivity: float
     diffusivity: float
     speed: float
     bulk: float
+    layers: tuple[LayerConductor, ...] = ()
 
     @property
     def peclet_per_length(self) -> float:
@@ -38,14 +49,22 @@ class Conductor:
 
 
 def conductors_of(
-    owner: str, bodies: Body | Sequence[Body], speeds: float | Sequence[float], bulk: float | Sequence[float]
+    owner: str,
+    bodies: Body | Sequence[Body],
+    speeds: float | Sequence[float],
+    bulk: float | Sequence[float],
+    *,
+    layered: bool = False,
 ) -> tuple[Conductor, ...]:
     """Check bodies, speeds and bulk temperatures, and return one or two conductors.
+
+    layered : True if the caller computes the heat of layers.
 
     Raises
     ------
     InputError : bodies that are neither a body nor a pair, speeds or bulk temperatures of another number or not finite,
-        a body with layers, a material without its three thermal constants; one message per mistake.
+        a body with layers that the caller does not compute, a material without its three thermal constants; one
+        message per mistake.
     """
     given = (bodies,) if isinstance(bodies, Body) else tuple(bodies) if isinstance(bodies, Sequence) else ()
     if len(given) not in (1, 2) or not all(isinstance(body, Body) for body in given):
@@ -55,19 +74,38 @@ def conductors_of(
     temperatures = _numbers(owner, "bulk", bulk, len(given), "K", messages)
     for number, body in enumerate(given):
         what = f"{owner}: body {number + 1} ({body.material.name})"
-        if body.layers:
+        if body.layers and not layered:
             messages.append(
                 f"{what} has {len(body.layers)} layer(s), which are not included in heat conduction; leave them out "
                 "(Body(body.material)) to take the half-space alone: a layer of thickness t and conductivity k adds up "
                 "to heat x t / k to the temperature of its surface"
             )
-        for key, unit in _THERMAL_CONSTANTS.items():
-            if getattr(body.material, key) is None:
-                messages.append(f"{what}: its Material needs {key}, positive and finite [{unit}]")
+        inside = [(what, body.material)]
+        if layered:
+            inside += [(f"{what}, layer of {layer.material.name}", layer.material) for layer in body.layers]
+        messages += [
+            f"{name}: its Material needs {key}, positive and finite [{unit}]"
+            for name, material in inside
+            for key, unit in _THERMAL_CONSTANTS.items()
+            if getattr(material, key) is None
+        ]
     if messages:
         raise InputError(messages)
     return tuple(
-        Conductor(body.material.thermal_conductivity or 0.0, body.material.thermal_diffusivity or 0.0, speed, bulk_k)
+        Conductor(
+            body.material.thermal_conductivity or 0.0,
+            body.material.thermal_diffusivity or 0.0,
+            speed,
+            bulk_k,
+            tuple(
+                LayerConductor(
+                    layer.thickness,
+                    layer.material.thermal_conductivity or 0.0,
+                    layer.material.thermal_diffusivity or 0.0,
+                )
+                for layer in body.layers
+            ),
+        )
         for body, speed, bulk_k in zip(given, velocities, temperatures, strict=True)
     )
 

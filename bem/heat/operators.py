@@ -20,6 +20,7 @@ from scipy.special import erfc
 from bem.grid import FloatArray, Grid
 from bem.heat.bodies import Conductor
 from bem.heat.coefficients import TransverseBasis, temperature_table
+from bem.heat.layers import added_impedance, added_table
 from bem.transforms import Multiplier, PaddedTransform, kernel_spectrum, multiplier, padded_shape, transform_of
 
 EVEN, ODD_IN_X = (1, 1), (-1, 1)
@@ -53,7 +54,7 @@ def heat_operator(grid: Grid, body: Conductor, least_age: float = 0.0, largest_a
     Parameters
     ----------
     grid : free along x; along y free or periodic.
-    body : a half-space.
+    body : a half-space; its layers count in the steady temperature alone.
     least_age, largest_age : times since the heat ended and since it began [s].
     """
     nx, ny = grid.shape
@@ -65,6 +66,8 @@ def heat_operator(grid: Grid, body: Conductor, least_age: float = 0.0, largest_a
     if periodic:
         # the kernel sampled at the centres of cells is the sum of its cosines
         table = np.fft.irfft(table, ny, axis=1)
+    if body.layers:
+        table = table + added_table(grid, body)
     downstream, upstream = table[nx - 1 :], table[nx - 1 :: -1]
     padded = padded_shape(grid.shape, grid.periodic)
     parts = [(kernel_spectrum(0.5 * (downstream + upstream), padded, EVEN), EVEN, 1.0)]
@@ -122,6 +125,8 @@ def approximate_inverse(grid: Grid, bodies: tuple[Conductor, ...], rate: float =
     total = np.zeros(squares.shape, dtype=np.complex128)
     for body in bodies:
         total += 1 / (body.conductivity * np.sqrt(squares + (1j * body.speed * along + rate) / body.diffusivity))
+        if body.layers:
+            total += added_impedance(body, squares, np.broadcast_to(along, squares.shape))
     inverse = 1 / total
     imaginary = inverse.imag.copy()
     if px % 2 == 0:

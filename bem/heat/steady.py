@@ -28,8 +28,8 @@ def surface_temperature(
 ) -> TemperatureSolution:
     """Compute the steady surface temperature under a heat source: Jaeger's moving source for any map of the heat.
 
-    The bodies are bare half-spaces. A single body takes all heat. Two bodies share the heat of each cell so that both
-    surfaces are equally hot where heat is generated; elsewhere they exchange none.
+    The bodies are half-spaces, bare or under layers. A single body takes all heat. Two bodies share the heat of each
+    cell so that both surfaces are equally hot where heat is generated; elsewhere they exchange none.
 
     Parameters
     ----------
@@ -46,15 +46,16 @@ def surface_temperature(
 
     Raises
     ------
-    InputError : an argument that cannot be used; a body with layers; a grid on which no steady temperature exists
-        (periodic along x, or along y under a body at rest): the heat in it would warm the body for ever.
+    InputError : an argument that cannot be used; a material without thermal constants; layers that act much further
+        than the grid is wide; a grid on which no steady temperature exists (periodic along x, or along y under a body
+        at rest): the heat in it would warm the body for ever.
 
     Notes
     -----
     Carslaw and Jaeger, Conduction of Heat in Solids (1959), sections 10.2 and 10.7; J. C. Jaeger, Proc. R. Soc. NSW 76
     (1942) 203.
     """
-    conductors = conductors_of("surface_temperature", bodies, speeds, bulk)
+    conductors = conductors_of("surface_temperature", bodies, speeds, bulk, layered=True)
     field = grid.check_field(heat, "surface_temperature: heat")
     check_steady(grid, conductors)
     if not 0 < tolerance < 1:
@@ -74,9 +75,9 @@ def surface_temperature(
     return solve_partition(field, pair, background, None, tolerance)
 
 
-def _response(body: Conductor) -> tuple[float, float]:
-    """Return the properties that determine a body's operator: conductivity and Peclet number per length."""
-    return body.conductivity, body.peclet_per_length
+def _response(body: Conductor) -> tuple[object, ...]:
+    """Return the properties that determine a body's operator: conductivity, Peclet number per length, layers."""
+    return body.conductivity, body.peclet_per_length, body.layers, body.speed if body.layers else 0.0
 
 
 def flash_temperature(

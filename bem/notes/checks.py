@@ -285,7 +285,8 @@ TRIBOFILM_ON_COATING = define(
         ),
         "heat": Reason(
             "Flash temperatures are those of the bodies without coatings of {thickness:si m}.",
-            "Expect hotter spots on coatings that conduct heat badly, such as DLC.",
+            "Expect up to heat flux x thickness / conductivity more on coatings that conduct heat badly, such as DLC;"
+            " kind surface-temperature computes it.",
             headline="Heat flows as if the coating were not there.",
         ),
         "worn": Reason(

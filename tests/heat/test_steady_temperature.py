@@ -246,15 +246,15 @@ def test_no_heat_is_bulk_temperature():
 
 
 STEEL = Material("steel", youngs_modulus=210e9, poissons_ratio=0.3)
-COATED = Body(UNIT.material, layer=Layer(UNIT.material, 1e-6))
+COATED = Body(UNIT.material, layer=Layer(STEEL, 1e-6))
 
 
 @pytest.mark.parametrize(
     ("bodies", "options", "words"),
     [
         (Body(STEEL), {"speeds": 1.0}, ["thermal_conductivity", "density", "heat_capacity"]),
-        (COATED, {"speeds": 1.0}, ["layer"]),
-        ((UNIT, COATED), {"speeds": (1.0, 1.0)}, ["body 2"]),
+        (COATED, {"speeds": 1.0}, ["layer of steel", "density", "heat_capacity"]),
+        ((UNIT, COATED), {"speeds": (1.0, 1.0)}, ["body 2", "density", "heat_capacity"]),
         (UNIT, {"speeds": (1.0, 2.0)}, ["speeds"]),
         ((UNIT, UNIT), {"speeds": 1.0}, ["2 finite numbers"]),
         ((UNIT, UNIT), {"speeds": (1.0, math.nan)}, ["speeds"]),

@@ -86,7 +86,7 @@ def planned(changes):
     ("changes", "word"),
     [
         ({"lower": {"material": {"youngs_modulus": 1e9, "poissons_ratio": 0.3}}}, "thermal_conductivity"),
-        ({"lower": {"material": "steel-52100", "layer": {"material": "dlc", "thickness": "1 um"}}}, "layer"),
+        ({"lower": {"material": "steel-52100", "layer": {"material": "ta-C", "thickness": "1 um"}}}, "layer of ta-C"),
         ({"grid": {"shape": 64, "lengths": "400 um", "periodic": True}}, "periodic along x"),
         ({"heat": {"lower_speed": 1.0, "lower_bulk": "20 K"}}, "heat.lower_bulk"),
     ],

@@ -13,7 +13,7 @@ def plan(scene: SurfaceTemperatureScene) -> Plan:
     Raises
     ------
     InfeasibleError : a load beyond hardness x area.
-    InputError : surfaces that cannot be generated on the grid, materials without thermal constants, layers, a grid on
+    InputError : surfaces that cannot be generated on the grid, materials without thermal constants, a grid on
         which no steady temperature exists.
     """
     from bem.heat.bodies import check_steady, conductors_of
@@ -22,7 +22,7 @@ def plan(scene: SurfaceTemperatureScene) -> Plan:
     scene.contact.check_load(grid.area)
     rubbing = plans.of_bodies(scene, grid, scene.contact.friction)
     case = scene.case(grid)
-    check_steady(grid, conductors_of("heat", case.bodies, case.speeds[: len(case.bulk)], case.bulk))
+    check_steady(grid, conductors_of("heat", case.bodies, case.speeds[: len(case.bulk)], case.bulk, layered=True))
     points = padded_points(grid.shape, grid.periodic)
     pair = len(case.bulk) == 2
     return Plan.of(
