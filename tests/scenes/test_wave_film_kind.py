@@ -1,4 +1,4 @@
-"""The kind `point-film` with `film.roughness = "waves"`: the ripples of the solver, bars, notes, and its refusals."""
+"""The kinds `point-film` and `traction` by waves: ripples of the solver, bars, notes and refusals."""
 
 import math
 
@@ -6,9 +6,9 @@ import numpy as np
 import pytest
 from small_scenes import oiled_ball
 
-from bem import Grid, InputError, generate_surface, load_scene, solve_point_film
+from bem import Grid, InputError, generate_surface, load_scene, solve_line_film, solve_point_film
 from bem.lubrication.waves import film_ripples
-from bem.reference_solutions.hertz import ellipse_contact
+from bem.reference_solutions.hertz import cylinder_contact, ellipse_contact
 from bem.runs import plan_scene, run_scene
 
 WAVES = {"hurst": 0.8, "rolloff_wavelength": 100e-6, "cutoff_wavelength": 40e-6}
@@ -60,6 +60,55 @@ def test_a_scene_has_what_the_solver_says(tmp_path):
     assert "film-ripple-maps" in [path.stem for path in (tmp_path / "run" / "figures").iterdir()]
     _, plan = plan_scene(scene())
     assert any(step.name == "waves" for step in plan.steps)
+
+
+def roller(**changes):
+    table = oiled_ball("traction", {}, {"viscosity": "0.04 Pa s", "pressure_viscosity": "20 1/GPa"})
+    del table["ball"]
+    return (
+        table
+        | {
+            "roller": {"radius": "10 mm", "width": "8 mm", "hertz_pressure": "0.7 GPa"},
+            "rolling": {"mean_speed": "1 m/s", "slide_roll_ratio": 0.6},
+            "patch": {"shape": 64, "lengths": "480 um", "periodic": True},
+            "film": {"points": 400, "roughness": "waves"},
+            "thermal": "off",
+            "lower": rough("20 nm", 3),
+            "upper": {"material": "steel-52100"},
+        }
+        | changes
+    )
+
+
+def test_a_roller_has_what_the_solver_says(tmp_path):
+    run = run_scene(roller(), tmp_path / "run", figures=False)
+    summary, loaded = run.summary, load_scene(roller())
+    modulus = loaded.lower.build().material.plane_strain_modulus / 2
+    load = math.pi * 0.7e9**2 * 0.01 / modulus  # Johnson 4.45
+    film = solve_line_film(
+        load=load, radius=0.01, contact_modulus=modulus, speeds=(1.3, 0.7), lubricant=loaded.oil.build(), points=400
+    )
+    grid = Grid((64, 64), (480e-6 / 64, 480e-6 / 64), periodic=(True, True))
+    heights = generate_surface(grid, rms_height=20e-9, seed=3, **WAVES)
+    hertz = cylinder_contact(radius=0.01, contact_modulus=modulus, load=load)
+    ripples = film_ripples(film, hertz, (heights, None), grid.spacing)
+    assert summary["film_ripple_nm"] == pytest.approx(1e9 * ripples.rms_film_ripple, rel=1e-6)
+    assert summary["rough_minimum_thickness_nm"] == pytest.approx(1e9 * ripples.minimum_thickness, rel=1e-6)
+    assert summary["film_ripple_nm_error"] > 0.15 * summary["film_ripple_nm"]
+    assert summary["lambda_ratio"] == pytest.approx(film.minimum_thickness / heights.std(), rel=1e-6)
+
+
+@pytest.mark.parametrize(
+    ("changes", "message"),
+    [
+        ({"film": {"points": 400}}, 'film.roughness = "waves"'),
+        ({"film": {"points": 400}, "lower": {"material": "steel-52100"}}, "a patch of smooth surfaces"),
+        ({"supply": {"layer": "100 nm"}}, "inlet is flooded"),
+    ],
+)
+def test_refusals_of_rollers(changes, message):
+    with pytest.raises(InputError, match=message):
+        load_scene(roller(**changes))
 
 
 def test_high_roughness_is_said_to_be_too_high(tmp_path):

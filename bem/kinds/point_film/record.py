@@ -7,15 +7,13 @@ from functools import partial
 from typing import Annotated
 
 from bem.grid import FloatArray
+from bem.scenes import waves
 from bem.scenes.records import LAMBDA_WHOLE, OIL, OIL_SCATTER, Figure, Record, Series
 
 _SPIKE = "the pressure spike before the outlet is narrower than the cells, and its height follows them"
 _GIVEN = partial(Figure, unjudged=True)
 _of_supply = partial(Figure, optional=True)
 _of_rough = partial(Figure, optional=True)
-_LINEAR = "the waves are linear in the heights"
-_of_waves = partial(Figure, optional=True, chance=_LINEAR)
-_CELLS = "it counts cells of a linear film, which is too low where surfaces nearly meet"
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -46,21 +44,13 @@ class PointFilmRecord(Record):
     oil_on_contact: Annotated[
         float | None, _of_rough("", "shear of the oil where surfaces touch, over load, in no sum", unjudged=True)
     ] = None
-    film_ripple: Annotated[float | None, _of_waves("nm", "standard deviation of the film", headline=True)] = None
-    pressure_ripple: Annotated[float | None, _of_waves("Pa", "standard deviation of the pressure ripple")] = None
-    ripple_over_heights: Annotated[
-        float | None, _of_waves("", "standard deviation of the film over that of the heights", headline=True)
-    ] = None
-    film_over_ripple: Annotated[float | None, _of_waves("", "central film over its standard deviation")] = None
-    rough_minimum_thickness: Annotated[
-        float | None, _of_waves("nm", "minimum film between the rough surfaces", headline=True)
-    ] = None
-    meeting_area_share: Annotated[
-        float | None, Figure("", "area where linear waves would meet, over Hertz'", optional=True, no_bar=_CELLS)
-    ] = None
-    rough_rms: Annotated[
-        float | None, Figure("nm", "standard deviation of the heights in contact", optional=True, unjudged=True)
-    ] = None
+    film_ripple: waves.FilmRipple = None
+    pressure_ripple: waves.PressureRipple = None
+    ripple_over_heights: waves.RippleOverHeights = None
+    film_over_ripple: waves.FilmOverRipple = None
+    rough_minimum_thickness: waves.RoughMinimum = None
+    meeting_area_share: waves.MeetingShare = None
+    rough_rms: waves.RoughRms = None
     load: Annotated[float, _GIVEN("N", "load")]
     hertz_pressure: Annotated[float, _GIVEN("Pa", "highest pressure of the dry contact")]
     half_axis_x: Annotated[float, _GIVEN("um", "half-axis of the dry contact along x")]
@@ -86,23 +76,13 @@ class PointFilmRecord(Record):
     surface_heights: Annotated[FloatArray | None, Series(("x", "y"), "m", "heights of the rough body", of="first")] = (
         None
     )
-    patch_x: Annotated[FloatArray | None, Series(("patch_x",), "m", "x of the patch", of="first")] = None
-    patch_y: Annotated[FloatArray | None, Series(("patch_y",), "m", "y of the patch", of="first")] = None
-    rough_heights: Annotated[
-        FloatArray | None, Series(("patch_x", "patch_y"), "m", "heights of both bodies", of="first")
-    ] = None
-    rough_thickness: Annotated[
-        FloatArray | None, Series(("patch_x", "patch_y"), "m", "film between the rough surfaces", of="first")
-    ] = None
-    rough_pressure: Annotated[
-        FloatArray | None, Series(("patch_x", "patch_y"), "Pa", "pressure with its ripples", of="first")
-    ] = None
-    film_ripple_field: Annotated[
-        FloatArray | None, Series(("patch_x", "patch_y"), "m", "ripple of the film", of="first")
-    ] = None
-    pressure_ripple_field: Annotated[
-        FloatArray | None, Series(("patch_x", "patch_y"), "Pa", "ripple of the pressure", of="first")
-    ] = None
+    patch_x: waves.PatchX = None
+    patch_y: waves.PatchY = None
+    rough_heights: waves.RoughHeights = None
+    rough_thickness: waves.RoughThickness = None
+    rough_pressure: waves.RoughPressure = None
+    film_ripple_field: waves.FilmRippleField = None
+    pressure_ripple_field: waves.PressureRippleField = None
     along: Annotated[FloatArray, Series(("along",), "1", "x and y over the half-axes of the dry contact")]
     thickness_along: Annotated[FloatArray, Series(("along",), "m", "film thickness along x")]
     thickness_across: Annotated[FloatArray, Series(("along",), "m", "film thickness along y")]

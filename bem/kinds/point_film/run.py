@@ -12,12 +12,12 @@ from bem.errors import Status
 from bem.kinds.point_film.record import PointFilmRecord
 from bem.kinds.point_film.scene import PointFilmScene, patch_grid
 from bem.kinds.point_film.touching import REMEDY, rough_body, rough_notes
-from bem.kinds.point_film.waves import combined_rms, ripples_of, wave_figures, wave_notes
 from bem.notes.scenes import FILM_THINNER_THAN_ROUGHNESS, LEAST_FILM_DECIDES
 from bem.reference_solutions.hertz import ellipse_contact
 from bem.scenes import build
 from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.tables.supply import build_supply
+from bem.scenes.waves import combined_rms, ripples_of, wave_figures, wave_heights, wave_notes
 
 if TYPE_CHECKING:
     from bem.accuracy.bars import ErrorBars
@@ -43,16 +43,15 @@ def run(scene: PointFilmScene, context: Context) -> PointFilmRecord:
 
     case, heights = _case(scene), None
     if scene.by_waves:
-        heights = build.both_heights(scene, patch_grid(scene), context)
+        heights = wave_heights(scene, context)
         case = replace(case, roughness=combined_rms(heights))
     with context.timer("film"):
         film = case.on(case.cells)
     assert film.state is not None
     ripples = None
     if heights is not None:
-        assert scene.patch is not None
         with context.timer("waves"):
-            ripples = ripples_of(case, film, heights, patch_grid(scene), scene.patch.at)
+            ripples = ripples_of(scene, film, _dry(case), heights)
         tell(context, wave_notes(ripples))
     tell(context, but_unknown(film.notes))  # bars are of grids of their own, and say where they are unknown
     if scene.roughness is not None and film.minimum_thickness < scene.roughness:

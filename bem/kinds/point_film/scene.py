@@ -8,7 +8,7 @@ from pydantic import model_validator
 
 from bem.grid import Grid
 from bem.kinds.point_film.touching import TouchingScene, check_touching
-from bem.kinds.point_film.waves import PointFilmCellsScene, check_waves
+from bem.kinds.point_film.waves import PointFilmCellsScene, check_point_waves
 from bem.scenes import build
 from bem.scenes.common import BodyScene, OutputsScene, PositiveLength, SceneModel
 from bem.scenes.keys import key
@@ -47,7 +47,7 @@ class PointFilmScene(SceneModel):
 
     @model_validator(mode="after")
     def _together(self) -> PointFilmScene:
-        (check_waves if self.by_waves else check_touching)(self)
+        (check_point_waves if self.by_waves else check_touching)(self)
         self.oil.check_point_film()
         check_layer(self.supply, self.rolling)
         return self

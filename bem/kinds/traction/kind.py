@@ -27,6 +27,7 @@ KIND = Kind(
         "temperature-field",
         "starvation-curve",
         "along-the-way",
+        "film-ripple-maps",
         "rolling-film",
     ),
     warm_up=(

@@ -10,12 +10,13 @@ from bem.scenes.planner import Plan, Step
 def plan(scene: TractionScene) -> Plan:
     """Plan the computation of one case."""
     points, hot, errors = scene.film.points, scene.thermal != "off", scene.outputs.errors
-    starved = scene.supply is not None
+    starved, waves = scene.supply is not None, scene.by_waves
     heat = {"off": 0.0, "lumped": 0.05, "full": 0.4 + 5e-4 * points}[scene.thermal]
     seconds = 0.04 + 4e-5 * points + (0.15 if starved else 0.0)
     return Plan(
         (
             Step("rough contact", "the surfaces are smooth, the film carries all of the load", skipped=True),
+            *([Step("waves", "of the roughness of both bodies, by Fourier transforms", seconds=0.3)] if waves else []),
             Step(
                 "film",
                 f"Newton's method on {points} points" + (", flooded and then with its supply" if starved else ""),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Any
+from typing import Annotated, Any, Literal
 
 from pydantic import Field
 
@@ -68,8 +68,14 @@ class RollingScene(Table):
 
 
 class FilmPointsScene(Table):
-    """Mesh of the oil film; grading and inlet length are chosen automatically."""
+    """Mesh of the oil film, and how roughness enters it; grading and inlet length are chosen automatically."""
 
     points: Annotated[int, Field(strict=True, ge=100, le=20000)] = key(
         "Number of nodes of the film mesh.", "basic", default=1000
+    )
+    roughness: Literal["smooth", "waves"] = key(
+        "Roughness of the bodies: smooth (none) or followed by waves through the smooth film (both bodies, moving; "
+        "fast, linear in the heights).",
+        "advanced",
+        default="smooth",
     )

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import math
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
@@ -12,12 +13,15 @@ from bem.grid import FloatArray
 from bem.kinds.traction.record import TractionRecord
 from bem.kinds.traction.scene import TractionScene
 from bem.notes.scenes import FILM_THINNER_THAN_ROUGHNESS
+from bem.reference_solutions.hertz import cylinder_contact
 from bem.scenes import build
 from bem.scenes.context import Context, error_bars, tell
 from bem.scenes.tables.supply import build_supply
+from bem.scenes.waves import combined_rms, ripples_of, wave_figures, wave_heights, wave_notes
 
 if TYPE_CHECKING:
     from bem.accuracy import TractionCase
+    from bem.accuracy.bars import ErrorBars
 
 _SHOWN = np.linspace(-2.5, 1.5, 401)
 """Places of curves in half-widths of the Hertz contact along the entrainment."""
@@ -27,18 +31,32 @@ def run(scene: TractionScene, context: Context) -> TractionRecord:
     """Solve the film, with its heat where asked."""
     from bem.accuracy import traction_bars, traction_figures
     from bem.accuracy.traction import film_of
+    from bem.accuracy.waves import wave_bars
     from bem.lubrication.oil_scatter import friction_scatter
 
-    case = case_of(scene)
+    case, heights, ripples = case_of(scene), None, None
+    if scene.by_waves:
+        heights = wave_heights(scene, context)
+        case = replace(case, roughness=combined_rms(heights))
     with context.timer("film"):
         found = case.on(case.points)
     film = film_of(found)
     tell(context, found.notes)
     if scene.roughness is not None and film.minimum_thickness < scene.roughness:
         context.note(FILM_THINNER_THAN_ROUGHNESS(where=""))
+    if heights is not None:
+        hertz = cylinder_contact(radius=case.radius, contact_modulus=case.contact_modulus, load=case.load)
+        with context.timer("waves"):
+            ripples = ripples_of(scene, film, hertz, heights)
+        tell(context, wave_notes(ripples))
     part = "film" if film.status is not Status.CONVERGED else "heat"
     wanted = scene.outputs.errors and found.status is Status.CONVERGED
     figures: dict[str, Any] = traction_figures(case, found)
+
+    def bars() -> ErrorBars:
+        smooth = traction_bars(case, found)
+        return smooth if ripples is None else smooth | wave_bars(ripples)
+
     curves: dict[str, Any] = _curves(scene, case, found, film)
     return TractionRecord(
         **figures,
@@ -46,7 +64,8 @@ def run(scene: TractionScene, context: Context) -> TractionRecord:
         oil_scatter=friction_scatter(found, case.lubricant, figures["sliding_traction"]),
         hertz_pressure=math.sqrt(case.load * case.contact_modulus / (math.pi * case.radius)),
         newton_steps=int(found.iterations),
-        **error_bars(context, wanted, lambda: traction_bars(case, found)),
+        **({} if ripples is None else wave_figures(ripples)),
+        **error_bars(context, wanted, bars),
         status=found.status,
         where=f"{part}: {found.status.message}, residual of the film {film.residual:.1e}",
     )

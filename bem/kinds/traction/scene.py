@@ -1,4 +1,4 @@
-"""Kind `traction`: friction of a smooth rolling and sliding line contact, with the heat that it makes."""
+"""Kind `traction`: friction of a rolling and sliding line contact, with the heat that it makes."""
 
 from __future__ import annotations
 
@@ -10,16 +10,19 @@ from pydantic import model_validator
 from bem.kinds.traction.along import AlongScene, with_first_row
 from bem.kinds.traction.rolling import FilmPointsScene, RollerScene, RollingScene
 from bem.scenes.axes import Axis
-from bem.scenes.common import BodyScene, OutputsScene, PositiveLength, SceneModel, check_smooth
+from bem.scenes.common import BodyScene, OutputsScene, PositiveLength, SceneModel, check_smooth, problem
 from bem.scenes.keys import key
 from bem.scenes.oil import OilScene
 from bem.scenes.records import Figure
 from bem.scenes.tables.heat import HEAT_REASON, check_film_heat, check_supply_of_heat, knows_film_heat
+from bem.scenes.tables.passing import PatchScene
 from bem.scenes.tables.supply import SupplyScene
+from bem.scenes.waves import WHERE, check_waves
 
 
 class TractionScene(SceneModel):
-    """A smooth roller on a smooth flat with oil between them, in steady motion."""
+    """A roller on a flat with oil between them, in steady motion. Bodies are smooth, or rough on a `patch` with
+    `film.roughness = "waves"`."""
 
     kind: Literal["traction"] = key("Kind of computation.", "basic", default="traction")
     lower: BodyScene = key("Lower body, the flat.", "basic")
@@ -44,7 +47,10 @@ class TractionScene(SceneModel):
     roughness: PositiveLength | None = key(
         "Combined rms roughness Sq of both surfaces, for the lambda ratio.", "basic", default=None, example="0.2 um"
     )
-    film: FilmPointsScene = key("Mesh of the oil film.", "basic", default=FilmPointsScene())
+    film: FilmPointsScene = key(
+        "Mesh of the oil film, and how roughness enters it.", "basic", default=FilmPointsScene()
+    )
+    patch: PatchScene | None = key("Grid of the rough patch; needed where a body is rough.", "advanced", default=None)
     outputs: OutputsScene = key(
         "Results besides the standard ones: error estimates.", "advanced", default=OutputsScene()
     )
@@ -57,7 +63,14 @@ class TractionScene(SceneModel):
 
     @model_validator(mode="after")
     def _complete(self) -> TractionScene:
-        check_smooth(self, 'smooth surfaces, or kind = "friction"')
+        if self.by_waves:
+            check_waves(self)
+            if self.along is not None:
+                raise problem(f"along with {WHERE}", "one place at a time, or smooth surfaces")
+        else:
+            check_smooth(self, 'smooth surfaces, film.roughness = "waves", or kind = "friction"')
+            if self.patch is not None:
+                raise problem("a patch of smooth surfaces", f"no patch, or rough surfaces with {WHERE}")
         if "thermal" not in self.model_fields_set and not knows_film_heat(self.oil, self.lower, self.upper):
             object.__setattr__(self, "thermal", "off")
         if self.thermal == "off":
@@ -65,6 +78,11 @@ class TractionScene(SceneModel):
         check_supply_of_heat(self.thermal, self.supply)
         check_film_heat(self.oil, self.lower, self.upper)
         return self
+
+    @property
+    def by_waves(self) -> bool:
+        """Return True if the waves of the roughness are followed through the smooth film."""
+        return self.film.roughness == "waves"
 
 
 def axes(scene: TractionScene) -> tuple[Axis, ...]:
