@@ -7,7 +7,7 @@ import json
 import math
 import sys
 import time
-from collections.abc import Mapping
+from collections.abc import Iterable, Mapping
 from pathlib import Path
 from typing import Any
 
@@ -30,15 +30,15 @@ class Stage:
     Attributes
     ----------
     total : its steps.
-    points : of (done, figures), at most `_MOST_TOLD`.
+    points : of (done, figures), at most `_MOST_TOLD`; those before it was resumed come first.
     """
 
-    def __init__(self, done: int, total: int, now: float) -> None:
+    def __init__(self, done: int, total: int, now: float, before: Iterable[tuple[int, dict[str, float]]] = ()) -> None:
         self._first = (done, now)
         self.total = total
         self._step = 1
         self._count = 0
-        self.points: list[tuple[int, dict[str, float]]] = []
+        self.points = [(step, figures) for step, figures in before if step < done]
 
     def left(self, done: int, now: float) -> float | None:
         """Seconds to its end at the mean pace; None before there is one."""
@@ -57,19 +57,23 @@ class Stage:
 
 
 class Told:
-    """A watcher (see `bem.campaigns.context.Watcher`) that keeps what it is told in files of a folder."""
+    """A watcher (see `bem.campaigns.context.Watcher`) that keeps what it is told in files of a folder.
+
+    A resumed run goes on from the time and the figures that its folder has.
+    """
 
     def __init__(self, folder: Path) -> None:
         self._folder = folder
         self._state: dict[str, Any] = {"state": "running", "done": 0, "total": 0, "what": "", "notes": []}
-        self._state["began"] = time.time()
+        self._state["began"] = _read(folder / PROGRESS).get("began", time.time())
+        self._before = _read(folder / HISTORY)
         self._stages: dict[str, Stage] = {}
         self._written = 0.0
 
     def progress(self, done: int, total: int, what: str, figures: Mapping[str, float]) -> None:
         """See `Watcher`."""
         what, now = what or "working", time.time()
-        stage = self._stages.setdefault(what, Stage(done, total, now))
+        stage = self._stages.setdefault(what, Stage(done, total, now, self._before.pop(what, {}).get("points", ())))
         stage.tell(done, figures)
         if what == _CASES and len(self._stages) > 1:  # the steps of all cases together say more
             self._state["cases"] = [done, total]
@@ -99,13 +103,23 @@ class Told:
 
     def _write(self) -> None:
         self._written = time.monotonic()
-        history = {
+        self._state["written"] = time.time()
+        history = self._before | {
             what: {"total": stage.total, "points": stage.points} for what, stage in self._stages.items() if stage.points
         }
         with contextlib.suppress(BemError):  # a full disk: the run itself will say so
             write_text(self._folder / PROGRESS, json.dumps(self._state))
             if history:
                 write_text(self._folder / HISTORY, json.dumps(history))
+
+
+def _read(file: Path) -> dict[str, Any]:
+    """Return what a file of a process before holds; nothing where there is none."""
+    try:
+        found = json.loads(file.read_text("utf-8"))
+    except (OSError, ValueError):
+        return {}
+    return found if isinstance(found, dict) else {}
 
 
 _CASES = "cases"

@@ -296,8 +296,11 @@ class Workspace:
         path = self.run_path(name)
         if self.process_of(path) is None and not (path / SUMMARY).is_file():
             (path / OWN).mkdir(exist_ok=True)
-            for file in (PROGRESS, HISTORY):
-                (path / OWN / file).unlink(missing_ok=True)
+            told = _json(
+                path / OWN / PROGRESS
+            )  # of the processes before: their time counts, that of the pause does not
+            spent = float(told.get("written", 0.0)) - float(told.get("began", 0.0)) if "written" in told else 0.0
+            write_text(path / OWN / PROGRESS, json.dumps({"began": time.time() - max(spent, 0.0)}))
             with open(path / OWN / LOG, "ab") as log:
                 child = subprocess.Popen(
                     [sys.executable, "-P", "-m", "bem.app.worker", str(path)],  # no modules from the user's folder

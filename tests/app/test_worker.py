@@ -41,3 +41,22 @@ def test_steps_of_all_cases_count_beside_the_number_of_finished_ones(tmp_path):
     assert state["cases"] == [1, 3]
     history = json.loads((tmp_path / HISTORY).read_text())
     assert history == {"cycles": {"total": 300, "points": [[30, {"friction": 0.1}], [130, {"friction": 0.2}]]}}
+
+
+def test_a_resumed_run_keeps_its_curve_and_its_time_without_the_pause(tmp_path):
+    first = Told(tmp_path)
+    for step in range(0, 50, 10):
+        first.progress(step, 100, "cycles", {"friction": 0.1 + step})
+    first.progress(1, 4, "distances", {"Sq": 1.0})
+    first.end("paused")
+    told = json.loads((tmp_path / PROGRESS).read_text())
+    assert told["began"] <= told["written"]
+    (tmp_path / PROGRESS).write_text(json.dumps({"began": told["began"] - 30.0}))  # as the page writes it
+    second = Told(tmp_path)
+    second.progress(30, 100, "cycles", {"friction": 7.0})  # from its checkpoint, a little before
+    second.end("paused")
+    history = json.loads((tmp_path / HISTORY).read_text())
+    assert [done for done, _ in history["cycles"]["points"]] == [0, 10, 20, 30]
+    assert history["cycles"]["points"][-1][1] == {"friction": 7.0}
+    assert history["distances"]["points"] == [[1, {"Sq": 1.0}]]
+    assert json.loads((tmp_path / PROGRESS).read_text())["began"] == told["began"] - 30.0

@@ -13,7 +13,7 @@ from bem import InputError, ResultsError, load_scene, open_run
 from bem.app.downloads import WHAT, download
 from bem.app.planning import shown_plan
 from bem.app.run_view import overlay
-from bem.app.workspace import OWN, PID, Workspace
+from bem.app.workspace import ASKED, OWN, PID, Workspace
 from bem.results.directory import LOCK
 
 pytestmark = pytest.mark.internal
@@ -187,6 +187,21 @@ def test_states_are_read_from_files(workspace):
     workspace.cancel("x-001")
     assert workspace.runs() == []
     assert (workspace.runs_folder / ".cancelled" / "x-001" / "scene.toml").is_file()
+
+
+def test_the_time_of_a_resumed_run_leaves_out_the_pause(workspace):
+    """It began 100 s before its last word, an hour ago."""
+    workspace.save_scene("small", SMALL)
+    folder = workspace.runs_folder / "small-001"
+    (folder / OWN).mkdir(parents=True)
+    (folder / OWN / ASKED).write_text(workspace.scene_path("small").read_text())
+    last = time.time() - 3600.0
+    (folder / OWN / "progress.json").write_text(json.dumps({"began": last - 100.0, "written": last}))
+    workspace.go_on("small-001")
+    began = json.loads((folder / OWN / "progress.json").read_text())["began"]
+    assert time.time() - began == pytest.approx(100.0, abs=20.0)
+    until(lambda: workspace.runs()[0].finished)
+    assert json.loads((folder / OWN / "progress.json").read_text())["began"] == began
 
 
 def test_what_is_put_away_comes_back_and_names_stay_single(workspace):
