@@ -13,9 +13,10 @@ J 214 (2000) 439; Morales-Espejel and Brizmer, Tribol. Trans. 54 (2011) 625, eq.
 
 `ripples.film_ripples` sums the waves of both surfaces to fields of film and pressure. The originals of the papers above
 could not be read: the equations here are derived anew, from Reynolds' equation, half-spaces and the Ertel-Grubin inlet,
-without constants fitted to solutions. Figures of Greenwood and Morales-Espejel, the table of Venner, Couhier, Lubrecht
-and Greenwood (1997), linear solutions of the whole contact, and marches hold them (reports/experiments/wave_ripples.py,
-tests/lubrication/test_waves.py).
+without constants fitted to solutions (of two lengths of the inlet, one was chosen on some: `ripples.plateau_of`).
+They are compared with figures of Greenwood and Morales-Espejel, with the table of Venner, Couhier, Lubrecht and
+Greenwood (1997), with linear solutions of the whole contact, and with marches (tests/lubrication/test_waves.py,
+reports/experiments/wave_ripples.py).
 
 Cost: a table of 1000 waves of the inlet for each speed of a body over the mean speed (0.1 s, cached), then
 FFTs of the patch.
