@@ -13,6 +13,7 @@ from typing import Any
 
 from bem.arguments import did_you_mean, is_finite, is_positive
 from bem.errors import InputError
+from bem.relaxation import PronySeries
 from bem.representation import tabled
 
 HARDNESS_TO_YIELD = 2.8
@@ -42,6 +43,8 @@ class Material:
     thermal_conductivity : k [W/(m K)]; None where no heat is asked for, as the next two.
     density : rho [kg/m^3].
     heat_capacity : c [J/(kg K)], per mass.
+    relaxation : of the modulus over time, which then starts at `youngs_modulus`; None for an elastic solid. Only
+        `bem.viscoelastic` looks at it: other solvers take the instantaneous modulus.
 
     Raises
     ------
@@ -56,6 +59,7 @@ class Material:
     thermal_conductivity: float | None = None
     density: float | None = None
     heat_capacity: float | None = None
+    relaxation: PronySeries | None = None
 
     def __init__(
         self,
@@ -68,6 +72,7 @@ class Material:
         thermal_conductivity: float | None = None,
         density: float | None = None,
         heat_capacity: float | None = None,
+        relaxation: PronySeries | None = None,
     ) -> None:
         optional = {
             "hardness": hardness,
@@ -88,6 +93,8 @@ class Material:
             for key, value in optional.items()
             if value is not None and not is_positive(value)
         ]
+        if not isinstance(relaxation, PronySeries | None):
+            messages.append(f"Material {name!r}: relaxation {relaxation!r} must be a PronySeries, or left out")
         if messages:
             raise InputError(messages)
         if yield_stress is None and hardness is not None:
@@ -97,6 +104,7 @@ class Material:
         object.__setattr__(self, "poissons_ratio", float(poissons_ratio))
         for key, value in optional.items():
             object.__setattr__(self, key, None if value is None else float(value))
+        object.__setattr__(self, "relaxation", relaxation)
 
     @property
     def thermal_diffusivity(self) -> float | None:

@@ -121,6 +121,7 @@ class MaterialScene(Table):
         own = {key: value for key, value in data.items() if key != "catalogue"}
         entry = _named(data["catalogue"], CATALOGUE, "is not in the catalogue of materials")
         constants = asdict(entry.material) | {"source": entry.source}
+        del constants["relaxation"]  # scenes take materials as elastic
         if own:
             constants["source"] = f"{entry.source}; changed in the scene: {', '.join(sorted(own))}"
         if "hardness" in own and "yield_stress" not in own:

@@ -1,0 +1,380 @@
+"""Steady sliding or rolling of viscoelastic half-spaces, and the hysteresis friction.
+
+In the frame of the contact the material of a body passes at a speed V along x. Its delayed pressures are
+q(x) = integral of exp(-s / l) / l p(x - s) ds over s > 0 with l = V theta: a filter along x, of which K q is the
+displacement. The displacement operator is K (1 + sum c_k M_k), which is not symmetric; it has the form that friction in
+the gap gives an operator, and `bem.contact` solves it as such.
+
+1. Doubly periodic grids: the filter multiplies the spectrum by 1 / (1 + i kx l), which is exact for the grid's waves.
+2. Other grids: the pressure is linear between cells, so that the filter is a recursion over whole cells, applied to the
+   influence coefficients. Beyond the grid these are those of a point (free) or of a line load (y periodic) and are
+   integrated along the rest of the memory, however long.
+3. Where the retarded part is much larger than the elastic one, the sets of cells in contact swing and the solver may
+   stall. Then the proximal point method (Rockafellar 1976) follows: contacts of the operator with a symmetric part
+   added that bounds the skew one, the addition being taken off by the pressure before. It converges for any operator
+   whose symmetric part is positive, as that of a passive solid is.
+
+Friction: the horizontal component of the pressures on the slope of the gap. The energy lost by the delayed pressures,
+computed without the slope, is the same in the limit of small cells: their difference is a certificate.
+
+Cost: a contact takes 15 to 150 convolutions; where step 3 follows, thousands.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Any
+
+import numpy as np
+
+from bem.arguments import is_finite
+from bem.contact import ContactSolution, solve_contact
+from bem.convolution import (
+    EVEN,
+    ODD_IN_X,
+    DisplacementOperator,
+    KernelSpectra,
+    cached_spectra,
+    elastic_constants,
+)
+from bem.errors import InputError, Status
+from bem.grid import FloatArray, Grid
+from bem.kernels.coefficients import Load, surface_coefficients
+from bem.kernels.spectral import surface_response
+from bem.materials import Body
+from bem.representation import readable
+from bem.transforms import kernel_spectrum, padded_shape
+from bem.viscoelastic.compliance import DelayedTerm, pair_compliance
+
+_REACH = 3.0
+"""Length of the coefficients along x, in periods along y, beyond which a cell acts as a line load: exp(-6 pi)."""
+_LONGEST = 4096
+"""Most cells of the coefficients along x."""
+_NODES = 128
+"""Gauss points over the memory beyond the coefficients."""
+_PROXIMAL_STEPS = 400
+_CLOSE = 1e-3
+"""Relative change of the pressure in a proximal step below which the whole operator is tried again."""
+
+
+@readable
+@dataclass(frozen=True)
+class SteadySolution:
+    """Contact in steady sliding or rolling; SI units.
+
+    Attributes
+    ----------
+    contact : pressure, gap and approach; its displacement includes the memory.
+    friction_force : force along x that hysteresis takes [N], positive against the motion of the contact over the body.
+    friction : friction_force over the load; zero without load.
+    dissipated_power : of the delayed pressures [W].
+    imbalance : friction force times speed less the dissipated power, over the larger one; zero without either. It is
+        not-a-number where both bodies pass at different speeds.
+    convolutions : applications of the operator.
+    status : of the contact.
+    """
+
+    contact: ContactSolution
+    friction_force: float
+    friction: float
+    dissipated_power: float
+    imbalance: float
+    convolutions: float
+    status: Status
+
+
+@dataclass(frozen=True)
+class DelayedKernel:
+    """Spectra of `own` K + sum of weights M_l K, M_l being the memory of a length.
+
+    bodies : of K. own : factor of the elastic response. weights, lengths : of the terms; lengths [m] have the sign of
+    the speed at which the body passes.
+    """
+
+    bodies: tuple[Body, ...]
+    own: float
+    weights: tuple[float, ...]
+    lengths: tuple[float, ...]
+
+    def __call__(self, grid: Grid) -> KernelSpectra:
+        """Return the spectra on a grid, from the cache or computed."""
+        key = (
+            "delayed",
+            grid,
+            *(elastic_constants(body) for body in self.bodies),
+            self.own,
+            self.weights,
+            self.lengths,
+        )
+        return cached_spectra(key, lambda: self._compute(grid))
+
+    def _compute(self, grid: Grid) -> KernelSpectra:
+        compliance = sum(1 / body.material.plane_strain_modulus for body in self.bodies)
+        first = self.bodies[0]
+        padded = padded_shape(grid.shape, grid.periodic)
+        if all(grid.periodic):
+            response = np.ascontiguousarray(surface_response(grid, first, Load.NORMAL)[: padded[0] // 2 + 1].T)
+            k = 2 * np.pi * np.fft.rfftfreq(padded[0], grid.spacing[0])
+            even, odd = np.full(k.size, self.own), np.zeros(k.size)
+            for weight, length in zip(self.weights, self.lengths, strict=True):
+                passed = k * length
+                even += weight / (1 + passed**2)
+                odd -= weight * passed / (1 + passed**2)
+            if padded[0] % 2 == 0:
+                odd[-1] = 0.0
+            symmetric, skew = response * even, response * odd
+        else:
+            table = delayed_coefficients(grid, first, self.own, self.weights, self.lengths)
+            symmetric = kernel_spectrum(table[0], padded, EVEN)
+            skew = kernel_spectrum(table[1], padded, ODD_IN_X)
+        factor = compliance * first.material.plane_strain_modulus
+        largest = float(np.abs(symmetric).max()) * factor
+        unit = 2.0 ** round(math.log2(largest)) if largest > 0 else 1.0
+        return KernelSpectra(symmetric * (factor / unit), skew * (factor / unit), unit)
+
+
+@dataclass(frozen=True)
+class _Bounded:
+    """Spectra of an operator whose symmetric part is raised to the size of the skew one, or the difference of both."""
+
+    kernel: DelayedKernel
+    added: bool
+
+    def __call__(self, grid: Grid) -> KernelSpectra:
+        spectra = self.kernel(grid)
+        assert spectra.odd is not None
+        raised = np.maximum(spectra.even, np.abs(spectra.odd))
+        if self.added:
+            return KernelSpectra(raised - spectra.even, None, spectra.unit)
+        return KernelSpectra(raised, spectra.odd, spectra.unit)
+
+
+def delayed_coefficients(
+    grid: Grid, body: Body, own: float, weights: Sequence[float], lengths: Sequence[float]
+) -> FloatArray:
+    """Return even and odd part along x of the influence coefficients with memory, (2, nx, ny) [m/Pa].
+
+    grid : not doubly periodic. The others as in `DelayedKernel`.
+    """
+    nx = grid.shape[0]
+    sizes = np.abs(np.array(lengths, dtype=np.float64))[:, None]
+    moving = sizes[:, 0] > 0
+    amounts, signs = np.array(weights)[moving], np.sign(lengths)[moving]
+    sizes, still = sizes[moving], float(np.array(weights)[~moving].sum())
+    gone, before, after = _cell_weights(grid.spacing[0] / sizes[:, 0])
+    if grid.periodic[0]:
+        table = surface_coefficients(grid, body, Load.NORMAL)
+        k = 2 * np.pi * np.arange(nx // 2 + 1) / nx
+        turn = np.exp(1j * k)
+        symbols = (after[:, None] + before[:, None] * turn) / (1 - gone[:, None] * turn)
+        ahead = np.fft.irfft(np.fft.rfft(table, axis=0) * symbols[:, :, None], nx, axis=1)
+        behind = np.roll(ahead[:, ::-1], 1, axis=1)
+    else:
+        table, far, start = _long_coefficients(grid, body, sizes)
+        count = len(table)
+        # from the farthest offset ahead to the farthest behind, memory of what comes from ahead
+        ahead, behind = (np.empty((len(sizes), nx, grid.shape[1])) for _ in range(2))
+        memory, last = start, far
+        for offset in range(count - 1, -nx, -1):
+            here = table[abs(offset)]
+            if offset < count - 1:
+                memory = gone[:, None] * memory + after[:, None] * here + before[:, None] * last
+            last = here
+            if 0 <= offset < nx:
+                ahead[:, offset] = memory
+            if offset <= 0:
+                behind[:, -offset] = memory
+    even = 0.5 * np.tensordot(amounts, ahead + behind, axes=1) + (own + still) * table[:nx]
+    odd = -0.5 * np.tensordot(amounts * signs, ahead - behind, axes=1)
+    return np.stack([even, odd])
+
+
+def _cell_weights(ratio: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return the weights of the memory, of the pressure and of its own pressure in the next cell, by cell / length."""
+    decay = -np.expm1(-ratio)
+    small = ratio / 2 - ratio**2 / 6 + ratio**3 / 24
+    own = np.where(ratio < 1e-4, small, 1 - decay / ratio)
+    return 1 - decay, decay - own, own
+
+
+def _long_coefficients(grid: Grid, body: Body, sizes: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return coefficients ahead of a cell far along x, the last of them, and their memory from there on.
+
+    sizes : (terms, 1), lengths of memory [m]. Returns (n, ny), (ny,) and (terms, ny) [m/Pa]. A grid with a period along
+    y is lengthened to `_REACH` periods, at most to `_LONGEST` cells; beyond, waves along y are left out.
+    """
+    (nx, ny), (dx, dy) = grid.shape, grid.spacing
+    count = nx
+    if grid.periodic[1] and ny > 1:
+        count = max(nx, min(math.ceil(_REACH * grid.lengths[1] / dx), _LONGEST))
+    long = Grid((count, ny), grid.spacing, periodic=grid.periodic)
+    table = surface_coefficients(long, body, Load.NORMAL)
+    if grid.periodic[1] and count > nx:
+        # the datum of a line load is the length of the grid: that of the grid itself
+        datum = surface_coefficients(Grid((nx, ny), grid.spacing, periodic=grid.periodic), body, Load.NORMAL)
+        table = table + (datum[0, 0] - table[0, 0])
+    far, distance = table[-1], (count - 1) * dx
+    if grid.periodic[1]:
+        from scipy.special import exp1
+
+        ratio = distance / sizes
+        short = ratio > 50
+        kept = np.where(short, 1.0, ratio)
+        fallen = np.where(short, 1 / ratio - 1 / ratio**2 + 2 / ratio**3, np.exp(kept) * exp1(kept))
+        slope = 2 * dx / (np.pi * body.material.plane_strain_modulus)
+        return table, far, far - slope * fallen
+    nodes, weights = np.polynomial.legendre.leggauss(_NODES)
+    top = np.log1p(40 * sizes / distance)  # of the logarithm of 1 + s / distance
+    logarithm = 0.5 * top * (nodes + 1)
+    s = distance * np.expm1(logarithm)
+    measure = 0.5 * top * weights * (distance + s) * np.exp(-s / sizes) / sizes
+    y = np.arange(ny) * dy
+    fallen = np.hypot(distance, y) / np.hypot(distance + s[:, :, None], y)
+    return table, far, far * np.einsum("tn,tny->ty", measure, fallen)
+
+
+def solve_steady_motion(
+    gap: FloatArray,
+    operator: DisplacementOperator,
+    speeds: tuple[float, float],
+    *,
+    load: float | None = None,
+    approach: float | None = None,
+    tolerance: float = 1e-8,
+    callback: Callable[[int, float], object] | None = None,
+) -> SteadySolution:
+    """Solve a contact through which the material of one or both bodies passes at constant speed along x.
+
+    Parameters
+    ----------
+    gap : (nx, ny), undeformed gap [m], which does not change in time: a body that passes is smooth along x.
+    operator : from `displacement_operator`, of homogeneous bodies, at least one with a relaxation; no friction.
+    speeds : (lower, upper), at which the material passes the contact, along +x [m/s]. An upper body that slides along
+        +x over a resting lower one has (-speed, 0); one that rolls along +x has (-speed, -speed).
+    load, approach : exactly one of the load [N] and the approach [m].
+    tolerance : of the contact.
+    callback : called with the number and the relative change of each proximal step, where there are any.
+
+    Raises
+    ------
+    InputError : arguments out of range, one message for each; bodies that flow, which have no steady contact.
+    """
+    name = "solve_steady_motion"
+    compliance = pair_compliance(operator, name)
+    messages = []
+    if len(speeds) != 2 or not all(is_finite(speed) for speed in speeds) or not any(speeds):
+        messages.append(f"{name}: speeds {speeds!r} must be two finite numbers [m/s], not both zero")
+    if compliance.flow > 0:
+        messages.append(f"{name}: a body flows; only solids, with shares whose sum is below one, have a steady contact")
+    if operator.grid.shape[0] < 2:
+        messages.append(f"{name}: the grid has one cell along x, the direction of motion")
+    if (load is None) == (approach is None):
+        messages.append(f"{name}: give exactly one of load and approach")
+    if messages:
+        raise InputError(messages)
+    before = operator.count.weighted
+    kernel = _kernel(operator, compliance.terms, speeds)
+    given: dict[str, Any] = {"load": load, "approach": approach}
+    whole = _with(operator, kernel)
+    contact = solve_contact(gap, whole, **given, tolerance=tolerance)
+    if contact.status in {Status.STALLED, Status.MAX_ITERATIONS}:
+        contact = _proximal(gap, operator, kernel, given, contact, tolerance, callback)
+    force = float(np.sum(contact.pressure * _slope(gap, operator.grid))) * operator.grid.cell_area
+    main = next(speed for speed in speeds if speed)
+    force = -math.copysign(1.0, main) * force
+    power = _lost(contact.pressure, operator, compliance.terms)(speeds)
+    passing = [speed for speed in speeds if speed]
+    imbalance = math.nan
+    if len(set(passing)) == 1:
+        scale = max(abs(force * main), abs(power))
+        imbalance = abs(force * abs(main) - power) / scale if scale > 0 else 0.0
+    return SteadySolution(
+        contact=contact,
+        friction_force=force,
+        friction=force / contact.load if contact.load > 0 else 0.0,
+        dissipated_power=power,
+        imbalance=imbalance,
+        convolutions=operator.count.weighted - before,
+        status=contact.status,
+    )
+
+
+def _kernel(operator: DisplacementOperator, terms: Sequence[DelayedTerm], speeds: tuple[float, float]) -> DelayedKernel:
+    """Return the kernel of the bodies in motion."""
+    return DelayedKernel(
+        operator.bodies,
+        1.0,
+        tuple(term.amount for term in terms),
+        tuple(term.time * speeds[term.body] for term in terms),
+    )
+
+
+def _with(operator: DisplacementOperator, kernel: Callable[[Grid], KernelSpectra]) -> DisplacementOperator:
+    """Return an operator of the same bodies with other spectra; it shares the count."""
+    return DisplacementOperator(
+        operator.grid, operator.bodies, count=operator.count, weight=operator.weight, spectra_on=kernel
+    )
+
+
+def _proximal(
+    gap: FloatArray,
+    operator: DisplacementOperator,
+    kernel: DelayedKernel,
+    given: dict[str, Any],
+    found: ContactSolution,
+    tolerance: float,
+    callback: Callable[[int, float], object] | None,
+) -> ContactSolution:
+    """Return the contact by proximal steps; the whole operator is tried whenever they have come much closer."""
+    bounded, added = (_with(operator, _Bounded(kernel, added)) for added in (False, True))
+    whole = _with(operator, kernel)
+    pressure, tried = found.pressure, math.inf
+    for number in range(_PROXIMAL_STEPS):
+        inner = solve_contact(
+            gap - added(pressure),
+            bounded,
+            **given,
+            tolerance=min(0.1 * tolerance, 1e-9) if tried < math.inf else 1e-6,
+            initial_pressure=pressure,
+        )
+        size = float(inner.pressure.max())
+        change = float(np.max(np.abs(inner.pressure - pressure))) / size if size > 0 else 0.0
+        pressure = inner.pressure
+        if callback is not None:
+            callback(number + 1, change)
+        if change <= min(_CLOSE, 0.1 * tried):
+            tried = max(change, 1e-12)
+            last = solve_contact(gap, whole, **given, tolerance=tolerance, initial_pressure=pressure)
+            if last.status is Status.CONVERGED:
+                return last
+            if last.residual < found.residual:
+                found = last
+    return found
+
+
+def _lost(
+    pressure: FloatArray, operator: DisplacementOperator, terms: Sequence[DelayedTerm]
+) -> Callable[[tuple[float, float]], float]:
+    """Return the function from speeds to the power that delayed pressures dissipate [W].
+
+    sum of c / theta p.(K p - K q): with the speed that of the material, V times the work along x.
+    """
+
+    def power(speeds: tuple[float, float]) -> float:
+        moving = [term for term in terms if speeds[term.body] != 0]
+        rates = [term.amount / term.time for term in moving]
+        lengths = tuple(term.time * speeds[term.body] for term in moving)
+        lost = DelayedKernel(operator.bodies, sum(rates), tuple(-rate for rate in rates), lengths)
+        return float(np.sum(pressure * _with(operator, lost)(pressure))) * operator.grid.cell_area
+
+    return power
+
+
+def _slope(gap: FloatArray, grid: Grid) -> FloatArray:
+    """Return the slope of a gap along x by central differences, across the period on a periodic axis."""
+    step = grid.spacing[0]
+    if grid.periodic[0]:
+        return np.asarray((np.roll(gap, -1, axis=0) - np.roll(gap, 1, axis=0)) / (2 * step))
+    return np.asarray(np.gradient(gap, step, axis=0))
