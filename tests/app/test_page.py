@@ -67,12 +67,13 @@ class Server:
         self.process.stdout.close()
 
 
-@pytest.fixture
-def serve(tmp_path):
+@contextlib.contextmanager
+def servers_of(folder):
+    """A function that starts a server of this project folder; the servers and their runs end with the block."""
     servers = []
 
     def start():
-        servers.append(Server(tmp_path / "work"))
+        servers.append(Server(folder))
         return servers[-1]
 
     yield start
@@ -80,12 +81,30 @@ def serve(tmp_path):
         if server.process.poll() is None:
             server.kill()
     if servers:
-        workspace = Workspace(tmp_path / "work")
-        for folder in workspace.runs_folder.iterdir():  # runs outlive their server
-            process = workspace.process_of(folder)  # not the number in a file: the run may have ended
+        workspace = Workspace(folder)
+        for run in workspace.runs_folder.iterdir():  # runs outlive their server
+            process = workspace.process_of(run)  # not the number in a file: the run may have ended
             if process is not None:
                 with contextlib.suppress(ProcessLookupError):
                     os.kill(process, signal.SIGKILL)
+
+
+@pytest.fixture
+def serve(tmp_path):
+    with servers_of(tmp_path / "work") as start:
+        yield start
+
+
+@pytest.fixture(scope="module")
+def shared_folder(tmp_path_factory):
+    return tmp_path_factory.mktemp("shared") / "work"
+
+
+@pytest.fixture(scope="module")
+def shared_server(shared_folder):
+    """A server for tests that neither end it nor look at what others left: each has a scene of its own name."""
+    with servers_of(shared_folder) as start:
+        yield start()
 
 
 @pytest.fixture(scope="module")
@@ -95,9 +114,9 @@ def chrome():
 
 
 @pytest.mark.internal
-def test_an_element_answers_on_its_page(serve, chrome, tmp_path):
+def test_an_element_answers_on_its_page(shared_server, shared_folder, chrome):
     """From the first page to a bearing: a mistake is said, the answer has life and figure, the scene is one to run."""
-    server, tab = serve(), chrome.tab()
+    server, tab = shared_server, chrome.tab()
     tab.go(server.address)
     tab.click("[data-start=bearing]")
     tab.wait_text("press answer")
@@ -110,7 +129,7 @@ def test_an_element_answers_on_its_page(serve, chrome, tmp_path):
     tab.wait("document.querySelector('[data-figure=rolling-bearing]')")
     tab.click('[data-action="scene of the film"]')
     tab.wait("location.pathname.includes('/scene/rolling-bearing')")
-    assert (tmp_path / "work" / "rolling-bearing.toml").is_file()
+    assert (shared_folder / "rolling-bearing.toml").is_file()
 
 
 @pytest.mark.internal
@@ -323,12 +342,12 @@ def test_a_killed_server_and_a_pause_lose_nothing(serve, chrome, tmp_path):
     assert tab.errors == []
 
 
-def test_too_many_cells_are_refused_and_the_map_leads_to_a_result(serve, chrome):
+def test_too_many_cells_are_refused_and_the_map_leads_to_a_result(shared_server, chrome):
     """The mistake stands on the page without an old picture; nothing that is asked for ends the server.
 
     From the map a scene, a button for a grid that became too large, a run, and its answers.
     """
-    server, tab = serve(), chrome.tab()
+    server, tab = shared_server, chrome.tab()
     tab.go(server.address)
     tab.go(f"{server.base}/surfaces")
     tab.wait("document.querySelector('.main-svg')")
@@ -408,30 +427,30 @@ def write_in_editor(tab, text):
     tab._do("Input.insertText", text=text)
 
 
-def test_text_that_was_typed_is_what_runs(serve, chrome, tmp_path):
-    server, tab = serve(), chrome.tab()
-    file = tmp_path / "work" / "own.toml"
+def test_text_that_was_typed_is_what_runs(shared_server, shared_folder, chrome):
+    server, tab = shared_server, chrome.tab()
+    file = shared_folder / "typed.toml"
     file.write_text(EDITED)
     tab.go(server.address)
-    tab.go(f"{server.base}/scene/own")
+    tab.go(f"{server.base}/scene/typed")
     tab.wait("document.querySelector('[data-plan]')")
     text = EDITED.replace("80 MPa", "70 MPa").replace("[contact]", "# by hand\n[contact]")
     write_in_editor(tab, text)
     tab.click("[data-action=run]")  # at once: nothing has to be taken over
-    tab.wait("location.pathname === '/run/own-001'")
-    asked = tomllib.loads((tmp_path / "work" / "runs" / "own-001" / ".app" / "scene.toml").read_text())
+    tab.wait("location.pathname === '/run/typed-001'")
+    asked = tomllib.loads((shared_folder / "runs" / "typed-001" / ".app" / "scene.toml").read_text())
     assert asked["contact"]["mean_pressure"] == "70 MPa"
     assert file.read_text() == text
     assert tab.errors == []
 
 
-def test_a_file_broken_by_hand_is_left_alone(serve, chrome, tmp_path):
+def test_a_file_broken_by_hand_is_left_alone(shared_server, shared_folder, chrome):
     """What is typed into the form before the page knows it writes nothing; the text can be mended on the page."""
-    server, tab = serve(), chrome.tab()
-    file = tmp_path / "work" / "own.toml"
+    server, tab = shared_server, chrome.tab()
+    file = shared_folder / "broken.toml"
     file.write_text(EDITED)
     tab.go(server.address)
-    tab.go(f"{server.base}/scene/own")
+    tab.go(f"{server.base}/scene/broken")
     tab.wait("document.querySelector('[data-plan]')")
     broken = EDITED.replace('"80 MPa"', '"80 MPa')
     file.write_text(broken)
@@ -445,14 +464,14 @@ def test_a_file_broken_by_hand_is_left_alone(serve, chrome, tmp_path):
     assert tab.errors == []
 
 
-def test_two_tabs_keep_each_others_edits(serve, chrome, tmp_path):
+def test_two_tabs_keep_each_others_edits(shared_server, shared_folder, chrome):
     """Different keys at once: both stay. The same key: it is asked. Open sections and the focus stay as they are."""
-    server, one, two = serve(), chrome.tab(), chrome.tab()
-    file = tmp_path / "work" / "own.toml"
+    server, one, two = shared_server, chrome.tab(), chrome.tab()
+    file = shared_folder / "tabs.toml"
     file.write_text(EDITED)
     for tab in (one, two):
         tab.go(server.address)
-        tab.go(f"{server.base}/scene/own")
+        tab.go(f"{server.base}/scene/tabs")
         tab.wait("document.querySelector('[data-plan]')")
     two.click("[data-level='lower:advanced'] .q-item")
     opened = "document.querySelector('[data-table=\"lower.layer\"]').checkVisibility()"
@@ -546,8 +565,8 @@ def wait(what):
         time.sleep(0.1)
 
 
-def test_without_the_token_there_is_nothing(serve):
-    server = serve()
+def test_without_the_token_there_is_nothing(shared_server):
+    server = shared_server
     for address in (server.base, f"{server.base}/?token=wrong", f"{server.base}/runs"):
         with pytest.raises(urllib.error.HTTPError, match="403"):
             urllib.request.urlopen(address)
