@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
@@ -18,14 +19,17 @@ from bem.scenes.axes import Axis
 from bem.scenes.common import SceneModel
 from bem.scenes.context import Outcome, Variable
 from bem.scenes.records import (
+    INPUTS,
     SCATTER,
     Figure,
     Record,
     Series,
     described,
     error_key,
+    input_scatter,
     mean,
     scatter,
+    scatter_key,
     spread,
     standard_error,
     without_bars,
@@ -197,6 +201,9 @@ def _figures(
                 found |= _with_parts(key, _sum(error, scattered), parts, mean)
             elif name in scattering:
                 found[error_key(key)] = _over(scatter, values)
+        by_inputs = [None if r is None else figure.shown_error(input_scatter(r, name)) for r in records]
+        if any(value is not None for value in by_inputs):
+            found[scatter_key(key, INPUTS)] = _over(mean, by_inputs)
     return found
 
 
@@ -277,7 +284,29 @@ def _variables(
             variables[name] = laid_out(campaign.axes, values, unit, text, dimensions)
         if name in variables:
             variables |= _error_variables(campaign, name, item, records)
+            variables |= _input_variables(campaign, name, item, records)
     return variables
+
+
+def _input_variables(
+    campaign: Campaign, name: str, item: Figure | Series, records: Sequence[Record | None]
+) -> dict[str, Variable]:
+    """The standard deviation of a figure by the uncertain inputs over the axes, and its change with each of them."""
+    if not isinstance(item, Figure):
+        return {}
+    inputs = dict.fromkeys(key for r in records if r is not None for key in r.input_changes)
+    found = {}
+    values = [None if r is None else input_scatter(r, name) for r in records]
+    if any(value is not None for value in values):
+        text = f"standard deviation of {item.text} by {', '.join(inputs)}"
+        found[f"{name}{INPUTS}"] = laid_out(campaign.axes, values, item.si, text, item.dimensions)
+    for key in inputs:
+        changes = [None if r is None else r.input_changes.get(key, {}).get(name) for r in records]
+        if any(change is not None for change in changes):
+            text = f"change of {item.text} with one standard deviation of {key}"
+            own = f"{name}_change_{re.sub('[^0-9A-Za-z]+', '_', key)}"
+            found[own] = laid_out(campaign.axes, changes, item.si, text, item.dimensions)
+    return found
 
 
 def _error_variables(

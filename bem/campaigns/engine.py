@@ -20,6 +20,7 @@ from bem.campaigns.collect import Given, collect, words_of_bars
 from bem.campaigns.context import CaseContext, Silent, Watcher
 from bem.campaigns.jobs import Staff, hand_out, words_of
 from bem.campaigns.refine import solve_case, words_of_levels
+from bem.campaigns.uncertain import with_inputs
 from bem.errors import BemError, ConvergenceError, InputError, ResultsError, Status, interrupts_as_they_are
 from bem.notes import Note, as_note, unpacked
 from bem.notes.merge import identity, merge
@@ -76,11 +77,17 @@ class CaseJob:
         try:
             with interrupts_as_they_are(), collecting():
                 record = solve_case(get_kind(kind), self.case.scene, context)
+                record = with_inputs(get_kind(kind), self.case.scene, record, context, self._quiet)
         except ResultsError:
             raise  # no case can be kept on a disk that is full
         except (BemError, MemoryError) as error:
             return _failed(error, context.notes, context.seconds)
         return Result(pack(without(record, first=self.first, last=self.last)), context.notes, context.seconds)
+
+    def _quiet(self, scene: Any) -> CaseContext:
+        """Return a context without checkpoint, progress and notes for another scene of the case."""
+        case = dataclasses.replace(self.case, scene=scene)
+        return CaseContext(case, None, None, Silent(), self.epoch, scene.kind)
 
     def elsewhere(self) -> CaseJob:
         """Without a checkpoint."""

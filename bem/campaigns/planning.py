@@ -8,12 +8,16 @@ from dataclasses import replace
 
 from bem.campaigns.cases import REPETITION, Campaign
 from bem.campaigns.refine import expected_levels, shown
+from bem.campaigns.uncertain import repeated_keys
 from bem.errors import InputError
 from bem.scenes.common import SceneModel
 from bem.scenes.kind import Kind
 from bem.scenes.planner import Plan, Step, available_memory
 
 _CASES_NAMED = 10
+_DERIVATIVE = 0.7
+"""Cost of a key's derivative over that of the run: a contact's linear system, or two of a balance's three to eight
+trials."""
 
 
 def plan(campaign: Campaign) -> Plan:
@@ -48,7 +52,7 @@ def plan(campaign: Campaign) -> Plan:
 def _of_case(kind: Kind, scene: SceneModel) -> Plan:
     """The plan of a case; where it asks for an accuracy, that of all levels that are expected and fit into memory."""
     if scene.accuracy is None:
-        return kind.plan(scene)
+        return _with_inputs(kind, scene, kind.plan(scene))
     levels = expected_levels(kind, scene)
     plans = [kind.plan(levels[0])]
     free = available_memory()
@@ -62,7 +66,29 @@ def _of_case(kind: Kind, scene: SceneModel) -> Plan:
     chosen = ", ".join(shown(kind, level) for level in levels[: len(plans)])
     fit = "" if len(plans) == len(levels) else f"; {shown(kind, levels[len(plans)])} do not fit into memory"
     expected = Step("levels", f"expected: {chosen}{fit}; error bars decide", per="run")
-    return Plan((expected, *steps))
+    return _with_inputs(kind, levels[len(plans) - 1], Plan((expected, *steps)), plans[-1])
+
+
+def _with_inputs(kind: Kind, scene: SceneModel, whole: Plan, once: Plan | None = None) -> Plan:
+    """The plan with what the uncertain inputs of a case take: two runs for each key without a derivative.
+
+    once : plan of the run that is repeated; the whole by default.
+    """
+    if not scene.uncertain:
+        return whole
+    again = repeated_keys(kind, scene)
+    derived = [key for key in scene.uncertain if key not in again]
+    words = [f"by derivatives of the solution: {', '.join(derived)}"] if derived else []
+    words += [f"by two more runs each: {', '.join(again)}"] if again else []
+    steps = [step for step in (once or whole).steps if step.per != "run" and not step.skipped]
+    points = max((step.points for step in steps), default=0.0)
+    work = math.fsum(step.transforms * _cost(step.points) for step in steps) / max(_cost(points), 1.0)
+    seconds = math.fsum(step.seconds for step in steps)
+    share = 2 * len(again) + _DERIVATIVE * len(derived)
+    inputs = Step(
+        "uncertain inputs", "; ".join(words), transforms=share * work, points=points, seconds=share * seconds, kept=0.0
+    )
+    return Plan((*whole.steps, inputs), whole.cases, whole.of_cases)
 
 
 def _together(steps: Sequence[Step], repetitions: int) -> Step:

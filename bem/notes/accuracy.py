@@ -9,6 +9,15 @@ from bem.notes.note import Level, Note, define
 CAUTION, INFO = Level.CAUTION, Level.INFO
 
 
+INPUT_UNPROPAGATED = define(
+    "input-unpropagated",
+    CAUTION,
+    "The uncertainty of an input is not propagated.",
+    "A run with a changed {key} failed ({why}): figures have no error by their inputs.",
+    "Give a smaller standard deviation, or leave the key out of uncertain.",
+)
+
+
 class NoBar(StrEnum):
     """Why figures have no error bar."""
 

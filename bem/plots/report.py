@@ -25,6 +25,7 @@ from bem.plots.tables import (
     is_size_of_no_particles,
     name_and_unit,
     origin_table,
+    scatters_of,
     shown_values,
     varied_keys,
     with_scatter,
@@ -32,7 +33,6 @@ from bem.plots.tables import (
 )
 from bem.results.atomic import write_text
 from bem.results.directory import REPORT
-from bem.scenes.records import scatter_key
 
 
 def write_report(run: Any, drawn: Sequence[Drawn], headline: Sequence[str]) -> Path:
@@ -80,12 +80,13 @@ def with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:
     """Name and value of a figure as `spelled`, with its error where it has one: `1.2 ± 0.013 GPa`; a friction
     coefficient or force with its scatter from the constants of the oil, too."""
     text, shown = _with_error(name, summary)
-    scatter, value = (_only(summary.get(key)) for key in (scatter_key(name), name))
-    if not isinstance(scatter, int | float):
+    value = _only(summary.get(name))
+    scatters = {origin: _only(scatter) for origin, scatter in scatters_of(name, summary).items()}
+    if not any(isinstance(scatter, int | float) for scatter in scatters.values()):
         return text, shown
     number, *unit = spelled(name, value)[1].split(" ")
     numerical, factor = "±" in shown or " to " in shown, float(number) / value if unit and value else 1.0
-    return text, with_scatter(shown, scatter, numerical=numerical, unit=" ".join(unit), factor=factor)
+    return text, with_scatter(shown, scatters, numerical=numerical, unit=" ".join(unit), factor=factor)
 
 
 def _with_error(name: str, summary: Mapping[str, Any]) -> tuple[str, str]:

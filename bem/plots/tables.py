@@ -11,7 +11,7 @@ import numpy as np
 
 from bem.plots.labels import label, prefix
 from bem.quantities import plain_digits, with_signs
-from bem.scenes.records import OIL, TELLING, scatter_key, unit_of
+from bem.scenes.records import INPUTS, OIL, TELLING, scatter_key, unit_of
 
 _SPREAD, _ERROR = "_spread", "_error"
 _TELLING = tuple(f"{name}_{unit}" for name, unit in TELLING.items())
@@ -126,21 +126,42 @@ _LEAST_SCATTER = 1e-6
 """Scatter of a friction coefficient below which it is left out: the friction is that of the boundary, an input."""
 
 
-def with_scatter(shown: str, scatter: Any, *, numerical: bool, unit: str = "", factor: float = 1.0) -> str:
-    """Return a friction figure as it is shown with its scatter from the constants of the oil behind its error:
-    `0.046 ± 0.0004 (numerical), ± 0.012 (oil)`.
+SCATTERS = {OIL: "oil", INPUTS: "inputs"}
+"""Scatters that stand behind a figure's error, in this order, and the words for them."""
 
-    Where the scatter is too small to be resolved (boundary friction, no sliding) the figure has its error alone.
 
-    shown : the figure, with its error where it has one. scatter : half-width, None of none. numerical : whether
-    there is an error in `shown`. unit : that is shown, and `factor` of it.
+def with_scatter(
+    shown: str, scatters: Mapping[str, Any], *, numerical: bool, unit: str = "", factor: float = 1.0
+) -> str:
+    """Return a figure as it is shown with its scatter behind its error, from the constants of the oil or the uncertain
+    inputs of the scene: `0.046 ± 0.0004 (numerical), ± 0.012 (oil)`.
+
+    Where the scatter by the oil is too small to be resolved (boundary friction, no sliding) it is left out, as
+    one of zero by the inputs.
+
+    shown : the figure, with its error where it has one. scatters : half-widths by `SCATTERS`, None of none.
+    numerical : whether there is an error in `shown`. unit : that is shown, and `factor` of it.
     """
-    if not isinstance(scatter, int | float) or not np.isfinite(scatter):
+    known = {
+        origin: scatter
+        for origin, scatter in scatters.items()
+        if isinstance(scatter, int | float) and np.isfinite(scatter)
+    }
+    if not known:
         return shown
-    if scatter < _LEAST_SCATTER:
-        return f"{shown} (numerical)" if numerical else shown
-    oil = f"± {plain_digits(factor * scatter)}{unit and f' {unit}'} (oil)"
-    return f"{shown} (numerical), {oil}" if numerical else f"{shown} {oil}"
+    behind = [
+        f"± {plain_digits(factor * known[origin])}{unit and f' {unit}'} ({word})"
+        for origin, word in SCATTERS.items()
+        if known.get(origin, 0.0) > (_LEAST_SCATTER if origin == OIL else 0.0)
+    ]
+    first = f"{shown} (numerical)" if numerical else shown
+    return f"{first}{', ' if numerical else ' '}{', '.join(behind)}" if behind else first
+
+
+def scatters_of(name: str, summary: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the scatters of a figure by `SCATTERS`, without those that it does not have."""
+    found = {origin: summary.get(scatter_key(name, origin)) for origin in SCATTERS}
+    return {origin: scatter for origin, scatter in found.items() if scatter is not None}
 
 
 def is_list(value: Any) -> bool:
@@ -151,8 +172,10 @@ def is_list(value: Any) -> bool:
 def is_error(name: str, among: Mapping[str, Any]) -> bool:
     """Return True if a figure is the error bar of another, beside which it stands, what an origin adds to it, or its
     scatter from the constants of the oil."""
-    if OIL in (scatter := name.removesuffix(_SPREAD)):
-        return scatter.replace(OIL, "", 1) in among
+    scatter = name.removesuffix(_SPREAD)
+    for mark in SCATTERS:
+        if mark in scatter:
+            return scatter.replace(mark, "", 1) in among
     bare, found, origin = name.rpartition(_ERROR)
     return bool(found) and bare in among and (not origin or bare + _ERROR in among)
 
@@ -236,7 +259,7 @@ def summary_of_points(
     wanted = [
         key
         for name in names
-        for key in (name, name + _ERROR, name + _SPREAD, scatter_key(name))
+        for key in (name, name + _ERROR, name + _SPREAD, *(scatter_key(name, mark) for mark in SCATTERS))
         if name not in over and any(summary and summary.get(key) is not None for summary in summaries)
     ]
     found |= {name: [] for name in wanted}
@@ -289,7 +312,7 @@ def _columns(summary: Mapping[str, Any], names: Sequence[str], title: str, colum
             summary[name],
             _beside(name, summary),
             bars=f"{name}{_ERROR}" in summary,
-            oil=summary.get(scatter_key(name)),
+            scatters=scatters_of(name, summary),
         )
         for name in names
         if name not in leading and name not in varied and name not in repeated
@@ -349,11 +372,16 @@ def _varied(key: str, values: Sequence[Any], unit: str) -> tuple[str, list[str]]
 
 
 def _column(
-    name: str, values: Sequence[Any], spread: Any, *, bars: bool = False, oil: Any = None
+    name: str,
+    values: Sequence[Any],
+    spread: Any,
+    *,
+    bars: bool = False,
+    scatters: Mapping[str, Any] | None = None,
 ) -> tuple[str, list[str]]:
     """Head with its unit, and the values in it; not-a-number and nothing are a dash.
 
-    oil : scatter of each value from the constants of the oil, None of none.
+    scatters : of each value, by `SCATTERS`.
     """
     words, unit = name_and_unit(name)
     values = [None if is_size_of_no_particles(name, value) else value for value in values]
@@ -371,10 +399,16 @@ def _column(
             else f"{cell} {within(name, value, s, factor) if bars else f'± {plain_digits(s * factor)}'}".rstrip()
             for cell, s, value in zip(cells, spread, values, strict=True)
         ]
-    if isinstance(oil, list) and len(oil) == len(values):
+    each = {k: v for k, v in (scatters or {}).items() if isinstance(v, list) and len(v) == len(values)}
+    if each:
         cells = [
-            with_scatter(cell, s, numerical=bars and ("±" in cell or " to " in cell), factor=factor)
-            for cell, s in zip(cells, oil, strict=True)
+            with_scatter(
+                cell,
+                {origin: v[row] for origin, v in each.items()},
+                numerical=bars and ("±" in cell or " to " in cell),
+                factor=factor,
+            )
+            for row, cell in enumerate(cells)
         ]
     return label(words, unit), cells
 
@@ -419,7 +453,9 @@ def _cases(title: str, cases: Sequence[Mapping[str, Any]], known: Mapping[str, A
         table = {key: [case.get(key) for case in cases] for key in plain}
         shown = {k: v for k, v in table.items() if not _is_spread(k, table) and not is_error(k, table)}
         columns = [
-            _varied(k, v, varied[k]) if k in varied else _column(k, v, _beside(k, table), oil=table.get(scatter_key(k)))
+            _varied(k, v, varied[k])
+            if k in varied
+            else _column(k, v, _beside(k, table), scatters=scatters_of(k, table))
             for k, v in shown.items()
         ]
         rows = tuple(zip(*(cells for _, cells in columns), strict=True))

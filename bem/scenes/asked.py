@@ -4,6 +4,10 @@
     accuracy = { contact_area = "0.5 %", film_load = "2 %" }
     accuracy = { all = "1 %", max_pressure = "any" }
 
+And the standard deviations that it gives for its inputs, as they are written (`bem.scenes.uncertain` reads them):
+
+    uncertain = { "oil.viscosity" = "5 %", "contact.load" = "0.2 N" }
+
 Knows numbers and names, and the records of kinds; verified in tests/campaigns/test_accuracy.py.
 """
 
@@ -55,6 +59,41 @@ AskedAccuracy = Annotated[
     float | dict[str, float | str],
     BeforeValidator(_parsed),
     WithJsonSchema({"anyOf": [*_SHARE_SCHEMA["anyOf"], {"type": "object", "additionalProperties": _SHARE_SCHEMA}]}),
+]
+
+
+_DEVIATIONS = 'a table of keys with standard deviations, such as "oil.viscosity" = "5 %" or "contact.load" = "0.2 N"'
+
+
+def _deviations(value: Any) -> dict[str, Any]:
+    """Return standard deviations by dotted keys; tables in the table are parts of keys."""
+    if not isinstance(value, Mapping) or not value:
+        raise _no_deviations("is no table of keys")
+    found: dict[str, Any] = {}
+    for name, one in value.items():
+        if isinstance(one, Mapping):
+            found |= {f"{name}.{inner}": item for inner, item in _deviations(one).items()}
+        elif isinstance(one, bool) or not isinstance(one, int | float | str):
+            raise _no_deviations(f"{name} is no standard deviation")
+        else:
+            found[str(name)] = one
+    return found
+
+
+def _no_deviations(problem: str) -> PydanticCustomError:
+    return PydanticCustomError("scene", "{problem}; allowed: {allowed}", {"problem": problem, "allowed": _DEVIATIONS})
+
+
+AskedUncertainty = Annotated[
+    dict[str, Any],
+    BeforeValidator(_deviations),
+    WithJsonSchema(
+        {
+            "type": "object",
+            "additionalProperties": {"anyOf": [{"type": "number"}, {"type": "string"}]},
+            "minProperties": 1,
+        }
+    ),
 ]
 
 

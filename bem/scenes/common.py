@@ -13,7 +13,7 @@ from pydantic_core import PydanticCustomError
 
 from bem.materials import CATALOGUE, Body, Layer, Material
 from bem.reference_solutions.hertz import smooth_load
-from bem.scenes.asked import AskedAccuracy
+from bem.scenes.asked import AskedAccuracy, AskedUncertainty
 from bem.scenes.keys import key
 from bem.scenes.paths import checksum_of, what_is_wrong_with
 from bem.scenes.ranges import values_of_keys
@@ -558,7 +558,7 @@ class SceneModel(Table):
     `repetitions` runs every case so often, with seeds of its own; means and spreads of all figures are then reported.
     `over` holds dotted keys with several values each, of which all combinations are run: lists, or ranges as of
     `bem sweep --over`. `accuracy` is the relative error that the headline figures, or those that it names, may have:
-    what the scene resolves is then refined until the error bars say so.
+    what the scene resolves is then refined until the error bars say so. `uncertain` has standard deviations of inputs.
     """
 
     kind: str = key("Kind of computation.", "basic")
@@ -587,6 +587,12 @@ class SceneModel(Table):
         "advanced",
         default=None,
         example="1 %",
+    )
+    uncertain: AskedUncertainty | None = key(
+        "Standard deviations of numbers of the scene, by dotted keys: figures get a second error, by their inputs.",
+        "advanced",
+        default=None,
+        example={"contact.load": "2 %"},
     )
     _source: dict[str, Any] | None = PrivateAttr(default=None)
 

@@ -26,6 +26,7 @@ from bem.scenes.planner import Plan
 from bem.scenes.records import Record
 from bem.scenes.records import headline as headline_of
 from bem.scenes.resolutions import Resolution
+from bem.scenes.uncertain import deviations
 
 KINDS = Path(__file__).resolve().parents[1] / "kinds"
 """Folder of the package's kinds: each one's parts, and its built-in scenes under `examples`."""
@@ -62,6 +63,8 @@ class Kind:
     contacts : contacts of a scene, each a `bem.scenes.checks.Case`, that plans show and checks examine; None where
         there are none.
     warm_up : built-in scenes and the settings that make them small; their runs compile the loops of the kind.
+    by_tangent : whether `run` itself propagates the uncertainty of a scene's key (`Record.input_changes`); otherwise
+        the run is repeated on both sides of the value.
     task : of a kind from outside the package, under which lists show it; a folder of `bem/kinds` says its own.
     """
 
@@ -82,6 +85,7 @@ class Kind:
     resolutions: tuple[Resolution, ...] = ()
     contacts: Callable[[Any], list[Any]] | None = None
     warm_up: tuple[tuple[str, tuple[str, ...]], ...] = ()
+    by_tangent: Callable[[Any, str], bool] = lambda scene, key: False
     task: str = OTHER
 
     def __post_init__(self) -> None:
@@ -99,7 +103,9 @@ class Kind:
             self._check_accuracy(scene)
             for one in self.resolutions:
                 scene = one.first(scene)
-        return self.resolve(with_checksums(scene))
+        resolved = self.resolve(with_checksums(scene))
+        deviations(resolved)  # refuses keys that hold no number
+        return resolved
 
     def _check_accuracy(self, scene: Any) -> None:
         """Refuse an accuracy of figures that there are not, or that this kind cannot refine to."""

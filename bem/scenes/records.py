@@ -158,6 +158,8 @@ class Record:
         dataset have them beside the figures, under `error_key`; a figure that is not named has no bar.
     error_parts : what each origin, in words, adds to them, in the same way; an error is the sum of its parts.
     refinement : how an accuracy that was asked for was reached, level by level (`bem.campaigns.refine`).
+    input_changes : change of figures, by their fields, with each uncertain input of the scene by one standard
+        deviation, SI; first order.
     scatters : fields of figures whose error over repetitions is their scatter alone, where nothing else is known of it.
     """
 
@@ -168,6 +170,7 @@ class Record:
     errors: Mapping[str, Any] = dataclasses.field(default_factory=dict, kw_only=True)
     error_parts: Mapping[str, Mapping[str, Any]] = dataclasses.field(default_factory=dict, kw_only=True)
     refinement: Mapping[str, Any] = dataclasses.field(default_factory=dict, kw_only=True)
+    input_changes: Mapping[str, Mapping[str, Any]] = dataclasses.field(default_factory=dict, kw_only=True)
 
     def __post_init__(self) -> None:
         if self.status is Status.CONVERGED:
@@ -209,12 +212,26 @@ OIL_SCATTER = "scatter of the friction coefficient from the oil's constants, hal
 """What it is."""
 
 
-def scatter_key(name: str) -> str:
-    """Return the key of a friction figure's scatter from the constants of the oil: `OIL` stands before the unit."""
-    for unit in filter(None, UNITS):
+INPUTS = "_input_scatter"
+"""End of the name of a figure's standard deviation by the uncertain inputs of the scene, beside the figure's own."""
+
+
+def scatter_key(name: str, origin: str = OIL) -> str:
+    """Return the key of a figure's scatter: `origin` stands before the unit. That from the constants of the oil
+    (`OIL`), or from the uncertain inputs of the scene (`INPUTS`)."""
+    for unit in sorted(filter(None, UNITS), key=len, reverse=True):
         if name.endswith(f"_{unit}"):
-            return f"{name.removesuffix(f'_{unit}')}{OIL}_{unit}"
-    return name + OIL
+            return f"{name.removesuffix(f'_{unit}')}{origin}_{unit}"
+    return name + origin
+
+
+def input_scatter(record: Record, field: str) -> Any:
+    """Return the standard deviation of a figure by all uncertain inputs, which are independent; None where unknown."""
+    changes = [one.get(field) for one in record.input_changes.values()]
+    if not changes or any(change is None for change in changes):
+        return None
+    total = np.sqrt(np.sum(np.square([np.asarray(change, dtype=np.float64) for change in changes]), axis=0))
+    return total if total.ndim else float(total)
 
 
 SCATTER = "scatter"

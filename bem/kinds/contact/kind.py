@@ -8,6 +8,7 @@ from bem.kinds.contact.plan import plan
 from bem.kinds.contact.record import ContactRecord
 from bem.kinds.contact.run import run
 from bem.kinds.contact.scene import ContactScene
+from bem.kinds.contact.uncertain import by_tangent
 from bem.scenes.kind import Kind
 
 KIND = Kind(
@@ -21,6 +22,7 @@ KIND = Kind(
     resolutions=RESOLUTIONS,
     volumes=lambda scene: scene.outputs.volumes,
     contacts=contacts,
+    by_tangent=by_tangent,
     figures=(
         "pressure-map",
         "contact-map",

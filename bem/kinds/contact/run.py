@@ -66,6 +66,12 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
         pressed = build.modulus_of(scene) * roughness["combined_Sdq"] * grid.area
         roughness["reduced_pressure"] = float(solution.load) / pressed
     errors = error_bars(context, wanted, lambda: bars_of(scene, undeformed, solution, below, rough, context, path))
+    changes: dict[str, Any] = {}
+    if scene.uncertain and path is None and solution.status is Status.CONVERGED:
+        from bem.kinds.contact.uncertain import input_changes
+
+        with context.timer("uncertain inputs"):
+            changes = input_changes(scene, grid, undeformed, solution, context)
     figures: dict[str, Any] = figures_of(solution, grid.area) | counted_figures(solution, grid)
     if path is not None:
         assert scene.contact.adhesion is not None
@@ -92,6 +98,7 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
         undeformed_gap=undeformed,
         plastic_depth=solution.plastic_depth if np.any(solution.plastic_depth) else None,
         **errors,
+        input_changes=changes,
         status=solution.status,
         where=f"contact solve: {solution.status.message}, residual {solution.residual:.2g}",
     )

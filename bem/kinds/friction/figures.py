@@ -31,6 +31,7 @@ from bem.plots.style import (
     prefix,
     speed_axis,
 )
+from bem.scenes.records import INPUTS
 
 _COLOURS = (BLUE, VERMILION, GREEN, ORANGE, SKY, PINK, BLACK) * 9
 _MODEL_NAMES = {
@@ -76,6 +77,11 @@ def _stribeck(run: Any, figure: Figure) -> None:
         drawn.append(mean)
         _band(axes, speed, values, _COLOURS[number], name, linestyle=style, linewidth=0.9 if many else 1.4)
         if number == 0:
+            if f"friction{INPUTS}" in run.dataset.variables:
+                scatter = _curves(run, f"friction{INPUTS}")[0][1].mean(axis=0)
+                axes.fill_between(
+                    speed, mean - scatter, mean + scatter, color="0.6", alpha=0.4, linewidth=0, label="inputs"
+                )
             for key, text, dots in (("boundary_part", "of it boundary", ":"), ("film_part", "of it film", "-.")):
                 part = _curves(run, key)[0][1].mean(axis=0)
                 axes.plot(speed, part, color="0.45", linestyle=dots, linewidth=1.1, label=text)
@@ -229,7 +235,8 @@ FIGURES = (
     FigureKind(
         "stribeck-curve",
         "Friction coefficient over speed, and the parts that boundary friction and the film have in the first "
-        "curve; bands span the repetitions; a curve that lies on another is dotted.",
+        "curve; bands span the repetitions, a grey band is one standard deviation by uncertain inputs; a curve that "
+        "lies on another is dotted.",
         ("speed", "friction", "boundary_part", "film_part", "model"),
         _stribeck,
         (5.4, 4.0),

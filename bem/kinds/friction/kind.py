@@ -8,6 +8,7 @@ from bem.kinds.friction.plan import plan
 from bem.kinds.friction.record import CurveRecord, summarise
 from bem.kinds.friction.run import run
 from bem.kinds.friction.scene import FrictionScene, axes, resolve
+from bem.kinds.friction.uncertain import by_tangent
 from bem.scenes.kind import Kind
 
 KIND = Kind(
@@ -22,6 +23,7 @@ KIND = Kind(
     summarise=summarise,
     resolutions=RESOLUTIONS,
     contacts=contacts,
+    by_tangent=by_tangent,
     figures=(
         "stribeck-curve",
         "load-sharing",

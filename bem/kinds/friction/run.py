@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Mapping
+from dataclasses import replace
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
@@ -14,6 +15,7 @@ from bem.grid import FloatArray, Grid
 from bem.kinds.friction.errors import bars_of
 from bem.kinds.friction.record import CurveRecord
 from bem.kinds.friction.scene import FrictionScene
+from bem.kinds.friction.uncertain import InputEnds, over_speeds
 from bem.lubrication.shear import BaseOilShear
 from bem.notes import Note
 from bem.notes.scenes import PART_UNSOLVED
@@ -48,8 +50,9 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
     with in_words_of_the_scene():
         setup = scene.curve_setup(_flow_factors(scene, grid, lower, upper, context))
     made_again = (setup.grid, setup.lubricant, setup.boundary_friction)
-    nothing: tuple[Curve, list[FloatArray]] = (Curve(), [])
-    curve, errors = kept(context, made_again) or nothing
+    nothing: tuple[Curve, list[FloatArray], list[dict[str, Any]]] = (Curve(), [], [])
+    curve, errors, changes = kept(context, made_again) or nothing
+    ends = InputEnds(scene, grid, setup, height, context) if scene.uncertain else None
     for speeds in pairs[len(curve.points) :]:
         with context.timer("load sharing"), in_words_of_the_scene():
             own = solve_setup(setup, height, speeds, curve.last)
@@ -58,16 +61,21 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
             bars = bars_of(setup, height, own, context)
             errors.append(table(bars.values, bars.parts, RULES, ORIGINS))
             notes += bars.notes
+        if ends is not None:
+            converged = own.status is Status.CONVERGED
+            with context.timer("uncertain inputs"):
+                changes.append(ends.changes(len(curve.points), own) if converged else {})
         curve = curve.then(own, notes, friction_scatter(own.film, setup.lubricant, own.film_force / own.load))
         if len(curve.points) < len(pairs):
-            keep(context, (curve, errors), made_again)
+            keep(context, (curve, errors, changes), made_again)
         context.progress(len(curve.points), len(pairs), "speeds", speed=curve.points[-1].speed, friction=own.friction)
     tell(context, notes_over("speed", "m/s", [p.speed for p in curve.points], [p.notes for p in curve.points]))
     tell(context, oil_notes([point.oil for point in curve.points]))
     tell(context, oil_on_contact_notes([(point.friction, point.oil_on_contact) for point in curve.points]))
     left_out = (_OF_SUPPLY if scene.supply is None else ()) + (_OF_HEAT if scene.thermal == "off" else ())
     left_out += () if isinstance(setup.lubricant.shear_law, BaseOilShear) else _OF_BASE_OIL
-    return _record(grid, curve, height, errors, left_out)
+    record = _record(grid, curve, height, errors, left_out)
+    return replace(record, input_changes=over_speeds(changes)) if changes else record
 
 
 def _notes(solution: MixedSolution) -> tuple[Note, ...]:

@@ -63,6 +63,10 @@ TASKS: Mapping[str, Task] = {
         ("speed_m_s", "friction", "contact_load_N", "minimum_film_nm", "lambda_ratio"),
         ("stribeck-curve",),
     ),
+    "input-uncertainty": Task(
+        ("speed_m_s", "friction", "contact_load_N", "minimum_film_nm", "lambda_ratio"),
+        ("stribeck-curve",),
+    ),
     "wear-particles": Task(
         (
             "particle_equivalent_radius_nm", "particle_length_nm", "particle_width_nm", "particle_thickness_nm",

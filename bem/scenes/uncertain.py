@@ -1,0 +1,144 @@
+"""Uncertain inputs of a scene: standard deviations of numbers at dotted keys.
+
+    uncertain = { "oil.viscosity" = "5 %", "contact.load" = "0.2 N" }
+
+A relative deviation is of the value at the key; of a list all entries change alike. Knows keys, numbers and units;
+verified in tests/scenes/test_uncertain.py.
+"""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Sequence
+from typing import Any
+
+from pydantic import BaseModel
+from pydantic_core import PydanticCustomError
+
+from bem.errors import InputError
+from bem.scenes.paths import parse_key
+from bem.scenes.units import Dimension
+from bem.scenes.walk import own_keys
+
+_NUMBER = Dimension("", "a number", "0.01")
+_HARDNESSES = ("lower.material.hardness", "upper.material.hardness")
+"""Keys whose values a resolved scene has copied into `contact.hardness`."""
+
+
+def value_of(scene: BaseModel, key: str) -> Any:
+    """Return the value at a dotted key of a scene; None if there is none."""
+    place: Any = scene
+    for part in parse_key(key) or ("",):
+        if isinstance(part, int):
+            place = place[part] if isinstance(place, list | tuple) and part < len(place) else None
+        else:
+            place = getattr(place, part, None) if isinstance(place, BaseModel) else None
+    return place
+
+
+def deviation(scene: BaseModel, key: str, given: str | float, unit: str) -> float:
+    """Return the standard deviation of the value at a key, in SI units; of a list that of an entry of size one, if
+    relative.
+
+    unit : SI unit of the value, "" for none.
+
+    Raises
+    ------
+    InputError : a key that holds no real number, or a deviation that is none.
+    """
+    numbers = _numbers(value_of(scene, key))
+    if key in _HARDNESSES:
+        raise InputError(f'uncertain."{key}": the model takes contact.hardness; allowed: "contact.hardness"')
+    if not numbers:
+        raise InputError(
+            f'uncertain."{key}": no number is set there; allowed: a dotted key of the scene whose value is set and has '
+            "decimals, such as contact.load"
+        )
+    text = str(given).strip()
+    try:
+        if text.endswith("%"):
+            found = _NUMBER.parse(text) * max(map(abs, numbers))
+        else:
+            found = Dimension(unit, "a standard deviation", f"0.1 {unit}".strip()).parse(given)
+    except PydanticCustomError as error:
+        raise InputError(f'uncertain."{key}" = {given}: {error.message()}, or a relative one such as "5 %"') from None
+    if not (math.isfinite(found) and found > 0):
+        raise InputError(f'uncertain."{key}": {given} is not a positive standard deviation')
+    return found
+
+
+def deviations(scene: Any) -> dict[str, float]:
+    """Return the standard deviations of a scene by its keys, in SI units; of lists that of the largest entry.
+
+    Raises
+    ------
+    InputError : one message for each key that holds no number or deviation that is none.
+    """
+    found: dict[str, float] = {}
+    messages: list[str] = []
+    for key, given in (scene.uncertain or {}).items():
+        try:
+            found[key] = deviation(scene, key, given, _unit_at(scene, key))
+        except InputError as error:
+            messages += error.messages
+    if messages:
+        raise InputError(messages)
+    return found
+
+
+def _unit_at(scene: BaseModel, key: str) -> str:
+    """Return the SI unit of the value at a key, "" for none."""
+    place: Any = scene
+    unit = ""
+    for part in parse_key(key) or ():
+        if isinstance(part, int):
+            place = place[part] if isinstance(place, list | tuple) and part < len(place) else None
+        elif isinstance(place, BaseModel):
+            unit = next((one.unit for one in own_keys(type(place)) if one.name == part), "")
+            place = getattr(place, part, None)
+    return unit
+
+
+def _numbers(value: Any) -> list[float]:
+    """Return the numbers of a value: one, or those of a list; none of what is no real number."""
+    if isinstance(value, list | tuple):
+        found = [_numbers(item) for item in value]
+        return [number for each in found for number in each] if all(found) else []
+    return [float(value)] if isinstance(value, float) else []
+
+
+def moved(scene: Any, key: str, deviation: float, steps: float) -> Any:
+    """Return the scene with the value at a key changed by so many deviations; of a list in proportion to its entries.
+
+    deviation : of the largest entry.
+    """
+    parts, value = parse_key(key), value_of(scene, key)
+    assert parts is not None
+    return _put(scene, parts, _shifted(value, deviation, steps))
+
+
+def _shifted(value: Any, deviation: float, steps: float) -> Any:
+    if isinstance(value, list | tuple):
+        largest = max(abs(number) for number in _numbers(value)) or 1.0
+        return type(value)(
+            _shifted(item, deviation * (max(map(abs, _numbers(item))) / largest), steps) for item in value
+        )
+    return value + steps * deviation
+
+
+def _put(place: Any, parts: Sequence[str | int], value: Any) -> Any:
+    """Return a copy of a table or list with another value at a place."""
+    if not parts:
+        return value
+    first, rest = parts[0], parts[1:]
+    if isinstance(first, int):
+        items = list(place)
+        items[first] = _put(items[first], rest, value)
+        return type(place)(items)
+    return place.model_copy(update={first: _put(getattr(place, first), rest, value)})
+
+
+def relative_step(scene: BaseModel, key: str, deviation: float, relative: float) -> float:
+    """Return the number of deviations that changes the value at a key by a relative amount; at most one deviation."""
+    largest = max(map(abs, _numbers(value_of(scene, key))), default=0.0)
+    return min(1.0, relative * largest / deviation) if largest > 0 else relative

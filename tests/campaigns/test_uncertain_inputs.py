@@ -1,0 +1,95 @@
+"""Errors by uncertain inputs in results: by derivatives, by repeated runs, beside the figures and in the dataset."""
+
+import math
+
+import numpy as np
+import pytest
+
+from bem import load_scene
+from bem.campaigns import campaign_of, compute
+from bem.plots.report import with_error
+from bem.plots.tables import figure_tables
+from bem.scenes import get_kind
+from bem.scenes.uncertain import moved
+
+CONTACT = {
+    "kind": "contact",
+    "grid": {"shape": 48, "spacing": "1 um"},
+    "lower": {
+        "material": {"youngs_modulus": "200 GPa", "poissons_ratio": 0.3},
+        "surface": {"kind": "generated", "rms_height": "50 nm", "correlation_length": "6 um"},
+    },
+    "shape": {"kind": "sphere", "radius": "0.5 mm"},
+    "contact": {"load": "0.5 N", "tolerance": 1e-12},
+}
+KEYS = {
+    "contact.load": "1 %",
+    "lower.surface.rms_height": "1 %",
+    "lower.material.youngs_modulus": "2 GPa",
+    "lower.material.poissons_ratio": 0.002,
+    "shape.radius": "1 %",
+}
+FIGURES = ("contact_area_fraction", "max_pressure", "mean_gap", "approach", "mean_contact_pressure")
+
+
+def outcome_of(table):
+    return compute(campaign_of(load_scene(table))).outcome
+
+
+def test_derivatives_of_a_contact_are_those_of_runs_close_by():
+    scene = get_kind("contact").resolved(load_scene(CONTACT | {"uncertain": KEYS}))
+    found = outcome_of(CONTACT | {"uncertain": KEYS})
+    for key in KEYS:
+        deviation = {"lower.material.youngs_modulus": 2e9, "lower.material.poissons_ratio": 0.002}.get(key)
+        step = 1e-4 if deviation is None else 0.01
+        deviation = deviation or 0.01 * _at(scene, key)
+        ends = [
+            compute(campaign_of(moved(scene, key, deviation, side * step).model_copy(update={"uncertain": None})))
+            for side in (-1, 1)
+        ]
+        name = key.replace(".", "_")
+        for figure in FIGURES:
+            before, after = (float(end.outcome.variables[figure].values) for end in ends)
+            change = float(found.variables[f"{figure}_change_{name}"].values)
+            size = abs(float(found.variables[figure].values)) * 0.01
+            assert change == pytest.approx((after - before) / (2 * step), rel=1e-3, abs=1e-3 * size), (key, figure)
+
+
+def _at(scene, key):
+    for part in key.split("."):
+        scene = getattr(scene, part)
+    return scene
+
+
+def test_independent_inputs_add_in_quadrature_and_stand_behind_the_figure():
+    found = outcome_of(CONTACT | {"uncertain": KEYS})
+    changes = [found.variables[f"approach_change_{key.replace('.', '_')}"].values for key in KEYS]
+    total = math.sqrt(sum(float(change) ** 2 for change in changes))
+    assert found.summary["approach_input_scatter_m"] == pytest.approx(total, rel=1e-12, abs=0)
+    _, shown = with_error("approach_m", dict(found.summary))
+    assert "(numerical), ±" in shown
+    assert shown.endswith("(inputs)")
+    assert "approach_input_scatter" in found.variables
+    assert "approach_input_scatter_m" not in outcome_of(CONTACT).summary
+
+
+def test_keys_without_a_derivative_are_run_on_both_sides():
+    settings = ["grid.shape=96", 'uncertain={"grid.spacing"="1 %"}']
+    found = compute(campaign_of(load_scene("uncertain-contact", settings))).outcome
+    # the load is the mean pressure on the area of the cells
+    assert found.summary["load_input_scatter_N"] == pytest.approx(0.02 * found.summary["load_N"], rel=1e-3)
+
+
+def test_curves_have_a_scatter_at_every_speed():
+    settings = ["repetitions=1", "speeds.count=3", "grid.shape=64", "film.points=400", 'sharing.models=["elastic"]',
+                'uncertain={"oil.viscosity"="5 %","contact.boundary_friction"="0.01"}']  # fmt: skip
+    found = compute(campaign_of(load_scene("stribeck-mineral-oil", settings))).outcome
+    scatter = found.summary["friction_input_scatter"]
+    assert len(scatter) == 3
+    # boundary lubrication has the scatter of its coefficient, full film that of the viscosity
+    assert scatter[0] == pytest.approx(0.01, rel=0.02)
+    change = found.variables["friction_change_oil_viscosity"].values.ravel()
+    assert scatter[-1] == pytest.approx(abs(change[-1]), rel=1e-9)
+    assert np.all(found.variables["friction_change_contact_boundary_friction"].values >= 0)
+    (table, *_) = figure_tables(dict(found.summary), ["speed_m_s", "friction"])
+    assert all("(inputs)" in row[1] for row in table.rows)
