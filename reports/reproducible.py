@@ -303,6 +303,11 @@ def _piece_shapes(module: Any, stored: Any) -> Rows:
         yield f"{row['load_N']:g} N, {row['connectivity']} neighbours", _again(row, compute, allowed)
 
 
+def _input_coverage(module: Any, stored: Any) -> Rows:
+    for name in module.CASES:
+        yield name, _again(stored[name], partial(module.judged, name), within(relative=0.02, absolute=0.02))
+
+
 def _stribeck_effects(module: Any, stored: Any) -> Rows:
     for contact, found in stored.items():
         for curve in found["curves"]:
@@ -678,6 +683,7 @@ RESULTS: dict[str, Result] = {
         experiment(
             "independent_figures", _independent_figures, 20, "the difference to half the points; area within 1e-4"
         ),
+        experiment("input_coverage", _input_coverage, 10, "2 % of a deviation, and 0.02 of the draws: four of 200"),
         experiment("large_contact", _large_contact, 20, _COUNTS + "; figures within 1e-3, the tolerance being 1e-6"),
         experiment("load_share_curves", _load_share_curves, 4, _MIXED),
         experiment("long_ellipse", _long_ellipse, 10, "the film's own error bar"),
