@@ -25,6 +25,7 @@ def test_figures_are_those_stored(folder, group, case):
     assert not apart, "\n".join(str(one) for one in apart)
 
 
+@pytest.mark.slow
 @pytest.mark.parametrize("group", GROUPS)
 def test_counts_of_a_group_are_those_stored(folder, group):
     now = {case: record_of(folder, group, case)[0] for case in GROUPS[group]()}
