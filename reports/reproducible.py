@@ -28,7 +28,7 @@ JUDGEMENTS = (
     "film_error_bars", "flow_error_bars", "heated_mixed_error_bars", "hot_mixed_error_bars", "life_error_bars",
     "march_error_bars", "mixed_ball_error_bars", "mixed_error_bars", "particle_error_bars", "point_error_bars",
     "rough_point_error_bars", "rubbing_error_bars", "running_in_error_bars", "small_contact_error_bars",
-    "sticking_error_bars", "tribofilm_error_bars", "wear_error_bars",
+    "sticking_error_bars", "tribofilm_error_bars", "viscoelastic_error_bars", "wear_error_bars",
 )  # fmt: skip
 """Modules of experiments that judge error bars."""
 ROUNDING = 1e-6
@@ -45,7 +45,7 @@ SECONDS = {
     "hot_mixed_error_bars": 40, "life_error_bars": 15, "march_error_bars": 15, "mixed_ball_error_bars": 10,
     "mixed_error_bars": 15, "particle_error_bars": 2, "point_error_bars": 20, "rough_point_error_bars": 40,
     "rubbing_error_bars": 8, "running_in_error_bars": 10, "small_contact_error_bars": 2, "sticking_error_bars": 60,
-    "tribofilm_error_bars": 20, "wear_error_bars": 15,
+    "tribofilm_error_bars": 20, "viscoelastic_error_bars": 5, "wear_error_bars": 15,
 }  # fmt: skip
 """Processor time of a case of each judgement, about [s]."""
 

@@ -6,20 +6,22 @@ import math
 from collections.abc import Mapping
 from dataclasses import asdict
 from pathlib import Path
-from typing import Annotated, Any, Literal, Self, TypeVar
+from typing import Annotated, Any, ClassVar, Literal, Self, TypeVar
 
 from pydantic import Field, PrivateAttr, field_validator, model_validator
 from pydantic_core import PydanticCustomError
 
+from bem.errors import InputError
 from bem.materials import CATALOGUE, Body, Layer, Material
 from bem.reference_solutions.hertz import smooth_load
+from bem.relaxation import PronySeries
 from bem.scenes.asked import AskedAccuracy, AskedUncertainty
 from bem.scenes.keys import key
 from bem.scenes.paths import checksum_of, what_is_wrong_with
 from bem.scenes.ranges import values_of_keys
 from bem.scenes.table import Table, check_rising, exactly_one, one_for_both, one_of, problem
 from bem.scenes.tables.marks import CrossHatchScene, FeedMarksScene
-from bem.scenes.units import Density, Force, HeatCapacity, Length, Pressure, Ratio, ThermalConductivity
+from bem.scenes.units import Density, Force, HeatCapacity, Length, Pressure, Ratio, ThermalConductivity, Time
 from bem.surfaces.processes import PROCESSES, Lay, ProcessName, statistics_beside
 
 PositiveLength = Annotated[Length, Field(gt=0)]
@@ -69,6 +71,32 @@ def _named(name: Any, catalogue: Mapping[str, _Entry], wrong: str) -> _Entry:
     return entry
 
 
+class RelaxationScene(Table):
+    """Relaxation of the modulus over time, a Prony series: E(t) = E [1 - sum of shares (1 - exp(-t / times))]."""
+
+    shares: Annotated[list[Annotated[Ratio, Field(gt=0, le=1)]], Field(min_length=1, max_length=64)] = key(
+        "Parts of Young's modulus that relax; with a sum of one the body flows.", "basic", example=[0.5, 0.3]
+    )
+    times: Annotated[list[Annotated[Time, Field(gt=0)]], Field(min_length=1, max_length=64)] = key(
+        "Relaxation times, one for each share.", "basic", example=["1 ms", "1 s"]
+    )
+
+    @model_validator(mode="after")
+    def _a_series(self) -> RelaxationScene:
+        try:
+            self.build()
+        except InputError as error:
+            raise problem(
+                "; ".join(message.removeprefix("PronySeries: ") for message in error.messages),
+                "as many shares as times, and a sum of shares of at most one",
+            ) from None
+        return self
+
+    def build(self) -> PronySeries:
+        """As `bem.relaxation.PronySeries`."""
+        return PronySeries(self.shares, self.times)
+
+
 class MaterialScene(Table):
     """Elastic solid: a name of the catalogue (`bem materials`), or constants of your own, which win over its own."""
 
@@ -98,6 +126,12 @@ class MaterialScene(Table):
     heat_capacity: Annotated[HeatCapacity, Field(gt=0)] | None = key(
         "Specific heat capacity; only temperatures need it.", "advanced", default=None
     )
+    relaxation: RelaxationScene | None = key(
+        "Relaxation of a viscoelastic body, whose modulus starts at youngs_modulus; for the kind contact.",
+        "advanced",
+        default=None,
+        reason="elastic",
+    )
     source: str = key("Source of the constants, repeated in the scene file of the run.", "expert", default="")
 
     @classmethod
@@ -121,7 +155,6 @@ class MaterialScene(Table):
         own = {key: value for key, value in data.items() if key != "catalogue"}
         entry = _named(data["catalogue"], CATALOGUE, "is not in the catalogue of materials")
         constants = asdict(entry.material) | {"source": entry.source}
-        del constants["relaxation"]  # scenes take materials as elastic
         if own:
             constants["source"] = f"{entry.source}; changed in the scene: {', '.join(sorted(own))}"
         if "hardness" in own and "yield_stress" not in own:
@@ -130,7 +163,8 @@ class MaterialScene(Table):
 
     def build(self) -> Material:
         """As `bem.Material`."""
-        return Material(**self.model_dump(exclude={"source"}))
+        constants = self.model_dump(exclude={"source", "relaxation"})
+        return Material(**constants, relaxation=None if self.relaxation is None else self.relaxation.build())
 
 
 class LayerScene(Table):
@@ -147,6 +181,12 @@ class LayerScene(Table):
         reason="none",
         example="-2 GPa",
     )
+
+    @model_validator(mode="after")
+    def _elastic_in_time(self) -> LayerScene:
+        if self.material.relaxation is not None:
+            raise problem("the material of a layer relaxes", "relaxation of bodies without layers")
+        return self
 
     @model_validator(mode="after")
     def _elastic_without_a_contact(self) -> Self:
@@ -552,6 +592,24 @@ class OutputsScene(Table):
     )
 
 
+def relaxing_bodies(scene: Table) -> list[str]:
+    """Return the names of bodies of a scene whose material relaxes."""
+    bodies = {name: getattr(scene, name) for name in type(scene).model_fields}
+    return [
+        name
+        for name, body in bodies.items()
+        if isinstance(body, BodyScene | UpperBodyScene)
+        and body.material is not None
+        and body.material.relaxation is not None
+    ]
+
+
+def refuse_relaxation(scene: Table, allowed: str) -> None:
+    """Refuse bodies that relax."""
+    for name in relaxing_bodies(scene):
+        raise problem(f"{name}.material relaxes", allowed)
+
+
 class SceneModel(Table):
     """Keys of every scene. `redoes` names the figure or table of the thesis that the scene repeats.
 
@@ -594,6 +652,8 @@ class SceneModel(Table):
         default=None,
         example={"contact.load": "2 %"},
     )
+    viscoelastic: ClassVar[bool] = False
+    """Whether the kind knows bodies that relax."""
     _source: dict[str, Any] | None = PrivateAttr(default=None)
 
     @field_validator("over", mode="before")
@@ -605,6 +665,12 @@ class SceneModel(Table):
     def source(self) -> dict[str, Any] | None:
         """The table as it was written, of a scene with `over`: what keys change is changed there."""
         return self._source
+
+    @model_validator(mode="after")
+    def _relaxation_where_time_is(self) -> Self:
+        if not self.viscoelastic:
+            refuse_relaxation(self, "an elastic material, or kind contact with contact.times or a speed")
+        return self
 
     def with_source(self, table: dict[str, Any]) -> Self:
         """The scene with the table that it was made from."""

@@ -15,6 +15,7 @@ from bem.notes.checks import DEPTHS_MISS_STRESS, RESIDUAL_STRESS
 from bem.notes.contact import ADHESIVE_ZONE_UNRESOLVED
 from bem.reference_solutions.hertz import cylinder_contact, sphere_contact
 from bem.reference_solutions.westergaard import crossed_full_contact_pressure
+from bem.relaxation import PronySeries
 from bem.runs import plan_scene, run_scene
 from bem.scenes import PlainContext, get_kind, load_scene
 from bem.scenes.build import grid_of, traction_couples
@@ -471,4 +472,75 @@ def test_adhesion_refuses_what_does_not_go_with_it(changed, message):
     data = copy.deepcopy(ADHESIVE)
     data["contact"] = {key: value for key, value in (data["contact"] | changed).items() if value is not None}
     with pytest.raises(InputError, match=message):
+        plan_scene(data)
+
+
+RELAXING = {
+    "kind": "contact",
+    "grid": {"shape": 48, "lengths": "5 mm"},
+    "lower": {
+        "material": {
+            "youngs_modulus": "20 MPa",
+            "poissons_ratio": 0.45,
+            "relaxation": {"shares": [0.5, 0.25], "times": ["0.1 s", "2 s"]},
+        }
+    },
+    "shape": {"kind": "sphere", "radius": "10 mm"},
+    "contact": {"times": ["0 s", "4 s"], "load_path": ["1 N"], "load": "1 N"},
+}
+
+
+def test_a_body_that_relaxes_creeps_under_a_held_load():
+    """Lee and Radok: a^3 grows as the compliance; the path is in the dataset."""
+    _, outcome, _ = run(RELAXING)
+    series = PronySeries([0.5, 0.25], [0.1, 2.0])
+    modulus = 20e6 / (1 - 0.45**2)
+    radius = np.cbrt(3 * 0.01 * series.creep().compliance(4.0) / (4 * modulus))
+    assert outcome.summary["approach_m"] == pytest.approx(radius**2 / 0.01, rel=5e-4)
+    assert outcome.variables["path_time"].values[[0, -1]] == pytest.approx([0, 4])
+    assert outcome.summary["energy_imbalance"] < 1e-3
+    assert 0 < outcome.summary["dissipated_energy_J_error"] < 0.05 * outcome.summary["dissipated_energy_J"]
+    assert outcome.summary["load_N_error"] == 0
+
+
+def test_sliding_has_hysteresis_friction_and_rolling_of_one_body_the_same():
+    data = copy.deepcopy(RELAXING)
+    data["contact"] = {"load": "1 N", "sliding_speed": "1 mm/s"}
+    _, outcome, _ = run(data)
+    assert 0.005 < outcome.summary["hysteresis_friction"] < 0.1
+    assert outcome.summary["energy_imbalance"] < 0.02
+    assert outcome.summary["dissipated_power_W"] == pytest.approx(
+        1e-3 * outcome.summary["hysteresis_force_N"], rel=0.02
+    )
+    data["contact"] = {"load": "1 N", "rolling_speed": "1 mm/s"}
+    _, rolling, _ = run(data)
+    assert rolling.summary["hysteresis_friction"] == outcome.summary["hysteresis_friction"]
+
+
+@pytest.mark.parametrize(
+    ("keys", "message"),
+    [
+        ({"contact": {"load": "1 N"}}, "lower.material relaxes"),
+        ({"contact": {"load": "1 N", "times": ["0 s", "1 s"]}}, "2 times for 0 values"),
+        ({"contact": {"load": "1 N", "times": ["0 s"], "sliding_speed": "1 m/s"}}, "times and sliding_speed are given"),
+        ({"contact": {"load": "1 N", "times": ["0 s"], "friction": 0.1}}, "times with friction"),
+        ({"contact": {"load": "1 N", "times": ["2 s", "1 s"], "load_path": ["1 N"]}}, "times fall"),
+        ({"lower": {"material": "steel-disk"}}, "without a body that relaxes"),
+    ],
+)
+def test_relaxation_refuses_what_does_not_go_with_it(keys, message):
+    with pytest.raises(InputError, match=message):
+        plan_scene(copy.deepcopy(RELAXING) | keys)
+
+
+def test_other_kinds_refuse_a_body_that_relaxes():
+    data = {
+        "kind": "surface-temperature",
+        "grid": {"shape": 32, "lengths": "5 mm"},
+        "lower": RELAXING["lower"],
+        "shape": RELAXING["shape"],
+        "contact": {"load": "1 N", "friction": 0.1},
+        "heat": {"lower_speed": "1 m/s"},
+    }
+    with pytest.raises(InputError, match="relaxes"):
         plan_scene(data)

@@ -16,6 +16,7 @@ if TYPE_CHECKING:
     from bem.accuracy import ErrorBars
     from bem.adhesion import AdhesiveHistory
     from bem.contact import ContactSolution
+    from bem.kinds.contact.viscoelastic import Relaxed
     from bem.stress import StressSummary
 
 
@@ -27,6 +28,7 @@ def bars_of(
     rough: Mapping[str, FloatArray],
     context: Context,
     path: AdhesiveHistory | None = None,
+    relaxed: Relaxed | None = None,
 ) -> ErrorBars:
     """Bars of the contact, and of the stresses below it where there are any."""
     from bem.accuracy import ContactCase, coarser_before, coating_bars, contact_bars, solve_coarser, stress_bars
@@ -34,6 +36,12 @@ def bars_of(
     grid, before = build.grid_of(scene.grid), level_before(context)
     operator = build.operator_of(scene, grid, scene.contact.friction)
     case = ContactCase(operator, undeformed, solution, **scene.contact.prescribed(grid.area), from_touch=bool(rough))
+    if relaxed is not None:
+        from bem.accuracy.viscoelastic import relaxed_bars
+
+        control = scene.contact
+        followed = control.path(grid.area) if control.times else None
+        return relaxed_bars(case, relaxed, speeds=scene.speeds, times=control.times, path=followed)
     if path is not None:
         from bem.accuracy.adhesion import adhesive_bars
 

@@ -192,6 +192,38 @@ def _adhesive_path(run: Any, figure: Figure) -> None:
     left.legend()
 
 
+def _over_time(run: Any, figure: Figure) -> None:
+    """Load, approach and contact area over the time of the path."""
+    time = _array(run, "path_time")
+    time = time - time[0]
+    factor, unit = prefix(time, "s")
+    area = _array(run, "path_contact_area")
+    size, size_unit = (1e12, "µm²") if area.max() < 1e-6 else (1e6, "mm²")
+    load, approach = (_array(run, f"path_{name}") for name in ("load", "approach"))
+    rows = ((load, "load", *prefix(load, "N")), (approach, "approach", *prefix(approach, "m")))
+    every = (*rows, (area, "contact area", size, size_unit))
+    for axes, (values, name, scale, written) in zip(figure.subplots(1, 3), every, strict=True):
+        axes.plot(time * factor, values * scale, ".-", color=BLUE, markersize=3)
+        axes.set_xlabel(label("time", unit))
+        axes.set_ylabel(label(name, written))
+        axes.set_ylim(bottom=min(0.0, 1.05 * float(values.min()) * scale))
+
+
+def _friction_over_speed(run: Any, figure: Figure) -> None:
+    """Hysteresis friction of all cases over the speed."""
+    speed, friction = (np.ravel(_array(run, name)) for name in ("contact_speed", "hysteresis_friction"))
+    order = np.argsort(speed)
+    axes = figure.add_subplot()
+    axes.semilogx(speed[order], friction[order], "o-", color=BLUE, markersize=4)
+    axes.set_xlabel(label("speed", "m/s"))
+    axes.set_ylabel("friction coefficient of hysteresis")
+    axes.set_ylim(bottom=0)
+
+
+def _several_speeds(run: Any) -> bool:
+    return bool(np.unique(_array(run, "contact_speed")).size > 1)
+
+
 _FEWEST_SPOTS = 10
 
 
@@ -289,6 +321,22 @@ FIGURES = (
         ("path_load", "path_approach", "path_contact_area", "path_jump"),
         _adhesive_path,
         (7.6, 3.6),
+    ),
+    FigureKind(
+        "contact-over-time",
+        "Load, approach and contact area of bodies that relax, over time; points are the steps.",
+        ("path_time", "path_load", "path_approach", "path_contact_area"),
+        _over_time,
+        (8.4, 3.0),
+    ),
+    FigureKind(
+        "friction-over-speed",
+        "Friction of hysteresis over the speed of steady sliding or rolling, one point for each case.",
+        ("contact_speed", "hysteresis_friction"),
+        _friction_over_speed,
+        (5.4, 3.6),
+        _several_speeds,
+        all_cases=True,
     ),
     FigureKind(
         "spot-sizes",

@@ -32,6 +32,8 @@ KIND = Kind(
         "von-mises-depth",
         "layer-stresses",
         "adhesion-path",
+        "contact-over-time",
+        "friction-over-speed",
         "area-over-load",
         "spot-sizes",
         "convergence",

@@ -12,6 +12,9 @@ ADHESIVE_SOLVES, ADHESIVE_CONVOLUTIONS = 30.0, 250.0
 UNRESOLVED = 12.0
 """Times as many where cells do not resolve the adhesive zone: cells open and close one after the other."""
 
+RELAXING_STEPS, RELAXING_CONVOLUTIONS, STEADY_CONVOLUTIONS = 40, 12.0, 60.0
+"""Steps of an interval in time, convolutions of each and of a steady motion: means of balls and cylinders."""
+
 
 def plan(scene: ContactScene) -> Plan:
     """Plan the computation of one case.
@@ -29,7 +32,14 @@ def plan(scene: ContactScene) -> Plan:
     held = 2.5 if scene.contact.mean_gap is None else 3.5  # how far an even pressure on what touches displaces
     coarser = plans.coarser_contact(grid, depths, capped=capped, stiffness=stiffness, fields=held)
     words = f"{scene.contact.behaviour}, {scene.contact.words()}"
-    if scene.contact.adhesion is None:
+    if scene.contact.times:
+        steps = RELAXING_STEPS * len(scene.contact.times)
+        contact = plans.contacts(
+            grid, RELAXING_CONVOLUTIONS * steps, f"{words}; in time, about {steps} steps", solves=float(steps)
+        )
+    elif scene.speeds is not None:
+        contact = plans.contacts(grid, STEADY_CONVOLUTIONS, f"{words}; in steady motion", solves=1.0)
+    elif scene.contact.adhesion is None:
         contact = plans.contact(grid, words, capped=capped, stiffness=stiffness)
     else:
         steps = len(next(iter(scene.contact.path(grid.area).values())))

@@ -96,6 +96,22 @@ class ContactRecord(GridRecord):
         ),
     ] = None
     adhesive_energy: Annotated[float | None, Figure("J", "elastic and adhesive energy", optional=True)] = None
+    hysteresis_friction: Annotated[
+        float | None, Figure("", "friction coefficient of hysteresis", optional=True, headline=True)
+    ] = None
+    hysteresis_force: Annotated[float | None, Figure("N", "friction force of hysteresis", optional=True)] = None
+    dissipated_power: Annotated[
+        float | None, Figure("W", "power that the memory of the bodies dissipates", optional=True)
+    ] = None
+    dissipated_energy: Annotated[
+        float | None, Figure("J", "energy dissipated in the bodies on the path", optional=True)
+    ] = None
+    energy_imbalance: Annotated[
+        float | None, Figure("", "work that is neither stored nor dissipated", optional=True, unjudged=True)
+    ] = None
+    contact_speed: Annotated[
+        float | None, Figure("m_s", "speed of steady sliding or rolling", optional=True, unjudged=True)
+    ] = None
     layer_residual_stress: Annotated[
         FloatArray | None,
         _layers("Pa", "residual stress of each layer, which the other stresses include", unjudged=True),
@@ -119,6 +135,7 @@ class ContactRecord(GridRecord):
         FloatArray | None, Series(("component", "depth", "x", "y"), "Pa", "stress, positive in tension")
     ] = None
     attraction: Annotated[FloatArray | None, grid_map("Pa", "attraction by adhesion")] = None
+    path_time: Annotated[FloatArray | None, Series(("step",), "s", "time on the path")] = None
     path_load: Annotated[FloatArray | None, Series(("step",), "N", "load on the path")] = None
     path_approach: Annotated[FloatArray | None, Series(("step",), "m", "approach on the path")] = None
     path_contact_area: Annotated[FloatArray | None, Series(("step",), "m^2", "contact area on the path")] = None

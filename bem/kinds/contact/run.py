@@ -15,6 +15,7 @@ from bem.kinds.contact.errors import bars_of
 from bem.kinds.contact.record import ContactRecord
 from bem.kinds.contact.scene import ContactScene
 from bem.kinds.contact.solve import solve_adhesive, solve_scene
+from bem.kinds.contact.viscoelastic import relaxed_arrays, relaxed_contact, relaxed_figures, solve_relaxing
 from bem.materials import softer_hardness
 from bem.notes import Level, Note, has_code
 from bem.notes.contact import CONTACT_AT_EDGE
@@ -47,7 +48,10 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
     del lower, upper
     path: AdhesiveHistory | None = None
     with context.timer("contact"):
-        if scene.contact.adhesion is None:
+        relaxed = solve_relaxing(scene, grid, undeformed, context)
+        if relaxed is not None:
+            solution, history = relaxed_contact(relaxed), np.zeros((0, 2))
+        elif scene.contact.adhesion is None:
             solution, history = solve_scene(scene, grid, undeformed, context)
         else:
             path = solve_adhesive(scene, grid, undeformed, context)
@@ -65,9 +69,11 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
     if "combined_Sdq" in roughness and scene.shape.kind == "flat":
         pressed = build.modulus_of(scene) * roughness["combined_Sdq"] * grid.area
         roughness["reduced_pressure"] = float(solution.load) / pressed
-    errors = error_bars(context, wanted, lambda: bars_of(scene, undeformed, solution, below, rough, context, path))
+    errors = error_bars(
+        context, wanted, lambda: bars_of(scene, undeformed, solution, below, rough, context, path, relaxed)
+    )
     changes: dict[str, Any] = {}
-    if scene.uncertain and path is None and solution.status is Status.CONVERGED:
+    if scene.uncertain and path is None and relaxed is None and solution.status is Status.CONVERGED:
         from bem.kinds.contact.uncertain import input_changes
 
         with context.timer("uncertain inputs"):
@@ -76,6 +82,8 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
     if path is not None:
         assert scene.contact.adhesion is not None
         figures |= adhesive_figures(path, scene.contact.adhesion)
+    if relaxed is not None:
+        figures |= relaxed_figures(relaxed)
     return ContactRecord(
         **figures,
         **roughness,
@@ -84,6 +92,7 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
         **_stress_fields(below),
         **_coating_fields(scene, grid, solution.pressure if path is None else path.last.traction, below),
         **({} if path is None else adhesive_arrays(path)),
+        **({} if relaxed is None else relaxed_arrays(scene, relaxed)),
         residual=solution.residual,
         iterations=solution.iterations,
         convolutions=solution.convolutions,

@@ -2,16 +2,17 @@
 
 from __future__ import annotations
 
-from typing import Annotated, Literal
+from itertools import pairwise
+from typing import Annotated, ClassVar, Literal
 
-from pydantic import model_validator
+from pydantic import Field, model_validator
 
 from bem.adhesion.laws import AdhesionLaw
-from bem.scenes.common import Force, problem
+from bem.scenes.common import Force, SmoothSurface, problem, refuse_relaxation, relaxing_bodies
 from bem.scenes.keys import key
 from bem.scenes.laws import LawKey
 from bem.scenes.tables.pressing import ContactControl, ContactOutputs, StressedScene
-from bem.scenes.units import Length
+from bem.scenes.units import Length, Speed, Time
 
 
 class AdhesiveControl(ContactControl):
@@ -25,28 +26,50 @@ class AdhesiveControl(ContactControl):
         example={"work": "50 mJ/m^2", "range": "2 nm"},
     )
     load_path: list[Force] = key(
-        "Loads that an adhesive contact goes through before its load or mean pressure, in this order; negative ones "
-        "pull.",
+        "Loads that an adhesive or viscoelastic contact goes through before its load or mean pressure, in this order; "
+        "negative ones pull.",
         "advanced",
         default=[],
     )
     approach_path: list[Length] = key(
-        "Approaches that an adhesive contact goes through before its approach, in this order; negative ones stand "
-        "apart.",
+        "Approaches that an adhesive or viscoelastic contact goes through before its approach, in this order; negative "
+        "ones stand apart.",
         "advanced",
         default=[],
+    )
+    times: list[Time] = key(
+        "Times of the path and of its end, for bodies that relax; load or approach is linear between them, and two "
+        "equal times are a jump. At the first the bodies come to rest under its load.",
+        "advanced",
+        default=[],
+        example=["0 s", "10 s"],
+    )
+    sliding_speed: Annotated[Speed, Field(gt=0)] | None = key(
+        "Speed at which the upper body slides steadily along +x over the lower one, for bodies that relax.",
+        "advanced",
+        default=None,
+        example="10 mm/s",
+    )
+    rolling_speed: Annotated[Speed, Field(gt=0)] | None = key(
+        "Speed at which the upper body rolls steadily along +x over the lower one, for bodies that relax.",
+        "advanced",
+        default=None,
+        example="10 mm/s",
     )
 
     @model_validator(mode="after")
     def _adhesion_goes_with(self) -> AdhesiveControl:
         path = "load_path" if self.load_path else "approach_path" if self.approach_path else ""
-        if path and self.adhesion is None:
-            raise problem(f"{path} is given without adhesion", "adhesion with it; without adhesion only the end counts")
-        if self.adhesion is None:
+        if path and self.adhesion is None and not self.times:
+            raise problem(
+                f"{path} is given without adhesion or times",
+                "adhesion or times with it; without them only the end counts",
+            )
+        if self.adhesion is None and not self.times:
             return self
         if self.mean_gap is not None:
-            raise problem("mean_gap is given with adhesion", "load, mean_pressure or approach with adhesion")
-        if self.friction != 0:
+            raise problem("mean_gap is given with adhesion or times", "load, mean_pressure or approach with them")
+        if self.adhesion is not None and self.friction != 0:
             raise problem("friction is given with adhesion", "friction = 0: adhesive contacts are pressed, not sheared")
         wrong = "load_path" if self.approach is not None else "approach_path"
         if getattr(self, wrong):
@@ -54,6 +77,48 @@ class AdhesiveControl(ContactControl):
                 "approach_path with approach" if self.approach is not None else "load_path with load or mean_pressure"
             )
             raise problem(f"{wrong} does not go with the prescribed quantity", right)
+        return self
+
+    @model_validator(mode="after")
+    def _time_goes_with(self) -> AdhesiveControl:
+        given = [
+            name
+            for name, value in (
+                ("times", self.times),
+                ("sliding_speed", self.sliding_speed),
+                ("rolling_speed", self.rolling_speed),
+            )
+            if value
+        ]
+        if len(given) > 1:
+            raise problem(f"{' and '.join(given)} are given", "one of times, sliding_speed and rolling_speed")
+        if not given:
+            return self
+        wrong = [
+            name
+            for name, there in (
+                ("adhesion", self.adhesion is not None),
+                ("friction", self.friction != 0),
+                ("mean_gap", self.mean_gap is not None),
+                ('behaviour = "capped"', self.behaviour == "capped"),
+            )
+            if there
+        ]
+        if wrong:
+            raise problem(
+                f"{given[0]} with {wrong[0]}", "elastic, frictionless contacts without adhesion of bodies that relax"
+            )
+        if self.times:
+            path = self.load_path or self.approach_path
+            if len(self.times) != len(path) + 1:
+                raise problem(
+                    f"{len(self.times)} times for {len(path)} values of the path and its end",
+                    f"{len(path) + 1} times: one for each value of the path, and one for its end",
+                )
+            if any(later < earlier for earlier, later in pairwise(self.times)):
+                raise problem("times fall", "times that do not fall")
+            if min(self.load_path, default=0.0) < 0:
+                raise problem("a load of the path pulls without adhesion", "loads that are not negative")
         return self
 
     def path(self, area: float) -> dict[str, list[float]]:
@@ -69,5 +134,41 @@ class ContactScene(StressedScene):
     """Two bodies, a grid and a load."""
 
     kind: Literal["contact"] = key("Kind of computation.", "basic", default="contact")
+    viscoelastic: ClassVar[bool] = True
     contact: AdhesiveControl = key("Control of the contact: load, pressure, approach or gap.", "basic")
     outputs: ContactOutputs = key("Results besides pressure, gap and displacement.", "basic", default=ContactOutputs())
+
+    @model_validator(mode="after")
+    def _relaxation_with_time(self) -> ContactScene:
+        contact, relaxing = self.contact, relaxing_bodies(self)
+        key = "times" if contact.times else "sliding_speed" if contact.sliding_speed else "rolling_speed"
+        timed = bool(contact.times) or self.speeds is not None
+        if timed and not relaxing:
+            raise problem(f"contact.{key} without a body that relaxes", "lower.material.relaxation with it")
+        if relaxing and not timed:
+            refuse_relaxation(self, "contact.times, contact.sliding_speed or contact.rolling_speed with relaxation")
+        if timed and (self.lower.stack or self.upper.stack):
+            raise problem("bodies with layers that relax", "homogeneous bodies")
+        if self.speeds is not None:
+            moving = [
+                name
+                for name, speed in zip(("lower", "upper"), self.speeds, strict=True)
+                if speed and not isinstance(getattr(self, name).surface, SmoothSurface)
+            ]
+            if moving:
+                raise problem(
+                    f"{moving[0]}.surface is rough and passes the contact, which is then not steady",
+                    "roughness on the upper body, which slides",
+                )
+            fluid = [name for name in relaxing if getattr(self, name).material.relaxation.build().fluid]
+            if fluid:
+                raise problem(f"{fluid[0]}.material flows: no steady motion", "shares whose sum is below one")
+        return self
+
+    @property
+    def speeds(self) -> tuple[float, float] | None:
+        """Speeds at which the materials of both bodies pass the contact along +x [m/s]; None without steady motion."""
+        contact = self.contact
+        if contact.sliding_speed is not None:
+            return -contact.sliding_speed, 0.0
+        return None if contact.rolling_speed is None else (-contact.rolling_speed, -contact.rolling_speed)

@@ -32,7 +32,7 @@ def viscoelastic_material(facts: Facts) -> Iterator[Note]:
     Properties of Polymers (1980), chapter 2.
     """
     for key, material in facts.materials.items():
-        if _SOFTEST <= material.youngs_modulus < _POLYMER:
+        if material.relaxation is None and _SOFTEST <= material.youngs_modulus < _POLYMER:
             yield VISCOELASTIC(key, modulus=material.youngs_modulus)
 
 
