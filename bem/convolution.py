@@ -13,7 +13,7 @@ with zero padding (Liu, Wang and Liu 2000); the kernels have sources of their ow
 4. Spectrum (`bem.transforms.kernel_spectra`), padded with zeros along free axes. Every kernel is even or odd along each
    axis, so its spectrum is a quarter array of real numbers. Spectra are cached by grid and elastic constants, within a
    limit on memory, and shared by all operators (`cached_spectra`). Cost: a transform for each kernel of step 2, once
-   for each grid, coarser ones included.
+   for each grid, coarser ones included; none on doubly periodic grids, whose responses are the spectrum.
 5. Scaling. The spectrum is divided by `unit`, a power of two [m/Pa], so that it is of order one: single precision
    cannot overflow, and results have the same digits in every system of units.
 6. Application (`ScaledConvolution`): one transform forward and one back (`bem.transforms`), in double or single
@@ -59,7 +59,7 @@ _SAME = 1e-14
 """Relative difference of moduli below which two bodies count as elastically equal (round-off of input)."""
 
 SMALLEST_GRID = 16
-"""Cells along the longer side of the coarsest grid of `coarsened`."""
+"""Least number of cells along the longer side of a grid of `coarsened`."""
 
 
 class ConvolutionCount(threading.local):

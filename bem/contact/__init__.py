@@ -29,22 +29,22 @@ Steps, in order:
 3. `nested_iteration.start_from_coarser` solves a grid of twice the cell size, which is started in the same way; a
    coarse grid of at most 32 cells along the longer side starts from a uniform pressure. A grid of at most 30 cells has
    no coarser one. The result is interpolated as p^2 inside contact and -c gap^(2/3) outside, up to three cells from the
-   contact, with c such that slopes on both sides of the edge agree. Every square of 8 x 8 coarse cells without a capped
-   cell of the finer grid keeps its load, as far as a change of at most half allows. Then the prescribed load is
-   restored as in step 10: by scaling without a hardness, by shifting and clipping with one. Coarse grids have a
-   tolerance of their own, a fifth of the remaining iterations each, and no rerun under the energy guard. A result that
-   did not converge is dropped if its violation exceeds 12 % of the rms gap or of the displacement; the finer grid then
-   starts from a uniform pressure. Cost: less than a third of the finest grid, if all grids take equal numbers of
-   convolutions.
+   contact, with c such that slopes on both sides of the edge agree; capped cells have the square of the cap. Every
+   square of 8 x 8 coarse cells without a capped cell of the finer grid keeps its load, as far as a change of at most
+   half allows. Then the prescribed load is restored as in step 10: by scaling without a hardness, by shifting and
+   clipping with one. Coarse grids have a tolerance of their own, a fifth of the remaining iterations each, and no rerun
+   under the energy guard. A result that did not converge is dropped if its violation exceeds 12 % of the rms gap or of
+   the displacement; the finer grid then starts from a uniform pressure. Cost: less than a third of the finest grid, if
+   all grids take equal numbers of convolutions.
 4. `solve_on_grid.solve_on_grid` solves each grid: `problem.GridProblem.solve` calls `active_set.solve_active_set`, and
    only where that stalls is there a fallback (step 11). `controls` has what depends on the prescribed quantity.
-5. `active_set` repeats steps 6 to 10 until no contact condition is violated by more than the tolerance of step 1 (times
-   displacement / rms gap where that is below one). It gives up after 100 outer iterations, after 60 (5 near round-off)
-   in which the violation has not fallen by 30 %, without an active cell, or without iterations left. It then returns
-   the pressure with the smallest violation, which takes one more convolution unless that is the last pressure.
-   Fallbacks (step 11) have other limits: reruns under the energy guard have 400 outer iterations, and a fall of the
-   energy counts as progress there; friction gives up after 10 outer iterations without progress (5 between lagged
-   contacts), a mean gap after 12.
+5. `active_set` repeats steps 6 to 10 until no contact condition is violated by more than the tolerance of step 1 (of
+   step 3 on coarse grids; times displacement / rms gap where that is below one). It gives up after 100 outer
+   iterations, after more than 60 (5 near round-off) in which the violation has not fallen by 30 %, without an active
+   cell, or without iterations left. It then returns the pressure with the smallest violation, which takes one more
+   convolution unless that is the last pressure. Fallbacks (step 11) have other limits: reruns under the energy guard
+   have 400 outer iterations, and a fall of the energy counts as progress there; friction gives up after 10 outer
+   iterations without progress (5 between lagged contacts), a mean gap after 12.
 6. Apply K in double precision, to a field with capped cells, else to the list of loaded cells, which skips empty blocks
    of rows. `reductions.contact_sums` sums energy and force over the loaded cells, and gap plus displacement over those
    between the bounds.
@@ -98,10 +98,10 @@ Steps, in order:
 12. `certificate` recomputes load, gap and residual from the returned pressure; the approach is the solver's, and the
     displacement is computed again unless it already is K p. The residual is the largest violation over the rms gap
     (over the displacement if the gap is flat) or, if that is larger, the relative error of the load. `certificate` adds
-    area and perimeter of second order (`contact_area`, `contact_boundary`) and the maximum pressure between cells
-    (`peak_pressure`). The status is "converged" where this residual is at most the user's tolerance, whatever the
-    solver reached inside; else "infeasible" where no such mean gap exists, "max_iterations" where no CG iterations are
-    left, or "stalled", also at the limit of outer iterations.
+    area and perimeter, of second order without a hardness (`contact_area`, `contact_boundary`) and the maximum pressure
+    between cells (`peak_pressure`). The status is "converged" where this residual is at most the user's tolerance,
+    whatever the solver reached inside; else "infeasible" where no such mean gap exists, "max_iterations" where no CG
+    iterations are left, or "stalled", also at the limit of outer iterations.
 
 Elastic rough contacts of half-spaces under load take about eleven convolutions at the default tolerance, weighted by
 cells over all grids; capped contacts and stiff layers take up to a hundred and more. `regions` labels separate spots of

@@ -20,8 +20,8 @@ shortened as long as it raises the energy. The guard is released at a tenth of t
 a guarded run the next outer iteration sets it again. Sets of cells can repeat only where their energies differ by less
 than round-off.
 
-Where nearly all cells in contact are at the cap, unbounded pressures carry no information. They are discarded for a
-projected gradient step whose length is one over the response of a single cell; it may raise the energy.
+Where most cells in contact are at the cap (ten of eleven), unbounded pressures carry no information. They are discarded
+for a projected gradient step whose length is one over the response of a single cell; it may raise the energy.
 
 Friction in the gap and a prescribed mean gap have no energy; where the sets then swing, `solve_on_grid` has other
 methods.
@@ -42,7 +42,7 @@ from numpy.typing import NDArray
 
 from bem.contact import bounds, gcr, pcg, reductions
 from bem.contact.bounds import Iterate, split_cells, split_field
-from bem.contact.controls import FULLY_PLASTIC_RATIO, Control
+from bem.contact.controls import MOSTLY_PLASTIC_RATIO, Control
 from bem.contact.grid_workspace import (
     ActiveCells,
     GridResult,
@@ -449,7 +449,7 @@ def _next_step(
     iterate = active.iterate
     clipped = _to_bounds(grid, control, iterate, active.near, trial.copy())
     if (
-        clipped.cells.size <= FULLY_PLASTIC_RATIO * clipped.capped.size
+        clipped.cells.size <= MOSTLY_PLASTIC_RATIO * clipped.capped.size
         and clipped.cells.size < 0.5 * iterate.cells.size
     ):
         # fully plastic: unbounded pressures carry no information

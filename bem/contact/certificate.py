@@ -1,10 +1,11 @@
 """Certificate of a contact, recomputed from the returned pressure and approach.
 
-Step 12 of `bem.contact`. The displacement is the operator applied to that pressure; load or mean gap, bounds and
-complementarity follow from the three. The approach is the solver's. The residual is the larger of the largest violation
-over the rms gap (over the displacement where the gap is flat) and the relative error of a prescribed load. The status
-"converged" refers to this residual and the user's tolerance, not to what the solver reached inside. "max_iterations" is
-the limit of CG iterations only: the limit of outer iterations ends as "stalled".
+Step 12 of `bem.contact`. The displacement is the operator applied to that pressure, computed again unless the solver's
+displacement is that already; load or mean gap, bounds and complementarity follow from the three. The approach is the
+solver's. The residual is the larger of the largest violation over the rms gap (over the displacement where the gap is
+flat) and the relative error of a prescribed load. The status "converged" refers to this residual and the user's
+tolerance, not to what the solver reached inside. "max_iterations" is the limit of CG iterations only: the limit of
+outer iterations ends as "stalled".
 """
 
 from __future__ import annotations
@@ -160,7 +161,7 @@ def regions_of(
     if not capped:
         return contact, Region(0.0, 0.0, 0.0, 0.0, 0.0), doubt
     plastic = plastic_region(pressure, deformed, undeformed, cap, grid, modulus)
-    # the rest carries the remaining load
+    # cells at the cap carry no more than the load
     return contact, plastic.of_area(min(plastic.area, least)), doubt
 
 

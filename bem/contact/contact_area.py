@@ -1,4 +1,4 @@
-"""Area and perimeter of contact, second-order accurate in the cell size, from the boundary inside cells.
+"""Area and perimeter of contact from the boundary inside cells, second-order accurate for elastic boundaries.
 
 A count of the cells in contact is first-order accurate: 8 % high on a rough surface at 256 cells a side. Next to the
 boundary p = k sqrt(d) at a distance d inside, and gap = 4 k d^(3/2) / (3 E*) outside (k as at a crack tip: Johnson,
@@ -67,8 +67,8 @@ _ELASTIC_SHARE = 0.05
 class Region:
     """Part of the surface.
 
-    area [m^2], perimeter [m] : second-order accurate. counted_area : of its cells [m^2]. sides : length of the outer
-    sides of its cells [m]. elastic_edge_area : area by the law of elastic boundaries alone [m^2].
+    area [m^2], perimeter [m] : second-order accurate at elastic boundaries. counted_area : of its cells [m^2]. sides :
+    length of the outer sides of its cells [m]. elastic_edge_area : area by the law of elastic boundaries alone [m^2].
     """
 
     area: float

@@ -21,8 +21,8 @@ from bem.contact.grid_workspace import GridWorkspace, InitialPressure
 
 FloatArray = NDArray[np.float64]
 
-FULLY_PLASTIC_RATIO = 0.1
-"""Cells between the bounds over cells at the cap, below which the contact counts as fully plastic: the former then
+MOSTLY_PLASTIC_RATIO = 0.1
+"""Cells between the bounds over cells at the cap, below which the contact counts as mostly plastic: the former then
 determine neither the approach nor the pressures."""
 
 _SMALLEST_FALL = 0.02
@@ -128,7 +128,7 @@ class LoadControl(Control):
         largest separation of a cell with pressure. If an open cell or one between the bounds has a smaller separation,
         there is no such approach, and the midpoint between both separations minimises the largest violation.
         """
-        if iterate.cells.size > FULLY_PLASTIC_RATIO * iterate.capped.size:
+        if iterate.cells.size > MOSTLY_PLASTIC_RATIO * iterate.capped.size:
             return separation_sum / iterate.cells.size
         largest, smallest = grid.separations(iterate)
         return largest if largest <= smallest else 0.5 * (largest + smallest)

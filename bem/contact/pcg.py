@@ -49,20 +49,20 @@ _NO_UNIT_APPROACH = np.empty(0), 0.0
 class StoppingCriteria(NamedTuple):
     """When conjugate gradients end.
 
-    relative_residual : relative squared residual at which they end.
-    clip_allowed_below : relative squared residual from which on clipping ends them; an extrapolated step may be taken
-        for clipping at any residual.
+    relative_squares : relative squared residual at which they end.
+    clip_allowed_below_squares : relative squared residual from which on clipping ends them; an extrapolated step may be
+        taken for clipping at any residual.
     goal : largest residual at which they end.
-    clip_residual_ratio : largest residual at which they end, per pressure out of bounds.
+    residual_per_excess : largest residual at which they end, per pressure out of bounds.
     iterations : their limit.
     extrapolate : True if a step of extrapolated length may be the last.
     remaining, remaining_at_goal : fractions of the residual that such a step is assumed to leave.
     """
 
-    relative_residual: float
-    clip_allowed_below: float
+    relative_squares: float
+    clip_allowed_below_squares: float
     goal: float
-    clip_residual_ratio: float
+    residual_per_excess: float
     iterations: int
     extrapolate: bool
     remaining: float
@@ -82,9 +82,9 @@ class StoppingCriteria(NamedTuple):
     _COARSE,
     _APPLIED,
 ) = range(11)
-"""Entries of the solver's state: whether it is at its start; whether a convolution is due; iterations; z.r of the last
-iteration; t.r; r.r now and at the start; last step length; whether the last step was extrapolated; coarse and fine
-convolutions."""
+"""Entries of the solver's state: whether it is at its start; whether the field holds the response of the search
+direction; iterations; z.r of the last iteration; t.r; r.r now and at the start; last step length; whether the last step
+was extrapolated; coarse and fine convolutions."""
 
 
 def close_gap(
@@ -228,9 +228,9 @@ def _advance(state, cells, vectors, convolved, criteria, cap):
     )
     state[_SQUARES] = squares
     relative = squares / state[_FIRST_SQUARES]
-    if relative <= criteria.relative_residual or largest <= criteria.goal:
+    if relative <= criteria.relative_squares or largest <= criteria.goal:
         return True
-    return relative <= criteria.clip_allowed_below and largest <= criteria.clip_residual_ratio * outside
+    return relative <= criteria.clip_allowed_below_squares and largest <= criteria.residual_per_excess * outside
 
 
 @compiled
@@ -239,8 +239,8 @@ def _ends_extrapolated(criteria, relative, largest, outside):
     if not criteria.extrapolate:
         return False
     if (
-        criteria.remaining**2 * relative <= criteria.relative_residual
-        or criteria.remaining * largest <= criteria.clip_residual_ratio * outside
+        criteria.remaining**2 * relative <= criteria.relative_squares
+        or criteria.remaining * largest <= criteria.residual_per_excess * outside
     ):
         return True
     return criteria.remaining_at_goal * largest <= criteria.goal

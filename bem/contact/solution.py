@@ -29,7 +29,9 @@ class ContactSolution:
         residual bounds, is set to zero.
     approach : [m], of the datum of the undeformed gap.
     load : [N].
-    contact_area, plastic_area : [m^2], second-order accurate in the cell size (`bem.contact.contact_area`).
+    contact_area, plastic_area : [m^2] (`bem.contact.contact_area`). The contact area is second-order accurate in the
+        cell size for elastic contacts; with a hardness its order, and that of the plastic area, lies between one and
+        two.
     counted_area, counted_plastic_area : [m^2], of the cells with pressure and of those at the hardness; first-order
         accurate, the former too large.
     contact_perimeter : length of the contact boundary [m].

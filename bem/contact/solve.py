@@ -54,7 +54,8 @@ def solve_contact(
 
     Parameters
     ----------
-    gap : (nx, ny), undeformed gap of the two surfaces [m]; its constant matters only when `approach` is given.
+    gap : (nx, ny), undeformed gap of the two surfaces [m]; a constant added to it counts
+        against a prescribed approach; under a load or a mean gap it moves the returned approach alone.
     operator : from `displacement_operator`.
     load, approach, mean_gap : exactly one of total load [N], approach [m] and the mean over the grid of the positive
         part of the deformed gap [m]. On a doubly periodic grid displacements are mean-free: `approach` is by how
@@ -63,8 +64,8 @@ def solve_contact(
     tolerance : bound on the residual, see `ContactSolution`.
     initial_pressure : (nx, ny), warm start [Pa]; coarser grids are then skipped.
     max_iterations : limit of CG iterations on all grids.
-    callback : called with iterations, an approximate residual and the fraction of cells in contact after each outer
-        iteration on the finest grid.
+    callback : called with iterations, an approximate residual and the fraction of cells in contact for each pressure
+        that is judged on the finest grid: the first one and those of fallbacks included.
 
     Notes
     -----

@@ -36,7 +36,8 @@ from bem.convolution import DisplacementOperator
 FloatArray = NDArray[np.float64]
 
 COARSE_TOLERANCE = 6e-2
-"""Violation over the rms gap that coarse grids are solved to; the interpolation loses more."""
+"""Bound on the violation of coarse grids, over the rms gap and over the displacement; they aim at a tenth of the first
+violation as well (`nested_iteration`)."""
 
 _GUARDED_ROUNDS = 400
 """Limit of outer iterations under the energy guard; contacts below stiff layers take up to three hundred."""

@@ -1,4 +1,4 @@
-"""Doubly periodic half-space, bare or under bonded layers: the response to a harmonic load, in closed form.
+"""Doubly periodic half-space, bare or under bonded layers: the response to a harmonic load.
 
 A load exp(i (kx x + ky y)) on the surface of a homogeneous half-space decays as exp(-q z), q = |k|. Fields are sampled
 at the cell centres and loads are their trigonometric interpolants: the response is taken at the grid's own wavevectors,
