@@ -99,8 +99,8 @@ def test_strong_relaxation_is_solved_and_certified():
     assert found.imbalance < 0.05
 
 
-def test_sliding_is_the_end_of_marching_in_time():
-    """A wave that travels over a resting body, against the steady state after many periods, at one speed."""
+def test_slow_sliding_of_waves_is_the_end_of_a_held_load_in_time():
+    """Waves that slide have friction with its energy; slowly their contact is that of a held load after long."""
     cells, speed = 32, 0.3
     grid = Grid((cells, 1), (1 / cells, 1.0), periodic=(True, True))
     gap = 0.01 * (1 - np.cos(2 * math.pi * grid.x))[:, None]
