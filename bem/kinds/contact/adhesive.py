@@ -24,10 +24,11 @@ FEWEST_CELLS = 2.0
 def adhesive_zone(law: AdhesionLaw, modulus: float) -> float:
     """Return the width of the zone in which attraction acts at the edge of a wide contact [m].
 
-    pi E* w / (4 strength^2): Dugdale's zone of a crack whose energy is the work of adhesion (Maugis 1992).
+    pi E* w / (4 strength^2), with strength = w / range: Dugdale's zone of a crack whose energy is the work of adhesion
+    (Maugis 1992). Infinite for a range so long that its square overflows.
     modulus : E* [Pa].
     """
-    return math.pi * modulus * law.work / (4 * law.strength**2)
+    return math.pi * modulus * law.range * law.range / (4 * law.work)
 
 
 def total_contact(path: AdhesiveHistory) -> ContactSolution:
