@@ -66,7 +66,7 @@ def _of_case(kind: Kind, scene: SceneModel) -> Plan:
     chosen = ", ".join(shown(kind, level) for level in levels[: len(plans)])
     fit = "" if len(plans) == len(levels) else f"; {shown(kind, levels[len(plans)])} do not fit into memory"
     expected = Step("levels", f"expected: {chosen}{fit}; error bars decide", per="run")
-    return _with_inputs(kind, levels[len(plans) - 1], Plan((expected, *steps)), plans[-1])
+    return _with_inputs(kind, levels[len(plans) - 1], Plan((expected, *steps)), plans[0])
 
 
 def _with_inputs(kind: Kind, scene: SceneModel, whole: Plan, once: Plan | None = None) -> Plan:

@@ -2,7 +2,8 @@
 
 A kind propagates the keys that it can by the derivatives of its solvers (`Kind.by_tangent`). For all others the case is
 run on both sides of the value, `STEP` of a standard deviation away, without error bars and notes: two more runs a key.
-Propagation is of first order: figures that are far from linear within a standard deviation have another scatter.
+Where an accuracy is asked for, these runs are on the first level. Propagation is of first order: figures that are far
+from linear within a standard deviation have another scatter.
 
 Verified in tests/campaigns/test_uncertain_inputs.py.
 """
