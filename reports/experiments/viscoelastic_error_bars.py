@@ -5,6 +5,11 @@
 Balls on free and rough surfaces on periodic grids, one half along a path in time that loads, holds and unloads, the
 other in steady sliding, over four decades of time or speed. References have four times the cells along each axis, and a
 tenth of the tolerance in time. The result is stored in `reports/results/viscoelastic_error_bars.json`.
+
+The floors of the bars were chosen on seed 2611, on which the bar of the friction covered 29 of 32 errors. The stored
+rows have another seed. On it the bars of friction and dissipated power cover 26 of 27 errors each, those of the highest
+pressure 59 of 60, and all others all. They are wide: medians of 5 to 9 times the error, 14 for the highest pressure and
+26 for the dissipated energy.
 """
 
 from __future__ import annotations
@@ -134,7 +139,7 @@ def solve(case: Case) -> Comparison | None:
     return Comparison(found, truth, {name: bars.values.get(name) for name in names})
 
 
-EXPERIMENT = Experiment("viscoelastic_error_bars", draw, solve, cases=60)
+EXPERIMENT = Experiment("viscoelastic_error_bars", draw, solve, cases=60, seed=2811)
 
 if __name__ == "__main__":
     main(EXPERIMENT)

@@ -12,6 +12,7 @@ from bem.contact import solve_contact
 from bem.convolution import displacement_operator
 from bem.errors import Status
 from bem.materials import Body
+from bem.reference_solutions.retracted_ball import RetractedBall
 from bem.relaxation import PronySeries
 from bem.viscoelastic import follow_times
 
@@ -76,19 +77,65 @@ def ting_radius(time, rise):
 
 
 def test_shrinking_contact_is_tings():
-    """Order between one and two in the step where contact shrinks; the radius within 0.5 % at 64 cells."""
+    """The contact radius from the area within 0.5 % at 64 cells, an eighth of a cell; steps of 1/160 of the rise."""
     rise, time = 1.0, 1.4
     radius = ting_radius(time, rise)
     gap, operator = ball(64, 1.15 * hertz(FORCE * SERIES.creep().compliance(rise / 2)))
     loads = [0.0, FORCE, FORCE * (2 - time)]
-    errors = []
-    best = follow_times(gap, operator, [0, rise, time], loads=loads, steps=np.linspace(0, 2, 321))
-    for count in (20, 40, 80):
-        found = follow_times(gap, operator, [0, rise, time], loads=loads, steps=np.linspace(0, 2, count + 1))
-        errors.append(abs(found.approach[-1] / best.approach[-1] - 1))
-    assert math.sqrt(best.contact_area[-1] / math.pi) == pytest.approx(radius, rel=5e-3)
-    assert errors[2] < errors[0] / 2**2.4  # order 1.2 or more over two halvings
-    assert errors[2] < 1e-3
+    found = follow_times(gap, operator, [0, rise, time], loads=loads, steps=np.linspace(0, 2, 321))
+    assert math.sqrt(found.contact_area[-1] / math.pi) == pytest.approx(radius, rel=5e-3)
+
+
+@pytest.mark.parametrize(
+    ("name", "times", "loads", "orders"),
+    [
+        ("rising", [0.0, 1.0], [0.0, FORCE], (None, 1.4, 1.9)),
+        ("held", [0.0, 1.0], [FORCE, FORCE], (None, 2.0, None)),
+        ("falling", [0.0, 0.7, 1.4], [0.0, FORCE, 0.3 * FORCE], (2.0, 1.4, 1.9)),
+    ],
+)
+def test_orders_in_the_step(name, times, loads, orders):
+    """Orders of approach, highest pressure and dissipated energy over two halvings, on the same cells.
+
+    Where the load does not fall the approach follows from the history of the load, which is linear in each step, and
+    has no error in time. The pressure of a cell that comes into contact has a kink in time, and lowers the order of the
+    highest pressure. References have a quarter of the smallest step, which raises a measured order of 1.4 by up to 0.1;
+    which cells touch scatters it as much again.
+    """
+    gap, operator = ball(24, 1.05 * hertz(FORCE * SERIES.creep().compliance(1.0)))
+    counts = [10 * len(loads) // 2 * 2**k for k in (0, 1, 2, 4)]
+    figures = []
+    for count in counts:
+        steps = np.linspace(0, times[-1], count + 1)
+        found = follow_times(gap, operator, times, loads=loads, steps=steps, tolerance=1e-9)
+        figures.append([found.approach[-1], found.max_pressure[-1], found.dissipated[-1]])
+    errors = np.abs(np.array(figures[:-1]) / figures[-1] - 1)
+    measured = np.log2(errors[0] / errors[2]) / 2
+    for order, expected in zip(measured, orders, strict=True):
+        if expected is not None:
+            assert order == pytest.approx(expected, abs=0.2)
+    if name != "falling":
+        assert errors[:, 0].max() < 1e-7  # tolerance of the contacts
+    assert errors[2].max() < 1e-3
+
+
+@pytest.mark.parametrize(("rise", "modulus"), [(1e-7, 1.0), (1e7, 1 - sum(SERIES.shares))])
+def test_retracted_ball_has_its_elastic_limits(rise, modulus):
+    """Fast and slow retraction are Hertz' with the instantaneous and the relaxed modulus; both ways alike."""
+    exact = RetractedBall(RADIUS, MODULUS, SERIES, rise, 1e-4)
+    for time in (0.6 * rise, 1.4 * rise):
+        assert exact.contact_radius(time) == pytest.approx(math.sqrt(RADIUS * 0.6e-4), rel=1e-5)
+        hertzian = 4 / 3 * modulus * MODULUS * math.sqrt(RADIUS) * 0.6e-4**1.5
+        assert exact.load(time) == pytest.approx(hertzian, rel=1e-5, abs=0)
+
+
+def test_retraction_is_late_and_ends_early():
+    """The contact shrinks sooner than it grew, is lost before the approach is zero, and loses energy."""
+    exact = RetractedBall(RADIUS, MODULUS, SERIES, 1.0, 1e-4)
+    assert exact.contact_radius(1.4) < exact.contact_radius(0.6)
+    assert exact.load(1.4) < exact.load(0.6)
+    with pytest.raises(InputError, match="outside"):
+        exact.load(1.99)
 
 
 def test_very_fast_and_very_slow_paths_are_elastic():

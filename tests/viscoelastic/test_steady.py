@@ -116,6 +116,58 @@ def test_slow_sliding_of_waves_is_the_end_of_a_held_load_in_time():
     assert rest.contact.pressure == pytest.approx(held.last.pressure, abs=1e-3 * held.last.maximum_pressure)
 
 
+def marched(gap, operator, load, speed, periods):
+    """Pressure after the material has passed by whole cells, one in each step, through a periodic grid along x.
+
+    q is the delayed pressure of the material at a cell: it moves with the material by one cell towards -x in a step, in
+    which the pressure of the material is linear in time.
+    """
+    amount, retardation = SHARE / (1 - SHARE), 1 / (1 - SHARE)  # of a Zener solid with relaxation time one
+    ratio = operator.grid.spacing[0] / (speed * retardation)
+    e = math.exp(-ratio)
+    own = 1 - (1 - e) / ratio
+    q, p = np.zeros(gap.shape), np.zeros(gap.shape)
+    for _ in range(periods * len(gap)):
+        carried = np.roll(e * q + (1 - e - own) * p, -1, axis=0)
+        scale = 1 + amount * own
+        found = solve_contact(gap + amount * operator(carried), operator, load=scale * load, tolerance=1e-10)
+        p = found.pressure / scale
+        q = carried + own * p
+    return p
+
+
+def test_marching_by_whole_cells_ends_in_steady_sliding():
+    """Of a train of balls, periodic along x: the same polygon of pressures along x, so that only tolerances differ.
+
+    The memory of the start falls by at least exp(-32 cells / 10 cells) in a period: 5e-2, 1.5e-4, 5e-7 and 2e-9 of the
+    highest pressure are left after one to four.
+    """
+    grid = Grid((32, 24), (0.02 / 32, 0.02 / 24), periodic=(True, False))
+    gap = (grid.x[:, None] ** 2 + grid.y**2) / 2
+    operator = displacement_operator(grid, RUBBER)
+    speed, load = 2 * grid.spacing[0], 1e-7  # ten cells in a retardation time of five
+    steady = solve_steady_motion(gap, operator, (-speed, 0.0), load=load, tolerance=1e-10)
+    size = steady.contact.maximum_pressure
+    errors = [np.abs(marched(gap, operator, load, speed, n) - steady.contact.pressure).max() / size for n in (1, 4)]
+    assert steady.friction > 1e-3
+    assert errors[0] > 1e-3  # the start is not the end
+    assert errors[1] < 1e-7
+
+
+def test_marching_of_waves_differs_from_steady_sliding_by_the_cell():
+    """On a doubly periodic grid the steady solution takes waves, marching a polygon: second order in the cell."""
+    errors = []
+    for cells in (24, 48):
+        grid = Grid((cells, 1), (1 / cells, 1.0), periodic=(True, True))
+        gap = 0.01 * (1 - np.cos(2 * math.pi * grid.x))[:, None]
+        operator = displacement_operator(grid, RUBBER)
+        load = 0.5 * math.pi * MODULUS * 0.01
+        steady = solve_steady_motion(gap, operator, (-0.05, 0.0), load=load).contact
+        errors.append(np.abs(marched(gap, operator, load, 0.05, 4) - steady.pressure).max() / steady.maximum_pressure)
+    assert errors[0] < 4e-3
+    assert errors[1] < errors[0] / 3
+
+
 def test_rolling_has_memory_in_both_bodies():
     grid = Grid((128, 1), (5 * HALF / 128, 1.0), periodic=(False, True))
     gap = (grid.x**2 / 2)[:, None]
