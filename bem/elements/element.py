@@ -42,9 +42,11 @@ MODELS: dict[str, type[ElementModel]] = {
     "rolling-bearing": BearingModel,
 }
 _CONFORM = (
-    "Journal bearings are not modelled. Shaft and bush conform, so that neither the half-space nor the film between "
-    "parabolas applies. Take a small flat patch of both under its mean pressure: kind contact, wear or running-in "
-    "show what roughness does at start and stop."
+    "Journal bearings are not modelled. While the half-width of the contact is below a third of the shaft's radius, "
+    "take shaft and bush as a cylinder of radius R1 R2/(R2 - R1) on a flat: kind "
+    "contact (bem new hertz-cylinder; a whole width in load and lengths) for pressure and contact width, kind friction "
+    "for the film between smooth bodies, kind wear with an Archard law for the worn depth. Wear volume is k F s "
+    "without a program. A closer fit conforms: take a small flat patch of both under the mean pressure F/(d L)."
 )
 _GREASE = (
     "Grease is not modelled; its contacts are films of its base oil, often starved. Use kind traction, friction or "

@@ -155,6 +155,12 @@ YIELDS = define(
             "{onset:si Pa}, at {place}; contacts here and in scenes are elastic."
         ),
         "solved": "Elastic von Mises stresses reach {stress:si Pa} and are too high in {volume:.3g} um^3.",
+        "layers": Reason(
+            "The highest von Mises stress over the yield stress is {ratios}. The material yields where it is above 1; "
+            "elastic stresses there are too high.",
+            "Lower load or friction, or take another layer.",
+            headline="The coated body yields first in {first}.",
+        ),
     },
 )
 PERIODIC_GRID = define(

@@ -51,6 +51,7 @@ _LABELS = {
     "Sq_initial": "Sq of the contact region, initial",
     "Sq_final": "Sq of the contact region, final",
     "worn_depth": "worn depth of the contact region",
+    "criterion_wear_rate": "wear volume over load and sliding distance",
     "lower_Sq": "Sq of the lower surface",
     "upper_Sq": "Sq of the upper surface",
     "lower_Sq_initial": "Sq of the lower surface, initial",

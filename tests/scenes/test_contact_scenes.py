@@ -1,6 +1,7 @@
 """Kind `contact` run without a disk: closed forms, skips that change nothing, the same bits, resuming."""
 
 import copy
+import dataclasses
 
 import numpy as np
 import pytest
@@ -11,7 +12,7 @@ from bem.errors import InputError, Status
 from bem.grid import Grid
 from bem.materials import Body, Layer, Material, contact_modulus
 from bem.notes import has_code
-from bem.notes.checks import DEPTHS_MISS_STRESS, RESIDUAL_STRESS
+from bem.notes.checks import DEPTHS_MISS_STRESS, RESIDUAL_STRESS, YIELDS
 from bem.notes.contact import ADHESIVE_ZONE_UNRESOLVED
 from bem.reference_solutions.hertz import cylinder_contact, sphere_contact
 from bem.reference_solutions.westergaard import crossed_full_contact_pressure
@@ -20,6 +21,7 @@ from bem.runs import plan_scene, run_scene
 from bem.scenes import PlainContext, get_kind, load_scene
 from bem.scenes.build import grid_of, traction_couples
 from bem.scenes.checks import examine, scene_warnings
+from bem.scenes.checks.outcome import elastic_stress_above_yield
 from bem.transforms import COUNT
 
 KIND = get_kind("contact")
@@ -332,6 +334,13 @@ def test_coatings_have_depths_and_stresses_by_layer_and_interface():
         assert np.count_nonzero((depths > top) & (depths <= bottom)) >= 5
     assert len(told["interface_max_shear_Pa"]) == len(told["layer_max_tension_Pa"]) == 2
     assert max(told["layer_max_von_mises_Pa"]) <= told["max_von_mises_Pa"] * (1 + 1e-9)
+    assert told["layer_material"] == ["dlc", "tungsten-carbide"]
+    yields = np.array([layer.material.yield_stress for layer in scene.lower.build().layers])
+    np.testing.assert_allclose(told["layer_yield_ratio"], told["layer_max_von_mises_Pa"] / yields, rtol=1e-12)
+    beneath = outcome.variables["von_mises"].values[depths > 2.5e-6].max()
+    assert told["substrate_max_von_mises_Pa"] == pytest.approx(beneath, rel=1e-12, abs=0)
+    steel = scene.lower.build().material.yield_stress
+    assert told["substrate_yield_ratio"] == pytest.approx(beneath / steel, rel=1e-12, abs=0)
     assert not has_code(scene_warnings(examine(scene)), DEPTHS_MISS_STRESS)
     graded, _, _ = run("coated-sphere", [*settings, 'outputs.depths={deepest="60 um",count=8}'])
     assert {2e-6, 2.5e-6} <= set(np.round(graded.wanted_depths(), 15))
@@ -339,6 +348,23 @@ def test_coatings_have_depths_and_stresses_by_layer_and_interface():
     assert listed.wanted_depths() == (0.0, 1e-6)
     _, plain, _ = run("hertz-sphere", ["grid.shape=32", 'outputs={"stresses" = true, "errors" = false}'])
     assert "interface_depth_m" not in plain.summary
+
+
+def test_the_caution_of_a_yielding_coat_names_the_layer_that_yields_first():
+    settings = [*COATED, 'lower.layer={material="tribofilm",thickness="2 um"}']
+    scene, outcome, _ = run("coated-sphere", [*settings, "contact.load=20 N"])
+    ratio = outcome.summary["layer_yield_ratio"][0]
+    assert ratio > 1
+    facts = examine(scene)
+    found = list(elastic_stress_above_yield(facts, outcome))
+    assert [note.code for note in found] == [YIELDS.code]
+    assert found[0].headline == "The coated body yields first in tribofilm"
+    assert f"{ratio:.2g} in tribofilm, {outcome.summary['substrate_yield_ratio']:.2g} in the body below" in found[0]
+    below = dataclasses.replace(outcome, summary=outcome.summary | {"layer_yield_ratio": [0.5]})
+    below.summary["substrate_yield_ratio"] = 0.6
+    assert not list(elastic_stress_above_yield(facts, below))
+    below.summary["substrate_yield_ratio"] = 1.6
+    assert "first in the body below" in next(elastic_stress_above_yield(facts, below))
 
 
 def test_an_elastic_patch_lies_between_the_theories_of_contact_area():

@@ -5,7 +5,7 @@ from __future__ import annotations
 from bem.kinds.contact.checks import contacts
 from bem.kinds.contact.errors import RESOLUTIONS
 from bem.kinds.contact.plan import plan
-from bem.kinds.contact.record import ContactRecord
+from bem.kinds.contact.record import ContactRecord, summarise
 from bem.kinds.contact.run import run
 from bem.kinds.contact.scene import ContactScene
 from bem.kinds.contact.uncertain import by_tangent
@@ -18,6 +18,7 @@ KIND = Kind(
     record=ContactRecord,
     plan=plan,
     run=run,
+    summarise=summarise,
     resolve=ContactScene.resolved,
     resolutions=RESOLUTIONS,
     volumes=lambda scene: scene.outputs.volumes,

@@ -2,19 +2,29 @@
 
 from __future__ import annotations
 
+from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import partial
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated, Any
 
 import numpy as np
 from numpy.typing import NDArray
 
 from bem.grid import FloatArray
+from bem.materials import Body
 from bem.scenes.records import Figure, GridRecord, Series, grid_map
+
+if TYPE_CHECKING:
+    from bem.kinds.contact.scene import ContactScene
 
 _coating = partial(Figure, optional=True, headline=True)
 _interfaces = partial(_coating, dimensions=("interface",))
 _layers = partial(_coating, dimensions=("layer",))
+
+
+def layer_names(body: Body) -> tuple[str, ...]:
+    """Names of the layers' materials, outermost first; a material without a name is called by its layer's number."""
+    return tuple(layer.material.name or f"layer {number}" for number, layer in enumerate(body.layers, 1))
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
@@ -83,6 +93,16 @@ class ContactRecord(GridRecord):
     ] = None
     layer_max_von_mises: Annotated[FloatArray | None, _layers("Pa", "maximum von Mises stress in each layer")] = None
     layer_max_tension: Annotated[FloatArray | None, _layers("Pa", "maximum principal stress in each layer")] = None
+    layer_yield_ratio: Annotated[
+        FloatArray | None,
+        _layers("", "maximum von Mises stress in each layer over its yield stress", unjudged=True),
+    ] = None
+    substrate_max_von_mises: Annotated[
+        float | None, _coating("Pa", "maximum von Mises stress below the layers", unjudged=True)
+    ] = None
+    substrate_yield_ratio: Annotated[
+        float | None, _coating("", "that over the yield stress of the material there", unjudged=True)
+    ] = None
     lowest_load: Annotated[
         float | None, Figure("N", "lowest load on the path; minus the pull-off force", optional=True, headline=True)
     ] = None
@@ -142,3 +162,10 @@ class ContactRecord(GridRecord):
     path_jump: Annotated[NDArray[np.int8] | None, Series(("step",), "1", "1 for a step in which the contact jumps")] = (
         None
     )
+
+
+def summarise(scene: ContactScene, axes: Any, records: Sequence[ContactRecord | None]) -> dict[str, Any]:
+    """Return the names of the layers, outermost first, where a case has stresses by layer."""
+    if not any(record is not None and record.layer_max_von_mises is not None for record in records):
+        return {}
+    return {"layer_material": list(layer_names(scene.stressed()[0]))}

@@ -166,7 +166,22 @@ def _coating_fields(
     maxima = with_tension_beyond(maxima, pressure, grid, body, sign * scene.contact.friction)
     residual = np.array(body.residual_stresses[:-1])
     stated = {"layer_residual_stress": residual} if residual.any() else {}
-    return dataclasses.asdict(layer_stresses(maxima, body)) | stated
+    stresses = layer_stresses(maxima, body)
+    strengths = [np.nan if material.yield_stress is None else material.yield_stress for material in body.media]
+    beneath = [float(below.von_mises[k].max()) for k in np.flatnonzero(below.depths > body.interfaces[-1])]
+    substrate = {}
+    if beneath:
+        ratio = max(beneath) / strengths[-1]
+        substrate = {
+            "substrate_max_von_mises": max(beneath),
+            "substrate_yield_ratio": ratio if math.isfinite(ratio) else None,
+        }
+    return (
+        dataclasses.asdict(stresses)
+        | {"layer_yield_ratio": stresses.layer_max_von_mises / np.array(strengths[:-1])}
+        | substrate
+        | stated
+    )
 
 
 def _cut_off(scene: ContactScene, grid: Grid, solution: ContactSolution) -> tuple[Note, ...]:

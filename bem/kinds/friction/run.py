@@ -131,7 +131,9 @@ def _record(
     to_ratio = 1 / rms if rms > 0 else math.inf
     for each in (bars, *parts.values()):
         if "minimum_film" in each:
-            each["lambda_ratio_mixed"] = to_ratio * each["minimum_film"]
+            each["lambda_ratio_mixed"] = (
+                to_ratio * each["minimum_film"] if rms > 0 else np.full_like(each["minimum_film"], np.nan)
+            )
     displacement = np.zeros(grid.shape)
     if shown.contact is not None and not isinstance(shown.contact, AsperityContact):
         displacement = shown.contact.displacement

@@ -73,17 +73,21 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
     contact_load_initial: Annotated[float, Figure("N", "load carried by asperities in the first cycle")]
     minimum_film: Annotated[float, Figure("nm", f"{MINIMUM_FILM}, {RUN_IN}")]
     contact_area_fraction: Annotated[float, Figure("", f"real contact area over patch, {RUN_IN}")]
-    worn_depth: Annotated[float, Figure("nm", f"mean depth worn {_STRIP}")]
+    worn_depth: Annotated[float, Figure("nm", f"mean depth worn {_STRIP}", headline=True)]
     step_error: Annotated[
         float | None,
         Figure("nm", "what its step leaves open of a depth worn by pressure, last cycle", optional=True, unjudged=True),
     ]
     criterion_wear_rate: Annotated[
         float | None,
-        Figure("mm3_Nm", f"volume that leaves (criterion and cuts of third bodies) by load and distance, {SETTLED}"),
+        Figure(
+            "mm3_Nm",
+            f"volume that leaves (criterion and cuts of third bodies) by load and distance, {SETTLED}",
+            headline=True,
+        ),
     ]
     particles_per_cycle: Annotated[
-        float, Figure("", f"particles per cycle of one body, {SETTLED}", no_bar=pieces.FOLLOWS_CELL)
+        float, Figure("", f"particles per cycle of one body, {SETTLED}", headline=True, no_bar=pieces.FOLLOWS_CELL)
     ]
     particles_first_cycle: Annotated[
         float, Figure("", "particles of the first cycle, of one body", no_bar=pieces.FOLLOWS_CELL)

@@ -229,6 +229,15 @@ def elastic_stress_above_yield(facts: Facts, outcome: Outcome) -> Iterator[Note]
     volume, highest = outcome.summary.get("yielded_volume_m3"), outcome.summary.get("max_von_mises_Pa")
     if not volume or highest is None or facts.cases[0].cap is not None:
         return
+    names, ratios = outcome.summary.get("layer_material"), outcome.summary.get("layer_yield_ratio")
+    if names and ratios:
+        beneath = ("the body below", outcome.summary.get("substrate_yield_ratio"))
+        found = [(n, r) for n, r in (*zip(names, ratios, strict=True), beneath) if r is not None and math.isfinite(r)]
+        first, ratio = max(found, key=lambda one: one[1], default=("", 0.0))
+        if ratio > 1:
+            listed = ", ".join(f"{value:.2g} in {name}" for name, value in found)
+            yield YIELDS(first=first, ratios=listed, reason="layers")
+        return
     if not (list(yield_below_the_surface(facts)) or list(hertz_pressure_above_hardness(facts))):
         yield YIELDS(stress=highest, volume=volume * 1e18, reason="solved")
 
