@@ -25,7 +25,7 @@ class ElementPage:
         self._table = ""
         with page(name), ui.row().classes("w-full items-start gap-6"):
             with ui.column().style("flex: 1 1 320px; min-width: 0").classes("gap-2"):
-                ui.label(TITLES[name].capitalize())
+                ui.label(TITLES[name][0].upper() + TITLES[name][1:])
                 with ui.row().classes("bem-bar w-full items-center gap-2"):
                     self._button("answer", "calculate", self._answer)
                     self._button("all places", "done_all", self._answer_whole)

@@ -72,12 +72,13 @@ def element(
     from bem.cli._quantity import new_file
     from bem.cli._terminal import print_text, print_written, show_remarks, show_warnings
     from bem.elements.answer import balance_heat, contact_words
-    from bem.elements.element import load_element
+    from bem.elements.element import MIXED, load_element
     from bem.elements.figure import draw_element
     from bem.elements.running import columns
     from bem.elements.running import notes as notes_of
     from bem.elements.scene_text import scene_text
     from bem.errors import InputError
+    from bem.notes.elements import SURFACES_TOUCH
     from bem.results.atomic import write_text
     from bem.scenes.load import scene_from_table
 
@@ -117,6 +118,8 @@ def element(
         for sentence in (contact_words(found, chosen), *found.found.geometry):
             print_text(sentence)
     notes: Sequence[Note] = [*found.notes(), *notes_of(runs)]
+    if made is not None and not runs and kind in MIXED:
+        notes = [note for note in notes if note.code != SURFACES_TOUCH.code]
     show_warnings(notes, remarks="--remarks shows them")
     if remarks:
         show_remarks(notes)

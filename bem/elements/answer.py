@@ -204,17 +204,18 @@ def _film(element: Element, runs: Sequence[Running]) -> str:
 
 def _friction_rows(element: Element, runs: Sequence[Running]) -> list[tuple[str, str]]:
     power, model = friction_power(element, runs), element.model
-    film = f"{power.film:.3g} W if oil films carry the whole load"
+    film = f"{plain_digits(power.film, 3)} W if oil films carry the whole load"
     if power.with_asperities is None or power.with_asperities <= 1.01 * power.film:
-        film = f"{power.film:.3g} W in the oil films"
+        film = f"{plain_digits(power.film, 3)} W in the oil films"
     if power.down and power.up and max(power.down, power.up) > _LEAST_SCATTER * power.film:
-        film += f" (oils of this base differ by -{plain_digits(power.down)}, +{plain_digits(power.up)} W)"
+        least = max(power.film - power.down, 0.0)
+        film += f" ({plain_digits(least)} to {plain_digits(power.film + power.up)} W with other oils of this base)"
     losses, said = [power.film], [film]
     if power.with_asperities is not None and power.with_asperities > 1.01 * power.film:
         losses.append(power.with_asperities)
         said.append(
-            f"{power.with_asperities:.3g} W if the estimated share of asperities rubs with boundary friction "
-            f"{model.boundary_friction:g}"
+            f"{plain_digits(power.with_asperities, 3)} W if the estimated share of asperities rubs with boundary "
+            f"friction {model.boundary_friction:g}"
         )
     if power.counted < 1:
         counts = "are left out" if power.with_asperities is None else "are left out of the former"
@@ -227,7 +228,8 @@ def _friction_rows(element: Element, runs: Sequence[Running]) -> list[tuple[str,
         tests = friction_of_gear_tests(element)
         if tests is not None:
             losses.append(sliding_power(element, tests.power))
-            best = f"{losses[-1]:.3g} W by a fit to gear tests (Schlenk, mean friction coefficient {tests.power:.3g})"
+            by_tests = plain_digits(losses[-1], 3)
+            best = f"{by_tests} W by a fit to gear tests (Schlenk, mean friction coefficient {tests.power:.3g})"
             said.insert(0, best)
         given = model.pinion_torque * model.speed
         least, most = (100 * (1 - loss / given) for loss in (max(losses), min(losses)))
@@ -278,8 +280,13 @@ def _scuffing(element: Element, runs: Sequence[Running]) -> str:
     if found.estimated:
         bulk += " (estimate: oil + 0.7 x mean flash temperature)"
     said = f"contact temperature {found.contact - CELSIUS:.3g} °C at {place_words(element, found.flash_at)}, {bulk}"
-    if found.integral is not None:
-        said += f"; integral temperature {found.integral - CELSIUS:.3g} °C (with the friction of gear tests)"
+    if found.integral is not None and found.friction is not None:
+        said += (
+            f"; integral temperature {found.integral - CELSIUS:.3g} °C; both with the friction of gear tests, mean "
+            f"coefficient {found.friction:.3g}"
+        )
+    else:
+        said += "; with the film's friction, too low where surfaces touch: give rms_roughness"
     if found.contact_safety is None:
         return f"{said}. For a safety factor give scuffing_load_stage, the FZG load stage (A/8.3/90) that the oil fails"
     safety = f"{found.contact_safety:.3g} by contact temperature"

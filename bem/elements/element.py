@@ -27,8 +27,7 @@ from bem.errors import InputError
 from bem.materials import Body, Material, contact_modulus
 from bem.notes import Note
 from bem.notes.checks import SLOPES_LARGE, YIELDS
-from bem.notes.elements import NO_HEAT
-from bem.notes.scenes import FILM_THINNER_THAN_ROUGHNESS
+from bem.notes.elements import NO_HEAT, SURFACES_TOUCH
 from bem.scenes.checks.hertz import smooth_contact
 from bem.scenes.checks.plausible import notes_on_table
 from bem.scenes.oil import OilScene
@@ -227,7 +226,7 @@ class Element:
             notes.append(NO_HEAT(bodies=" and ".join(dict.fromkeys(cold))))
         ratios = self.columns().get("film_over_roughness", [])
         if touching := sum(ratio < 1 for ratio in ratios):
-            notes.append(FILM_THINNER_THAN_ROUGHNESS(where=f" at {touching} of {len(ratios)} places"))
+            notes.append(SURFACES_TOUCH(where=f" at {touching} of {len(ratios)} places"))
         return tuple(notes)
 
     def _yielding(self) -> Note | None:

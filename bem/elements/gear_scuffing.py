@@ -42,14 +42,17 @@ class TestFriction:
 class Scuffing:
     """Temperatures of a gear pair [K], flash temperatures as differences, and safeties against scuffing.
 
-    bulk : of the gears. estimated : True if it follows from the mean flash temperature. flash, flash_at : highest flash
-    temperature under the film's friction, and where. contact : highest contact temperature. mean_flash : mean over the
-    path under the friction of gear tests; None without roughness, as then `integral`.
+    bulk : of the gears. estimated : True if it follows from the mean flash temperature. friction : mean
+    coefficient of gear tests, under which scuffing temperatures of oils are known; None without roughness. flash,
+    flash_at : highest flash temperature under that friction or, where larger or known alone, the film's; and where.
+    contact : highest contact temperature. mean_flash : mean over the path under the friction of gear tests; None
+    without roughness, as then `integral`.
     contact_safety, integral_safety : None without a load stage of the oil.
     """
 
     bulk: float
     estimated: bool
+    friction: float | None
     flash: float
     flash_at: ElementContact
     contact: float
@@ -98,10 +101,12 @@ def scuffing_of(element: Element, runs: Sequence[Running]) -> Scuffing | None:
     oil = None if model.oil is None else model.oil.temperature
     if not hot or oil is None:
         return None
-    hottest = max(hot, key=lambda one: one.flash or 0.0)
-    flash, where = hottest.flash or 0.0, hottest.contact
-    friction = friction_of_gear_tests(element)
-    mean = None if friction is None else mean_flash_temperature(element, friction.scuffing)
+    tests = friction_of_gear_tests(element)
+    friction = None if tests is None else tests.scuffing
+    flashes = {one.contact: max(one.flash or 0.0, _flash(element, one.contact, friction) or 0.0) for one in hot}
+    where = max(flashes, key=lambda one: flashes[one])
+    flash = flashes[where]
+    mean = None if friction is None else mean_flash_temperature(element, friction)
     bulk, estimated = model.bulk_temperature, False
     if bulk is None:
         bulk, estimated = oil + BULK_WEIGHT * (mean or 0.0), mean is not None
@@ -118,17 +123,23 @@ def scuffing_of(element: Element, runs: Sequence[Running]) -> Scuffing | None:
             integral_safety = permissible_integral_temperature(
                 model.scuffing_load_stage, viscosity_40=viscosity, factor=factor, structure=model.structure_factor
             ) / (integral - CELSIUS)
-    return Scuffing(bulk, estimated, flash, where, bulk + flash, mean, integral, contact_safety, integral_safety)
+    return Scuffing(
+        bulk, estimated, friction, flash, where, bulk + flash, mean, integral, contact_safety, integral_safety
+    )
 
 
 def mean_flash_temperature(element: Element, friction: float) -> float | None:
     """Return the mean flash temperature over the path of contact [K] under one friction coefficient."""
-    found = [
-        flash_temperature(one, friction, modulus=element.modulus, bodies=element.bodies)
-        for one in element.found.contacts
-    ]
+    found = [_flash(element, one, friction) for one in element.found.contacts]
     known = [one for one in found if one is not None]
     return sum(known) / len(known) if known else None
+
+
+def _flash(element: Element, contact: ElementContact, friction: float | None) -> float | None:
+    """Return the flash temperature of a contact [K] under a friction coefficient; None where either is not known."""
+    if friction is None:
+        return None
+    return flash_temperature(contact, friction, modulus=element.modulus, bodies=element.bodies)
 
 
 def _sum_speed(model: GearModel) -> float:

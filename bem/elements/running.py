@@ -17,6 +17,7 @@ from bem.elements.element import Element
 from bem.elements.scuffing import flash_temperature
 from bem.errors import InputError, Status
 from bem.notes import Note
+from bem.notes.lubrication import FILM_SPIKE
 from bem.notes.merge import merge
 from bem.scenes.load import load_scene
 
@@ -208,6 +209,9 @@ def columns(element: Element, runs: Sequence[Running]) -> dict[str, list[float]]
 
 
 def notes(runs: Sequence[Running]) -> tuple[Note, ...]:
-    """Return the notes of the films that converged, each once, with the number of places it applies to."""
-    of_runs = [one.notes if one.converged else () for one in runs]
+    """Return the notes of the films that converged, each once, with the number of places it applies to.
+
+    Without notes on the pressure spike: no figure of an element is the film's highest pressure.
+    """
+    of_runs = [[note for note in one.notes if note.code != FILM_SPIKE.code] if one.converged else () for one in runs]
     return tuple(merge(of_runs, lambda at: f"at {len(at)} of {len(runs)} positions"))

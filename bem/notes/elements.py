@@ -11,6 +11,13 @@ NO_HEAT = define(
     "{bodies} without thermal_conductivity, heat_capacity and density.",
     "Give these constants to have the film's heat.",
 )
+SURFACES_TOUCH = define(
+    "element-surfaces-touch",
+    CAUTION,
+    "Surfaces touch: the film is thinner than the roughness (lambda below 1).",
+    "That is so{where}. The answer estimates what asperities carry and rub; the films themselves are smooth.",
+    "Mixed friction of one contact: `bem element FILE --scene mixed.toml --kind friction` writes its scene.",
+)
 CONTACT_LOST = define(
     "contact-lost",
     CAUTION,

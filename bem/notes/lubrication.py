@@ -287,9 +287,9 @@ HEAT_NOT_FOUND = define(
 LUMPED_HEAT_LIMIT = define(
     "lumped-heat-limit",
     CAUTION,
-    "Lumped heat is outside the range in which it was validated.",
+    "The quick heat model (lumped) is outside its validated range.",
     "",
-    'Line contact: set thermal = "full". Ball: take it as an estimate.',
+    'Set thermal = "full" for rollers, gears and other line contacts; for balls take film and friction as estimates.',
     reasons={
         "formula": "Gupta et al. (1992) did not cover so much load and speed: the film thickness is an estimate.",
         "fast": (

@@ -191,6 +191,6 @@ def test_films_without_heat_and_below_the_roughness_are_said():
     )
     warm = ring()
     assert not any(text.code == "element-without-heat" for text in warm.notes())
-    (thin,) = [note for note in ring(speed="1 rpm").notes() if note.code == "film-thinner-than-roughness"]
+    (thin,) = [note for note in ring(speed="1 rpm").notes() if note.code == "element-surfaces-touch"]
     assert thin.values["where"] == " at 12 of 12 places"
-    assert not any(text.code == "film-thinner-than-roughness" for text in warm.notes())
+    assert not any(text.code == "element-surfaces-touch" for text in warm.notes())

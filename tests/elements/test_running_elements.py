@@ -249,8 +249,9 @@ def test_friction_power_has_the_scatter_of_the_base_oil(gears):
     share = element.found.at_once / len(runs)
     down, up = (share * sum(s * one.scatter[k] for s, one in zip(slid, runs, strict=True)) for k in (0, 1))
     power = dict(answer(element, runs))["friction power"]
-    low, high = map(float, re.search(r"\(oils of this base differ by -([\d.]+), \+([\d.]+) W\)", power).groups())
-    assert (low, high) == pytest.approx((down, up), rel=0.05)
+    low, high = map(float, re.search(r"\(([\d.]+) to ([\d.]+) W with other oils of this base\)", power).groups())
+    film = share * sum(s * abs(one.friction) for s, one in zip(slid, runs, strict=True))
+    assert (low, high) == pytest.approx((film - down, film + up), rel=0.05)
 
 
 @pytest.mark.internal
