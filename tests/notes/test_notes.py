@@ -25,7 +25,7 @@ def example(template):
 @pytest.mark.parametrize("kind", known_kinds().values(), ids=known_kinds())
 def test_every_kind_of_the_catalogue_says_what_is_wrong_in_a_line(kind):
     for name, reason in (kind.reasons or {"": Reason(kind.sentence)}).items():
-        templates = (kind.headline, reason.sentence, reason.action or kind.action)
+        templates = (reason.headline or kind.headline, reason.sentence, reason.action or kind.action)
         values = {key: value for text in templates for key, value in example(text).items()} | {"reason": name}
         note = kind("there", **values)
         assert note.startswith("there: ")
