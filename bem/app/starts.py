@@ -76,7 +76,7 @@ def start_text(source: str) -> str:
     raise InputError(f"{source}: no text of a scene; allowed: kind NAME, scene NAME")
 
 
-OF_SURFACES = {"contact": "dry contact", "friction": "Stribeck curve", "wear": "wear"}
+OF_SURFACES = {"contact": "dry contact", "friction": "Stribeck curve", "running-in": "running-in", "wear": "wear"}
 """Kinds of a scene that is begun with a measured surface, in words."""
 
 

@@ -275,8 +275,9 @@ def _is_number(word: bytes) -> bool:
 
 def _without_spacing(file: Path) -> SurfaceFileError:
     return SurfaceFileError(
-        f"{file}: does not say how far its points are apart; give spacing=(dx, dy) in metres (`--spacing` of `bem "
-        "surface`, `spacing` of a scene's surface), and height_unit"
+        f"{file}: does not say how far its points are apart; give spacing=(dx, dy) in metres and height_unit "
+        "(`bem surface read FILE FILE.npz --spacing ... --height-unit ...` writes a file that has both; in a scene, "
+        "spacing and height_unit of the surface)"
     )
 
 
