@@ -82,7 +82,7 @@ def test_new_of_an_unknown_word_lists_kinds_and_elements():
 def test_conforming_elements_say_what_can_be_done_instead(word):
     code, said = bem("new", word)
     assert code == 2
-    assert "kind contact, wear or running-in" in said
+    assert all(part in said for part in ("bem new hertz-cylinder", "kind friction", "kind wear with an Archard law"))
 
 
 def test_grease_says_what_can_be_done_instead():

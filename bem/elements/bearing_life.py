@@ -197,8 +197,8 @@ def _life(revolutions: float, speed: float) -> str:
 
 
 def _plain(value: float) -> str:
-    """Return a number with three digits, and powers of ten from a million on."""
-    if value >= 1e6:
+    """Return a number with three digits, its thousands apart, and powers of ten from a thousand million on."""
+    if value >= 1e9:
         return f"{value:.3g}"
     rounded = float(f"{value:.3g}")
     return f"{rounded:,.0f}".replace(",", " ") if rounded >= 100 else f"{value:.3g}"
