@@ -59,6 +59,12 @@ TASKS: Mapping[str, Task] = {
         ("max_pressure_Pa", "approach_m", "max_von_mises_Pa", "max_von_mises_depth_m"),
         ("layer-stresses",),
     ),
+    "sliding-rubber": Task(
+        (
+            "contact.sliding_speed", "hysteresis_friction", "dissipated_power_W", "contact_area_m2", "max_pressure_Pa",
+        ),
+        ("friction-over-speed",),
+    ),
     "stribeck-curve": Task(
         ("speed_m_s", "friction", "contact_load_N", "minimum_film_nm", "lambda_ratio"),
         ("stribeck-curve",),
