@@ -64,7 +64,8 @@ def test_the_error_of_a_mean_over_repetitions_has_its_standard_error():
 
     def record(load, friction, errors):
         parts = {"grid": {"load": 0.6 * errors["load"]}, "residual": {"load": 0.4 * errors["load"]}}
-        return SimpleNamespace(load=load, friction=np.array(friction), area=1.0, errors=errors, error_parts=parts)
+        values = {"load": load, "friction": np.array(friction), "area": 1.0}
+        return SimpleNamespace(**values, errors=errors, error_parts=parts, input_changes={})
 
     records = [
         record(1.0, [0.1, 0.2], {"load": 0.1, "friction": np.array([0.01, np.nan])}),

@@ -32,14 +32,13 @@ class WearRecord(pieces.MeanSizes, pieces.ParticleTable, wearing.WornRecord):
     ]
     Sq_initial: Annotated[float, Figure("nm", f"Sq {_STRIP}, unworn", headline=True)]
     Sq_final: Annotated[float, Figure("nm", f"Sq {_STRIP}, after the last cycle", headline=True)]
-    worn_depth: Annotated[float, Figure("nm", f"mean depth worn {_STRIP}", headline=True)]
+    worn_depth: Annotated[float, Figure("nm", f"mean depth worn {_STRIP}")]
     contact_area_fraction: Annotated[
         float, Figure("", f"real contact area over that of the slice, {SETTLED}", headline=True)
     ]
     mean_contact_pressure: Annotated[float, Figure("Pa", f"mean pressure over the real contact area, {SETTLED}")]
     worn_volume_per_cycle: Annotated[
-        float,
-        Figure("um3", f"volume worn per cycle, with the cuts of third bodies in both bodies, {SETTLED}", headline=True),
+        float, Figure("um3", f"volume worn per cycle, with the cuts of third bodies in both bodies, {SETTLED}")
     ]
     first_cycles_radius: Annotated[
         float, Figure("nm", "volume-mean radius of the particles of the first five cycles", chance=pieces.OF_PIECES)
