@@ -32,7 +32,8 @@ Steps, in order:
    contact, with c such that slopes on both sides of the edge agree; capped cells have the square of the cap. Every
    square of 8 x 8 coarse cells without a capped cell of the finer grid keeps its load, as far as a change of at most
    half allows. Then the prescribed load is restored as in step 10: by scaling without a hardness, by shifting and
-   clipping with one. Coarse grids have a tolerance of their own, a fifth of the remaining iterations each, and no rerun
+   clipping with one. Coarse grids have a tolerance of their own (a tenth of their first violation, at most 6 % of the
+   rms gap and of the displacement, not below the final one), a fifth of the remaining iterations each, and no rerun
    under the energy guard. A result that did not converge is dropped if its violation exceeds 12 % of the rms gap or of
    the displacement; the finer grid then starts from a uniform pressure. Cost: less than a third of the finest grid, if
    all grids take equal numbers of convolutions.
@@ -76,9 +77,9 @@ Steps, in order:
    b. *Ends* (`grid_workspace.SolverParameters`): a relative residual, the tolerance, or where clipping to the bounds
       would bring back a residual of the same size. They refer to r.
    c. *Extrapolated step.* If one more step is expected to meet an end, it is taken with the length of the last CG step,
-      which may be one of the last round, and without a convolution. The first such step after which the
-      next pressure (also if a gradient step replaced it) has not half the violation ends extrapolation for this call
-      of `solve_active_set`.
+      which may be one of the last round (one at the start of a grid), and without a convolution. The first such step
+      after which the next pressure (also if a gradient step replaced it) has not half the violation ends extrapolation
+      for this call of `solve_active_set`.
    d. *Preconditioner*: factorised sparse approximate inverse on ten neighbours (`sparse_inverse`; Kolotilina & Yeremin
       1993) with a correction on a grid up to eight times coarser (`coarse_correction`).
    Cost: a few iterations, each one convolution, unless extrapolated, and one preconditioning, which takes up to 20
@@ -104,9 +105,10 @@ Steps, in order:
     iterations are left, or "stalled", also at the limit of outer iterations.
 
 Elastic rough contacts of half-spaces under load take about eleven convolutions at the default tolerance, weighted by
-cells over all grids; capped contacts and stiff layers take up to a hundred and more. `regions` labels separate spots of
-contact, and `mean_gap_multiplicity` notes other loads with the same mean gap. `sensitivity` has the derivatives of a
-solved contact with respect to its inputs, from the linear system of step 9 with another right-hand side.
+cells over all grids, usual capped contacts and coated bodies 10 to 20; layers much stiffer than their base take up to a
+hundred and more. `regions` labels separate spots of contact, and `mean_gap_multiplicity` notes other loads with the
+same mean gap. `sensitivity` has the derivatives of a solved contact with respect to its inputs, from the linear system
+of step 9 with another right-hand side.
 
 Terms: a cell is *open* (no pressure), *between the bounds*, or *capped* (at the hardness). The *active* cells of step 8
 are those between the bounds and those that violate their state. An outer iteration, or *round*, is one pass through

@@ -1,17 +1,18 @@
 """Primal-dual active set on one grid: conjugate gradients on the active cells, between updates of the set.
 
-Steps 5 to 8 of `bem.contact` and the gradient step of step 10, called by `problem.GridProblem.solve` on every grid;
-steps 9 and 10 are called from here. The pressure minimises p.Kp/2 + p.(gap - approach) over 0 <= p <= cap, with its sum
-prescribed under load control. An outer iteration
+The set is fixed while conjugate gradients run (Hintermueller, Ito & Kunisch 2003); it does not change in each of their
+iterations as in Polonsky & Keer (1999). Steps 5 to 8 of `bem.contact` and the gradient step of step 10, called by
+`problem.GridProblem.solve` on every grid; steps 9 and 10 are called from here. The pressure minimises p.Kp/2 + p.(gap -
+approach) over 0 <= p <= cap, with its sum prescribed under load control. An outer iteration
 
-1. applies the operator in double precision (`GridWorkspace.begin_round`). `_evaluate` sums the energy. If the energy
+(a) applies the operator in double precision (`GridWorkspace.begin_round`). `_evaluate` sums the energy. If the energy
    has its minimum well before the end of the step, `_backtrack` blends to the minimum, whose displacement takes no
    convolution, and the sums are taken again. Only then follow the approach, the violations and their tolerance: they
    are those of the blend, and the end of a step that was blended is not judged. `_Step.shortened` then projects the
    unconstrained step of that length, because a cell that is active at either end is active between both;
-2. `_next_step`: adds the open cells that overlap and the capped cells that open (`grid_workspace`);
-3. solves for pressures without bounds on the active cells (`pcg`; `gcr` with friction or a prescribed mean gap); and
-4. `_to_bounds`: projects onto the bounds and restores the prescribed load (`bounds`, `controls`).
+(b) `_next_step`: adds the open cells that overlap and the capped cells that open (`grid_workspace`);
+(c) solves for pressures without bounds on the active cells (`pcg`; `gcr` with friction or a prescribed mean gap); and
+(d) `_to_bounds`: projects onto the bounds and restores the prescribed load (`bounds`, `controls`).
 
 The energy may rise while the largest violation falls. After a few outer iterations without progress an energy guard
 (`_EnergyGuard`) rejects every step that raises the energy, unless the violation fell by a tenth. It replaces the step
@@ -20,8 +21,9 @@ shortened as long as it raises the energy. The guard is released at a tenth of t
 a guarded run the next outer iteration sets it again. Sets of cells can repeat only where their energies differ by less
 than round-off.
 
-Where most cells in contact are at the cap (ten of eleven), unbounded pressures carry no information. They are discarded
-for a projected gradient step whose length is one over the response of a single cell; it may raise the energy.
+Where the projection leaves at most one in eleven cells in contact between the bounds, and fewer than half of the active
+cells, unbounded pressures carry no information. They are discarded, convolutions included, for a projected gradient
+step whose length is one over the response of a single cell; it may raise the energy.
 
 Friction in the gap and a prescribed mean gap have no energy; where the sets then swing, `solve_on_grid` has other
 methods.
@@ -378,7 +380,7 @@ def _evaluate(
     point = _Point(iterate, approach, sums.energy, sums.energy_size, sums.force)
     displacement = sums.largest_displacement
     goal = tolerance.bound(approach, displacement, progress.first_violation)
-    round_off = tolerance.is_round_off(violation, displacement)
+    round_off = tolerance.is_near_round_off(violation, displacement)
     return _Evaluation(point, step_fraction, violating, violation, goal, displacement, round_off)
 
 
@@ -435,15 +437,15 @@ def _next_step(
     grid: GridWorkspace, control: Control, now: _Evaluation, budget: IterationBudget, *, has_energy: bool
 ) -> _Step | None:
     """Activate the violating cells, close the gap and project onto the bounds; None without an active cell."""
-    active = grid.activate(now.iterate, now.violating, now.approach, with_unit_approach=control.coupled)
+    active = grid.activate(now.iterate, now.violating, now.approach, with_unit_approach=control.uses_unit_approach)
     if active.iterate.cells.size == 0:
         return None
     if _is_full_contact(grid, control, active, now.goal):
-        shifted = bounds.shift_full_contact(active.iterate, active.mean_gap, grid.cap)
+        shifted = bounds.shift_full_contact(active.iterate, active.mean_residual, grid.cap)
         if shifted is not None:
             return _Step(shifted, along_null_space=True)
         # a cell is at a bound already: close the varying part of the gap first
-        active = replace(active, gap=active.gap - active.mean_gap, mean_gap=0.0)
+        active = replace(active, gap=active.gap - active.mean_residual, mean_residual=0.0)
     solver = pcg if has_energy else gcr
     trial = solver.close_gap(grid, active, control, now.goal, budget)
     iterate = active.iterate
@@ -480,5 +482,5 @@ def _is_full_contact(grid: GridWorkspace, control: Control, active: ActiveCells,
         control.leaves_uniform_pressure
         and grid.operator.mean_free
         and active.iterate.cells.size == grid.gap.size
-        and not (math.isinf(grid.cap) and active.mean_gap <= goal)
+        and not (math.isinf(grid.cap) and active.mean_residual <= goal)
     )

@@ -213,8 +213,8 @@ def plastic_region(
 
     Where plastic contact borders on open gap, the boundary is half-way between centres.
     """
-    elastic = pressure < hardness
-    rest, _ = _region(elastic, pressure, gap, undeformed, grid, modulus, hardness=hardness)
+    below_cap = pressure < hardness
+    rest, _ = _region(below_cap, pressure, gap, undeformed, grid, modulus, hardness=hardness)
     area = grid.area - rest.area
     return replace(rest, counted_area=grid.area - rest.counted_area).of_area(area)
 

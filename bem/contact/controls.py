@@ -35,7 +35,7 @@ class Control(ABC):
     zero_sum: ClassVar[bool] = False
     """True if search directions carry no net load."""
 
-    coupled: ClassVar[bool] = False
+    uses_unit_approach: ClassVar[bool] = False
     """True if search directions are corrected by the pressure of a unit approach."""
 
     has_energy: ClassVar[bool] = True
@@ -115,7 +115,7 @@ class LoadControl(Control):
     force: float
 
     zero_sum: ClassVar[bool] = True
-    coupled: ClassVar[bool] = True
+    uses_unit_approach: ClassVar[bool] = True
 
     def approach_without_contact(self, gap: FloatArray) -> float:
         """Return zero without a load, infinity with a load."""
@@ -213,7 +213,7 @@ class MeanGapControl(Control):
 
     mean_gap: float
 
-    coupled: ClassVar[bool] = True
+    uses_unit_approach: ClassVar[bool] = True
     has_energy: ClassVar[bool] = False
 
     def approach_without_contact(self, gap: FloatArray) -> float:

@@ -81,12 +81,12 @@ def close_gap(
     iterate, residual, parameters = active.iterate, active.gap, grid.parameters
     cells = iterate.cells
     if control.zero_sum:
-        residual -= active.mean_gap
+        residual -= active.mean_residual
         if cells.size == 1:
             return iterate.values.copy()
     inverse = grid.preconditioner_on(active)
     unit_approach, coefficient = np.empty(0), 0.0
-    if control.coupled:
+    if control.uses_unit_approach:
         _, unit_approach, total = grid.find_unit_approach(active)
         coefficient = control.unit_approach_coefficient(grid, iterate, total)
     weighted = np.empty(cells.size if control.zero_sum else 0)

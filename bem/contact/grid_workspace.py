@@ -81,8 +81,8 @@ class Tolerance:
     coarse_floor: float = 0.0
 
     @staticmethod
-    def is_round_off(violation: float, displacement: float) -> bool:
-        """Return True if a violation is near the resolution of the transforms."""
+    def is_near_round_off(violation: float, displacement: float) -> bool:
+        """Return True if a violation is at most `_FLAT_RESOLUTION` of the displacement, on flat gaps and others."""
         return violation <= _FLAT_RESOLUTION * displacement
 
     def bound(self, approach: float, displacement: float, first: float) -> float:
@@ -140,9 +140,10 @@ class SolverParameters:
         such restriction before an extrapolated step.
     iterations_per_round : limit of CG iterations in an outer iteration.
     rounds : limit of outer iterations.
-    patience : outer iterations without progress before the energy guard is set.
+    patience : outer iterations without a fall of the violation by a tenth before the energy guard is set.
     guarded : True if the energy guard is set from the first outer iteration.
-    stall_limit : outer iterations without progress before the solver gives up.
+    stall_limit : outer iterations without a fall of the violation by three tenths, or in a guarded run of the energy,
+        before the solver gives up.
     """
 
     relative_residual: float = 1e-4
@@ -194,13 +195,14 @@ _UNKNOWN_UNIT_APPROACH = UnitApproachPressure(np.empty(0, np.int64), np.empty(0)
 class ActiveCells:
     """The active cells of an outer iteration, those that violated their state included.
 
-    iterate : their pressures. gap : (n,), gap + displacement - approach (overwritten by solvers). mean_gap : its mean.
+    iterate : their pressures. gap : (n,), gap + displacement - approach (overwritten by solvers). mean_residual : its
+        mean, unrelated to a prescribed mean gap.
     near : the sparse inverse. unit_approach : pressure of a unit approach; total 0 where unknown.
     """
 
     iterate: Iterate
     gap: FloatArray
-    mean_gap: float
+    mean_residual: float
     near: SparseInverseOnCells
     unit_approach: UnitApproachPressure
 
@@ -327,13 +329,13 @@ class GridWorkspace:
             with_unit_approach,
         )
         known.solve(pattern, unsolved=unsolved)
-        cells, values, gap, mean_gap = merged
+        cells, values, gap, mean_residual = merged
         near = SparseInverseOnCells(SparseRows(columns, pattern, known.table))
         if capped.size:
             self.state[violating] = ELASTIC
             capped = capped[self.state[capped] == CAPPED]
         return ActiveCells(
-            Iterate(cells, values, capped), gap, mean_gap, near, UnitApproachPressure(cells, unit_approach, total)
+            Iterate(cells, values, capped), gap, mean_residual, near, UnitApproachPressure(cells, unit_approach, total)
         )
 
     def find_unit_approach(self, active: ActiveCells) -> UnitApproachPressure:

@@ -4,18 +4,18 @@ Step 3 of `bem.contact`. The coarsest grid that is solved has 17 to 32 cells alo
 grid of 31 or 32; a finest grid of up to 30 cells has no coarser one (`convolution.SMALLEST_GRID`). The square of the
 pressure falls linearly to zero at the edge of a contact, and the gap outside grows like the distance to the power 3/2.
 The interpolated function is therefore phi = p^2 inside and -c gap^(2/3) outside, which is smooth across the edge of an
-elastic contact. Capped cells enter as the square of the cap, whatever their depth: the finer grid then starts with a
-violation of the order of the rms gap, and of the goals of coarse grids below the 6 % decide. The interpolation changes
-the load of each square by its edges; load errors between squares excite long-wavelength displacement errors, so each
-square of 8 x 8 coarse cells keeps its coarse-grid load, as far as a change of its pressures by at most half allows.
-Squares with a cell at the cap are left as they are. A prescribed load is restored by `Control.initial_iterate` when the
-finer grid starts.
+elastic contact. Capped cells enter as the square of the cap, whatever their depth, so that the finer grid starts with a
+larger violation. The interpolation changes the load of each square by its edges; load errors between squares excite
+long-wavelength displacement errors, so each square of 8 x 8 coarse cells keeps its coarse-grid load, as far as a change
+of its pressures by at most half allows. Squares with a cell at the cap are left as they are. A prescribed load is
+restored by `Control.initial_iterate` when the finer grid starts.
 
 Coarse grids are solved until a tenth of their first violation is left, which is what the interpolation to them cost,
-but no further than the final tolerance; and in any case to 6 % of the rms gap and 6 % of the displacement. The coarsest
-grid, which has no interpolated start, has the same bounds. A result that misses its goal is still interpolated up to
-twice the bound of 6 %, whatever a tenth of its first violation was (`_is_useful`); beyond, it is dropped.
-Verified in tests/contact/test_nested_iteration.py.
+but no further than the final tolerance; and in any case to 6 % of the rms gap and 6 % of the displacement, which decide
+only where a first violation is above 0.6 of these, as with nearly all contact at the cap. The coarsest grid, which has
+no interpolated start, has the same bounds. A result that misses its goal is still interpolated up to twice the bound of
+6 %, whatever a tenth of its first violation was (`_is_useful`); beyond, it is dropped. Verified in
+tests/contact/test_nested_iteration.py.
 """
 
 from __future__ import annotations

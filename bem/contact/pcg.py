@@ -12,7 +12,8 @@ of threads.
 - The iteration ends at a relative residual, at the tolerance, or where clipping to the bounds would bring back a
   residual of the same size (`grid_workspace.SolverParameters`).
 - The last step may be extrapolated: it reuses the length of the step before, takes no convolution, and counts as an
-  iteration. The preconditioned kernel is close to one, and the next outer iteration applies the operator anyway and can
+  iteration. It may be the only step, so that no convolution is taken; on a new grid the length is one. The
+  preconditioned kernel is close to one, and the next outer iteration applies the operator anyway and can
   backtrack. The length is carried over between outer iterations (`grid_workspace.Extrapolation`).
 
 Notation: p pressure, r residual (gap), z preconditioned residual, t direction, q response of the gap to t.
@@ -134,7 +135,7 @@ def close_gap(
             grid.single_field,
             engine,
             grid.cap,
-            active.mean_gap,
+            active.mean_residual,
             alone,
         ):
             single.apply_to_cells(cells, work[1], grid.single_field)

@@ -463,7 +463,7 @@ class _System:
             active: ActiveCells = grid.activate(
                 Iterate(cells, values, cells[:0]), nothing, 0.0, with_unit_approach=True
             )
-            largest = float(np.abs(active.gap - active.mean_gap).max())
+            largest = float(np.abs(active.gap - active.mean_residual).max())
             reference = reference or largest
             if largest < smallest:
                 best, improved = values, largest < 0.5 * smallest

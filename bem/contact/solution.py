@@ -38,12 +38,13 @@ class ContactSolution:
     maximum_pressure : [Pa], between the centres of cells where the pressure is smooth (`bem.contact.peak_pressure`).
     plastic_depth : [m], overlap of the bodies where the pressure is at the hardness, zero elsewhere.
     iterations : CG iterations on all grids.
-    convolutions : applications of the operator on all grids, each weighted by the grid's fraction of the cells.
-    residual : largest violation of the contact conditions, recomputed from `pressure` and `approach`, over the standard
-        deviation of the undeformed gap, form included. Where the gap is flat in comparison with the displacement, it is
-        relative to the largest of the displacement, its scale under the mean of a prescribed load, and a prescribed
-        mean gap. The error of a prescribed approach or mean gap counts as a violation; the relative error of a
-        prescribed load counts if it is larger.
+    convolutions : applications of the operator in either precision, those of the preconditioner on its coarse grid
+        included, each weighted by its grid's fraction of the cells.
+    residual : largest violation of the contact conditions, recomputed from `pressure`, `displacement` and `approach`,
+        over the standard deviation of the undeformed gap, form included. Where the gap is flat in comparison with the
+        displacement, it is relative to the largest of the displacement, its scale under the mean of a prescribed load,
+        and a prescribed mean gap. The error of a prescribed approach or mean gap counts as a violation; the relative
+        error of a prescribed load counts if it is larger.
     status : outcome; `residual` is at most the tolerance if it is converged.
     notes : warnings, such as a contact that reaches the edge of a free grid.
     """

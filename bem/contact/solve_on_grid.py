@@ -3,12 +3,12 @@
 Steps 2, 4 and 11 of `bem.contact`. `solve_on_grid` is called for every grid. It first solves for the prescribed
 quantity by the active set alone, through `problem.GridProblem.solve`. Fallbacks follow only if that stalls:
 
-1. load, or approach unless displacements have no mean, symmetric operator: again with the energy guard on from the
+(a) load, or approach unless displacements have no mean, symmetric operator: again with the energy guard on from the
    first outer iteration, and then without the end of conjugate gradients by clipping, too; each rerun starts from the
    pressure with the smallest violation of the solution before it, in a new workspace;
-2. friction in the gap: the frictional part of the displacement is lagged, so that each contact is frictionless;
-3. approach: a secant search over the load;
-4. mean gap: a secant search over the approach and, below a hardness, over the load; elastic bodies for which neither
+(b) friction in the gap: the frictional part of the displacement is lagged, so that each contact is frictionless;
+(c) approach: a secant search over the load;
+(d) mean gap: a secant search over the approach and, below a hardness, over the load; elastic bodies for which neither
    succeeds may have no such mean gap (`mean_gap_limits`).
 
 The secant searches are safeguarded by a bracket, start every contact from the pressure of the one before, and ask of it

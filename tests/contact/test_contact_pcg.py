@@ -67,7 +67,7 @@ def start(op, n, control, seed):
     iterate = Iterate(cells, 5 + np.random.default_rng(6).random(cells.size), cells[:0])
     workspace.begin_round(iterate, keep=False)
     workspace.extrapolation.trusted = False
-    return workspace, workspace.activate(iterate, NOTHING, 0.02, with_unit_approach=control.coupled)
+    return workspace, workspace.activate(iterate, NOTHING, 0.02, with_unit_approach=control.uses_unit_approach)
 
 
 @pytest.mark.parametrize("n", [24, 96])  # the smaller has no coarse correction
