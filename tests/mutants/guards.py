@@ -18,6 +18,7 @@ GUARDS: dict[str, list[str]] = {
     "tribofilm": ["tests/tribofilm", "tests/scenes/test_tribofilm_kind.py"],
     "surfaces": ["tests/surfaces"],
     "particles": ["tests/particles"],
+    "viscoelastic": ["tests/viscoelastic"],
     "results": ["tests/results", "tests/reliability/test_damaged_runs.py"],
 }  # fmt: skip
 """For each room the files and folders whose tests are run, in this order."""

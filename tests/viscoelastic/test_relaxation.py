@@ -43,3 +43,15 @@ def test_mistakes_are_named():
         PronySeries([0.6], [-1.0])
     with pytest.raises(InputError, match="2 shares and 1 times"):
         PronySeries([0.6, 0.1], [1.0])
+
+
+@pytest.mark.parametrize("shares", [(0.2, 0.5, 0.3), (0.2, 0.5, 0.1)])
+def test_compliance_of_waves_is_the_reciprocal_of_the_modulus(shares):
+    """J*(w) E*(w) = 1 for a fluid and a solid of three times; the flow of a fluid is that of its viscosity."""
+    series = PronySeries(shares, [0.01, 0.3, 20.0])
+    creep = series.creep()
+    for frequency in (1e-3, 0.1, 1.0, 30.0):
+        delayed = sum(c / (1 + 1j * frequency * theta) for c, theta in zip(creep.amounts, creep.times, strict=True))
+        compliance = 1 + delayed + creep.flow / (1j * frequency)
+        assert compliance * series.complex_modulus(frequency) == pytest.approx(1, abs=1e-11)
+    assert (creep.flow > 0) == series.fluid
