@@ -223,6 +223,20 @@ def test_layer_of_the_same_material_is_none(tmp_path: Path) -> None:
 
 
 @pytest.mark.fem
+def test_a_point_just_inside_the_edge_follows_the_rigid_row(tmp_path: Path) -> None:
+    """The edge is at 0.20064 and a point of the surface at 0.2, within a cell of the finest mesh."""
+    out = tmp_path / "row.json"
+    options = ["--nu", "0.281", "--layer", "0.0891", "0.414", "0.211", "--loads", "0.00776", "0.0498"]
+    fem("-m", "fem_reference", "contact-row", *options, "--out", str(out))
+    curve = read(out).quantity("normal_displacement", "surface at load 0.0498")
+    x, values, bars = np.array(curve.coordinates)[:, 0], np.array(curve.values), np.array(curve.error_bar)
+    inside = x <= 0.2
+    exact = np.cos(2 * np.pi * x[inside]) - 1
+    assert inside.sum() == 2
+    assert np.all(np.abs(values[inside] - exact) < bars[inside])
+
+
+@pytest.mark.fem
 def test_bad_input_is_refused() -> None:
     said = fem("-m", "fem_reference", "contact-sphere", "--layer", "-1", "0.3", "0.5", code=2)
     assert "modulus ratio -1.0 must be positive" in said
