@@ -211,7 +211,7 @@ def _bars(
 
 @dataclass(frozen=True)
 class _Places:
-    """Where the curves of a study lie: its loads, its patch, nodes of the stored pressure by load, the points,
+    """Places of the curves of a study: its loads, its patch, nodes of the stored pressure by load, the points,
     the edge of the contact on the finest mesh by load, and the cell of the coarsest mesh."""
 
     loads: Sequence[float]
