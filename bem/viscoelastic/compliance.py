@@ -4,8 +4,11 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 
+import numpy as np
+
 from bem.convolution import DisplacementOperator
 from bem.errors import InputError
+from bem.grid import FloatArray
 
 
 @dataclass(frozen=True)
@@ -61,3 +64,15 @@ def pair_compliance(operator: DisplacementOperator, name: str) -> PairCompliance
                 for amount, time in zip(creep.amounts, creep.times, strict=True)
             ]
     return PairCompliance(tuple(terms), flow)
+
+
+def step_weights(ratio: float | FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
+    """Return e, a, b of q_new = e q + a p + b p_new for a pressure that is linear over a step.
+
+    ratio : step over retardation time, or cell over length of memory; not negative.
+    """
+    ratio = np.asarray(ratio, dtype=np.float64)
+    gone = -np.expm1(-ratio)
+    series = ratio / 2 - ratio**2 / 6 + ratio**3 / 24  # of 1 - (1 - e) / ratio
+    b = np.where(ratio < 1e-4, series, 1 - gone / np.maximum(ratio, np.finfo(np.float64).tiny))
+    return 1 - gone, gone - b, b

@@ -33,7 +33,7 @@ from bem.convolution import DisplacementOperator
 from bem.errors import InputError, Status
 from bem.grid import FloatArray
 from bem.representation import readable
-from bem.viscoelastic.compliance import PairCompliance, pair_compliance
+from bem.viscoelastic.compliance import PairCompliance, pair_compliance, step_weights
 
 Callback = Callable[[float, ContactSolution], object]
 
@@ -99,7 +99,7 @@ class _State:
 
 @dataclass
 class _March:
-    """What all steps of a path share, and the counts of contacts."""
+    """Contact along a path: its bodies, its prescribed quantity, and counts of the contacts solved so far."""
 
     gap: FloatArray
     operator: DisplacementOperator
@@ -121,8 +121,8 @@ class _March:
         else:
             old_p, old_elastic, delayed = state.pressure, state.elastic, state.delayed
             flowed, lost = state.flowed, state.dissipated
-        weights = [_weights(duration / term.time) for term in terms]
-        scale = 1.0 + sum(term.amount * b for term, (_, _, b) in zip(terms, weights, strict=True))
+        weights = [step_weights(duration / term.time) for term in terms]
+        scale = 1.0 + float(sum(term.amount * b for term, (_, _, b) in zip(terms, weights, strict=True)))
         scale += 0.5 * flow * duration
         memory = flow * (flowed[1] + 0.5 * duration * old_elastic)
         for term, (e, a, _), (_, displaced) in zip(terms, weights, delayed, strict=True):
@@ -223,9 +223,10 @@ def follow_times(
     control, path = _checked_path(times, loads, approaches, accuracy)
     march = _March(np.asarray(gap, dtype=np.float64), operator, compliance, control, tolerance)
     march.before = operator.count.weighted
-    stiffest = march.step(None, 0.0, max(path[1]))
-    scale = float(np.sum(stiffest.pressure)) or 1.0
     state = march.step(None, 0.0, path[1][0])
+    highest = max(path[1])
+    stiffest = state if highest == path[1][0] else march.step(None, 0.0, highest)
+    scale = float(np.sum(stiffest.pressure)) or 1.0
     found = [(path[0][0], state)]
     for first in range(len(path[0]) - 1):
         ends, values = path[0][first : first + 2], path[1][first : first + 2]
@@ -268,18 +269,6 @@ def _adaptive(
         time, state = last, two
         length *= min(max(factor, 0.5), _LONGEST)
     return found
-
-
-def _weights(ratio: float) -> tuple[float, float, float]:
-    """Return e, a, b of q_new = e q + a p + b p_new for a pressure linear over a step of `ratio` retardation times."""
-    if ratio == 0:
-        return 1.0, 0.0, 0.0
-    gone = float(-np.expm1(-ratio))
-    if ratio < 1e-4:  # 1 - (1 - e) / x by its series
-        b = ratio / 2 - ratio**2 / 6 + ratio**3 / 24
-    else:
-        b = 1 - gone / ratio
-    return 1 - gone, gone - b, b
 
 
 def _history(march: _March, found: list[tuple[float, _State]]) -> ViscoelasticHistory:

@@ -46,7 +46,7 @@ from bem.kernels.spectral import surface_response
 from bem.materials import Body
 from bem.representation import readable
 from bem.transforms import kernel_spectrum, padded_shape
-from bem.viscoelastic.compliance import DelayedTerm, pair_compliance
+from bem.viscoelastic.compliance import DelayedTerm, pair_compliance, step_weights
 
 _REACH = 3.0
 """Length of the coefficients along x, in periods along y, beyond which a cell acts as a line load: exp(-6 pi)."""
@@ -163,12 +163,12 @@ def delayed_coefficients(
     moving = sizes[:, 0] > 0
     amounts, signs = np.array(weights)[moving], np.sign(lengths)[moving]
     sizes, still = sizes[moving], float(np.array(weights)[~moving].sum())
-    gone, before, after = _cell_weights(grid.spacing[0] / sizes[:, 0])
+    kept, before, after = step_weights(grid.spacing[0] / sizes[:, 0])
     if grid.periodic[0]:
         table = surface_coefficients(grid, body, Load.NORMAL)
         k = 2 * np.pi * np.arange(nx // 2 + 1) / nx
         turn = np.exp(1j * k)
-        symbols = (after[:, None] + before[:, None] * turn) / (1 - gone[:, None] * turn)
+        symbols = (after[:, None] + before[:, None] * turn) / (1 - kept[:, None] * turn)
         ahead = np.fft.irfft(np.fft.rfft(table, axis=0) * symbols[:, :, None], nx, axis=1)
         behind = np.roll(ahead[:, ::-1], 1, axis=1)
     else:
@@ -180,7 +180,7 @@ def delayed_coefficients(
         for offset in range(count - 1, -nx, -1):
             here = table[abs(offset)]
             if offset < count - 1:
-                memory = gone[:, None] * memory + after[:, None] * here + before[:, None] * last
+                memory = kept[:, None] * memory + after[:, None] * here + before[:, None] * last
             last = here
             if 0 <= offset < nx:
                 ahead[:, offset] = memory
@@ -189,14 +189,6 @@ def delayed_coefficients(
     even = 0.5 * np.tensordot(amounts, ahead + behind, axes=1) + (own + still) * table[:nx]
     odd = -0.5 * np.tensordot(amounts * signs, ahead - behind, axes=1)
     return np.stack([even, odd])
-
-
-def _cell_weights(ratio: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
-    """Return the weights of the memory, of the pressure and of its own pressure in the next cell, by cell / length."""
-    decay = -np.expm1(-ratio)
-    small = ratio / 2 - ratio**2 / 6 + ratio**3 / 24
-    own = np.where(ratio < 1e-4, small, 1 - decay / ratio)
-    return 1 - decay, decay - own, own
 
 
 def _long_coefficients(grid: Grid, body: Body, sizes: FloatArray) -> tuple[FloatArray, FloatArray, FloatArray]:
@@ -284,7 +276,7 @@ def solve_steady_motion(
     force = float(np.sum(contact.pressure * _slope(gap, operator.grid))) * operator.grid.cell_area
     main = next(speed for speed in speeds if speed)
     force = -math.copysign(1.0, main) * force
-    power = _lost(contact.pressure, operator, compliance.terms)(speeds)
+    power = _dissipated_power(contact.pressure, operator, compliance.terms, speeds)
     passing = [speed for speed in speeds if speed]
     imbalance = math.nan
     if len(set(passing)) == 1:
@@ -354,22 +346,15 @@ def _proximal(
     return found
 
 
-def _lost(
-    pressure: FloatArray, operator: DisplacementOperator, terms: Sequence[DelayedTerm]
-) -> Callable[[tuple[float, float]], float]:
-    """Return the function from speeds to the power that delayed pressures dissipate [W].
-
-    sum of c / theta p.(K p - K q): with the speed that of the material, V times the work along x.
-    """
-
-    def power(speeds: tuple[float, float]) -> float:
-        moving = [term for term in terms if speeds[term.body] != 0]
-        rates = [term.amount / term.time for term in moving]
-        lengths = tuple(term.time * speeds[term.body] for term in moving)
-        lost = DelayedKernel(operator.bodies, sum(rates), tuple(-rate for rate in rates), lengths)
-        return float(np.sum(pressure * _with(operator, lost)(pressure))) * operator.grid.cell_area
-
-    return power
+def _dissipated_power(
+    pressure: FloatArray, operator: DisplacementOperator, terms: Sequence[DelayedTerm], speeds: tuple[float, float]
+) -> float:
+    """Return the power that delayed pressures dissipate [W]: the sum of c / theta p.(K p - K q) over moving bodies."""
+    moving = [term for term in terms if speeds[term.body] != 0]
+    rates = [term.amount / term.time for term in moving]
+    lengths = tuple(term.time * speeds[term.body] for term in moving)
+    lost = DelayedKernel(operator.bodies, sum(rates), tuple(-rate for rate in rates), lengths)
+    return float(np.sum(pressure * _with(operator, lost)(pressure))) * operator.grid.cell_area
 
 
 def _slope(gap: FloatArray, grid: Grid) -> FloatArray:
