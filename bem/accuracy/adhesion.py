@@ -8,11 +8,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 
 from bem.accuracy.bars import GRID, RESIDUAL, ErrorBars
-from bem.accuracy.coarsened import ContactCase, edge_fraction, regime_of
+from bem.accuracy.coarsened import ContactCase, coarser_problem, edge_fraction, regime_of
 from bem.accuracy.contact import figures_of, missed_by_differences
 from bem.accuracy.richardson import Regime, Table, relative, residual_errors, rows
 from bem.adhesion import AdhesionLaw, AdhesiveHistory, follow_path
-from bem.contact.nested_iteration import sample
 from bem.errors import InfeasibleError, Status
 from bem.notes.accuracy import NoBar
 
@@ -51,12 +50,10 @@ def adhesive_bars(
     case : of the last contact. path : as solved. asked : loads or approaches of the path.
     tolerance : with which the path was solved.
     """
-    operator = case.operator.coarsened()
-    if operator is None:
+    problem = coarser_problem(case)
+    if problem is None:
         return ErrorBars.unknown(RULES, NoBar.TOO_SMALL)
-    gap = sample(case.undeformed, operator.grid.shape, operator.grid.periodic)
-    if case.from_touch:
-        gap = gap - gap.min()
+    gap, operator = problem
     try:
         coarse = follow_path(
             gap,

@@ -91,13 +91,11 @@ def solve_coarser(case: ContactCase, max_iterations: int = 2000) -> Coarser:
         return Coarser(None, None, NoBar.FREE_EDGE)
     if _is_narrow(case):
         return Coarser(None, None, NoBar.FEW_CELLS_WIDE)
-    operator = case.operator.coarsened()
-    if operator is None:
+    problem = coarser_problem(case)
+    if problem is None:
         return Coarser(None, None, NoBar.TOO_SMALL)
+    gap, operator = problem
     grid = operator.grid
-    gap = sample(case.undeformed, grid.shape, grid.periodic)
-    if case.from_touch:
-        gap = gap - gap.min()
     mean_gap = case.mean_gap
     if mean_gap is not None and not all(grid.periodic):
         mean_gap = mean_opening(sample(case.solution.gap, grid.shape, grid.periodic))
@@ -121,6 +119,15 @@ def solve_coarser(case: ContactCase, max_iterations: int = 2000) -> Coarser:
             return Coarser(grid, solution)
         start = None
     return Coarser(None, None, NoBar.COARSER_UNSOLVED)
+
+
+def coarser_problem(case: ContactCase) -> tuple[FloatArray, DisplacementOperator] | None:
+    """Return undeformed gap [m] and operator on the grid of twice the cell; None of grids too small for one."""
+    operator = case.operator.coarsened()
+    if operator is None:
+        return None
+    gap = sample(case.undeformed, operator.grid.shape, operator.grid.periodic)
+    return gap - gap.min() if case.from_touch else gap, operator
 
 
 def _is_narrow(case: ContactCase) -> bool:

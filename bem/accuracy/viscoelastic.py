@@ -11,10 +11,9 @@ from collections.abc import Mapping, Sequence
 import numpy as np
 
 from bem.accuracy.bars import GRID, RESIDUAL, STEPS, ErrorBars
-from bem.accuracy.coarsened import ContactCase, edge_fraction, regime_of
+from bem.accuracy.coarsened import ContactCase, coarser_problem, edge_fraction, regime_of
 from bem.accuracy.contact import figures_of, missed_by_differences
 from bem.accuracy.richardson import Regime, Table, relative, residual_errors, rows
-from bem.contact.nested_iteration import sample
 from bem.convolution import DisplacementOperator
 from bem.errors import Status
 from bem.grid import FloatArray
@@ -60,12 +59,10 @@ def relaxed_bars(
     case : of the last contact. solved : what the bars are of. speeds : of steady motion. times, path : of a path in
     time, as arguments of `follow_times`.
     """
-    operator = case.operator.coarsened()
-    if operator is None:
+    problem = coarser_problem(case)
+    if problem is None:
         return ErrorBars.unknown(RULES, NoBar.TOO_SMALL)
-    gap = sample(case.undeformed, operator.grid.shape, operator.grid.periodic)
-    if case.from_touch:
-        gap = gap - gap.min()
+    gap, operator = problem
     if isinstance(solved, SteadySolution):
         assert speeds is not None
         other: list[ViscoelasticHistory | SteadySolution] = [
