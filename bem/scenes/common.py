@@ -93,7 +93,7 @@ class RelaxationScene(Table):
         return self
 
     def build(self) -> PronySeries:
-        """As `bem.relaxation.PronySeries`."""
+        """Return the series that the scene describes."""
         return PronySeries(self.shares, self.times)
 
 

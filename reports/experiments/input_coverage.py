@@ -81,12 +81,12 @@ def _value(variables: Mapping[str, Any], name: str) -> float:
 
 def main() -> None:
     """Run all cases and store the table."""
-    found = {"draws": DRAWS, **{name: judged(name) for name in CASES}}
-    for name in CASES:
+    tables = {name: judged(name) for name in CASES}
+    for name, table in tables.items():
         print(name)
-        for figure, row in found[name].items():  # type: ignore[attr-defined]
+        for figure, row in table.items():
             print(f"  {figure:24s}", "  ".join(f"{key} {value:.3g}" for key, value in row.items()))
-    keep(result_of("input_coverage"), rounded(found))
+    keep(result_of("input_coverage"), rounded({"draws": DRAWS, **tables}))
 
 
 if __name__ == "__main__":

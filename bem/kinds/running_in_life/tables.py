@@ -64,7 +64,9 @@ def _by_pressure(law: type[Law]) -> bool:
 
 
 def _finds_particles(law: type[Law]) -> bool:
-    return not issubclass(law, LocalWear) and law.counts_passes is Criterion.counts_passes  # type: ignore[attr-defined]
+    if not issubclass(law, Criterion) or issubclass(law, LocalWear):
+        return False
+    return law.counts_passes is Criterion.counts_passes  # not overridden: single passes bring pieces off
 
 
 class LifeWear(Table):

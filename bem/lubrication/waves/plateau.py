@@ -74,7 +74,7 @@ class Plateau:
 
 @dataclass(frozen=True, eq=False)
 class WaveAmplitudes:
-    """What a wave of unit height out of a body leaves; arrays of the waves' shape.
+    """Amplitudes of film and pressure that a wave of unit height out of a body leaves; arrays of the waves' shape.
 
     Attributes
     ----------
