@@ -64,6 +64,24 @@ ADHESION_JUMPS = define(
     "It does so in {jumps} of {steps} steps, in the first of them to a load of {load:si N}.",
     "Take shorter steps there for the load and the approach of the jump.",
 )
+HYSTERESIS_UNBALANCED = define(
+    "hysteresis-unbalanced",
+    CAUTION,
+    "Work and energy of the bodies that relax do not balance.",
+    reasons={
+        "power": Reason(
+            "The dissipated power differs from friction force times speed by {share:.0%} of the larger. At this speed"
+            " the bodies remember {length:si m} of their way, for cells of {cell:si m}.",
+            "Take friction force times speed as the power, or smaller cells.",
+            headline="The dissipated power is not resolved by the cells.",
+        ),
+        "work": Reason(
+            "{share:.0%} of the work is neither stored nor dissipated: the load or the approach changes too fast for"
+            " the steps.",
+            "Give more times where it changes.",
+        ),
+    },
+)
 MEAN_GAP_NOT_MET = define(
     "mean-gap-not-met",
     CAUTION,

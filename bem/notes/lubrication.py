@@ -83,8 +83,8 @@ WAVES_TOO_HIGH = define(
     CAUTION,
     "The roughness is too high for linear waves.",
     "The film is {ratio:.2g} times the rms heights, and waves would meet over {share:.1%} of the contact. Marches of "
-    "such surfaces kept a film of 15 to 35 % of the central one everywhere; below a ratio of one film ripples of "
-    "sliding surfaces stand elsewhere than the waves say.",
+    "surfaces down to a ratio of 0.5 kept a film of 15 to 35 % of the central one everywhere; below a ratio of one "
+    "film ripples of sliding surfaces stand elsewhere than the waves say.",
     "Read the minimum as a lower limit; take kind point-film-time for the film itself.",
 )
 FILM_THICK = define(

@@ -10,7 +10,7 @@ from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any
 
 from bem.grid import FloatArray, Grid
-from bem.notes import Note
+from bem.notes import Level, Note
 from bem.notes.lubrication import WAVES_TOO_HIGH
 from bem.scenes import build
 from bem.scenes.common import problem
@@ -23,6 +23,9 @@ if TYPE_CHECKING:
     from bem.reference_solutions.hertz import LineContact, PointContact
 
 WHERE = 'film.roughness = "waves"'
+LEAST_RATIO = 0.5
+"""Smallest ratio of the film to the rms heights at which waves were compared with marches
+(`reports/experiments/wave_ripples.py`)."""
 _of_waves = partial(Figure, optional=True, chance="the waves are linear in the heights")
 _CELLS = "it counts cells of a linear film, which is too low where surfaces nearly meet"
 _map = partial(Series, ("patch_x", "patch_y"), of="first")
@@ -121,4 +124,5 @@ def wave_notes(ripples: FilmRipples) -> list[Note]:
     """Return the note on heights for which waves are too high."""
     if ripples.lambda_ratio >= 1 and ripples.touching_share == 0:
         return []
-    return [WAVES_TOO_HIGH(ratio=ripples.lambda_ratio, share=ripples.touching_share)]
+    level = Level.CAUTION if ripples.lambda_ratio >= LEAST_RATIO else Level.OUTSIDE_MODEL
+    return [WAVES_TOO_HIGH(level=level, ratio=ripples.lambda_ratio, share=ripples.touching_share)]

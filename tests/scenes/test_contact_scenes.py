@@ -543,6 +543,20 @@ def test_sliding_has_hysteresis_friction_and_rolling_of_one_body_the_same():
     assert rolling.summary["hysteresis_friction"] == outcome.summary["hysteresis_friction"]
 
 
+def test_creeping_bodies_say_that_the_cells_do_not_resolve_their_dissipated_power():
+    """At 1 um/s the bodies remember 2 um of their way, on cells many times as wide."""
+    data = copy.deepcopy(RELAXING)
+    data["contact"] = {"load": "1 N", "sliding_speed": "1 um/s"}
+    _, outcome, context = run(data)
+    assert outcome.summary["energy_imbalance"] > 0.2
+    (note,) = [note for note in context.notes if note.code == "hysteresis-unbalanced"]
+    assert note.values["length"] == pytest.approx(2e-6, rel=1e-12, abs=0)
+    # friction, by the slope, is in proportion to the speed there
+    data["contact"]["sliding_speed"] = "2 um/s"
+    _, faster, _ = run(data)
+    assert faster.summary["hysteresis_friction"] == pytest.approx(2 * outcome.summary["hysteresis_friction"], rel=0.02)
+
+
 @pytest.mark.parametrize(
     ("keys", "message"),
     [

@@ -15,7 +15,13 @@ from bem.kinds.contact.errors import bars_of
 from bem.kinds.contact.record import ContactRecord
 from bem.kinds.contact.scene import ContactScene
 from bem.kinds.contact.solve import solve_adhesive, solve_scene
-from bem.kinds.contact.viscoelastic import relaxed_arrays, relaxed_contact, relaxed_figures, solve_relaxing
+from bem.kinds.contact.viscoelastic import (
+    relaxed_arrays,
+    relaxed_contact,
+    relaxed_figures,
+    relaxed_notes,
+    solve_relaxing,
+)
 from bem.materials import softer_hardness
 from bem.notes import Level, Note, has_code
 from bem.notes.contact import CONTACT_AT_EDGE
@@ -51,6 +57,7 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
         relaxed = solve_relaxing(scene, grid, undeformed, context)
         if relaxed is not None:
             solution, history = relaxed_contact(relaxed), np.zeros((0, 2))
+            tell(context, relaxed_notes(scene, grid, relaxed))
         elif scene.contact.adhesion is None:
             solution, history = solve_scene(scene, grid, undeformed, context)
         else:

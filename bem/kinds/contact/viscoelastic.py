@@ -6,6 +6,8 @@ from typing import TYPE_CHECKING, Any
 
 from bem.grid import FloatArray, Grid
 from bem.kinds.contact.scene import ContactScene
+from bem.notes import Note
+from bem.notes.contact import HYSTERESIS_UNBALANCED
 from bem.scenes import build
 from bem.scenes.context import Context
 from bem.scenes.packing import keep, kept
@@ -15,6 +17,9 @@ if TYPE_CHECKING:
     from bem.viscoelastic import SteadySolution, ViscoelasticHistory
 
     Relaxed = ViscoelasticHistory | SteadySolution
+
+UNBALANCED = 0.2
+"""Imbalance of work and energy above which the run says so."""
 
 
 def solve_relaxing(scene: ContactScene, grid: Grid, undeformed: FloatArray, context: Context) -> Relaxed | None:
@@ -66,6 +71,24 @@ def relaxed_figures(solved: Relaxed) -> dict[str, float]:
             "energy_imbalance": solved.imbalance,
         }
     return {"dissipated_energy": float(solved.dissipated[-1]), "energy_imbalance": solved.imbalance}
+
+
+def relaxed_notes(scene: ContactScene, grid: Grid, solved: Relaxed) -> tuple[Note, ...]:
+    """Return the note on work and energy that do not balance."""
+    from bem.viscoelastic import SteadySolution
+
+    if not solved.imbalance > UNBALANCED:  # not-a-number where no balance is known
+        return ()
+    if not isinstance(solved, SteadySolution):
+        return (HYSTERESIS_UNBALANCED(reason="work", share=solved.imbalance),)
+    assert scene.speeds is not None
+    lengths = [
+        abs(speed) * max(body.material.relaxation.times)
+        for speed, body in zip(scene.speeds, (scene.lower.build(), scene.upper.build()), strict=True)
+        if body is not None and body.material.relaxation is not None
+    ]
+    cell = grid.spacing[0]
+    return (HYSTERESIS_UNBALANCED(reason="power", share=solved.imbalance, length=max(lengths), cell=cell),)
 
 
 def relaxed_arrays(scene: ContactScene, solved: Relaxed) -> dict[str, Any]:
