@@ -244,7 +244,7 @@ LAYER_MESH = define(
         "thin": Reason(
             "It is {thickness:si m} thick on cells of {cell:si m}: the layer's softness is right, its bending stresses"
             " are not.",
-            "Take cells no larger than the layer's thickness, or leave the layer out.",
+            "Take cells no larger than the layer's thickness where its stresses matter.",
             headline="The layer is thinner than the cells.",
         ),
         "thick": Reason(

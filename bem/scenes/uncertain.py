@@ -9,12 +9,13 @@ verified in tests/scenes/test_uncertain.py.
 from __future__ import annotations
 
 import math
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 from typing import Any
 
 from pydantic import BaseModel
 from pydantic_core import PydanticCustomError
 
+from bem.arguments import did_you_mean
 from bem.errors import InputError
 from bem.scenes.paths import parse_key
 from bem.scenes.units import Dimension
@@ -36,6 +37,16 @@ def value_of(scene: BaseModel, key: str) -> Any:
     return place
 
 
+def _keys_of_numbers(model: BaseModel, before: str = "") -> Iterator[str]:
+    """Yield the dotted keys of a scene whose values are set and have decimals."""
+    for name in type(model).model_fields:
+        value = getattr(model, name)
+        if isinstance(value, BaseModel):
+            yield from _keys_of_numbers(value, f"{before}{name}.")
+        elif _numbers(value):
+            yield before + name
+
+
 def deviation(scene: BaseModel, key: str, given: str | float, unit: str) -> float:
     """Return the standard deviation of the value at a key, in SI units; of a list that of an entry of size one, if
     relative.
@@ -52,7 +63,7 @@ def deviation(scene: BaseModel, key: str, given: str | float, unit: str) -> floa
     if not numbers:
         raise InputError(
             f'uncertain."{key}": no number is set there; allowed: a dotted key of the scene whose value is set and has '
-            "decimals, such as contact.load"
+            f"decimals, such as contact.load{did_you_mean(key, _keys_of_numbers(scene))}"
         )
     text = str(given).strip()
     try:

@@ -51,7 +51,7 @@ def test_of_a_list_all_entries_change_alike():
 @pytest.mark.parametrize(
     ("uncertain", "words"),
     [
-        ({"contact.lod": "5 %"}, "no number is set there"),
+        ({"contact.lod": "5 %"}, 'did you mean "contact.load"'),
         ({"contact.approach": "5 %"}, "no number is set there"),
         ({"grid.shape": "5 %"}, "no number is set there"),
         ({"shape.kind": "5 %"}, "no number is set there"),
