@@ -49,6 +49,10 @@ def with_inputs(kind: Kind, scene: Any, record: Record, context: Context, quiet:
         except BemError as error:
             context.note(INPUT_UNPROPAGATED(key=key, why=str(error).partition("\n")[0]))
             continue
+        failed = [end.status for end in ends if end.status is not Status.CONVERGED]
+        if failed:
+            context.note(INPUT_UNPROPAGATED(key=key, why=failed[0].message))
+            continue
         changes[key] = _differences(ends[0], ends[1])
     return dataclasses.replace(record, input_changes=changes)
 

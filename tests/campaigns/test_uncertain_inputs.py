@@ -1,5 +1,6 @@
 """Errors by uncertain inputs in results: by derivatives, by repeated runs, beside the figures and in the dataset."""
 
+import dataclasses
 import math
 
 import numpy as np
@@ -7,9 +8,12 @@ import pytest
 
 from bem import load_scene
 from bem.campaigns import campaign_of, compute
+from bem.campaigns.uncertain import with_inputs
+from bem.errors import Status
 from bem.plots.report import with_error
 from bem.plots.tables import figure_tables
 from bem.scenes import get_kind
+from bem.scenes.context import PlainContext
 from bem.scenes.uncertain import moved
 
 CONTACT = {
@@ -78,6 +82,22 @@ def test_keys_without_a_derivative_are_run_on_both_sides():
     found = compute(campaign_of(load_scene("uncertain-contact", settings))).outcome
     # the load is the mean pressure on the area of the cells
     assert found.summary["load_input_scatter_N"] == pytest.approx(0.02 * found.summary["load_N"], rel=1e-3)
+
+
+def test_a_repeated_run_that_does_not_converge_gives_no_scatter():
+    """Only the case itself converges, whose spacing is the scene's."""
+    kind = get_kind("contact")
+
+    def run(scene, context):
+        record = kind.run(scene, context)
+        return record if scene.grid.spacing == 1e-6 else dataclasses.replace(record, status=Status.STALLED)
+
+    scene = kind.resolved(load_scene(CONTACT | {"uncertain": {"grid.spacing": "1 %"}}))
+    context = PlainContext(scene.seed)
+    record = kind.run(scene, context)
+    found = with_inputs(dataclasses.replace(kind, run=run), scene, record, context, lambda one: PlainContext(one.seed))
+    assert "grid.spacing" not in found.input_changes
+    assert [note.code for note in context.notes].count("input-unpropagated") == 1
 
 
 def test_curves_have_a_scatter_at_every_speed():
