@@ -333,11 +333,16 @@ class CatalogueEntry(Body):
     source : of the constants.
     thickness, residual_stress : lowest and highest usual thickness [m] and residual stress [Pa, negative in
         compression] of a coating; None of other materials.
+    temperature : of the constants of a material that relaxes [degrees Celsius]; None of other materials.
+    relaxation_span : shortest and longest time after loading [s] at which the modulus of a material that relaxes is
+        that of its source; None of other materials.
     """
 
     source: str = ""
     thickness: tuple[float, float] | None = None
     residual_stress: tuple[float, float] | None = None
+    temperature: float | None = None
+    relaxation_span: tuple[float, float] | None = None
 
     def __init__(
         self,
@@ -345,11 +350,15 @@ class CatalogueEntry(Body):
         source: str,
         thickness: tuple[float, float] | None = None,
         residual_stress: tuple[float, float] | None = None,
+        temperature: float | None = None,
+        relaxation_span: tuple[float, float] | None = None,
     ) -> None:
         super().__init__(material)
         object.__setattr__(self, "source", source)
         object.__setattr__(self, "thickness", thickness)
         object.__setattr__(self, "residual_stress", residual_stress)
+        object.__setattr__(self, "temperature", temperature)
+        object.__setattr__(self, "relaxation_span", relaxation_span)
 
 
 class UnknownMaterialError(InputError, KeyError):
@@ -358,7 +367,14 @@ class UnknownMaterialError(InputError, KeyError):
     __str__ = InputError.__str__  # a KeyError shows itself in quotes
 
 
-OTHER_NAMES = {"nylon": "pa66", "teflon": "ptfe", "acetal": "pom", "100cr6": "steel-52100", "bronze": "phosphor-bronze"}
+OTHER_NAMES = {
+    "nylon": "pa66",
+    "teflon": "ptfe",
+    "acetal": "pom",
+    "100cr6": "steel-52100",
+    "bronze": "phosphor-bronze",
+    "pib": "polyisobutylene",
+}
 """Common names of materials of the catalogue, by which `bem materials` finds them."""
 
 
@@ -380,8 +396,12 @@ def _catalogue() -> Catalogue:
     found = Catalogue()
     for name, table in tomllib.loads(files("bem").joinpath("materials.toml").read_text(encoding="utf-8")).items():
         source, heat = table.pop("source"), table.pop("heat_source", "")
-        usual = {key: tuple(table.pop(key)) for key in ("thickness", "residual_stress") if key in table}
-        found[name] = CatalogueEntry(Material(name, **table), f"{source}; heat: {heat}" if heat else source, **usual)
+        spans = ("thickness", "residual_stress", "relaxation_span")
+        facts: dict[str, Any] = {key: tuple(table.pop(key)) for key in spans if key in table}
+        if "relaxation" in table:
+            facts["temperature"] = table.pop("temperature")
+            table["relaxation"] = PronySeries(**table["relaxation"])
+        found[name] = CatalogueEntry(Material(name, **table), f"{source}; heat: {heat}" if heat else source, **facts)
     return found
 
 

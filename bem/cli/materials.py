@@ -69,6 +69,17 @@ def register(app: typer.Typer) -> None:
                 ("usual thickness", f"{_span(entry.thickness, 1e-6)} um"),
                 ("usual residual stress", f"{_span(entry.residual_stress, 1e9)} GPa"),
             ]
+        series = entry.material.relaxation
+        if series is not None and entry.relaxation_span is not None:
+            low, high = entry.relaxation_span
+            at = [f"{entry.material.youngs_modulus * series.modulus(time) / 1e6:.3g}" for time in entry.relaxation_span]
+            rows += [
+                (
+                    "modulus relaxes",
+                    f"from {at[0]} MPa at {low:g} s to {at[1]} MPa at {high:g} s, the span of the source",
+                ),
+                ("temperature", f"{entry.temperature:g} C"),
+            ]
         table(("", ""), [*rows, ("source", entry.source)], title=name)
 
 
