@@ -11,7 +11,8 @@ from bem.friction.balance import Regime
 from bem.friction.sensitivity import FIGURES, sensitivities
 
 OIL = Lubricant(0.03, pressure_viscosity=18e-9, density_law="incompressible")
-STEP = 1e-3
+STEP = 3e-4
+"""Between kinks: where a cell comes into contact the slope jumps, and steps of 1e-3 of a balance err by 4e-5 there."""
 
 
 def case(speed, **more):
@@ -48,13 +49,13 @@ def figures(solution):
     ("speed", "more", "regime", "within"),
     [
         (0.5, {}, Regime.MIXED, 1e-5),
-        (0.02, {"hardness": 1.2e9}, Regime.MIXED, 1e-4),
-        (0.5, {"oil_volume": "loaded"}, Regime.MIXED, 1e-4),
+        (0.02, {"hardness": 1.2e9}, Regime.MIXED, 1e-5),
+        (0.5, {"oil_volume": "loaded"}, Regime.MIXED, 1e-5),
         (3.0, {}, Regime.FULL_FILM, 1e-6),
     ],
 )
 def test_mixed_points_against_differences(speed, more, regime, within):
-    """Measured: 3e-6 at 0.5 m/s, 2e-5 capped, 9e-5 with the loaded zone's oil, whose weights move with the film."""
+    """Measured: at most 6e-6, of the contact area with the loaded zone's oil; 2e-6 of all other figures."""
     arguments = case(speed, **more)
     solution = solve_mixed(**arguments)
     assert solution.regime is regime
