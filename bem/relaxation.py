@@ -14,6 +14,8 @@ from bem.arguments import is_positive
 from bem.errors import InputError
 from bem.representation import tabled
 
+__all__ = ["Creep", "PronySeries"]
+
 _FLUID = 1e-12
 """Distance of the sum of shares from one, below which the solid relaxes completely and flows."""
 

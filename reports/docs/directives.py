@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 from collections.abc import Callable
+from importlib import import_module
 from typing import Any
 
 from docutils import nodes
 from sphinx.application import Sphinx
 from sphinx.util.docutils import SphinxDirective
 
-import bem
 from reports import lumped_heat, wear_lengths
 from reports.builder import Section
 from reports.docs import content
@@ -80,7 +80,7 @@ class Chapter(SphinxDirective):
 
 
 class Api(SphinxDirective):
-    """Public names of bem, one a line, with their docstrings."""
+    """Public names of bem or of a package of it (`adhesion.follow_path`), one a line, with their docstrings."""
 
     has_content = True
 
@@ -92,7 +92,8 @@ class Api(SphinxDirective):
 
 def _call(name: str) -> str:
     """Return the directive of autodoc that documents a name."""
-    item = getattr(bem, name)
+    package, _, last = f"bem.{name}".rpartition(".")
+    item = getattr(import_module(package), last)
     if isinstance(item, type):
         return f".. autoclass:: bem.{name}\n   :members:\n\n"
     return f".. autofunction:: bem.{name}\n\n" if callable(item) else f".. autodata:: bem.{name}\n   :no-value:\n\n"

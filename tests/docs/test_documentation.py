@@ -7,6 +7,7 @@ import shlex
 import subprocess
 import sys
 import tomllib
+from importlib import import_module
 from pathlib import Path
 
 import numpy as np
@@ -239,10 +240,21 @@ def test_keys_that_pages_name_exist():
     assert seen > 10
 
 
+API_PACKAGES = ("contact", "friction", "viscoelastic", "relaxation", "adhesion", "lubrication.waves")
+"""Packages whose public names are on the pages of the API beside those of `bem`."""
+
+
 def test_every_public_name_is_on_one_page_of_the_api():
     listed = [name for page in PAGES.values() for block in blocks("{api}", page) for name in block.split()]
     assert len(listed) == len(set(listed))
-    assert {*listed, "__version__"} == set(bem.__all__)
+    own = {name for name in listed if "." not in name}
+    assert {*own, "__version__"} == set(bem.__all__)
+    assert set(listed) - own == {
+        f"{package}.{name}"
+        for package in API_PACKAGES
+        for name in import_module(f"bem.{package}").__all__
+        if name not in own
+    }
 
 
 def test_docstrings_are_arranged_for_numpydoc():
