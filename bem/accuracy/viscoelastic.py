@@ -38,7 +38,12 @@ RULES = Table(
         "Second order in the mean, with a scatter by the cells that touch.",
         edge=0.025,
     ),
-    rows("dissipated_power", 1.0, "Second order in the mean: it needs no slope at the edge.", edge=0.01),
+    rows(
+        "dissipated_power",
+        1.0,
+        "Second order in the mean; first order where the cells are longer than the memory.",
+        edge=0.01,
+    ),
 )
 """Factors on the difference to twice the cell; floors on the fraction of the area within a cell of the edge."""
 

@@ -72,7 +72,7 @@ HYSTERESIS_UNBALANCED = define(
         "power": Reason(
             "The dissipated power differs from friction force times speed by {share:.0%} of the larger. At this speed"
             " the bodies remember {length:si m} of their way, for cells of {cell:si m}.",
-            "Take friction force times speed as the power, or smaller cells.",
+            "Take smaller cells.",
             headline="The dissipated power is not resolved by the cells.",
         ),
         "work": Reason(

@@ -14,8 +14,12 @@ the gap gives an operator, and `bem.contact` solves it as such.
    added that bounds the skew one, the addition being taken off by the pressure before. It converges for any operator
    whose symmetric part is positive, as that of a passive solid is.
 
-Friction: the horizontal component of the pressures on the slope of the gap. The energy lost by the delayed pressures,
-computed without the slope, is the same in the limit of small cells: their difference is a certificate.
+Friction: the horizontal component of the pressures on the slope of the gap. The power that the dashpots dissipate,
+computed without that slope, is friction times speed in the limit of small cells: their difference is a certificate. The
+cells need not resolve the memory (`_dissipated_power`): of a cylinder on 64 cells of 0.08 half-widths the power was
+within 0.6 % of the closed form at memories of 0.005 to 500 half-widths, on 512 within 0.04 %. It is of second order
+where the memory is longer than a cell and of first order, by the edges, where it is shorter. Friction itself is of
+second order at all of them.
 
 Cost: a contact takes 15 to 150 convolutions; where step 3 follows, thousands.
 """
@@ -69,7 +73,7 @@ class SteadySolution:
     contact : pressure, gap and approach; its displacement includes the memory.
     friction_force : force along x that hysteresis takes [N], positive against the motion of the contact over the body.
     friction : friction_force over the load; zero without load.
-    dissipated_power : of the delayed pressures [W].
+    dissipated_power : of the dashpots [W].
     imbalance : friction force times speed less the dissipated power, over the larger one; zero without either. It is
         not-a-number where both bodies pass at different speeds.
     convolutions : applications of the operator.
@@ -149,6 +153,17 @@ class _Bounded:
         if self.added:
             return KernelSpectra(raised - spectra.even, None, spectra.unit)
         return KernelSpectra(raised, spectra.odd, spectra.unit)
+
+
+@dataclass(frozen=True)
+class _Even:
+    """Spectra of the even part along x of an operator with memory."""
+
+    kernel: DelayedKernel
+
+    def __call__(self, grid: Grid) -> KernelSpectra:
+        spectra = self.kernel(grid)
+        return KernelSpectra(spectra.even, None, spectra.unit)
 
 
 def delayed_coefficients(
@@ -303,10 +318,12 @@ def _kernel(operator: DisplacementOperator, terms: Sequence[DelayedTerm], speeds
     )
 
 
-def _with(operator: DisplacementOperator, kernel: Callable[[Grid], KernelSpectra]) -> DisplacementOperator:
-    """Return an operator of the same bodies with other spectra; it shares the count."""
+def _with(
+    operator: DisplacementOperator, kernel: Callable[[Grid], KernelSpectra], grid: Grid | None = None
+) -> DisplacementOperator:
+    """Return an operator of the same bodies with other spectra, on its grid or another one; it shares the count."""
     return DisplacementOperator(
-        operator.grid, operator.bodies, count=operator.count, weight=operator.weight, spectra_on=kernel
+        grid or operator.grid, operator.bodies, count=operator.count, weight=operator.weight, spectra_on=kernel
     )
 
 
@@ -349,12 +366,36 @@ def _proximal(
 def _dissipated_power(
     pressure: FloatArray, operator: DisplacementOperator, terms: Sequence[DelayedTerm], speeds: tuple[float, float]
 ) -> float:
-    """Return the power that delayed pressures dissipate [W]: the sum of c / theta p.(K p - K q) over moving bodies."""
+    """Return the power that the dashpots of the delayed pressures dissipate [W].
+
+    It is c / theta p.(K p - K q), in which the even part of the memory M alone counts. Waves have
+    l^2 k^2 / (1 + k^2 l^2) in place of 1 - M, so that the power is also c l^2 / theta (dp/dx).K M (dp/dx): the
+    dashpots' c theta dq/dt.K dq/dt with dq/dt = V dq/dx.
+
+    1. Doubly periodic grids take the first form, which is exact for the grid's waves.
+    2. Elsewhere the kink of the pressure at every cell would add about cell / (2 l) to the first form, many times the
+       power where cells are longer than the memory. The second form has no such part. There M is the even part of the
+       coefficients, which is the memory between steps of the slope. With the slope raised by (1 - d^2/6), d^2 being the
+       second difference, it is as exact as the first form where the memory is long.
+    """
+    grid = operator.grid
     moving = [term for term in terms if speeds[term.body] != 0]
-    rates = [term.amount / term.time for term in moving]
     lengths = tuple(term.time * speeds[term.body] for term in moving)
-    lost = DelayedKernel(operator.bodies, sum(rates), tuple(-rate for rate in rates), lengths)
-    return float(np.sum(pressure * _with(operator, lost)(pressure))) * operator.grid.cell_area
+    rates = [term.amount / term.time for term in moving]
+    if all(grid.periodic):
+        lost = DelayedKernel(operator.bodies, sum(rates), tuple(-rate for rate in rates), lengths)
+        return float(np.sum(pressure * _with(operator, lost)(pressure))) * grid.cell_area
+    if grid.periodic[0]:
+        between, slope = grid, np.roll(pressure, -1, axis=0) - pressure
+        padded = np.concatenate([slope[-1:], slope, slope[:1]])
+    else:  # the pressure falls to zero in the cells beyond the grid
+        between = Grid((grid.shape[0] + 1, grid.shape[1]), grid.spacing, periodic=grid.periodic)
+        slope = np.diff(pressure, axis=0, prepend=0.0, append=0.0)
+        padded = np.pad(slope, ((1, 1), (0, 0)))
+    raised = slope - np.diff(padded, 2, axis=0) / 6
+    weights = tuple(rate * (length / grid.spacing[0]) ** 2 for rate, length in zip(rates, lengths, strict=True))
+    lost_by_slopes = _Even(DelayedKernel(operator.bodies, 0.0, weights, lengths))
+    return float(np.sum(raised * _with(operator, lost_by_slopes, between)(slope))) * grid.cell_area
 
 
 def _slope(gap: FloatArray, grid: Grid) -> FloatArray:
