@@ -140,27 +140,32 @@ def answered(name: str, typed: Mapping[str, str], *, whole: bool = False) -> Ans
     return Answered(answer(element, runs), element.found.geometry, cautions, remarks, picture.getvalue(), table)
 
 
-def scene_of_form(name: str, typed: Mapping[str, str]) -> str:
-    """Return the scene of a filled form: the film along the path of contact, or of the most loaded contact.
+def scene_of_form(name: str, typed: Mapping[str, str], kind: str = "traction") -> str:
+    """Return a scene of a filled form.
+
+    kind : "traction", the film along the path of contact or of the most loaded contact, or another kind of
+        `bem.elements.element.KINDS` of the most loaded contact.
 
     Raises
     ------
     InputError : one message per mistake.
     """
-    element = load_element(table_of(name, typed))
-    return table_text(element.path_scene() if element.found.along_unit == "m" else most_loaded_scene(element))
+    element = balance_heat(load_element(table_of(name, typed)))
+    along = kind == "traction" and element.found.along_unit == "m"
+    return table_text(element.path_scene() if along else most_loaded_scene(element, kind))
 
 
-def most_loaded_scene(element: Element) -> dict[str, Any]:
-    """Return the film of the contact with the highest pressure, of those that a steady film can have.
+def most_loaded_scene(element: Element, kind: str = "traction") -> dict[str, Any]:
+    """Return the scene of the contact with the highest pressure, of those that a steady film can have.
 
     Raises
     ------
-    InputError : no contact has a steady film.
+    InputError : no contact has a steady film; the mistake of the most loaded contact where all have one.
     """
-    from contextlib import suppress
-
+    mistakes: list[InputError] = []
     for contact in sorted(element.found.contacts, key=lambda one: -one.hertz(element.modulus).maximum_pressure):
-        with suppress(InputError):
-            return element.scene(contact, "traction")
-    raise InputError(f"{element.model.name}: no contact has a steady film")
+        try:
+            return element.scene(contact, kind)
+        except InputError as error:
+            mistakes.append(error)
+    raise mistakes[-1] if mistakes else InputError(f"{element.model.name}: no contact has a steady film")

@@ -39,6 +39,7 @@ class ElementPage:
                 fold.props["data-fold"] = "more"
                 with ui.row().classes("items-center gap-2"):
                     self._button("scene of the film", "oil_barrel", self._scene)
+                    self._button("scene of mixed friction", "terrain", self._mixed_scene)
                     self._button("file", "download", self._file)
             with ui.column().style("flex: 3 1 480px; min-width: 0") as self._shown:
                 ui.label("Change the values of the example and press answer.").classes("bem-soft")
@@ -102,10 +103,16 @@ class ElementPage:
         ui.download(file_of(self._name, self._typed).encode(), f"{self._name}.toml")
 
     async def _scene(self) -> None:
-        """Save the scene of the film and go to its page."""
+        await self._save_scene("traction")
+
+    async def _mixed_scene(self) -> None:
+        await self._save_scene("friction")
+
+    async def _save_scene(self, kind: str) -> None:
+        """Save a scene of the element and go to its page."""
         free = self._workspace.free_scene_name(self._name)
         try:
-            self._workspace.save_scene(free, await compute(scene_of_form, self._name, dict(self._typed)))
+            self._workspace.save_scene(free, await compute(scene_of_form, self._name, dict(self._typed), kind))
         except BemError as error:
             say(error)
             return

@@ -9,7 +9,17 @@ from typing import Any
 from nicegui import ui
 
 from bem.app.scene_file import Change
-from bem.scenes.form import Entry, FormTable, table_at, text_of, with_kind, with_value
+from bem.scenes.form import (
+    Entry,
+    FormTable,
+    row_of,
+    table_at,
+    text_of,
+    with_kind,
+    with_row,
+    with_value,
+    without_row,
+)
 from bem.scenes.keys import LEVELS
 from bem.scenes.paths import parse_key, value_at
 
@@ -42,7 +52,7 @@ class FormView:
         self._edit = edit
         self._inputs: dict[str, Any] = {}
         self._refresh: dict[str, Callable[[], None]] = {}
-        self._bodies: dict[str, tuple[Entry, str, Callable[[], None]]] = {}
+        self._bodies: dict[str, tuple[Entry, str, Callable[[], None], Any]] = {}
         self._from_file = False
         with ui.column().classes("w-full gap-1"):
             self._entries(self._form.entries, top=True)
@@ -55,8 +65,10 @@ class FormView:
         before, self._table = self._table, table
         self._from_file = True
         try:
-            for key, (entry, shape, draw) in list(self._bodies.items()):
-                if self._bodies[key][1] == shape != self._shape(entry):
+            for key, (entry, shape, draw, body) in list(self._bodies.items()):
+                if body.is_deleted:
+                    del self._bodies[key]
+                elif self._bodies[key][1] == shape != self._shape(entry):
                     draw()
             for key, refresh in list(self._refresh.items()):
                 parsed = parse_key(key)
@@ -107,7 +119,10 @@ class FormView:
         self._refresh[key] = refresh
 
     def _shape(self, entry: Entry) -> str:
-        """Which of several tables is shown at an entry: another one is drawn anew."""
+        """Which of several tables is shown at an entry, or how many rows: another one is drawn anew."""
+        if entry.rows is not None:
+            rows = self._rows_at(entry)
+            return _VALUE if rows is None else str(len(rows))
         if len(entry.tables) == 1 and not entry.tables[0].kind:
             return ""
         chosen = table_at(entry, self._value(entry.key))
@@ -141,12 +156,12 @@ class FormView:
             once()
 
     def _group(self, entries: Sequence[Entry], top: bool) -> None:
-        plain = [entry for entry in entries if not entry.tables]
+        plain = [entry for entry in entries if not entry.tables and entry.rows is None]
         with ui.element("div").classes("w-full").style(_GRID):
             for entry in plain:
                 self._leaf(entry)
         for entry in sorted(entries, key=lambda entry: not entry.required):
-            if entry.tables:
+            if entry.tables or entry.rows is not None:
                 self._inner(entry, top)
 
     def _leaf(self, entry: Entry) -> None:
@@ -205,15 +220,51 @@ class FormView:
         body = ui.column().classes("w-full gap-1 q-pl-sm")
 
         def draw() -> None:
-            self._bodies[entry.key] = (entry, self._shape(entry), draw)
+            self._bodies[entry.key] = (entry, self._shape(entry), draw, body)
             body.clear()
             with body:
-                self._choice(entry)
+                if entry.rows is None:
+                    self._choice(entry)
+                else:
+                    self._list(entry)
             for key in [key for key, item in self._inputs.items() if item.is_deleted]:
                 self._inputs.pop(key)
                 self._refresh.pop(key, None)
 
         draw()
+
+    def _rows_at(self, entry: Entry) -> Sequence[Any] | None:
+        """Return the rows of a list of tables; None of a value that is no such list."""
+        value = [] if self._value(entry.key) is None else self._value(entry.key)
+        return value if isinstance(value, list) and all(isinstance(one, Mapping) for one in value) else None
+
+    def _list(self, entry: Entry) -> None:
+        """Rows of a list of tables, each with its keys; rows can be added and taken out."""
+        rows = self._rows_at(entry)
+        if rows is None:
+            self._leaf(entry)
+            return
+        for index in range(len(rows)):
+            with ui.column().classes("w-full gap-1 bem-line"):
+                with ui.row().classes("w-full items-center justify-between"):
+                    ui.label(f"{entry.name} {index + 1}").classes("text-body2 text-bold")
+                    self._act("remove", "close", f"remove {entry.name} {index + 1}", entry, index)
+                entries = row_of(entry, index).entries
+                named = [one for one in entries if one.tables and one.choices]
+                for one in named:  # a material without a box of its own: there is little room on a telephone
+                    self._inside(one)
+                self._entries([one for one in entries if one not in named])
+        self._act("add", "add", f"add to {entry.name}", entry)
+
+    def _act(self, words: str, icon: str, spoken: str, entry: Entry, index: int | None = None) -> None:
+        """Add a button that adds a row to a list of tables, or takes one out."""
+
+        def change(table: dict[str, Any]) -> dict[str, Any]:
+            return with_row(table, entry) if index is None else without_row(table, entry, index)
+
+        button = ui.button(words, icon=icon, on_click=lambda: self._edit(entry.key, change))
+        button.props("dense no-caps flat").props["aria-label"] = spoken
+        button.props["data-row"] = f"{entry.key}:{words}" + ("" if index is None else f":{index}")
 
     def _choice(self, entry: Entry) -> None:
         value = self._value(entry.key)

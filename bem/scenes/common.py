@@ -171,7 +171,9 @@ class LayerScene(Table):
     """Coating: a bonded layer of uniform thickness."""
 
     material: MaterialScene = key(
-        "Material of the layer: a name of the catalogue (`bem materials`), or a table of constants.", "basic"
+        "Material of the layer: a name of the catalogue (`bem materials`), or a table of constants.",
+        "basic",
+        example="dlc",
     )
     thickness: PositiveLength = key("Thickness of the layer.", "basic", example="2 um")
     residual_stress: Pressure = key(

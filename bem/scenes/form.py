@@ -23,6 +23,8 @@ from bem.scenes.starts import start_scene
 from bem.scenes.values import dumped, plain_value
 from bem.scenes.walk import DEEPEST, Key, TableType, fields_of_table, keys_of, unwrap
 
+_ANY_TEXT = "..."
+"""Example of a text."""
 _NOT_ASKED = ("redoes", "name", "over", "sha256")
 
 
@@ -162,6 +164,56 @@ def with_kind(table: Mapping[str, Any], entry: Entry, kind: str) -> dict[str, An
     return changed
 
 
+def row_of(entry: Entry, index: int) -> FormTable:
+    """Return the table of one row of a list of tables, its keys those of the scene: `lower.layers[0].thickness`.
+
+    entry : with `rows`. index : of the row.
+    """
+    assert entry.rows is not None
+    return _placed(entry.rows, f"{entry.key}[{index}].")
+
+
+def _placed(table: FormTable, path: str) -> FormTable:
+    """Return a table whose keys begin with a path."""
+    entries = tuple(
+        replace(one, key=path + one.key, tables=tuple(_placed(inner, path) for inner in one.tables))
+        for one in table.entries
+    )
+    return replace(table, entries=entries)
+
+
+def with_row(table: Mapping[str, Any], entry: Entry) -> dict[str, Any]:
+    """A copy of a scene's table with one more row at a list of tables: examples of the keys that a row needs."""
+    from bem.scenes.paths import parse_key, put, value_at
+
+    parsed = parse_key(entry.key)
+    assert parsed is not None
+    assert entry.rows is not None
+    found = value_at(table, parsed)
+    rows = list(found) if isinstance(found, list) else []
+    words = f'"{_ANY_TEXT}"'
+    row = {
+        one.last: f"{one.name} {len(rows) + 1}" if one.example == words else plain_value(one.example)
+        for one in entry.rows.entries
+        if one.required
+    }
+    changed = dict(table)
+    put(changed, parsed, [*rows, row])
+    return changed
+
+
+def without_row(table: Mapping[str, Any], entry: Entry, index: int) -> dict[str, Any]:
+    """A copy of a scene's table without one row of a list of tables; with the last row the key goes, too."""
+    from bem.scenes.paths import drop, parse_key, value_at
+
+    parsed = parse_key(entry.key)
+    assert parsed is not None
+    changed = dict(table)
+    last = index == 0 and len(value_at(table, parsed) or ()) == 1
+    drop(changed, parsed if last else (*parsed, index))
+    return changed
+
+
 def table_at(entry: Entry, value: Any) -> FormTable | None:
     """The table of an entry that a value is of: by its `kind` or name, without one the first that has all its keys; of
     no value that of the default."""
@@ -252,7 +304,7 @@ def _example(key: Key) -> str:
     elif choices := _choices(key):
         value = choices[0]
     else:
-        value = {bool: True, int: 10, str: "..."}.get(annotation, 10 if int in key.parts else "...")
+        value = {bool: True, int: 10, str: _ANY_TEXT}.get(annotation, 10 if int in key.parts else _ANY_TEXT)
     return dumped([value] if typing.get_origin(annotation) is list else value)
 
 

@@ -9,6 +9,7 @@ from bem.app.element_form import answered, fields_of, file_of, scene_of_form, ta
 from bem.app.planning import shown_plan
 from bem.app.starts import TASKS
 from bem.elements.element import MODELS, element_template, load_element
+from bem.scenes.edit import table_text
 
 pytestmark = pytest.mark.internal
 
@@ -51,6 +52,21 @@ def test_the_scene_of_a_form_can_run(name):
     table = tomllib.loads(scene_of_form(name, typed(name)))
     assert load_scene(table).kind == "traction"
     assert shown_plan(table | {"name": name}).messages == ()
+
+
+@pytest.mark.parametrize("name", MODELS)
+def test_the_mixed_scene_of_a_form_is_that_of_the_most_loaded_contact_with_a_film(name):
+    table = tomllib.loads(scene_of_form(name, typed(name), "friction"))
+    assert load_scene(table).kind == "friction"
+    element = load_element(table_of(name, typed(name)))
+    worst = element.worst()
+    if abs(worst.slide_roll_ratio) <= 2:
+        assert table == tomllib.loads(table_text(element.scene(worst, "friction")))
+    else:
+        assert table["contact"]["loads"][0] < worst.load
+    smooth = typed(name) | {"rms_roughness": ""}
+    with pytest.raises(InputError, match="needs the roughness"):
+        scene_of_form(name, smooth, "friction")
 
 
 def test_tasks_lead_to_the_pages_of_all_elements():

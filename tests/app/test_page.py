@@ -130,6 +130,53 @@ def test_an_element_answers_on_its_page(shared_server, shared_folder, chrome):
     tab.click('[data-action="scene of the film"]')
     tab.wait("location.pathname.includes('/scene/rolling-bearing')")
     assert (shared_folder / "rolling-bearing.toml").is_file()
+    tab.go(f"{server.base}/element/gear-pair")
+    tab.click('[data-action="scene of mixed friction"]')
+    tab.wait("location.pathname.includes('/scene/gear-pair')")
+    assert tomllib.loads((shared_folder / "gear-pair.toml").read_text())["kind"] == "friction"
+
+
+@pytest.mark.internal
+def test_coatings_are_added_changed_and_taken_out(shared_server, shared_folder, chrome):
+    """Rows of a stack: what is typed is the file, what is taken out is gone, on a wide and on a narrow page."""
+    file = shared_folder / "stack.toml"
+    file.write_text(
+        'kind = "contact"\n[lower]\nmaterial = "steel-52100"\nlayers = [{ material = "dlc", thickness = "2 um" }]\n'
+        '[grid]\nshape = 32\nlengths = "100 um"\n[shape]\nkind = "sphere"\nradius = "3 mm"\n'
+        '[contact]\nload = "1 N"\n'
+    )
+
+    def layers():
+        return tomllib.loads(file.read_text())["lower"].get("layers")
+
+    def wait_for(expected):
+        end = time.monotonic() + PATIENCE
+        while layers() != expected:
+            assert time.monotonic() < end, layers()
+            time.sleep(0.1)
+
+    tab = chrome.tab()
+    tab.go(f"{shared_server.base}/scene/stack")
+    tab.click('[data-row="lower.layers:add"]')
+    wait_for([{"material": "dlc", "thickness": "2 um"}] * 2)
+    tab.wait("document.querySelector('input[data-key=\"lower.layers[1].thickness\"]')")
+    tab.type("lower.layers[1].thickness", "-1 um")
+    tab.wait("document.querySelector('[data-mistake]').innerText.includes('lower.layers[1].thickness')")
+    tab.type("lower.layers[1].thickness", "0.5 um")
+    tab.choose("lower.layers[1].material", "Cr")
+    tab.type("lower.layers[0].residual_stress", "-1 GPa")
+    chrome_layer = {"material": "Cr", "thickness": "0.5 um"}
+    wait_for([{"material": "dlc", "thickness": "2 um", "residual_stress": "-1 GPa"}, chrome_layer])
+    tab.wait_text("on 500 nm of Cr")
+    tab.narrow()
+    tab.wait("document.documentElement.scrollWidth <= window.innerWidth")
+    assert tab.unnamed() == []
+    tab.click('[data-row="lower.layers:remove:0"]')
+    wait_for([chrome_layer])
+    tab.wait("document.querySelector('input[data-key=\"lower.layers[0].material\"]').value === 'Cr'")
+    tab.click('[data-row="lower.layers:remove:0"]')
+    wait_for(None)
+    assert tab.errors == []
 
 
 @pytest.mark.internal

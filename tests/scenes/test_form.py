@@ -4,7 +4,18 @@ import pytest
 
 from bem import InputError, load_scene
 from bem.scenes import kind_names
-from bem.scenes.form import form_of, mistakes_of, start_of, table_at, text_of, with_kind, with_value
+from bem.scenes.form import (
+    form_of,
+    mistakes_of,
+    row_of,
+    start_of,
+    table_at,
+    text_of,
+    with_kind,
+    with_row,
+    with_value,
+    without_row,
+)
 from bem.scenes.kind import get_kind
 
 pytestmark = pytest.mark.internal
@@ -88,6 +99,32 @@ def test_a_coating_is_taken_off_with_its_last_key():
     assert load_scene(without).lower.stack == []
     assert load_scene(with_value(with_value(without, "lower.layer.thickness", "1 um"), "lower.layer.material", "dlc"))
     assert with_value({"kind": "contact", "contact": {"load": "1 N"}}, "contact.load", "")["contact"] == {}
+
+
+def test_rows_of_a_list_of_tables_are_added_and_taken_out():
+    """A new row has examples of what it needs; the last one takes the key with it."""
+    table = start_of("contact")
+    layers = entry(form_of("contact"), "lower.layers")
+    one = with_row(table, layers)
+    two = with_row(one, layers)
+    keys = [item.key for item in row_of(layers, 1).entries]
+    assert keys == [f"lower.layers[1].{name}" for name in ("material", "thickness", "residual_stress")]
+    inner = row_of(layers, 1).entries[0].tables[0].entries
+    assert "lower.layers[1].material.hardness" in [item.key for item in inner]
+    two = with_value(with_value(two, keys[0], "Cr"), keys[1], "0.5 um")
+    assert [(one.material.name, one.thickness) for one in load_scene(two).lower.stack] == [("dlc", 2e-6), ("Cr", 5e-7)]
+    left = without_row(two, layers, 0)
+    assert left["lower"]["layers"] == [{"material": "Cr", "thickness": "0.5 um"}]
+    assert "layers" not in without_row(left, layers, 0)["lower"]
+    assert "layers" not in table["lower"]  # a copy
+    assert len(two["lower"]["layers"]) == 2
+    with pytest.raises(InputError, match="is not set"):
+        without_row(left, layers, 1)
+    variants = entry(form_of("wear"), "variants")
+    assert with_row(with_row({"kind": "wear"}, variants), variants)["variants"] == [
+        {"name": "name 1"},
+        {"name": "name 2"},
+    ]
 
 
 def test_another_table_keeps_what_both_have():
