@@ -42,7 +42,8 @@ contact model (3):
 9. `solve` gathers the notes of film (`lubrication.checks`), contact and balance; `result_notes` adds those on friction,
    lambda ratio, coatings and oil. `solution.MixedSolution` is the result.
 
-`sensitivity` has the derivatives of a solved point with respect to its inputs.
+`flattened` shares the load with the roughness that the film leaves, by waves. `sensitivity` has the derivatives of a
+solved point with respect to its inputs.
 `curves` collects the speeds of a curve, and `share_fit` fits the contact share over the lambda ratio. `asperity_array`
 (figures 3 and 4 of paper A) presses an array of equal asperities and has no film.
 

@@ -6,7 +6,7 @@ Verified in tests/friction/test_load_sharing.py.
 from __future__ import annotations
 
 import math
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING
 
 import numpy as np
@@ -15,10 +15,12 @@ from numpy.typing import ArrayLike
 from bem.errors import Status
 from bem.friction.oil_sensitivity import OilVolumeSensitivity
 from bem.friction.oil_volume import OilVolume
+from bem.grid import FloatArray
 from bem.notes import Note
 
 if TYPE_CHECKING:
     from bem.friction.solution import MixedSolution
+    from bem.lubrication.waves.flattening import FlattenedHeights
 
 
 @dataclass(frozen=True)
@@ -48,6 +50,8 @@ class CurvePoint:
     oil_volume : area over which oil was counted.
     oil_scatter : scatter of the coefficient from the oil's constants, half-width; not-a-number where it is not known.
     notes : on this speed.
+    ripple_over_heights : standard deviation of the roughness that the film leaves over the undeformed one; 1 where the
+        contact presses undeformed heights.
     """
 
     speed: float
@@ -75,6 +79,7 @@ class CurvePoint:
     oil_volume: OilVolume = OilVolume.PATCH
     oil_scatter: float = math.nan
     notes: tuple[Note, ...] = ()
+    ripple_over_heights: float = 1.0
 
     @property
     def oil(self) -> OilVolumeSensitivity:
@@ -128,19 +133,33 @@ def _or_nan(value: float | None) -> float:
 
 @dataclass(frozen=True)
 class Curve:
-    """State of an unfinished curve: figures of its speeds, solution that is plotted, and solution of the last speed."""
+    """State of an unfinished curve: figures of its speeds, solution that is plotted with its heights where the film
+    flattened them, and solution of the last speed."""
 
     points: tuple[CurvePoint, ...] = ()
     shown: MixedSolution | None = None
     last: MixedSolution | None = None
+    shown_heights: FloatArray | None = None
 
-    def then(self, solution: MixedSolution, notes: tuple[Note, ...] = (), oil_scatter: float | None = None) -> Curve:
-        """Return the curve with one more speed, notes on it and the scatter of its friction from the oil's constants.
+    def then(
+        self,
+        solution: MixedSolution,
+        notes: tuple[Note, ...] = (),
+        oil_scatter: float | None = None,
+        flattened: FlattenedHeights | None = None,
+    ) -> Curve:
+        """Return the curve with one more speed, notes on it, the scatter of its friction from the oil's constants and
+        the heights that the film flattened.
 
         The plotted solution is the one whose film and contact share the load most evenly, or the first full film.
         """
-        shown = solution if self.shown is None or _evenness(solution) < _evenness(self.shown) else self.shown
-        return Curve((*self.points, CurvePoint.of(solution, notes, oil_scatter)), shown, solution)
+        point = CurvePoint.of(solution, notes, oil_scatter)
+        if flattened is not None:
+            point = replace(point, ripple_over_heights=flattened.amplitude_ratio)
+        points = (*self.points, point)
+        if self.shown is not None and _evenness(solution) >= _evenness(self.shown):
+            return Curve(points, self.shown, solution, self.shown_heights)
+        return Curve(points, solution, solution, None if flattened is None else flattened.heights)
 
 
 def _evenness(solution: MixedSolution) -> float:

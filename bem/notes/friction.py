@@ -41,6 +41,13 @@ LAMBDA_UNCERTAIN = define(
         "no-heat": "The heat of the film under the whole load, which lambda_ratio is taken from, was not found.",
     },
 )
+FLATTENED_TOO_HIGH = define(
+    "flattened-too-high",
+    OUTSIDE_MODEL,
+    "The film is too thin for the asperity load share by waves.",
+    "The central film is {ratio:.2g} times the rms heights; rough films to compare with reach down to {least:g}.",
+    "Take the surfaces as touching everywhere, or kind point-film with one rough body at rest.",
+)
 FILM_WITHOUT_LAYERS = define(
     "film-without-layers",
     INFO,

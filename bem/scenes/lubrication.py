@@ -200,18 +200,6 @@ class FilmMeshScene(Table):
         "Number of nodes of the uniform output mesh.", "expert", default=2000
     )
 
-    @model_validator(mode="before")
-    @classmethod
-    def _no_waves(cls, given: Any) -> Any:
-        if isinstance(given, dict) and "roughness" in given:
-            raise problem(
-                f"roughness {given['roughness']!r} of a film that shares its load with surfaces: waves "
-                "say where surfaces would meet and not what they bear (they would meet over up to 16 % of contacts "
-                "whose marched films stayed whole)",
-                'no roughness here; kind point-film with film.roughness = "waves" gives the ripples',
-            )
-        return given
-
     @model_validator(mode="after")
     def _both(self) -> FilmMeshScene:
         if (self.start is None) != (self.end is None):

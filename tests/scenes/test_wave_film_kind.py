@@ -134,8 +134,3 @@ def test_refusals(changes, message):
     table = {key: value for key, value in (scene() | changes).items() if value is not None}
     with pytest.raises(InputError, match=message):
         load_scene(table)
-
-
-def test_load_sharing_takes_no_waves():
-    with pytest.raises(InputError, match="not what they bear"):
-        load_scene({"kind": "friction", "film": {"roughness": "waves"}})

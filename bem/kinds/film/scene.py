@@ -34,7 +34,11 @@ class FilmScene(SceneModel):
 
     @model_validator(mode="after")
     def _smooth(self) -> FilmScene:
-        check_smooth(self, 'smooth surfaces, or kind = "friction"')
+        check_smooth(
+            self,
+            'smooth surfaces; of steady motion kind = "traction" with film.roughness = "waves" has the ripples of '
+            'rough ones, and kind = "friction" their share of the load',
+        )
         if self.motion.at(0.0) == 0 and self.march.initial_thickness is None:
             raise problem("the motion starts from rest, where no steady film exists", "march.initial_thickness")
         if self.supply is not None and self.supply.layer is None:

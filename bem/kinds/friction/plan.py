@@ -30,10 +30,17 @@ def plan(scene: FrictionScene) -> Plan:
         cells if ball else None,
         smooth.maximum_pressure if smooth is not None else 0.0,
     )
+    # a further one of the four films of a balance, and the Fourier transforms of the continued patch
+    waves = films.seconds / 4 + 0.3 * speeds
     again = _BALL_FILMS_AGAIN if ball else _FILMS_AGAIN
     return Plan.of(
         plans.surfaces(grid, scene.lower.surface, scene.upper.surface),
         films,
+        *(
+            [Step("waves", "a film under the whole load at each speed, and its waves", seconds=waves)]
+            if scene.by_waves
+            else []
+        ),
         heat,
         plans.contacts(
             grid,

@@ -26,6 +26,7 @@ from bem.scenes.records import (
 )
 from bem.scenes.tables.sharing import BAR_OF_HEAT, BASELINE
 
+_WAVES = "the waves are linear in the heights, and were compared with marches"
 _curve, _shown = partial(Figure, dimensions=("speed",)), partial(Series, of="first")
 _LOADS = ("contact_load", "film_load")
 _OTHER = "these values are for comparison only, within 0.1 % of the oil volume"
@@ -67,11 +68,22 @@ class CurveRecord(Record):
     ] = None
     contact_temperature: Annotated[FloatArray | None, _heated("surfaces in contact, mean by pressure")] = None
     flash_temperature: Annotated[FloatArray | None, _heated("surfaces in contact, highest")] = None
+    ripple_over_heights: Annotated[
+        FloatArray | None,
+        _curve(
+            "",
+            "standard deviation of the roughness that the film leaves over the undeformed",
+            optional=True,
+            no_bar=_WAVES,
+        ),
+    ] = None
     rms_height: Annotated[float, Figure("nm", "combined roughness Sq of both surfaces", name="Sq", unjudged=True)]
     shown_speed: Annotated[FloatArray, _shown((), "m/s", "speed at which the fields are shown")]
     x: Annotated[FloatArray, _shown(("x",), "m", "x, along sliding")]
     y: Annotated[FloatArray, _shown(("y",), "m", "y")]
-    height: Annotated[FloatArray, _shown(("x", "y"), "m", "height of both surfaces together")]
+    height: Annotated[
+        FloatArray, _shown(("x", "y"), "m", "height of both surfaces together, as the contact presses it")
+    ]
     displacement: Annotated[FloatArray, _shown(("x", "y"), "m", "normal displacement by the contact")]
     pressure: Annotated[FloatArray, _shown(("x", "y"), "Pa", "contact pressure")]
     boundary_stress: Annotated[FloatArray, _shown(("x", "y"), "Pa", "boundary friction, positive where it resists")]

@@ -28,12 +28,16 @@ from bem.scenes.records import (
 )
 
 if TYPE_CHECKING:
+    from bem.accuracy.bars import ErrorBars
     from bem.flow import FlowFactors
     from bem.friction import MixedSolution
     from bem.friction.curves import Curve
+    from bem.friction.setup import MixedSetup
+    from bem.lubrication.waves.flattening import FlattenedHeights
 _OF_SUPPLY = ("film_reduction", "meniscus_position")
 _OF_HEAT = ("oil_temperature", "contact_temperature", "flash_temperature")
 _OF_BASE_OIL = ("oil_scatter",)
+_OF_WAVES = ("ripple_over_heights",)
 
 
 def run(scene: FrictionScene, context: Context) -> CurveRecord:
@@ -41,7 +45,6 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
     from bem.accuracy.mixed import ORIGINS, RULES
     from bem.friction.curves import Curve
     from bem.friction.result_notes import oil_notes, oil_on_contact_notes
-    from bem.friction.solve import solve_setup
     from bem.lubrication.oil_scatter import friction_scatter
 
     grid, pairs = build.grid_of(scene.grid), scene.speeds.build()
@@ -55,17 +58,18 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
     ends = InputEnds(scene, grid, setup, height, context) if scene.uncertain else None
     for speeds in pairs[len(curve.points) :]:
         with context.timer("load sharing"), in_words_of_the_scene():
-            own = solve_setup(setup, height, speeds, curve.last)
+            own, flattened = _solved(scene, setup, (lower, upper), speeds, curve.last)
         notes = _notes(own)
         if scene.outputs.errors:
-            bars = bars_of(setup, height, own, context)
+            bars = _bars(setup, height, own, flattened, context)
             errors.append(table(bars.values, bars.parts, RULES, ORIGINS))
             notes += bars.notes
         if ends is not None:
             converged = own.status is Status.CONVERGED
             with context.timer("uncertain inputs"):
                 changes.append(ends.changes(len(curve.points), own) if converged else {})
-        curve = curve.then(own, notes, friction_scatter(own.film, setup.lubricant, own.film_force / own.load))
+        scatter = friction_scatter(own.film, setup.lubricant, own.film_force / own.load)
+        curve = curve.then(own, notes, scatter, flattened)
         if len(curve.points) < len(pairs):
             keep(context, (curve, errors, changes), made_again)
         context.progress(len(curve.points), len(pairs), "speeds", speed=curve.points[-1].speed, friction=own.friction)
@@ -74,8 +78,40 @@ def run(scene: FrictionScene, context: Context) -> CurveRecord:
     tell(context, oil_on_contact_notes([(point.friction, point.oil_on_contact) for point in curve.points]))
     left_out = (_OF_SUPPLY if scene.supply is None else ()) + (_OF_HEAT if scene.thermal == "off" else ())
     left_out += () if isinstance(setup.lubricant.shear_law, BaseOilShear) else _OF_BASE_OIL
+    left_out += () if scene.by_waves else _OF_WAVES
     record = _record(grid, curve, height, errors, left_out)
     return replace(record, input_changes=over_speeds(changes)) if changes else record
+
+
+def _solved(
+    scene: FrictionScene,
+    setup: MixedSetup,
+    heights: tuple[FloatArray, FloatArray],
+    speeds: Any,
+    before: MixedSolution | None,
+) -> tuple[MixedSolution, FlattenedHeights | None]:
+    """Return the solution at one pair of speeds, with the heights that the film flattened where the scene asks so."""
+    from bem.friction.solve import solve_setup
+
+    if not scene.by_waves:
+        return solve_setup(setup, heights[0] + heights[1], speeds, before), None
+    from bem.friction.flattened import solve_flattened
+
+    found = solve_flattened(setup, heights, speeds, before)
+    return found.solution, found.flattened
+
+
+def _bars(
+    setup: MixedSetup, height: FloatArray, own: MixedSolution, flattened: FlattenedHeights | None, context: Context
+) -> ErrorBars:
+    """Return the error bars of one speed, of the heights that the contact presses; its lambda ratio is that of the
+    undeformed ones."""
+    if flattened is None:
+        return bars_of(setup, height, own, context)
+    ratio = float(flattened.heights.std() / height.std())
+    bars = bars_of(setup, flattened.heights, replace(own, lambda_ratio=own.lambda_ratio / ratio), context)
+    name = "lambda_ratio"
+    return bars | bars.renamed({name: name}, lambda error: ratio * error)
 
 
 def _notes(solution: MixedSolution) -> tuple[Note, ...]:
@@ -144,7 +180,7 @@ def _record(
         shown_speed=np.array(shown.speeds[0]),
         x=grid.x,
         y=grid.y,
-        height=height,
+        height=height if curve.shown_heights is None else curve.shown_heights,
         displacement=displacement,
         pressure=shown.contact_pressure,
         boundary_stress=resists * shown.boundary_shear_stress,
@@ -167,7 +203,7 @@ _OF_SPEED = (
     *("speed", "friction", "boundary_part", "film_part", "contact_load", "film_load", "minimum_film", "lambda_ratio"),
     *("contact_area_fraction", "film_solves", "contact_solves"),
     *("oil_beside_contact", "loaded_contact_load", "loaded_friction"),
-    *(*_OF_SUPPLY, *_OF_HEAT, *_OF_BASE_OIL),
+    *(*_OF_SUPPLY, *_OF_HEAT, *_OF_BASE_OIL, *_OF_WAVES),
 )
 """Figures of every speed, under one name in `CurvePoint` and in the record."""
 _ON_PATCH, _ON_ITS_MESH = (

@@ -7,13 +7,14 @@ from __future__ import annotations
 
 from typing import Literal
 
+from pydantic import model_validator
+
+from bem.kinds.friction.waves import FrictionFilmScene, check_flattening
 from bem.scenes import build
 from bem.scenes.axes import Axis, listed, variants
 from bem.scenes.common import OutputsScene, Repetitions
 from bem.scenes.keys import key
-from bem.scenes.records import (
-    Figure,
-)
+from bem.scenes.records import Figure
 from bem.scenes.tables.sharing import CurveScene, SurfaceVariant
 
 
@@ -21,6 +22,9 @@ class FrictionScene(CurveScene):
     """A rough cylinder, ball or ellipsoid on a rough flat with oil between them, at many speeds."""
 
     kind: Literal["friction"] = key("Kind of computation.", "basic", default="friction")
+    film: FrictionFilmScene = key(
+        "Mesh of the oil film, and whether it flattens the roughness.", "expert", default=FrictionFilmScene()
+    )
     outputs: OutputsScene = key(
         "Results besides the standard ones: error estimates.", "advanced", default=OutputsScene()
     )
@@ -30,6 +34,17 @@ class FrictionScene(CurveScene):
     repetitions: Repetitions = key(
         "Number of runs with other random surfaces, for means and standard deviations.", "advanced", default=1
     )
+
+    @model_validator(mode="after")
+    def _flattened(self) -> FrictionScene:
+        if self.by_waves:
+            check_flattening(self)
+        return self
+
+    @property
+    def by_waves(self) -> bool:
+        """Return True if the film flattens the roughness before the surfaces touch."""
+        return self.film.roughness == "waves"
 
 
 def resolve(scene: FrictionScene) -> FrictionScene:

@@ -18,8 +18,11 @@ if TYPE_CHECKING:
 
 
 def by_tangent(scene: FrictionScene, key: str) -> bool:
-    """Return True if the derivatives of the balance propagate a key: not of a grid or a mesh, or with flow factors."""
-    return not key.startswith(("grid.", "film.", "sharing.")) and scene.sharing.flow_factors == "off"
+    """Return True if the derivatives of the balance propagate a key: not of a grid or a mesh, nor with flow factors or
+    roughness that the film flattens."""
+    if scene.by_waves or scene.sharing.flow_factors != "off":
+        return False
+    return not key.startswith(("grid.", "film.", "sharing."))
 
 
 class InputEnds:

@@ -35,7 +35,7 @@ def check_point_waves(scene: Any) -> None:
     if scene.contact is not None:
         raise problem(
             f"contact with {WHERE}, which says where surfaces would meet and not what they bear",
-            'no contact; film.roughness = "solved" for a rough body at rest; or kind friction',
+            'no contact; film.roughness = "solved" for a rough body at rest; or kind friction, which takes waves too',
         )
     if scene.rolling.direction != 0:
         raise problem(f"rolling.direction with {WHERE}", "no direction: bodies move along x; turn the axes")

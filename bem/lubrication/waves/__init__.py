@@ -11,7 +11,8 @@ J 214 (2000) 439; Morales-Espejel and Brizmer, Tribol. Trans. 54 (2011) 625, eq.
    generates it (`inlet`): the roughness modulates the flow there. In pure rolling both waves are one, whose amplitude
    is the "amplitude reduction" of the literature.
 
-`ripples.film_ripples` sums the waves of both surfaces to fields of film and pressure. The originals of the papers above
+`ripples.film_ripples` sums the waves of both surfaces to fields of film and pressure; `flattening` gives load sharing
+the heights that they leave. The originals of the papers above
 could not be read: the equations here are derived anew, from Reynolds' equation, half-spaces and the Ertel-Grubin inlet,
 without constants fitted to solutions (of two lengths of the inlet, one was chosen on some: `ripples.plateau_of`).
 They are compared with figures of Greenwood and Morales-Espejel, with the table of Venner, Couhier, Lubrecht and
