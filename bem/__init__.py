@@ -13,6 +13,7 @@ from bem.startup.lazy import loader
 _HOMES = {
     "grid": ["Grid"],
     "materials": ["CATALOGUE", "Body", "Layer", "Material", "contact_modulus", "dundurs_beta"],
+    "stiffness": ["Stiffness"],
     "errors": [
         "BemError",
         "ConvergenceError",

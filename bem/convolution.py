@@ -7,7 +7,7 @@ with zero padding (Liu, Wang and Liu 2000); the kernels have sources of their ow
    (`unit`, `symmetric`, `near_field`, `scaled`) first needs them.
 2. Influence coefficients (`bem.kernels.coefficients`) of each body, summed over both (`_spectrum_of_pair`). A doubly
    periodic grid takes the response to harmonic loads instead (`bem.kernels.spectral`); its mean displacement is zero.
-   Homogeneous bodies have proportional kernels, so one kernel is computed; with a layer, one for each body.
+   Homogeneous, isotropic bodies have proportional kernels, so one kernel is computed; else one for each body.
 3. Friction. The traction friction x pressure adds the coefficients of the tangential load, lower body minus upper, if
    traction changes the normal gap (`couples`: Dundurs' beta is not zero, or layers differ).
 4. Spectrum (`bem.transforms.kernel_spectra`), padded with zeros along free axes. Every kernel is even or odd along each
@@ -39,6 +39,7 @@ from bem.errors import InputError
 from bem.grid import Grid
 from bem.kernels.coefficients import Load, surface_coefficients
 from bem.kernels.layered import frequency_response
+from bem.kernels.loads import refuse_crystal
 from bem.kernels.spectral import surface_response
 from bem.materials import Body, Material
 from bem.numerics.cache import KeptValues, Sized, bytes_of
@@ -148,11 +149,13 @@ def cached_spectra(key: tuple[Any, ...], make: Callable[[], _Cached]) -> _Cached
     return _SPECTRA.of(key, make)
 
 
-def elastic_constants(body: Body) -> tuple[float, ...]:
+def elastic_constants(body: Body) -> tuple[Any, ...]:
     """Return the properties that determine the elastic response of a body.
 
-    Young's modulus and Poisson's ratio of each medium, then the depths of the interfaces.
+    Young's modulus and Poisson's ratio of each medium, then the depths of the interfaces; of a crystal its stiffness.
     """
+    if not body.boussinesq and body.homogeneous:
+        return (body.material.stiffness,)
     return (*(value for solid in body.media for value in _moduli(solid)), *body.interfaces)
 
 
@@ -173,14 +176,21 @@ def couples(bodies: tuple[Body, ...]) -> bool:
     return abs(total) > _SAME * sum(abs(_coupling(body)) + 1 / body.material.shear_modulus for body in bodies)
 
 
+def _mean_response(body: Body, wavenumber: float) -> float:
+    """Return u / p [m/Pa] of a harmonic pressure of a wavenumber [rad/m], the mean over its directions."""
+    if not body.boussinesq and body.homogeneous:
+        return 2 / (body.material.plane_strain_modulus * wavenumber)
+    return float(frequency_response.surface_response(wavenumber, 0.0, body, Load.NORMAL))
+
+
 def _spectrum_of_pair(grid: Grid, bodies: tuple[Body, ...], load: Load) -> FloatArray:
     """Compute the spectrum [m/Pa] of the kernel of both bodies: the sum for pressure, lower minus upper for traction.
 
     (py // 2 + 1, px // 2 + 1); the imaginary part for traction.
     """
     signs = (1.0, 1.0) if load is Load.NORMAL else (1.0, -1.0)
-    if all(body.homogeneous for body in bodies):
-        # kernels of homogeneous half-spaces are proportional to each other: one is computed
+    if all(body.boussinesq for body in bodies):
+        # kernels of homogeneous, isotropic half-spaces are proportional to each other: one is computed
         factors = [1 / b.material.plane_strain_modulus if load is Load.NORMAL else _coupling(b) for b in bodies]
         first = max(range(len(bodies)), key=lambda i: abs(factors[i]))
         scale = sum(s * f for s, f in zip(signs, factors, strict=False)) / factors[first]
@@ -314,11 +324,12 @@ class DisplacementOperator:
         return 1 / sum(1 / body.surface_material.plane_strain_modulus for body in self.bodies)
 
     def modulus_at(self, wavenumber: float) -> float:
-        """Return the effective contact modulus E* [Pa] under a harmonic pressure of a wavenumber [rad/m]."""
+        """Return the effective contact modulus E* [Pa] under a harmonic pressure of a wavenumber [rad/m].
+
+        Of crystals it is that of the mean over all directions.
+        """
         if wavenumber not in self._moduli:
-            response = sum(
-                float(frequency_response.surface_response(wavenumber, 0.0, body, Load.NORMAL)) for body in self.bodies
-            )
+            response = sum(_mean_response(body, wavenumber) for body in self.bodies)
             self._moduli[wavenumber] = 2 / (wavenumber * response)
         return self._moduli[wavenumber]
 
@@ -473,7 +484,8 @@ def displacement_operator(
 
     Raises
     ------
-    InputError : not a Grid, not one or two bodies, a friction or compliance that is not finite.
+    InputError : not a Grid, not one or two bodies, a friction or compliance that is not finite, friction on a crystal,
+        a crystal whose surface does not respond alike on both sides of the x axis.
     """
     messages = []
     if not isinstance(grid, Grid):
@@ -487,4 +499,9 @@ def displacement_operator(
         messages.append(f"displacement_operator: compliance {compliance!r} must be zero or positive and finite [m/Pa]")
     if messages:
         raise InputError(messages)
+    for body in pair:
+        if friction != 0:
+            refuse_crystal(body, "displacements under friction")
+        if body.material.stiffness is not None:
+            body.material.stiffness.check_mirror_symmetric()
     return DisplacementOperator(grid, tuple(pair), float(friction), compliance=float(compliance))

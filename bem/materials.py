@@ -15,6 +15,7 @@ from bem.arguments import did_you_mean, is_finite, is_positive
 from bem.errors import InputError
 from bem.relaxation import PronySeries
 from bem.representation import tabled
+from bem.stiffness import Stiffness
 
 HARDNESS_TO_YIELD = 2.8
 """Hardness over yield stress in uniaxial tension; Tabor, *The Hardness of Metals* (1951); the thesis' paper C."""
@@ -31,13 +32,13 @@ _UNITS = {
 @tabled
 @dataclass(frozen=True)
 class Material:
-    """An isotropic, linear elastic, perfectly plastic solid.
+    """A linear elastic, perfectly plastic solid: isotropic, or a crystal in an orientation.
 
     Parameters
     ----------
     name : what to call it in reports.
-    youngs_modulus : E [Pa], positive.
-    poissons_ratio : nu, between -1 and 0.5, both excluded.
+    youngs_modulus : E [Pa], positive; of a crystal it follows from `stiffness` and is not given.
+    poissons_ratio : nu, between -1 and 0.5, both excluded; as `youngs_modulus`.
     hardness : H [Pa], the highest pressure a contact cell can carry; None for purely elastic.
     yield_stress : sigma_y [Pa] in uniaxial tension; hardness / 2.8 where not given.
     thermal_conductivity : k [W/(m K)]; None where no heat is asked for, as the next two.
@@ -45,6 +46,9 @@ class Material:
     heat_capacity : c [J/(kg K)], per mass.
     relaxation : of the modulus over time, which then starts at `youngs_modulus`; None for an elastic solid. Only
         `bem.viscoelastic` looks at it: other solvers take the instantaneous modulus.
+    stiffness : of a crystal; None for an isotropic solid. Only `bem.convolution.displacement_operator` looks at it:
+        other solvers take `youngs_modulus` and `poissons_ratio`, those of an isotropic solid that an indenter finds as
+        stiff (Poisson's ratio that of the polycrystal).
 
     Raises
     ------
@@ -60,19 +64,21 @@ class Material:
     density: float | None = None
     heat_capacity: float | None = None
     relaxation: PronySeries | None = None
+    stiffness: Stiffness | None = None
 
     def __init__(
         self,
         name: str,
         *,
-        youngs_modulus: float,
-        poissons_ratio: float,
+        youngs_modulus: float | None = None,
+        poissons_ratio: float | None = None,
         hardness: float | None = None,
         yield_stress: float | None = None,
         thermal_conductivity: float | None = None,
         density: float | None = None,
         heat_capacity: float | None = None,
         relaxation: PronySeries | None = None,
+        stiffness: Stiffness | None = None,
     ) -> None:
         optional = {
             "hardness": hardness,
@@ -82,9 +88,22 @@ class Material:
             "heat_capacity": heat_capacity,
         }
         messages = []
-        if not is_positive(youngs_modulus):
+        if not isinstance(stiffness, Stiffness | None):
+            messages.append(f"Material {name!r}: stiffness {stiffness!r} must be a Stiffness, or left out")
+        elif stiffness is not None:
+            messages += [
+                f"Material {name!r}: {key} {value!r} is given beside stiffness, from which it follows; leave one out"
+                for key, value in (("youngs_modulus", youngs_modulus), ("poissons_ratio", poissons_ratio))
+                if value is not None and not _follows(stiffness, key, value)
+            ]
+            if relaxation is not None:
+                messages.append(
+                    f"Material {name!r}: relaxation is given beside stiffness; a body that relaxes is isotropic"
+                )
+            poissons_ratio = stiffness.poissons_ratio
+        if stiffness is None and not is_positive(youngs_modulus):
             messages.append(f"Material {name!r}: youngs_modulus {youngs_modulus!r} must be positive and finite [Pa]")
-        if not (is_finite(poissons_ratio) and -1 < poissons_ratio < 0.5):
+        if poissons_ratio is None or not (is_finite(poissons_ratio) and -1 < poissons_ratio < 0.5):
             messages.append(
                 f"Material {name!r}: poissons_ratio {poissons_ratio!r} must lie between -1 and 0.5, both excluded"
             )
@@ -100,11 +119,28 @@ class Material:
         if yield_stress is None and hardness is not None:
             optional["yield_stress"] = hardness / HARDNESS_TO_YIELD
         object.__setattr__(self, "name", name)
-        object.__setattr__(self, "youngs_modulus", float(youngs_modulus))
+        assert poissons_ratio is not None
+        if youngs_modulus is not None:
+            object.__setattr__(self, "youngs_modulus", float(youngs_modulus))
         object.__setattr__(self, "poissons_ratio", float(poissons_ratio))
         for key, value in optional.items():
             object.__setattr__(self, key, None if value is None else float(value))
         object.__setattr__(self, "relaxation", relaxation)
+        object.__setattr__(self, "stiffness", stiffness)
+
+    def __getattr__(self, name: str) -> Any:
+        """Compute Young's modulus of a crystal when it is first asked for: it takes an integral for each direction."""
+        stiffness: Stiffness | None = self.__dict__.get("stiffness")
+        if name != "youngs_modulus" or stiffness is None:
+            raise AttributeError(f"{type(self).__name__!r} object has no attribute {name!r}")
+        modulus = _youngs_modulus(stiffness)
+        object.__setattr__(self, name, modulus)
+        return modulus
+
+    @property
+    def boussinesq(self) -> bool:
+        """Return True if a point force displaces the surface as Boussinesq says: an isotropic solid."""
+        return self.stiffness is None
 
     @property
     def thermal_diffusivity(self) -> float | None:
@@ -130,6 +166,17 @@ class Material:
     def plane_strain_modulus(self) -> float:
         """E / (1 - nu^2) [Pa]."""
         return self.youngs_modulus / (1 - self.poissons_ratio**2)
+
+
+def _youngs_modulus(stiffness: Stiffness) -> float:
+    """Return E [Pa] of the isotropic solid of the crystal's Poisson's ratio that an indenter finds as stiff."""
+    return stiffness.plane_strain_modulus * (1 - stiffness.poissons_ratio**2)
+
+
+def _follows(stiffness: Stiffness, key: str, value: float) -> bool:
+    """Return True if a constant given beside a stiffness is the one that follows from it."""
+    found = _youngs_modulus(stiffness) if key == "youngs_modulus" else stiffness.poissons_ratio
+    return is_finite(value) and abs(value - found) <= 1e-9 * abs(found)
 
 
 def _of_the_catalogue(material: Any) -> Any:
@@ -218,6 +265,13 @@ class Body:
             messages.append(f"Body: layers {layers!r} must be a sequence of Layer, outermost first")
         if layer is not None and stack:
             messages.append("Body: layer and layers are both given; layer=L is layers=(L,)")
+        coated = [*stack, *([] if layer is None else [layer])]
+        crystals = [
+            f"Body: {solid.name} is a crystal in a body with layers; allowed: isotropic layers on an isotropic body"
+            for solid in (material, *(getattr(one, "material", None) for one in coated))
+            if coated and isinstance(solid, Material) and solid.stiffness is not None
+        ]
+        messages += crystals[:1]
         if messages:
             raise InputError(messages)
         object.__setattr__(self, "material", material)
@@ -232,6 +286,11 @@ class Body:
     def homogeneous(self) -> bool:
         """Return True if the body is of one material throughout, without layers."""
         return not self.layers
+
+    @property
+    def boussinesq(self) -> bool:
+        """Return True if a point force displaces the surface as Boussinesq says: a homogeneous, isotropic solid."""
+        return self.homogeneous and self.material.boussinesq
 
     @property
     def surface_material(self) -> Material:
@@ -401,6 +460,8 @@ def _catalogue() -> Catalogue:
         if "relaxation" in table:
             facts["temperature"] = table.pop("temperature")
             table["relaxation"] = PronySeries(**table["relaxation"])
+        if "stiffness" in table:
+            table["stiffness"] = Stiffness(**table["stiffness"])
         found[name] = CatalogueEntry(Material(name, **table), f"{source}; heat: {heat}" if heat else source, **facts)
     return found
 

@@ -99,6 +99,7 @@ NO_METAL = {
     *("tribofilm", "dlc", "glass", "ptfe", "pom", "pa66", "peek", "polyisobutylene"),
     *("silicon-nitride", "alumina", "tungsten-carbide", "zirconia", "silicon-carbide"),
     *("a-C:H", "ta-C", "CrN", "TiN", "WC/C"),
+    *("silicon-crystal", "copper-crystal", "iron-crystal"),
 }
 
 

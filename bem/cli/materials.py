@@ -64,6 +64,10 @@ def register(app: typer.Typer) -> None:
             if value
         ]
         entry = CATALOGUE[name]
+        stiffness = entry.material.stiffness
+        if stiffness is not None:
+            shown = ", ".join(f"{key} {value / 1e9:.4g}" for key, value in stiffness.by_name.items())
+            rows = [("stiffness", f"{stiffness.crystal}, {shown} GPa"), *rows]
         if entry.thickness is not None:
             rows += [
                 ("usual thickness", f"{_span(entry.thickness, 1e-6)} um"),

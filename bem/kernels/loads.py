@@ -7,7 +7,9 @@ from enum import Enum
 import numpy as np
 from numpy.typing import ArrayLike
 
+from bem.errors import InputError
 from bem.grid import FloatArray
+from bem.materials import Body
 
 
 class Load(Enum):
@@ -64,3 +66,17 @@ def clear_odd_offsets(table: FloatArray, parities: Parities, first: int = 0) -> 
     """
     x, y = np.arange(table.shape[1])[:, None], np.arange(first, first + table.shape[2])[None, :]
     return clear_odd(table, x, y, parities)
+
+
+def refuse_crystal(body: Body, wanted: str) -> None:
+    """Refuse a response of a crystal that no kernel knows; `wanted` says which.
+
+    Raises
+    ------
+    InputError : a body of a crystal.
+    """
+    if body.material.stiffness is not None:
+        raise InputError(
+            f"stiffness: {wanted} are not known of a crystal ({body.material.name}); allowed: an isotropic material, "
+            f"or the contact of the crystal under pressure alone"
+        )

@@ -21,7 +21,7 @@ import numpy as np
 from bem.errors import InputError
 from bem.grid import FloatArray, Grid
 from bem.kernels.layered import frequency_response
-from bem.kernels.loads import IN_PLANE_PARITY, STRESS_PARITY, SURFACE_PARITY, Load, Parities
+from bem.kernels.loads import IN_PLANE_PARITY, STRESS_PARITY, SURFACE_PARITY, Load, Parities, refuse_crystal
 from bem.materials import Body
 
 
@@ -62,10 +62,16 @@ def surface_response(grid: Grid, body: Body, load: Load) -> FloatArray:
 
     Raises
     ------
-    InputError : a grid that is not periodic along both axes.
+    InputError : a grid that is not periodic along both axes; a crystal under traction.
     """
     _check(grid)
     kx, ky, q, odd_x, _ = _wavevectors(grid)
+    if load is Load.TANGENTIAL:
+        refuse_crystal(body, "displacements under traction")
+    if body.material.stiffness is not None:
+        from bem.kernels import anisotropic  # no other body needs it
+
+        return anisotropic.surface_response(kx, ky, body.material.stiffness)
     if not body.homogeneous:
         tangential, half = load is Load.TANGENTIAL, grid.shape[0] // 2 + 1
         rows = frequency_response.surface_response((odd_x if tangential else kx)[:half], ky[:half], body, load)
@@ -88,9 +94,10 @@ def in_plane_response(grid: Grid, body: Body) -> FloatArray:
 
     Raises
     ------
-    InputError : a grid that is not periodic along both axes.
+    InputError : a grid that is not periodic along both axes; a crystal.
     """
     _check(grid)
+    refuse_crystal(body, "displacements under traction")
     kx, ky, q, odd_x, odd_y = _wavevectors(grid)
     if body.homogeneous:
         nu, scale = body.material.poissons_ratio, 1 / (body.material.shear_modulus * q)
@@ -110,9 +117,10 @@ def stress_response(grid: Grid, body: Body, depth: float, load: Load) -> FloatAr
 
     Raises
     ------
-    InputError : a grid that is not periodic along both axes or a negative depth.
+    InputError : a grid that is not periodic along both axes, a negative depth, a crystal.
     """
     _check(grid)
+    refuse_crystal(body, "stresses below the surface")
     if not (np.isfinite(depth) and depth >= 0):
         raise InputError(f"depth: {depth!r} must be finite and not negative [m]")
     kx, ky, q, odd_x, odd_y = _wavevectors(grid)

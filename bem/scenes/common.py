@@ -8,7 +8,7 @@ from dataclasses import asdict
 from pathlib import Path
 from typing import Annotated, Any, ClassVar, Literal, Self, TypeVar
 
-from pydantic import Field, PrivateAttr, field_validator, model_validator
+from pydantic import Field, PrivateAttr, ValidationInfo, field_validator, model_validator
 from pydantic_core import PydanticCustomError
 
 from bem.errors import InputError
@@ -22,6 +22,7 @@ from bem.scenes.ranges import values_of_keys
 from bem.scenes.table import Table, check_rising, exactly_one, one_for_both, one_of, problem
 from bem.scenes.tables.marks import CrossHatchScene, FeedMarksScene
 from bem.scenes.units import Density, Force, HeatCapacity, Length, Pressure, Ratio, ThermalConductivity, Time
+from bem.stiffness import Stiffness
 from bem.surfaces.processes import PROCESSES, Lay, ProcessName, statistics_beside
 
 PositiveLength = Annotated[Length, Field(gt=0)]
@@ -97,12 +98,97 @@ class RelaxationScene(Table):
         return PronySeries(self.shares, self.times)
 
 
+Direction = Annotated[list[Ratio], Field(min_length=3, max_length=3)]
+
+
+class StiffnessScene(Table):
+    """Stiffness of a crystal in its own axes, Voigt's order xx, yy, zz, yz, xz, xy; z is its axis of symmetry."""
+
+    crystal: Literal["cubic", "hexagonal", "trigonal", "tetragonal", "orthotropic", "general"] = key(
+        "Symmetry of the crystal, which says the constants that it has; hexagonal is transversely isotropic.",
+        "basic",
+        example="cubic",
+    )
+    c11: PositivePressure | None = key("Stiffness along the first axis.", "basic", default=None, example="165.7 GPa")
+    c12: Pressure | None = key("Stiffness of the first two axes.", "basic", default=None, example="63.9 GPa")
+    c13: Pressure | None = key("Stiffness of the first and third axis.", "advanced", default=None)
+    c14: Pressure | None = key(
+        "Stiffness of the first axis and shear yz, of trigonal crystals.", "advanced", default=None
+    )
+    c22: PositivePressure | None = key("Stiffness along the second axis.", "advanced", default=None)
+    c23: Pressure | None = key("Stiffness of the second and third axis.", "advanced", default=None)
+    c33: PositivePressure | None = key("Stiffness along the third axis.", "advanced", default=None)
+    c44: PositivePressure | None = key("Stiffness in shear yz.", "basic", default=None, example="79.6 GPa")
+    c55: PositivePressure | None = key("Stiffness in shear xz.", "advanced", default=None)
+    c66: PositivePressure | None = key("Stiffness in shear xy.", "advanced", default=None)
+    matrix: (
+        Annotated[list[Annotated[list[Pressure], Field(min_length=6, max_length=6)]], Field(min_length=6)] | None
+    ) = key('All stiffnesses as six rows, of crystal = "general".', "expert", default=None)
+
+    @model_validator(mode="after")
+    def _its_constants(self) -> Self:
+        try:
+            self.build()
+        except InputError as error:
+            raise problem(
+                "; ".join(message.removeprefix("Stiffness: ") for message in error.messages),
+                "the constants of that crystal, and a positive definite stiffness",
+            ) from None
+        return self
+
+    def build(self, **directions: Any) -> Stiffness:
+        """As `bem.Stiffness`, with the directions of an orientation."""
+        return Stiffness(**self.model_dump(), **directions)
+
+
+class OrientationScene(Table):
+    """Orientation of a crystal: directions in its own axes, of any length."""
+
+    normal: Direction = key(
+        "Direction from the lower body to the upper one; Miller indices of the surface of a cubic crystal.",
+        "basic",
+        default=[0.0, 0.0, 1.0],
+        example=[1, 1, 1],
+    )
+    along_x: Direction | None = key(
+        "Direction along x of the grid, whose part in the surface counts.",
+        "basic",
+        default=None,
+        reason="the crystal's x, or its y where x is the normal",
+        example=[1, -1, 0],
+    )
+
+
 class MaterialScene(Table):
     """Elastic solid: a name of the catalogue (`bem materials`), or constants of your own, which win over its own."""
 
     name: str = key("Name of the material in reports.", "advanced", default="unnamed", example="my steel")
-    youngs_modulus: PositivePressure = key("Young's modulus E.", "basic", example="210 GPa")
-    poissons_ratio: Annotated[Ratio, Field(gt=-1, lt=0.5)] = key("Poisson's ratio, above -1 and below 0.5.", "basic")
+    stiffness: StiffnessScene | None = key(
+        "Stiffness of a crystal, instead of youngs_modulus and poissons_ratio; for the kind contact, without friction.",
+        "advanced",
+        default=None,
+        reason="isotropic",
+    )
+    orientation: OrientationScene | None = key(
+        "Directions of a crystal's surface and of x in it.",
+        "advanced",
+        default=None,
+        reason="surface (001), x along [100]",
+    )
+    youngs_modulus: PositivePressure | None = key(
+        "Young's modulus E.",
+        "basic",
+        default=None,
+        reason="that of the stiffness, else it is needed",
+        example="210 GPa",
+    )
+    poissons_ratio: Annotated[Ratio, Field(gt=-1, lt=0.5)] | None = key(
+        "Poisson's ratio, above -1 and below 0.5.",
+        "basic",
+        default=None,
+        reason="that of the stiffness, else it is needed",
+        example=0.3,
+    )
     hardness: PositivePressure | None = key(
         "Indentation hardness: the highest contact pressure of elastic-perfectly plastic models.",
         "advanced",
@@ -139,8 +225,9 @@ class MaterialScene(Table):
         """Add the name of a material, and constants beside `catalogue`."""
         super().short_forms(table)
         table["properties"]["catalogue"] = {"enum": sorted(CATALOGUE)}
-        required = table.pop("required", [])
-        table["anyOf"] = [{"required": ["catalogue"]}, {"required": required}]
+        table.pop("required", None)
+        isotropic = {"required": ["youngs_modulus", "poissons_ratio"]}
+        table["anyOf"] = [{"required": ["catalogue"]}, isotropic, {"required": ["stiffness"]}]
         whole = dict(table)
         table.clear()
         table |= {"anyOf": [{"enum": sorted(CATALOGUE)}, whole], "description": whole.get("description")}
@@ -155,16 +242,55 @@ class MaterialScene(Table):
         own = {key: value for key, value in data.items() if key != "catalogue"}
         entry = _named(data["catalogue"], CATALOGUE, "is not in the catalogue of materials")
         constants = asdict(entry.material) | {"source": entry.source}
+        stiffness = entry.material.stiffness
+        if stiffness is not None:
+            constants["stiffness"] = {"crystal": stiffness.crystal, **stiffness.by_name}
+            del constants["youngs_modulus"], constants["poissons_ratio"]
         if own:
             constants["source"] = f"{entry.source}; changed in the scene: {', '.join(sorted(own))}"
         if "hardness" in own and "yield_stress" not in own:
             constants["yield_stress"] = None  # follows the new hardness
         return constants | own
 
+    @field_validator("youngs_modulus", "poissons_ratio")
+    @classmethod
+    def _one_elasticity(cls, value: float | None, info: ValidationInfo) -> float | None:
+        if "stiffness" not in info.data:  # wrong itself
+            return value
+        crystal = info.data["stiffness"] is not None
+        if value is None and not crystal:
+            raise PydanticCustomError("missing", "missing")
+        if value is not None and crystal:
+            raise problem("it is given beside stiffness, from which it follows", "one of them")
+        return value
+
+    @model_validator(mode="after")
+    def _a_crystal(self) -> Self:
+        if self.stiffness is None:
+            if self.orientation is not None:
+                raise problem("orientation is given without stiffness", "orientation of a crystal")
+            return self
+        if self.relaxation is not None:
+            raise problem("relaxation is given beside stiffness", "relaxation of an isotropic body")
+        try:
+            self._crystal()
+        except InputError as error:
+            raise problem(
+                "; ".join(message.removeprefix("Stiffness: ") for message in error.messages),
+                "stiffnesses of a stable crystal, and directions across each other",
+            ) from None
+        return self
+
+    def _crystal(self) -> Stiffness | None:
+        if self.stiffness is None:
+            return None
+        return self.stiffness.build(**({} if self.orientation is None else self.orientation.model_dump()))
+
     def build(self) -> Material:
         """As `bem.Material`."""
-        constants = self.model_dump(exclude={"source", "relaxation"})
-        return Material(**constants, relaxation=None if self.relaxation is None else self.relaxation.build())
+        constants = self.model_dump(exclude={"source", "relaxation", "stiffness", "orientation"})
+        relaxation = None if self.relaxation is None else self.relaxation.build()
+        return Material(**constants, relaxation=relaxation, stiffness=self._crystal())
 
 
 class LayerScene(Table):
@@ -188,6 +314,8 @@ class LayerScene(Table):
     def _elastic_in_time(self) -> LayerScene:
         if self.material.relaxation is not None:
             raise problem("the material of a layer relaxes", "relaxation of bodies without layers")
+        if self.material.stiffness is not None:
+            raise problem("the material of a layer is a crystal", "an isotropic layer")
         return self
 
     @model_validator(mode="after")
@@ -482,6 +610,9 @@ class _LayeredScene(Table):
     def _one_stack(self) -> Self:
         if self.layer is not None and self.layers:
             raise problem("layer and layers are both given", "layer for one, or layers for a stack, outermost first")
+        material: MaterialScene | None = getattr(self, "material", None)
+        if self.stack and material is not None and material.stiffness is not None:
+            raise problem("layers on a crystal", "layers on an isotropic body, or a bare crystal")
         return self
 
     @property
@@ -606,6 +737,18 @@ def relaxing_bodies(scene: Table) -> list[str]:
     ]
 
 
+def crystals(scene: Table) -> list[str]:
+    """Return the names of bodies of a scene that are crystals."""
+    bodies = {name: getattr(scene, name) for name in type(scene).model_fields}
+    return [
+        name
+        for name, body in bodies.items()
+        if isinstance(body, BodyScene | UpperBodyScene)
+        and body.material is not None
+        and body.material.stiffness is not None
+    ]
+
+
 def refuse_relaxation(scene: Table, allowed: str) -> None:
     """Refuse bodies that relax."""
     for name in relaxing_bodies(scene):
@@ -656,6 +799,8 @@ class SceneModel(Table):
     )
     viscoelastic: ClassVar[bool] = False
     """Whether the kind knows bodies that relax."""
+    anisotropic: ClassVar[bool] = False
+    """Whether the kind knows bodies that are crystals."""
     _source: dict[str, Any] | None = PrivateAttr(default=None)
 
     @field_validator("over", mode="before")
@@ -672,6 +817,12 @@ class SceneModel(Table):
     def _relaxation_where_time_is(self) -> Self:
         if not self.viscoelastic:
             refuse_relaxation(self, "an elastic material, or kind contact with contact.times or a speed")
+        return self
+
+    @model_validator(mode="after")
+    def _crystals_under_pressure(self) -> Self:
+        for name in crystals(self) if not self.anisotropic else []:
+            raise problem(f"{name}.material is a crystal", "an isotropic material, or kind contact")
         return self
 
     def with_source(self, table: dict[str, Any]) -> Self:

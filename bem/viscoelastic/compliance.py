@@ -39,13 +39,15 @@ def pair_compliance(operator: DisplacementOperator, name: str) -> PairCompliance
 
     Raises
     ------
-    InputError : not an operator, no body that relaxes, layers, friction in the gap, an additional compliance.
+    InputError : not an operator, no body that relaxes, layers, a crystal, friction, an additional compliance.
     """
     if not isinstance(operator, DisplacementOperator):
         raise InputError(f"{name}: operator {operator!r} must come from displacement_operator")
     messages = []
     if not all(body.homogeneous for body in operator.bodies):
         messages.append(f"{name}: a body has layers; viscoelastic bodies, and those on them, must be homogeneous")
+    elif not all(body.boussinesq for body in operator.bodies):
+        messages.append(f"{name}: a body is a crystal; viscoelastic bodies, and those on them, must be isotropic")
     elif not operator.symmetric or operator.compliance:
         messages.append(f"{name}: the operator must be without friction and additional compliance")
     series = [body.material.relaxation for body in operator.bodies]

@@ -162,6 +162,10 @@ def _body(body: Body) -> str:
 
 def _material(material: Material) -> str:
     words = [f"E {si(material.youngs_modulus, 'Pa')}, nu {material.poissons_ratio:g}"]
+    if material.stiffness is not None:
+        normal = " ".join(f"{value:.3g}" for value in material.stiffness.normal)
+        modulus = si(material.stiffness.plane_strain_modulus, "Pa")
+        words = [f"{material.stiffness.crystal} crystal, surface across [{normal}], indentation modulus {modulus}"]
     if material.hardness is not None:
         words.append(f"hardness {si(material.hardness, 'Pa')}")
     if material.yield_stress is not None:

@@ -29,7 +29,8 @@ def _suspected(value: Any, key: str) -> Iterator[str]:
         for name, inner in value:
             yield from _suspected(inner, f"{key}.{name}" if key else name)
         if isinstance(value, MaterialScene):
-            yield from _modulus(value, f"{key}.youngs_modulus")
+            name = "youngs_modulus" if value.stiffness is None else "stiffness"
+            yield from _modulus(value, f"{key}.{name}")
     elif isinstance(value, list | tuple):
         for i, inner in enumerate(value):
             yield from _suspected(inner, f"{key}[{i}]")
@@ -38,7 +39,7 @@ def _suspected(value: Any, key: str) -> Iterator[str]:
 
 
 def _modulus(material: MaterialScene, key: str) -> Iterable[str]:
-    value = material.youngs_modulus
+    value = material.build().youngs_modulus
     if value < SOFTEST or (value > STIFFEST and "rigid" not in material.name.lower()):
         meant = f'; "{value:g} GPa" if that is meant' if 0.01 <= value < SOFTEST else ""
         yield (

@@ -1,0 +1,74 @@
+"""Paraboloids on crystals: the closed form against Hertz, against quadrature, and the contact solver against it."""
+
+import math
+
+import numpy as np
+import pytest
+
+from bem import Body, Grid, Material, displacement_operator, solve_contact
+from bem.materials import CATALOGUE
+from bem.reference_solutions.crystal_hertz import crystal_hertz
+from bem.reference_solutions.hertz import ellipse_contact
+from bem.stiffness import Stiffness
+
+COPPER = CATALOGUE["copper-crystal"].material.stiffness
+ON_110 = COPPER.oriented((1, 1, 0), (0, 0, 1))
+LOAD, RADIUS = 0.05, 1e-3
+
+
+def test_isotropic_bodies_give_hertz() -> None:
+    shear, lame = 80e9, 120e9
+    steel = Stiffness("cubic", c11=lame + 2 * shear, c12=lame, c44=shear)
+    modulus = steel.plane_strain_modulus
+    found = crystal_hertz([steel], (RADIUS, RADIUS), LOAD)
+    radius = (0.75 * LOAD * RADIUS / modulus) ** (1 / 3)
+    assert found.semi_axes == pytest.approx((radius, radius), rel=1e-12, abs=0)
+    assert found.approach == pytest.approx(radius**2 / RADIUS, rel=1e-12, abs=0)
+    assert found.maximum_pressure == pytest.approx(1.5 * LOAD / (math.pi * radius**2), rel=1e-12)
+    ellipse = crystal_hertz([steel, steel], (2e-3, 0.5e-3), LOAD)
+    exact = ellipse_contact(radii=(2e-3, 0.5e-3), contact_modulus=modulus / 2, load=LOAD)
+    assert ellipse.semi_axes == pytest.approx(exact.semi_axes, rel=1e-9, abs=0)
+    assert ellipse.approach == pytest.approx(exact.approach, rel=1e-9, abs=0)
+
+
+def test_pressure_displaces_its_ellipse_to_the_paraboloid() -> None:
+    """The pressure's convolution with g / r by quadrature about points of the ellipse."""
+    found = crystal_hertz([ON_110], (RADIUS, 2 * RADIUS), LOAD)
+    a, b = found.semi_axes
+    angles = np.arange(256) * (2 * np.pi / 256)
+    point = ON_110.surface_compliance(angles + np.pi / 2) / (2 * np.pi)
+    c, s = np.cos(angles), np.sin(angles)
+    nodes, weights = np.polynomial.legendre.leggauss(40)
+    half = 0.25 * np.pi * (nodes + 1)
+    for x, y in ((0.0, 0.0), (0.5 * a, 0.2 * b), (-0.1 * a, 0.8 * b)):
+        # along each ray 1 - rho^2 = d - w (t - t0)^2, and the pressure is the square root of it
+        w = (c / a) ** 2 + (s / b) ** 2
+        middle = -(x * c / a**2 + y * s / b**2) / w
+        d = 1 - (x / a) ** 2 - (y / b) ** 2 + w * middle**2
+        start = np.arcsin(np.clip(-middle * np.sqrt(w / d), -1, 1))
+        # the integral of sqrt(d - w (t - t0)^2) from t = 0 on, by the sine of an angle and Gauss points
+        span = np.pi / 2 - start
+        phi = start[:, None] + span[:, None] * (half / (np.pi / 2))
+        ray = d / np.sqrt(w) * (np.cos(phi) ** 2 @ weights) * span / 2
+        displaced = found.maximum_pressure * 2 * np.pi * np.mean(point * ray)
+        wanted = found.approach - x**2 / (2 * RADIUS) - y**2 / (4 * RADIUS)
+        assert displaced == pytest.approx(wanted, rel=1e-12, abs=0)
+
+
+def test_contact_solver_finds_the_ellipse() -> None:
+    exact = crystal_hertz([ON_110], (RADIUS, RADIUS), LOAD)
+    a, b = exact.semi_axes
+    assert b / a > 1.05  # not Hertz' circle
+    errors = []
+    for cells in (32, 64, 128):
+        grid = Grid((cells, cells), (2.4 * max(a, b) / cells,) * 2)
+        gap = (grid.x[:, None] ** 2 + grid.y**2) / (2 * RADIUS)
+        found = solve_contact(gap, displacement_operator(grid, Body(Material("copper", stiffness=ON_110))), load=LOAD)
+        pressure = exact.maximum_pressure * np.sqrt(np.maximum(0, 1 - (grid.x[:, None] / a) ** 2 - (grid.y / b) ** 2))
+        assert found.approach == pytest.approx(exact.approach, rel=6e-3 / cells, abs=0)
+        errors.append(np.abs(found.pressure - pressure).mean() / pressure.mean())
+    assert found.contact_area == pytest.approx(math.pi * a * b, rel=1e-3, abs=0)
+    assert found.maximum_pressure == pytest.approx(exact.maximum_pressure, rel=1e-4)
+    order = np.log2(errors[0] / errors[2]) / 2
+    assert order > 1.2  # 1.5 at the edge of a square-root pressure
+    assert errors[2] < 1e-3
