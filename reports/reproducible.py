@@ -540,6 +540,17 @@ def _wave_ripples(module: Any, stored: Any) -> Rows:
         yield f"surfaces {case['seed']:g}", _again(row, partial(module.compared, case), allowed, "seconds")
 
 
+def _wave_sharing(module: Any, stored: Any) -> Rows:
+    allowed = within(relative=0.02, absolute=2e-3)
+    for case, row in zip(module.moving_cases(), stored["moving"], strict=True):
+        yield f"surfaces {case['seed']:g}", _again(row, partial(module.of_moving, case), allowed)
+    for case, row in zip(module.cases_at_rest(), stored["at rest"], strict=True):
+        yield (
+            f"{row['surface']} ({case[0] + 1}), lambda {row['lambda']:g}",
+            _again(row, partial(module.of_rest, *case), allowed),
+        )
+
+
 def _wear_lengths(module: Any, stored: Any) -> Rows:
     names = {
         "particles_per_cycle": "particles_per_cycle",
@@ -706,6 +717,7 @@ RESULTS: dict[str, Result] = {
         experiment("tribofilm_hardness", _tribofilm_hardness, 120, "1 %, less than either bound is known to"),
         experiment("waviness_reduction", _waviness_reduction, 60, "2e-3, the difference between grids"),
         experiment("wave_ripples", _wave_ripples, 90, "2 % of a ripple, less than the march is off"),
+        experiment("wave_sharing", _wave_sharing, 5, "2 % or 2e-3, less than the shares are off"),
         experiment("wear_lengths", _wear_lengths, 20, "the scatter over the three pairs of surfaces and by rounding"),
         Result("line_film", _line_film, "1e-4 of a film, of which five digits are stored; orders within 0.05"),
         experiment("wear_rounding", _wear_rounding, 40, "three times the largest change over all runs, or 0.1 %"),

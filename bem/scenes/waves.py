@@ -6,6 +6,7 @@ Verified in tests/scenes/test_wave_film_kind.py.
 from __future__ import annotations
 
 import math
+from dataclasses import dataclass
 from functools import partial
 from typing import TYPE_CHECKING, Annotated, Any
 
@@ -15,7 +16,7 @@ from bem.notes.lubrication import WAVES_TOO_HIGH
 from bem.scenes import build
 from bem.scenes.common import problem
 from bem.scenes.context import Context
-from bem.scenes.records import Figure, Series
+from bem.scenes.records import Figure, Record, Series
 
 if TYPE_CHECKING:
     from bem.lubrication import FilmSolution, PointFilmSolution
@@ -30,27 +31,33 @@ _of_waves = partial(Figure, optional=True, chance="the waves are linear in the h
 _CELLS = "it counts cells of a linear film, which is too low where surfaces nearly meet"
 _map = partial(Series, ("patch_x", "patch_y"), of="first")
 
-FilmRipple = Annotated[float | None, _of_waves("nm", "standard deviation of the film", headline=True)]
-PressureRipple = Annotated[float | None, _of_waves("Pa", "standard deviation of the pressure ripple")]
-RippleOverHeights = Annotated[
-    float | None, _of_waves("", "standard deviation of the film over that of the heights", headline=True)
-]
-FilmOverRipple = Annotated[float | None, _of_waves("", "central film over its standard deviation")]
-RoughMinimum = Annotated[float | None, _of_waves("nm", "minimum film between the rough surfaces", headline=True)]
-MeetingShare = Annotated[
-    float | None, Figure("", "area where linear waves would meet, over Hertz'", optional=True, no_bar=_CELLS)
-]
-RoughRms = Annotated[
-    float | None, Figure("nm", "standard deviation of the heights in contact", optional=True, unjudged=True)
-]
-PatchX = Annotated[FloatArray | None, Series(("patch_x",), "m", "x of the patch", of="first")]
-PatchY = Annotated[FloatArray | None, Series(("patch_y",), "m", "y of the patch", of="first")]
-RoughHeights = Annotated[FloatArray | None, _map("m", "heights of both bodies")]
-RoughThickness = Annotated[FloatArray | None, _map("m", "film between the rough surfaces")]
-RoughPressure = Annotated[FloatArray | None, _map("Pa", "pressure with its ripples")]
-FilmRippleField = Annotated[FloatArray | None, _map("m", "ripple of the film")]
-PressureRippleField = Annotated[FloatArray | None, _map("Pa", "ripple of the pressure")]
-"""Fields of a record that waves fill (`wave_figures`)."""
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class WaveRecord(Record):
+    """Ripples of a film by waves (`wave_figures`); the record of a kind has the smooth film as another base."""
+
+    film_ripple: Annotated[float | None, _of_waves("nm", "standard deviation of the film", headline=True)] = None
+    pressure_ripple: Annotated[float | None, _of_waves("Pa", "standard deviation of the pressure ripple")] = None
+    ripple_over_heights: Annotated[
+        float | None, _of_waves("", "standard deviation of the film over that of the heights", headline=True)
+    ] = None
+    film_over_ripple: Annotated[float | None, _of_waves("", "central film over its standard deviation")] = None
+    rough_minimum_thickness: Annotated[
+        float | None, _of_waves("nm", "minimum film between the rough surfaces", headline=True)
+    ] = None
+    meeting_area_share: Annotated[
+        float | None, Figure("", "area where linear waves would meet, over Hertz'", optional=True, no_bar=_CELLS)
+    ] = None
+    rough_rms: Annotated[
+        float | None, Figure("nm", "standard deviation of the heights in contact", optional=True, unjudged=True)
+    ] = None
+    patch_x: Annotated[FloatArray | None, Series(("patch_x",), "m", "x of the patch", of="first")] = None
+    patch_y: Annotated[FloatArray | None, Series(("patch_y",), "m", "y of the patch", of="first")] = None
+    rough_heights: Annotated[FloatArray | None, _map("m", "heights of both bodies")] = None
+    rough_thickness: Annotated[FloatArray | None, _map("m", "film between the rough surfaces")] = None
+    rough_pressure: Annotated[FloatArray | None, _map("Pa", "pressure with its ripples")] = None
+    film_ripple_field: Annotated[FloatArray | None, _map("m", "ripple of the film")] = None
+    pressure_ripple_field: Annotated[FloatArray | None, _map("Pa", "ripple of the pressure")] = None
 
 
 def check_waves(scene: Any) -> None:

@@ -66,74 +66,80 @@ def shares(
     return row | {"thin": float(ripples.pressure[thin].sum() / ripples.pressure.sum())}
 
 
-def at_rest() -> list[dict[str, Any]]:
-    """Return the rows of rough balls at rest."""
-    half = touching_films.HALF
+def cases_at_rest() -> list[tuple[int, int]]:
+    """Return surface and row in `touching_films` of every rough ball at rest."""
+    stored = found("touching_films")["cases"]
+    return [(surface, row) for surface, case in enumerate(stored) for row in range(len(case["rows"]))]
+
+
+def of_rest(number: int, place: int) -> dict[str, Any]:
+    """Return the row of a rough ball at rest."""
+    surface, case = touching_films.SURFACES[number], found("touching_films")["cases"][number]
+    solved, half = case["rows"][place], touching_films.HALF
     spacing = WIDE * half / CELLS
     axis = (np.arange(CELLS) - 0.5 * (CELLS - 1)) * spacing
     far = np.maximum(np.abs(axis)[:, None], np.abs(axis)) / half
     fading = 0.5 + 0.5 * np.cos(np.pi * np.clip((far - FADING[0]) / (FADING[1] - FADING[0]), 0, 1))
+    heights = np.asarray(surface.heights(*np.meshgrid(axis, axis, indexing="ij"))) * fading
     hertz = ellipse_contact(radii=(RADIUS, RADIUS), contact_modulus=MODULUS, load=touching_films.BALL_LOAD)
-    rows = []
-    for surface, case in zip(touching_films.SURFACES, found("touching_films")["cases"], strict=True):
-        heights = np.asarray(surface.heights(*np.meshgrid(axis, axis, indexing="ij"))) * fading
-        for solved in case["rows"]:
-            shared, speeds = touching_films.BALL | {"lubricant": OIL}, (0.0, solved["speed"])
-            smooth = solve_point_film(**shared, speeds=speeds, contact_modulus=MODULUS, shape=(64, 64))
-            ripples = film_ripples(smooth, hertz, (heights, None), (spacing, spacing))
-            row = {"surface": case["surface"], "solved": solved["film"]["contact_load_share"]}
-            row |= {"solved, friction": solved["film"]["traction_coefficient"]}
-            bodies = {"bodies": (Body(STEEL),) * 2}
-            row |= shares(ripples, (heights, np.zeros_like(heights)), speeds, shared | bodies)
-            rows.append(row)
-            print(row, flush=True)
-    return rows
+    shared, speeds = touching_films.BALL | {"lubricant": OIL}, (0.0, solved["speed"])
+    smooth = solve_point_film(**shared, speeds=speeds, contact_modulus=MODULUS, shape=(64, 64))
+    ripples = film_ripples(smooth, hertz, (heights, None), (spacing, spacing))
+    row = {"surface": case["surface"], "solved": solved["film"]["contact_load_share"]}
+    row |= {"solved, friction": solved["film"]["traction_coefficient"]}
+    return row | shares(ripples, (heights, np.zeros_like(heights)), speeds, shared | {"bodies": (Body(STEEL),) * 2})
 
 
-def moving() -> list[dict[str, Any]]:
-    """Return the rows of pairs of moving surfaces."""
-    rows = []
+def moving_cases() -> list[dict[str, Any]]:
+    """Return the pairs of moving surfaces of `wave_ripples`, with what their marches left."""
     stored = found("wave_ripples")
-    for case in stored["design"] + stored["judged"]:
-        arguments: Any = point_arguments(case["load"], case["oil"])
-        mean = arguments["speeds"][0]
-        speeds = (mean * (1 + 0.5 * case["slide_roll_ratio"]), mean * (1 - 0.5 * case["slide_roll_ratio"]))
-        arguments["speeds"] = speeds
-        smooth = solve_point_film(**arguments, shape=wave_ripples.CELLS)
-        hertz = ellipse_contact(radii=arguments["radii"], contact_modulus=MOVING_MODULUS, load=arguments["load"])
-        radius = hertz.semi_axes[0]
-        patch = Grid((wave_ripples.PATCH,) * 2, (8 * radius / wave_ripples.PATCH,) * 2, periodic=(True, True))
-        spacing = WIDE * radius / CELLS
-        axis = (np.arange(CELLS) - 0.5 * (CELLS - 1)) * spacing
-        x, y = np.meshgrid(axis, axis, indexing="ij")
-        end = (wave_ripples.RAMP / mean + 3.2 / min(speeds)) * radius
-        both = []
-        for body, speed in enumerate(speeds):
-            surface = generate_surface(
-                patch,
-                rms_height=smooth.central_thickness / case["lambda"] / math.sqrt(2),
-                seed=int(case["seed"]) + body,
-                hurst=0.8,
-                cutoff_wavelength=wave_ripples.SHORTEST * radius,
-                rolloff_wavelength=wave_ripples.LONGEST * radius,
-            )
-            both.append(np.asarray(MeasuredHeights(surface, patch.spacing, repeated=True)(x - speed * end, y)))
-        heights = (both[0], both[1])
-        ripples = film_ripples(smooth, hertz, heights, (spacing, spacing))
-        shared = {name: arguments[name] for name in ("load", "radii", "lubricant")}
-        shared["bodies"] = Body(Material("both", youngs_modulus=MOVING_MODULUS, poissons_ratio=0.0))
-        row = {"slide_roll_ratio": case["slide_roll_ratio"], "asked": case["lambda"]}
-        row |= {"solved": case["touching"]["load_share"], "marched film": case["minimum"]["marched"]}
-        row |= shares(ripples, heights, speeds, shared)
-        rows.append(row)
-        print(row, flush=True)
-    return rows
+    return list(stored["design"] + stored["judged"])
+
+
+def of_moving(case: dict[str, Any]) -> dict[str, Any]:
+    """Return the row of a pair of moving surfaces."""
+    arguments: Any = point_arguments(case["load"], case["oil"])
+    mean = arguments["speeds"][0]
+    speeds = (mean * (1 + 0.5 * case["slide_roll_ratio"]), mean * (1 - 0.5 * case["slide_roll_ratio"]))
+    arguments["speeds"] = speeds
+    smooth = solve_point_film(**arguments, shape=wave_ripples.CELLS)
+    hertz = ellipse_contact(radii=arguments["radii"], contact_modulus=MOVING_MODULUS, load=arguments["load"])
+    radius = hertz.semi_axes[0]
+    patch = Grid((wave_ripples.PATCH,) * 2, (8 * radius / wave_ripples.PATCH,) * 2, periodic=(True, True))
+    spacing = WIDE * radius / CELLS
+    axis = (np.arange(CELLS) - 0.5 * (CELLS - 1)) * spacing
+    x, y = np.meshgrid(axis, axis, indexing="ij")
+    end = (wave_ripples.RAMP / mean + 3.2 / min(speeds)) * radius
+    both = []
+    for body, speed in enumerate(speeds):
+        surface = generate_surface(
+            patch,
+            rms_height=smooth.central_thickness / case["lambda"] / math.sqrt(2),
+            seed=int(case["seed"]) + body,
+            hurst=0.8,
+            cutoff_wavelength=wave_ripples.SHORTEST * radius,
+            rolloff_wavelength=wave_ripples.LONGEST * radius,
+        )
+        both.append(np.asarray(MeasuredHeights(surface, patch.spacing, repeated=True)(x - speed * end, y)))
+    heights = (both[0], both[1])
+    ripples = film_ripples(smooth, hertz, heights, (spacing, spacing))
+    shared = {name: arguments[name] for name in ("load", "radii", "lubricant")}
+    shared["bodies"] = Body(Material("both", youngs_modulus=MOVING_MODULUS, poissons_ratio=0.0))
+    row = {"slide_roll_ratio": case["slide_roll_ratio"], "asked": case["lambda"]}
+    row |= {"solved": case["touching"]["load_share"], "marched film": case["minimum"]["marched"]}
+    return row | shares(ripples, heights, speeds, shared)
 
 
 def main() -> None:
     """Both sets."""
-    rows: dict[str, list[dict[str, Any]]] = {"moving": moving(), "at rest": at_rest()}
-    keep(result_of("wave_sharing"), rounded(rows))
+    rows: dict[str, list[dict[str, Any]]] = {"moving": [], "at rest": []}
+    for case in moving_cases():
+        rows["moving"].append(rounded(of_moving(case)))
+        print(rows["moving"][-1], flush=True)
+    for number, place in cases_at_rest():
+        rows["at rest"].append(rounded(of_rest(number, place)))
+        print(rows["at rest"][-1], flush=True)
+    keep(result_of("wave_sharing"), rows)
 
 
 if __name__ == "__main__":

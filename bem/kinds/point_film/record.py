@@ -7,8 +7,8 @@ from functools import partial
 from typing import Annotated
 
 from bem.grid import FloatArray
-from bem.scenes import waves
 from bem.scenes.records import LAMBDA_WHOLE, OIL, OIL_SCATTER, Figure, Record, Series
+from bem.scenes.waves import WaveRecord
 
 _SPIKE = "the pressure spike before the outlet is narrower than the cells, and its height follows them"
 _GIVEN = partial(Figure, unjudged=True)
@@ -17,7 +17,7 @@ _of_rough = partial(Figure, optional=True)
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class PointFilmRecord(Record):
+class PointContactRecord(Record):
     """One steady motion."""
 
     central_thickness: Annotated[float, Figure("nm", "central film thickness", headline=True)]
@@ -44,13 +44,6 @@ class PointFilmRecord(Record):
     oil_on_contact: Annotated[
         float | None, _of_rough("", "shear of the oil where surfaces touch, over load, in no sum", unjudged=True)
     ] = None
-    film_ripple: waves.FilmRipple = None
-    pressure_ripple: waves.PressureRipple = None
-    ripple_over_heights: waves.RippleOverHeights = None
-    film_over_ripple: waves.FilmOverRipple = None
-    rough_minimum_thickness: waves.RoughMinimum = None
-    meeting_area_share: waves.MeetingShare = None
-    rough_rms: waves.RoughRms = None
     load: Annotated[float, _GIVEN("N", "load")]
     hertz_pressure: Annotated[float, _GIVEN("Pa", "highest pressure of the dry contact")]
     half_axis_x: Annotated[float, _GIVEN("um", "half-axis of the dry contact along x")]
@@ -76,15 +69,13 @@ class PointFilmRecord(Record):
     surface_heights: Annotated[FloatArray | None, Series(("x", "y"), "m", "heights of the rough body", of="first")] = (
         None
     )
-    patch_x: waves.PatchX = None
-    patch_y: waves.PatchY = None
-    rough_heights: waves.RoughHeights = None
-    rough_thickness: waves.RoughThickness = None
-    rough_pressure: waves.RoughPressure = None
-    film_ripple_field: waves.FilmRippleField = None
-    pressure_ripple_field: waves.PressureRippleField = None
     along: Annotated[FloatArray, Series(("along",), "1", "x and y over the half-axes of the dry contact")]
     thickness_along: Annotated[FloatArray, Series(("along",), "m", "film thickness along x")]
     thickness_across: Annotated[FloatArray, Series(("along",), "m", "film thickness along y")]
     pressure_along: Annotated[FloatArray, Series(("along",), "Pa", "film pressure along x")]
     pressure_across: Annotated[FloatArray, Series(("along",), "Pa", "film pressure along y")]
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class PointFilmRecord(WaveRecord, PointContactRecord):
+    """One steady motion; with `film.roughness = "waves"` the ripples of its film."""

@@ -7,8 +7,8 @@ from functools import partial
 from typing import Annotated
 
 from bem.grid import FloatArray
-from bem.scenes import waves
 from bem.scenes.records import LAMBDA_WHOLE, OIL, OIL_SCATTER, Figure, Record, Series
+from bem.scenes.waves import WaveRecord
 
 _along = partial(Series, ("x",))
 _HOTTEST = "in pure rolling the highest temperature lies at the pressure spike and follows the mesh"
@@ -18,7 +18,7 @@ _of_supply, _hot = partial(Figure, optional=True), partial(Figure, "C", part_of=
 
 
 @dataclass(frozen=True, eq=False, kw_only=True)
-class TractionRecord(Record):
+class RollerRecord(Record):
     """One steady motion; temperatures only with heat."""
 
     traction_coefficient: Annotated[float, Figure("", "friction coefficient: friction force over load", headline=True)]
@@ -51,13 +51,6 @@ class TractionRecord(Record):
     meniscus_position: Annotated[float | None, _of_supply("um", "position of the inlet meniscus")] = None
     inlet: Annotated[float | None, _of_supply("", "filled inlet before Hertz' contact over its natural length")] = None
     energy_imbalance: Annotated[float | None, Figure("", "friction power less all of these", no_bar=_ALGEBRA)] = None
-    film_ripple: waves.FilmRipple = None
-    pressure_ripple: waves.PressureRipple = None
-    ripple_over_heights: waves.RippleOverHeights = None
-    film_over_ripple: waves.FilmOverRipple = None
-    rough_minimum_thickness: waves.RoughMinimum = None
-    meeting_area_share: waves.MeetingShare = None
-    rough_rms: waves.RoughRms = None
     newton_steps: Annotated[int, Figure("", "Newton steps of all films", unjudged=True)]
     x: Annotated[FloatArray, _along("1", "x over the Hertz half-width, along the entrainment")]
     pressure: Annotated[FloatArray, _along("Pa", "film pressure")]
@@ -68,10 +61,8 @@ class TractionRecord(Record):
     heat_made: Annotated[FloatArray | None, _along("W/m^2", "heat made by friction")] = None
     height: Annotated[FloatArray | None, Series(("height",), "1", "height in the film, from the lower surface")] = None
     field: Annotated[FloatArray | None, Series(("x", "height"), "K", "temperature of the oil across the film")] = None
-    patch_x: waves.PatchX = None
-    patch_y: waves.PatchY = None
-    rough_heights: waves.RoughHeights = None
-    rough_thickness: waves.RoughThickness = None
-    rough_pressure: waves.RoughPressure = None
-    film_ripple_field: waves.FilmRippleField = None
-    pressure_ripple_field: waves.PressureRippleField = None
+
+
+@dataclass(frozen=True, eq=False, kw_only=True)
+class TractionRecord(WaveRecord, RollerRecord):
+    """One steady motion; with `film.roughness = "waves"` the ripples of its film."""
