@@ -98,18 +98,37 @@ class _State:
 
 
 @dataclass
-class _March:
-    """Contact along a path: its bodies, its prescribed quantity, and counts of the contacts solved so far."""
+class _Counts:
+    """Contacts solved so far, those of refused steps included.
+
+    residual : the largest one. failed : status of the first contact that did not converge.
+    """
+
+    steps: int = 0
+    residual: float = 0.0
+    failed: Status | None = None
+
+    def add(self, contact: ContactSolution) -> None:
+        """Count a contact."""
+        self.steps += 1
+        self.residual = max(self.residual, contact.residual)
+        if contact.status is not Status.CONVERGED and self.failed is None:
+            self.failed = contact.status
+
+
+@dataclass(frozen=True, eq=False)
+class _Path:
+    """Bodies of a path, and what is prescribed along it.
+
+    gap : undeformed [m]. control : "load" or "approach". counts : of the contacts that `step` solves.
+    """
 
     gap: FloatArray
     operator: DisplacementOperator
     compliance: PairCompliance
     control: str
     tolerance: float
-    steps: int = 0
-    residual: float = 0.0
-    failed: Status | None = None
-    before: float = field(default=0.0)
+    counts: _Counts = field(default_factory=_Counts)
 
     def step(self, state: _State | None, duration: float, value: float) -> _State:
         """Return the state after a step [s] at whose end the load [N] or approach [m] is `value`."""
@@ -135,10 +154,7 @@ class _March:
             tolerance=self.tolerance,
             initial_pressure=scale * old_p if old_p.any() else None,
         )
-        self.steps += 1
-        self.residual = max(self.residual, contact.residual)
-        if contact.status is not Status.CONVERGED and self.failed is None:
-            self.failed = contact.status
+        self.counts.add(contact)
         p, elastic = contact.pressure / scale, contact.displacement / scale
         moved = tuple(
             (e * q + a * old_p + b * p, e * displaced + a * old_elastic + b * elastic)
@@ -220,32 +236,32 @@ def follow_times(
     """
     name = "follow_times"
     compliance = pair_compliance(operator, name)
-    control, path = _checked_path(times, loads, approaches, accuracy)
-    march = _March(np.asarray(gap, dtype=np.float64), operator, compliance, control, tolerance)
-    march.before = operator.count.weighted
-    state = march.step(None, 0.0, path[1][0])
-    highest = max(path[1])
-    stiffest = state if highest == path[1][0] else march.step(None, 0.0, highest)
+    control, (corners, prescribed) = _checked_path(times, loads, approaches, accuracy)
+    path = _Path(np.asarray(gap, dtype=np.float64), operator, compliance, control, tolerance)
+    before = operator.count.weighted
+    state = path.step(None, 0.0, prescribed[0])
+    highest = max(prescribed)
+    stiffest = state if highest == prescribed[0] else path.step(None, 0.0, highest)
     scale = float(np.sum(stiffest.pressure)) or 1.0
-    found = [(path[0][0], state)]
-    for first in range(len(path[0]) - 1):
-        ends, values = path[0][first : first + 2], path[1][first : first + 2]
+    found = [(corners[0], state)]
+    for first in range(len(corners) - 1):
+        ends, values = corners[first : first + 2], prescribed[first : first + 2]
         if ends[1] == ends[0]:
-            found.append((ends[1], march.step(found[-1][1], 0.0, values[1])))
+            found.append((ends[1], path.step(found[-1][1], 0.0, values[1])))
         elif steps is not None:
             inside = [float(t) for t in steps if ends[0] < t < ends[1]]
             for t in [*inside, ends[1]]:
                 value = float(np.interp(t, ends, values))
-                found.append((t, march.step(found[-1][1], t - found[-1][0], value)))
+                found.append((t, path.step(found[-1][1], t - found[-1][0], value)))
         else:
-            found += _adaptive(march, found[-1][1], ends, values, accuracy * scale)
+            found += _adaptive(path, found[-1][1], ends, values, accuracy * scale)
         if callback is not None:
             callback(found[-1][0], found[-1][1].contact)
-    return _history(march, found)
+    return _history(path, found, operator.count.weighted - before)
 
 
 def _adaptive(
-    march: _March, state: _State, ends: Sequence[float], values: Sequence[float], allowed: float
+    path: _Path, state: _State, ends: Sequence[float], values: Sequence[float], allowed: float
 ) -> list[tuple[float, _State]]:
     """Return the states of an interval, in pairs of equal steps whose length follows the change of the pressure."""
     time, found, refused = ends[0], [], 0
@@ -256,8 +272,8 @@ def _adaptive(
         middle, last = time + length, time + 2 * length
         if last >= ends[1] * (1 - 1e-15) or last > ends[1] - 1e-9 * (ends[1] - ends[0]):
             last = ends[1]
-        one = march.step(state, length, float(np.interp(middle, ends, values)))
-        two = march.step(one, length, float(np.interp(last, ends, values)))
+        one = path.step(state, length, float(np.interp(middle, ends, values)))
+        two = path.step(one, length, float(np.interp(last, ends, values)))
         error = float(np.sum(np.abs(two.pressure - 2 * one.pressure + state.pressure))) / 8
         factor = 0.9 * (allowed / error) ** 0.5 if error > 0 else _LONGEST
         if error > allowed and refused < _REFUSALS:
@@ -271,11 +287,11 @@ def _adaptive(
     return found
 
 
-def _history(march: _March, found: list[tuple[float, _State]]) -> ViscoelasticHistory:
+def _history(path: _Path, found: list[tuple[float, _State]], convolutions: float) -> ViscoelasticHistory:
     """Return the history of the states."""
     contacts = [state.contact for _, state in found]
     load, approach = (np.array([getattr(c, key) for c in contacts]) for key in ("load", "approach"))
-    stored = np.array([march.stored(state) for _, state in found])
+    stored = np.array([path.stored(state) for _, state in found])
     dissipated = np.array([state.dissipated for _, state in found])
     # at a jump the response is elastic: the work is what is stored
     time = np.array([t for t, _ in found])
@@ -290,11 +306,11 @@ def _history(march: _March, found: list[tuple[float, _State]]) -> ViscoelasticHi
         work=stored[0] + np.concatenate([[0.0], np.cumsum(done)]),
         stored=stored,
         dissipated=dissipated,
-        last=replace(contacts[-1], residual=march.residual),
-        steps=march.steps,
-        convolutions=march.operator.count.weighted - march.before,
-        residual=march.residual,
-        status=march.failed or Status.CONVERGED,
+        last=replace(contacts[-1], residual=path.counts.residual),
+        steps=path.counts.steps,
+        convolutions=convolutions,
+        residual=path.counts.residual,
+        status=path.counts.failed or Status.CONVERGED,
     )
 
 
