@@ -10,29 +10,19 @@ import numpy as np
 
 from bem.errors import Status
 from bem.grid import FloatArray, Grid
-from bem.kinds.contact.adhesive import adhesion_notes, adhesive_arrays, adhesive_figures, total_contact
 from bem.kinds.contact.errors import bars_of
 from bem.kinds.contact.record import ContactRecord
+from bem.kinds.contact.response import solve_response
 from bem.kinds.contact.scene import ContactScene
-from bem.kinds.contact.solve import solve_adhesive, solve_scene
-from bem.kinds.contact.viscoelastic import (
-    relaxed_arrays,
-    relaxed_contact,
-    relaxed_figures,
-    relaxed_notes,
-    solve_relaxing,
-)
 from bem.materials import softer_hardness
 from bem.notes import Level, Note, has_code
 from bem.notes.contact import CONTACT_AT_EDGE
-from bem.notes.scenes import BODIES_APART
 from bem.numerics.blocks import deviation
 from bem.scenes import build
 from bem.scenes.context import Context, error_bars, release, set_aside, tell
 from bem.scenes.cut_off import is_cut_off
 
 if TYPE_CHECKING:
-    from bem.adhesion import AdhesiveHistory
     from bem.contact import ContactSolution
     from bem.stress import StressSummary
 
@@ -52,54 +42,39 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
     roughness |= _combined_roughness(scene, grid, lower, upper)
     rough = {name: set_aside(context, heights) for name, heights in rough.items()}
     del lower, upper
-    path: AdhesiveHistory | None = None
     with context.timer("contact"):
-        relaxed = solve_relaxing(scene, grid, undeformed, context)
-        if relaxed is not None:
-            solution, history = relaxed_contact(relaxed), np.zeros((0, 2))
-            tell(context, relaxed_notes(scene, grid, relaxed))
-        elif scene.contact.adhesion is None:
-            solution, history = solve_scene(scene, grid, undeformed, context)
-        else:
-            path = solve_adhesive(scene, grid, undeformed, context)
-            solution, history = total_contact(path), np.zeros((0, 2))
-            tell(context, adhesion_notes(scene, grid, path))
+        response = solve_response(scene, grid, undeformed, context)
+        solution = response.contact
+        tell(context, response.notes(scene, grid))
     tell(context, _cut_off(scene, grid, solution))
-    if path is None:
-        tell(context, _standing_off(solution))
+    tell(context, response.notes_apart())
     below: StressSummary | None = None
     if scene.wanted_depths():
         with context.timer("stresses"):
-            traction = solution.pressure if path is None else path.last.traction
-            below = _stresses(scene, grid, traction, context)
+            below = _stresses(scene, grid, response.traction, context)
     wanted = scene.outputs.errors and solution.status is Status.CONVERGED
     if "combined_Sdq" in roughness and scene.shape.kind == "flat":
         pressed = build.modulus_of(scene) * roughness["combined_Sdq"] * grid.area
         roughness["reduced_pressure"] = float(solution.load) / pressed
     errors = error_bars(
-        context, wanted, lambda: bars_of(scene, undeformed, solution, below, rough, context, path, relaxed)
+        context, wanted, lambda: bars_of(scene, undeformed, response, below, context, rough=bool(rough))
     )
     changes: dict[str, Any] = {}
-    if scene.uncertain and path is None and relaxed is None and solution.status is Status.CONVERGED:
+    if scene.uncertain and response.differentiable and solution.status is Status.CONVERGED:
         from bem.kinds.contact.uncertain import input_changes
 
         with context.timer("uncertain inputs"):
             changes = input_changes(scene, grid, undeformed, solution, context)
     figures: dict[str, Any] = figures_of(solution, grid.area) | counted_figures(solution, grid)
-    if path is not None:
-        assert scene.contact.adhesion is not None
-        figures |= adhesive_figures(path, scene.contact.adhesion)
-    if relaxed is not None:
-        figures |= relaxed_figures(relaxed)
+    figures |= response.figures(scene)
     return ContactRecord(
         **figures,
         **roughness,
         lower_height=rough.get("lower"),
         upper_height=rough.get("upper"),
         **_stress_fields(below),
-        **_coating_fields(scene, grid, solution.pressure if path is None else path.last.traction, below),
-        **({} if path is None else adhesive_arrays(path)),
-        **({} if relaxed is None else relaxed_arrays(scene, relaxed)),
+        **_coating_fields(scene, grid, response.traction, below),
+        **response.arrays(scene),
         residual=solution.residual,
         iterations=solution.iterations,
         convolutions=solution.convolutions,
@@ -108,8 +83,6 @@ def run(scene: ContactScene, context: Context) -> ContactRecord:
         pressure=solution.pressure,
         displacement=solution.displacement,
         gap=solution.gap,
-        iteration=history[:, 0].astype(np.int64) if len(history) else None,
-        residual_history=history[:, 1] if len(history) else None,
         contact_state=contact_state(solution.pressure, scene.contact.hardness),
         undeformed_gap=undeformed,
         plastic_depth=solution.plastic_depth if np.any(solution.plastic_depth) else None,
@@ -206,16 +179,6 @@ def _cut_off(scene: ContactScene, grid: Grid, solution: ContactSolution) -> tupl
         else note
         for note in notes
     )
-
-
-def _standing_off(solution: ContactSolution) -> tuple[Note, ...]:
-    """Return the note on bodies that do not touch, so that figures of zero are not taken for those of a contact."""
-    if solution.pressure.any() or solution.status is not Status.CONVERGED or solution.approach >= 0:
-        return ()
-    from bem.accuracy.coarsened import mean_opening
-
-    touching = mean_opening(solution.gap) + solution.approach
-    return (BODIES_APART(apart=float(-solution.approach), touching=float(touching)),)
 
 
 def _stresses(scene: ContactScene, grid: Grid, pressure: FloatArray, context: Context) -> StressSummary:

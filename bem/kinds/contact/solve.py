@@ -7,8 +7,11 @@ from typing import TYPE_CHECKING
 
 import numpy as np
 
+from bem.errors import Status
 from bem.grid import FloatArray, Grid
 from bem.kinds.contact.scene import ContactScene
+from bem.notes import Note
+from bem.notes.scenes import BODIES_APART
 from bem.scenes import build
 from bem.scenes.context import Context
 from bem.scenes.packing import keep, kept, kept_coarser
@@ -85,6 +88,16 @@ def solve_adhesive(scene: ContactScene, grid: Grid, undeformed: FloatArray, cont
     )
     keep(context, history)
     return history
+
+
+def standing_off(solution: ContactSolution) -> tuple[Note, ...]:
+    """Return the note on bodies that do not touch, so that figures of zero are not taken for those of a contact."""
+    if solution.pressure.any() or solution.status is not Status.CONVERGED or solution.approach >= 0:
+        return ()
+    from bem.accuracy.coarsened import mean_opening
+
+    touching = mean_opening(solution.gap) + solution.approach
+    return (BODIES_APART(apart=float(-solution.approach), touching=float(touching)),)
 
 
 def adhesion_tolerance(scene: ContactScene) -> float:

@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import dataclass, replace
 from typing import TYPE_CHECKING, Any
 
 from bem.grid import FloatArray, Grid
 from bem.kinds.contact.scene import ContactScene
+from bem.kinds.contact.solve import standing_off
 from bem.notes import Note
 from bem.notes.contact import HYSTERESIS_UNBALANCED
 from bem.scenes import build
@@ -13,7 +15,9 @@ from bem.scenes.context import Context
 from bem.scenes.packing import keep, kept
 
 if TYPE_CHECKING:
+    from bem.accuracy import ContactCase, ErrorBars
     from bem.contact import ContactSolution
+    from bem.stress import StressSummary
     from bem.viscoelastic import SteadySolution, ViscoelasticHistory
 
     Relaxed = ViscoelasticHistory | SteadySolution
@@ -49,28 +53,68 @@ def solve_relaxing(scene: ContactScene, grid: Grid, undeformed: FloatArray, cont
     return solved
 
 
-def relaxed_contact(solved: Relaxed) -> ContactSolution:
-    """Return the contact at the end of the path, or in steady motion, with the convolutions and status of the whole."""
-    from dataclasses import replace
+@dataclass(frozen=True, eq=False)
+class RelaxedResponse:
+    """Contact of bodies that relax, along a path in time or in steady motion; a `Response`."""
 
-    from bem.viscoelastic import SteadySolution
+    solved: Relaxed
 
-    contact = solved.contact if isinstance(solved, SteadySolution) else solved.last
-    return replace(contact, convolutions=solved.convolutions, status=solved.status)
+    differentiable = False
 
+    @property
+    def contact(self) -> ContactSolution:
+        """See `Response`."""
+        from bem.viscoelastic import SteadySolution
 
-def relaxed_figures(solved: Relaxed) -> dict[str, float]:
-    """Return the figures of a contact of bodies that relax which no elastic one has."""
-    from bem.viscoelastic import SteadySolution
+        contact = self.solved.contact if isinstance(self.solved, SteadySolution) else self.solved.last
+        return replace(contact, convolutions=self.solved.convolutions, status=self.solved.status)
 
-    if isinstance(solved, SteadySolution):
+    @property
+    def traction(self) -> FloatArray:
+        """See `Response`."""
+        return self.contact.pressure
+
+    def notes(self, scene: ContactScene, grid: Grid) -> tuple[Note, ...]:
+        """See `Response`."""
+        return relaxed_notes(scene, grid, self.solved)
+
+    def notes_apart(self) -> tuple[Note, ...]:
+        """See `Response`."""
+        return standing_off(self.contact)
+
+    def figures(self, scene: ContactScene) -> dict[str, float]:
+        """See `Response`."""
+        from bem.viscoelastic import SteadySolution
+
+        if isinstance(self.solved, SteadySolution):
+            return {
+                "hysteresis_friction": self.solved.friction,
+                "hysteresis_force": self.solved.friction_force,
+                "dissipated_power": self.solved.dissipated_power,
+                "energy_imbalance": self.solved.imbalance,
+            }
+        return {"dissipated_energy": float(self.solved.dissipated[-1]), "energy_imbalance": self.solved.imbalance}
+
+    def arrays(self, scene: ContactScene) -> dict[str, Any]:
+        """Return the path in time, or the speed of steady motion."""
+        from bem.viscoelastic import SteadySolution
+
+        if isinstance(self.solved, SteadySolution):
+            return {"contact_speed": scene.contact.sliding_speed or scene.contact.rolling_speed}
         return {
-            "hysteresis_friction": solved.friction,
-            "hysteresis_force": solved.friction_force,
-            "dissipated_power": solved.dissipated_power,
-            "energy_imbalance": solved.imbalance,
+            "path_time": self.solved.time,
+            "path_load": self.solved.load,
+            "path_approach": self.solved.approach,
+            "path_contact_area": self.solved.contact_area,
         }
-    return {"dissipated_energy": float(solved.dissipated[-1]), "energy_imbalance": solved.imbalance}
+
+    def bars(self, scene: ContactScene, case: ContactCase, below: StressSummary | None, context: Context) -> ErrorBars:
+        """See `Response`; those of stresses are not known."""
+        from bem.accuracy.viscoelastic import relaxed_bars
+
+        control = scene.contact
+        path = control.path(case.grid.area) if control.times else None
+        return relaxed_bars(case, self.solved, speeds=scene.speeds, times=control.times, path=path)
 
 
 def relaxed_notes(scene: ContactScene, grid: Grid, solved: Relaxed) -> tuple[Note, ...]:
@@ -89,17 +133,3 @@ def relaxed_notes(scene: ContactScene, grid: Grid, solved: Relaxed) -> tuple[Not
     ]
     cell = grid.spacing[0]
     return (HYSTERESIS_UNBALANCED(reason="power", share=solved.imbalance, length=max(lengths), cell=cell),)
-
-
-def relaxed_arrays(scene: ContactScene, solved: Relaxed) -> dict[str, Any]:
-    """Return the path in time, or the speed of steady motion."""
-    from bem.viscoelastic import SteadySolution
-
-    if isinstance(solved, SteadySolution):
-        return {"contact_speed": scene.contact.sliding_speed or scene.contact.rolling_speed}
-    return {
-        "path_time": solved.time,
-        "path_load": solved.load,
-        "path_approach": solved.approach,
-        "path_contact_area": solved.contact_area,
-    }
