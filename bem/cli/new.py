@@ -3,9 +3,12 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Annotated
+from typing import TYPE_CHECKING, Annotated
 
 import typer
+
+if TYPE_CHECKING:
+    from bem.scenes.own_surfaces import MapScale
 
 
 def complete_kind(incomplete: str) -> list[str]:
@@ -41,6 +44,13 @@ def register(app: typer.Typer) -> None:
             typer.Option(metavar="FILE", help="Measured surface of the lower body; the mesh is chosen to fit it."),
         ] = None,
         upper: Annotated[str | None, typer.Option(metavar="FILE", help="Measured surface of the upper body.")] = None,
+        spacing: Annotated[
+            str | None,
+            typer.Option(help='Distance of points of a file that does not say it, "0.5 um" or "0.5 um,1 um".'),
+        ] = None,
+        height_unit: Annotated[
+            str | None, typer.Option(help="Unit of the heights of a file that does not say it, such as nm.")
+        ] = None,
     ) -> None:
         """Write a commented scene of a kind to start from: the keys that every user sets, with meaning and unit.
 
@@ -53,6 +63,7 @@ def register(app: typer.Typer) -> None:
           bem new stribeck
           bem new gear-pair gears.toml
           bem new running-in mine.toml --lower disk.al3d --upper pin.x3p
+          bem new contact mine.toml --lower disk.txt --spacing "0.5 um" --height-unit nm
         """
         from bem.cli._terminal import print_written
         from bem.errors import InputError, ResultsError
@@ -71,7 +82,12 @@ def register(app: typer.Typer) -> None:
         surfaces = {body: one for body, one in (("lower", lower), ("upper", upper)) if one is not None}
         if element and surfaces:
             raise InputError(f"--lower, --upper: {kind} is a machine element; allowed: kinds of scene")
-        text = element or scene_template(kind, everything=everything, surfaces=surfaces, folder=path.resolve().parent)
+        scale = _map_scale(spacing, height_unit)
+        if scale is not None and not surfaces:
+            raise InputError("--spacing, --height-unit: there is no measured surface; allowed: with --lower or --upper")
+        text = element or scene_template(
+            kind, everything=everything, surfaces=surfaces, folder=path.resolve().parent, scale=scale
+        )
         if path.exists():
             raise ResultsError(f"{path}: exists; give another FILE")
         if not path.parent.is_dir():
@@ -80,6 +96,20 @@ def register(app: typer.Typer) -> None:
         after = f"bem element {path}" if element else f"bem plan {path}; bem run {path}"
         print_written(path)
         print(f"next:    {after}")
+
+
+def _map_scale(spacing: str | None, height_unit: str | None) -> MapScale | None:
+    """Return the scale of files that do not say it; None if neither option is given."""
+    if spacing is None and height_unit is None:
+        return None
+    from bem.cli._quantity import pair_of_lengths
+    from bem.errors import InputError
+    from bem.scenes.own_surfaces import MapScale
+    from bem.surfaces.read import METRES
+
+    if height_unit is not None and height_unit not in METRES:
+        raise InputError(f'--height-unit "{height_unit}": allowed: {", ".join(METRES)}')
+    return MapScale(pair_of_lengths(spacing, "--spacing"), height_unit)
 
 
 def element_text(name: str) -> str:

@@ -60,7 +60,7 @@ def sweep(
     """
     from bem.cli._streams import results_saved
     from bem.cli._terminal import print_points, resumable
-    from bem.runs.sweep import DATASET, FIGURE, TABLE, run_sweep
+    from bem.runs.sweep import DATASET, TABLE, run_sweep
 
     with resumable() as terminal:
         done = run_sweep(
@@ -80,9 +80,11 @@ def sweep(
     results_saved()
     print_points(done.figures)
     print(f"points computed: {done.computed}")
-    for what, name in (("dataset", DATASET), ("table  ", TABLE), ("figure ", f"{FIGURE}.png")):
+    for what, name in (("dataset", DATASET), ("table  ", TABLE)):
         if (done.path / name).exists():
             print(f"{what}: {done.path / name}")
+    for path in done.drawn:
+        print(f"figure : {path}")
     if done.failed:  # each was told as it failed
         typer.echo(f"bem: failed points: {len(done.failed)}; {done.path / TABLE} says why", err=True)
     for folder in done.not_converged:

@@ -117,19 +117,20 @@ def check_steady(grid: Grid, bodies: Sequence[Conductor]) -> None:
     ------
     InputError : a grid periodic along x, or periodic along y under a body at rest.
     """
-    advice = (
-        "make the grid free along that axis, wide enough for the heat to spread, or ask for the temperature after a "
-        "time: surface_temperature_history"
-    )
+    history = "or ask for the temperature after a time (surface_temperature_history)"
     if grid.periodic[0]:
         raise InputError(
             "surface_temperature: the grid is periodic along x, so that the same heat is made on every period behind "
-            f"another for ever and no steady temperature exists; {advice}"
+            "another for ever and no steady temperature exists; make the grid free along x, wide enough for the heat "
+            "to spread (in a scene grid.periodic = false, or [false, true] for a slice of a long cylinder between "
+            f"moving bodies), {history}"
         )
     if grid.periodic[1] and any(body.speed == 0 for body in bodies):
         raise InputError(
-            "surface_temperature: the grid is periodic along y and a body does not move (speed 0): under a line of "
-            f"heat at rest no steady temperature exists; {advice}, or give the body the speed that it has"
+            "surface_temperature: the grid is periodic along y and a body does not move (speed 0): under a line source "
+            "at rest the temperature rises for ever, with the logarithm of time, and no steady temperature exists; "
+            "make the grid free along y, as wide as the contact is (in a scene grid.periodic = false with the "
+            f"cylinder's width as length along y), give the body the speed that it has, {history}"
         )
 
 

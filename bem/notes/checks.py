@@ -170,7 +170,7 @@ PERIODIC_GRID = define(
     reasons={
         "body": Reason(
             "The grid is periodic along {axis}, so the {shape} repeats every {length:si m}{near}.",
-            "For one body make that axis free.",
+            "Set grid.periodic = {single} for a single {shape}.",
             headline="The curved body repeats with the periodic grid.",
         ),
         "wave": Reason(

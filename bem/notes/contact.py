@@ -21,12 +21,14 @@ CONTACT_AT_EDGE = define(
         ),
         "pressed": Reason(
             "Cells at the ends of {axes} carry pressure: the bodies are solved as if they ended there.",
-            "Take a larger grid, or a periodic one for a part of a larger contact.",
+            "Take a larger grid, or a periodic one for a part of a larger contact; of a long cylinder, a slice that is"
+            " periodic along y only (grid.periodic = [false, true]).",
         ),
         "share": Reason(
             "It reaches the ends of {axes}, whose outermost cells carry {share:%} of the load: the bodies are solved"
             " as if they ended there.",
-            "Take a larger grid, or a periodic one for a part of a larger contact.",
+            "Take a larger grid, or a periodic one for a part of a larger contact; of a long cylinder, a slice that is"
+            " periodic along y only (grid.periodic = [false, true]).",
         ),
     },
 )

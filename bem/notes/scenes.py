@@ -77,7 +77,10 @@ MAP_ALTERED = define(
     "The measured map was altered.",
     reasons={
         "missing": Reason("{points} points were missing.", headline=_FILLED),
-        "spikes": Reason("{points} points were removed as spikes.", headline=_FILLED),
+        "spikes": Reason(
+            "{points} points were removed as spikes and filled smoothly from their neighbours.",
+            headline="Spikes of the map were removed.",
+        ),
         "much": Reason(
             "{share:%} were missing; instruments lose the steep ones, so the real surface is rougher.",
             "Crop to a part without gaps, or measure again.",

@@ -70,6 +70,7 @@ class FinishedSweep:
     not_converged : folders of points whose solver did not converge.
     figures : the figures that a run shows first, as lists with an entry for each case of each point, behind the
         values of the swept keys; laid out as the summary of a run.
+    drawn : files of its figures.
     """
 
     path: Path
@@ -77,6 +78,7 @@ class FinishedSweep:
     failed: dict[str, str]
     not_converged: tuple[str, ...]
     figures: dict[str, Any] = field(default_factory=dict)
+    drawn: tuple[Path, ...] = ()
 
     @property
     def dataset(self) -> xarray.Dataset:
@@ -170,9 +172,10 @@ def run_sweep(
         _tell_notes(in_order, labels, watcher or Silent())
         variables = _collect(folder, scenes[0], axes, in_order)
         write_text(folder / TABLE, table_text(axes, in_order, names, failed))
+        drawn: list[Path] = []
         if any(in_order):
             spacings = {axis.key: axis.spacing for axis in swept}
-            _draw(folder, scenes[0].kind, variables, spacings, pdf)
+            drawn = _draw(folder, scenes[0].kind, variables, spacings, pdf)
         force_names(folder)
     stuck = [name for name, summary in summaries.items() if summary and summary.get("status") != "converged"]
     shown = summary_of_points(
@@ -181,7 +184,7 @@ def run_sweep(
         in_order,
         (*(scenes[0].over or ()), *get_kind(scenes[0].kind).headline),
     )
-    return FinishedSweep(folder, len(missing) - len(failed), failed, tuple(stuck), shown)
+    return FinishedSweep(folder, len(missing) - len(failed), failed, tuple(stuck), shown, tuple(drawn))
 
 
 def _tell_notes(summaries: Sequence[Mapping[str, Any] | None], labels: Sequence[str], watcher: Watcher) -> None:
@@ -315,8 +318,13 @@ def _collect(
     return variables
 
 
-def _draw(folder: Path, kind: str, variables: dict[str, Variable], spacings: Mapping[str, str], pdf: bool) -> None:
+def _draw(
+    folder: Path, kind: str, variables: dict[str, Variable], spacings: Mapping[str, str], pdf: bool
+) -> list[Path]:
+    """Draw the figures over the swept keys, and those of the kind that show all points; return their files."""
+    from bem.plots.points import draw_points
     from bem.plots.sweep import draw_sweep
 
-    formats = ("png", "pdf") if pdf else ("png",)
-    draw_sweep(variables, spacings, get_kind(kind).headline, folder / FIGURE, formats)
+    formats, found = ("png", "pdf") if pdf else ("png",), get_kind(kind)
+    paths = draw_sweep(variables, spacings, found.headline, folder / FIGURE, formats)
+    return paths + draw_points(variables, kind, found.figures, folder, formats)

@@ -24,6 +24,8 @@ _MOST_FILLED = 0.25
 """Share of missing points of a map above which filling them draws most of what touches."""
 _MOST_SPIKES = 0.005
 """Share of points that may be outliers of an instrument; more of them are texture."""
+_STEEPEST = 3.0
+"""Rms slope above which heights without a unit are not in metres."""
 _MOST_CELLS = 192
 """Cells along an axis of a first mesh: a wear loop of 100 cycles takes some minutes."""
 _MARGIN = 2.2
@@ -66,15 +68,56 @@ class MeasuredMap:
         return self.shape[0] * self.spacing[0], self.shape[1] * self.spacing[1]
 
 
-def read_maps(files: Mapping[str, str], folder: Path) -> dict[str, MeasuredMap]:
+@dataclass(frozen=True)
+class MapScale:
+    """What a file of plain numbers does not say of its map.
+
+    Attributes
+    ----------
+    spacing : distance of points along x and y [m]; None if not given.
+    height_unit : unit of the heights, such as "nm"; None if not given, and heights are then in metres.
+    """
+
+    spacing: tuple[float, float] | None = None
+    height_unit: str | None = None
+
+    @property
+    def given(self) -> dict[str, Any]:
+        """Arguments of `read_surface` that are given."""
+        return {name: value for name, value in vars(self).items() if value is not None}
+
+    @property
+    def keys(self) -> dict[str, Any]:
+        """Keys of the surface's table in a scene."""
+        keys: dict[str, Any] = {}
+        if self.spacing is not None:
+            x, y = (f"{1e6 * side:.9g} um" for side in self.spacing)
+            keys["spacing"] = x if x == y else [x, y]
+        return keys if self.height_unit is None else keys | {"height_unit": self.height_unit}
+
+
+def read_maps(files: Mapping[str, str], folder: Path, scale: MapScale | None = None) -> dict[str, MeasuredMap]:
     """Read the map of each body, by "lower" and "upper"; paths are relative to the folder of the scene file.
+
+    scale : spacing and unit of heights of the files that do not say them.
 
     Raises
     ------
-    InputError : a map with too many missing points.
+    InputError : a map with too many missing points; a scale that is missing, or that no file needs.
     SurfaceFileError : a file that cannot be read.
     """
-    return {body: _read(body, path, folder) for body, path in files.items()}
+    scale = scale or MapScale()
+    found, unstated = {}, False
+    for body, path in files.items():
+        own = _scale_of(body, path, scale)
+        unstated = unstated or own is not None
+        found[body] = _read(body, path, folder, own or MapScale())
+    if scale.given and not unstated:
+        raise InputError(
+            "--spacing, --height-unit: the files say both; allowed: for files of plain numbers (in a scene, the keys "
+            "spacing and height_unit of a surface replace what its file says)"
+        )
+    return found
 
 
 def own_surfaces_start(kind: str, start: Mapping[str, Any], found: Mapping[str, MeasuredMap]) -> dict[str, Any]:
@@ -116,12 +159,44 @@ def own_surfaces_start(kind: str, start: Mapping[str, Any], found: Mapping[str, 
     return data | {"wear": _wear(kind, data, cell)}
 
 
-def _read(body: str, path: str, folder: Path) -> MeasuredMap:
+def _scale_of(body: str, path: str, scale: MapScale) -> MapScale | None:
+    """Return the scale of a file that does not say it; None of other files.
+
+    Raises
+    ------
+    InputError : such a file without a spacing, or in metres by which its slopes are no surface's.
+    """
+    from bem.surfaces import describe_surface, read_surface
+    from bem.surfaces.read import UnstatedScaleError
+
+    name = Path(path).name
+    try:
+        read_surface(path)
+    except UnstatedScaleError:
+        if scale.spacing is None:
+            raise InputError(
+                f"--{body}: {name} does not say how far its points are apart, nor in which unit its heights are; "
+                'allowed: with --spacing and --height-unit, such as --spacing "0.5 um" --height-unit nm'
+            ) from None
+    else:
+        return None
+    if scale.height_unit is None:
+        surface = read_surface(path, spacing=scale.spacing)
+        slope = describe_surface(surface).Sdq
+        if slope > _STEEPEST:
+            raise InputError(
+                f"--{body}: {name} does not say in which unit its heights are, and in metres they would have an rms "
+                f"slope of {slope:.2g}; allowed: with --height-unit, such as nm or um"
+            )
+    return scale
+
+
+def _read(body: str, path: str, folder: Path, scale: MapScale) -> MeasuredMap:
     """Read a map and choose what its table needs: form removal, and despiking where there are outliers."""
     from bem.surfaces import read_surface
     from bem.surfaces.filter import count_spikes
 
-    surface = read_surface(path, detrend="curvature")
+    surface = read_surface(path, detrend="curvature", **scale.given)
     cells = surface.shape[0] * surface.shape[1]
     missing = float(surface.metadata.get("missing_points", 0) or 0) / cells
     if missing > _MOST_FILLED:
@@ -131,11 +206,12 @@ def _read(body: str, path: str, folder: Path) -> MeasuredMap:
             "holes in the instrument's program"
         )
     known = path if example_path(path) is not None else os.path.relpath(path, folder)
-    table: dict[str, Any] = {"kind": "measured", "path": Path(known).as_posix(), "detrend": "curvature"}
+    table: dict[str, Any] = {"kind": "measured", "path": Path(known).as_posix(), **scale.keys}
+    table["detrend"] = "curvature"
     spikes = count_spikes(surface.heights, surface.spacing) / cells
     if 0 < spikes < _MOST_SPIKES:
         table["despike"] = 6
-        surface = read_surface(path, detrend="curvature", despike=6)
+        surface = read_surface(path, detrend="curvature", despike=6, **scale.given)
     return MeasuredMap(surface.shape, surface.spacing, table, float(surface.heights.std()))
 
 

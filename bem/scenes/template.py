@@ -19,7 +19,7 @@ from bem.scenes.validate import nearest, show
 from bem.scenes.values import dumped, typed
 
 if TYPE_CHECKING:
-    from bem.scenes.own_surfaces import MeasuredMap
+    from bem.scenes.own_surfaces import MapScale, MeasuredMap
 
 _MOST_CHOICES = 12
 _WIDEST, _WIDTH = 42, 118
@@ -38,6 +38,7 @@ def scene_template(
     everything: bool = False,
     surfaces: Mapping[str, str] | Mapping[str, MeasuredMap] | None = None,
     folder: Path | None = None,
+    scale: MapScale | None = None,
 ) -> str:
     """Return a TOML scene that runs as it is: the keys that every user sets, each with its meaning and unit.
 
@@ -48,6 +49,7 @@ def scene_template(
     surfaces : files of measured surfaces, or maps that were read, by body, "lower" and "upper", in place of generated
         roughness.
     folder : of the scene file, to which the paths are relative; the working folder if None.
+    scale : spacing and unit of heights of files of measured surfaces that do not say them.
 
     Raises
     ------
@@ -72,7 +74,7 @@ def scene_template(
 
         files = {body: one for body, one in surfaces.items() if isinstance(one, str)}
         maps = {body: one for body, one in surfaces.items() if not isinstance(one, str)}
-        data = own_surfaces_start(kind, data, maps | read_maps(files, folder or Path.cwd()))
+        data = own_surfaces_start(kind, data, maps | read_maps(files, folder or Path.cwd(), scale))
     more = "Keys behind a # show their default or an example; levels: basic, advanced (models), expert (numerics)."
     lines = [
         f"# {get_kind(kind).title[:1].upper()}{get_kind(kind).title[1:]}.",

@@ -273,8 +273,12 @@ def _is_number(word: bytes) -> bool:
     return True
 
 
-def _without_spacing(file: Path) -> SurfaceFileError:
-    return SurfaceFileError(
+class UnstatedScaleError(SurfaceFileError):
+    """A surface file that does not say how far its points are apart, or in which unit its heights are."""
+
+
+def _without_spacing(file: Path) -> UnstatedScaleError:
+    return UnstatedScaleError(
         f"{file}: does not say how far its points are apart; give spacing=(dx, dy) in metres and height_unit "
         "(`bem surface read FILE FILE.npz --spacing ... --height-unit ...` writes a file that has both; in a scene, "
         "spacing and height_unit of the surface)"
@@ -514,7 +518,7 @@ def _read_instrument(
         metres = METRES[unit]
         _check_unit(file, unit, height_unit)
     else:
-        raise SurfaceFileError(
+        raise UnstatedScaleError(
             f"{file}: channel {notes['channel']!r} "
             + ("does not say its unit" if unit is None else f"is in {unit!r}, not in a unit of length")
             + "; give height_unit and spacing"

@@ -85,7 +85,7 @@ def test_dataset_table_and_figure(tmp_path, here):
         assert float(row["contact.mean_pressure [Pa]"]) == own.scene["contact"]["mean_pressure"]
         at = dataset.sel(seed=int(row["seed"])).sel({"contact.mean_pressure": own.scene["contact"]["mean_pressure"]})
         assert float(at["contact_area_fraction"]) == own.summary["contact_area_fraction"]
-    for name in ("sweep.png", "sweep.pdf"):
+    for name in ("sweep.png", "sweep.pdf", "area-over-load.png", "area-over-load.pdf"):
         assert (tmp_path / "s" / name).stat().st_size > 5000
     assert not (tmp_path / "s" / ".campaign-token").exists()
 
@@ -153,11 +153,11 @@ def test_what_a_point_costs_besides_its_physics(tmp_path, here, monkeypatch):
 
     monkeypatch.setattr("os.replace", replace)
     run_sweep(SCENE, ["seed=1:4"], tmp_path / "s")
-    # one scene more for mistakes of its own; files of the sweep: definition, dataset, table, figure
-    assert counted == {"scenes": 4 + 1, "plans": 4, "files": 4 * 5 + 4}
+    # one scene more for mistakes of its own; files of the sweep: definition, dataset, table, two figures
+    assert counted == {"scenes": 4 + 1, "plans": 4, "files": 4 * 5 + 5}
     counted.clear()
     run_sweep(SCENE, ["seed=1:4"], tmp_path / "s", resume=True)
-    assert counted == {"scenes": 4 + 1, "plans": 4, "files": 4, "reads": 4}
+    assert counted == {"scenes": 4 + 1, "plans": 4, "files": 5, "reads": 4}
 
 
 @pytest.mark.internal
@@ -437,7 +437,7 @@ STRIBECK = {
 def test_curves_have_the_speed_as_a_dimension_and_overlay_by_the_swept_value(tmp_path, here, monkeypatch):
     drawn = []
     monkeypatch.setattr(
-        "bem.plots.sweep.draw_sweep", lambda variables, spacings, *_: drawn.append((variables, spacings))
+        "bem.plots.sweep.draw_sweep", lambda variables, spacings, *_: drawn.append((variables, spacings)) or []
     )
     done = run_sweep(STRIBECK, ["oil.viscosity=0.18 Pa*s,0.36 Pa*s"], tmp_path / "s")
     data = done.dataset

@@ -358,3 +358,34 @@ def test_a_panel_that_leaves_lines_out_says_how_many():
         (axes,) = figure.axes
         assert len(axes.lines) == 8
         assert (f"8 of {count}" in axes.get_title()) == (count > 8)
+
+
+def points_of(pressure, index):
+    """Arrays of a sweep over mean pressure and seed, as its dataset names them."""
+    dimensions = ("contact.mean_pressure", "seed")
+    area = np.full((3, 2), 0.01)
+    return {
+        "reduced_pressure": Variable(dimensions, pressure, "1", "nominal pressure"),
+        "contact_area_fraction": Variable(dimensions, area, "1", "area"),
+        "slope_plasticity_index": Variable(dimensions, index, "1", "plasticity index"),
+    }
+
+
+def test_area_over_load_of_a_sweep_has_all_points_and_the_plastic_limit():
+    """Area at the hardness: load / (hardness x nominal area) = (p / E* h') (E* h' / H)."""
+    pressure = np.outer([1e-3, 1e-2, 1e-1], [1.0, 1.1])
+    kind = all_figures()["area-over-load"]
+    for index, marked in ((np.full((3, 2), 4.0), False), (np.outer(np.ones(3), [4.0, 5.0]), True)):
+        figure = Figure()
+        run = run_of("contact", "", points_of(pressure, index))
+        assert kind.fits(run)
+        kind.draw(run, figure)
+        lines = {line.get_label(): line for line in figure.axes[0].lines}
+        x, y = lines["plastic limit: load / hardness"].get_data()
+        if marked:  # another limit for each point, never more than all of the area
+            np.testing.assert_allclose(x, pressure.ravel())
+            np.testing.assert_allclose(y, np.minimum(pressure * index, 1.0).ravel(), rtol=1e-12)
+        else:
+            np.testing.assert_allclose(y, 4.0 * x, rtol=1e-12)
+        points = next(item for item in figure.axes[0].containers if item.get_label() == "computed")
+        np.testing.assert_allclose(points.lines[0].get_xdata(), pressure.ravel())

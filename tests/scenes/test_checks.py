@@ -473,10 +473,10 @@ def loop_outcome(sq, friction=(0.1, 0.1, 0.1, 0.1)):
 
 def least_area_outcome(area):
     """Half of the cells touch, at half the hardness each: a quarter of the area would carry that at the hardness."""
-    cap = facts_of("running-in-stribeck").cases[0].cap
+    cap = facts_of("wear-steel-steel").cases[0].cap
     pressure = np.zeros((1, 8, 8))
     pressure[0, :4] = 0.5 * cap
-    return Outcome({"contact_area_fraction": [area]}, {"pressure": Variable(("speed", "x", "y"), pressure, "Pa", "p")})
+    return Outcome({"contact_area_fraction": [area]}, {"pressure": Variable(("load", "x", "y"), pressure, "Pa", "p")})
 
 
 def film_outcome(worn):
@@ -591,7 +591,7 @@ OUTCOMES = {
         loop_outcome(100.0),
     ),
     "least_area_of_worn_surfaces": (
-        "running-in-stribeck",
+        "wear-steel-steel",
         (least_area_outcome(0.25), "in the last cycle, which is 2.00 times larger"),
         least_area_outcome(0.4),
     ),

@@ -101,3 +101,54 @@ def test_maps_that_are_too_small_or_full_of_holes_are_refused_with_what_to_do(tm
         scene_template("running-in", surfaces={"lower": str(tmp_path / "holes.al3d")}, folder=tmp_path)
     with pytest.raises(InputError, match="traction"):
         scene_template("traction", surfaces=FILES, folder=tmp_path)
+
+
+def plain_table(folder, ending, unit):
+    """A map of 128 x 128 points 0.5 um apart as numbers alone, and its heights [m]."""
+    heights = generate_surface(
+        Grid((128, 128), (0.5e-6, 0.5e-6), periodic=(True, True)), rms_height=1e-7, seed=3, correlation_length=8e-6
+    )
+    path = folder / f"disk{ending}"
+    np.save(path, heights / unit) if ending == ".npy" else np.savetxt(
+        path, heights / unit, delimiter=";" if ending == ".csv" else " "
+    )
+    return path, heights
+
+
+@pytest.mark.parametrize("ending", [".txt", ".csv", ".npy"])
+def test_files_of_plain_numbers_take_spacing_and_unit(ending, tmp_path):
+    path, heights = plain_table(tmp_path, ending, 1e-9)
+    scene = tmp_path / "mine.toml"
+    given = ["new", "contact", str(scene), "--lower", str(path)]
+    for options, missing in (
+        ([], 'with --spacing and --height-unit, such as --spacing "0.5 um"'),
+        (["--spacing", "0.5 um"], "with --height-unit, such as nm"),
+        (["--height-unit", "nm"], "with --spacing and --height-unit"),
+        (["--spacing", "0.5 um", "--height-unit", "yards"], '--height-unit "yards": allowed: m,'),
+    ):
+        result = CliRunner().invoke(command_line(), [*given, *options])
+        assert result.exit_code != 0
+        assert missing in str(result.exception) + result.output
+    result = CliRunner().invoke(command_line(), [*given, "--spacing", "0.5 um", "--height-unit", "nm"])
+    assert result.exit_code == 0, result.output
+    planned, _ = plan_scene(scene)
+    grid = build.grid_of(planned.grid)
+    assert grid.shape == (128, 128)
+    assert grid.spacing == pytest.approx((0.5e-6, 0.5e-6), rel=1e-9, abs=0)
+    assert planned.lower.surface.height_unit == "nm"
+    found = build.heights_of(planned.lower.surface, grid, 0, lambda note: None)
+    assert found.std() == pytest.approx(heights.std(), rel=0.2, abs=0)  # form is removed
+
+
+def test_a_scale_is_for_the_file_that_does_not_say_it(tmp_path):
+    """The other body's file keeps its own; where both files say it, a scale is refused."""
+    path, _ = plain_table(tmp_path, ".txt", 1e-6)
+    scale = ["--spacing", "0.5 um,0.5 um", "--height-unit", "um"]
+    scene = tmp_path / "mine.toml"
+    both = ["new", "contact", str(scene), "--upper", "example/polished-pin.x3p"]
+    refused = CliRunner().invoke(command_line(), [*both, *scale])
+    assert "the files say both" in str(refused.exception) + refused.output
+    assert CliRunner().invoke(command_line(), [*both, "--lower", str(path), *scale]).exit_code == 0
+    planned, _ = plan_scene(scene)
+    assert planned.lower.surface.spacing == pytest.approx((0.5e-6, 0.5e-6), rel=1e-9, abs=0)
+    assert planned.upper.surface.spacing is None

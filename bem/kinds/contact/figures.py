@@ -136,7 +136,11 @@ def _convergence(run: Any, figure: Figure) -> None:
 
 
 def _area_over_load(run: Any, figure: Figure) -> None:
-    """All cases, over the nominal pressure made dimensionless; a bar ends at the case's own error."""
+    """All cases or points, over the nominal pressure made dimensionless; a bar ends at the case's own error.
+
+    The plastic limit, load over hardness, is the nominal pressure made dimensionless times the plasticity index of the
+    rms slope, E* h' / H.
+    """
     pressure = np.ravel(_array(run, "reduced_pressure"))
     area = np.ravel(_array(run, "contact_area_fraction"))
     axes = figure.add_subplot()
@@ -146,6 +150,7 @@ def _area_over_load(run: Any, figure: Figure) -> None:
     axes.loglog(reach, persson, color=BLACK, label="Persson: erf(√2 p / (E* h′))")
     bush = math.sqrt(2 * math.pi) * reach
     axes.loglog(reach[bush < 1], bush[bush < 1], "--", color="0.5", label="Bush, Gibson, Thomas: √(2π) p / (E* h′)")
+    _plastic_limits(run, axes, reach, pressure, known)
     error = (
         np.ravel(_array(run, "contact_area_fraction_error")) if "contact_area_fraction_error" in run.dataset else None
     )
@@ -157,12 +162,32 @@ def _area_over_load(run: Any, figure: Figure) -> None:
         markersize=4,
         capsize=2,
         color=BLUE,
-        label="this run",
+        label="computed" if np.count_nonzero(known) > 1 else "this run",
     )
     axes.set_xlabel("nominal pressure p / (E* × rms slope h′)")
     axes.set_ylabel("contact area fraction")
     axes.set_ylim(top=1.5)
     axes.legend(loc="upper left")
+
+
+_SAME_LIMIT = 1e-3
+"""Relative difference of plasticity indices below which one line shows the plastic limit of all cases."""
+
+
+def _plastic_limits(run: Any, axes: Any, reach: Any, pressure: Any, known: Any) -> None:
+    """Draw the area at which all of the load is carried at the hardness: a line, or points if it differs by case."""
+    if "slope_plasticity_index" not in run.dataset:
+        return
+    index = np.broadcast_to(np.ravel(_array(run, "slope_plasticity_index")), pressure.shape)
+    known = known & np.isfinite(index)
+    if not known.any():
+        return
+    if np.ptp(index[known]) <= _SAME_LIMIT * float(index[known].max()):
+        limit = float(index[known].mean()) * reach
+        axes.loglog(reach[limit <= 1], limit[limit <= 1], ":", color=VERMILION, label="plastic limit: load / hardness")
+    else:
+        limits = np.minimum(index[known] * pressure[known], 1.0)
+        axes.plot(pressure[known], limits, "x", color=VERMILION, label="plastic limit: load / hardness")
 
 
 def _has_pressures(run: Any) -> bool:
@@ -307,12 +332,14 @@ FIGURES = (
         "area-over-load",
         "Contact area over the nominal pressure, divided by contact modulus and rms slope of both surfaces together, "
         "beside the theories of Persson (J. Chem. Phys. 115, 2001) and of Bush, Gibson and Thomas (Wear 35, 1975) for "
-        "elastic bodies. The slope is that of neighbouring cells. Pressures limited by the hardness need more area.",
+        "elastic bodies. The slope is that of neighbouring cells. Pressures limited by the hardness need more area, at "
+        "least the load over the hardness (plastic limit).",
         ("reduced_pressure", "contact_area_fraction"),
         _area_over_load,
         (5.4, 4.2),
         _has_pressures,
         all_cases=True,
+        of_sweeps=True,
     ),
     FigureKind(
         "adhesion-path",

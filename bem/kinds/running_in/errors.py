@@ -48,6 +48,9 @@ def bars(scene: RunningInScene, initial: tuple[FloatArray, FloatArray], found: R
     if found.minimum_film > 0:
         to_ratio = found.lambda_ratio_mixed / found.minimum_film
         bars |= bars.renamed({"minimum_film": "lambda_ratio_mixed"}, lambda error: to_ratio * error)
+    if found.worn_depth > 0:  # the volume follows the depth: its relative error is that of the mean depth
+        to_volume = found.wear_volume / found.worn_depth
+        bars |= bars.renamed({"worn_depth": "wear_volume"}, lambda error: to_volume * error)
     return bars if there is None else bars | _of_heights(scene, found)
 
 

@@ -43,7 +43,7 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
 
     scatters: ClassVar[tuple[str, ...]] = (
         *("friction_initial", "friction_run_in", "friction", "boundary_friction_part", "film_friction_part"),
-        *("Sq_initial", "Sq_final", "worn_depth", "contact_load_initial", "contact_load", "film_load"),
+        *("Sq_initial", "Sq_final", "worn_depth", "wear_volume", "contact_load_initial", "contact_load", "film_load"),
         *("lambda_ratio", "lambda_ratio_mixed"),
         *("minimum_film", "contact_area_fraction", "criterion_wear_rate", *TEMPERATURES),
     )
@@ -74,6 +74,10 @@ class RunningInRecord(GridRecord, wearing.WornRecord):
     minimum_film: Annotated[float, Figure("nm", f"{MINIMUM_FILM}, {RUN_IN}")]
     contact_area_fraction: Annotated[float, Figure("", f"real contact area over patch, {RUN_IN}")]
     worn_depth: Annotated[float, Figure("nm", f"mean depth worn {_STRIP}", headline=True)]
+    wear_volume: Annotated[
+        float,
+        Figure("um3", "volume worn in all cycles, of both bodies, with the cuts of third bodies", headline=True),
+    ]
     step_error: Annotated[
         float | None,
         Figure("nm", "what its step leaves open of a depth worn by pressure, last cycle", optional=True, unjudged=True),

@@ -102,6 +102,7 @@ def _record(
         height_before=worn.height_before,
         height_after=worn.height_after,
         pressure=worn.pressure,
+        wear_volume=float(cycles["volume"].sum()),
         friction_initial=figures.friction_initial,
         contact_load_initial=figures.contact_load_initial,
         friction=figures.friction,

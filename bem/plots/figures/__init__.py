@@ -59,6 +59,7 @@ class FigureKind:
     applies : applies(run) -> whether there is anything to show.
     animate : animate(run, path) writes an animated GIF beside the figure; None for most.
     all_cases : whether it shows all cases of a run; others are given the arrays of the first case.
+    of_sweeps : whether a sweep draws it of all its points; arrays then have their names of the summary.
     """
 
     name: str
@@ -69,6 +70,7 @@ class FigureKind:
     applies: Callable[[Any], bool] = _always
     animate: Callable[[Any, Path], None] | None = None
     all_cases: bool = False
+    of_sweeps: bool = False
 
     def enter(self) -> None:
         """Enter it, for a figure from outside the package; see `bem.register`.

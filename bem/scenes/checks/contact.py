@@ -155,8 +155,15 @@ def curved_body_repeats(facts: Facts) -> Iterator[Note]:
             size, length = case.smooth.semi_axes[axis], case.grid.lengths[axis]
             if case.grid.periodic[axis] and math.isfinite(size):
                 near = f", {length / size:.2g} contact radii apart" if length < 5 * size else ""
+                single = "[false, true]" if case.smooth.line else "false"
                 yield PERIODIC_GRID(
-                    case.note_place("grid"), axis=name, shape=case.shape, length=length, near=near, reason="body"
+                    case.note_place("grid"),
+                    axis=name,
+                    shape=case.shape,
+                    length=length,
+                    near=near,
+                    single=single,
+                    reason="body",
                 )
 
 

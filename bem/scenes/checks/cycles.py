@@ -127,10 +127,13 @@ _MANY = 1.1
 
 @outcome_check
 def least_area_of_worn_surfaces(facts: Facts, outcome: Outcome) -> Iterator[Note]:
-    """Holes have walls, and spots beside them a cell or two: the edge of contact is then not known."""
+    """Holes have walls, and spots beside them a cell or two: the edge of contact is then not known.
+
+    Kind running-in shows the note of its own last contacts, which know the area with elastic edges.
+    """
     caps, maps = {case.cap for case in facts.cases}, outcome.variables.get("pressure")
     areas = numbers(outcome.summary.get("contact_area_fraction"))
-    if not facts.of_kind("wear", "running-in") or len(caps) != 1 or None in caps or maps is None:
+    if not facts.of_kind("wear") or len(caps) != 1 or None in caps or maps is None:
         return
     planes, cap = maps.values.reshape(-1, *maps.values.shape[-2:]), caps.pop()
     if len(planes) != len(areas) or cap is None:
