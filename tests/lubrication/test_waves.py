@@ -1,6 +1,7 @@
 """Rough films by waves: limits, published tables, equations solved otherwise, and the whole contact's own waves."""
 
 import math
+from dataclasses import replace
 
 import mpmath
 import numpy as np
@@ -28,8 +29,12 @@ STIFF = Plateau(3e-7, 1e9, 1e12, 1e12, 0.0, 1.15e11, 1.0, 1e-5, 1e-4)
 """Incompressible oil without leakage."""
 
 
-def moes_line(load, material):
-    """Smooth line film and its dry contact at Moes' M and L."""
+LEAKY = Plateau(3e-7, 1e9, 40.0, 90.0, 4e-17, 1.15e11, 2.0, 1e-5, 1e-4)
+"""Compressible oil that thins more along sliding, in which waves of some micrometres leak and decay."""
+
+
+def moes_line(load, material, slide=0.0, **oil):
+    """Smooth line film and its dry contact at Moes' M and L, in pure rolling or at a slide-to-roll ratio."""
     reduced = 2 * STEEL
     number = (material / (ALPHA * reduced)) ** 4
     per_length, speed = load * math.sqrt(number) * reduced * RADIUS, number * reduced * RADIUS / VISCOSITY
@@ -37,11 +42,70 @@ def moes_line(load, material):
         load=per_length,
         radius=RADIUS,
         contact_modulus=STEEL,
-        speeds=(0.5 * speed, 0.5 * speed),
-        lubricant=Lubricant(VISCOSITY, pressure_viscosity=ALPHA),
+        speeds=(0.5 * speed * (1 + 0.5 * slide), 0.5 * speed * (1 - 0.5 * slide)),
+        lubricant=Lubricant(VISCOSITY, pressure_viscosity=ALPHA, **oil),
         points=400,
     )
     return film, cylinder_contact(radius=RADIUS, contact_modulus=STEEL, load=per_length)
+
+
+@pytest.mark.parametrize(("kx", "ky", "ratio"), [(6e5, 4e5, 0.6), (3e5, 0.0, 1.3), (-2e5, 8e5, 0.4)])
+def test_waves_inside_the_contact_satisfy_reynolds_equation(kx, ky, ratio):
+    """Elastic half-spaces, mass of the film and both flows, written out for one wave; the wave of the oil decays."""
+    h, mu_x, mu_y, bulk = LEAKY.film, LEAKY.viscosity_along, LEAKY.viscosity_across, LEAKY.compression / LEAKY.film
+    u, speed = LEAKY.mean_speed, ratio * LEAKY.mean_speed
+    found = wave_amplitudes(LEAKY, np.array([kx]), np.array([ky]), speed)
+    film, pressure = found.particular_film[0], found.particular_pressure[0]
+    # normal displacement of two half-spaces under a pressure wave, Johnson (1985), section 13.2, for both bodies
+    assert film + 1 == pytest.approx(2 / (LEAKY.contact_modulus * math.hypot(kx, ky)) * pressure, rel=1e-12)
+    mass = film + h * bulk * pressure
+    leak = h**3 / 12 * (kx**2 / mu_x + ky**2 / mu_y) * pressure
+    assert leak == pytest.approx(-1j * kx * (u - speed) * mass, rel=1e-12)
+    own, own_pressure = found.complementary_film[0], found.complementary_pressure[0]
+    carried = 2 / (LEAKY.contact_modulus * math.hypot(ratio * kx, ky))
+    assert own == pytest.approx(carried * own_pressure, rel=1e-12)
+    # what leaks in the time to the middle, of the mass that a pressure of one stores
+    lost = h**3 / 12 * ((ratio * kx) ** 2 / mu_x + ky**2 / mu_y) * LEAKY.reach / u
+    assert found.decay[0] == pytest.approx(lost / (carried + h * bulk), rel=1e-12)
+
+
+@pytest.mark.parametrize(("kx", "ky", "ratio"), [(1.2e5, 0.9e5, 0.6), (2e5, 0.0, 1.3)])
+def test_the_inlet_lets_in_what_both_waves_carry(kx, ky, ratio):
+    """Flow through the edge on both sides of it, over the mean speed; the table is known to 1e-3."""
+    found = wave_amplitudes(LEAKY, np.array([kx]), np.array([ky]), ratio * LEAKY.mean_speed)
+    film, pressure, own = found.particular_film[0], found.particular_pressure[0], found.complementary_film[0]
+    poiseuille = -1j * kx * LEAKY.film**3 / (12 * LEAKY.viscosity_along * LEAKY.mean_speed) * pressure
+    assert abs(poiseuille) > 0.02  # of a part of 1e-3 nothing would be seen
+    assert abs(LEAKY.compression * found.complementary_pressure[0]) > 0.02
+    inside = film + LEAKY.compression * pressure + poiseuille
+    inside += own + LEAKY.compression * found.complementary_pressure[0]
+    before = inlet_flow(np.array([kx * LEAKY.inlet_length]), ky * LEAKY.inlet_length, ratio)
+    outside = -before.of_roughness[0] + (film + 1) * before.of_particular[0] + own * before.of_complementary[0]
+    assert inside == pytest.approx(outside, abs=3e-3)
+
+
+def test_rolling_waves_recover_their_height_where_the_oil_leaks():
+    """Flattened in the inlet, a wave that rolls far enough regains all of its height, and half-way a part."""
+    waves, none = np.array([1e5]), np.zeros(1)
+    edge, middle, far = (rolling_amplitude(replace(LEAKY, reach=reach), waves, none)[0] for reach in (0.0, 1e-3, 1.0))
+    assert edge < 0.7 < 0.8 < middle < 0.95
+    assert far == pytest.approx(1, abs=1e-12)
+
+
+def test_the_plateau_has_the_oils_density_and_its_shear_by_sliding():
+    oil = {"shear_law": "eyring", "shear_stress_limit": 5e6, "film_rheology": "shear_law"}
+    for slide in (0.0, 0.4):
+        film, hertz = moes_line(50.0, 8.0, slide, **oil)
+        found, lubricant = plateau_of(film, hertz), film.lubricant
+        pressure, viscosity = hertz.mean_pressure, float(lubricant.viscosity_at(np.array(hertz.mean_pressure)))
+        step = 1e-4 * pressure
+        density = [float(lubricant.density_ratio(np.array(pressure + one))[0]) for one in (-step, step)]
+        assert found.compression == pytest.approx(
+            film.central_thickness * math.log(density[1] / density[0]) / (2 * step), rel=1e-5, abs=0
+        )
+        scaled = viscosity * slide * found.mean_speed / film.central_thickness / 5e6
+        thinned = viscosity * (math.asinh(scaled) / scaled if slide else 1.0)
+        assert found.viscosity_across == pytest.approx(thinned, rel=1e-6)
 
 
 def test_ripples_are_greenwoods_and_morales_espejels():
@@ -201,6 +265,31 @@ def test_fields_are_sums_of_waves():
     assert moved.film_ripple == pytest.approx(again.film_ripple, abs=1e-17)
 
 
+@pytest.mark.parametrize("body", [0, 1])
+def test_sliding_fields_are_a_wave_of_the_surface_and_one_of_the_oil(body):
+    """The oil's wave starts at the inlet's edge, is stretched by mean over surface speed, and decays; both bodies."""
+    film, hertz = moes_line(20.0, 5.0, 0.5)
+    cells, half = 256, hertz.half_width
+    spacing = (4 * half / cells, half)
+    x = (np.arange(cells) - 0.5 * (cells - 1)) * spacing[0]
+    wave = 2 * np.pi * 9 / (4 * half)  # not in step with both edges
+    heights = 1e-9 * np.cos(wave * x)[:, None]
+    found = film_ripples(film, hertz, (heights, None) if body == 0 else (None, heights), spacing)
+    speed = (1.25, 0.75)[body] * found.plateau.mean_speed
+    parts = wave_amplitudes(found.plateau, np.array([wave]), np.zeros(1), speed)
+    assert 0.05 < parts.decay[0] < 1
+    source = -half + speed / found.plateau.mean_speed * (x + half)
+    left = math.exp(-parts.decay[0])
+    inside = np.abs(x) < half
+    for ripple, own, oils in (
+        (found.film_ripple, parts.particular_film, parts.complementary_film),
+        (found.pressure_ripple, parts.particular_pressure, parts.complementary_pressure),
+    ):
+        expected = 1e-9 * (own * np.exp(1j * wave * x) + left * oils * np.exp(1j * wave * source)).real
+        scale = np.abs(expected).max()
+        assert ripple[inside, 0] / scale == pytest.approx(expected[inside] / scale, abs=2e-4)  # cubic interpolation
+
+
 def test_sliding_balls_have_ripples_of_both_bodies():
     load, radii, modulus = 20.0, (0.01, 0.01), 1.15e11
     film = solve_point_film(
@@ -218,6 +307,20 @@ def test_sliding_balls_have_ripples_of_both_bodies():
     assert twice.rms_film_ripple == pytest.approx(2 * alone[0].rms_film_ripple, rel=1e-12)
     assert 0 < both.amplitude_ratio < 1
     # flattened heights: elastic displacement and pressure are large where the film is not the height
+    flat = np.hypot(both.x[:, None], both.y) < 0.9 * hertz.semi_axes[0]
+    assert both.rms_film_ripple == pytest.approx(both.film_ripple[flat].std(), rel=1e-12, abs=0)
+    assert both.rms_pressure_ripple == pytest.approx(both.pressure_ripple[flat].std(), rel=1e-12, abs=0)
+    assert both.rms_heights == pytest.approx(both.heights[flat].std(), rel=1e-12, abs=0)
+    rough = film_ripples(film, hertz, (40 * lower, None), grid.spacing)
+    touching = rough.thickness[rough.inside] == 0
+    assert 0.01 < touching.mean() < 0.9
+    assert rough.touching_share == pytest.approx(touching.mean(), rel=1e-12)
+    # of a contact longer across the flow, the cells inside are those of its own ellipse
+    wide = ellipse_contact(radii=(0.01, 0.02), contact_modulus=modulus, load=load)
+    inside = film_ripples(film, wide, (lower, None), grid.spacing).inside
+    sides = inside.any(axis=1).sum() * grid.spacing[0], inside.any(axis=0).sum() * grid.spacing[1]
+    assert np.array(sides) == pytest.approx(2 * np.array(wide.semi_axes), rel=0.1)
+    assert wide.semi_axes[1] > 1.3 * wide.semi_axes[0]
     corner = both.heights + both.film_ripple
     here = both.inside
     assert np.corrcoef(corner[here], both.pressure_ripple[here])[0, 1] > 0.5
