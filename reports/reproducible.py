@@ -545,10 +545,11 @@ def _wave_sharing(module: Any, stored: Any) -> Rows:
     for case, row in zip(module.moving_cases(), stored["moving"], strict=True):
         yield f"surfaces {case['seed']:g}", _again(row, partial(module.of_moving, case), allowed)
     for case, row in zip(module.cases_at_rest(), stored["at rest"], strict=True):
-        yield (
-            f"{row['surface']} ({case[0] + 1}), lambda {row['lambda']:g}",
-            _again(row, partial(module.of_rest, *case), allowed),
-        )
+        label = f"{row['surface']} ({case[0] + 1}), lambda {row['lambda']:g}"
+        yield label, _again(row, partial(module.of_rest, *case), allowed)
+    for case, row in zip(module.ridges(), stored["ridges"], strict=True):
+        label = f"ridges of {row['wavelength']:g}, {row['speed']:g} m/s, lambda {row['lambda']:g}"
+        yield label, _again(row, partial(module.of_ridges, *case), allowed)
 
 
 def _wear_lengths(module: Any, stored: Any) -> Rows:

@@ -1,14 +1,15 @@
-"""Load sharing of rough balls whose roughness the film has flattened, beside rough films solved directly.
+"""Load sharing of rough surfaces that the film has flattened, beside rough films solved directly.
 
     nice python -m reports.experiments.wave_sharing
 
-Five minutes of one core; needs the stored results of `touching_films` and `wave_ripples`. Asperities inside the contact
-are flattened by the film before they touch: by waves (`bem.lubrication.waves`) their amplitudes there follow without a
-march. The load is shared twice, with the heights as they are (`solve_setup`) and with the heights that waves leave
-inside Hertz' contact under the whole load (`bem.friction.flattened`). A third figure needs no load sharing: the share
-of the load where the film by waves is not thicker than the least film. Two sets: the rough balls at rest of
-`touching_films` (40 films, contact solved with the film) and the pairs of moving surfaces of `wave_ripples` (24
-marches, none of which touched). Stored in `reports/results/wave_sharing.json`.
+Five minutes of one core; needs the stored results that it compares with. Asperities inside the contact are flattened by
+the film before they touch: by waves (`bem.lubrication.waves`) their amplitudes there follow without a march. The load
+is shared twice, with the heights as they are (`solve_setup`) and with the heights that waves leave inside Hertz'
+contact under the whole load (`bem.friction.flattened`). A third figure needs no load sharing: the share of the load
+where the film by waves is not thicker than the least film. Three sets: the rough balls at rest of `touching_films` (40
+films, contact solved with the film), the pairs of moving surfaces of `wave_ripples` (24 marches, none of which
+touched), and the ridges across the flow under a cylinder of `rough_films` (32 films on the finest of three grids, none
+thinner than 1 nm; without the third figure). Stored in `reports/results/wave_sharing.json`.
 """
 
 from __future__ import annotations
@@ -28,7 +29,17 @@ from bem.lubrication.waves import FilmRipples, film_ripples
 from bem.reference_solutions.hertz import ellipse_contact
 from reports.experiments import touching_films, wave_ripples
 from reports.experiments.kept import found, keep, result_of, rounded
-from reports.experiments.rough_films import BOUNDARY, MODULUS, OIL, RADIUS, STEEL
+from reports.experiments.rough_films import (
+    BOUNDARY,
+    LINE_CELLS,
+    LINE_PRESSURE,
+    MODULUS,
+    OIL,
+    RADIUS,
+    STEEL,
+    ridges_across,
+)
+from reports.experiments.rough_films import PATCH as LINE_PATCH
 from reports.experiments.waviness_reduction import MODULUS as MOVING_MODULUS
 from reports.experiments.waviness_reduction import point_arguments
 
@@ -130,15 +141,60 @@ def of_moving(case: dict[str, Any]) -> dict[str, Any]:
     return row | shares(ripples, heights, speeds, shared)
 
 
+def ridges() -> list[tuple[int, int]]:
+    """Return case and row in `rough_films` of every film of a cylinder on its finest grid."""
+    return [
+        (number, place)
+        for number, case in enumerate(found("rough_films")["cases"])
+        if case["contact"] == "line"
+        for place, row in enumerate(case["rows"])
+        if not isinstance(row["films"][-1], str)
+    ]
+
+
+def of_ridges(number: int, place: int) -> dict[str, Any]:
+    """Return the row of ridges at rest under a cylinder."""
+    case = found("rough_films")["cases"][number]
+    solved = case["rows"][place]
+    half = 2 * LINE_PRESSURE * RADIUS / MODULUS
+    spacing = 2 * LINE_PATCH * half / LINE_CELLS[0]
+    grid = Grid(LINE_CELLS, (spacing, spacing), periodic=(False, True))
+    width = grid.lengths[1]
+    setup = MixedSetup(
+        grid=grid,
+        radius=RADIUS,
+        width=width,
+        load=0.5 * math.pi * LINE_PRESSURE * half * width,
+        film_points=800,
+        bodies=(Body(STEEL),) * 2,
+        lubricant=OIL,
+        boundary_friction=BOUNDARY,
+    )
+    shape = ridges_across(case["wavelength"] * half)(grid.x[:, None], grid.y[None, :])
+    heights = case["smooth"] / solved["lambda"] * np.broadcast_to(shape, grid.shape)
+    speeds = (0.0, case["speed"])
+    row: dict[str, Any] = {name: case[name] for name in ("wavelength", "speed")}
+    row |= {"lambda": solved["lambda"], "solved": solved["films"][-1]["share"]}
+    row |= {"solved, friction": solved["films"][-1]["friction"]}
+    for name, mixed in (
+        ("as they are", solve_setup(setup, heights, speeds)),
+        ("flattened", solve_flattened(setup, (heights, np.zeros(grid.shape)), speeds).solution),
+    ):
+        row[name] = mixed.contact_load / mixed.load
+        row |= {f"{name}, friction": mixed.friction, f"{name}, status": mixed.status.value}
+    return row
+
+
 def main() -> None:
-    """Both sets."""
-    rows: dict[str, list[dict[str, Any]]] = {"moving": [], "at rest": []}
+    """All sets."""
+    rows: dict[str, list[dict[str, Any]]] = {"moving": [], "at rest": [], "ridges": []}
     for case in moving_cases():
         rows["moving"].append(rounded(of_moving(case)))
         print(rows["moving"][-1], flush=True)
-    for number, place in cases_at_rest():
-        rows["at rest"].append(rounded(of_rest(number, place)))
-        print(rows["at rest"][-1], flush=True)
+    for name, solve, cases in (("at rest", of_rest, cases_at_rest()), ("ridges", of_ridges, ridges())):
+        for number, place in cases:
+            rows[name].append(rounded(solve(number, place)))
+            print(rows[name][-1], flush=True)
     keep(result_of("wave_sharing"), rows)
 
 
