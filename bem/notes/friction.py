@@ -45,8 +45,14 @@ FLATTENED_TOO_HIGH = define(
     "flattened-too-high",
     OUTSIDE_MODEL,
     "The film is too thin for the asperity load share by waves.",
-    "The central film is {ratio:.2g} times the rms heights; rough films to compare with reach down to {least:g}.",
-    "Take the surfaces as touching everywhere, or kind point-film with one rough body at rest.",
+    "",
+    "Take the contact as one in boundary lubrication, or kind point-film with one rough body at rest.",
+    reasons={
+        "ratio": "The central film is {ratio:.2g} times the rms heights; rough films to compare with reach down to"
+        " {least:g}.",
+        "molecular": "The central film under the whole load is {film:si m}, less than {least:si m}: so little oil"
+        " flattens nothing, and the load is shared with undeformed roughness.",
+    },
 )
 FILM_WITHOUT_LAYERS = define(
     "film-without-layers",

@@ -100,6 +100,17 @@ def test_lambda_ratio_is_of_undeformed_heights_and_a_thin_film_says_so():
     assert found.contact_load < undeformed.contact_load
 
 
+def test_less_than_a_few_molecules_of_oil_flatten_nothing():
+    speeds = (2e-4, 1e-4)
+    found, undeformed = solve_flattened(SETUP, (ROUGH, SMOOTH), speeds), solve_setup(SETUP, ROUGH, speeds)
+    assert found.flattened.amplitude_ratio == 1
+    assert found.solution.friction == pytest.approx(undeformed.friction, rel=1e-9)
+    (note,) = [one for one in found.solution.notes if one.code == FLATTENED_TOO_HIGH.code]
+    assert 0 < note.values["film"] < 1e-9
+    # a hundred times as fast the film is thicker
+    assert solve_flattened(SETUP, (ROUGH, SMOOTH), (2e-2, 1e-2)).flattened.amplitude_ratio < 0.5
+
+
 @pytest.mark.parametrize(
     ("changes", "message"),
     [
