@@ -11,7 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
 
-from bem.elements.answer import PLACES, answer, balance_heat
+from bem.elements.answer import PLACES, answer, answer_notes, balance_heat
 from bem.elements.element import MODELS, Element, element_template, load_element
 from bem.elements.figure import element_figure
 from bem.elements.running import Running, columns, notes, run_all
@@ -131,7 +131,7 @@ def answered(name: str, typed: Mapping[str, str], *, whole: bool = False) -> Ans
     runs: tuple[Running, ...] = ()
     if element.model.oil is not None:
         runs = run_all(element, most=None if whole else PLACES)
-    every = (*element.notes(), *notes(runs))
+    every = (*element.notes(), *answer_notes(element, runs), *notes(runs))
     cautions = tuple(str(note) for note in every if note.level is not Level.INFO)
     remarks = tuple(str(note) for note in every if note.level is Level.INFO)
     picture = io.BytesIO()

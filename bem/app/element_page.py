@@ -16,7 +16,7 @@ from bem.errors import BemError
 
 
 class ElementPage:
-    """Fill in a bearing, gear pair, cam or piston ring; the answer appears beside the form."""
+    """Fill in a bearing, gear pair, cam, piston ring or bush; the answer appears beside the form."""
 
     def __init__(self, workspace: Workspace, name: str) -> None:
         self._workspace, self._name = workspace, name

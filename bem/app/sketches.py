@@ -89,6 +89,8 @@ _SKETCHES = {
     "cam": '<path d="M46 32a14 14 0 0 0 28 0C74 22 66 14 60 14S46 22 46 32Z"/><circle cx="60" cy="32" r="3"/>'
     + _line("M42 13h36M56 13V3h8v10"),
     "ring": '<path d="M30 4V52M90 4V52M36 52V16h48V52"/>' + _line("M30 24h6M84 24h6M30 34h6M84 34h6M36 24h48M36 34h48"),
+    "bush": '<circle cx="60" cy="28" r="25"/><circle cx="60" cy="28" r="19"/><circle cx="60" cy="30" r="17"/>'
+    + _line("M46 41a19 19 0 0 0 28 0"),
 }
 
 

@@ -54,6 +54,9 @@ TASKS = (
         "Film, friction and wear between a piston ring and its liner",
         "page /element/piston-ring",
     ),
+    Start(
+        "bush", "Plain bush", "Contact, p v, temperature and wear life of a polymer bush", "page /element/plain-bush"
+    ),
 )
 
 

@@ -19,7 +19,7 @@ if TYPE_CHECKING:
 
 def register(app: typer.Typer) -> None:
     """Add the command."""
-    app.command(short_help="Bearing, gear pair, cam, piston ring: contacts, and scenes of them.")(element)
+    app.command(short_help="Bearing, gear pair, cam, piston ring, bush: contacts, and scenes of them.")(element)
 
 
 def element(
@@ -56,8 +56,8 @@ def element(
     remarks: Annotated[bool, typer.Option("--remarks", help="Show the whole text of remarks, too.")] = False,
 ) -> None:
     """Answer for a machine element on one screen: critical contact, lambda ratio, friction power, temperatures, and
-    safety: rating life of bearings, scuffing and micropitting of gears, wear. Films are solved at about a dozen places,
-    with --running at all.
+    safety: rating life of bearings, scuffing and micropitting of gears, p v and wear life of bushes. Films are solved
+    at about a dozen places, with --running at all.
 
     \b
     Examples, of the file that `bem new gear-pair gears.toml` writes:
@@ -71,7 +71,7 @@ def element(
     """
     from bem.cli._quantity import new_file
     from bem.cli._terminal import print_text, print_written, show_remarks, show_warnings
-    from bem.elements.answer import balance_heat, contact_words
+    from bem.elements.answer import answer_notes, balance_heat, contact_words
     from bem.elements.element import MIXED, load_element
     from bem.elements.figure import draw_element
     from bem.elements.running import columns
@@ -117,7 +117,7 @@ def element(
     else:
         for sentence in (contact_words(found, chosen), *found.found.geometry):
             print_text(sentence)
-    notes: Sequence[Note] = [*found.notes(), *notes_of(runs)]
+    notes: Sequence[Note] = [*found.notes(), *answer_notes(found, runs), *notes_of(runs)]
     if made is not None and not runs and kind in MIXED:
         notes = [note for note in notes if note.code != SURFACES_TOUCH.code]
     show_warnings(notes, remarks="--remarks shows them")
@@ -195,7 +195,7 @@ def _answer(found: Element, runs: Sequence[Running]) -> None:
     count = len(found.found.contacts)
     solved = f", {len(runs)} of them with a solved film" if runs else ""
     options = "--contacts shows them, --table FILE.csv and --figure FILE.png write them"
-    print_text(f"{count} contacts{solved}: {options}.")
+    print_text(f"{count} contact{'s' if count > 1 else ''}{solved}: {options}.")
 
 
 def _chosen(found: Element, at: str) -> ElementContact:

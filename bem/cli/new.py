@@ -28,8 +28,8 @@ def register(app: typer.Typer) -> None:
             typer.Argument(
                 metavar="[KIND]",
                 help="Kind of scene, such as contact (or what it is called elsewhere, such as stribeck), a built-in "
-                "scene, or a machine element: rolling-bearing, gear-pair, cam-follower, piston-ring; without it all "
-                "are listed.",
+                "scene, or a machine element: rolling-bearing, gear-pair, cam-follower, piston-ring, plain-bush; "
+                "without it all are listed.",
                 autocompletion=complete_kind,
             ),
         ] = None,
@@ -140,7 +140,8 @@ _ELEMENTS = (
         "piston-ring",
         "ring",
     ),
-    *("journal-bearing", "plain-bearing", "sleeve-bearing", "sliding-bearing"),
+    *("plain-bush", "plain-bearing", "sleeve-bearing", "sliding-bearing"),
+    *("journal-bearing", "hydrodynamic-bearing"),
     *("bush", "bushing", "bushes", "bushings", "grease"),
     *("seal", "seals", "lip-seal", "scuffing", "scoring", "bearing-life", "rating-life", "l10"),
     *("worm-gear", "bevel-gear", "hypoid-gear", "internal-gear", "planetary-gear"),

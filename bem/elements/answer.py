@@ -12,14 +12,17 @@ from dataclasses import dataclass
 from functools import partial
 
 from bem.elements.bearing_life import life_rows
+from bem.elements.bush_answer import bush_notes, bush_rows, pressure_words
 from bem.elements.cam_follower import CamModel
 from bem.elements.contact import ElementContact
 from bem.elements.element import Element
 from bem.elements.element_wear import particles_per_hour, wear_per_hour, worn_volume_rate
 from bem.elements.gear_pair import GearModel
 from bem.elements.gear_scuffing import CELSIUS, friction_of_gear_tests, scuffing_of, sliding_power
+from bem.elements.plain_bush import PlainBushModel
 from bem.elements.rolling_bearing import BearingModel
 from bem.elements.running import Running, run_all
+from bem.notes import Note
 from bem.notes.note import percent
 from bem.quantities import plain_digits, with_unit
 
@@ -135,6 +138,8 @@ def answer(element: Element, solved: Sequence[Running]) -> Rows:
     solved : films of all places or of a selection.
     """
     runs = [one for one in solved if one.converged]
+    if isinstance(element.model, PlainBushModel):
+        return _bush(element, element.model, runs, solved)
     rows: list[tuple[str, str]] = [("critical contact", contact_words(element, element.worst()))]
     if runs:
         rows += [
@@ -151,15 +156,30 @@ def answer(element: Element, solved: Sequence[Running]) -> Rows:
     rows.append(("wear per hour", wear_per_hour(element)))
     if worn_volume_rate(element) > 0:
         rows.append(("particles per hour", particles_per_hour(element)))
+    return (*rows, *_lost(element, solved))
+
+
+def _lost(element: Element, solved: Sequence[Running]) -> Rows:
+    """Return the row of the films that did not converge, none where all did."""
     lost = [one for one in solved if not one.converged]
-    if lost:
-        rows.append(
-            (
-                "not converged",
-                f"{len(lost)} of {len(solved)} films, the first at {place_words(element, lost[0].contact)}",
-            )
-        )
-    return tuple(rows)
+    if not lost:
+        return ()
+    said = f"{len(lost)} of {len(solved)} films, the first at {place_words(element, lost[0].contact)}"
+    return (("not converged", said),)
+
+
+def _bush(element: Element, model: PlainBushModel, runs: Sequence[Running], solved: Sequence[Running]) -> Rows:
+    film = [("lambda ratio", _film(element, runs))] if runs else []
+    rows = bush_rows(model, likely_power(element, runs) if runs else None)
+    return (("critical contact", pressure_words(model)), *film, *rows, *_lost(element, solved))
+
+
+def answer_notes(element: Element, solved: Sequence[Running]) -> tuple[Note, ...]:
+    """Return notes on limits that the answer exceeds; `solved` as in `answer`."""
+    runs = [one for one in solved if one.converged]
+    if not isinstance(element.model, PlainBushModel):
+        return ()
+    return bush_notes(element.model, likely_power(element, runs) if runs else None)
 
 
 def place_words(element: Element, one: ElementContact) -> str:
@@ -167,6 +187,8 @@ def place_words(element: Element, one: ElementContact) -> str:
     contact to; of a cam or ring the angle; of a bearing the ring and the angle from the load."""
     model = element.model
     if isinstance(model, BearingModel):
+        return one.name
+    if isinstance(model, PlainBushModel):
         return one.name
     if not isinstance(model, GearModel):
         return f"{'cam' if isinstance(model, CamModel) else 'crank'} angle {one.name}"

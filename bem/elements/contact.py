@@ -77,22 +77,26 @@ class ElementContact:
         return math.pi * self.radius * self.hertz(modulus).maximum_pressure ** 2 / modulus
 
     def minimum_film(self, modulus: float, oil: Lubricant) -> float:
-        """Dowson's fit of the minimum film of a line [m], isothermal and flooded, to tell places apart; scenes compute
-        it. Zero where nothing is entrained. Of a bounded inlet the rigid film of the oil as it comes."""
+        """Fit of the minimum film of a line [m], isothermal and flooded, to tell places apart; scenes compute it.
+
+        The thicker of Dowson's fit and that of soft bodies, in which viscosity does not rise with pressure. Zero where
+        nothing is entrained. Of a bounded inlet the rigid film of the oil as it comes.
+        """
         if math.isfinite(self.inlet) and self.mean_speed:
             return self.rigid_film(oil.viscosity).minimum_thickness
-        from bem.reference_solutions.line_film import dowson_higginson_minimum
+        from bem.reference_solutions.line_film import dowson_higginson_minimum, isoviscous_elastic_minimum
 
         if self.mean_speed == 0:
             return 0.0
-        return dowson_higginson_minimum(
-            load=self.line_load(modulus),
-            radius=self.radius,
-            contact_modulus=modulus,
-            mean_speed=abs(self.mean_speed),
-            viscosity=oil.viscosity,
+        load, speed, viscosity = self.line_load(modulus), abs(self.mean_speed), oil.viscosity
+        hard = dowson_higginson_minimum(
+            load=load, radius=self.radius, contact_modulus=modulus, mean_speed=speed, viscosity=viscosity,
             pressure_viscosity=oil.pressure_viscosity,
+        )  # fmt: skip
+        soft = isoviscous_elastic_minimum(
+            load=load, radius=self.radius, contact_modulus=modulus, mean_speed=speed, viscosity=viscosity
         )
+        return max(hard, soft)
 
     def rigid_film(self, viscosity: float) -> InletFilm:
         """Of a line whose bodies stay rigid, in oil of a viscosity [Pa s] up to its inlet; something is entrained."""

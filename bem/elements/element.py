@@ -21,6 +21,7 @@ from bem.elements.contact import CONFORMING, ElementContact
 from bem.elements.gear_pair import GearModel
 from bem.elements.model import Contacts, ElementModel
 from bem.elements.piston_ring import PistonRingModel
+from bem.elements.plain_bush import PlainBushModel
 from bem.elements.rolling_bearing import BearingModel
 from bem.elements.rough_scenes import mixed_scene, rubbing_scene
 from bem.errors import InputError
@@ -38,14 +39,13 @@ MODELS: dict[str, type[ElementModel]] = {
     "cam-follower": CamModel,
     "gear-pair": GearModel,
     "piston-ring": PistonRingModel,
+    "plain-bush": PlainBushModel,
     "rolling-bearing": BearingModel,
 }
-_CONFORM = (
-    "Journal bearings are not modelled. While the half-width of the contact is below a third of the shaft's radius, "
-    "take shaft and bush as a cylinder of radius R1 R2/(R2 - R1) on a flat: kind "
-    "contact (bem new hertz-cylinder; a whole width in load and lengths) for pressure and contact width, kind friction "
-    "for the film between smooth bodies, kind wear with an Archard law for the worn depth. Wear volume is k F s "
-    "without a program. A closer fit conforms: take a small flat patch of both under the mean pressure F/(d L)."
+_JOURNAL = (
+    "Journal bearings are not modelled: the oil wedge around the whole shaft, its supply through grooves and its "
+    "cavitation are missing. For dry, boundary and mixed lubricated bushes, of polymers above all, take plain-bush "
+    "(bem new plain-bush): contact angle, pressure, p v, temperature, wear, and the film of the loaded zone."
 )
 _GREASE = (
     "Grease is not modelled; its contacts are films of its base oil, often starved. Use kind traction, friction or "
@@ -61,8 +61,7 @@ _OTHER_GEARS = (
     "kind traction as [along], from a .csv file."
 )
 NOT_HERE = {
-    **dict.fromkeys(("journal-bearing", "plain-bearing", "sleeve-bearing", "sliding-bearing"), _CONFORM),
-    **dict.fromkeys(("bush", "bushing", "bushes", "bushings"), _CONFORM),
+    **dict.fromkeys(("journal-bearing", "hydrodynamic-bearing"), _JOURNAL),
     **dict.fromkeys(("seal", "seals", "lip-seal"), _SEAL),
     **dict.fromkeys(("worm-gear", "bevel-gear", "hypoid-gear", "internal-gear", "planetary-gear"), _OTHER_GEARS),
     "grease": _GREASE,
@@ -73,6 +72,7 @@ TITLES = {
     "gear-pair": "spur or helical gears: film, losses, temperatures, scuffing along the path of contact",
     "cam-follower": "cam under a flat-faced follower: film, friction and wear over the cam's angle",
     "piston-ring": "piston ring on its liner: film, friction and wear over the crank's angle",
+    "plain-bush": "shaft in a bush, dry or lubricated: contact angle, pressure, p v, film, temperature, wear life",
 }
 """A line about each element."""
 _SHORT = {
@@ -84,6 +84,8 @@ _SHORT = {
     **dict.fromkeys(("bearing-life", "rating-life", "l10"), "rolling-bearing"),
     "cam": "cam-follower",
     "ring": "piston-ring",
+    **dict.fromkeys(("bush", "bushing", "bushes", "bushings"), "plain-bush"),
+    **dict.fromkeys(("plain-bearing", "sleeve-bearing", "sliding-bearing"), "plain-bush"),
 }
 KINDS = ("traction", "contact", "point-film", "friction", "running-in", "surface-temperature")
 """Kinds of scene that are made of a contact."""
@@ -217,7 +219,7 @@ class Element:
         """Return the notes on the element, and on places where half-space and line film do not carry."""
         notes = [*notes_on_table(self.model), *self.found.notes]
         conforming = [one.name for one in self.found.contacts if one.conforming(self.modulus)]
-        if conforming:
+        if conforming and not isinstance(self.model, PlainBushModel):  # whose contact is that of conforming bodies
             notes.append(SLOPES_LARGE(places=len(conforming), first=conforming[0], limit=CONFORMING, reason="element"))
         if (soft := self._yielding()) is not None:
             notes.append(soft)

@@ -11,6 +11,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from bem.elements.element import Element
+from bem.elements.plain_bush import PlainBushModel, sliding_to_depth
 from bem.elements.running import Running
 
 if TYPE_CHECKING:
@@ -37,6 +38,9 @@ def element_figure(element: Element, runs: Sequence[Running]) -> Figure:
     from matplotlib.figure import Figure
 
     known = [one for one in runs if one.converged]
+    if isinstance(element.model, PlainBushModel):
+        with style():
+            return _bush(element, element.model, Figure(figsize=(7.2, 4.6), layout="constrained"))
     with style():
         figure = Figure(figsize=(7.2, 7.8 if known else 4.6), layout="constrained")
         panels = figure.subplots(4 if known else 2, 1, sharex=True)
@@ -58,6 +62,37 @@ def element_figure(element: Element, runs: Sequence[Running]) -> Figure:
         figure.suptitle(
             f"{element.model.name}: {element.model.description or element.model.element}", fontsize="medium"
         )
+    return figure
+
+
+def _bush(element: Element, model: PlainBushModel, figure: Figure) -> Figure:
+    """Draw the pressure around a bush beside Hertz', and where a wear rate is known the worn depth over time."""
+    import numpy as np
+
+    found, hertz = model.conforming, model.contact().hertz(element.modulus)
+    worn = bool(model.specific_wear_rate)
+    panels = figure.subplots(1, 2 if worn else 1, squeeze=False)[0]
+    half = math.degrees(found.half_angle)
+    at = np.concatenate([[-half], np.degrees(found.angles[::-1]), [half]])
+    panels[0].plot(at, 1e-6 * np.concatenate([[0.0], found.pressures[::-1], [0.0]]), color="C0", label="shaft in bush")
+    width = math.degrees(model.contact().half_width(element.modulus) / model.bodies.radius)
+    share = np.linspace(-1, 1, 201)
+    panels[0].plot(width * share, 1e-6 * hertz.maximum_pressure * np.sqrt(1 - share**2), "--", color="0.5",
+                   label="Hertz, equivalent cylinder")  # fmt: skip
+    panels[0].axhline(1e-6 * model.mean_pressure, color="C1", linewidth=0.9, label="mean, F/(d L)")
+    panels[0].set_xlabel("angle from the load line (deg)")
+    panels[0].set_ylabel("pressure (MPa)")
+    panels[0].set_ylim(bottom=0)
+    panels[0].legend(frameon=False, fontsize="small")
+    if worn:
+        depth = np.linspace(0.0, model.permitted_wear or 2 * model.radial_clearance, 61)
+        hours = np.array([sliding_to_depth(model, one) for one in depth]) / (3600 * model.sliding_speed)
+        panels[1].plot(hours, 1e6 * depth, color="C0")
+        panels[1].set_xlabel("time (h)")
+        panels[1].set_ylabel("worn depth at the load line (um)")
+        panels[1].set_xlim(left=0)
+        panels[1].set_ylim(bottom=0)
+    figure.suptitle(f"{model.name}: {model.description or model.element}", fontsize="medium")
     return figure
 
 

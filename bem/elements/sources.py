@@ -7,7 +7,9 @@ from bem.elements.cam_follower import CamModel
 from bem.elements.element import Element
 from bem.elements.gear_pair import GearModel
 from bem.elements.piston_ring import PistonRingModel
+from bem.elements.plain_bush import PlainBushModel
 from bem.elements.rolling_bearing import BearingModel
+from bem.reference_solutions import pin_in_hole
 
 _SHARED = {
     "johnson1985": "Hertz contacts",
@@ -22,6 +24,7 @@ _OF_MODEL: dict[type, dict[str, str]] = {
     GearModel: dict.fromkeys(scuffing.CITES, "scuffing and friction of gear tests"),
     CamModel: {},
     PistonRingModel: {"reynolds1886": "film of the ring"},
+    PlainBushModel: dict.fromkeys(pin_in_hole.CITES, "conforming contact, closed form that it is verified against"),
 }
 
 

@@ -72,3 +72,36 @@ FOLLOWER_PASSED_OFTEN = define(
     "The contact wanders to and fro, slowly where it turns round: depths per pass have no limit there, and "
     "wear per hour is not known.",
 )
+BUSH_CONFORMS = define(
+    "bush-conforms",
+    CAUTION,
+    "Shaft and bush conform: film and scenes are of a cylinder that deviates.",
+    "The contact reaches {angle:.0f} degrees to either side{cause}. Against it Hertz' contact of the equivalent"
+    " cylinder deviates by {pressure:+.0%} in peak pressure and {width:+.0%} in width; bodies as stiff as the true"
+    " width demands have {film:.0%} of its film.",
+    "Take films, lambda ratio and scenes as estimates.",
+)
+BUSH_SWINGS = define(
+    "bush-swings",
+    CAUTION,
+    "The film is that of steady sliding at the mean speed.",
+    "Where the shaft turns round there is no entrainment, and surfaces touch.",
+    "Take the film as an upper bound.",
+)
+BUSH_OVER_LIMIT = define(
+    "bush-over-limit",
+    CAUTION,
+    "The bush exceeds a limit.",
+    reasons={
+        "pv": Reason(
+            "p v is {value:.3g} MPa m/s, {ratio:.2g} times the limit of {limit:.3g} MPa m/s.",
+            "Lower load or speed, take a larger bush or another material.",
+            headline="Pressure times velocity (p v) exceeds its limit.",
+        ),
+        "temperature": Reason(
+            "By the heat balance it reaches {value:.0f} °C, above {limit:.0f} °C: no steady operation is possible.",
+            "Lower friction, load or speed, or lead off more heat (heat_balance).",
+            headline="The bush becomes too hot.",
+        ),
+    },
+)

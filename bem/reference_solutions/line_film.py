@@ -140,6 +140,18 @@ def dowson_higginson_minimum(
     return 2.65 * radius * speed**0.7 * (pressure_viscosity * reduced) ** 0.54 / (load / (reduced * radius)) ** 0.13
 
 
+def isoviscous_elastic_minimum(
+    *, load: float, radius: float, contact_modulus: float, mean_speed: float, viscosity: float
+) -> float:
+    """Fit of the minimum film of soft bodies [m]: h/R = 3.10 U^0.6 / W^0.2, U = mu u/(E' R), W = w/(E' R), E' = 2 E*.
+
+    Isoviscous-elastic regime of lines after Herrebrugh (1968), in the constants of Hamrock's textbook; neither read.
+    """
+    reduced = 2 * contact_modulus
+    speed = viscosity * mean_speed / (reduced * radius)
+    return 3.10 * radius * speed**0.6 / (load / (reduced * radius)) ** 0.2
+
+
 def moes_central(load: float, piezo: float) -> float:
     """Fit of the central film in Moes' variables, H(M, L) with U = mu (u1 + u2)/(E' R) and E' = 2 E*.
 

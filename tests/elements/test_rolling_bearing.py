@@ -125,7 +125,7 @@ def test_rollers_touch_in_lines():
         ({"rolling": "roller"}, "length of a roller"),
         ({"spead": "3 rpm"}, 'did you mean "speed"'),
         ({"first": "stel-52100"}, 'did you mean "steel-52100"'),
-        ({"element": "journal-bearing"}, "conform"),
+        ({"element": "journal-bearing"}, "plain-bush"),
         ({"element": "bering"}, "not allowed"),
         ({"speed": "3 m"}, "is not a speed of rotation"),
         ({"speed": "1500 1/min"}, "says no angle"),  # was read as radians: 6.28 times too slow, without a word

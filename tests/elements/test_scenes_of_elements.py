@@ -129,7 +129,7 @@ def test_the_command_writes_scene_and_table(tmp_path):
     assert not (tmp_path / "other.toml").exists()
     refused = bem("new", "journal-bearing")
     assert refused.returncode == 2
-    assert "small flat patch" in refused.stderr
+    assert "plain-bush" in refused.stderr
 
 
 @pytest.mark.parametrize("kind", KINDS)

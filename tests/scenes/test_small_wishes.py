@@ -68,7 +68,7 @@ def test_a_new_scene_has_no_description_of_another_case(name, tmp_path):
     assert load_scene(tmp_path / "own.toml").description == ""
 
 
-@pytest.mark.parametrize("name", ["gear-pair", "rolling-bearing", "cam-follower", "piston-ring"])
+@pytest.mark.parametrize("name", ["gear-pair", "rolling-bearing", "cam-follower", "piston-ring", "plain-bush"])
 def test_a_new_element_has_no_description_of_another_case(name, tmp_path):
     (tmp_path / "own.toml").write_text(element_template(name))
     assert load_element(tmp_path / "own.toml").model.description == ""

@@ -1,0 +1,147 @@
+"""Rows of `bem element` for a plain bush: pressure, p v, friction, heat balance, wear and life."""
+
+from __future__ import annotations
+
+import math
+
+from bem.elements.plain_bush import (
+    AREA_FACTOR,
+    DRY_FRICTION,
+    SERVICE_TEMPERATURES,
+    TRANSFER,
+    WORN_IN,
+    PlainBushModel,
+    sliding_to_depth,
+)
+from bem.notes import Note
+from bem.notes.elements import BUSH_OVER_LIMIT
+from bem.quantities import plain_digits, with_unit
+
+CELSIUS = 273.15
+_HOUR = 3600.0
+
+
+def pressure_words(model: PlainBushModel) -> str:
+    """Return contact angle and pressures in words."""
+    found = model.conforming
+    deviation, _ = model.hertz_deviation()
+    hertz = (1 + deviation) * found.maximum_pressure
+    if model.wall is None:
+        around = f"bush of infinite thickness, of {model.second.build().name}"
+    else:
+        housing = "a rigid housing" if model.housing is None else f"a housing of {model.housing.build().name}"
+        around = f"bush {with_unit(model.wall, 'm')} thick in {housing}"
+    peak, mean = with_unit(found.maximum_pressure, "Pa"), with_unit(model.mean_pressure, "Pa")
+    return (
+        f"load line: half-angle {math.degrees(found.half_angle):.1f} deg, peak pressure {peak}, mean pressure F/(d L) "
+        f"{mean}; {around} (Hertz' equivalent cylinder: {with_unit(hertz, 'Pa')})"
+    )
+
+
+def friction_power_of(model: PlainBushModel, lubricated: float | None) -> tuple[float, str]:
+    """Return the friction power [W] and where it comes from.
+
+    lubricated : of film and asperities [W]; None of a dry bush.
+    """
+    slid = model.radial_load * model.sliding_speed
+    if model.friction is not None:
+        return model.friction * slid, f"friction coefficient {model.friction:g}, given"
+    if lubricated is not None:
+        return lubricated, (
+            f"friction coefficient {lubricated / slid:.3g} of film and asperities, whose boundary friction is "
+            f"{model.boundary_friction:g}, an estimate; kind friction computes it"
+        )
+    return DRY_FRICTION * slid, f"friction coefficient {DRY_FRICTION:g} assumed: dry thermoplastics have 0.15 to 0.40"
+
+
+def bush_temperature(model: PlainBushModel, power: float) -> float:
+    """Return the bush temperature [K]: given, or by the heat balance of a friction power [W]."""
+    return model.bulk_temperature or model.surroundings + power / model.conductance
+
+
+def bush_rows(model: PlainBushModel, lubricated: float | None) -> list[tuple[str, str]]:
+    """Return rows of name and words; `lubricated` as in `friction_power_of`."""
+    power, source = friction_power_of(model, lubricated)
+    rows = [
+        ("pressure x velocity", _pv(model)),
+        ("friction power", f"{plain_digits(power, 3)} W ({source})"),
+        ("temperatures", _temperature(model, power)),
+        ("wear per hour", _wear(model)),
+    ]
+    if model.specific_wear_rate:
+        rows.append(("wear life", _life(model)))
+    return rows
+
+
+def bush_notes(model: PlainBushModel, lubricated: float | None) -> tuple[Note, ...]:
+    """Return notes on limits that the bush exceeds; `lubricated` as in `friction_power_of`."""
+    notes = []
+    pv = model.mean_pressure * model.sliding_speed
+    if model.pv_limit is not None and pv > model.pv_limit:
+        notes.append(
+            BUSH_OVER_LIMIT(value=1e-6 * pv, limit=1e-6 * model.pv_limit, ratio=pv / model.pv_limit, reason="pv")
+        )
+    highest = model.service_temperature
+    temperature = bush_temperature(model, friction_power_of(model, lubricated)[0])
+    if highest is not None and temperature > highest:
+        notes.append(BUSH_OVER_LIMIT(value=temperature - CELSIUS, limit=highest - CELSIUS, reason="temperature"))
+    return tuple(notes)
+
+
+def _pv(model: PlainBushModel) -> str:
+    pv = 1e-6 * model.mean_pressure * model.sliding_speed
+    mean = "mean " if model.oscillation is not None else ""
+    said = f"{pv:.3g} MPa m/s at a {mean}sliding speed of {with_unit(model.sliding_speed, 'm/s')}"
+    if model.pv_limit is None:
+        return f"{said}; no limit given (pv_limit, of the maker at this speed and cooling)"
+    return f"{said}; limit {1e-6 * model.pv_limit:.3g} MPa m/s, safety factor {1e-6 * model.pv_limit / pv:.3g}"
+
+
+def _temperature(model: PlainBushModel, power: float) -> str:
+    temperature = bush_temperature(model, power) - CELSIUS
+    around = model.surroundings - CELSIUS
+    if model.bulk_temperature is not None:
+        said = f"bush {temperature:.4g} °C, given or by the heat balance"
+    else:
+        said = (
+            f"bush {temperature:.3g} °C: surroundings {around:.3g} °C plus {plain_digits(power, 3)} W over "
+            f"{model.conductance:.3g} W/K"
+        )
+        if model.heat_balance is None:
+            said += f", assumed as {TRANSFER:g} W/(m^2 K) x {AREA_FACTOR:g} d L (give heat_balance)"
+    highest = model.service_temperature
+    if highest is None:
+        return f"{said}; no limit given (maximum_temperature)"
+    source = "given" if model.maximum_temperature is not None else SERVICE_TEMPERATURES[model.second.build().name][1]
+    return f"{said}; limit {highest - CELSIUS:.3g} °C ({source})"
+
+
+def _wear(model: PlainBushModel) -> str:
+    rate = model.specific_wear_rate
+    if rate is None:
+        return "not known: give specific_wear_rate of the bush, measured against this shaft, dry or in this lubricant"
+    hourly = rate * model.sliding_speed * _HOUR
+    peaks = (model.conforming.maximum_pressure, WORN_IN * model.mean_pressure)
+    new, least = (1e6 * hourly * peak for peak in peaks)
+    return (
+        f"bush {new:.3g} um at the load line as new, {least:.3g} um worn in (4/pi of the "
+        "mean pressure); Archard's law, the shaft does not wear"
+    )
+
+
+def _life(model: PlainBushModel) -> str:
+    depth = model.permitted_wear
+    assumed = ""
+    if depth is None:
+        depth = 2 * model.radial_clearance
+        assumed = " (the clearance; give permitted_wear)"
+    distance = sliding_to_depth(model, depth)
+    angle = max(
+        math.degrees(math.acos(model.radial_clearance / (model.radial_clearance + depth))),
+        math.degrees(model.conforming.half_angle),
+    )
+    hours = plain_digits(distance / model.sliding_speed / _HOUR, 3)
+    return (
+        f"{hours} h ({plain_digits(1e-3 * distance, 3)} km) to a depth of {with_unit(depth, 'm')}{assumed}; the "
+        f"contact then reaches {angle:.0f} deg to either side"
+    )

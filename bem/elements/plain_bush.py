@@ -1,0 +1,205 @@
+"""A plain bush: a shaft that turns or swings in a fixed bush under a load of fixed direction, dry or lubricated.
+
+The contact is `bem.elements.conforming`; films and scenes are of the equivalent cylinder on a flat, whose gap is that
+of shaft and bush near the load line. The bush may have a wall, bonded to its housing. Wear follows Archard with the
+whole load and takes off the bush alone. Thermal expansion, which may close the clearance of a polymer bush, its creep
+and its softening with temperature are left out. Verified in tests/elements/test_plain_bush.py.
+"""
+
+from __future__ import annotations
+
+import math
+from functools import cached_property
+from typing import Annotated, Literal, Self
+
+from pydantic import Field, model_validator
+
+from bem.elements.conforming import ConformingBodies, ConformingContact, conforming_contact
+from bem.elements.contact import ElementContact
+from bem.elements.model import Contacts, ElementModel
+from bem.notes import Note
+from bem.notes.elements import BUSH_CONFORMS, BUSH_SWINGS
+from bem.scenes.common import MaterialScene, PositiveLength, Table, problem
+from bem.scenes.units import Angle, Dimension, Force, Rate, Ratio, RotationSpeed, Temperature
+
+ROOM = 293.15
+"""Temperature of the surroundings where none is given [K]."""
+DRY_FRICTION = 0.35
+"""Friction coefficient of a dry bush without one of the file; dry thermoplastics with filler have 0.15 to 0.40 (The
+Tribology Handbook, ed. M. J. Neale, table of rubbing bearing materials: this page read), here near the upper end."""
+TRANSFER, AREA_FACTOR = 15.0, 15.0
+"""Without a conductance heat leaves by 15 W/(m^2 K) through 15 times diameter times length: still air around a small
+bearing block, the lower ends of the usual ranges 15 to 20 of both (DIN 31652, from memory, not checked)."""
+SERVICE_TEMPERATURES = {
+    "peek": (523.15, "continuous use of PEEK: W. Hufenbach, K. Kunze and J. Bijwe (2003), introduction"),
+}
+"""Highest temperature of a bush by material of the catalogue [K], with its source."""
+FAR_FROM_HERTZ = 0.05
+"""Deviation of Hertz' peak pressure from that of the conforming contact above which it is said."""
+PressureVelocity = Annotated[float, Dimension("W/m^2", "a pressure times a speed", "0.2 MPa*m/s")]
+
+
+class OscillationScene(Table):
+    """A shaft that swings: `amplitude` to either side of the middle, so many times per second."""
+
+    amplitude: Annotated[Angle, Field(gt=0)]
+    frequency: Annotated[Rate, Field(gt=0)]
+
+
+class PlainBushModel(ElementModel):
+    """A shaft in a bush. Body 1 is the shaft, body 2 the bush.
+
+    `clearance`: bore less shaft diameter. `wall`: thickness of the bush; without it the material of the bush has no
+    end. `housing`: material around a bush with a wall; rigid without it. `speed` or `oscillation`. `friction`:
+    coefficient of the whole bush; without it that of dry bushes, or with an oil that of film and asperities.
+    `pv_limit`: highest mean pressure times sliding speed. `maximum_temperature`: of the bush. `permitted_wear`: depth
+    at the load line at which the bush is worn out.
+    """
+
+    element: Literal["plain-bush"] = "plain-bush"
+    shaft_diameter: PositiveLength
+    clearance: PositiveLength
+    length: PositiveLength
+    wall: PositiveLength | None = None
+    housing: MaterialScene | None = None
+    radial_load: Annotated[Force, Field(gt=0)]
+    speed: Annotated[RotationSpeed, Field(gt=0)] | None = None
+    oscillation: OscillationScene | None = None
+    friction: Annotated[Ratio, Field(gt=0, lt=2)] | None = None
+    pv_limit: Annotated[PressureVelocity, Field(gt=0)] | None = None
+    maximum_temperature: Temperature | None = None
+    permitted_wear: PositiveLength | None = None
+
+    @model_validator(mode="after")
+    def _one_temperature(self) -> Self:  # in place of the check that a heat balance has an oil: dry bushes have none
+        if self.bulk_temperature is not None and self.heat_balance is not None:
+            raise problem("bulk_temperature and heat_balance are given", "one of both: the balance gives the other")
+        return self
+
+    @model_validator(mode="after")
+    def _fits(self) -> Self:
+        if (self.speed is None) == (self.oscillation is None):
+            raise problem("neither or both of speed and oscillation are given", "one of them")
+        if not self.clearance < 0.1 * self.shaft_diameter:
+            raise problem("clearance is above a tenth of the shaft diameter", "bore less shaft diameter")
+        if self.wall is not None and not self.wall >= 0.01 * self.shaft_diameter:
+            raise problem("wall is below 1 % of the shaft diameter", "a thicker wall; a thin lining is a coating")
+        if self.housing is not None and self.wall is None:
+            raise problem("housing without wall", "wall beside housing")
+        if self.wall is not None and (self.permitted_wear or 0.0) >= self.wall:
+            raise problem("permitted_wear is not below the wall", "a worn depth that leaves some wall")
+        return self
+
+    @property
+    def sliding_speed(self) -> float:
+        """Speed of sliding, of a swinging shaft its mean over time [m/s]."""
+        radius = 0.5 * self.shaft_diameter
+        if self.oscillation is None:
+            assert self.speed is not None
+            return radius * self.speed
+        return radius * 4 * self.oscillation.amplitude * self.oscillation.frequency
+
+    @property
+    def line_load(self) -> float:
+        """Load per length [N/m]."""
+        return self.radial_load / self.length
+
+    @property
+    def mean_pressure(self) -> float:
+        """Load over diameter and length [Pa]."""
+        return self.line_load / self.shaft_diameter
+
+    @property
+    def radial_clearance(self) -> float:
+        """Difference of the radii [m]."""
+        return 0.5 * self.clearance
+
+    @cached_property
+    def bodies(self) -> ConformingBodies:
+        """Shaft and bush of the conforming contact."""
+        return ConformingBodies(
+            self.first.build(), self.second.build(), 0.5 * (self.shaft_diameter + self.clearance),
+            self.radial_clearance, self.wall, None if self.housing is None else self.housing.build(),
+        )  # fmt: skip
+
+    @cached_property
+    def conforming(self) -> ConformingContact:
+        """Contact under the load."""
+        return conforming_contact(self.bodies, self.line_load)
+
+    @property
+    def service_temperature(self) -> float | None:
+        """Highest temperature of the bush [K], given or of its material; None where neither is known."""
+        known = SERVICE_TEMPERATURES.get(self.second.build().name)
+        return self.maximum_temperature or (None if known is None else known[0])
+
+    @property
+    def surroundings(self) -> float:
+        """Temperature to which the heat flows [K]."""
+        if self.heat_balance is not None and self.heat_balance.ambient is not None:
+            return self.heat_balance.ambient
+        return ROOM if self.oil is None or self.oil.temperature is None else self.oil.temperature
+
+    @property
+    def conductance(self) -> float:
+        """Heat conductance to the surroundings, given or usual [W/K]."""
+        if self.heat_balance is not None:
+            return self.heat_balance.conductance
+        return TRANSFER * AREA_FACTOR * self.shaft_diameter * self.length
+
+    def contact(self) -> ElementContact:
+        """The equivalent cylinder at the load line."""
+        radii = (0.5 * self.shaft_diameter, -0.5 * (self.shaft_diameter + self.clearance))
+        return ElementContact("load line", 0.0, self.radial_load, radii, (self.sliding_speed, 0.0), length=self.length)
+
+    def hertz_deviation(self) -> tuple[float, float]:
+        """Return how far Hertz' peak pressure and half-width are from those of the conforming contact, over these."""
+        modulus = self.bodies.modulus
+        hertz = self.contact().hertz(modulus).maximum_pressure
+        width = self.contact().half_width(modulus) / self.bodies.radius
+        return hertz / self.conforming.maximum_pressure - 1, width / self.conforming.half_angle - 1
+
+    def contacts(self) -> Contacts:
+        """The one contact at the load line."""
+        return Contacts((self.contact(),), "angle", "rad", self._notes())
+
+    def _notes(self) -> tuple[Note, ...]:
+        notes = []
+        pressure, width = self.hertz_deviation()
+        if abs(pressure) > FAR_FROM_HERTZ:
+            notes.append(BUSH_CONFORMS(
+                angle=math.degrees(self.conforming.half_angle), pressure=pressure, width=width,
+                cause="" if self.wall is None else " and the wall is thin", film=(1 + width) ** -0.8,
+            ))  # fmt: skip
+        if self.oscillation is not None and self.oil is not None:
+            notes.append(BUSH_SWINGS())
+        return tuple(notes)
+
+
+WORN_IN = 4 / math.pi
+"""Peak pressure of a bush that is worn far beyond its clearance, over the mean pressure F/(d L): p is as the cosine of
+the angle, as the depth is that a sinking shaft takes off."""
+
+
+def crescent_distance(depth: float, *, radius: float, clearance: float) -> float:
+    """Return the sliding distance to a worn depth times wear rate and load per length, for rigid bodies [m^2].
+
+    A shaft whose radius is smaller by the clearance c sinks by h beyond it and touches up to a = arccos(c/(c + h)) on
+    either side. Archard's law at every angle, k p ds = cos(angle) dh, and the balance of the load give
+    k W ds = R (a + sin a cos a) dh, whose integral is R [(c + h) a - c sin a]. Derived here.
+    """
+    angle = math.acos(clearance / (clearance + depth))
+    return radius * ((clearance + depth) * angle - clearance * math.sin(angle))
+
+
+def sliding_to_depth(model: PlainBushModel, depth: float) -> float:
+    """Return the sliding distance to a worn depth at the load line [m], an estimate on the safe side.
+
+    It is the larger of the distance under the peak pressure of the new bush, and of that of rigid bodies, whose contact
+    is narrower than that of elastic ones. A PEEK bush worn step by step lasts 0 to 16 % longer.
+    """
+    rate = model.specific_wear_rate
+    assert rate is not None
+    new = depth / (rate * model.conforming.maximum_pressure)
+    rigid = crescent_distance(depth, radius=model.bodies.radius, clearance=model.radial_clearance)
+    return max(new, rigid / (rate * model.line_load))

@@ -1,0 +1,198 @@
+"""A plain bush: p v, friction, heat and wear by hand; life against a bush that is worn step by step."""
+
+import functools
+import math
+import tomllib
+from dataclasses import replace
+
+import numpy as np
+import pytest
+from command_line import run_command
+
+from bem import InputError
+from bem.elements.answer import answer, answer_notes, balance_heat
+from bem.elements.conforming import ConformingBodies
+from bem.elements.element import element_template, load_element
+from bem.elements.figure import element_figure
+from bem.elements.plain_bush import DRY_FRICTION, WORN_IN, crescent_distance, sliding_to_depth
+from bem.elements.running import run_all
+from bem.notes.checks import SLOPES_LARGE
+from bem.notes.elements import BUSH_CONFORMS, BUSH_OVER_LIMIT, BUSH_SWINGS
+
+WATER = tomllib.loads(element_template("plain-bush")) | {"name": "bush"}
+DRY = {key: value for key, value in WATER.items() if key != "oil"}
+WORN = DRY | {"specific_wear_rate": "1e-6 mm^3/(N*m)", "permitted_wear": "0.1 mm"}
+
+
+def codes(notes):
+    return [note.code for note in notes]
+
+
+def test_pressure_and_speed_by_hand():
+    model = load_element(DRY).model
+    assert model.mean_pressure == pytest.approx(500 / (0.02 * 0.02))
+    assert model.sliding_speed == pytest.approx(math.pi * 0.02 * 5)
+    said = dict(answer(load_element(DRY | {"pv_limit": "0.2 MPa*m/s"}), ()))
+    assert said["pressure x velocity"].startswith("0.393 MPa m/s")
+    assert "safety factor 0.509" in said["pressure x velocity"]
+    assert "no limit given" in dict(answer(load_element(DRY), ()))["pressure x velocity"]
+    swings = {key: value for key, value in DRY.items() if key != "speed"}
+    swings |= {
+        "oscillation": {"amplitude": "90 deg", "frequency": "5 1/s"}
+    }  # as far as a whole turn, five times a second
+    assert load_element(swings).model.sliding_speed == pytest.approx(model.sliding_speed)
+
+
+def test_heat_of_a_dry_bush_by_hand():
+    power = DRY_FRICTION * 500 * math.pi * 0.02 * 5
+    cooled = load_element(DRY | {"heat_balance": {"conductance": "1 W/K", "ambient": "30 degC"}})
+    said = dict(answer(balance_heat(cooled), ()))
+    assert said["friction power"].startswith(f"{power:.3g} W")
+    assert f"bush {30 + power:.3g} °C" in said["temperatures"]
+    assert codes(answer_notes(cooled, ())) == []
+    hot = answer_notes(load_element(DRY), ())
+    assert codes(hot) == [BUSH_OVER_LIMIT.code]
+    assert hot[0].values["value"] == pytest.approx(20 + power / (15 * 15 * 0.02 * 0.02))
+    slick = load_element(DRY | {"friction": 0.05, "pv_limit": "0.39 MPa*m/s"})
+    assert codes(answer_notes(slick, ())) == [BUSH_OVER_LIMIT.code]
+    assert answer_notes(slick, ())[0].values["ratio"] == pytest.approx(math.pi / 8 / 0.39)
+    assert (
+        "limit 100 °C (given)"
+        in dict(answer(load_element(DRY | {"maximum_temperature": "100 degC"}), ()))["temperatures"]
+    )
+
+
+def test_a_lubricated_bush_has_a_film_and_its_friction():
+    element = load_element(WATER | {"thermal": "off"})
+    runs = run_all(element)
+    said = dict(answer(element, runs))
+    assert len(runs) == 1
+    # the film of soft bodies in a liquid whose viscosity does not rise with pressure
+    assert runs[0].minimum_film == pytest.approx(element.columns()["minimum_film [m]"][0], rel=0.05)
+    assert "of film and asperities" in said["friction power"]
+    assert float(said["friction power"].split()[0]) < 0.1 * DRY_FRICTION * 500 * element.model.sliding_speed
+    notes = element.notes()
+    assert BUSH_CONFORMS.code in codes(notes)
+    assert SLOPES_LARGE.code not in codes(notes)
+    light = load_element(WATER | {"radial_load": "2 N"})
+    assert BUSH_CONFORMS.code not in codes(light.notes())
+    assert abs(light.model.hertz_deviation()[0]) < 0.05
+    swings = {key: value for key, value in WATER.items() if key != "speed"}
+    assert BUSH_SWINGS.code in codes(
+        load_element(swings | {"oscillation": {"amplitude": "20 deg", "frequency": "2 1/s"}}).notes()
+    )
+
+
+def test_the_wear_of_rigid_bodies():
+    """Against the integral over the depth, and its limit far beyond the clearance."""
+    radius, clearance, depth = 10e-3, 20e-6, 100e-6
+    deep = depth * np.linspace(0, 1, 20001) ** 2
+    angle = np.arccos(clearance / (clearance + deep))
+    whole = radius * np.trapezoid(angle + np.sin(angle) * np.cos(angle), deep)
+    found = crescent_distance(depth, radius=radius, clearance=clearance)
+    assert found == pytest.approx(whole, rel=1e-6, abs=0)
+    far = 1e4 * clearance
+    assert crescent_distance(far, radius=radius, clearance=clearance) == pytest.approx(
+        far * 2 * radius / WORN_IN, rel=1e-3, abs=0
+    )
+
+
+def worn_step_by_step(bodies: ConformingBodies, line_load, rate, depth, *, distance, steps=150, count=61):
+    """Sliding distance [m] until a bush of infinite thickness is worn to a depth, by implicit steps of Archard's law.
+
+    Cells around a quarter of the bore; steps grow with the distance slid, up to some share of `distance`.
+    """
+    half = np.linspace(0, 0.5 * math.pi, count)
+    n = np.arange(2, 400)
+    quarter = [0.25 * bodies.radius / one.shear_modulus for one in (bodies.shaft, bodies.bush)]
+    kappa = [3 - 4 * one.poissons_ratio for one in (bodies.shaft, bodies.bush)]
+    flexibility = quarter[0] * (1 / (n - 1) + kappa[0] / (n + 1)) + quarter[1] * (kappa[1] / (n - 1) + 1 / (n + 1))
+    weights = np.full(count, half[1])
+    weights[[0, -1]] *= 0.5
+    cosines = np.cos(np.outer(half, n))
+    smooth = np.sinc(0.5 * n * half[1] / math.pi) ** 2  # cells average the harmonics that nodes do not resolve
+    kernel = 2 / math.pi * (cosines * flexibility * smooth) @ cosines.T * weights
+    kernel += (quarter[0] * (kappa[0] - 1) + 2 * quarter[1]) / math.pi * weights
+    worn, slid, touching = np.zeros(count), 0.0, half < 0.3
+    while True:
+        step = max(distance / steps**2, 3 * slid / steps)
+        for _ in range(100):
+            i = np.flatnonzero(touching)
+            system = np.block([
+                [kernel[np.ix_(i, i)] + rate * step * np.eye(len(i)), -np.cos(half[i])[:, None]],
+                [2 * bodies.radius * (weights * np.cos(half))[None, i], np.zeros((1, 1))],
+            ])  # fmt: skip
+            found = np.linalg.solve(system, np.append(-(bodies.clearance + worn)[i], line_load))
+            pressure = np.zeros(count)
+            pressure[i] = found[:-1]
+            gap = bodies.clearance + worn + kernel @ pressure - found[-1] * np.cos(half)
+            now = (pressure > 0) | (~touching & (gap < 0))
+            if np.array_equal(now, touching):
+                break
+            touching = now
+        deeper = rate * pressure * step
+        if worn[0] + deeper[0] > depth:
+            return slid + step * (depth - worn[0]) / deeper[0]
+        worn, slid = worn + deeper, slid + step
+
+
+@pytest.mark.parametrize("depth", [1e-6, 6e-6, 20e-6, 100e-6])
+def test_the_life_is_at_most_that_of_a_bush_worn_step_by_step(depth):
+    model = load_element({key: value for key, value in WORN.items() if key not in ("wall", "housing")}).model
+    least = sliding_to_depth(model, depth)
+    slid = worn_step_by_step(model.bodies, model.line_load, model.specific_wear_rate, depth, distance=least)
+    assert 0.995 * least < slid < 1.17 * least
+    if depth > 50e-6:
+        assert slid == pytest.approx(least, rel=5e-3)
+
+
+def test_wear_and_life_in_words():
+    element = load_element(WORN)
+    said = dict(answer(element, ()))
+    hourly = 1e-15 * element.model.sliding_speed * 3600  # m^2/N times m
+    assert f"{1e6 * hourly * WORN_IN * 1.25e6:.3g} um worn in" in said["wear per hour"]
+    hours = sliding_to_depth(element.model, 1e-4) / element.model.sliding_speed / 3600
+    assert said["wear life"].startswith(f"{hours:.3g} h")
+    assert "80 deg" in said["wear life"]
+    assert "not known" in dict(answer(load_element(DRY), ()))["wear per hour"]
+    assert len(element_figure(element, ()).axes) == 2
+
+
+@pytest.mark.parametrize(
+    ("change", "words"),
+    [
+        ({"speed": None}, "neither or both"),
+        ({"oscillation": {"amplitude": "20 deg", "frequency": "2 1/s"}}, "neither or both"),
+        ({"clearance": "3 mm"}, "clearance"),
+        ({"wall": "0.1 mm"}, "coating"),
+        ({"wall": None}, "housing without wall"),
+        ({"permitted_wear": "2 mm"}, "permitted_wear"),
+        ({"pv_limit": "0.2 MPa"}, "pressure times a speed"),
+    ],
+)
+def test_mistakes_are_said_with_what_is_allowed(change, words):
+    table = {key: value for key, value in (DRY | change).items() if value is not None}
+    with pytest.raises(InputError, match=words):
+        load_element(table)
+
+
+def test_the_command(tmp_path):
+    bem = functools.partial(run_command, cwd=tmp_path)
+    assert bem("new", "bushing", "pump.toml").returncode == 0
+    (tmp_path / "dry.toml").write_text((tmp_path / "pump.toml").read_text().partition("\n[oil]")[0])
+    done = bem("element", "dry.toml", "--table", "all.csv", "--figure", "all.png")
+    assert done.returncode == 0, done.stderr
+    assert "half-angle 21.0 deg, peak pressure 4.86 MPa" in done.stdout
+    assert "The bush becomes too hot" in done.stdout + done.stderr
+    assert (tmp_path / "all.png").stat().st_size > 1000
+    mixed = bem("element", "pump.toml", "--scene", "mixed.toml", "--kind", "friction")
+    assert mixed.returncode == 0, mixed.stderr
+    assert 'kind = "friction"' in (tmp_path / "mixed.toml").read_text()
+
+
+def test_a_wall_makes_the_bush_stiffer():
+    walls = [load_element(DRY | {"wall": wall}).model for wall in ("5 mm", "2 mm", "1 mm")]
+    angles = [one.conforming.half_angle for one in walls]
+    assert angles == sorted(angles, reverse=True)
+    infinite = replace(walls[0].bodies, wall=None, housing=None)
+    assert infinite.equivalent_radius == pytest.approx(walls[0].contact().radius)
