@@ -1,4 +1,4 @@
-"""Homogenised rough contact of a ball: a periodic cell of the roughness that repeats over the whole contact.
+"""Homogenised rough contact: a periodic cell of the roughness that repeats over the contact of a cylinder or ball.
 
 Where the roughness is short compared with the contact, the mean pressure p at a place determines the separation of the
 mean planes s(p), the opening and the real area: those of a periodic cell under p (`cell_law`). The field of mean
@@ -10,12 +10,16 @@ with the film's gap, the deflection u of the smooth bodies and the approach delt
 Tripp (*J. Appl. Mech.* 34, 1967, 153) with the cell's own law and the film's gap; s decreases with p, so the solution
 is unique.
 
-1. Tabulate the law: 28 periodic contacts, once, at the first contact.
+A random cell is a sample of the roughness: under a cylinder it may be longer than the contact is wide, and the
+roughness is short where its correlation length is. Friction between bodies of different elasticity couples into the
+gap within the cell, not over the contact.
+
+1. Tabulate the law: 28 periodic contacts, once for all speeds.
 2. Newton's method in ln p; u and -s'(p) are symmetric and positive, so each step is solved by conjugate gradients.
    Under a prescribed load a second solution removes the net load of the step.
 3. A step is shortened where the energy has its minimum well before the end of the step.
 
-Verified in tests/friction/test_repeated_cell.py against patches that hold the contact.
+Verified in tests/friction/test_repeated_cell.py and test_repeated_line.py against patches that hold the contact.
 """
 
 from __future__ import annotations
@@ -35,6 +39,7 @@ from bem.friction.setup import MixedSetup
 from bem.grid import FloatArray, Grid
 from bem.notes import Note
 from bem.notes.friction import REPEATED_PATCH
+from bem.surfaces.spectrum import correlation_lengths
 
 LEAST, MOST, STEPS = 1e-4, 4.0, 28
 """Range of the tabulated mean pressures, over the mean pressure of the Hertz contact, and their number."""
@@ -51,8 +56,12 @@ _LEAST_SPOT = 1e-3
 COUNTS = 1e-3
 """Pressure over the maximum below which the residual of a place does not count."""
 FEWEST_CELLS_ACROSS = 4.0
-"""Lengths of the cell to a half-axis, above which its roughness is short against the contact. With five and a half, two
-crossed waves, the surfaces' share was within 1 % of a patch's (tests)."""
+"""Lengths of the cell to a half-axis of a ball's contact, above which its roughness is short against the contact. With
+five and a half, two crossed waves, the surfaces' share was within 1 % of a patch's (tests)."""
+FEWEST_LENGTHS_ACROSS = 8.0
+"""Correlation lengths along x to the half-width of a cylinder's contact, above which its roughness is short."""
+LARGEST_EDGE_PRESSURE = 1e-3
+"""Mean pressure at the ends of the grid over its maximum, above which the contact of a cylinder is cut off."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -74,8 +83,11 @@ class HomogenisedContact(OfPatch):
 
     @cached_property
     def law(self) -> CellLaw:
-        """Law of the cell, tabulated at the first contact."""
-        return CellLaw.tabulated(self.setup.grid, self._solved, self._pressures)
+        """Law of the cell, tabulated at the first contact of the set-up with these heights and this traction."""
+        laws, key = self.setup.cell_laws, (self.traction, self.patch.rough.tobytes())
+        if key not in laws:
+            laws[key] = CellLaw.tabulated(self.setup.grid, self._solved, self._pressures)
+        return laws[key]
 
     @cached_property
     def operator(self) -> DisplacementOperator:
@@ -137,6 +149,13 @@ class HomogenisedContact(OfPatch):
             most = min(most, MOST_YIELDED * self.setup.hardness)
         return np.geomspace(min(LEAST * mean, 0.1 * most), most, STEPS)
 
+    @cached_property
+    def _correlation_length(self) -> float:
+        """Lag along x at which the autocorrelation of the heights falls to 1/e [m]; half the cell where it does not."""
+        grid, rough = self.setup.grid, self.patch.rough
+        spectrum = np.abs(np.fft.rfft2(rough)) ** 2
+        return min(correlation_lengths(spectrum, grid)[0], 0.5 * grid.lengths[0])
+
     def _solved(self, pressure: float, start: FloatArray | None) -> SolvedCell:
         """Solve the periodic cell under a mean pressure [Pa]."""
         grid, rough = self.setup.grid, self.patch.rough
@@ -167,11 +186,21 @@ class HomogenisedContact(OfPatch):
         return np.sqrt(np.maximum(inside, 1e-4)) * 1.5 * self.setup.smooth.mean_pressure(load)
 
     def _notes(self, pressure: FloatArray) -> tuple[Note, ...]:
-        """Return notes on cells that are long against the contact, and on pressures beyond the table."""
+        """Return notes on roughness that is long against the contact, and on pressures beyond table or grid."""
         notes = []
-        across = min(self.setup.smooth.half_axes(self.setup.load)) / max(self.setup.grid.lengths)
-        if across < FEWEST_CELLS_ACROSS:
-            notes.append(REPEATED_PATCH(across=float(across), fewest=FEWEST_CELLS_ACROSS, reason="long"))
+        half_axis = min(self.setup.smooth.half_axes(self.setup.load))
+        if self.setup.radii is not None:
+            across = half_axis / max(self.setup.grid.lengths)
+            if across < FEWEST_CELLS_ACROSS:
+                notes.append(REPEATED_PATCH(across=float(across), fewest=FEWEST_CELLS_ACROSS, reason="long"))
+        else:
+            across = half_axis / self._correlation_length
+            if across < FEWEST_LENGTHS_ACROSS:
+                length = self._correlation_length
+                notes.append(REPEATED_PATCH(across=across, length=length, fewest=FEWEST_LENGTHS_ACROSS, reason="waves"))
+            if max(pressure[0, 0], pressure[-1, 0]) > LARGEST_EDGE_PRESSURE * pressure.max():
+                length = float(-self.setup.film_grid.x[0])
+                notes.append(REPEATED_PATCH(length=length, across=length / half_axis, reason="edge"))
         if float(pressure.max()) > float(self._pressures[-1]) * 1.01:
             limit = float(self._pressures[-1])
             notes.append(REPEATED_PATCH(pressure=float(pressure.max()), limit=limit, reason="pressure"))

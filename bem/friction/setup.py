@@ -23,6 +23,7 @@ from bem.lubrication.thermal.model import HEAT, FilmHeat
 from bem.materials import Body, contact_modulus
 
 if TYPE_CHECKING:
+    from bem.friction.cell_law import CellLaw
     from bem.friction.film import PatchFilm
 
 CONTACT_MODELS = ("coupled", "uncoupled")
@@ -30,7 +31,9 @@ SEPARATIONS = ("volume", "film")
 FEWEST_CELLS, FILM_CELLS = 32, 96
 """Cells of a ball's film along an axis: fewest, and default."""
 FILM_PLACES, REACH = 96, 1.5
-"""Grid of the film over a repeated cell: cells along an axis, and half-length in half-axes of the Hertz contact."""
+"""Grid of a ball's film over repeated cells: cells along an axis, and half-length in half-axes of the Hertz contact."""
+LINE_PLACES, LINE_REACH = 384, 3.0
+"""The same of a cylinder's film. Soft rough bodies touch beside the Hertz contact, where a film carries load as well."""
 HEAT_NEEDS = ("temperature", "density", "heat_capacity", "thermal_conductivity", "temperature_viscosity")
 """Properties of the oil that heat needs."""
 
@@ -104,7 +107,8 @@ class MixedSetup:
             missing = [name for name in names if getattr(self, name) is None]
             values = {name: getattr(self, name) for name in names if name not in missing}
             advice = "give radius and width of a cylinder, or radii (Rx, Ry) of a ball or ellipsoid"
-            return [f"{name}: missing; {advice}" for name in missing] + _not_positive(values)
+            messages = [f"{name}: missing; {advice}" for name in missing] + _not_positive(values)
+            return messages + self._cell()
         if any(getattr(self, name) is not None for name in names):
             return ["radii: given beside radius or width; give radii for a ball, radius and width for a cylinder"]
         try:
@@ -127,10 +131,15 @@ class MixedSetup:
                 "grid: a patch that holds the contact of a ball goes on nowhere, a cell that repeats all over it goes "
                 "on along both; make it periodic nowhere, or along x and y"
             ]
+        return self._cell()
+
+    def _cell(self) -> list[str]:
+        """Return messages on options that a repeated cell of the roughness does not have."""
         if self.repeated_cell and self.oil_volume != OilVolume.LOADED:
             return ['oil_volume: a cell that repeats has its oil where the film carries; make it "loaded"']
         if self.repeated_cell and self.contact_model == "uncoupled":
-            return ["grid: uncoupled asperities need a patch that holds the contact; make it periodic nowhere"]
+            free = "nowhere" if self.radii is not None else "along y alone"
+            return [f"grid: uncoupled asperities need a patch that holds the contact; make it periodic {free}"]
         return []
 
     def _numbers(self) -> list[str]:
@@ -241,7 +250,7 @@ class MixedSetup:
         if isinstance(self.supply, InletDistance) and self.supply.distance <= half_axes[0]:
             raise InputError(inside_hertz(self.supply, half_axes[0]))
         if self.repeated_cell:
-            if max(self.grid.lengths) > min(half_axes):
+            if self.radii is not None and max(self.grid.lengths) > min(half_axes):
                 raise InputError(
                     f"grid: the cell of the roughness is {max(self.grid.lengths):.3g} m long, more than the contact's "
                     f"half-axis {min(half_axes):.3g} m; make it shorter, or a patch that holds the contact"
@@ -313,14 +322,19 @@ class MixedSetup:
 
     @property
     def repeated_cell(self) -> bool:
-        """Return True if the rough patch is a cell that repeats over the whole contact of a ball."""
-        return self.radii is not None and all(self.grid.periodic)
+        """Return True if the rough patch is a cell that repeats over the whole contact."""
+        return all(self.grid.periodic) and not self.at_film_separation
+
+    @cached_property
+    def cell_laws(self) -> dict[tuple[float, bytes], CellLaw]:
+        """Laws of repeated cells that were tabulated, by traction and heights; all speeds share them."""
+        return {}
 
     @property
     def slices(self) -> float:
-        """Number of patches that make the contact; of repeated cells, area of the Hertz ellipse over that of a cell."""
+        """Number of patches that make the contact; of repeated cells, area of the Hertz contact over that of a cell."""
         if self.repeated_cell:
-            return math.pi * math.prod(self.smooth.half_axes(self.load)) / self.grid.area
+            return self.smooth.hertz_area(self.load) / self.grid.area
         return self.smooth.slices(self.grid)
 
     @property
@@ -329,6 +343,9 @@ class MixedSetup:
         if not self.repeated_cell:
             return self.grid
         a, b = self.smooth.half_axes(self.load)
+        if self.width is not None:
+            spacing = 2 * LINE_REACH * a / LINE_PLACES
+            return Grid((LINE_PLACES, 1), (spacing, self.width), periodic=(False, True))
         return Grid((FILM_PLACES, FILM_PLACES), (2 * REACH * a / FILM_PLACES, 2 * REACH * b / FILM_PLACES))
 
     @property

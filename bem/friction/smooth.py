@@ -60,6 +60,9 @@ class SmoothContact(Protocol):
     def mean_pressure(self, load: float) -> float:
         """Return the mean pressure of the Hertz contact [Pa]."""
 
+    def hertz_area(self, load: float) -> float:
+        """Return the area of the Hertz contact [m^2], of a cylinder on its whole width."""
+
     def parabola(self, x: FloatArray, y: FloatArray) -> FloatArray:
         """Return the undeformed gap [m] at x (nx,) and y (ny,) [m]: (nx, ny), or (nx, 1) of a line contact."""
 
@@ -106,7 +109,11 @@ class LineContact:
 
     def mean_pressure(self, load: float) -> float:
         """See `SmoothContact`."""
-        return load / (2 * self.half_width(load) * self.width)
+        return load / self.hertz_area(load)
+
+    def hertz_area(self, load: float) -> float:
+        """See `SmoothContact`."""
+        return 2 * self.half_width(load) * self.width
 
     def parabola(self, x: FloatArray, y: FloatArray) -> FloatArray:
         """See `SmoothContact`."""
@@ -155,6 +162,10 @@ class PointContact:
     def mean_pressure(self, load: float) -> float:
         """See `SmoothContact`."""
         return ellipse_contact(radii=self.radii, contact_modulus=self.contact_modulus, load=load).mean_pressure
+
+    def hertz_area(self, load: float) -> float:
+        """See `SmoothContact`."""
+        return math.pi * math.prod(self.half_axes(load))
 
     def parabola(self, x: FloatArray, y: FloatArray) -> FloatArray:
         """See `SmoothContact`."""

@@ -140,6 +140,17 @@ REPEATED_PATCH = define(
             "Take a shorter patch, or one that holds the contact.",
             headline="The repeated patch is too long for this contact.",
         ),
+        "waves": Reason(
+            "Its correlation length along the sliding direction, {length:si m}, goes {across:.2g} times into the"
+            " half-width of the contact; with fewer than {fewest:g} the patch is not the same everywhere.",
+            "Take a patch that holds the contact: grid.periodic = [false, true] and grid.lengths of twice its width.",
+            headline="The roughness is too long for a patch that repeats.",
+        ),
+        "edge": Reason(
+            "Rough surfaces still touch {length:si m} from the middle, {across:.2g} half-widths of the smooth contact.",
+            "Take a patch that holds the contact: grid.periodic = [false, true].",
+            headline="The contact is wider than its grid.",
+        ),
         "pressure": Reason(
             "The mean pressure is {pressure:si Pa} at most; patches were solved up to {limit:si Pa}.",
             "Lower the load.",

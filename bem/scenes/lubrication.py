@@ -234,7 +234,7 @@ class MixedScene(SceneModel):
     )
 
     cell_may_repeat: ClassVar[bool] = False
-    """True if the rough patch of a ball may be a cell that repeats all over the contact."""
+    """True if the rough patch may be a cell that repeats all over the contact."""
 
     @model_validator(mode="before")
     @classmethod
@@ -254,8 +254,8 @@ class MixedScene(SceneModel):
 
     @property
     def cell_repeats(self) -> bool:
-        """Return True if the rough patch is a cell that repeats all over the contact of a ball."""
-        return self.contact.point_radii is not None and all(self.grid.periodic) and self.cell_may_repeat
+        """Return True if the rough patch is a cell that repeats all over the contact."""
+        return all(self.grid.periodic) and self.cell_may_repeat and not self.at_film_separation
 
     @property
     def at_film_separation(self) -> bool:
@@ -330,12 +330,19 @@ class MixedScene(SceneModel):
         grid, load, hardness = build.grid_of(self.grid), self.load, self.contact.hardness
         half_axes = self.contact.half_axes(load, self.modulus)
         _check_patch(
-            grid, film or FilmMeshScene(), half_axes, repeats=self.cell_repeats, endless=self.at_film_separation
+            grid,
+            film or FilmMeshScene(),
+            half_axes,
+            repeats=self.cell_repeats,
+            endless=self.at_film_separation,
+            may_repeat=self.cell_may_repeat,
         )
         supply = build_supply(self.supply)
         if isinstance(supply, InletDistance) and supply.distance <= half_axes[0]:
             raise InputError(inside_hertz(supply, half_axes[0]))
-        area = math.pi * math.prod(half_axes) if self.cell_repeats else self.contact.slice_area(grid.lengths)
+        area = self.contact.slice_area(grid.lengths)
+        if self.cell_repeats:
+            area = load / self.contact.mean_pressure(load, self.modulus)
         if hardness is not None and load > hardness * area:
             raise InfeasibleError(
                 f"contact.loads: {load:g} N is beyond hardness x area of the patch, {hardness * area:g} N, and the "
@@ -360,14 +367,20 @@ class MixedScene(SceneModel):
 
 
 def _check_patch(
-    grid: Grid, film: FilmMeshScene, half_axes: tuple[float, float], *, repeats: bool, endless: bool
+    grid: Grid,
+    film: FilmMeshScene,
+    half_axes: tuple[float, float],
+    *,
+    repeats: bool,
+    endless: bool,
+    may_repeat: bool,
 ) -> None:
     """Return True if the rough patch, or a cell that repeats, fits the contact and the film's grid; InputError if
     not."""
     messages = []
     point = math.isfinite(half_axes[1])
     if repeats:
-        if max(grid.lengths) > min(half_axes):
+        if point and max(grid.lengths) > min(half_axes):
             messages.append(
                 f"grid: the cell that repeats is {max(grid.lengths):.3g} m long; allowed: at most the contact's "
                 f"half-axis, {min(half_axes):.3g} m"
@@ -380,14 +393,17 @@ def _check_patch(
     elif grid.periodic[0] and not endless:
         messages.append(
             "grid.periodic: the patch lies under a cylinder; allowed: [false, true] or [false, false], or in "
-            'kind friction with sharing.separation = "film" [true, true]'
+            "kind friction [true, true], a patch of the roughness that repeats all over the contact"
         )
     for axis, length, half in zip("xy", grid.lengths, half_axes, strict=True):
         if math.isfinite(half) and 0.5 * length < half and not repeats:
             name, there = (f"half-axis along {axis}", f" along {axis}") if point else ("half-width", "")
+            other = ""
+            if may_repeat and not grid.periodic[0]:
+                other = ", or in [grid] periodic = [true, true]: the patch then repeats under the whole contact"
             messages.append(
                 f"grid: the rough patch reaches {0.5 * length:.3g} m to either side{there}, less than the contact's "
-                f"{name} {half:.3g} m; allowed: at least that"
+                f"{name} {half:.3g} m; allowed: at least that{other}"
             )
     if point and film.start is not None:
         messages.append("film.start: the film of a ball is given on the patch; allowed: no start and end")

@@ -9,6 +9,7 @@ from typing import Literal
 
 from pydantic import model_validator
 
+from bem.kinds.friction.patch import with_patch
 from bem.kinds.friction.waves import FrictionFilmScene, check_flattening
 from bem.scenes import build
 from bem.scenes.axes import Axis, listed, variants
@@ -49,7 +50,7 @@ class FrictionScene(CurveScene):
 
 def resolve(scene: FrictionScene) -> FrictionScene:
     """Fill in the grid and the softer surface's hardness."""
-    scene = build.with_grid(scene)
+    scene = build.with_grid(with_patch(scene))
     return build.with_hardness(scene, needed=True) if scene.capped else scene
 
 

@@ -89,8 +89,8 @@ class HotMixedScene(MixedScene):
 
     @property
     def can_be_hot(self) -> bool:
-        """Return True if heat of film and surfaces is defined: the constants are known, and the patch repeats neither
-        along x nor under a ball."""
+        """Return True if heat of film and surfaces is defined: the constants are known, and the patch does not repeat
+        along x."""
         periodic = self.cell_repeats or self.grid.periodic[0]
         return not periodic and knows_film_heat(self.oil, self.lower, self.upper)
 
@@ -103,11 +103,7 @@ class HotMixedScene(MixedScene):
         check_film_heat(self.oil, self.lower, self.upper)
         if self.contact.point_radii is not None and self.thermal == "full":
             raise problem(_of_a_ball('thermal = "full"'), 'thermal = "lumped" or "off", or a cylinder')
-        if self.cell_repeats:
-            raise problem(
-                f'thermal = "{self.thermal}" on a cell that repeats under a ball (grid.periodic = true)',
-                "a patch that holds the contact",
-            )
+        self.refuse_heat_of_cells()
         if self.grid.periodic[0]:
             raise problem(
                 f'thermal = "{self.thermal}" on a grid periodic along x, whose heat warms the bodies for ever',
@@ -115,6 +111,14 @@ class HotMixedScene(MixedScene):
             )
         check_supply_of_heat(self.thermal, self.supply)
         return self
+
+    def refuse_heat_of_cells(self) -> None:
+        """Refuse heat on a patch that repeats under the contact."""
+        if self.cell_repeats and self.thermal != "off":
+            raise problem(
+                f'thermal = "{self.thermal}" on a rough patch that repeats under the contact (grid.periodic = true)',
+                'thermal = "off", or a patch that holds the contact',
+            )
 
     def setup(self, **accuracy: Any) -> MixedSetup:
         """As `MixedScene.setup`, with the heat."""
@@ -185,12 +189,14 @@ class CurveScene(HotMixedScene):
             return self
         if self.sharing.oil_volume != "loaded":
             raise problem(
-                "a ball on a cell that repeats (grid.periodic = true) with "
+                "a rough patch that repeats under the contact (grid.periodic = true) with "
                 f'sharing.oil_volume = "{self.sharing.oil_volume}"',
                 'oil_volume = "loaded", or a patch that holds the contact',
             )
         if not {"elastic", "capped"} >= set(self.sharing.models):
-            raise problem("uncoupled asperities on a cell that repeats", "models elastic and capped")
+            raise problem(
+                "uncoupled asperities on a rough patch that repeats under the contact", "models elastic and capped"
+            )
         return self
 
     @property

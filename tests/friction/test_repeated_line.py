@@ -1,0 +1,132 @@
+"""A cell of the roughness that repeats under a cylinder: against Hertz, against a patch that holds the contact, ends."""
+
+import numpy as np
+import pytest
+
+from bem import Body, Grid, Lubricant, Material, generate_surface, solve_mixed
+from bem.convolution import displacement_operator
+from bem.errors import InputError, Status
+from bem.friction.models import films_of, rough_contact
+from bem.friction.setup import MixedSetup
+from bem.friction.solve import solve_setup
+
+STEEL = Body(Material(name="steel", youngs_modulus=207e9, poissons_ratio=0.3))
+WAVE, A_WAVE = 20e-6, 16
+CELL = Grid((A_WAVE, A_WAVE), (WAVE / A_WAVE, WAVE / A_WAVE), periodic=(True, True))
+LONG = 33
+PATCH = Grid((LONG * A_WAVE, A_WAVE), CELL.spacing, periodic=(False, True))
+"""As long as the grid of the film over cells: both means of the oil follow the length of the patch a little."""
+LINE = {
+    "bodies": (STEEL, STEEL),
+    "radius": 0.02,
+    "width": 0.01,
+    "load": 540.0,
+    "lubricant": Lubricant(0.05, pressure_viscosity=15e-9),
+    "boundary_friction": 0.12,
+    "film_points": 400,
+}
+"""Half-width 110 um: five and a half waves."""
+SPEEDS = (0.1, 0.0)
+
+
+def waves(grid, amplitude=60e-9):
+    x, y = (2 * np.pi * axis / WAVE for axis in (grid.x, grid.y))
+    return amplitude * np.cos(x)[:, None] * np.cos(y)[None, :]
+
+
+@pytest.fixture(scope="module")
+def both():
+    """Set-up and rough contact of the cell and of the patch, and a film on each."""
+    found = []
+    for grid in (CELL, PATCH):
+        setup = MixedSetup(grid=grid, **LINE)
+        found.append((setup, rough_contact(setup, waves(grid), SPEEDS), films_of(setup, SPEEDS).under(400.0, 0, None)))
+    return found
+
+
+@pytest.mark.internal
+def test_hertz_pressure_flattens_the_grid_of_the_film():
+    setup = MixedSetup(grid=CELL, **LINE)
+    grid, a = setup.film_grid, setup.smooth.half_width(540.0)
+    assert a == pytest.approx(110e-6, rel=0.01)
+    assert setup.slices == pytest.approx(2 * a * 0.01 / WAVE**2, rel=1e-12)
+    hertz = 2 * 540.0 / 0.01 / (np.pi * a) * np.sqrt(np.maximum(1 - (grid.x / a) ** 2, 0))[:, None]
+    gap = displacement_operator(grid, setup.bodies)(hertz)[:, 0] + grid.x**2 / (2 * 0.02)
+    assert np.ptp(gap[np.abs(grid.x) < 0.9 * a]) < 5e-4 * a**2 / 0.04  # 128 cells across, ends of the ellipse sampled
+
+
+@pytest.mark.internal
+def test_cells_are_pressed_as_a_patch_that_holds_the_contact(both):
+    """The same load, film and waves; what is left is that of sixteen cells a wave and of the contact's edge."""
+    (_, cells, film), (_, patch, same) = both
+    one, other = cells.at_load(film, 140.0, 1e-6, None), patch.at_load(same, 140.0, 1e-6, None)
+    assert one.status is other.status is Status.CONVERGED
+    assert one.load == pytest.approx(140.0, rel=1e-9)
+    assert one.pressure.sum() * cells.setup.film_grid.cell_area == pytest.approx(140.0, rel=1e-9)
+    assert one.opening == pytest.approx(other.opening, rel=0.01)
+    assert one.area == pytest.approx(other.area, rel=0.05)
+    means = other.pressure.reshape(LONG, A_WAVE, A_WAVE).mean(axis=(1, 2))
+    centres = PATCH.x.reshape(LONG, A_WAVE).mean(axis=1)
+    inside = np.abs(centres) < 0.7 * 110e-6
+    expected = np.interp(centres, cells.setup.film_grid.x, one.pressure[:, 0])
+    np.testing.assert_allclose(expected[inside], means[inside], rtol=0.02)
+
+
+@pytest.mark.internal
+def test_load_sharing_is_that_of_the_patch():
+    """Random heights of another draw on the patch, eight correlation lengths to the half-width."""
+    shares, friction = [], []
+    cell = Grid((120, 120), (2.2e-6, 2.2e-6), periodic=(True, True))
+    whole = Grid((160, 120), (2.2e-6, 2.2e-6), periodic=(True, True))
+    patch = Grid(whole.shape, whole.spacing, periodic=(False, True))
+    for grid, drawn, seed in ((cell, cell, 1), (patch, whole, 2)):
+        heights = generate_surface(drawn, rms_height=0.1e-6, correlation_length=13.2e-6, seed=seed)
+        found = solve_setup(MixedSetup(grid=grid, **LINE), heights, SPEEDS)
+        assert found.status is Status.CONVERGED
+        shares.append(found.contact_load / found.load)
+        friction.append(found.friction)
+    assert 0.3 < shares[0] < 0.7
+    assert shares[0] == pytest.approx(shares[1], abs=0.03)
+    assert friction[0] == pytest.approx(friction[1], rel=0.05)
+
+
+def test_ends_of_the_curve_are_boundary_friction_and_a_full_film():
+    heights = waves(CELL, 200e-9)
+    slow = solve_mixed(**LINE, grid=CELL, height=heights, speeds=(1e-6, 0.0))
+    fast = solve_mixed(**LINE, grid=CELL, height=heights, speeds=(20.0, 0.0))
+    assert slow.status is fast.status is Status.CONVERGED
+    assert slow.friction == pytest.approx(0.12, rel=1e-3)
+    assert slow.contact_load == pytest.approx(540.0, rel=1e-3)
+    assert fast.full_film
+    assert fast.contact_load == 0
+    assert fast.separation.shape == fast.film_along_x[0].shape == (A_WAVE,)
+
+
+@pytest.mark.internal
+def test_speeds_share_the_law_of_the_cell(monkeypatch):
+    from bem.friction import homogenised_contact
+
+    solved = []
+    original = homogenised_contact.solve_contact
+    monkeypatch.setattr(
+        homogenised_contact, "solve_contact", lambda *args, **kwargs: solved.append(1) or original(*args, **kwargs)
+    )
+    setup = MixedSetup(grid=CELL, **LINE)
+    first = solve_setup(setup, waves(CELL), SPEEDS)
+    second = solve_setup(setup, waves(CELL), (0.05, 0.0), first)
+    assert len(solved) == homogenised_contact.STEPS
+    assert second.contact_load > first.contact_load
+    solve_setup(setup, waves(CELL, 50e-9), (0.05, 0.0), first)
+    assert len(solved) == 2 * homogenised_contact.STEPS
+
+
+@pytest.mark.internal
+def test_long_waves_are_said():
+    long = Grid((16, 16), (10e-6, 10e-6), periodic=(True, True))
+    heights = 60e-9 * np.cos(2 * np.pi * long.x / 160e-6)[:, None] * np.ones((1, 16))
+    found = solve_setup(MixedSetup(grid=long, **LINE), heights, SPEEDS)
+    assert [note.values["reason"] for note in found.notes if note.code == "repeated-patch"] == ["waves"]
+    with pytest.raises(InputError, match="uncoupled asperities need a patch that holds the contact"):
+        MixedSetup(**{**LINE, "grid": CELL, "contact_model": "uncoupled"})
+    with pytest.raises(InputError, match='make it "loaded"'):
+        MixedSetup(**{**LINE, "grid": CELL, "oil_volume": "patch"})
