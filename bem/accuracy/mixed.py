@@ -157,7 +157,7 @@ def solve_coarser_mixed(case: MixedCase) -> CoarserShares:
     """Solve the balance on the grid of twice the cell, with the film on as many points and on half of them (on twice as
     many where half are too few)."""
     grid = case.setup.grid
-    if case.setup.repeated_cell:
+    if case.setup.repeated_cell and case.setup.radii is not None:
         return CoarserShares(None, None, why=NoBar.REPEATED_CELL)
     if max(grid.shape) < _FEWEST_CELLS:
         return CoarserShares(None, None, why=NoBar.TOO_SMALL)
@@ -294,7 +294,7 @@ def _shares(case: MixedCase, points: int, heat_mesh: float = 1.0) -> Shares:
     """Solve the balance on the grid of twice the cell, with a film of other points.
 
     Cells lie where every second one of the finer grid does: on a free axis of an even number of cells they are not
-    centred, and the film is evaluated at their places.
+    centred, and the film is evaluated at their places. Under cells that repeat the film keeps its own grid.
 
     heat_mesh : factor on the columns and layers of full heat.
     """
@@ -306,10 +306,11 @@ def _shares(case: MixedCase, points: int, heat_mesh: float = 1.0) -> Shares:
         whole[::2] if not periodic else own
         for whole, own, periodic in zip((old.x, old.y), (grid.x, grid.y), old.periodic, strict=True)
     )
-    film = films_of(setup, solution.speeds, at=(x, y), initial=solution.film)
+    at = None if setup.repeated_cell else (x, y)
+    film = films_of(setup, solution.speeds, at=at, initial=solution.film)
     whole = film.under(min(setup.load, film.largest_load), len(film.level_errors) - 1, solution.continuation.whole_film)
     pressure = None
-    if solution.contact is not None:
+    if solution.contact is not None and not setup.repeated_cell:
         pressure = np.clip(sample(solution.contact_pressure, grid.shape, grid.periodic), 0.0, setup.hardness)
     start = BalanceStart(max(solution.film_load, 1e-12 * setup.load), solution.balance_slope, pressure)
     shared = LoadSharing(setup, film, film.speeds, whole).solve(height, start)

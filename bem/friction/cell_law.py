@@ -37,6 +37,7 @@ class SolvedCell:
     pressure, displacement : (nx, ny) [Pa, m].
     opening_error : error of the opening that the contact's tolerance leaves [m].
     status : outcome.
+    perimeter : length of the contact's boundary [m].
     """
 
     mean_pressure: float
@@ -47,6 +48,7 @@ class SolvedCell:
     displacement: FloatArray
     opening_error: float
     status: Status
+    perimeter: float = 0.0
 
 
 @dataclass(frozen=True, eq=False)
@@ -91,6 +93,12 @@ class CellLaw:
         """Return the fraction of the cell in contact at ln(pressure)."""
         inside, beyond = self._cut(logarithm)
         return np.minimum(np.exp(self._curves(inside)[..., 2] + beyond), 1.0)
+
+    def perimeter(self, logarithm: FloatArray) -> FloatArray:
+        """Return the length of the contact's boundary over the area of the cell [1/m] at ln(pressure)."""
+        lengths = [cell.perimeter / self.grid.area for cell in self.cells]
+        inside, beyond = self._cut(logarithm)
+        return np.asarray(np.interp(inside, self._logarithms, lengths) * np.exp(np.minimum(beyond, 0.0)))
 
     def _cut(self, logarithm: FloatArray) -> tuple[FloatArray, FloatArray]:
         inside = np.clip(logarithm, self._logarithms[0], self._logarithms[-1])

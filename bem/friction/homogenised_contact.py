@@ -124,6 +124,7 @@ class HomogenisedContact(OfPatch):
         share = law.share(logarithm)
         area = float(share.sum()) * grid.cell_area
         cell_pressure, displacement = law.shown(float(spread.pressure.max()))
+        perimeter = float(law.perimeter(logarithm).sum()) * grid.cell_area
         n = setup.slices
         return Pressed(
             load=spread.load,
@@ -133,7 +134,9 @@ class HomogenisedContact(OfPatch):
             area=area,
             convolutions=spread.convolutions,
             status=spread.status if law.status is Status.CONVERGED else law.status,
-            solution=SpreadContact(cell_pressure, displacement, spread.pressure, spread.load / n, area / n),
+            solution=SpreadContact(
+                cell_pressure, displacement, spread.pressure, spread.load / n, area / n, perimeter / n
+            ),
             separation=np.full(setup.grid.shape[:1], float(law.separation(np.array(float(logarithm.max())))[0])),
             notes=self._notes(spread.pressure),
             opening_error=goal + max(cell.opening_error for cell in law.cells),
@@ -176,6 +179,7 @@ class HomogenisedContact(OfPatch):
             displacement=found.displacement,
             opening_error=self.tolerance * float(rough.std()),
             status=found.status,
+            perimeter=found.contact_perimeter,
         )
 
     def _hertz(self) -> FloatArray:

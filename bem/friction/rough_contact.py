@@ -49,7 +49,7 @@ class SpreadContact:
     ----------
     pressure, displacement : (nx, ny) of the cell with the highest mean pressure [Pa, m].
     mean_pressure : of the cells, on the film's grid [Pa].
-    load, contact_area : of one cell, mean over the cells within the Hertz ellipse [N, m^2].
+    load, contact_area, contact_perimeter : of one cell, mean over the cells within the Hertz contact [N, m^2, m].
     """
 
     pressure: FloatArray
@@ -57,6 +57,7 @@ class SpreadContact:
     mean_pressure: FloatArray
     load: float
     contact_area: float
+    contact_perimeter: float
 
 
 @dataclass(frozen=True, eq=False)

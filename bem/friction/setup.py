@@ -33,7 +33,7 @@ FEWEST_CELLS, FILM_CELLS = 32, 96
 FILM_PLACES, REACH = 96, 1.5
 """Grid of a ball's film over repeated cells: cells along an axis, and half-length in half-axes of the Hertz contact."""
 LINE_PLACES, LINE_REACH = 384, 3.0
-"""The same of a cylinder's film. Soft rough bodies touch beside the Hertz contact, where a film carries load as well."""
+"""The same of a cylinder's film. Soft rough bodies touch beside the Hertz contact, and films carry load there."""
 HEAT_NEEDS = ("temperature", "density", "heat_capacity", "thermal_conductivity", "temperature_viscosity")
 """Properties of the oil that heat needs."""
 

@@ -602,8 +602,10 @@ class _LayeredScene(Table):
     @field_validator("surface", mode="before")
     @classmethod
     def _kind_by_default(cls, data: Any) -> Any:
-        if isinstance(data, dict) and "process" in data:
-            return {"kind": "generated", **data}
+        if isinstance(data, dict):
+            for key_of_one, kind in (("process", "generated"), ("path", "measured")):
+                if key_of_one in data:
+                    return {"kind": kind, **data}
         return {"kind": "smooth"} if data == "smooth" else data
 
     @model_validator(mode="after")
@@ -707,7 +709,7 @@ class LineGridScene(GridScene):
     """
 
     periodic: tuple[Annotated[bool, Field(strict=True)], Annotated[bool, Field(strict=True)]] = key(
-        "Periodic continuation along x and y; [true, true] under a ball: a repeating cell of the roughness.",
+        "Periodic continuation along x and y; [true, true]: a patch of the roughness that repeats under the contact.",
         "advanced",
         default=(False, True),
         reason="a line contact continues along y, the patch under a ball ends",

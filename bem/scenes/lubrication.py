@@ -400,7 +400,10 @@ def _check_patch(
             name, there = (f"half-axis along {axis}", f" along {axis}") if point else ("half-width", "")
             other = ""
             if may_repeat and not grid.periodic[0]:
-                other = ", or in [grid] periodic = [true, true]: the patch then repeats under the whole contact"
+                other = (
+                    ", or grid.periodic = true, a patch of the roughness that repeats under the contact (without the "
+                    "table [grid] its size is chosen)"
+                )
             messages.append(
                 f"grid: the rough patch reaches {0.5 * length:.3g} m to either side{there}, less than the contact's "
                 f"{name} {half:.3g} m; allowed: at least that{other}"

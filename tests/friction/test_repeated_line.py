@@ -1,4 +1,4 @@
-"""A cell of the roughness that repeats under a cylinder: against Hertz, against a patch that holds the contact, ends."""
+"""A cell of the roughness that repeats under a cylinder: against Hertz, a patch that holds it, and the ends."""
 
 import numpy as np
 import pytest

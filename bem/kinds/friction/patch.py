@@ -41,8 +41,6 @@ def with_patch(scene: FrictionScene) -> FrictionScene:
     half_width = scene.contact.half_axes(max(scene.contact.forces(scene.modulus)), scene.modulus)[0]
     surfaces = [body.surface for body in (scene.lower, scene.upper)]
     if any(isinstance(surface, MeasuredSurface) for surface in surfaces):
-        if scene.grid.shape is not None or scene.grid.spacing is not None:
-            return scene
         found = build.resolved_grid(scene.grid, *surfaces)
         assert found.shape is not None
         assert found.spacing is not None
@@ -64,13 +62,12 @@ def with_patch(scene: FrictionScene) -> FrictionScene:
 def _leaves_it_out(scene: FrictionScene) -> bool:
     """Return True if a cylinder's scene leaves out the size of its patch, and whether it repeats."""
     grid = scene.grid
-    said = "periodic" in grid.model_fields_set and not all(grid.periodic)
-    sized = grid.lengths is not None or (grid.shape is not None and grid.spacing is not None)
-    coupled = {"elastic", "capped"} >= set(scene.sharing.models) and scene.sharing.oil_volume == "loaded"
-    plain = grid.shape is None and grid.spacing is None
-    return (
-        scene.contact.point_radii is None and not (said or sized) and coupled and plain and not scene.at_film_separation
-    )
+    if "periodic" in grid.model_fields_set and not all(grid.periodic):
+        return False
+    cells_may_repeat = {"elastic", "capped"} >= set(scene.sharing.models) and scene.sharing.oil_volume == "loaded"
+    sizes = (grid.shape, grid.spacing, grid.lengths)
+    line = scene.contact.point_radii is None and not (scene.at_film_separation or scene.by_waves)
+    return line and cells_may_repeat and all(size is None for size in sizes)
 
 
 def _sizes(surface: GeneratedSurface) -> tuple[tuple[float, float], tuple[float, float]] | None:

@@ -13,7 +13,7 @@ from bem.kinds.friction.patch import with_patch
 from bem.kinds.friction.waves import FrictionFilmScene, check_flattening
 from bem.scenes import build
 from bem.scenes.axes import Axis, listed, variants
-from bem.scenes.common import OutputsScene, Repetitions
+from bem.scenes.common import LineGridScene, OutputsScene, Repetitions
 from bem.scenes.keys import key
 from bem.scenes.records import Figure
 from bem.scenes.tables.sharing import CurveScene, SurfaceVariant
@@ -25,6 +25,11 @@ class FrictionScene(CurveScene):
     kind: Literal["friction"] = key("Kind of computation.", "basic", default="friction")
     film: FrictionFilmScene = key(
         "Mesh of the oil film, and whether it flattens the roughness.", "expert", default=FrictionFilmScene()
+    grid: LineGridScene = key(
+        "Mesh of the rough contact; larger than the Hertz contact, or a periodic patch that repeats under it. Leave it "
+        "out for a cylinder: the roughness decides.",
+        "basic",
+        default=LineGridScene(),
     )
     outputs: OutputsScene = key(
         "Results besides the standard ones: error estimates.", "advanced", default=OutputsScene()
