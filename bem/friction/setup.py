@@ -190,7 +190,9 @@ class MixedSetup:
         if self.thermal == "full" and self.radii is not None:
             return ['thermal: "full" is not there for the film of a ball; take "lumped" or "off", or a cylinder']
         if self.repeated_cell:
-            return ["thermal: a cell that repeats has no heat of its own; take a patch that holds the contact"]
+            return [
+                'thermal: a cell that repeats has no heat of its own; take "off", or a patch that holds the contact'
+            ]
         if self.grid.periodic[0]:
             return [
                 "thermal: on a grid periodic along x the heat of the contact warms the bodies for ever; make it free "

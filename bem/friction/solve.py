@@ -73,9 +73,9 @@ def solve_mixed(
     Parameters
     ----------
     height : (nx, ny), roughness of both surfaces together [m], out of the flat; its mean does not matter.
-    grid : of the rough patch, centred under the cylinder; free along x and periodic along y as a rule. Its length along
-        y is one slice of the contact. Under a ball the patch is free and holds the contact; or it is periodic along x
-        and y, a cell of the roughness that repeats over the whole contact (`bem.friction.homogenised_contact`), with
+    grid : of the rough patch, centred under the cylinder, free along x and periodic along y. Its length along y is one
+        slice of the contact. Under a ball the patch is free and holds the contact. Under both it may be periodic along
+        x and y, a cell of the roughness that repeats over the whole contact (`bem.friction.homogenised_contact`), with
         `oil_volume` "loaded".
     bodies : one Body (the other rigid) or a pair.
     radius, width : of the cylinder [m].

@@ -10,6 +10,7 @@ from __future__ import annotations
 import math
 from typing import TYPE_CHECKING, Any
 
+from bem.errors import InputError
 from bem.friction.homogenised_contact import FEWEST_LENGTHS_ACROSS
 from bem.scenes import build
 from bem.scenes.axes import with_keys
@@ -95,9 +96,10 @@ def _repeating(scene: FrictionScene, size: dict[str, Any]) -> FrictionScene:
     ------
     InputError : heat that was asked for.
     """
+    if "thermal" in scene.model_fields_set and scene.thermal != "off":
+        raise InputError(
+            f'thermal: "{scene.thermal}" on a rough patch that repeats under the contact, which has no heat; allowed: '
+            'thermal = "off", or a [grid] that holds the contact'
+        )
     keys = {f"grid.{name}": value for name, value in ({"periodic": (True, True)} | size).items()}
-    if "thermal" not in scene.model_fields_set:
-        keys["thermal"] = "off"
-    changed = with_keys(scene, keys)
-    changed.refuse_heat_of_cells()
-    return changed
+    return with_keys(scene, {**keys, "thermal": "off"})

@@ -25,6 +25,7 @@ class FrictionScene(CurveScene):
     kind: Literal["friction"] = key("Kind of computation.", "basic", default="friction")
     film: FrictionFilmScene = key(
         "Mesh of the oil film, and whether it flattens the roughness.", "expert", default=FrictionFilmScene()
+    )
     grid: LineGridScene = key(
         "Mesh of the rough contact; larger than the Hertz contact, or a periodic patch that repeats under it. Leave it "
         "out for a cylinder: the roughness decides.",

@@ -103,7 +103,11 @@ class HotMixedScene(MixedScene):
         check_film_heat(self.oil, self.lower, self.upper)
         if self.contact.point_radii is not None and self.thermal == "full":
             raise problem(_of_a_ball('thermal = "full"'), 'thermal = "lumped" or "off", or a cylinder')
-        self.refuse_heat_of_cells()
+        if self.cell_repeats:
+            raise problem(
+                f'thermal = "{self.thermal}" on a rough patch that repeats under the contact (grid.periodic = true)',
+                'thermal = "off", or a patch that holds the contact',
+            )
         if self.grid.periodic[0]:
             raise problem(
                 f'thermal = "{self.thermal}" on a grid periodic along x, whose heat warms the bodies for ever',
@@ -111,14 +115,6 @@ class HotMixedScene(MixedScene):
             )
         check_supply_of_heat(self.thermal, self.supply)
         return self
-
-    def refuse_heat_of_cells(self) -> None:
-        """Refuse heat on a patch that repeats under the contact."""
-        if self.cell_repeats and self.thermal != "off":
-            raise problem(
-                f'thermal = "{self.thermal}" on a rough patch that repeats under the contact (grid.periodic = true)',
-                'thermal = "off", or a patch that holds the contact',
-            )
 
     def setup(self, **accuracy: Any) -> MixedSetup:
         """As `MixedScene.setup`, with the heat."""
