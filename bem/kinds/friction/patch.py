@@ -8,16 +8,12 @@ tests/scenes/test_repeating_patch.py.
 from __future__ import annotations
 
 import math
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from bem.errors import InputError
-from bem.friction.homogenised_contact import FEWEST_LENGTHS_ACROSS
 from bem.scenes import build
 from bem.scenes.axes import with_keys
 from bem.scenes.common import GeneratedSurface, MeasuredSurface
-
-if TYPE_CHECKING:
-    from bem.kinds.friction.scene import FrictionScene
 
 LENGTHS_A_SIDE, CELLS_A_LENGTH = 32.0, 6.0
 """Correlation lengths along a side of a patch, and cells to one of them."""
@@ -31,14 +27,16 @@ MOST_CELLS = 1024
 """Cells along a side that are chosen at most."""
 
 
-def with_patch(scene: FrictionScene) -> FrictionScene:
-    """Return the scene of a cylinder with the size of its rough patch, where it gives none.
+def with_patch(scene: Any) -> Any:
+    """Return a scene of kind friction with the size of its rough patch, where a cylinder gives none.
 
     The patch of measured surfaces is that of the files; it repeats where it is smaller than the contact. Scenes that
     give sizes, balls, and scenes without roughness that tells a size come back as they are.
     """
     if not _leaves_it_out(scene):
         return scene
+    from bem.friction.homogenised_contact import FEWEST_LENGTHS_ACROSS  # a solver, needed by few scenes
+
     half_width = scene.contact.half_axes(max(scene.contact.forces(scene.modulus)), scene.modulus)[0]
     surfaces = [body.surface for body in (scene.lower, scene.upper)]
     if any(isinstance(surface, MeasuredSurface) for surface in surfaces):
@@ -60,7 +58,7 @@ def with_patch(scene: FrictionScene) -> FrictionScene:
     return _repeating(scene, {"shape": cells, "lengths": tuple(longest)}) if cells else scene
 
 
-def _leaves_it_out(scene: FrictionScene) -> bool:
+def _leaves_it_out(scene: Any) -> bool:
     """Return True if a cylinder's scene leaves out the size of its patch, and whether it repeats."""
     grid = scene.grid
     if "periodic" in grid.model_fields_set and not all(grid.periodic):
@@ -89,7 +87,7 @@ def _cells(lengths: list[float], spacing: list[float]) -> tuple[int, int] | None
     return (nx, ny) if max(nx, ny) <= MOST_CELLS else None
 
 
-def _repeating(scene: FrictionScene, size: dict[str, Any]) -> FrictionScene:
+def _repeating(scene: Any, size: dict[str, Any]) -> Any:
     """Return the scene on a patch that repeats.
 
     Raises
